@@ -1,0 +1,100 @@
+#pragma once
+
+#include "scenes/scene.h"
+#include "trees/pairs.h"
+#include "trees/tree.h"
+#include "trees/work.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace boxwood::bench {
+
+/// What is wanted of a scene.
+enum class Ask : std::uint8_t {
+    pairs,        ///< every unordered overlapping pair of the scene's boxes
+    tree_pairs,   ///< every overlapping pair between the first half of the boxes and the rest
+    rays_closest, ///< for each ray the nearest triangle
+    rays_any      ///< for each ray whether it meets a triangle
+};
+struct AskEntry {
+    Ask ask;
+    std::string_view name, summary;
+};
+std::span<const AskEntry> asks();
+std::string_view to_string(Ask ask);
+std::optional<Ask> ask_of(std::string_view name);
+
+/// The items of `tree_pairs`: boxes [0, n/2) against [n/2, n). In its answers a < n/2 <= b, both
+/// indices of the whole scene.
+inline std::size_t tree_pairs_split(std::size_t n) { return n / 2; }
+
+/// One piece of work: a scene, a question, and where it runs.
+struct Job {
+    const Scene* scene = nullptr;
+    Ask ask = Ask::pairs;
+    std::string executor = "serial"; ///< a word of executors()
+    unsigned threads = 1;
+};
+
+/// The buffers that every contender answers into; the caller reserves them before timing and clears
+/// them between queries. Pairs may come in any order, but each pair once and lower item first.
+struct Answers {
+    std::vector<Pair> pairs;
+    std::vector<RayHit> hits; ///< resized to the number of rays; for rays_any only hit() counts
+};
+
+/// What a structure is, for the tree table.
+struct StructureInfo {
+    std::size_t bytes = 0;
+    const Tree* tree = nullptr; ///< ours alone: valid until the next build
+};
+
+/// What the bench times, ours or a peer's. The job's scene outlives it. Construction converts the
+/// input to the library's own types (untimed); destruction releases devices and threads.
+class Contender {
+  public:
+    virtual ~Contender() = default;
+    /// Timed: from boxes or triangles to a structure that can answer; replaces an earlier one.
+    virtual void build() = 0;
+    /// Timed: answers the job into `answers`, which is cleared. Needs a build before it.
+    virtual void query(Answers& answers) = 0;
+    /// Untimed: the same query with its work counted, where that can be told.
+    virtual std::optional<Work> counted_query(Answers&) { return std::nullopt; }
+    virtual std::optional<StructureInfo> structure() const { return std::nullopt; }
+};
+
+/// A catalogue row: one way to do a job.
+struct ContenderEntry {
+    std::string name;      ///< "binned_sah.wide8.self_pairs", "fcl.dynamic_aabb_tree", ...
+    std::string library;   ///< boxwood, fcl, embree, cgal, bullet, brute_force
+    std::string summary;   ///< one line
+    std::string notes;     ///< settings, and what differs from the others' work
+    std::string precision; ///< f32 | f64: storage and box arithmetic
+    std::string builder, layout, traversal, kernel; ///< ours; empty where it does not apply
+    bool is_peer = true;
+    /// Nothing if it can do the job, else why not (recorded, not hidden).
+    std::function<std::optional<std::string>(const Job&)> unsupported;
+    std::function<std::unique_ptr<Contender>(const Job&)> make;
+    std::string params_json = "{}";
+};
+
+/// One peer library: a file of bench/peers/, compiled where its package is found.
+struct Peer {
+    std::string name;    ///< "fcl"
+    std::string summary; ///< one line
+    std::string version; ///< as the library reports it
+    std::string build;   ///< what is known of how it was compiled: SIMD, precision, threads
+    std::vector<ContenderEntry> contenders;
+};
+
+/// The peers compiled in, and the names of those whose package was not found.
+std::span<const Peer> peers();
+std::span<const std::string_view> absent_peers();
+
+} // namespace boxwood::bench

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace boxwood {
+
+/// What a yes/no kernel says. `maybe` is the honest answer of a kernel whose error bound does not
+/// decide; the caller's policy resolves it (never-miss reads it as yes, never-false as no).
+enum class Answer : std::uint8_t { no, yes, maybe };
+
+/// An answer and the tier of the kernel that gave it (0 is the cheapest).
+struct Verdict {
+    Answer answer = Answer::no;
+    std::uint8_t tier = 0;
+
+    constexpr bool operator==(const Verdict&) const = default;
+};
+
+/// What a rung of the accuracy ladder promises on every finite input.
+/// never_miss: a true yes is never answered no. never_false: a true no is never answered yes.
+enum class Promise : std::uint8_t { none, never_miss, never_false, exact };
+
+constexpr std::string_view to_string(Promise p) {
+    switch (p) {
+    case Promise::never_miss:
+        return "never-miss";
+    case Promise::never_false:
+        return "never-false";
+    case Promise::exact:
+        return "exact";
+    case Promise::none:
+        break;
+    }
+    return "no promise";
+}
+
+/// One rung: what `boxwood list kernels` prints.
+struct KernelInfo {
+    std::string_view family;  ///< "ray_triangle", "triangle_triangle", ...
+    std::string_view name;    ///< catalogue word within the family
+    std::string_view summary; ///< one line: method, bound and source
+    Promise promise = Promise::none;
+};
+
+} // namespace boxwood

@@ -1,0 +1,152 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+/// The result file: relational tables, held whole in memory, written and read as one HDF5 file.
+/// Schema version 1; results/README.md documents every table and column.
+namespace boxwood::results {
+
+inline constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+inline constexpr std::uint32_t no_id = std::numeric_limits<std::uint32_t>::max();
+inline constexpr std::uint64_t no_count = std::numeric_limits<std::uint64_t>::max();
+
+/// One machine state.
+struct Env {
+    std::uint32_t env_id = 0;
+    std::string env_hash, host, cpu;
+    std::uint32_t ncpu = 0;
+    std::uint64_t l1d_bytes = no_count, l2_bytes = no_count, l3_bytes = no_count;
+    std::string isa_max, isa_used, governor, thp, virt, kernel;
+    std::uint32_t mxcsr = 0;
+    std::string compiler, flags, build_type, git_commit;
+    std::uint32_t git_dirty = 0;
+    std::string embree_version, fcl_version, cgal_version, bullet_version, tbb_version,
+        eigen_version, hdf5_version, gbench_version, highway_version;
+    double stream_triad_gbs_1 = missing, stream_triad_gbs_all = missing;
+    std::uint64_t seed = 0;
+};
+
+struct SceneRow {
+    std::uint32_t scene_id = 0;
+    std::string name, generator;
+    std::uint64_t n_items = 0, n_triangles = 0, n_frames = 1, seed = 0;
+    std::string effects, asks; ///< comma-separated words
+    std::uint64_t content_hash = 0;
+    std::string params_json;
+};
+
+struct Variant {
+    std::uint32_t variant_id = 0;
+    std::string name, library, lib_version, builder, layout, traversal, kernel, predicates;
+    std::uint32_t is_peer = 0;
+    std::string params_json, notes;
+};
+
+struct Cell {
+    std::uint32_t cell_id = 0;
+    std::string name;
+    std::uint32_t scene_id = 0, variant_id = 0;
+    std::string ask;
+    std::uint64_t n_items = 0, n_queries = 0;
+    std::string precision, executor;
+    std::uint32_t threads = 1;
+    std::string isa;
+    std::uint64_t iterations = 0; ///< of the query phase, as calibrated
+};
+
+struct Shard {
+    std::uint32_t shard_id = 0, round = 0, env_id = 0, pid = 0;
+    std::uint64_t order_seed = 0, t0_utc_ns = 0;
+    double load1 = missing;
+    std::uint64_t steal_ticks = 0;
+};
+
+/// Bits of Sample::flags.
+enum SampleFlag : std::uint32_t {
+    disturbed_steal = 1,    ///< the hypervisor took time away during the sample
+    disturbed_switches = 2, ///< involuntary context switches during the sample
+    aa_twin = 4,            ///< the second timing of the A/A cell
+    wrong_answer = 8        ///< this round's answer differs from the checked one
+};
+
+/// One timed phase of one cell in one round; times are per iteration.
+struct Sample {
+    std::uint32_t cell_id = 0, shard_id = 0, round = 0, position = 0;
+    std::string phase; ///< build | update | query
+    double wall_ns = missing, cpu_ns = missing;
+    std::uint64_t iterations = 0, nvcsw = 0, nivcsw = 0, minflt = 0;
+    std::uint32_t flags = 0;
+};
+
+struct Counter {
+    std::uint32_t cell_id = 0;
+    std::string counter; ///< node_visits box_tests triangle_tests pairs hits stack_max bytes ...
+    std::uint64_t value = 0;
+};
+
+struct Check {
+    std::uint32_t cell_id = 0;
+    std::string oracle, status; ///< exact | conservative | within_bound | wrong | unsupported
+    std::uint64_t n_checked = 0, n_expected = 0, n_got = 0, missing = 0, extra = 0;
+    double max_ulp = results::missing, max_abs_err = results::missing,
+           max_rel_err = results::missing;
+    std::uint64_t bound_violations = 0, result_hash = 0;
+    std::string witness;
+};
+
+struct TreeRow {
+    std::uint32_t cell_id = 0;
+    std::uint64_t n_nodes = 0, n_leaves = 0, depth_max = 0;
+    double depth_mean = missing, leaf_mean = missing;
+    std::uint64_t bytes = 0;
+    double sah_cost = missing, c_trav = missing, c_isect = missing, epo = missing,
+           overlap = missing;
+};
+
+/// Derived; can be made again from `samples`.
+struct Comparison {
+    std::uint32_t cell_a = 0, cell_b = 0;
+    std::string phase;
+    std::uint64_t n_pairs = 0; ///< paired rounds
+    double ratio = missing, ci_lo = missing, ci_hi = missing, p_adj = missing; ///< time of b / a
+    std::string verdict; ///< faster | slower | same | cannot_tell | wrong (b against a)
+};
+
+/// Everything in one file. Ids are those of the `*_id` columns, unique within the file.
+struct Results {
+    std::string run_uuid, created_utc, sweep_hash, generator;
+    bool complete = true;
+    std::map<std::string, std::string> texts; ///< /text/*: argv, sweep_toml, lscpu, cmake_cache
+    std::vector<Env> env;
+    std::vector<SceneRow> scenes;
+    std::vector<Variant> variants;
+    std::vector<Cell> cells;
+    std::vector<Shard> shards;
+    std::vector<Sample> samples;
+    std::vector<Counter> counters;
+    std::vector<Check> checks;
+    std::vector<TreeRow> trees;
+    std::vector<Comparison> compare;
+};
+
+/// Writes to a temporary name beside `file`, marks it complete last, closes, syncs and renames: a
+/// reader sees the old file or the whole new one. Throws std::runtime_error naming the file and the
+/// cause (no such folder, no permission, disk full); the temporary file is removed.
+void write(const std::filesystem::path& file, const Results& results);
+
+/// Throws std::runtime_error naming the file for one that is missing, truncated, not HDF5, not ours,
+/// incomplete, or of another major version. Unknown tables and columns are passed over.
+Results read(const std::filesystem::path& file);
+
+/// Joins results of one or several machines: equal scenes, variants, cells and machine states (by
+/// content key) become one row, and ids are remapped. Shards that stand in several parts are kept
+/// once. Throws std::runtime_error if the same cell name stands for different scene contents.
+Results merge(std::span<const Results> parts);
+
+} // namespace boxwood::results

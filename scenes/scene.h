@@ -1,0 +1,68 @@
+#pragma once
+
+#include "kernels/aabb.h"
+#include "kernels/ray.h"
+#include "kernels/triangle.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace boxwood {
+
+/// What a generator is asked for. The same spec gives the same bits on every machine.
+struct SceneSpec {
+    std::string generator;      ///< a word of `scene_generators()`
+    std::size_t n = 1000;       ///< wanted number of items (boxes, or triangles of a mesh)
+    std::uint64_t seed = 1;     ///< key of the counter-based random numbers
+    double overlaps = 10;       ///< wanted mean number of boxes that overlap a box (box scenes)
+    std::string rays;           ///< a word of `ray_kinds()`, or empty for no rays (mesh scenes)
+    std::size_t n_rays = 0;     ///< number of rays
+    std::filesystem::path file; ///< mesh file (`mesh` alone)
+};
+
+/// One frame of things to test: boxes always; a mesh when they are boxes of its triangles.
+struct Scene {
+    std::string name;                ///< words: generator, what differs from its defaults, rays
+    SceneSpec spec;
+    std::vector<Aabb<float>> boxes;  ///< scene units; box i bounds triangle i when there is a mesh
+    TriangleMesh mesh;               ///< empty in box scenes
+    std::vector<Ray<float>> rays;
+    std::string params_json;         ///< the generator's parameters as one JSON object
+    std::uint64_t content_hash = 0;  ///< XXH3 of boxes, vertices, indices and rays, little-endian
+};
+
+/// A generator: name, summary and generate(spec) -> Scene without name, spec, rays and hash, which
+/// `make_scene` fills in.
+template <class G>
+concept SceneGenerator = requires(const SceneSpec& spec) {
+    { G::name } -> std::convertible_to<std::string_view>;
+    { G::summary } -> std::convertible_to<std::string_view>;
+    { G::generate(spec) } -> std::same_as<Scene>;
+};
+
+/// A catalogue row.
+struct SceneEntry {
+    std::string_view name, summary;
+    Scene (*generate)(const SceneSpec&);
+};
+
+std::span<const SceneEntry> scene_generators();
+
+/// A kind of rays aimed at a mesh scene.
+struct RayKindEntry {
+    std::string_view name, summary;
+};
+std::span<const RayKindEntry> ray_kinds();
+
+/// Makes the scene. Throws std::invalid_argument for a bad spec and std::runtime_error, naming file
+/// and place, for a mesh file that is missing, empty, or holds NaN or indices out of range.
+Scene make_scene(const SceneSpec& spec);
+
+/// The name that `make_scene` would give, without making it.
+std::string scene_name(const SceneSpec& spec);
+
+} // namespace boxwood

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "trees/function_ref.h"
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string_view>
+
+namespace boxwood {
+
+/// Where work runs. Algorithms cut their work into chunks by the input alone, never by the number of
+/// threads, so that answers and their order are the same on every executor.
+class Executor {
+  public:
+    virtual ~Executor() = default;
+
+    /// Number of threads that may run chunks, at least 1.
+    virtual unsigned threads() const = 0;
+
+    /// Calls body(i) once for each i < n and returns when all are done. With one thread the calls come
+    /// in order; else in any order and at the same time. An exception from a body is rethrown here.
+    virtual void for_each(std::size_t n, FunctionRef<void(std::size_t)> body) const = 0;
+};
+
+/// A catalogue row. `make(threads)` gives an executor of exactly that many threads.
+struct ExecutorEntry {
+    std::string_view name, summary;
+    std::unique_ptr<Executor> (*make)(unsigned threads);
+};
+
+std::span<const ExecutorEntry> executors();
+
+/// The executor by its catalogue word. Throws std::invalid_argument for an unknown one, and for
+/// `serial` with more than one thread.
+std::unique_ptr<Executor> make_executor(std::string_view name, unsigned threads);
+
+/// One thread, the caller's own.
+const Executor& serial();
+
+} // namespace boxwood

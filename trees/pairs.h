@@ -1,0 +1,87 @@
+#pragma once
+
+#include "trees/function_ref.h"
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace boxwood {
+
+/// Two items whose boxes overlap. Within one set a < b; between two sets a is of the first.
+struct Pair {
+    std::uint32_t a, b;
+    constexpr auto operator<=>(const Pair&) const = default;
+};
+
+/// Where pairs go; the traversal never knows what a pair means.
+/// A traversal cuts its work into chunks by the input alone, says how many in `begin`, then hands
+/// over each chunk's pairs in batches: in order within a chunk, different chunks perhaps at the same
+/// time. Returning false from `take` asks the traversal to stop soon (other batches may still come).
+class PairSink {
+  public:
+    virtual ~PairSink() = default;
+    virtual void begin(std::size_t chunks, bool in_order) = 0;
+    virtual bool take(std::size_t chunk, std::span<const Pair> pairs) = 0;
+    virtual void end() = 0;
+};
+
+/// Counts pairs.
+class CountPairs final : public PairSink {
+  public:
+    void begin(std::size_t chunks, bool) override { counts_.assign(chunks, {}); }
+    bool take(std::size_t chunk, std::span<const Pair> pairs) override {
+        counts_[chunk].n += pairs.size();
+        return true;
+    }
+    void end() override {
+        total_ = 0;
+        for (const Count& c : counts_)
+            total_ += c.n;
+    }
+    std::uint64_t count() const { return total_; }
+
+  private:
+    struct alignas(64) Count {
+        std::uint64_t n = 0;
+    };
+    std::vector<Count> counts_;
+    std::uint64_t total_ = 0;
+};
+
+/// Appends pairs to a vector in chunk order: the same order for any number of threads.
+/// Reused between queries it keeps its memory.
+class AppendPairs final : public PairSink {
+  public:
+    explicit AppendPairs(std::vector<Pair>& out) : out_(out) {}
+    void begin(std::size_t chunks, bool in_order) override;
+    bool take(std::size_t chunk, std::span<const Pair> pairs) override;
+    void end() override;
+
+  private:
+    std::vector<Pair>& out_;
+    std::vector<std::vector<Pair>> parts_;
+    std::size_t used_ = 0; ///< parts in use; 0 when chunks come in order and go straight to out_
+};
+
+/// Calls `f(pair) -> bool` for each pair until it says false. For one thread, or an `f` that may be
+/// called from several.
+class ForEachPair final : public PairSink {
+  public:
+    explicit ForEachPair(FunctionRef<bool(Pair)> f) : f_(f) {}
+    void begin(std::size_t, bool) override {}
+    bool take(std::size_t, std::span<const Pair> pairs) override {
+        for (const Pair p : pairs)
+            if (!f_(p))
+                return false;
+        return true;
+    }
+    void end() override {}
+
+  private:
+    FunctionRef<bool(Pair)> f_;
+};
+
+} // namespace boxwood
