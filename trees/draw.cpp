@@ -1,0 +1,81 @@
+#include "trees/draw.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+namespace boxwood {
+namespace {
+
+constexpr std::uint32_t most_named = 8;
+
+std::string interval(float low, float high) {
+    char text[64];
+    std::snprintf(text, sizeof text, "[%.6g, %.6g]", static_cast<double>(low),
+                  static_cast<double>(high));
+    return text;
+}
+
+std::string box_text(const Box& box) {
+    return "x " + interval(box.min.x, box.max.x) + "  y " + interval(box.min.y, box.max.y) +
+           "  z " + interval(box.min.z, box.max.z);
+}
+
+/// Columns on the terminal of UTF-8 text: its bytes but the continuation bytes.
+std::size_t width(const std::string& text) {
+    return static_cast<std::size_t>(
+        std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+}
+
+} // namespace
+
+std::string describe(const Tree& tree, std::size_t node, std::span<const std::string> names) {
+    const auto name_of_slot = [&](std::uint32_t slot) {
+        const std::uint32_t item = tree.order[slot];
+        return names.empty() ? std::to_string(item) : names[item];
+    };
+    const auto [box, first, count] = tree.nodes[node];
+    if (count == 1)
+        return name_of_slot(first);
+    if (count > most_named)
+        return "{" + std::to_string(count) + " items}";
+    std::string text = "{";
+    for (std::uint32_t slot = first; slot < first + count; ++slot)
+        text += (slot == first ? "" : ", ") + name_of_slot(slot);
+    return text + "}";
+}
+
+std::string draw(const Tree& tree, std::span<const std::string> names) {
+    if (!names.empty() && names.size() != tree.size())
+        throw std::invalid_argument("draw: " + std::to_string(names.size()) + " names for " +
+                                    std::to_string(tree.size()) + " items");
+    if (tree.empty())
+        return "(empty tree)\n";
+
+    struct Line {
+        std::size_t node;
+        std::string stem;  ///< what stands before the name
+        std::string below; ///< what stands before the stems of the children
+    };
+    // Depth-first with a stack of our own: a tree may be deeper than the call stack.
+    std::vector<Line> stack{{0, "", ""}};
+    std::vector<std::pair<std::string, std::string>> rows;
+    std::size_t widest = 0;
+    while (!stack.empty()) {
+        const Line line = std::move(stack.back());
+        stack.pop_back();
+        rows.emplace_back(line.stem + describe(tree, line.node, names),
+                          box_text(tree.nodes[line.node].box));
+        widest = std::max(widest, width(rows.back().first));
+        if (tree.is_leaf(line.node))
+            continue;
+        stack.push_back({tree.right(line.node), line.below + "└── ", line.below + "    "});
+        stack.push_back({Tree::left(line.node), line.below + "├── ", line.below + "│   "});
+    }
+    std::string text;
+    for (const auto& [left, right] : rows)
+        text += left + std::string(widest - width(left) + 2, ' ') + right + '\n';
+    return text;
+}
+
+} // namespace boxwood
