@@ -1,0 +1,125 @@
+// The CMake target of CGAL asks for -frounding-math: this file alone is compiled with it.
+#define CGAL_LINKED_WITH_TBB
+#include "bench/peers/capability.h"
+
+#include <CGAL/box_intersection_d.h>
+#include <CGAL/version.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/task_arena.h>
+
+#include <array>
+#include <cstdint>
+
+namespace boxwood::bench {
+namespace {
+
+struct Box {
+    std::array<float, 3> min, max;
+    std::uint32_t item;
+};
+
+/// CGAL's traits, so that it sorts 28-byte boxes and breaks ties by item.
+struct BoxTraits {
+    using NT = float;
+    using ID = std::uint32_t;
+    using Box_parameter = const Box&;
+    static NT min_coord(Box_parameter b, int axis) { return b.min[static_cast<std::size_t>(axis)]; }
+    static NT max_coord(Box_parameter b, int axis) { return b.max[static_cast<std::size_t>(axis)]; }
+    static ID id(Box_parameter b) { return b.item; }
+    static int dimension() { return 3; }
+};
+
+/// Below so many boxes CGAL scans instead of dividing.
+constexpr std::ptrdiff_t cutoff = 100;
+
+class BoxIntersection final : public Contender {
+  public:
+    explicit BoxIntersection(const Job& job)
+        : scene_(*job.scene), between_halves_(job.ask == Ask::tree_pairs),
+          parallel_(job.executor == "tbb"), arena_(static_cast<int>(job.threads)) {}
+
+    void build() override {
+        boxes_.clear();
+        boxes_.reserve(scene_.boxes.size());
+        for (const Aabb<float>& b : scene_.boxes)
+            boxes_.push_back({{b.min.x, b.min.y, b.min.z},
+                              {b.max.x, b.max.y, b.max.z},
+                              static_cast<std::uint32_t>(boxes_.size())});
+    }
+
+    void query(Answers& answers) override {
+        answers.pairs.clear();
+        sorted_ = boxes_; // CGAL reorders its input; each query starts from the same order
+        if (!parallel_) {
+            intersect<CGAL::Sequential_tag>([out = &answers.pairs](const Box& a, const Box& b) {
+                out->push_back(ordered_pair(a.item, b.item));
+            });
+            return;
+        }
+        for (std::vector<Pair>& part : parts_)
+            part.clear();
+        arena_.execute([&] {
+            intersect<CGAL::Parallel_tag>([parts = &parts_](const Box& a, const Box& b) {
+                parts->local().push_back(ordered_pair(a.item, b.item));
+            });
+        });
+        for (const std::vector<Pair>& part : parts_)
+            answers.pairs.insert(answers.pairs.end(), part.begin(), part.end());
+    }
+
+  private:
+    template <class Tag, class Callback> void intersect(Callback append) {
+        using namespace CGAL::Box_intersection_d;
+        const auto middle =
+            sorted_.begin() + static_cast<std::ptrdiff_t>(tree_pairs_split(sorted_.size()));
+        if (between_halves_)
+            CGAL::box_intersection_d<Tag>(sorted_.begin(), middle, middle, sorted_.end(), append,
+                                          BoxTraits(), cutoff, CLOSED);
+        else
+            CGAL::box_self_intersection_d<Tag>(sorted_.begin(), sorted_.end(), append, BoxTraits(),
+                                               cutoff, CLOSED);
+    }
+
+    const Scene& scene_;
+    bool between_halves_, parallel_;
+    tbb::task_arena arena_;
+    std::vector<Box> boxes_, sorted_;
+    tbb::enumerable_thread_specific<std::vector<Pair>> parts_;
+};
+
+ContenderEntry entry(Ask ask, std::string name, std::string summary) {
+    ContenderEntry e;
+    e.name = std::move(name);
+    e.library = "cgal";
+    e.summary = std::move(summary);
+    e.notes =
+        "build and query are one: build only fills the box array, and a query copies and sorts "
+        "it; closed boxes, cutoff 100; with TBB CGAL cuts its input into 4 x 4 parts, whatever "
+        "the number of threads, and pairs go to one list per thread that are joined at the end";
+    e.precision = "f32";
+    e.unsupported = [ask](const Job& job) -> Unsupported {
+        if (job.ask != ask)
+            return ask == Ask::pairs ? "answers pairs only" : "answers tree_pairs only";
+        return not_tbb(job);
+    };
+    e.make = [](const Job& job) { return std::make_unique<BoxIntersection>(job); };
+    return e;
+}
+
+} // namespace
+
+Peer cgal_peer() {
+    Peer peer;
+    peer.name = "cgal";
+    peer.summary = "CGAL: streamed segment tree, without a structure that is kept";
+    peer.version = CGAL_VERSION_STR;
+    peer.build = "headers compiled here with single-precision boxes and TBB";
+    peer.contenders.push_back(
+        entry(Ask::pairs, "cgal.box_self_intersection_d",
+              "CGAL's box_self_intersection_d (Zomorodian and Edelsbrunner)"));
+    peer.contenders.push_back(entry(Ask::tree_pairs, "cgal.box_intersection_d",
+                                    "CGAL's box_intersection_d between two sets of boxes"));
+    return peer;
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,307 @@
+#include "bench/peers/capability.h"
+
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <array>
+#include <cstdint>
+#include <stdexcept>
+#include <type_traits>
+
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
+namespace boxwood::bench {
+namespace {
+
+/// Embree asks its callers to flush denormals; the thread's own setting comes back at the end.
+class FlushDenormals {
+  public:
+#if defined(__SSE2__)
+    FlushDenormals() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ | 0x8040u); } // FTZ and DAZ
+    ~FlushDenormals() { _mm_setcsr(saved_); }
+    FlushDenormals(const FlushDenormals&) = delete;
+
+  private:
+    unsigned saved_;
+#endif
+};
+
+template <auto Release> struct Releaser {
+    template <class Handle> void operator()(Handle handle) const { Release(handle); }
+};
+template <class Handle, auto Release>
+using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Releaser<Release>>;
+using Device = Owned<RTCDevice, rtcReleaseDevice>;
+using SceneHandle = Owned<RTCScene, rtcReleaseScene>;
+using Geometry = Owned<RTCGeometry, rtcReleaseGeometry>;
+
+/// While a device with so many threads lives, all of TBB in this process is held to them.
+Device make_device(unsigned threads) {
+    Device device(rtcNewDevice(fmt::format("threads={},set_affinity=0", threads).c_str()));
+    if (!device)
+        throw std::runtime_error(fmt::format("embree: no device with {} threads (error {})",
+                                             threads,
+                                             static_cast<int>(rtcGetDeviceError(nullptr))));
+    return device;
+}
+
+void throw_if_failed(RTCDevice device, const char* what) {
+    if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
+        throw std::runtime_error(
+            fmt::format("embree: {} failed (error {})", what, static_cast<int>(error)));
+}
+
+/// A committed scene of one geometry.
+SceneHandle commit(RTCDevice device, Geometry geometry, RTCBuildQuality quality,
+                   RTCSceneFlags flags) {
+    rtcSetGeometryBuildQuality(geometry.get(), quality);
+    rtcCommitGeometry(geometry.get());
+    SceneHandle scene(rtcNewScene(device));
+    rtcSetSceneBuildQuality(scene.get(), quality);
+    rtcSetSceneFlags(scene.get(), flags);
+    rtcAttachGeometry(scene.get(), geometry.get());
+    rtcCommitScene(scene.get());
+    throw_if_failed(device, "building the scene");
+    return scene;
+}
+
+void bounds_of_box(const RTCBoundsFunctionArguments* args) {
+    const Aabb<float>& box = static_cast<const Aabb<float>*>(args->geometryUserPtr)[args->primID];
+    *args->bounds_o = {box.min.x, box.min.y, box.min.z, 0, box.max.x, box.max.y, box.max.z, 0};
+}
+
+class Collide final : public Contender {
+  public:
+    Collide(const Job& job, RTCBuildQuality quality)
+        : boxes_(job.scene->boxes), quality_(quality),
+          split_(job.ask == Ask::tree_pairs ? tree_pairs_split(boxes_.size()) : 0),
+          between_halves_(job.ask == Ask::tree_pairs), threads_(job.threads),
+          device_(make_device(job.threads)), arena_(static_cast<int>(job.threads)) {}
+
+    void build() override {
+        arena_.execute([&] {
+            first_ = make_scene_of(0, split_);
+            rest_ = make_scene_of(split_, boxes_.size());
+        });
+    }
+
+    void query(Answers& answers) override {
+        answers.pairs.clear();
+        if (!rest_ || (between_halves_ && !first_))
+            return;
+        out_ = threads_ == 1 ? &answers.pairs : nullptr;
+        for (std::vector<Pair>& part : parts_)
+            part.clear();
+        arena_.execute([&] {
+            rtcCollide(between_halves_ ? first_.get() : rest_.get(), rest_.get(), take, this);
+        });
+        throw_if_failed(device_.get(), "rtcCollide");
+        for (const std::vector<Pair>& part : parts_)
+            answers.pairs.insert(answers.pairs.end(), part.begin(), part.end());
+    }
+
+  private:
+    SceneHandle make_scene_of(std::size_t begin, std::size_t end) const {
+        if (begin == end)
+            return nullptr;
+        Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER));
+        rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(end - begin));
+        rtcSetGeometryUserData(geometry.get(), const_cast<Aabb<float>*>(boxes_.data() + begin));
+        rtcSetGeometryBoundsFunction(geometry.get(), bounds_of_box, nullptr);
+        return commit(device_.get(), std::move(geometry), quality_, RTC_SCENE_FLAG_NONE);
+    }
+
+    /// Embree hands over candidates from its leaves: those of one scene in both orders, and some
+    /// whose boxes do not overlap. Called by several threads at a time if there are several.
+    static void take(void* self, RTCCollision* candidates, unsigned n) {
+        const Collide& c = *static_cast<const Collide*>(self);
+        std::vector<Pair>& out = c.out_ ? *c.out_ : c.parts_.local();
+        for (unsigned k = 0; k < n; ++k) {
+            const Pair pair{static_cast<std::uint32_t>(candidates[k].primID0),
+                            static_cast<std::uint32_t>(candidates[k].primID1 + c.split_)};
+            if (pair.a < pair.b && overlaps(c.boxes_[pair.a], c.boxes_[pair.b]))
+                out.push_back(pair);
+        }
+    }
+
+    const std::vector<Aabb<float>>& boxes_;
+    RTCBuildQuality quality_;
+    std::size_t split_;
+    bool between_halves_;
+    unsigned threads_;
+    Device device_;
+    tbb::task_arena arena_;
+    SceneHandle first_, rest_; ///< all boxes in `rest_` for Ask::pairs; null if empty
+    std::vector<Pair>* out_ = nullptr;
+    mutable tbb::enumerable_thread_specific<std::vector<Pair>> parts_;
+};
+
+class Rays final : public Contender {
+  public:
+    Rays(const Job& job, RTCSceneFlags flags)
+        : scene_(*job.scene), flags_(flags), any_(job.ask == Ask::rays_any), threads_(job.threads),
+          vertices_(scene_.mesh.vertices), device_(make_device(job.threads)),
+          arena_(static_cast<int>(job.threads)) {
+        vertices_.emplace_back(); // Embree reads 16 bytes at the last vertex
+    }
+
+    void build() override {
+        arena_.execute([&] {
+            Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+            rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                       vertices_.data(), 0, sizeof(Vec3<float>),
+                                       vertices_.size() - 1);
+            rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                       scene_.mesh.triangles.data(), 0,
+                                       sizeof(scene_.mesh.triangles[0]),
+                                       scene_.mesh.triangles.size());
+            embree_scene_ =
+                commit(device_.get(), std::move(geometry), RTC_BUILD_QUALITY_MEDIUM, flags_);
+        });
+    }
+
+    void query(Answers& answers) override {
+        answers.hits.resize(scene_.rays.size());
+        const auto cast = [&](std::size_t begin, std::size_t end) {
+            const FlushDenormals flush;
+            for (std::size_t i = begin; i < end; ++i)
+                answers.hits[i] = any_ ? occluded(scene_.rays[i]) : closest(scene_.rays[i]);
+        };
+        if (threads_ == 1)
+            return cast(0, scene_.rays.size());
+        arena_.execute([&] {
+            tbb::parallel_for(
+                tbb::blocked_range<std::size_t>(0, scene_.rays.size(), 256),
+                [&](const tbb::blocked_range<std::size_t>& r) { cast(r.begin(), r.end()); });
+        });
+    }
+
+  private:
+    static RTCRay converted(const Ray<float>& ray) {
+        return {ray.origin.x,
+                ray.origin.y,
+                ray.origin.z,
+                ray.t_min,
+                ray.direction.x,
+                ray.direction.y,
+                ray.direction.z,
+                0,
+                ray.t_max,
+                ~0u,
+                0,
+                0};
+    }
+
+    RayHit closest(const Ray<float>& ray) const {
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        RTCRayHit query;
+        query.ray = converted(ray);
+        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        rtcIntersect1(embree_scene_.get(), &context, &query);
+        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+            return {};
+        return {query.ray.tfar, query.hit.u, query.hit.v, query.hit.primID};
+    }
+
+    /// A hit is told by some triangle number; Embree does not say which triangle it was.
+    RayHit occluded(const Ray<float>& ray) const {
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        RTCRay query = converted(ray);
+        rtcOccluded1(embree_scene_.get(), &context, &query);
+        RayHit hit;
+        if (query.tfar < 0) // -inf marks a hit
+            hit.triangle = 0;
+        return hit;
+    }
+
+    const Scene& scene_;
+    RTCSceneFlags flags_;
+    bool any_;
+    unsigned threads_;
+    std::vector<Vec3<float>> vertices_;
+    Device device_;
+    tbb::task_arena arena_;
+    SceneHandle embree_scene_;
+};
+
+ContenderEntry entry(std::string name, std::string summary, std::string notes) {
+    ContenderEntry e;
+    e.name = "embree." + std::move(name);
+    e.library = "embree";
+    e.summary = std::move(summary);
+    e.notes = std::move(notes);
+    e.precision = "f32";
+    return e;
+}
+
+ContenderEntry collide(const char* word, RTCBuildQuality quality) {
+    ContenderEntry e =
+        entry(fmt::format("rtc_collide.{}", word),
+              fmt::format("Embree's rtcCollide on user geometry, build quality {}", word),
+              "rtcCollide gives candidates, within one scene in both orders: the callback keeps i "
+              "< j and "
+              "tests the two boxes; with several threads pairs go to one list per thread that are "
+              "joined at "
+              "the end; build = one geometry with its bounds callback, attached and committed; "
+              "boxes beyond "
+              "1.8e18 are dropped by Embree; a build also frees the scene before it");
+    e.unsupported = [](const Job& job) -> Unsupported {
+        if (auto why = not_box_ask(job))
+            return why;
+        return not_tbb(job);
+    };
+    e.make = [quality](const Job& job) { return std::make_unique<Collide>(job, quality); };
+    return e;
+}
+
+ContenderEntry rays(Ask ask, bool robust) {
+    ContenderEntry e = entry(
+        fmt::format("{}{}", ask == Ask::rays_any ? "rtc_occluded1" : "rtc_intersect1",
+                    robust ? ".robust" : ""),
+        fmt::format("Embree's {} on triangles, {}",
+                    ask == Ask::rays_any ? "rtcOccluded1" : "rtcIntersect1",
+                    robust ? "ROBUST scene (watertight)" : "default scene (not watertight)"),
+        "single rays, build quality medium; rays are converted to Embree's struct in the query; "
+        "denormals flushed during the query, as Embree asks; vertex and index buffers shared; a "
+        "build "
+        "also frees the scene before it");
+    e.unsupported = [ask](const Job& job) -> Unsupported {
+        if (job.ask != ask)
+            return fmt::format("answers {} only",
+                               ask == Ask::rays_any ? "rays_any" : "rays_closest");
+        if (job.scene && job.scene->mesh.triangles.empty())
+            return "the scene has no triangles";
+        return not_tbb(job);
+    };
+    const RTCSceneFlags flags = robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE;
+    e.make = [flags](const Job& job) { return std::make_unique<Rays>(job, flags); };
+    return e;
+}
+
+} // namespace
+
+Peer embree_peer() {
+    Peer peer;
+    peer.name = "embree";
+    peer.summary = "Intel Embree: ray tracing kernels, and collision of user geometry";
+    peer.version = RTC_VERSION_STRING;
+    peer.build = "the distribution's package: SSE2 to AVX-512 chosen at run time, TBB";
+    peer.contenders = {collide("low", RTC_BUILD_QUALITY_LOW),
+                       collide("medium", RTC_BUILD_QUALITY_MEDIUM),
+                       collide("high", RTC_BUILD_QUALITY_HIGH),
+                       rays(Ask::rays_closest, false),
+                       rays(Ask::rays_closest, true),
+                       rays(Ask::rays_any, false),
+                       rays(Ask::rays_any, true)};
+    return peer;
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,51 @@
+#include "bench/contender.h"
+
+#include "peers_found.h"
+
+#include <algorithm>
+#include <array>
+
+namespace boxwood::bench {
+
+#define BOXWOOD_DECLARE(name) Peer name##_peer();
+BOXWOOD_PEERS_FOUND(BOXWOOD_DECLARE)
+#undef BOXWOOD_DECLARE
+
+namespace {
+
+constexpr std::array ask_entries{
+    AskEntry{Ask::pairs, "pairs", "every unordered overlapping pair of the scene's boxes"},
+    AskEntry{Ask::tree_pairs, "tree_pairs",
+             "every overlapping pair between the first half of the boxes and the rest"},
+    AskEntry{Ask::rays_closest, "rays_closest", "for each ray the nearest triangle"},
+    AskEntry{Ask::rays_any, "rays_any", "for each ray whether it meets a triangle"},
+};
+
+} // namespace
+
+std::span<const AskEntry> asks() { return ask_entries; }
+
+std::string_view to_string(Ask ask) {
+    return std::ranges::find(ask_entries, ask, &AskEntry::ask)->name;
+}
+
+std::optional<Ask> ask_of(std::string_view name) {
+    const auto found = std::ranges::find(ask_entries, name, &AskEntry::name);
+    return found == ask_entries.end() ? std::nullopt : std::optional(found->ask);
+}
+
+std::span<const Peer> peers() {
+#define BOXWOOD_CALL(name) name##_peer(),
+    static const std::vector<Peer> found{BOXWOOD_PEERS_FOUND(BOXWOOD_CALL)};
+#undef BOXWOOD_CALL
+    return found;
+}
+
+std::span<const std::string_view> absent_peers() {
+#define BOXWOOD_NAME(name) #name,
+    static const std::vector<std::string_view> absent{BOXWOOD_PEERS_ABSENT(BOXWOOD_NAME)};
+#undef BOXWOOD_NAME
+    return absent;
+}
+
+} // namespace boxwood::bench
