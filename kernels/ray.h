@@ -7,8 +7,8 @@
 
 namespace boxwood {
 
-/// The points origin + t * direction with t_min <= t <= t_max. The direction need not be of unit
-/// length, is not zero, and its components may be +0 or -0.
+/// The points origin + t * direction with t_min <= t <= t_max, where t_min >= 0. The direction need
+/// not be of unit length, is not zero, and its components may be +0 or -0.
 template <class Real> struct Ray {
     Vec3<Real> origin, direction;
     Real t_min = 0;

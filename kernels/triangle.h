@@ -8,7 +8,8 @@
 
 namespace boxwood {
 
-/// A closed triangle: its three corners, edges and inside. It may be degenerate (a segment or point).
+/// A closed triangle: its three corners, edges and inside. It may be degenerate (a segment or
+/// point).
 template <class Real> struct Triangle {
     Vec3<Real> a, b, c;
 

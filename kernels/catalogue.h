@@ -1,0 +1,35 @@
+#pragma once
+
+#include "kernels/box_ray.h"
+#include "kernels/predicates/rounded.h"
+#include "kernels/ray_triangle/watertight.h"
+#include "kernels/triangle_triangle/guigue_devillers.h"
+#include "kernels/verdict.h"
+
+#include <span>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+
+namespace boxwood {
+
+/// The rungs, one word each: to add a kernel, write its file and put its type here.
+using RayKernels = std::tuple<Watertight>;
+using TriangleKernels = std::tuple<GuigueDevillers<Rounded>>;
+
+/// Every kernel of every family: what `boxwood list kernels` prints.
+std::span<const KernelInfo> kernels();
+
+/// The rows of one family: a word of `--kernel` each.
+std::span<const KernelInfo> ray_kernels();
+std::span<const KernelInfo> triangle_kernels();
+
+/// Calls f(std::type_identity<K>{}) for the kernel K of `Kernels` (RayKernels, TriangleKernels)
+/// whose name is `name`. False if there is none.
+template <class Kernels, class F> bool with_kernel(std::string_view name, F&& f) {
+    return [&]<class... K>(std::type_identity<std::tuple<K...>>) {
+        return ((K::name == name && (f(std::type_identity<K>{}), true)) || ...);
+    }(std::type_identity<Kernels>{});
+}
+
+} // namespace boxwood

@@ -1,0 +1,19 @@
+#pragma once
+
+/// The kernels room: a few primitives in, one answer out, nothing allocated, threaded or logged.
+/// What each kernel promises is its KernelInfo (verdict.h); `boxwood list kernels` prints them all.
+
+#include "kernels/aabb.h"                               // closed boxes: overlap, merge, half area
+#include "kernels/box_ray.h"                            // clip a ray by a box, losing no true hit
+#include "kernels/catalogue.h"                          // every kernel by its word
+#include "kernels/predicates/orientation.h"             // who decides triangle truth
+#include "kernels/predicates/rounded.h"                 // ... plain double
+#include "kernels/ray.h"                                // rays and their hits
+#include "kernels/ray_triangle/ray_kernel.h"            // contract: ray against triangle
+#include "kernels/ray_triangle/watertight.h"            // ... Woop, Benthin, Wald 2013
+#include "kernels/rounding.h"                           // double -> float, outward
+#include "kernels/triangle.h"                           // triangles and indexed meshes
+#include "kernels/triangle_triangle/guigue_devillers.h" // ... Guigue, Devillers 2003
+#include "kernels/triangle_triangle/triangle_kernel.h"  // contract: triangle against triangle
+#include "kernels/vec3.h"                               // points and directions
+#include "kernels/verdict.h"                            // no, yes, maybe; promises

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "kernels/vec3.h"
+#include "kernels/verdict.h"
+
+#include <concepts>
+#include <cstdint>
+#include <string_view>
+
+namespace boxwood {
+
+/// A point of a coordinate plane.
+struct Point2 {
+    double x, y;
+
+    constexpr bool operator==(const Point2&) const = default;
+};
+
+/// What a predicate answers, beside the signs -1, 0 and 1, if its bound does not decide.
+inline constexpr int undecided = 2;
+
+/// What decides triangle truth (`rounded`, `filtered`, `exact`):
+///   orient3d(a, b, c, d): sign of (d - a) . ((b - a) x (c - a)), 1 if d sees a, b, c turn left
+///   orient2d(a, b, c):    sign of (b - a) x (c - a), 1 if a, b, c turn left
+/// `promise` is what a kernel keeps that asks nothing but these signs.
+template <class P>
+concept OrientationPredicates = requires(Vec3<double> p, Point2 q) {
+    { P::orient3d(p, p, p, p) } -> std::same_as<int>;
+    { P::orient2d(q, q, q) } -> std::same_as<int>;
+    { P::name } -> std::convertible_to<std::string_view>;
+    { P::summary } -> std::convertible_to<std::string_view>;
+    { P::promise } -> std::convertible_to<Promise>;
+    { P::tier } -> std::convertible_to<std::uint8_t>;
+};
+
+} // namespace boxwood

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "kernels/ray.h"
+#include "kernels/triangle.h"
+#include "kernels/verdict.h"
+
+#include <concepts>
+#include <string_view>
+
+namespace boxwood {
+
+/// A ray against one triangle. `prepare` does once per ray what all triangles share. `intersect` is
+/// true if they meet at t_min <= t <= t_max, and writes t, u and v then and only then; whose
+/// triangle it is (hit.triangle) the caller knows. NaN or infinite input is a miss.
+template <class K>
+concept RayKernel = requires(const Ray<float>& ray, const Triangle<float>& triangle, float t_max,
+                             const typename K::PerRay& per_ray, RayHit& hit) {
+    { K::name } -> std::convertible_to<std::string_view>;
+    { K::info } -> std::convertible_to<KernelInfo>;
+    { K::prepare(ray) } -> std::same_as<typename K::PerRay>;
+    { K::intersect(per_ray, ray, triangle, t_max, hit) } -> std::same_as<bool>;
+};
+
+} // namespace boxwood
