@@ -19,10 +19,10 @@ namespace boxwood {
 template <class B>
 concept Builder = std::default_initializable<B> &&
     requires(const B builder, Boxes boxes, const Executor& executor) {
-        { builder.build(boxes, executor) } -> std::same_as<Tree>;
-        { B::name } -> std::convertible_to<std::string_view>;
-        { B::summary } -> std::convertible_to<std::string_view>;
-    };
+    { builder.build(boxes, executor) } -> std::same_as<Tree>;
+    { B::name } -> std::convertible_to<std::string_view>;
+    { B::summary } -> std::convertible_to<std::string_view>;
+};
 
 /// One number that a builder lets the user set.
 template <class B> struct Setting {

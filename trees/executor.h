@@ -9,8 +9,8 @@
 
 namespace boxwood {
 
-/// Where work runs. Algorithms cut their work into chunks by the input alone, never by the number of
-/// threads, so that answers and their order are the same on every executor.
+/// Where work runs. Algorithms cut their work into chunks by the input alone, never by the number
+/// of threads, so that answers and their order are the same on every executor.
 class Executor {
   public:
     virtual ~Executor() = default;
@@ -18,8 +18,9 @@ class Executor {
     /// Number of threads that may run chunks, at least 1.
     virtual unsigned threads() const = 0;
 
-    /// Calls body(i) once for each i < n and returns when all are done. With one thread the calls come
-    /// in order; else in any order and at the same time. An exception from a body is rethrown here.
+    /// Calls body(i) once for each i < n and returns when all are done. With one thread the calls
+    /// come in order; else in any order and at the same time. An exception from a body is rethrown
+    /// here.
     virtual void for_each(std::size_t n, FunctionRef<void(std::size_t)> body) const = 0;
 };
 

@@ -14,8 +14,8 @@
 
 namespace boxwood {
 
-/// A layout owns a copy of a tree in the form that some walk likes best. It is a function of the tree
-/// alone, so that every builder serves every layout.
+/// A layout owns a copy of a tree in the form that some walk likes best. It is a function of the
+/// tree alone, so that every builder serves every layout.
 template <class L>
 concept Layout = std::constructible_from<L, const Tree&> && requires(const L layout) {
     { layout.bytes() } -> std::convertible_to<std::size_t>;

@@ -18,8 +18,9 @@ struct Pair {
 
 /// Where pairs go; the traversal never knows what a pair means.
 /// A traversal cuts its work into chunks by the input alone, says how many in `begin`, then hands
-/// over each chunk's pairs in batches: in order within a chunk, different chunks perhaps at the same
-/// time. Returning false from `take` asks the traversal to stop soon (other batches may still come).
+/// over each chunk's pairs in batches: in order within a chunk, different chunks perhaps at the
+/// same time. Returning false from `take` asks the traversal to stop soon (other batches may still
+/// come).
 class PairSink {
   public:
     virtual ~PairSink() = default;

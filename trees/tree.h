@@ -22,9 +22,9 @@ struct TreeNode {
 static_assert(sizeof(TreeNode) == 32);
 
 /// The canonical binary tree that every builder makes and every layout starts from.
-/// n items give 2n - 1 nodes in depth-first order and leaves of one item each, so the shape needs no
-/// pointers: the left child of node i is i + 1, and a subtree of m items fills 2m - 1 nodes and the
-/// slots [first, first + m) of `order`. n = 0 gives no nodes.
+/// n items give 2n - 1 nodes in depth-first order and leaves of one item each, so the shape needs
+/// no pointers: the left child of node i is i + 1, and a subtree of m items fills 2m - 1 nodes and
+/// the slots [first, first + m) of `order`. n = 0 gives no nodes.
 struct Tree {
     Buffer<TreeNode> nodes;
     Buffer<std::uint32_t> order; ///< slot -> item (index of the input box)

@@ -1,0 +1,45 @@
+#include "trees/executor.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace boxwood {
+namespace {
+
+class Tbb final : public Executor {
+  public:
+    explicit Tbb(unsigned threads) : threads_(threads), arena_(static_cast<int>(threads)) {}
+    unsigned threads() const override { return threads_; }
+
+    void for_each(std::size_t n, FunctionRef<void(std::size_t)> body) const override {
+        if (threads_ == 1 || n <= 1) {
+            serial().for_each(n, body);
+            return;
+        }
+        arena_.execute([&] {
+            tbb::parallel_for(
+                tbb::blocked_range<std::size_t>(0, n, 1),
+                [&](const tbb::blocked_range<std::size_t>& range) {
+                    for (std::size_t i = range.begin(); i < range.end(); ++i)
+                        body(i);
+                },
+                tbb::simple_partitioner{});
+        });
+    }
+
+  private:
+    unsigned threads_;
+    mutable tbb::task_arena arena_;
+};
+
+} // namespace
+
+ExecutorEntry tbb_executor() {
+    return {"tbb", "oneTBB tasks in an arena of their own, work stealing",
+            [](unsigned threads) -> std::unique_ptr<Executor> {
+                return std::make_unique<Tbb>(threads);
+            }};
+}
+
+} // namespace boxwood

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "trees/layout.h"
+#include "trees/traversals/rays.h"
+#include "trees/traversals/self_pairs.h"
+#include "trees/traversals/tree_pairs.h"
+
+#include <stdexcept>
+#include <string>
+
+namespace boxwood {
+
+/// Puts a layout and the traversals that are overloaded for it behind AnyLayout.
+template <Layout L> class LayoutModel final : public AnyLayout {
+  public:
+    explicit LayoutModel(const Tree& tree) : layout_(tree) {}
+
+    std::size_t bytes() const override { return layout_.bytes(); }
+
+    void self_pairs(const Executor& executor, PairSink& sink) const override {
+        boxwood::self_pairs(layout_, executor, sink);
+    }
+    Work self_pairs_counted(PairSink& sink) const override {
+        return boxwood::self_pairs_counted(layout_, sink);
+    }
+    void tree_pairs(const AnyLayout& other, const Executor& executor,
+                    PairSink& sink) const override {
+        boxwood::tree_pairs(layout_, same(other), executor, sink);
+    }
+    Work tree_pairs_counted(const AnyLayout& other, PairSink& sink) const override {
+        return boxwood::tree_pairs_counted(layout_, same(other), sink);
+    }
+    void rays(std::span<const Ray<float>> rays, RayQuery query, std::string_view kernel,
+              const OrderedTriangles& triangles, const Executor& executor,
+              std::span<RayHit> hits) const override {
+        boxwood::rays(layout_, rays, query, kernel, triangles, executor, hits);
+    }
+    Work rays_counted(std::span<const Ray<float>> rays, RayQuery query, std::string_view kernel,
+                      const OrderedTriangles& triangles, std::span<RayHit> hits) const override {
+        return boxwood::rays_counted(layout_, rays, query, kernel, triangles, hits);
+    }
+
+  private:
+    static const L& same(const AnyLayout& other) {
+        if (const auto* model = dynamic_cast<const LayoutModel*>(&other))
+            return model->layout_;
+        throw std::invalid_argument("tree_pairs wants two trees of the layout '" +
+                                    std::string(L::name) + "'");
+    }
+
+    L layout_;
+};
+
+/// The catalogue row of a Layout type.
+template <Layout L> LayoutEntry layout_entry() {
+    return {L::name, L::summary, [](const Tree& tree) -> std::unique_ptr<AnyLayout> {
+                return std::make_unique<LayoutModel<L>>(tree);
+            }};
+}
+
+} // namespace boxwood

@@ -1,0 +1,121 @@
+#pragma once
+
+#include "trees/buffer.h"
+#include "trees/executor.h"
+#include "trees/pairs.h"
+#include "trees/work.h"
+
+#include <algorithm>
+#include <atomic>
+#include <vector>
+
+namespace boxwood {
+
+/// What one chunk of a walk for pairs holds: the stack of node pairs still to open (a pair of equal
+/// nodes, within one tree, stands for that subtree against itself) and the answers not yet handed
+/// over.
+class PairWalk {
+  public:
+    /// A step opens one pair of nodes and pushes or emits at most this many (8 x 8, or 8 + 28), and
+    /// a SIMD store may touch this many more entries beyond.
+    static constexpr std::size_t step_room = 64 + 16;
+
+    PairWalk(PairSink& sink, std::size_t chunk, std::atomic<bool>& stop, Work* work)
+        : sink_(sink), chunk_(chunk), stop_(stop), work_(work) {}
+
+    /// The next pair of nodes, with room made for what its step pushes and emits; false at the end.
+    bool next(Pair& nodes) {
+        if (top_ == 0)
+            return false;
+        nodes = stack_[--top_];
+        if (top_ + step_room > stack_.size())
+            grow();
+        if (n_out_ + step_room > out_.size())
+            flush();
+        return true;
+    }
+    Pair* push_to() { return stack_.data() + top_; }
+    void pushed(std::size_t n) {
+        top_ += n;
+        if (work_)
+            work_->stack_max = std::max<std::uint64_t>(work_->stack_max, top_);
+    }
+    void push(Pair nodes) {
+        *push_to() = nodes;
+        pushed(1);
+    }
+    Pair* emit_to() { return out_.data() + n_out_; }
+    void emitted(std::size_t n) { n_out_ += n; }
+    void emit(Pair items) { out_[n_out_++] = items; }
+
+    void flush() {
+        if (n_out_ == 0)
+            return;
+        if (work_)
+            work_->answers += n_out_;
+        if (stop_.load(std::memory_order_relaxed) || !sink_.take(chunk_, {out_.data(), n_out_})) {
+            stop_.store(true, std::memory_order_relaxed);
+            top_ = 0;
+        }
+        n_out_ = 0;
+    }
+    /// One node opened with `box_tests` tests; compiled away unless Counted.
+    template <bool Counted> void count(std::uint64_t box_tests) {
+        if constexpr (Counted) {
+            ++work_->node_visits;
+            work_->box_tests += box_tests;
+        }
+    }
+
+  private:
+    void grow() {
+        Buffer<Pair> larger(2 * stack_.size());
+        std::copy_n(stack_.data(), top_, larger.data());
+        stack_ = std::move(larger);
+    }
+
+    PairSink& sink_;
+    std::size_t chunk_;
+    std::atomic<bool>& stop_;
+    Work* work_;
+    std::size_t top_ = 0, n_out_ = 0;
+    Buffer<Pair> stack_{1024}, out_{4096};
+};
+
+/// Splits a walk that starts at `root` into tasks, by the trees alone: opens every task that can be
+/// opened, level by level, until there are enough to balance threads even if some are heavy.
+/// `open(nodes, tasks)` appends what a step would push and returns true, or returns false if the
+/// step might emit answers.
+template <class Open> std::vector<Pair> share_out(Pair root, const Open& open) {
+    constexpr std::size_t enough = 256;
+    std::vector<Pair> tasks{root}, next;
+    for (bool opened = true; opened && tasks.size() < enough; tasks.swap(next)) {
+        opened = false;
+        next.clear();
+        for (const Pair nodes : tasks)
+            if (open(nodes, next))
+                opened = true;
+            else
+                next.push_back(nodes);
+    }
+    return tasks;
+}
+
+/// Runs `walk(PairWalk&)` on each task as one chunk.
+template <class Walk>
+void run_tasks(const std::vector<Pair>& tasks, const Executor& executor, PairSink& sink, Work* work,
+               const Walk& walk) {
+    std::atomic<bool> stop = false;
+    sink.begin(tasks.size(), executor.threads() == 1);
+    executor.for_each(tasks.size(), [&](std::size_t chunk) {
+        if (stop.load(std::memory_order_relaxed))
+            return;
+        PairWalk state(sink, chunk, stop, work);
+        state.push(tasks[chunk]);
+        walk(state);
+        state.flush();
+    });
+    sink.end();
+}
+
+} // namespace boxwood

@@ -1,0 +1,258 @@
+#include "trees/builder.h"
+#include "trees/layout.h"
+#include "trees/pairs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <random>
+#include <string>
+
+namespace boxwood {
+namespace {
+
+struct Family {
+    std::string name;
+    std::vector<Box> boxes;
+};
+
+std::vector<Box> random_boxes(std::size_t n, float size, std::uint32_t seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> place(0, 1), extent(0, size);
+    std::vector<Box> boxes(n);
+    for (Box& box : boxes) {
+        box.min = {place(random), place(random), place(random)};
+        box.max = box.min + Vec3<float>{extent(random), extent(random), extent(random)};
+    }
+    return boxes;
+}
+
+/// The hard families of boxes: flat, points, identical, nested, touching, sorted, huge, tiny.
+std::vector<Family> families() {
+    std::vector<Family> all;
+    for (const std::size_t n : {0u, 1u, 2u, 3u, 7u, 8u, 9u, 17u, 100u, 1000u})
+        all.push_back({"random " + std::to_string(n), random_boxes(n, .2f, 7)});
+    all.push_back({"random, few overlaps", random_boxes(6000, .02f, 8)});
+    Family f{"lattice of touching unit cubes", {}};
+    for (int i = 0; i < 512; ++i) {
+        const Vec3<float> p{static_cast<float>(i % 8), static_cast<float>(i / 8 % 8),
+                            static_cast<float>(i / 64)};
+        f.boxes.push_back({p, p + Vec3<float>{1, 1, 1}});
+    }
+    all.push_back(f);
+    f = {"identical boxes", std::vector<Box>(300, Box{{-1, -1, -1}, {1, 1, 1}})};
+    all.push_back(f);
+    f = {"identical points", std::vector<Box>(300, Box{{1, 2, 3}, {1, 2, 3}})};
+    all.push_back(f);
+    f = {"nested boxes", {}};
+    for (int i = 0; i < 200; ++i) {
+        const float r = static_cast<float>(i);
+        f.boxes.push_back({{-r, -r, -r}, {r, r, r}});
+    }
+    all.push_back(f);
+    f = {"flat, along a line", {}};
+    for (int i = 0; i < 500; ++i) {
+        const float x = static_cast<float>(i);
+        f.boxes.push_back({{x, 0, 0}, {x + 1, 0, 0}});
+    }
+    all.push_back(f);
+    f = {"geometric, sorted", {}};
+    for (int i = -120; i < 120; ++i) {
+        const float x = std::ldexp(1.0f, i);
+        f.boxes.push_back({{x, x, x}, {1.5f * x, 2 * x, 2 * x}});
+    }
+    all.push_back(f);
+    constexpr float most = std::numeric_limits<float>::max();
+    f = {"whole space and corners", random_boxes(50, .5f, 9)};
+    f.boxes.push_back({{-most, -most, -most}, {most, most, most}});
+    f.boxes.push_back({{most, most, most}, {most, most, most}});
+    f.boxes.push_back({{-most, -most, -most}, {-most, -most, -most}});
+    all.push_back(f);
+    constexpr float tiny = std::numeric_limits<float>::denorm_min();
+    f = {"denormal", {}};
+    for (int i = 0; i < 64; ++i) {
+        const float x = static_cast<float>(i) * tiny;
+        f.boxes.push_back({{x, -x, 0}, {x + tiny, -x, tiny}});
+    }
+    all.push_back(f);
+    return all;
+}
+
+std::vector<Pair> brute_force(Boxes boxes) {
+    std::vector<Pair> pairs;
+    for (std::uint32_t i = 0; i < boxes.size(); ++i)
+        for (std::uint32_t j = i + 1; j < boxes.size(); ++j)
+            if (overlaps(boxes[i], boxes[j]))
+                pairs.push_back({i, j});
+    return pairs;
+}
+
+void for_all_ways(const std::function<void(const BuilderEntry&, const LayoutEntry&)>& test) {
+    for (const BuilderEntry& builder : builders())
+        for (const LayoutEntry& layout : layouts()) {
+            SCOPED_TRACE(std::string(builder.name) + "." + std::string(layout.name));
+            test(builder, layout);
+        }
+}
+
+TEST(SelfPairs, AgreeWithBruteForceOnEveryFamilyWayAndExecutor) {
+    for (const Family& family : families()) {
+        SCOPED_TRACE(family.name);
+        const std::vector<Pair> expected = brute_force(family.boxes);
+        for_all_ways([&](const BuilderEntry& builder, const LayoutEntry& entry) {
+            const Tree tree = builder.make({})(family.boxes, serial());
+            const auto layout = entry.make(tree);
+            std::vector<Pair> first;
+            for (const ExecutorEntry& executor : executors())
+                for (const unsigned threads : {1u, 2u, 4u}) {
+                    if (executor.name == "serial" && threads > 1)
+                        continue;
+                    SCOPED_TRACE(std::string(executor.name) + "-" + std::to_string(threads));
+                    std::vector<Pair> pairs;
+                    AppendPairs sink(pairs);
+                    layout->self_pairs(*executor.make(threads), sink);
+                    if (first.empty())
+                        first = pairs;
+                    EXPECT_EQ(pairs, first) << "the order depends on the executor";
+                    std::ranges::sort(pairs);
+                    ASSERT_EQ(pairs, expected);
+                }
+            CountPairs count;
+            const Work work = layout->self_pairs_counted(count);
+            EXPECT_EQ(count.count(), expected.size());
+            EXPECT_EQ(work.answers, expected.size());
+        });
+    }
+}
+
+TEST(TreePairs, AgreeWithBruteForceOnEveryFamilyWayAndExecutor) {
+    const std::vector<Family> all = families();
+    for (std::size_t f = 0; f < all.size(); ++f) {
+        const Boxes a = all[f].boxes, b = all[(f + 1) % all.size()].boxes;
+        SCOPED_TRACE(all[f].name);
+        std::vector<Pair> expected;
+        for (std::uint32_t i = 0; i < a.size(); ++i)
+            for (std::uint32_t j = 0; j < b.size(); ++j)
+                if (overlaps(a[i], b[j]))
+                    expected.push_back({i, j});
+        for_all_ways([&](const BuilderEntry& builder, const LayoutEntry& entry) {
+            const auto layout_a = entry.make(builder.make({})(a, serial()));
+            const auto layout_b = entry.make(builder.make({})(b, serial()));
+            std::vector<Pair> first;
+            for (const ExecutorEntry& executor : executors()) {
+                std::vector<Pair> pairs;
+                AppendPairs sink(pairs);
+                layout_a->tree_pairs(*layout_b, *executor.make(executor.name == "serial" ? 1 : 3),
+                                     sink);
+                if (first.empty())
+                    first = pairs;
+                EXPECT_EQ(pairs, first);
+                std::ranges::sort(pairs);
+                ASSERT_EQ(pairs, expected) << executor.name;
+            }
+            CountPairs count;
+            EXPECT_EQ(layout_a->tree_pairs_counted(*layout_b, count).answers, expected.size());
+            EXPECT_EQ(count.count(), expected.size());
+        });
+    }
+}
+
+TEST(TreePairs, RefuseTwoLayouts) {
+    const std::vector<Box> boxes = random_boxes(10, .1f, 1);
+    const Tree tree = find_builder("median")->make({})(boxes, serial());
+    std::vector<Pair> pairs;
+    AppendPairs sink(pairs);
+    EXPECT_THROW(find_layout("binary")->make(tree)->tree_pairs(*find_layout("wide8")->make(tree),
+                                                               serial(), sink),
+                 std::invalid_argument);
+}
+
+TEST(SelfPairs, TreesAreTheSameOnEveryExecutor) {
+    const std::vector<Box> boxes = random_boxes(20000, .05f, 3);
+    for (const BuilderEntry& builder : builders()) {
+        SCOPED_TRACE(builder.name);
+        const Tree expected = builder.make({})(boxes, serial());
+        for (const std::string_view word : {"openmp", "tbb"})
+            for (const unsigned threads : {2u, 4u}) {
+                const Tree tree = builder.make({})(boxes, *make_executor(word, threads));
+                EXPECT_TRUE(std::ranges::equal(tree.order, expected.order));
+                EXPECT_TRUE(std::ranges::equal(
+                    tree.nodes, expected.nodes, [](const TreeNode& a, const TreeNode& b) {
+                        return a.box == b.box && a.first == b.first && a.count == b.count;
+                    }));
+            }
+    }
+}
+
+TEST(SelfPairs, EarlyExitStopsTheWalk) {
+    const std::vector<Box> boxes(500, Box{{0, 0, 0}, {1, 1, 1}});
+    for_all_ways([&](const BuilderEntry& builder, const LayoutEntry& entry) {
+        const auto layout = entry.make(builder.make({})(boxes, serial()));
+        std::size_t seen = 0;
+        ForEachPair sink([&](Pair) { return ++seen < 10; });
+        layout->self_pairs(serial(), sink);
+        EXPECT_EQ(seen, 10u);
+    });
+}
+
+TEST(SelfPairs, WorkOnIdenticalBoxesIsThatOfTheOutput) {
+    const std::vector<Box> boxes(4000, Box{{0, 0, 0}, {1, 1, 1}});
+    for_all_ways([&](const BuilderEntry& builder, const LayoutEntry& entry) {
+        const auto layout = entry.make(builder.make({})(boxes, serial()));
+        CountPairs count;
+        const Work work = layout->self_pairs_counted(count);
+        EXPECT_EQ(count.count(), 4000u * 3999 / 2);
+        EXPECT_LT(work.box_tests, 5 * count.count());
+    });
+}
+
+TEST(Builders, RefuseBadBoxesByIndex) {
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    constexpr float inf = std::numeric_limits<float>::infinity();
+    for (const Box& bad :
+         {Box{{nan, 0, 0}, {1, 1, 1}}, Box{{0, 0, 0}, {1, nan, 1}}, Box{{0, 0, -inf}, {1, 1, 1}},
+          Box{{0, 0, 0}, {1, 1, inf}}, Box{{0, 2, 0}, {1, 1, 1}}, Box{}}) {
+        std::vector<Box> boxes = random_boxes(20, .1f, 1);
+        boxes[13] = bad;
+        for (const BuilderEntry& builder : builders())
+            try {
+                builder.make({})(boxes, serial());
+                FAIL() << builder.name << " took a bad box";
+            } catch (const InvalidBox& error) {
+                EXPECT_EQ(error.index, 13u) << builder.name;
+            }
+    }
+}
+
+TEST(Builders, SettingsAreChecked) {
+    const BuilderEntry* builder = find_builder("binned_sah");
+    ASSERT_NE(builder, nullptr);
+    EXPECT_THROW(builder->make({{"bin", 8}}), std::invalid_argument);
+    EXPECT_THROW(builder->make({{"bins", 1}}), std::invalid_argument);
+    const std::vector<Box> boxes = random_boxes(100, .1f, 1);
+    EXPECT_EQ(builder->make({{"bins", 4}})(boxes, serial()).size(), 100u);
+    EXPECT_EQ(find_builder("nosuch"), nullptr);
+}
+
+TEST(Executors, RethrowAndCountEveryIndexOnce) {
+    for (const ExecutorEntry& entry : executors()) {
+        const auto executor = entry.make(entry.name == "serial" ? 1 : 3);
+        std::vector<int> seen(1000, 0);
+        executor->for_each(seen.size(), [&](std::size_t i) { ++seen[i]; });
+        EXPECT_EQ(std::ranges::count(seen, 1), 1000) << entry.name;
+        EXPECT_THROW(executor->for_each(100,
+                                        [](std::size_t i) {
+                                            if (i == 57)
+                                                throw std::runtime_error("57");
+                                        }),
+                     std::runtime_error);
+    }
+    EXPECT_THROW(make_executor("serial", 2), std::invalid_argument);
+    EXPECT_THROW(make_executor("tbb", 0), std::invalid_argument);
+    EXPECT_THROW(make_executor("cuda", 1), std::invalid_argument);
+}
+
+} // namespace
+} // namespace boxwood

@@ -1,0 +1,95 @@
+#pragma once
+
+#include "kernels/box_ray.h"
+#include "kernels/ray_triangle/watertight.h"
+#include "trees/layout.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace boxwood {
+
+/// Calls `f(K{})` with the ray kernel of that name. One line per kernel of the ladder.
+template <class F> void with_ray_kernel(std::string_view name, const F& f) {
+    if (name == Watertight::name)
+        return f(Watertight{});
+    throw std::invalid_argument("unknown ray kernel '" + std::string(name) +
+                                "'; `boxwood list kernels` names them");
+}
+
+/// One ray on its way through a tree: the nearest hit so far, and the tests of leaf triangles.
+template <RayKernel K, bool Counted> class RayWalk {
+  public:
+    RayWalk(const Ray<float>& ray, const OrderedTriangles& triangles, Work* work)
+        : slabs(ray), ray_(ray), per_ray_(K::prepare(ray)), triangles_(triangles), work_(work) {
+        best_.t = ray.t_max;
+    }
+
+    const RaySlabs slabs;
+
+    float t_min() const { return ray_.t_min; }
+    /// Nothing beyond this t matters any more.
+    float t_max() const { return best_.t; }
+    bool hit() const { return best_.hit(); }
+
+    void test(std::uint32_t slot) {
+        RayHit hit;
+        if constexpr (Counted)
+            ++work_->triangle_tests;
+        if (!K::intersect(per_ray_, ray_, triangles_.triangles[slot], best_.t, hit))
+            return;
+        hit.triangle = triangles_.ids[slot];
+        if (hit.t < best_.t || hit.triangle < best_.triangle)
+            best_ = hit;
+    }
+
+    /// One node opened with `box_tests` tests; compiled away unless Counted.
+    void count(std::uint64_t box_tests, std::size_t stack) {
+        if constexpr (Counted) {
+            ++work_->node_visits;
+            work_->box_tests += box_tests;
+            work_->stack_max = std::max<std::uint64_t>(work_->stack_max, stack);
+        }
+    }
+
+    RayHit result() const {
+        if constexpr (Counted)
+            work_->answers += hit();
+        return hit() ? best_ : RayHit{};
+    }
+
+  private:
+    const Ray<float>& ray_;
+    typename K::PerRay per_ray_;
+    const OrderedTriangles& triangles_;
+    Work* work_;
+    RayHit best_;
+};
+
+/// What all rays of one call share.
+struct RayJob {
+    std::span<const Ray<float>> rays;
+    RayQuery query;
+    std::string_view kernel;
+    const OrderedTriangles& triangles;
+    std::span<RayHit> hits;
+    Work* work = nullptr; ///< null in the timed pass
+};
+
+/// Calls `f(std::span of rays, std::span of hits)` for chunks of rays.
+template <class F> void for_ray_chunks(RayJob job, const Executor& executor, const F& walk) {
+    if (job.hits.size() != job.rays.size())
+        throw std::invalid_argument("rays: one hit per ray is wanted");
+    with_ray_kernel(job.kernel, [](auto) {});
+    constexpr std::size_t chunk = 512;
+    executor.for_each((job.rays.size() + chunk - 1) / chunk, [&](std::size_t c) {
+        RayJob part = job;
+        const std::size_t n = std::min(chunk, job.rays.size() - c * chunk);
+        part.rays = job.rays.subspan(c * chunk, n);
+        part.hits = job.hits.subspan(c * chunk, n);
+        walk(part);
+    });
+}
+
+} // namespace boxwood
