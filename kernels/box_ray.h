@@ -27,9 +27,8 @@ struct RaySpan {
 /// monotone, so a <= b gives fl(product_a) <= fl(product_b), even where a product under- or
 /// overflows, and the same against the floats t_min and t_max. Where a < 0 the comparison with
 /// t_min >= 0 makes it void, and the sign of a product is right.
-/// Padding t_exit by 2 ulp instead is refuted (box_ray_test.cpp); by 1 + 2 gamma_3 it costs a
-/// product per box and still fails for |d| > 2^126 or |d| < 2^-126, where 1 / d has no relative
-/// bound.
+/// Raising 1 / d of the exit by 2 ulp alone is refuted (box_ray_test.cpp). Scaling the exit by
+/// 1 + 2 gamma_3 costs a product per box and still fails where 1 / d is denormal or overflows.
 struct RaySlabs {
     static constexpr KernelInfo info{"box_ray", "slabs",
                                      "slab test, near and far planes by sign bit, reciprocals "
@@ -63,8 +62,9 @@ struct RaySlabs {
 ///   a = (near - origin) * entry_rdir;  t0 = a > t0 ? a : t0     starting with t0 = t_min
 ///   b = (far - origin) * exit_rdir;    t1 = b < t1 ? b : t1     starting with t1 = t_max
 /// A hit if t0 <= t1. Never misses: if a real t in [t_min, t_max] puts origin + t d into the box,
-/// it is a hit, and entry <= t. Right for +-0 components (0 * inf = NaN is passed over), origins on
-/// a face, flat boxes, and the empty box, which is never hit. A NaN in a box does not clip.
+/// it is a hit with entry <= fl(t) <= exit. Right for +-0 components (0 * inf = NaN is passed
+/// over), origins on a face, flat boxes, and the empty box, which is never hit. NaN in a box does
+/// not clip.
 inline RaySpan clip(const RaySlabs& ray, const Aabb<float>& box, float t_min, float t_max) {
     float t0 = t_min, t1 = t_max;
     for (int k = 0; k < 3; ++k) {
