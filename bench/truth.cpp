@@ -1,0 +1,280 @@
+#include "bench/truth.h"
+
+#include "bench/peers/brute_force.h"
+#include "bench/ray_truth.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+namespace boxwood::bench {
+namespace {
+
+/// Up to here every pair is tested; it takes some ten seconds. Beyond, only those that overlap in
+/// x.
+constexpr std::size_t most_boxes_for_all_pairs = 200'000;
+
+/// Calls body(i, part) for each i < n on `threads` threads and joins the parts, sorted.
+template <class Body> std::vector<Pair> gather(std::size_t n, unsigned threads, const Body& body) {
+    std::vector<std::vector<Pair>> parts(n);
+    tbb::task_arena(static_cast<int>(threads)).execute([&] {
+        tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) { body(i, parts[i]); });
+    });
+    std::vector<Pair> all;
+    for (std::vector<Pair>& part : parts) {
+        all.insert(all.end(), part.begin(), part.end());
+        part = {};
+    }
+    std::ranges::sort(all);
+    return all;
+}
+
+constexpr std::size_t rows_per_part = 4 * BruteForce::tile;
+
+std::size_t parts_of(std::size_t n) { return (n + rows_per_part - 1) / rows_per_part; }
+
+/// Columns [begin, n) against the rows before min(column, row_end).
+std::vector<Pair> all_pairs(std::span<const Aabb<float>> boxes, std::size_t begin,
+                            std::size_t row_end, unsigned threads) {
+    const BruteForce columns(boxes);
+    const std::size_t n = boxes.size();
+    return gather(parts_of(n - begin), threads, [&](std::size_t part, std::vector<Pair>& out) {
+        const std::size_t first = begin + part * rows_per_part;
+        columns.append_columns(first, std::min(n, first + rows_per_part), row_end, out);
+    });
+}
+
+/// The same by a sweep: boxes sorted by their least x, each against those that begin before it
+/// ends.
+std::vector<Pair> swept_pairs(std::span<const Aabb<float>> boxes, bool between_halves,
+                              unsigned threads) {
+    const std::size_t n = boxes.size();
+    std::vector<std::uint32_t> order(n);
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::sort(order, {}, [&](std::uint32_t i) { return boxes[i].min.x; });
+    std::vector<Aabb<float>> sorted;
+    sorted.reserve(n);
+    for (const std::uint32_t i : order)
+        sorted.push_back(boxes[i]);
+    const BruteForce columns(sorted);
+    const std::size_t split = between_halves ? tree_pairs_split(n) : 0;
+    return gather(parts_of(n), threads, [&](std::size_t part, std::vector<Pair>& out) {
+        const std::size_t last = std::min(n, (part + 1) * rows_per_part);
+        for (std::size_t row = part * rows_per_part; row < last; ++row) {
+            const auto end = std::ranges::upper_bound(
+                sorted, sorted[row].max.x, {}, [](const Aabb<float>& box) { return box.min.x; });
+            columns.append_row(row, row + 1, static_cast<std::size_t>(end - sorted.begin()), out);
+        }
+        for (Pair& p : out) {
+            const auto [a, b] = std::minmax(order[p.a], order[p.b]);
+            p = {a, b};
+        }
+        if (between_halves)
+            std::erase_if(out, [&](Pair p) { return p.a >= split || p.b < split; });
+    });
+}
+
+class PairTruth final : public Truth {
+  public:
+    PairTruth(const Scene& scene, Ask ask, unsigned threads) : ask_(ask) {
+        const std::span<const Aabb<float>> boxes = scene.boxes;
+        const bool between_halves = ask == Ask::tree_pairs;
+        if (boxes.size() > most_boxes_for_all_pairs) {
+            oracle_ = "sweep";
+            expected_ = swept_pairs(boxes, between_halves, threads);
+        } else {
+            oracle_ = "brute_force";
+            const std::size_t split = tree_pairs_split(boxes.size());
+            expected_ = all_pairs(boxes, between_halves ? split : 0,
+                                  between_halves ? split : boxes.size(), threads);
+        }
+    }
+
+    results::Check check(const Answers& answers) const override {
+        std::vector<Pair> got = answers.pairs;
+        std::ranges::sort(got);
+        std::vector<Pair> missing, extra; // a pair told twice is extra once
+        std::ranges::set_difference(expected_, got, std::back_inserter(missing));
+        std::ranges::set_difference(got, expected_, std::back_inserter(extra));
+        results::Check check;
+        check.oracle = oracle_;
+        check.n_checked = check.n_got = got.size();
+        check.n_expected = expected_.size();
+        check.missing = missing.size();
+        check.extra = extra.size();
+        check.status = missing.empty() && extra.empty() ? "exact" : "wrong";
+        check.result_hash = answer_hash(answers, ask_);
+        if (!missing.empty())
+            check.witness = fmt::format("missing ({},{})", missing[0].a, missing[0].b);
+        else if (!extra.empty())
+            check.witness = fmt::format("extra ({},{})", extra[0].a, extra[0].b);
+        return check;
+    }
+
+  private:
+    Ask ask_;
+    std::string oracle_;
+    std::vector<Pair> expected_;
+};
+
+class RaysTruth final : public Truth {
+  public:
+    RaysTruth(const Scene& scene, Ask ask, unsigned threads)
+        : ask_(ask), n_rays_(scene.rays.size()) {
+        if (scene.rays.empty())
+            return;
+        sample(scene);
+        const RayOracle oracle(scene.mesh);
+        truths_.resize(sample_.size());
+        tbb::task_arena(static_cast<int>(threads)).execute([&] {
+            tbb::parallel_for(std::size_t{0}, sample_.size(), [&](std::size_t k) {
+                truths_[k] = oracle.truth(scene.rays[sample_[k]]);
+            });
+        });
+    }
+
+    results::Check check(const Answers& answers) const override {
+        results::Check check;
+        check.oracle = "brute_force_f64";
+        check.result_hash = answer_hash(answers, ask_);
+        if (answers.hits.size() != n_rays_) {
+            check.status = "wrong";
+            check.n_got = answers.hits.size();
+            check.n_expected = n_rays_;
+            check.missing = n_rays_ > check.n_got ? n_rays_ - check.n_got : 0;
+            check.extra = check.n_got > n_rays_ ? check.n_got - n_rays_ : 0;
+            check.witness = fmt::format("{} answers for {} rays", check.n_got, n_rays_);
+            return check;
+        }
+        bool all_certain = true;
+        check.n_checked = sample_.size();
+        if (ask_ == Ask::rays_closest)
+            check.max_abs_err = check.max_rel_err = 0;
+        for (std::size_t k = 0; k < sample_.size(); ++k) {
+            const RayTruth& truth = truths_[k];
+            const RayHit& hit = answers.hits[sample_[k]];
+            check.n_expected += truth.must_hit();
+            check.n_got += hit.hit();
+            const std::string wrong = ask_ == Ask::rays_any
+                                          ? judge_any(truth, hit, check, all_certain)
+                                          : judge_closest(truth, hit, check, all_certain);
+            if (!wrong.empty() && check.witness.empty())
+                check.witness = fmt::format("ray {} {}", sample_[k], wrong);
+        }
+        check.status = check.missing || check.extra ? "wrong"
+                       : all_certain                ? "exact"
+                                                    : "within_bound";
+        return check;
+    }
+
+  private:
+    /// One ray of each of m equal runs, picked by a hash of the scene's seed.
+    void sample(const Scene& scene) {
+        const std::size_t triangles = std::max<std::size_t>(1, scene.mesh.triangles.size());
+        const std::size_t m =
+            std::min(n_rays_, std::clamp<std::size_t>(20'000'000 / triangles, 64, 1024));
+        for (std::size_t k = 0; k < m; ++k) {
+            const std::size_t first = k * n_rays_ / m, last = (k + 1) * n_rays_ / m;
+            sample_.push_back(first +
+                              XXH3_64bits_withSeed(&k, sizeof k, scene.spec.seed) % (last - first));
+        }
+    }
+
+    static std::string judge_any(const RayTruth& truth, const RayHit& hit, results::Check& check,
+                                 bool& all_certain) {
+        if (hit.hit() ? truth.candidates.empty() && !truth.must_hit() : truth.must_hit()) {
+            ++(hit.hit() ? check.extra : check.missing);
+            return hit.hit() ? "was said to hit, but meets nothing"
+                             : fmt::format("was said to miss, but {}", nearest(truth));
+        }
+        all_certain &= truth.must_hit() || truth.candidates.empty();
+        return {};
+    }
+
+    /// "missed triangle 5 at t=0x1.8p+0"
+    static std::string nearest(const RayTruth& truth) {
+        const auto first = std::ranges::min_element(truth.candidates, {}, [](const auto& c) {
+            return c.certain ? c.t : std::numeric_limits<double>::infinity();
+        });
+        if (first == truth.candidates.end() || !first->certain)
+            return fmt::format("meets an edge or corner of a closed surface before t={:a}",
+                               truth.t_limit);
+        return fmt::format("meets triangle {} at t={:a}", first->triangle, first->t);
+    }
+
+    static std::string judge_closest(const RayTruth& truth, const RayHit& hit,
+                                     results::Check& check, bool& all_certain) {
+        if (!hit.hit()) {
+            all_certain &= truth.candidates.empty();
+            if (!truth.must_hit())
+                return {};
+            ++check.missing;
+            return fmt::format("was said to miss, but {}", nearest(truth));
+        }
+        const double t = static_cast<double>(hit.t);
+        const auto c =
+            std::ranges::find(truth.candidates, hit.triangle, &RayTruth::Candidate::triangle);
+        if (truth.must_hit() && !(t <= truth.t_limit)) {
+            ++check.missing;
+            return fmt::format("was said to hit triangle {} at t={:a}, but {}", hit.triangle, t,
+                               nearest(truth));
+        }
+        if (c == truth.candidates.end() || !(c->t_low <= t && t <= c->t_high)) {
+            ++check.extra;
+            check.bound_violations += c != truth.candidates.end();
+            return fmt::format(
+                "was said to hit triangle {} at t={:a}, where it is not{}", hit.triangle, t,
+                c == truth.candidates.end()
+                    ? std::string()
+                    : fmt::format(" (t between {:a} and {:a})", c->t_low, c->t_high));
+        }
+        all_certain &= c->certain;
+        if (c->certain) {
+            const double error = std::abs(t - c->t);
+            check.max_abs_err = std::max(check.max_abs_err, error);
+            if (error > 0)
+                check.max_rel_err = std::max(check.max_rel_err, error / std::abs(c->t));
+        }
+        return {};
+    }
+
+    Ask ask_;
+    std::size_t n_rays_;
+    std::vector<std::size_t> sample_;
+    std::vector<RayTruth> truths_;
+};
+
+} // namespace
+
+std::unique_ptr<Truth> make_truth(const Scene& scene, Ask ask, unsigned threads) {
+    if (ask == Ask::pairs || ask == Ask::tree_pairs)
+        return std::make_unique<PairTruth>(scene, ask, threads);
+    return std::make_unique<RaysTruth>(scene, ask, threads);
+}
+
+std::uint64_t answer_hash(const Answers& answers, Ask ask) {
+    if (ask == Ask::pairs || ask == Ask::tree_pairs) {
+        std::vector<Pair> sorted = answers.pairs;
+        std::ranges::sort(sorted);
+        return XXH3_64bits(sorted.data(), sorted.size() * sizeof(Pair));
+    }
+    std::vector<std::uint32_t> words;
+    words.reserve(2 * answers.hits.size());
+    for (const RayHit& hit : answers.hits) {
+        if (ask == Ask::rays_any) {
+            words.push_back(hit.hit());
+        } else {
+            words.push_back(hit.triangle);
+            words.push_back(hit.hit() ? std::bit_cast<std::uint32_t>(hit.t) : 0);
+        }
+    }
+    return XXH3_64bits(words.data(), words.size() * sizeof(words[0]));
+}
+
+} // namespace boxwood::bench
