@@ -1,11 +1,10 @@
 #pragma once
 
-#include "trees/function_ref.h"
-
 #include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace boxwood {
@@ -69,9 +68,9 @@ class AppendPairs final : public PairSink {
 
 /// Calls `f(pair) -> bool` for each pair until it says false. For one thread, or an `f` that may be
 /// called from several.
-class ForEachPair final : public PairSink {
+template <class F> class ForEachPair final : public PairSink {
   public:
-    explicit ForEachPair(FunctionRef<bool(Pair)> f) : f_(f) {}
+    explicit ForEachPair(F f) : f_(std::move(f)) {}
     void begin(std::size_t, bool) override {}
     bool take(std::size_t, std::span<const Pair> pairs) override {
         for (const Pair p : pairs)
@@ -82,7 +81,7 @@ class ForEachPair final : public PairSink {
     void end() override {}
 
   private:
-    FunctionRef<bool(Pair)> f_;
+    F f_;
 };
 
 } // namespace boxwood

@@ -1,15 +1,23 @@
 #include "trees/executor.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+
+#include <optional>
 
 namespace boxwood {
 namespace {
 
 class Tbb final : public Executor {
   public:
-    explicit Tbb(unsigned threads) : threads_(threads), arena_(static_cast<int>(threads)) {}
+    explicit Tbb(unsigned threads) : threads_(threads), arena_(static_cast<int>(threads)) {
+        // TBB starts no more workers than there are cores unless it is told to.
+        if (static_cast<int>(threads) > tbb::info::default_concurrency())
+            more_workers_.emplace(tbb::global_control::max_allowed_parallelism, threads);
+    }
     unsigned threads() const override { return threads_; }
 
     void for_each(std::size_t n, FunctionRef<void(std::size_t)> body) const override {
@@ -30,6 +38,7 @@ class Tbb final : public Executor {
 
   private:
     unsigned threads_;
+    std::optional<tbb::global_control> more_workers_;
     mutable tbb::task_arena arena_;
 };
 

@@ -23,16 +23,15 @@ class PairWalk {
     PairWalk(PairSink& sink, std::size_t chunk, std::atomic<bool>& stop, Work* work)
         : sink_(sink), chunk_(chunk), stop_(stop), work_(work) {}
 
-    /// The next pair of nodes, with room made for what its step pushes and emits; false at the end.
+    /// The next pair of nodes, with room made for what its step pushes and emits; false at the
+    /// end, or when the sink has had enough.
     bool next(Pair& nodes) {
         if (top_ == 0)
             return false;
         nodes = stack_[--top_];
         if (top_ + step_room > stack_.size())
             grow();
-        if (n_out_ + step_room > out_.size())
-            flush();
-        return true;
+        return n_out_ + step_room <= out_.size() || flush();
     }
     Pair* push_to() { return stack_.data() + top_; }
     void pushed(std::size_t n) {
@@ -48,16 +47,18 @@ class PairWalk {
     void emitted(std::size_t n) { n_out_ += n; }
     void emit(Pair items) { out_[n_out_++] = items; }
 
-    void flush() {
+    /// Hands the answers over; false once the sink has had enough.
+    bool flush() {
         if (n_out_ == 0)
-            return;
+            return true;
         if (work_)
             work_->answers += n_out_;
-        if (stop_.load(std::memory_order_relaxed) || !sink_.take(chunk_, {out_.data(), n_out_})) {
+        const bool more =
+            !stop_.load(std::memory_order_relaxed) && sink_.take(chunk_, {out_.data(), n_out_});
+        if (!more)
             stop_.store(true, std::memory_order_relaxed);
-            top_ = 0;
-        }
         n_out_ = 0;
+        return more;
     }
     /// One node opened with `box_tests` tests; compiled away unless Counted.
     template <bool Counted> void count(std::uint64_t box_tests) {

@@ -3,6 +3,7 @@
 #include "trees/pairs.h"
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include <algorithm>
 #include <functional>
@@ -157,6 +158,34 @@ TEST(TreePairs, AgreeWithBruteForceOnEveryFamilyWayAndExecutor) {
             EXPECT_EQ(count.count(), expected.size());
         });
     }
+}
+
+TEST(SelfPairs, AgreeOnEveryInstructionSet) {
+    const std::vector<Box> boxes = random_boxes(6000, .1f, 12);
+    const Tree tree = find_builder("binned_sah")->make({})(boxes, serial());
+    const std::vector<Pair> expected = brute_force(boxes);
+    std::vector<Pair> expected_halves;
+    for (const Pair p : expected)
+        if (p.a < 3000 && p.b >= 3000)
+            expected_halves.push_back({p.a, p.b - 3000});
+    const Tree half_a = find_builder("median")->make({})({boxes.data(), 3000}, serial());
+    const Tree half_b = find_builder("binned_sah")->make({})({boxes.data() + 3000, 3000}, serial());
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
+        for (const LayoutEntry& entry : layouts()) {
+            SCOPED_TRACE(std::string(entry.name) + " " + hwy::TargetName(target));
+            hwy::SetSupportedTargetsForTest(target);
+            hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+            std::vector<Pair> pairs, halves;
+            AppendPairs sink(pairs), sink_halves(halves);
+            entry.make(tree)->self_pairs(serial(), sink);
+            entry.make(half_a)->tree_pairs(*entry.make(half_b), serial(), sink_halves);
+            std::ranges::sort(pairs);
+            std::ranges::sort(halves);
+            EXPECT_EQ(pairs, expected);
+            EXPECT_EQ(halves, expected_halves);
+        }
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 TEST(TreePairs, RefuseTwoLayouts) {

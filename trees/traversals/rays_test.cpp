@@ -1,0 +1,165 @@
+#include "trees/builder.h"
+#include "trees/layout.h"
+#include "trees/traversals/ray_walk.h"
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <cmath>
+#include <random>
+
+namespace boxwood {
+namespace {
+
+/// A closed sphere of 2 * rings * rings triangles, with shared vertices.
+TriangleMesh sphere(int rings) {
+    TriangleMesh mesh;
+    const double pi = std::acos(-1.0);
+    for (int i = 0; i <= rings; ++i)
+        for (int j = 0; j < rings; ++j) {
+            const double a = pi * i / rings, b = 2 * pi * j / rings;
+            mesh.vertices.push_back({static_cast<float>(std::sin(a) * std::cos(b)),
+                                     static_cast<float>(std::sin(a) * std::sin(b)),
+                                     static_cast<float>(std::cos(a))});
+        }
+    const auto vertex = [&](int i, int j) {
+        return static_cast<std::uint32_t>(i == 0       ? 0
+                                          : i == rings ? rings * rings
+                                                       : i * rings + j % rings);
+    };
+    for (int i = 0; i < rings; ++i)
+        for (int j = 0; j < rings; ++j) {
+            const std::uint32_t p = vertex(i, j), q = vertex(i, j + 1), r = vertex(i + 1, j),
+                                s = vertex(i + 1, j + 1);
+            if (i > 0)
+                mesh.triangles.push_back({p, q, r});
+            if (i < rings - 1)
+                mesh.triangles.push_back({q, s, r});
+        }
+    return mesh;
+}
+
+TriangleMesh soup(std::size_t n) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> place(-1, 1), extent(-.1f, .1f);
+    TriangleMesh mesh;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const Vec3<float> p{place(random), place(random), place(random)};
+        for (int k = 0; k < 3; ++k)
+            mesh.vertices.push_back(p +
+                                    Vec3<float>{extent(random), extent(random), extent(random)});
+        mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    return mesh;
+}
+
+std::vector<Box> triangle_boxes(const TriangleMesh& mesh) {
+    std::vector<Box> boxes;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+        boxes.push_back(mesh.triangle(i).bounds());
+    return boxes;
+}
+
+/// Random rays, axis-parallel rays with +0 and -0, and rays along lattice planes and with ends.
+std::vector<Ray<float>> test_rays() {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> place(-2, 2);
+    std::vector<Ray<float>> rays;
+    for (int i = 0; i < 600; ++i) {
+        const Vec3<float> from{place(random), place(random), place(random)};
+        const Vec3<float> to{place(random) / 2, place(random) / 2, place(random) / 2};
+        rays.push_back({from, to - from});
+    }
+    for (int i = 0; i < 120; ++i) {
+        Ray<float> ray{{place(random) / 2, place(random) / 2, place(random) / 2},
+                       {i & 1 ? 0.f : -0.f, i & 2 ? 0.f : -0.f, i & 4 ? 1.f : -1.f}};
+        if (i % 3 == 0)
+            std::swap(ray.direction.x, ray.direction.z);
+        if (i % 5 == 0)
+            ray.origin = {0, 0, 0};
+        ray.t_max = i % 7 == 0 ? .5f : ray.t_max;
+        ray.t_min = i % 11 == 0 ? .25f : 0;
+        rays.push_back(ray);
+    }
+    return rays;
+}
+
+/// The same kernel on every triangle, without a tree.
+std::vector<RayHit> brute_force(const TriangleMesh& mesh, std::span<const Ray<float>> rays) {
+    std::vector<RayHit> hits;
+    for (const Ray<float>& ray : rays) {
+        RayHit best;
+        best.t = ray.t_max;
+        const auto per_ray = Watertight::prepare(ray);
+        for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+            RayHit hit;
+            if (Watertight::intersect(per_ray, ray, mesh.triangle(i), best.t, hit) &&
+                (hit.t < best.t || !best.hit())) {
+                hit.triangle = i;
+                best = hit;
+            }
+        }
+        hits.push_back(best.hit() ? best : RayHit{});
+    }
+    return hits;
+}
+
+TEST(Rays, AgreeWithBruteForceForEveryWayExecutorAndInstructionSet) {
+    const std::vector<Ray<float>> rays = test_rays();
+    for (const TriangleMesh& mesh : {sphere(40), soup(3000), soup(1), soup(5), TriangleMesh{}}) {
+        const std::vector<Box> boxes = triangle_boxes(mesh);
+        const std::vector<RayHit> expected = brute_force(mesh, rays);
+        const auto n_hit = std::ranges::count_if(expected, &RayHit::hit);
+        if (mesh.triangles.size() > 1000) {
+            EXPECT_GT(n_hit, 200);
+        }
+        for (const BuilderEntry& builder : builders())
+            for (const LayoutEntry& entry : layouts()) {
+                const Tree tree = builder.make({})(boxes, serial());
+                const auto layout = entry.make(tree);
+                const OrderedTriangles triangles(tree, mesh);
+                for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+                    SCOPED_TRACE(std::string(builder.name) + "." + std::string(entry.name) + " " +
+                                 hwy::TargetName(target));
+                    hwy::SetSupportedTargetsForTest(target);
+                    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+                    for (const ExecutorEntry& executor : executors()) {
+                        std::vector<RayHit> hits(rays.size()), any(rays.size());
+                        const auto run = executor.make(executor.name == "serial" ? 1 : 2);
+                        layout->rays(rays, RayQuery::closest, "watertight", triangles, *run, hits);
+                        layout->rays(rays, RayQuery::any, "watertight", triangles, *run, any);
+                        for (std::size_t i = 0; i < rays.size(); ++i) {
+                            ASSERT_EQ(hits[i].hit(), expected[i].hit()) << i;
+                            ASSERT_EQ(hits[i].t, expected[i].t) << i;
+                            ASSERT_EQ(hits[i].triangle, expected[i].triangle) << i;
+                            ASSERT_EQ(any[i].hit(), expected[i].hit()) << i;
+                        }
+                    }
+                    std::vector<RayHit> hits(rays.size());
+                    const Work work = layout->rays_counted(rays, RayQuery::closest, "watertight",
+                                                           triangles, hits);
+                    EXPECT_EQ(work.answers, static_cast<std::uint64_t>(n_hit));
+                }
+                hwy::SetSupportedTargetsForTest(0);
+                hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+            }
+    }
+}
+
+TEST(Rays, RefuseWrongArguments) {
+    const TriangleMesh mesh = soup(10);
+    const Tree tree = builders()[0].make({})(triangle_boxes(mesh), serial());
+    const OrderedTriangles triangles(tree, mesh);
+    const std::vector<Ray<float>> rays(3, Ray<float>{{0, 0, 0}, {1, 0, 0}});
+    std::vector<RayHit> hits(3), few(2);
+    for (const LayoutEntry& entry : layouts()) {
+        const auto layout = entry.make(tree);
+        EXPECT_THROW(layout->rays(rays, RayQuery::any, "nosuch", triangles, serial(), hits),
+                     std::invalid_argument);
+        EXPECT_THROW(layout->rays(rays, RayQuery::any, "watertight", triangles, serial(), few),
+                     std::invalid_argument);
+    }
+}
+
+} // namespace
+} // namespace boxwood
