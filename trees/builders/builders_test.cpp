@@ -1,0 +1,70 @@
+#include "trees/box_families_for_test.h"
+#include "trees/builder.h"
+#include "trees/quality.h"
+#include "trees/validate.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+
+namespace boxwood {
+namespace {
+
+TEST(Builders, MakeValidTreesOfEveryFamily) {
+    for (const BoxFamily& family : box_families())
+        for (const BuilderEntry& builder : builders())
+            for (const ExecutorEntry& executor : executors()) {
+                const Tree tree = builder.make({})(
+                    family.boxes, *executor.make(executor.name == "serial" ? 1 : 2));
+                ASSERT_EQ(tree.size(), family.boxes.size());
+                const auto fault = validate(tree, family.boxes);
+                EXPECT_FALSE(fault) << builder.name << " on " << family.name << ": " << *fault;
+            }
+}
+
+TEST(Builders, EveryFiniteSettingMakesValidTrees) {
+    const std::vector<Box> boxes = random_boxes(3000, .1f, 4);
+    for (const BuilderEntry& builder : builders())
+        for (const SettingInfo& setting : builder.settings)
+            for (const double value : {setting.least, setting.default_value, setting.most}) {
+                const Settings settings{{std::string(setting.name), value}};
+                const Tree tree = builder.make(settings)(boxes, serial());
+                EXPECT_FALSE(validate(tree, boxes)) << builder.name << " " << setting.name;
+            }
+}
+
+TEST(MedianBuilder, HasTheLeastDepth) {
+    for (const std::size_t n : {1u, 2u, 3u, 1000u, 1024u, 1025u}) {
+        const std::vector<Box> boxes = random_boxes(n, .1f, 5);
+        const Tree tree = find_builder("median")->make({})(boxes, serial());
+        EXPECT_EQ(quality(tree, boxes).depth_max, std::bit_width(n - 1)) << n;
+    }
+}
+
+TEST(BinnedSahBuilder, CostsNoMoreThanMedianOnBoxesOfManySizes) {
+    std::vector<Box> boxes = random_boxes(4000, .01f, 6);
+    for (std::size_t i = 0; i < boxes.size(); i += 20)
+        boxes[i].max = boxes[i].min + Vec3<float>{.5f, .3f, .4f};
+    const double median =
+        quality(find_builder("median")->make({})(boxes, serial()), boxes).sah_cost;
+    const double sah =
+        quality(find_builder("binned_sah")->make({})(boxes, serial()), boxes).sah_cost;
+    EXPECT_LT(sah, .8 * median);
+}
+
+TEST(BinnedSahBuilder, DepthIsBoundedOnGeometricSpacing) {
+    // Each bin plane can cut off but a few of these boxes: without the limit the depth is linear.
+    std::vector<Box> boxes;
+    for (int i = 0; i < 20000; ++i) {
+        const float x = std::exp2(static_cast<float>(i % 230 - 125)) * (1 + static_cast<float>(i));
+        boxes.push_back({{x, 0, 0}, {x, 0, 0}});
+    }
+    const Tree tree = find_builder("binned_sah")->make({{"bins", 2}})(boxes, serial());
+    EXPECT_FALSE(validate(tree, boxes));
+    const std::uint64_t depth = quality(tree, boxes).depth_max;
+    EXPECT_LE(depth, 3u * std::bit_width(boxes.size()) + 33);
+    EXPECT_GT(depth, 2u * std::bit_width(boxes.size()) + 32) << "the limit was not put to the test";
+}
+
+} // namespace
+} // namespace boxwood
