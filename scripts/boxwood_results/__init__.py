@@ -1,0 +1,1 @@
+"""Reads Boxwood result files: statistics, figures, report. Never measures, never writes one."""

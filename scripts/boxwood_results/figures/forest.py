@@ -1,0 +1,114 @@
+"""Every peer's time over ours, with intervals, and the band in which nothing is claimed."""
+
+import math
+
+from .. import style
+from ..findings import VERDICT_WORDS, findings, floor_text, ratio_text, rounds_text
+from ..metrics import METRICS
+from ..picture import Picture, Skip
+from ..run import TOTAL
+from ..selection import largest_jobs, wrong_notes
+
+NAME = "forest"
+TITLE = "Against the peers"
+HOW_TO_READ = (
+    "Each mark is a peer's time divided by the time of our best variant, paired within rounds: right of "
+    "the line Boxwood is faster, left of it the peer. Bars are intervals of at least 95 %. The "
+    "shaded band is the A/A noise floor, within which nothing is claimed; marks without a verdict are pale."
+)
+COLUMNS = ("ask", "scene", "n", "threads", "ours", "peer", "peer_library", "phase", "rounds", "ratio", "ratio_lo",
+           "ratio_hi", "verdict")
+ROW, GAP = 0.23, 0.34  # inches
+
+
+def draw_marks(ax, comparisons, heights, floor):
+    if not math.isnan(floor):
+        ax.axvspan(1 / (1 + floor), 1 + floor, color="#DDDDDD", zorder=0)
+    ax.axvline(1, color="#555555", linewidth=1, zorder=1)
+    for comparison, height in zip(comparisons, heights):
+        if comparison is None:
+            continue
+        ratio, peer = comparison.ratio, comparison.peer
+        strength = 1.0 if comparison.verdict != "cannot_tell" else 0.45
+        colour, marker = style.look(peer.family)
+        if ratio.known:
+            ax.plot([ratio.lo, ratio.hi], [height, height], color=colour, linewidth=1.8, alpha=strength, zorder=3)
+        ax.plot([ratio.mid], [height], marker=marker, markersize=6.5, color=colour, alpha=strength,
+                markeredgecolor="white", markeredgewidth=0.6, zorder=4)
+
+
+def ratio_axis(ax, comparisons):
+    ends = [1.0]
+    for comparison in filter(None, comparisons):
+        ratio = comparison.ratio
+        ends += [ratio.lo, ratio.hi] if ratio.known else [ratio.mid]
+    # The same room on both sides of 1 would hide small ratios beside large ones; some is kept.
+    style.log_axis(ax.xaxis, min(min(ends), 0.7), max(max(ends), 1.4), lambda v: f"{v:g}x", room=0.05)
+    ax.set_xlabel(METRICS["ratio"].axis)
+    ax.grid(axis="y", visible=False)
+    ax.spines["left"].set_visible(False)
+
+
+def draw_one(run, ask, threads, found, floor):
+    """One picture: a block of rows per scene, a column for build + query and one for the query."""
+    entries, y = [], 0.0
+    for finding in found:
+        y -= GAP
+        entries.append((y, finding, None))
+        for peer in sorted(finding.peers, key=lambda p: -finding.against(p, TOTAL).ratio.mid):
+            y -= ROW
+            entries.append((y, finding, peer))
+    height = -y + 0.12
+    names, panel, texts, top, bottom = 2.5, 2.9, 2.0, 0.35, 0.8
+    size = (names + 2 * (panel + texts), height + top + bottom)
+    figure = style.plt.figure(figsize=size)
+    rows = []
+    for column, phase in enumerate((TOTAL, "query")):
+        left = names + column * (panel + texts)
+        ax = figure.add_axes((left / size[0], bottom / size[1], panel / size[0], height / size[1]))
+        comparisons = [finding.against(peer, phase) if peer else None for _, finding, peer in entries]
+        draw_marks(ax, comparisons, [entry[0] for entry in entries], floor)
+        ratio_axis(ax, comparisons)
+        ax.set_ylim(y - 0.12, 0)
+        ax.set_yticks([])
+        ax.set_title("build and one query" if phase == TOTAL else "query alone", fontsize=10, weight="bold")
+        for (at, finding, peer), comparison in zip(entries, comparisons):
+            if peer is None:
+                if column == 0:
+                    ax.text(-names / panel, at, f"{finding.job.scene} {finding.job.n:,}   ours: {finding.ours.label}",
+                            weight="bold", transform=ax.get_yaxis_transform(), va="center", fontsize=8.5,
+                            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5})
+                continue
+            if column == 0:
+                ax.text(-0.03, at, peer.label, transform=ax.get_yaxis_transform(), ha="right", va="center",
+                        fontsize=8, color=style.text_colour(peer.family))
+            if comparison is None:
+                said = "the peer has no build" if not peer.has_build else "no build"
+                ax.text(1.03, at, said, transform=ax.get_yaxis_transform(), va="center", fontsize=7.5,
+                        color="#777777")
+                continue
+            said = f"{comparison.text}  {VERDICT_WORDS[comparison.verdict]}"
+            ax.text(1.03, at, said, transform=ax.get_yaxis_transform(), va="center", fontsize=7.5)
+            rows.append((ask, finding.job.scene, finding.job.n, threads, comparison.ours.label, peer.label,
+                         peer.library, phase, comparison.ratio.n, comparison.ratio.mid, comparison.ratio.lo,
+                         comparison.ratio.hi, comparison.verdict))
+    said = "; ".join(
+        f"{row[1]}, {row[5]}, {row[7]}: {ratio_text(row[9])} {VERDICT_WORDS[row[12]]}" for row in rows
+    )
+    figure.text(0.02 / size[0], 0.06 / size[1], f"{rounds_text(run)}. {floor_text(run)}.", fontsize=7.5, color="#666666")
+    notes = [note for finding in found for note in wrong_notes(finding.wrong)]
+    words = "1 thread" if threads == 1 else f"{threads} threads"
+    return Picture(f"{NAME}_{ask}_{threads}", figure, f"{TITLE}: {ask}, {words}",
+                   f"Peer's time over Boxwood's. {said}.", COLUMNS, rows, notes)
+
+
+def draw(run):
+    shown = set(largest_jobs(run))
+    groups = {}
+    for finding in findings(run):
+        if finding.job in shown and finding.comparisons:
+            groups.setdefault((finding.job.ask, finding.job.threads), []).append(finding)
+    if not groups:
+        raise Skip("no job has both a ranked variant of ours and a ranked peer")
+    floor = run.noise_floor
+    return [draw_one(run, ask, threads, found, floor) for (ask, threads), found in groups.items()]

@@ -1,0 +1,106 @@
+"""Time against the number of items, with a fitted exponent."""
+
+import math
+
+from .. import labels, stats, style
+from ..metrics import METRICS
+from ..picture import Picture, Skip
+from ..run import TOTAL
+from ..selection import MOST_LINES, wrong_notes
+
+NAME = "scaling"
+TITLE = "How time grows with n"
+HOW_TO_READ = (
+    "Lower is better; both axes are logarithmic, so a straight line is a power of n. Beside each name "
+    "is the fitted exponent, with its interval over the rounds where there are enough. The dotted "
+    "guide grows as n log n."
+)
+LEAST_SIZES = 3
+COLUMNS = ("ask", "scene", "threads", "phase", "variant", "library", "status", "n", "median_ns", "exponent",
+           "exponent_lo", "exponent_hi")
+
+
+def lines_of(run, ask, scene, seed, threads):
+    """{(contender, precision, executor): [cells by rising n]} with enough sizes."""
+    lines = {}
+    for cell in run.cells:
+        job = cell.job
+        if (job.ask, job.scene, job.seed, job.threads) == (ask, scene, seed, threads) and cell.rounds("query"):
+            lines.setdefault((cell.contender, cell.precision, cell.executor), []).append(cell)
+    return [sorted(line, key=lambda c: c.job.n) for line in lines.values() if len(line) >= LEAST_SIZES]
+
+
+def choose_lines(lines, phase):
+    """The best of each family at its largest n, then the rest of the peers, at most MOST_LINES."""
+    order, families = [], set()
+    for line in sorted(lines, key=lambda line: line[-1].median(phase)):
+        order.append((line[-1].family in families, len(order), line))
+        families.add(line[-1].family)
+    kept = [line for again, _, line in sorted(order, key=lambda o: o[:2]) if not (again and line[-1].ours)]
+    return kept[:MOST_LINES]
+
+
+def exponent_text(fit):
+    if not fit.known:
+        return f"n^{fit.mid:.2f}"
+    return f"n^{fit.mid:.2f} ({fit.lo:.2f} to {fit.hi:.2f})"
+
+
+def draw_panel(ax, lines, phase, rows):
+    ends, all_times, sizes = [], [], set()
+    fits = []
+    for line in lines:
+        fit = stats.exponent({cell.job.n: cell.rounds(phase) for cell in line})
+        fits.append((line[-1], fit))
+        x, y = [cell.job.n for cell in line], [cell.median(phase) for cell in line]
+        sizes.update(x)
+        all_times += y
+        cell = line[-1]
+        ax.plot(x, y, **style.point_style(cell, 5.5), linewidth=1.4, zorder=3)
+        for size, time, at in zip(x, y, line):
+            if at.status == "wrong":
+                style.cross_out(ax, size, time)
+            rows.append((at.job.ask, at.job.scene, at.job.threads, phase, at.label, at.library, at.status, size,
+                         time, fit.mid, fit.lo, fit.hi))
+        ends.append((x[-1], y[-1], f"{cell.label}  {exponent_text(fit)}", style.text_colour(cell.family)))
+    low, high = min(sizes), max(sizes)
+    start = min(all_times) / 1.6
+    guide = [start * (n * math.log(n)) / (low * math.log(low)) for n in (low, high)]
+    ax.plot((low, high), guide, color="#888888", linestyle=":", linewidth=1.2, zorder=1)
+    ends.append((high, guide[1], "guide: n log n", "#666666"))
+    style.count_axis(ax.xaxis, low, high, room=0.03)
+    style.time_axis(ax.yaxis, min([*all_times, *guide]), max([*all_times, *guide]))
+    job = lines[0][-1].job
+    threads = "1 thread" if job.threads == 1 else f"{job.threads} threads"
+    ax.set_title(f"{job.scene} · {job.ask} · {threads} · {phase}")
+    ax.set_xlabel(METRICS["n"].axis)
+    ax.set_ylabel(METRICS[phase].axis)
+    return ends, fits
+
+
+def draw(run):
+    groups = sorted({(job.ask, job.scene, job.seed, job.threads) for job in run.jobs})
+    by_ask = {}
+    for group in groups:
+        lines = lines_of(run, *group)
+        for phase in ("build", TOTAL):
+            usable = [line for line in lines if phase == TOTAL or all(cell.has_build for cell in line)]
+            if usable:
+                by_ask.setdefault(group[0], []).append((choose_lines(usable, phase), phase))
+    if not by_ask:
+        raise Skip(f"no scene was timed with {LEAST_SIZES} or more sizes")
+    pictures = []
+    for ask, all_panels in by_ask.items():
+        figure, axes = style.panels(len(all_panels), width=4.1, labels_right=2.75)
+        rows, said = [], []
+        for ax, (lines, phase) in zip(axes, all_panels):
+            ends, fits = draw_panel(ax, lines, phase, rows)
+            labels.at_line_ends(ax, ends)
+            said += [f"{cell.label} {phase} on {cell.job.scene} {exponent_text(fit)}" for cell, fit in fits]
+        cells = [cell for lines, _ in all_panels for line in lines for cell in line]
+        pictures.append(
+            Picture(f"{NAME}_{ask}", figure, f"{TITLE}: {ask}",
+                    f"Time against n on log axes, fitted: {'; '.join(said)}.", COLUMNS, rows,
+                    sorted(set(wrong_notes(cells))))
+        )
+    return pictures

@@ -1,0 +1,166 @@
+"""What the run says: our best variant of each job against every peer, with verdicts."""
+
+from dataclasses import dataclass
+
+from . import stats
+from .run import TOTAL
+
+
+@dataclass
+class Comparison:
+    """ratio: the peer's time over ours, so above 1 Boxwood is the faster; p of the sign test, adjusted
+    for all comparisons of the run."""
+
+    job: object
+    ours: object
+    peer: object
+    phase: str
+    ratio: stats.Interval
+    p: float
+    verdict: str = stats.CANNOT_TELL
+
+    @property
+    def text(self):
+        """One figure with its interval: '3.12x (2.98 to 3.20)'."""
+        text = ratio_text(self.ratio.mid)
+        if self.ratio.known:
+            text += f" ({ratio_text(self.ratio.lo, '')} to {ratio_text(self.ratio.hi, '')})"
+        return text
+
+
+@dataclass
+class Finding:
+    job: object
+    ours: object  # our ranked cell with the least build + query; None if there is none
+    comparisons: list
+    wrong: list  # cells of the job that answered wrongly, ours or theirs
+    unchecked: list
+
+    def against(self, peer, phase):
+        for comparison in self.comparisons:
+            if comparison.peer is peer and comparison.phase == phase:
+                return comparison
+        return None
+
+    @property
+    def peers(self):
+        return list({id(c.peer): c.peer for c in self.comparisons}.values())
+
+
+def ratio_text(value, times="x"):
+    digits = 0 if value >= 100 else 1 if value >= 10 else 2
+    return f"{value:,.{digits}f}{times}"
+
+
+def time_text(ns):
+    """Three digits with the unit that suits: '12.3 ms'."""
+    if ns != ns:
+        return "-"
+    for limit, unit, scale in ((1e3, "ns", 1), (1e6, "µs", 1e3), (1e9, "ms", 1e6)):
+        if ns < limit * 0.9995:
+            break
+    else:
+        unit, scale = "s", 1e9
+    return f"{ns / scale:.3g} {unit}" if ns / scale < 999.5 else f"{ns / scale:,.0f} {unit}"
+
+
+def compare(job, ours, peer, phase):
+    theirs, our_times = peer.rounds(phase), ours.rounds(phase)
+    logs = stats.paired_logs(theirs, our_times)
+    if not logs:
+        return None
+    return Comparison(
+        job, ours, peer, phase, stats.paired_ratio(theirs, our_times), stats.sign_test(logs)
+    )
+
+
+def findings(run):
+    """One Finding per job, in the order of run.jobs. The p of all comparisons are one Holm family."""
+    found = []
+    for job in run.jobs:
+        cells = run.of(job)
+        ranked = [cell for cell in cells if cell.ranked]
+        ours = min((c for c in ranked if c.ours), key=lambda c: c.median(TOTAL), default=None)
+        comparisons = []
+        for peer in sorted((c for c in ranked if not c.ours), key=lambda c: c.label):
+            # Where one side has no build, its query holds all the work: only the sum is fair.
+            phases = (TOTAL, "query") if ours and ours.has_build and peer.has_build else (TOTAL,)
+            comparisons += [compare(job, ours, peer, phase) for phase in phases if ours]
+        found.append(
+            Finding(
+                job, ours, [c for c in comparisons if c],
+                [c for c in cells if c.status == "wrong"],
+                [c for c in cells if c.status == "unchecked"],
+            )
+        )
+    claims = [c for finding in found for c in finding.comparisons]
+    floor = run.noise_floor
+    for claim, p in zip(claims, stats.holm([c.p for c in claims])):
+        claim.p, claim.verdict = p, stats.verdict(claim.ratio, p, floor)
+    return found
+
+
+def floor_text(run):
+    floor = run.noise_floor
+    if floor == floor:
+        return f"A/A noise floor ±{100 * floor:.1f} %: no difference below it is claimed"
+    if not any(cell.twin for cell in run.cells):
+        return "A/A noise floor not known: no cell was timed twice, so no small difference is meaningful"
+    return (
+        f"A/A noise floor not known: it takes {stats.LEAST_FOR_INTERVAL} rounds, and this run has "
+        f"{run.rounds}"
+    )
+
+
+def rounds_text(run):
+    if run.rounds >= stats.LEAST_FOR_VERDICT:
+        return f"{run.rounds} rounds; each ratio is the median of per-round ratios (interval of at least 95 %)"
+    return (
+        f"{run.rounds} round{'s' * (run.rounds != 1)}: too few for a verdict, which takes "
+        f"{stats.LEAST_FOR_VERDICT}; ratios are shown for orientation"
+    )
+
+
+VERDICT_WORDS = {
+    stats.FASTER: "faster",
+    stats.SLOWER: "slower",
+    stats.SAME: "the same",
+    stats.CANNOT_TELL: "can't tell",
+}
+
+
+def sentence(finding):
+    """A finding in words, for the report."""
+    job, ours = finding.job, finding.ours
+    if ours is None:
+        return f"{job}: no ranked variant of ours."
+    start = (
+        f"{job}: {ours.label} builds in {time_text(ours.median('build'))} and answers in "
+        f"{time_text(ours.median('query'))}"
+    )
+    totals = [c for c in finding.comparisons if c.phase == TOTAL]
+    said = []
+    for verdict, lead in (
+        (stats.FASTER, "faster than"),
+        (stats.SLOWER, "slower than"),
+        (stats.SAME, "the same as"),
+        (stats.CANNOT_TELL, "no verdict against"),
+    ):
+        peers = sorted((c for c in totals if c.verdict == verdict), key=lambda c: -c.ratio.mid)
+        if peers:
+            said.append(f"{lead} " + ", ".join(f"{c.peer.label} {c.text}" for c in peers))
+    if not said:
+        return f"{start}; no ranked peer."
+    return f"{start}. Both together: {'; '.join(said)}."
+
+
+def comparison_rows(found):
+    """Columns and rows of every comparison, for a table."""
+    columns = ("job", "ours", "peer", "phase", "rounds", "ratio", "low", "high", "p adjusted", "verdict")
+    rows = [
+        (str(c.job), c.ours.label, c.peer.label, c.phase, c.ratio.n, c.ratio.mid, c.ratio.lo, c.ratio.hi, c.p,
+         c.verdict)
+        for finding in found
+        for c in finding.comparisons
+    ]
+    return columns, rows

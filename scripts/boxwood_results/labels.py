@@ -1,0 +1,115 @@
+"""Direct labels that do not overlap: beside points, and at the ends of lines."""
+
+import math
+
+from matplotlib.transforms import Bbox
+
+SIZE = 7.5  # points
+RINGS = (7, 13, 21, 31, 43, 57)  # distances tried, in points
+DIRECTIONS = (0, 180, 90, 270, 45, 315, 135, 225, 20, 340, 160, 200)  # degrees, the best first
+
+
+def text_size(figure, text):
+    """Width and height in pixels."""
+    probe = figure.text(0, 0, text, fontsize=SIZE)
+    extent = probe.get_window_extent(figure.canvas.get_renderer())
+    probe.remove()
+    return extent.width, extent.height
+
+
+def overlap(a, b):
+    width = min(a.x1, b.x1) - max(a.x0, b.x0)
+    height = min(a.y1, b.y1) - max(a.y0, b.y0)
+    return max(width, 0) * max(height, 0)
+
+
+def candidates(x, y, width, height, pixels):
+    """(distance, box) of the places tried for a label at pixel (x, y)."""
+    for ring in RINGS:
+        for degrees in DIRECTIONS:
+            along_x = math.cos(math.radians(degrees))
+            along_y = math.sin(math.radians(degrees))
+            centre_x = x + along_x * (ring * pixels + width / 2)
+            centre_y = y + along_y * (ring * pixels + height / 2)
+            yield ring, Bbox.from_bounds(centre_x - width / 2, centre_y - height / 2, width, height)
+
+
+def beside_points(ax, labels, avoid=()):
+    """labels: [(x, y, text, colour)] in data units; avoid: further points. Each label goes to the
+    nearest free place within the axes, with a thin line to its point unless it is right beside it."""
+    figure = ax.figure
+    pixels = figure.dpi / 72
+    frame = ax.get_window_extent()
+    marks = [ax.transData.transform((x, y)) for x, y, *_ in labels]
+    marks += [ax.transData.transform(point) for point in avoid]
+    taken = [Bbox.from_bounds(x - 4 * pixels, y - 4 * pixels, 8 * pixels, 8 * pixels) for x, y in marks]
+
+    for (x, y, text, colour), (at_x, at_y) in zip(labels, marks):
+        width, height = text_size(figure, text)
+        best, least = None, math.inf
+        for ring, box in candidates(at_x, at_y, width, height, pixels):
+            outside = box.width * box.height - overlap(box, frame)
+            cost = ring + 10 * (sum(overlap(box, other) for other in taken) + outside)
+            if cost < least:
+                best, least = (ring, box), cost
+        ring, box = best
+        taken.append(box)
+        ax.annotate(
+            text,
+            (x, y),
+            xytext=((box.x0 - at_x) / pixels, (box.y0 - at_y) / pixels),
+            textcoords="offset points",
+            fontsize=SIZE,
+            color=colour,
+            annotation_clip=False,
+            arrowprops=None
+            if ring <= RINGS[1]
+            else {"arrowstyle": "-", "color": colour, "linewidth": 0.5, "shrinkA": 0, "shrinkB": 3},
+        )
+
+
+def spread(wanted, gap, low, high):
+    """Positions near `wanted`, in its order, at least `gap` apart and within [low, high] if they fit:
+    neighbours that are too near become a block around their mean."""
+    blocks = []  # [sum of (wanted - offset), count]
+    for value in sorted(wanted):
+        blocks.append([value, 1])
+        while len(blocks) > 1:
+            (sum_a, n_a), (sum_b, n_b) = blocks[-2], blocks[-1]
+            if sum_b / n_b - sum_a / n_a >= gap * n_a:
+                break
+            blocks[-2:] = [[sum_a + sum_b - gap * n_a * n_b, n_a + n_b]]
+    placed = [total / n + gap * k for total, n in blocks for k in range(n)]
+    if placed and placed[-1] > high:
+        placed = [min(p, high - gap * (len(placed) - 1 - i)) for i, p in enumerate(placed)]
+    if placed and placed[0] < low:
+        placed = [max(p, low + gap * i) for i, p in enumerate(placed)]
+    return placed
+
+
+def at_line_ends(ax, labels):
+    """labels: [(x, y, text, colour)] of last points. They stand in a column right of the axes, each
+    joined to its line."""
+    pixels = ax.figure.dpi / 72
+    frame = ax.get_window_extent()
+
+    def height_of(label):
+        return ax.transData.transform(label[:2])[1]
+
+    ends = sorted(labels, key=height_of)
+    heights = spread([height_of(end) for end in ends], 10.5 * pixels, frame.y0, frame.y1)
+    for (x, y, text, colour), height in zip(ends, heights):
+        ax.annotate(
+            text,
+            (x, y),
+            xytext=(1 + 14 * pixels / frame.width, (height - frame.y0) / frame.height),
+            textcoords="axes fraction",
+            fontsize=SIZE,
+            color=colour,
+            va="center",
+            annotation_clip=False,
+            arrowprops={
+                "arrowstyle": "-", "color": colour, "linewidth": 0.5, "shrinkA": 1, "shrinkB": 4,
+                "relpos": (0, 0.5),
+            },
+        )

@@ -1,0 +1,177 @@
+"""The report: one HTML file that needs no network and no script."""
+
+from html import escape
+
+from . import registry
+from .findings import comparison_rows, findings, floor_text, rounds_text, sentence, time_text
+from .picture import as_inline_svg, cell_text
+from .selection import largest_jobs
+from .terminal import wrong_text
+
+STYLE = """
+body { font: 15px/1.5 system-ui, "DejaVu Sans", sans-serif; color: #222; background: #fff;
+       max-width: 68rem; margin: 2rem auto; padding: 0 1.2rem; }
+h1 { font-size: 1.7rem; margin-bottom: .2rem; } h2 { font-size: 1.25rem; margin-top: 2.4rem; }
+h3 { font-size: 1.05rem; margin: 1.6rem 0 .3rem; }
+.lead { color: #555; margin-top: 0; }
+figure { margin: .6rem 0 1.2rem; } figure svg { max-width: 100%; height: auto; }
+figcaption, .note { color: #555; font-size: .88rem; }
+table { border-collapse: collapse; font-size: .82rem; font-variant-numeric: tabular-nums; }
+th, td { text-align: left; padding: .18rem .7rem .18rem 0; border-bottom: 1px solid #e4e4e4; vertical-align: top; }
+td.number { text-align: right; }
+.scroll { overflow-x: auto; max-height: 30rem; overflow-y: auto; }
+summary { cursor: pointer; font-size: .88rem; color: #0058a3; }
+.wrong { color: #b00000; font-weight: 600; }
+@media print { body { max-width: none; margin: 0; } figure, tr { break-inside: avoid; }
+               .scroll { max-height: none; overflow: visible; } }
+"""
+MISSING = (2**32 - 1, 2**64 - 1)
+
+
+def shown(value):
+    """(text, is number) of a table cell, numbers short enough to read."""
+    if value is None or value != value or value in MISSING:
+        return "", False
+    if isinstance(value, float):
+        return f"{value:.4g}" if abs(value) < 1e5 else f"{value:,.0f}", True
+    if isinstance(value, int):
+        return f"{value:,}", True
+    return str(value), False
+
+
+def table(columns, rows):
+    lines = ["<div class=scroll><table><thead><tr>"]
+    lines += [f"<th scope=col>{escape(str(column))}</th>" for column in columns]
+    lines.append("</tr></thead><tbody>")
+    for row in rows:
+        lines.append("<tr>")
+        for value in row:
+            text, number = shown(value)
+            kind = " class=number" if number else " class=wrong" if text == "wrong" else ""
+            lines.append(f"<td{kind}>{escape(text)}</td>")
+        lines.append("</tr>")
+    return "".join([*lines, "</tbody></table></div>"])
+
+
+def folded(summary, body):
+    return f"<details><summary>{escape(summary)}</summary>{body}</details>"
+
+
+def figure_html(picture):
+    svg = as_inline_svg(picture).replace("<svg", f'<svg role="img" aria-label="{escape(picture.alt)}"', 1)
+    notes = "".join(f"<p class=note>{escape(note)}</p>" for note in dict.fromkeys(picture.notes))
+    numbers = folded(f"The {len(picture.rows):,} numbers in this figure", table(picture.columns, picture.rows))
+    return f"<h3>{escape(picture.title)}</h3><figure>{svg}</figure>{notes}{numbers}"
+
+
+def figures_html(run):
+    parts = []
+    for name in registry.FIGURES:
+        drawn = registry.draw(name, run)
+        parts.append(f"<h2>{escape(drawn.title)}</h2>")
+        if drawn.skipped:
+            parts.append(f"<p class=note>No figure: {escape(drawn.skipped)}.</p>")
+            continue
+        parts.append(f"<p class=note>{escape(drawn.how_to_read)}</p>")
+        parts += [figure_html(picture) for picture in drawn.pictures]
+    return "".join(parts)
+
+
+def quantile(times, part):
+    """The value that `part` of the samples do not exceed."""
+    return times[min(int(part * len(times)), len(times) - 1)]
+
+
+def cells_html(run):
+    columns = ("cell", "check", "phase", "rounds", "median", "MAD", "min", "p95", "p99")
+    rows = []
+    for cell in run.cells:
+        for phase in ("build", "update", "query"):
+            times = sorted(cell.rounds(phase).values())
+            if not times:
+                continue
+            middle = cell.median(phase)
+            spread = sorted(abs(time - middle) for time in times)[len(times) // 2]
+            rows.append((cell.name, cell.status, phase, len(times), time_text(middle), time_text(spread),
+                         time_text(times[0]), time_text(quantile(times, 0.95)), time_text(quantile(times, 0.99))))
+    return folded(f"All {len(rows):,} timings", table(columns, rows))
+
+
+def checks_html(run):
+    timed = [cell for cell in run.cells if cell.rounds("query")]
+    counts = {}
+    for cell in timed:
+        key = (cell.library, cell.status)
+        counts[key] = counts.get(key, 0) + 1
+    parts = [
+        "<p>Every timed cell is checked against an oracle outside the timed region. A wrong answer is never ranked.</p>",
+        table(("library", "status", "timed cells"), [(*key, count) for key, count in sorted(counts.items())]),
+    ]
+    wrong = [(cell.name, cell.status, wrong_text(cell)) for cell in run.cells if cell.status == "wrong"]
+    if wrong:
+        parts += ["<h3>Wrong answers</h3>", table(("cell", "status", "what"), wrong)]
+    rows = [
+        (cell.name, cell.status, cell.check["oracle"] if "oracle" in cell.check.dtype.names else "",
+         int(cell.check["n_checked"]), int(cell.check["missing"]), int(cell.check["extra"]))
+        for cell in timed if cell.check is not None
+    ]
+    columns = ("cell", "status", "oracle", "checked", "missing", "extra")
+    return "".join([*parts, folded(f"All {len(rows):,} checks", table(columns, rows))])
+
+
+def unsupported_html(run):
+    rows = [(cell.name, cell.check["witness"]) for cell in run.cells if cell.status == "unsupported"]
+    parts = [folded(f"{len(rows):,} cells are unsupported", table(("cell", "why"), rows)) if rows
+             else "<p>Nothing that was asked is unsupported.</p>"]
+    env = run.source["env"]
+    absent = [name.removesuffix("_version") for name in env.dtype.names
+              if name.removesuffix("_version") in ("embree", "fcl", "cgal", "bullet") and not env[0][name]]
+    if absent:
+        parts.append(f"<p>Peers absent on this machine: {escape(', '.join(absent))}.</p>")
+    notes = [(row["name"], row["notes"]) for row in run.source["variants"] if row["notes"]]
+    if notes:
+        parts.append(folded("What differs between the contenders", table(("contender", "notes"), notes)))
+    return "".join(parts)
+
+
+def machine_html(run):
+    env = run.source["env"]
+    rows = [(name, *(as_plain(row[name]) for row in env)) for name in env.dtype.names]
+    columns = ("", *(f"machine state {row['env_id']}" for row in env))
+    texts = "".join(folded(name, f"<pre>{escape(text)}</pre>") for name, text in sorted(run.source.texts.items()) if text)
+    return table(columns, rows) + texts
+
+
+def as_plain(value):
+    return value.item() if hasattr(value, "item") else value
+
+
+def report(run):
+    """The whole page as text."""
+    found = findings(run)
+    attrs = run.source.attrs
+    largest = set(largest_jobs(run))
+    sentences = "".join(f"<li>{escape(sentence(f))}</li>" for f in found if f.job in largest)
+    columns, rows = comparison_rows(found)
+    missing = (f"<p class=note>{run.missing_samples} samples hold no time and are left out.</p>"
+               if run.missing_samples else "")
+    return "".join(
+        [
+            "<!DOCTYPE html><html lang=en><head><meta charset=utf-8>",
+            '<meta name=viewport content="width=device-width, initial-scale=1">',
+            f"<title>Boxwood: {escape(run.name)}</title><style>{STYLE}</style></head><body>",
+            f"<h1>Boxwood: {escape(run.name)}</h1>",
+            f"<p class=lead>{escape(cell_text(attrs.get('created_utc')))} · {escape(rounds_text(run))}.<br>"
+            f"{escape(floor_text(run))}.</p>{missing}",
+            "<h2>Main findings</h2><p class=note>Times are medians. A ratio is the peer's time over ours, "
+            "paired within rounds: above 1 Boxwood is the faster. Ours is the variant with the least build and "
+            f"query together, chosen from this same run.</p><ul>{sentences}</ul>",
+            folded(f"All {len(rows):,} comparisons, smaller sizes too", table(columns, rows)),
+            figures_html(run),
+            "<h2>Is it right</h2>", checks_html(run),
+            "<h2>Unsupported and absent</h2>", unsupported_html(run),
+            "<h2>All timings</h2>", cells_html(run),
+            "<h2>Machine</h2>", machine_html(run),
+            "</body></html>\n",
+        ]
+    )

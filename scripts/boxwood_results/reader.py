@@ -1,0 +1,109 @@
+"""A result file as tables: the one place that opens HDF5."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+SCHEMA_MAJOR = 1
+REMEDY = "run the sweep again (it keeps its finished rounds)"
+
+# The columns that the figures stand on; other columns and tables are passed over.
+REQUIRED = {
+    "env": ("env_id", "host", "cpu", "ncpu"),
+    "scenes": ("scene_id", "name", "n_items", "seed"),
+    "variants": ("variant_id", "name", "library", "builder", "traversal", "notes"),
+    "cells": (
+        "cell_id", "name", "scene_id", "variant_id", "ask", "n_items", "n_queries", "precision",
+        "executor", "threads",
+    ),
+    "shards": ("shard_id", "round", "env_id", "load1"),
+    "samples": ("cell_id", "shard_id", "round", "position", "phase", "wall_ns", "flags"),
+    "checks": ("cell_id", "status", "n_checked", "missing", "extra", "witness"),
+}
+OPTIONAL = {
+    "counters": ("cell_id", "counter", "value"),
+    "trees": ("cell_id", "sah_cost", "epo", "depth_max", "bytes"),
+}
+
+
+class BadFile(Exception):
+    """The file cannot be read as a result file; the message says which, why, and what to do."""
+
+
+@dataclass
+class Tables:
+    """One result file. Tables are structured arrays with text as str; absent optional ones are None."""
+
+    path: Path
+    attrs: dict
+    texts: dict
+    tables: dict
+
+    def __getitem__(self, name):
+        return self.tables[name]
+
+
+def as_text(value):
+    return value.decode("utf-8", "replace") if isinstance(value, bytes) else value
+
+
+def with_text(array):
+    """The same table with its byte strings decoded."""
+    kinds = [
+        (name, object if kind[0].kind == "S" or kind[0].hasobject else kind[0])
+        for name, kind in array.dtype.fields.items()
+    ]
+    decoded = np.empty(array.shape, dtype=kinds)
+    for name, kind in kinds:
+        decoded[name] = [as_text(v) for v in array[name]] if kind is object else array[name]
+    return decoded
+
+
+def read_table(file, path, name, columns):
+    dataset = file[name]
+    fields = dataset.dtype.fields or {}
+    absent = [column for column in columns if column not in fields]
+    if absent:
+        raise BadFile(f"{path}: table '{name}' has no column '{absent[0]}'; {REMEDY}")
+    try:
+        return with_text(dataset[:])
+    except OSError as error:
+        raise BadFile(f"{path}: table '{name}' is damaged ({error}); {REMEDY}") from error
+
+
+def check_header(path, attrs):
+    if as_text(attrs.get("format", "")) != "boxwood-results":
+        raise BadFile(f"{path}: an HDF5 file, but not a Boxwood result file (no format attribute)")
+    major = int(attrs.get("schema_major", -1))
+    if major != SCHEMA_MAJOR:
+        raise BadFile(
+            f"{path}: schema version {major}, and these scripts read version {SCHEMA_MAJOR}; "
+            "use the scripts of the Boxwood that wrote it"
+        )
+    if not attrs.get("complete", 0):
+        raise BadFile(f"{path}: incomplete: it is still being written, or the writer was killed; {REMEDY}")
+
+
+def load(path):
+    """Reads a whole result file. Raises BadFile for one that is missing, cut off, foreign, incomplete,
+    of another major version, or without a table that the figures need."""
+    path = Path(path)
+    if not path.is_file():
+        raise BadFile(f"{path}: no such file; scripts/sweep --quick makes one")
+    try:
+        file = h5py.File(path, "r")
+    except OSError as error:
+        raise BadFile(f"{path}: cannot be read as HDF5, perhaps cut off ({error}); {REMEDY}") from error
+    with file:
+        attrs = {key: as_text(value) for key, value in file.attrs.items()}
+        check_header(path, attrs)
+        tables = dict.fromkeys(OPTIONAL)
+        for name, columns in (REQUIRED | OPTIONAL).items():
+            if name in file:
+                tables[name] = read_table(file, path, name, columns)
+            elif name in REQUIRED:
+                raise BadFile(f"{path}: table '{name}' is missing; {REMEDY}")
+        texts = {name: as_text(text[()]) for name, text in file.get("text", {}).items()}
+    return Tables(path, attrs, texts, tables)

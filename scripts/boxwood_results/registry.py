@@ -1,0 +1,31 @@
+"""The figures, and what is measured: label, unit and which way is better."""
+
+from dataclasses import dataclass
+
+from .figures import builder_tradeoff, forest, run_health, scaling, speedup, work
+from .picture import Skip
+
+# In the order of the report. To add one: a module in figures/ with NAME, TITLE, HOW_TO_READ and
+# draw(run) -> [Picture] that raises Skip where the run lacks the data, and its name here.
+MODULES = (forest, builder_tradeoff, scaling, speedup, work, run_health)
+
+
+@dataclass(frozen=True)
+class Drawn:
+    name: str
+    title: str
+    how_to_read: str
+    pictures: list
+    skipped: str = ""  # why there is no picture
+
+
+FIGURES = {module.NAME: module for module in MODULES}
+
+
+def draw(name, run):
+    module = FIGURES[name]
+    try:
+        pictures, skipped = module.draw(run), ""
+    except Skip as reason:
+        pictures, skipped = [], str(reason)
+    return Drawn(name, module.TITLE, module.HOW_TO_READ, pictures, skipped)

@@ -1,0 +1,185 @@
+"""A result file as cells: what each contender took, in each round, for each phase of each job."""
+
+import math
+from dataclasses import dataclass, field
+from statistics import median
+
+from . import stats
+from .reader import load
+
+AA_TWIN, WRONG_ANSWER, DISTURBED = 4, 8, 1 | 2
+RANKED = ("exact", "conservative", "within_bound")
+STATUSES = ("wrong", "unsupported", "within_bound", "conservative", "exact")  # the worst first
+OURS = "boxwood"
+TOTAL = "build+query"  # within a round: what one use of the structure costs
+NO_BUILD = 1e-3  # a build under this part of the query is none
+
+
+@dataclass(frozen=True)
+class Job:
+    """What was asked: contenders of one job can be compared."""
+
+    scene: str
+    n: int
+    seed: int
+    ask: str
+    threads: int
+
+    def __str__(self):
+        threads = "1 thread" if self.threads == 1 else f"{self.threads} threads"
+        return f"{self.scene} {self.n:,} · {self.ask} · {threads}"
+
+
+@dataclass
+class Cell:
+    cell_id: int
+    name: str
+    job: Job
+    contender: str
+    library: str
+    builder: str
+    traversal: str
+    precision: str
+    executor: str
+    n_queries: int
+    status: str = "unchecked"
+    check: object = None
+    times: dict = field(default_factory=dict)  # phase -> {shard_id: ns per iteration}
+    twin: dict = field(default_factory=dict)  # the same of the A/A twin
+    counters: dict = field(default_factory=dict)
+    tree: object = None
+
+    @property
+    def ours(self):
+        return self.library == OURS
+
+    @property
+    def family(self):
+        """What colour stands for: our builder, or the peer's library."""
+        return self.builder if self.ours and self.builder else self.library
+
+    @property
+    def label(self):
+        """Short, for use within one job: traversals follow from the ask, so they are left out."""
+        if not self.ours:
+            return self.contender
+        words = [word for word in self.contender.split(".") if word != self.traversal]
+        text = ".".join(words) + (" f64" if self.precision == "f64" else "")
+        return text if self.executor == "serial" else f"{text} {self.executor}"
+
+    @property
+    def ranked(self):
+        return self.status in RANKED and bool(self.rounds("query"))
+
+    @property
+    def has_build(self):
+        return self.median("build") > NO_BUILD * self.median("query")
+
+    def rounds(self, phase):
+        """{shard_id: ns}. A contender without a build phase takes 0 ns to build."""
+        if phase != TOTAL:
+            return self.times.get(phase, {})
+        query, build = self.times.get("query", {}), self.times.get("build")
+        if build is None:
+            return query
+        return {shard: build[shard] + query[shard] for shard in query if shard in build}
+
+    def median(self, phase):
+        times = self.rounds(phase)
+        return median(times.values()) if times else math.nan if phase != "build" else 0.0
+
+    def interval(self, phase):
+        return stats.median_interval(self.rounds(phase).values())
+
+
+@dataclass
+class Run:
+    """One result file, read."""
+
+    source: object  # reader.Tables
+    cells: list
+    jobs: list
+    missing_samples: int
+
+    @property
+    def name(self):
+        return self.source.path.name
+
+    def of(self, job):
+        """Timed cells of a job."""
+        return [cell for cell in self.cells if cell.job == job and cell.rounds("query")]
+
+    @property
+    def rounds(self):
+        return len(self.source["shards"])
+
+    @property
+    def noise_floor(self):
+        """Relative difference that the A/A cell shows between two timings of the same thing."""
+        return stats.noise_floor(
+            stats.paired_logs(cell.twin[phase], cell.times.get(phase, {}))
+            for cell in self.cells
+            for phase in cell.twin
+        )
+
+
+def worst(status, other):
+    return min(status, other, key=STATUSES.index)
+
+
+def read_cells(source):
+    scenes = {row["scene_id"]: row for row in source["scenes"]}
+    variants = {row["variant_id"]: row for row in source["variants"]}
+    cells = {}
+    for row in source["cells"]:
+        scene, variant = scenes[row["scene_id"]], variants[row["variant_id"]]
+        job = Job(
+            scene["name"], int(row["n_items"]), int(scene["seed"]), row["ask"],
+            int(row["threads"]),
+        )
+        cells[row["cell_id"]] = Cell(
+            int(row["cell_id"]), row["name"], job, variant["name"], variant["library"],
+            variant["builder"], variant["traversal"], row["precision"], row["executor"],
+            int(row["n_queries"]),
+        )
+    return cells
+
+
+def add_samples(cells, samples):
+    missing = 0
+    for row in samples:
+        cell = cells[row["cell_id"]]
+        if row["flags"] & WRONG_ANSWER:
+            cell.status = "wrong"
+        if not row["wall_ns"] >= 0 or (row["phase"] != "build" and row["wall_ns"] == 0):
+            missing += 1
+            continue
+        phases = cell.twin if row["flags"] & AA_TWIN else cell.times
+        phases.setdefault(row["phase"], {})[int(row["shard_id"])] = float(row["wall_ns"])
+    return missing
+
+
+def add_checks(cells, checks):
+    for row in checks:
+        cell = cells[row["cell_id"]]
+        status = row["status"] if row["status"] in STATUSES else "wrong"
+        if cell.status == "unchecked" or worst(status, cell.status) == status:
+            cell.status, cell.check = status, row
+
+
+def read(path):
+    """Loads a result file; raises reader.BadFile."""
+    source = load(path)
+    cells = read_cells(source)
+    missing = add_samples(cells, source["samples"])
+    add_checks(cells, source["checks"])
+    for row in source["counters"] if source["counters"] is not None else ():
+        cells[row["cell_id"]].counters[row["counter"]] = int(row["value"])
+    for row in source["trees"] if source["trees"] is not None else ():
+        cells[row["cell_id"]].tree = row
+    ordered = list(cells.values())
+    jobs = sorted(
+        {cell.job for cell in ordered if cell.rounds("query")},
+        key=lambda job: (job.ask, job.scene, job.n, job.threads, job.seed),
+    )
+    return Run(source, ordered, jobs, missing)

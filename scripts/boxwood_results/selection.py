@@ -1,0 +1,53 @@
+"""Which cells a picture shows, so that it stays readable."""
+
+from .run import TOTAL
+
+MOST_LINES = 12
+
+
+def largest_jobs(run):
+    """Of each scene, ask and thread count, the job with the most items."""
+    largest = {}
+    for job in run.jobs:
+        key = (job.ask, job.scene, job.seed, job.threads)
+        if key not in largest or job.n > largest[key].n:
+            largest[key] = job
+    return list(largest.values())
+
+
+def front(cells):
+    """Those that no other beats in both build and query time, by rising build time."""
+    best = []
+    for cell in sorted(cells, key=lambda c: (c.median("build"), c.median("query"))):
+        if not best or cell.median("query") < best[-1].median("query"):
+            best.append(cell)
+    return best
+
+
+def choose(cells, keep=(), limit=MOST_LINES):
+    """At most `limit` of the cells of one job: those in `keep`, then the best of each family, then the
+    best of the rest; wrong ones last. Returns them and how many were left out."""
+    kept = {id(cell) for cell in keep}
+    families = set()
+    order = []
+    for cell in sorted(cells, key=lambda c: (c.status == "wrong", c.median(TOTAL))):
+        first = cell.family not in families
+        families.add(cell.family)
+        order.append((id(cell) not in kept, not first, len(order), cell))
+    chosen = [cell for *_, cell in sorted(order, key=lambda item: item[:3])]
+    return chosen[:limit], len(chosen) - len(chosen[:limit])
+
+
+def left_out_note(count, what="variants"):
+    return [f"{count} further {what} are left out here; the table of all cells has them."] if count else []
+
+
+def wrong_notes(cells):
+    """One sentence per cell that answered wrongly."""
+    return [
+        f"Not ranked: {cell.label} on {cell.job} answered wrongly"
+        + (f" ({cell.check['missing']} missing, {cell.check['extra']} extra)" if cell.check is not None else "")
+        + "."
+        for cell in cells
+        if cell.status == "wrong"
+    ]

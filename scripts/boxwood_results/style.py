@@ -1,0 +1,153 @@
+"""How every figure looks: one colour and marker per family, axes in plain units."""
+
+import math
+import zlib
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+from matplotlib import colors
+from matplotlib import pyplot as plt
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter, NullLocator
+
+from .findings import time_text
+
+# Okabe and Ito 2008 without its yellow, which is faint on white.
+FAMILIES = {
+    "binned_sah": ("#0072B2", "o"),
+    "median": ("#009E73", "s"),
+    "incremental": ("#56B4E9", "^"),
+    "embree": ("#D55E00", "D"),
+    "fcl": ("#E69F00", "v"),
+    "cgal": ("#CC79A7", "P"),
+    "bullet": ("#000000", "h"),
+    "brute_force": ("#7F7F7F", "*"),
+}
+# For families that come later: Tol's muted colours, chosen by name so that they never change.
+OTHER_COLOURS = ("#332288", "#117733", "#882255", "#999933", "#AA4499", "#44AA99")
+OTHER_MARKERS = ("<", ">", "p", "h", "d", "H", "8")
+INK, FAINT = "#222222", "#B8B8B8"
+
+plt.rcParams.update(
+    {
+        "font.family": "DejaVu Sans",
+        "font.size": 9,
+        "axes.titlesize": 9.5,
+        "axes.titlelocation": "left",
+        "axes.labelsize": 9,
+        "axes.edgecolor": "#666666",
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+        "axes.grid": True,
+        "axes.axisbelow": True,
+        "grid.color": "#E6E6E6",
+        "grid.linewidth": 0.7,
+        "text.color": INK,
+        "axes.labelcolor": INK,
+        "xtick.color": INK,
+        "ytick.color": INK,
+        "svg.fonttype": "path",
+        "savefig.dpi": 150,
+        "figure.dpi": 100,
+    }
+)
+
+
+def look(family):
+    """(colour, marker) of a family; the same in every figure and every run."""
+    if family in FAMILIES:
+        return FAMILIES[family]
+    number = zlib.crc32(family.encode())
+    return OTHER_COLOURS[number % len(OTHER_COLOURS)], OTHER_MARKERS[number // 7 % len(OTHER_MARKERS)]
+
+
+def text_colour(family):
+    """The family's colour, darkened until small text can be read on white."""
+    red, green, blue = colors.to_rgb(look(family)[0])
+    while 0.2126 * red + 0.7152 * green + 0.0722 * blue > 0.38:
+        red, green, blue = red * 0.9, green * 0.9, blue * 0.9
+    return red, green, blue
+
+
+def point_style(cell, size=6):
+    """Plot arguments of a cell's marker: filled if its answers were right, else hollow."""
+    colour, marker = look(cell.family)
+    filled = cell.status != "wrong"
+    return {
+        "marker": marker,
+        "markersize": size,
+        "color": colour,
+        "markerfacecolor": colour if filled else "none",
+        "markeredgecolor": "white" if filled else colour,
+        "markeredgewidth": 0.6 if filled else 1.3,
+        "linestyle": "-" if cell.ours else "--",
+    }
+
+
+def cross_out(ax, x, y):
+    """Marks a point whose answers were wrong."""
+    ax.plot([x], [y], marker="x", markersize=11, color="#C00000", markeredgewidth=1.5, zorder=6)
+
+
+def log_ticks(low, high):
+    """Round numbers in [low, high], few enough to be read: the coarsest of these sets with three."""
+    decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    for steps in ((1,), (1, 2, 5), (1, 1.5, 2, 3, 4, 5, 7), [1 + k / 10 for k in range(90)]):
+        ticks = [step * 10.0**decade for decade in decades for step in steps]
+        ticks = [tick for tick in ticks if low <= tick <= high]
+        if len(ticks) >= 3:
+            break
+    return ticks[:: -(-len(ticks) // 7)]
+
+
+def log_axis(axis, low, high, text, room=0.06):
+    """A log axis over [low, high] and some room."""
+    stretch = max((high / low) ** room, 1.12)
+    low, high = low / stretch, high * stretch
+    (axis.axes.set_xscale if axis.axis_name == "x" else axis.axes.set_yscale)("log")
+    axis.set_major_locator(FixedLocator(log_ticks(low, high)))
+    axis.set_minor_locator(NullLocator())
+    axis.set_minor_formatter(NullFormatter())
+    axis.set_major_formatter(FuncFormatter(lambda value, _: text(value)))
+    (axis.axes.set_xlim if axis.axis_name == "x" else axis.axes.set_ylim)(low, high)
+
+
+def time_axis(axis, low, high, room=0.06):
+    log_axis(axis, low, high, time_text, room)
+
+
+def count_text(value):
+    for scale, unit in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
+        if value >= scale:
+            return f"{value / scale:g} {unit}"
+    return f"{value:g}"
+
+
+def count_axis(axis, low, high, room=0.06):
+    log_axis(axis, low, high, count_text, room)
+
+
+def panels(count, width=4.9, height=3.5, columns=2, labels_right=0.0):
+    """A figure of `count` panels, at most `columns` beside each other. `labels_right` inches are kept
+    free to the right of each panel for labels."""
+    columns = min(columns, count)
+    rows = -(-count // columns)
+    left, top, bottom = 0.75, 0.35, 0.55
+    full_width = columns * (width + labels_right)
+    full_height = rows * height
+    figure = plt.figure(figsize=(full_width, full_height))
+    axes = []
+    for index in range(count):
+        row, column = divmod(index, columns)
+        axes.append(
+            figure.add_axes(
+                (
+                    (column * (width + labels_right) + left) / full_width,
+                    1 - ((row + 1) * height - bottom) / full_height,
+                    (width - left - 0.2) / full_width,
+                    (height - top - bottom) / full_height,
+                )
+            )
+        )
+    return figure, axes

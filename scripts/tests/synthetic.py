@@ -1,0 +1,176 @@
+"""Result files that look like real ones, made by formula: what the figures and errors are tested on."""
+
+import math
+import random
+
+import h5py
+import numpy as np
+
+WORD, NAME, TEXT = "S64", "S160", "S1024"
+U4, U8, F8 = "u4", "u8", "f8"
+COLUMNS = {
+    "env": [("env_id", U4), ("env_hash", WORD), ("host", NAME), ("cpu", NAME), ("ncpu", U4), ("l1d_bytes", U8),
+            ("compiler", NAME), ("git_commit", WORD), ("embree_version", WORD), ("fcl_version", WORD),
+            ("cgal_version", WORD), ("bullet_version", WORD), ("stream_triad_gbs_1", F8), ("seed", U8)],
+    "scenes": [("scene_id", U4), ("name", NAME), ("generator", WORD), ("n_items", U8), ("seed", U8),
+               ("content_hash", U8)],
+    "variants": [("variant_id", U4), ("name", NAME), ("library", WORD), ("builder", WORD), ("layout", WORD),
+                 ("traversal", WORD), ("is_peer", U4), ("notes", TEXT)],
+    "cells": [("cell_id", U4), ("name", "S320"), ("scene_id", U4), ("variant_id", U4), ("ask", WORD),
+              ("n_items", U8), ("n_queries", U8), ("precision", WORD), ("executor", WORD), ("threads", U4),
+              ("isa", WORD), ("iterations", U8)],
+    "shards": [("shard_id", U4), ("round", U4), ("env_id", U4), ("pid", U4), ("order_seed", U8), ("t0_utc_ns", U8),
+               ("load1", F8), ("steal_ticks", U8)],
+    "samples": [("cell_id", U4), ("shard_id", U4), ("round", U4), ("position", U4), ("phase", WORD), ("wall_ns", F8),
+                ("cpu_ns", F8), ("iterations", U8), ("nvcsw", U8), ("nivcsw", U8), ("minflt", U8), ("flags", U4)],
+    "counters": [("cell_id", U4), ("counter", WORD), ("value", U8)],
+    "checks": [("cell_id", U4), ("oracle", WORD), ("status", WORD), ("n_checked", U8), ("n_expected", U8),
+               ("n_got", U8), ("missing", U8), ("extra", U8), ("max_ulp", F8), ("witness", TEXT)],
+    "trees": [("cell_id", U4), ("n_nodes", U8), ("depth_max", U8), ("bytes", U8), ("sah_cost", F8), ("epo", F8)],
+}
+# name -> (library, builder, traversal?, build ns per item, query ns per item, box tests per item)
+PAIR_CONTENDERS = {
+    "binned_sah.wide8": ("boxwood", "binned_sah", 130, 95, 41),
+    "binned_sah.binary": ("boxwood", "binned_sah", 120, 190, 44),
+    "median.wide8": ("boxwood", "median", 62, 128, 63),
+    "median.binary": ("boxwood", "median", 55, 260, 70),
+    "incremental.wide8": ("boxwood", "incremental", 900, 110, 50),
+    "incremental.binary": ("boxwood", "incremental", 880, 230, 54),
+    "fcl.dynamic_aabb_tree": ("fcl", "", 410, 1500, 0),
+    "fcl.dynamic_aabb_tree_array": ("fcl", "", 430, 1650, 0),
+    "embree.rtc_collide.low": ("embree", "", 60, 480, 0),
+    "embree.rtc_collide.medium": ("embree", "", 110, 390, 0),
+    "cgal.box_self_intersection_d": ("cgal", "", None, 700, 0),
+    "bullet.dbvt": ("bullet", "", 700, 620, 0),
+}
+RAY_CONTENDERS = {
+    "binned_sah.wide8": ("boxwood", "binned_sah", 150, 1.15, 30),
+    "median.wide8": ("boxwood", "median", 70, 1.9, 55),
+    "embree.rtc_intersect1.default": ("embree", "", 90, 0.8, 0),
+    "embree.rtc_intersect1.robust": ("embree", "", 90, 0.9, 0),
+}
+
+
+class Maker:
+    """Collects rows; `write` gives the file."""
+
+    def __init__(self, rounds, seed=7):
+        self.rounds = rounds
+        self.random = random.Random(seed)
+        self.rows = {name: [] for name in COLUMNS}
+        self.ids = {}
+        self.rows["env"].append(dict(env_id=0, host="testhost", cpu="Test CPU & <Core> 9", ncpu=2, l1d_bytes=2**64 - 1,
+                                     compiler="gcc 12.2.0", git_commit="abc", embree_version="3.13.5",
+                                     fcl_version="0.7.0", cgal_version="5.5.1", stream_triad_gbs_1=12.5, seed=1))
+        for round_ in range(rounds):
+            self.rows["shards"].append(dict(shard_id=round_, round=round_, load1=0.3, pid=100 + round_))
+        self.speed = [math.exp(self.random.gauss(0, 0.03)) for _ in range(rounds)]
+
+    def id_of(self, table, key, **row):
+        ids = self.ids.setdefault(table, {})
+        if key not in ids:
+            ids[key] = len(ids)
+            self.rows[table].append({**row, table[:-1] + "_id": ids[key]})
+        return ids[key]
+
+    def cell(self, scene, n, ask, contender, spec, threads, factor=1.0, status="exact", twin=False, queries=0):
+        library, builder, build, query, tests = spec
+        traversal = {"pairs": "self_pairs", "rays_closest": "rays"}[ask] if builder else ""
+        name = f"{contender}.{traversal}" if builder else contender
+        executor = "serial" if threads == 1 else "tbb"
+        scene_id = self.id_of("scenes", (scene, n), name=scene, n_items=n, seed=1)
+        variant_id = self.id_of("variants", name, name=name, library=library, builder=builder, traversal=traversal,
+                                is_peer=not builder, notes="double precision" if library == "fcl" else "")
+        full = f"{scene}/n{n}-s1/{ask}/{name}/f32/{executor}-{threads}"
+        cell_id = self.id_of("cells", full, name=full, scene_id=scene_id, variant_id=variant_id, ask=ask, n_items=n,
+                             n_queries=queries or n, precision="f32", executor=executor, threads=threads)
+        gain = threads**0.8
+        grow = math.log2(n) / 16
+        phases = [("query", query * (queries or n) * grow * factor / gain * (1000 if queries else 1) / (1000 if queries else 1))]
+        if build is not None:
+            phases.append(("build", build * n * grow / gain))
+        for phase, ns in phases:
+            self.samples(cell_id, phase, ns, twin)
+        self.rows["checks"].append(dict(cell_id=cell_id, oracle="brute_force", status=status, n_checked=n,
+                                        n_expected=10, n_got=10 - 2 * (status == "wrong"),
+                                        missing=2 * (status == "wrong"),
+                                        witness="pair 3,8" if status == "wrong" else ""))
+        if builder:
+            items = queries or n
+            for counter, value in (("box_tests", tests * items), ("node_visits", tests * items // 3), ("pairs", 5 * n)):
+                self.rows["counters"].append(dict(cell_id=cell_id, counter=counter, value=value))
+            self.rows["trees"].append(dict(cell_id=cell_id, n_nodes=2 * n - 1, depth_max=20, bytes=64 * n,
+                                           sah_cost=tests * 2.5, epo=0.1))
+        return cell_id
+
+    def samples(self, cell_id, phase, ns, twin=False):
+        for round_ in range(self.rounds):
+            for flags in (0, 4) if twin else (0,):
+                disturbed = self.random.random() < 0.04
+                wall = ns * self.speed[round_] * math.exp(self.random.gauss(0, 0.012) + 0.1 * disturbed)
+                self.rows["samples"].append(dict(cell_id=cell_id, shard_id=round_, round=round_, position=len(self.rows["samples"]),
+                                                 phase=phase, wall_ns=wall, cpu_ns=wall, iterations=3,
+                                                 flags=flags | (2 if disturbed else 0)))
+
+    def place_samples(self):
+        """A shuffled order per round; phases of one cell stand together."""
+        for round_ in range(self.rounds):
+            rows = [row for row in self.rows["samples"] if row["round"] == round_]
+            keys = list({(row["cell_id"], row["flags"] & 4) for row in rows})
+            self.random.shuffle(keys)
+            place = {key: index for index, key in enumerate(keys)}
+            for row in rows:
+                row["position"] = place[row["cell_id"], row["flags"] & 4]
+
+    def write(self, path, attrs=(), drop=()):
+        self.place_samples()
+        with h5py.File(path, "w") as file:
+            for name, columns in COLUMNS.items():
+                if name in drop:
+                    continue
+                dtype = [(c, h5py.string_dtype("utf-8", int(kind[1:])) if kind[0] == "S" else kind)
+                         for c, kind in columns]
+                data = np.zeros(len(self.rows[name]), dtype=dtype)
+                for index, row in enumerate(self.rows[name]):
+                    for column, value in row.items():
+                        data[index][column] = value.encode() if isinstance(value, str) else value
+                file.create_dataset(name, data=data, chunks=(max(1, min(len(data), 4096)),), maxshape=(None,),
+                                    shuffle=True, compression="gzip", compression_opts=1, fletcher32=True)
+            file["text/argv"] = "boxwood sweep --config x.toml"
+            for key, value in {"format": "boxwood-results", "schema_major": np.uint32(1), "schema_minor": np.uint32(0),
+                               "run_uuid": "u", "created_utc": "2025-01-01T00:00:00Z", "sweep_hash": "h",
+                               "complete": np.uint32(1), **dict(attrs)}.items():
+                file.attrs[key] = value
+        return path
+
+
+def full(rounds=15, wrong=True):
+    """A sweep as the default one: sizes, threads, pairs and rays; one wrong peer, one unsupported cell."""
+    made = Maker(rounds)
+    for scene, hard in (("uniform", 1.0), ("clusters", 1.4), ("bars", 2.2)):
+        for n in (1000, 10000, 100000) if scene == "uniform" else (100000,):
+            for threads in (1, 2):
+                for contender, spec in PAIR_CONTENDERS.items():
+                    if threads == 2 and spec[0] in ("fcl", "bullet", "cgal"):
+                        continue
+                    bad = wrong and scene == "bars" and contender == "bullet.dbvt"
+                    twin = scene == "uniform" and n == 10000 and contender == "median.binary" and threads == 1
+                    made.cell(scene, n, "pairs", contender, spec, threads, hard, "wrong" if bad else "exact", twin)
+    for threads in (1, 2):
+        for contender, spec in RAY_CONTENDERS.items():
+            made.cell("mesh_stanford_bunny_primary", 69451, "rays_closest", contender, (*spec[:3], 1000 * spec[3], spec[4]),
+                      threads, queries=100000)
+    made.id_of("variants", "fcl.dynamic_aabb_tree_2", name="fcl.dynamic_aabb_tree", library="fcl", is_peer=1)
+    lost = made.id_of("cells", "lost", name="uniform/n1000-s1/pairs/fcl.dynamic_aabb_tree/f64/serial-2", scene_id=0,
+                      variant_id=made.ids["variants"]["fcl.dynamic_aabb_tree"], ask="pairs", n_items=1000, threads=2,
+                      precision="f64", executor="serial")
+    made.rows["checks"].append(dict(cell_id=lost, status="unsupported", witness="FCL's manager runs on one thread"))
+    return made
+
+
+def small(rounds=1):
+    """One scene, one size, one thread: what a first try gives."""
+    made = Maker(rounds)
+    for contender in ("binned_sah.wide8", "median.binary", "fcl.dynamic_aabb_tree", "cgal.box_self_intersection_d"):
+        made.cell("uniform", 2000, "pairs", contender, PAIR_CONTENDERS[contender], 1)
+    return made
