@@ -9,10 +9,10 @@ namespace boxwood {
 
 /// Watertight ray-triangle test, two-sided: no ray slips between triangles that share an edge or
 /// vertex bit for bit. For one triangle on its own there is no promise: vertices are sheared in
-/// float, so a ray within rounding of an edge may be called either way, and at a shared edge both
-/// triangles may be hit. A ray in the triangle's plane and a degenerate triangle are misses.
-/// Coordinates below 2^126 in size; a hit whose t overflows float is a miss.
-/// Source: Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection".
+/// float, so a ray within rounding of an edge or of the triangle's plane may be called either way,
+/// and at a shared edge both triangles may be hit. Where the shear is exact, rays in the plane
+/// miss. Coordinates below 2^126 in size; a hit whose t overflows float is a miss. Source: Woop,
+/// Benthin, Wald 2013, "Watertight Ray/Triangle Intersection".
 struct Watertight {
     static constexpr std::string_view name = "watertight";
     static constexpr KernelInfo info{"ray_triangle", name,
@@ -31,7 +31,8 @@ struct Watertight {
         const float ax = std::abs(d.x), ay = std::abs(d.y), az = std::abs(d.z);
         const int z = ax > ay ? (ax > az ? 0 : 2) : (ay > az ? 1 : 2);
         const int x = z == 2 ? 0 : z + 1, y = x == 2 ? 0 : x + 1;
-        return {x, y, z, d[x] / d[z], d[y] / d[z]};
+        const float valid = d[z] - d[z]; // 0, or NaN for an infinite direction, which then misses
+        return {x, y, z, d[x] / d[z] + valid, d[y] / d[z] + valid};
     }
 
     static bool intersect(const PerRay& r, const Ray<float>& ray, const Triangle<float>& triangle,
@@ -62,9 +63,10 @@ struct Watertight {
         // Adding zero turns -0 into 0.
         const double height = u * static_cast<double>(a.z) + v * static_cast<double>(b.z) +
                               w * static_cast<double>(c.z);
-        const double d = static_cast<double>(ray.direction[r.z]);
-        const float t = static_cast<float>(height / (sum * d) + 0.0);
-        if (!(t >= ray.t_min && t <= t_max && t < std::numeric_limits<float>::infinity()))
+        const double t_double = height / (sum * static_cast<double>(ray.direction[r.z]));
+        const float t = static_cast<float>(t_double + 0.0);
+        if (!(t_double >= static_cast<double>(ray.t_min) && t <= t_max &&
+              t < std::numeric_limits<float>::infinity()))
             return false;
         hit.t = t;
         hit.u = static_cast<float>(v / sum + 0.0);
