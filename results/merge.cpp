@@ -1,0 +1,211 @@
+#include "results/results.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+namespace boxwood::results {
+namespace {
+
+/// The ids of one table of one part, as ids of the joined table.
+class Renumbering {
+  public:
+    explicit Renumbering(std::string_view table) : table_(table) {}
+    void set(std::uint32_t from, std::uint32_t to) {
+        if (!ids_.emplace(from, to).second)
+            throw std::runtime_error(fmt::format("cannot merge: {} has id {} twice", table_, from));
+    }
+    std::uint32_t operator()(std::uint32_t id) const {
+        const auto found = ids_.find(id);
+        if (found == ids_.end())
+            throw std::runtime_error(fmt::format(
+                "cannot merge: a row refers to id {}, which {} does not have", id, table_));
+        return found->second;
+    }
+
+  private:
+    std::string_view table_;
+    std::map<std::uint32_t, std::uint32_t> ids_;
+};
+
+/// Rows that are one when their keys are equal; the first one stays.
+template <class Key, class Row> class Joined {
+  public:
+    explicit Joined(std::vector<Row>& rows) : rows_(rows) {}
+    /// The number of the row of this key, and whether it is new.
+    std::pair<std::uint32_t, bool> add(const Key& key, const Row& row) {
+        const auto next = static_cast<std::uint32_t>(rows_.size());
+        const auto [found, is_new] = index_.emplace(key, next);
+        if (is_new)
+            rows_.push_back(row);
+        return {found->second, is_new};
+    }
+
+  private:
+    std::vector<Row>& rows_;
+    std::map<Key, std::uint32_t> index_;
+};
+
+/// How bad a status is; one that is not known is taken as worse than any that could be ranked.
+std::size_t badness(std::string_view status) {
+    constexpr std::array<std::string_view, 3> ranked{"exact", "conservative", "within_bound"};
+    if (status == "wrong")
+        return ranked.size() + 2;
+    if (status == "unsupported")
+        return ranked.size() + 1;
+    return static_cast<std::size_t>(std::find(ranked.begin(), ranked.end(), status) -
+                                    ranked.begin());
+}
+
+using Strings = std::vector<std::string>;
+
+class Merger {
+  public:
+    void add(const Results& part) {
+        add_header(part);
+        add_machines_and_cells(part);
+        add_samples(part);
+        add_facts(part);
+    }
+    Results take() { return std::move(all_); }
+
+  private:
+    void add_header(const Results& part);
+    void add_machines_and_cells(const Results& part);
+    void add_samples(const Results& part);
+    void add_facts(const Results& part);
+
+    Results all_;
+    bool first_ = true;
+    Joined<std::string, Env> env_{all_.env};
+    Joined<std::tuple<std::string, std::uint64_t, std::uint64_t, std::uint64_t>, SceneRow> scenes_{
+        all_.scenes};
+    Joined<Strings, Variant> variants_{all_.variants};
+    Joined<std::tuple<std::string, std::uint32_t, std::uint32_t, std::string>, Cell> cells_{
+        all_.cells};
+    Joined<std::tuple<std::uint32_t, std::uint32_t, std::uint64_t, std::uint32_t>, Shard> shards_{
+        all_.shards};
+    Joined<std::pair<std::uint32_t, std::string>, Counter> counters_{all_.counters};
+    Joined<std::pair<std::uint32_t, std::string>, Check> checks_{all_.checks};
+    Joined<std::uint32_t, TreeRow> trees_{all_.trees};
+    Joined<std::tuple<std::uint32_t, std::uint32_t, std::string>, Comparison> compare_{
+        all_.compare};
+    std::map<std::string, std::uint64_t> content_of_; ///< of the scene of a cell name
+    // Of the part that is being added.
+    Renumbering env_ids_{"env"}, scene_ids_{"scenes"}, variant_ids_{"variants"}, cell_ids_{"cells"},
+        shard_ids_{"shards"};
+    std::set<std::uint32_t> new_shards_; ///< old ids
+};
+
+/// The first part gives the header. A text that differs is kept beside it as "name.2" and so on.
+void Merger::add_header(const Results& part) {
+    if (first_) {
+        all_.run_uuid = part.run_uuid;
+        all_.created_utc = part.created_utc;
+        all_.sweep_hash = part.sweep_hash;
+        all_.generator = part.generator;
+    }
+    first_ = false;
+    if (all_.sweep_hash != part.sweep_hash)
+        all_.sweep_hash = "mixed";
+    all_.complete = all_.complete && part.complete;
+    for (const auto& [name, text] : part.texts) {
+        std::string free = name;
+        for (int i = 2; all_.texts.contains(free) && all_.texts[free] != text; ++i)
+            free = fmt::format("{}.{}", name, i);
+        all_.texts[free] = text;
+    }
+}
+
+void Merger::add_machines_and_cells(const Results& part) {
+    env_ids_ = Renumbering("env");
+    for (Env row : part.env) {
+        const auto id = std::exchange(row.env_id, static_cast<std::uint32_t>(all_.env.size()));
+        env_ids_.set(id, env_.add(row.env_hash, row).first);
+    }
+    scene_ids_ = Renumbering("scenes");
+    for (SceneRow row : part.scenes) {
+        const auto id = std::exchange(row.scene_id, static_cast<std::uint32_t>(all_.scenes.size()));
+        scene_ids_.set(id,
+                       scenes_.add({row.name, row.n_items, row.seed, row.content_hash}, row).first);
+    }
+    variant_ids_ = Renumbering("variants");
+    for (Variant row : part.variants) {
+        const auto id =
+            std::exchange(row.variant_id, static_cast<std::uint32_t>(all_.variants.size()));
+        variant_ids_.set(
+            id,
+            variants_.add({row.name, row.library, row.lib_version, row.params_json}, row).first);
+    }
+    cell_ids_ = Renumbering("cells");
+    for (Cell row : part.cells) {
+        const auto id = std::exchange(row.cell_id, static_cast<std::uint32_t>(all_.cells.size()));
+        row.scene_id = scene_ids_(row.scene_id);
+        row.variant_id = variant_ids_(row.variant_id);
+        const auto content = all_.scenes[row.scene_id].content_hash;
+        if (const auto [known, is_new] = content_of_.emplace(row.name, content);
+            known->second != content)
+            throw std::runtime_error(
+                fmt::format("cannot merge: cell '{}' stands for different scene contents ({:016x} "
+                            "and {:016x}); give one of the scenes another name",
+                            row.name, known->second, content));
+        cell_ids_.set(id, cells_.add({row.name, row.scene_id, row.variant_id, row.isa}, row).first);
+    }
+}
+
+void Merger::add_samples(const Results& part) {
+    shard_ids_ = Renumbering("shards");
+    new_shards_.clear();
+    for (Shard row : part.shards) {
+        const auto id = std::exchange(row.shard_id, static_cast<std::uint32_t>(all_.shards.size()));
+        row.env_id = env_ids_(row.env_id);
+        const auto [to, is_new] = shards_.add({row.env_id, row.round, row.t0_utc_ns, row.pid}, row);
+        shard_ids_.set(id, to);
+        if (is_new)
+            new_shards_.insert(id);
+    }
+    for (Sample row : part.samples) {
+        const auto id = std::exchange(row.shard_id, shard_ids_(row.shard_id));
+        row.cell_id = cell_ids_(row.cell_id);
+        if (new_shards_.contains(id))
+            all_.samples.push_back(row);
+    }
+}
+
+void Merger::add_facts(const Results& part) {
+    for (Counter row : part.counters) {
+        row.cell_id = cell_ids_(row.cell_id);
+        counters_.add({row.cell_id, row.counter}, row);
+    }
+    for (Check row : part.checks) {
+        row.cell_id = cell_ids_(row.cell_id);
+        Check& kept = all_.checks[checks_.add({row.cell_id, row.oracle}, row).first];
+        if (badness(row.status) > badness(kept.status))
+            kept = row;
+    }
+    for (TreeRow row : part.trees) {
+        row.cell_id = cell_ids_(row.cell_id);
+        trees_.add(row.cell_id, row);
+    }
+    for (Comparison row : part.compare) {
+        row.cell_a = cell_ids_(row.cell_a);
+        row.cell_b = cell_ids_(row.cell_b);
+        compare_.add({row.cell_a, row.cell_b, row.phase}, row);
+    }
+}
+
+} // namespace
+
+Results merge(std::span<const Results> parts) {
+    Merger merger;
+    for (const Results& part : parts)
+        merger.add(part);
+    return merger.take();
+}
+
+} // namespace boxwood::results

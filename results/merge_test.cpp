@@ -1,0 +1,163 @@
+#include "results/example_for_test.h"
+#include "results/results.h"
+
+#include <gtest/gtest.h>
+
+namespace boxwood::results {
+namespace {
+
+std::string merge_error(std::span<const Results> parts) {
+    try {
+        merge(parts);
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+/// One machine, one round, a scene, two variants, a cell of each with one sample.
+Results part(const std::string& machine, std::uint32_t round, std::uint32_t first_id = 0) {
+    Results p;
+    p.run_uuid = "run of " + machine;
+    p.sweep_hash = "sweep";
+    p.texts = {{"sweep_toml", "rounds = 9"}, {"lscpu", machine}};
+    p.env.resize(1);
+    p.env[0].env_id = first_id + 5;
+    p.env[0].env_hash = machine;
+    p.scenes.resize(1);
+    p.scenes[0].scene_id = first_id + 7;
+    p.scenes[0].name = "soup";
+    p.scenes[0].content_hash = 99;
+    p.shards.resize(1);
+    p.shards[0].shard_id = first_id + 2;
+    p.shards[0].env_id = first_id + 5;
+    p.shards[0].round = round;
+    p.shards[0].pid = 1234;
+    for (std::uint32_t i = 0; i < 2; ++i) {
+        const std::string name = i == 0 ? "ours" : "peer";
+        Variant variant;
+        variant.variant_id = first_id + i;
+        variant.name = name;
+        p.variants.push_back(variant);
+        Cell cell;
+        cell.cell_id = first_id + 40 - i;
+        cell.name = "soup/" + name;
+        cell.scene_id = first_id + 7;
+        cell.variant_id = first_id + i;
+        p.cells.push_back(cell);
+        Sample sample;
+        sample.cell_id = cell.cell_id;
+        sample.shard_id = first_id + 2;
+        sample.round = round;
+        sample.phase = "query";
+        sample.wall_ns = 100.0 * (i + 1) + round;
+        p.samples.push_back(sample);
+        Counter counter;
+        counter.cell_id = cell.cell_id;
+        counter.counter = "pairs";
+        counter.value = 7;
+        p.counters.push_back(counter);
+        Check check;
+        check.cell_id = cell.cell_id;
+        check.oracle = "brute_force";
+        check.status = "exact";
+        p.checks.push_back(check);
+        TreeRow tree;
+        tree.cell_id = cell.cell_id;
+        p.trees.push_back(tree);
+    }
+    Comparison comparison;
+    comparison.cell_a = first_id + 39;
+    comparison.cell_b = first_id + 40;
+    comparison.phase = "query";
+    p.compare.push_back(comparison);
+    return p;
+}
+
+TEST(Merge, AFileWithItselfIsItself) {
+    const Results once = merge(std::array{part("a", 0)});
+    EXPECT_EQ(difference(once, merge(std::array{part("a", 0), part("a", 0)})), "");
+    EXPECT_EQ(difference(once, merge(std::array{once, once})), "");
+    EXPECT_EQ(once.samples.size(), 2u);
+    EXPECT_EQ(once.cells[0].scene_id, 0u);
+}
+
+TEST(Merge, RoundsAddUpWhateverTheIds) {
+    const Results all = merge(std::array{part("a", 0), part("a", 1, 100), part("a", 2, 31)});
+    EXPECT_EQ(all.env.size(), 1u);
+    EXPECT_EQ(all.scenes.size(), 1u);
+    EXPECT_EQ(all.variants.size(), 2u);
+    EXPECT_EQ(all.cells.size(), 2u);
+    EXPECT_EQ(all.shards.size(), 3u);
+    EXPECT_EQ(all.counters.size(), 2u);
+    EXPECT_EQ(all.checks.size(), 2u);
+    EXPECT_EQ(all.trees.size(), 2u);
+    EXPECT_EQ(all.compare.size(), 1u);
+    EXPECT_EQ(all.sweep_hash, "sweep");
+    ASSERT_EQ(all.samples.size(), 6u);
+    for (const Sample& sample : all.samples) {
+        const double base = all.cells.at(sample.cell_id).name == "soup/ours" ? 100 : 200;
+        EXPECT_EQ(sample.wall_ns, base + sample.round);
+        EXPECT_EQ(all.shards.at(sample.shard_id).round, sample.round);
+    }
+    EXPECT_EQ(all.cells.at(all.compare[0].cell_a).name, "soup/peer");
+}
+
+TEST(Merge, MachinesStayApart) {
+    Results b = part("b", 0);
+    b.sweep_hash = "other";
+    const Results all = merge(std::array{part("a", 0), b});
+    EXPECT_EQ(all.env.size(), 2u);
+    ASSERT_EQ(all.shards.size(), 2u);
+    EXPECT_NE(all.shards[0].env_id, all.shards[1].env_id);
+    EXPECT_EQ(all.samples.size(), 4u);
+    EXPECT_EQ(all.cells.size(), 2u);
+    EXPECT_EQ(all.sweep_hash, "mixed");
+    EXPECT_EQ(all.run_uuid, "run of a");
+    const std::map<std::string, std::string> texts{
+        {"sweep_toml", "rounds = 9"}, {"lscpu", "a"}, {"lscpu.2", "b"}};
+    EXPECT_EQ(all.texts, texts);
+    EXPECT_EQ(difference(all, merge(std::array{all, b})), "");
+}
+
+TEST(Merge, AnotherVersionIsAnotherVariant) {
+    Results b = part("b", 0);
+    b.variants[1].lib_version = "9.9";
+    const Results all = merge(std::array{part("a", 0), b});
+    EXPECT_EQ(all.variants.size(), 3u);
+    EXPECT_EQ(all.cells.size(), 3u);
+}
+
+TEST(Merge, TheWorseCheckStays) {
+    for (const bool swapped : {false, true}) {
+        std::array parts{part("a", 0), part("a", 1)};
+        parts[swapped].checks[0].status = "wrong";
+        parts[swapped].checks[0].witness = "pair 3,4";
+        const Results all = merge(parts);
+        EXPECT_EQ(all.checks[0].status, "wrong");
+        EXPECT_EQ(all.checks[0].witness, "pair 3,4");
+        EXPECT_EQ(all.checks[0].cell_id, 0u);
+    }
+}
+
+TEST(Merge, OtherContentUnderTheSameNameIsAnError) {
+    std::array parts{part("a", 0), part("b", 0)};
+    parts[1].scenes[0].content_hash = 98;
+    EXPECT_NE(merge_error(parts).find("soup/ours"), std::string::npos);
+}
+
+TEST(Merge, DanglingAndDoubleIdsAreErrors) {
+    std::array parts{part("a", 0)};
+    parts[0].samples[1].cell_id = 77;
+    EXPECT_NE(merge_error(parts).find("id 77, which cells does not have"), std::string::npos);
+    parts[0] = part("a", 0);
+    parts[0].cells[1].cell_id = parts[0].cells[0].cell_id;
+    EXPECT_NE(merge_error(parts).find("cells has id 40 twice"), std::string::npos);
+}
+
+TEST(Merge, NothingGivesNothing) {
+    EXPECT_EQ(difference(Results{}, merge(std::span<const Results>{})), "");
+}
+
+} // namespace
+} // namespace boxwood::results

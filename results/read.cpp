@@ -1,0 +1,227 @@
+#include "results/handle.h"
+#include "results/results.h"
+#include "results/schema.h"
+#include "results/seal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <type_traits>
+
+namespace boxwood::results {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(std::string_view cause) { throw std::runtime_error(std::string(cause)); }
+
+/// A scalar string, of fixed or variable length, of a dataset or an attribute.
+template <class Read> std::string text_of(hid_t type, std::string_view name, Read&& read) {
+    if (H5Tget_class(type) != H5T_STRING)
+        fail(fmt::format("{} is not text", name));
+    if (checked(H5Tis_variable_str(type), name) > 0) {
+        char* pointer = nullptr;
+        checked(read(type, &pointer), name);
+        const std::string value = pointer ? pointer : "";
+        H5free_memory(pointer);
+        return value;
+    }
+    std::string value(H5Tget_size(type), '\0');
+    checked(read(type, value.data()), name);
+    return value.substr(0, value.find('\0'));
+}
+
+void require_scalar(hid_t space, std::string_view name) {
+    if (checked(H5Sget_simple_extent_npoints(space), name) != 1)
+        fail(fmt::format("{} is not one value", name));
+}
+
+Handle open_attribute(hid_t file, const char* name) {
+    Handle attribute(H5Aopen(file, name, H5P_DEFAULT), H5Aclose, name);
+    require_scalar(Handle(H5Aget_space(attribute), H5Sclose, name), name);
+    return attribute;
+}
+
+std::string text_attribute(hid_t file, const char* name) {
+    const Handle attribute = open_attribute(file, name);
+    const Handle type(H5Aget_type(attribute), H5Tclose, name);
+    return text_of(type, name, [&](hid_t t, void* out) { return H5Aread(attribute, t, out); });
+}
+
+std::uint64_t integer_attribute(hid_t file, const char* name) {
+    const Handle attribute = open_attribute(file, name);
+    std::uint64_t value = 0;
+    checked(H5Aread(attribute, H5T_NATIVE_UINT64, &value), name);
+    return value;
+}
+
+bool has_attribute(hid_t file, const char* name) {
+    return checked(H5Aexists(file, name), name) > 0;
+}
+bool has_link(hid_t group, const char* name) {
+    return checked(H5Lexists(group, name, H5P_DEFAULT), name) > 0;
+}
+
+/// A column that the file has: where it stands in the records we ask HDF5 for.
+template <class Row> struct Placed {
+    const Column<Row>* column;
+    std::size_t offset, size;
+};
+
+/// Sets the member of each row from the records.
+template <class Row>
+void decode(const Placed<Row>& placed, const std::vector<std::byte>& records,
+            std::size_t record_size, std::vector<Row>& rows) {
+    std::visit(
+        [&]<class Value>(Value Row::*member) {
+            const std::byte* from = records.data() + placed.offset;
+            for (Row& row : rows) {
+                if constexpr (std::is_same_v<Value, std::string>) {
+                    const auto* text = reinterpret_cast<const char*>(from);
+                    row.*member = std::string(text, std::find(text, text + placed.size, '\0'));
+                } else {
+                    std::memcpy(&(row.*member), from, sizeof(Value));
+                }
+                from += record_size;
+            }
+        },
+        placed.column->member);
+}
+
+/// The native type of our column; for a string the width that the file has.
+template <class Row>
+Handle wanted_type(const Column<Row>& column, hid_t in_file, std::string_view where) {
+    const H5T_class_t found = H5Tget_class(in_file);
+    return std::visit(
+        [&]<class Value>(Value Row::*) {
+            constexpr bool text = std::is_same_v<Value, std::string>;
+            constexpr bool real = std::is_same_v<Value, double>;
+            if (found != (text ? H5T_STRING : real ? H5T_FLOAT : H5T_INTEGER))
+                fail(fmt::format("column {} has the wrong type", where));
+            if constexpr (text) {
+                if (checked(H5Tis_variable_str(in_file), where) > 0)
+                    fail(fmt::format("column {} has strings of variable length", where));
+                return string_type(H5Tget_size(in_file));
+            } else {
+                return Handle(H5Tcopy(real                                   ? H5T_NATIVE_DOUBLE
+                                      : std::is_same_v<Value, std::uint32_t> ? H5T_NATIVE_UINT32
+                                                                             : H5T_NATIVE_UINT64),
+                              H5Tclose, where);
+            }
+        },
+        column.member);
+}
+
+template <class Row> void get_table(hid_t file, const Table<Row>& table, std::vector<Row>& rows) {
+    const std::string name(table.name);
+    if (!has_link(file, name.c_str()))
+        return;
+    const Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, name);
+    const Handle space(H5Dget_space(dataset), H5Sclose, name);
+    const Handle in_file(H5Dget_type(dataset), H5Tclose, name);
+    if (H5Tget_class(in_file) != H5T_COMPOUND || H5Sget_simple_extent_ndims(space) != 1)
+        fail(fmt::format("{} is not a table", name));
+
+    std::vector<Placed<Row>> found;
+    std::vector<Handle> types;
+    std::size_t record_size = 0;
+    for (const auto& column : table.columns) {
+        const int index = H5Tget_member_index(in_file, std::string(column.name).c_str());
+        if (index < 0)
+            continue;
+        const std::string where = fmt::format("{}.{}", name, column.name);
+        const Handle theirs(H5Tget_member_type(in_file, static_cast<unsigned>(index)), H5Tclose,
+                            where);
+        types.push_back(wanted_type(column, theirs, where));
+        found.push_back({&column, record_size, H5Tget_size(types.back())});
+        record_size += found.back().size;
+    }
+    const auto n = static_cast<std::size_t>(checked(H5Sget_simple_extent_npoints(space), name));
+    rows.resize(n);
+    if (n == 0 || found.empty())
+        return;
+    const Handle record(H5Tcreate(H5T_COMPOUND, record_size), H5Tclose, name);
+    for (std::size_t i = 0; i < found.size(); ++i)
+        checked(H5Tinsert(record, std::string(found[i].column->name).c_str(), found[i].offset,
+                          types[i]),
+                name);
+    std::vector<std::byte> records(n * record_size);
+    checked(H5Dread(dataset, record, H5S_ALL, H5S_ALL, H5P_DEFAULT, records.data()),
+            fmt::format("table {}", name));
+    for (const auto& placed : found)
+        decode(placed, records, record_size, rows);
+}
+
+void get_texts(hid_t file, std::map<std::string, std::string>& texts) {
+    if (!has_link(file, "text"))
+        return;
+    const Handle group(H5Gopen2(file, "text", H5P_DEFAULT), H5Gclose, "text");
+    std::vector<std::string> names;
+    const H5L_iterate_t take = [](hid_t, const char* name, const H5L_info_t*, void* out) -> herr_t {
+        static_cast<std::vector<std::string>*>(out)->emplace_back(name);
+        return 0;
+    };
+    checked(H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, take, &names), "text");
+    for (const std::string& name : names) {
+        const Handle dataset(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose, name);
+        const Handle type(H5Dget_type(dataset), H5Tclose, name);
+        require_scalar(Handle(H5Dget_space(dataset), H5Sclose, name), name);
+        texts[name] = text_of(type, name, [&](hid_t t, void* out) {
+            return H5Dread(dataset, t, H5S_ALL, H5S_ALL, H5P_DEFAULT, out);
+        });
+    }
+}
+
+Results read_open(hid_t file) {
+    if (!has_attribute(file, "format") || text_attribute(file, "format") != format_name)
+        fail("an HDF5 file, but not a Boxwood result file (no attribute "
+             "format=\"boxwood-results\")");
+    const auto major = integer_attribute(file, "schema_major");
+    if (major != schema_major)
+        fail(fmt::format("it has schema version {}, this program reads version {}; use the "
+                         "program that wrote it, or make the file again",
+                         major, schema_major));
+    if (!has_attribute(file, "complete") || integer_attribute(file, "complete") != 1)
+        fail("it is incomplete: its writer did not finish");
+
+    Results results;
+    results.run_uuid = text_attribute(file, "run_uuid");
+    results.created_utc = text_attribute(file, "created_utc");
+    results.sweep_hash = text_attribute(file, "sweep_hash");
+    results.generator = text_attribute(file, "generator");
+    for_each_table([&](const auto& table) { get_table(file, table, results.*table.rows); });
+    get_texts(file, results.texts);
+    return results;
+}
+
+} // namespace
+
+Results read(const fs::path& file) try {
+    if (!fs::exists(file))
+        fail("no such file");
+    if (!fs::is_regular_file(file))
+        fail("not a regular file");
+    if (fs::file_size(file) == 0)
+        fail("the file is empty");
+    if (seal_is_broken(file))
+        fail("it is damaged: its content is not what was written (checksum); use another copy");
+    const Silence silence;
+    if (checked(H5Fis_hdf5(file.c_str()), "opening it") == 0)
+        fail("not an HDF5 file, or cut off within its first bytes");
+    // The core driver takes the whole file into memory: no lock, and no way back to the disk.
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");
+    checked(H5Pset_fapl_core(access, /*increment=*/4096, /*backing_store=*/false), "file access");
+    const Handle handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), H5Fclose,
+                        "not a readable HDF5 file");
+    return read_open(handle);
+} catch (const std::system_error& error) {
+    throw std::runtime_error(
+        fmt::format("cannot read result file '{}': {}", file.string(), error.code().message()));
+} catch (const std::exception& error) {
+    throw std::runtime_error(
+        fmt::format("cannot read result file '{}': {}", file.string(), error.what()));
+}
+
+} // namespace boxwood::results

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "results/results.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <variant>
+#include <vector>
+
+/// The one description of every table. Writing, reading and the check of README.md all follow it:
+/// a new column is one line in schema.cpp (and the member it names).
+namespace boxwood::results {
+
+inline constexpr std::string_view format_name = "boxwood-results";
+inline constexpr std::uint32_t schema_major = 1, schema_minor = 0;
+
+/// One column of a table of `Row`s.
+template <class Row> struct Column {
+    std::string_view name;
+    std::variant<std::uint32_t Row::*, std::uint64_t Row::*, double Row::*, std::string Row::*>
+        member;
+    std::string_view unit, summary;
+    std::size_t width = 0; ///< bytes, for strings alone; a longer one is an error, never cut
+};
+
+/// One compound dataset of the file.
+template <class Row> struct Table {
+    std::string_view name, summary;
+    std::vector<Row> Results::*rows;
+    std::vector<Column<Row>> columns;
+};
+
+using Tables =
+    std::tuple<Table<Env>, Table<SceneRow>, Table<Variant>, Table<Cell>, Table<Shard>,
+               Table<Sample>, Table<Counter>, Table<Check>, Table<TreeRow>, Table<Comparison>>;
+const Tables& tables();
+
+/// Calls visit(table) for every table, in the order of results.h.
+template <class Visit> void for_each_table(Visit&& visit) {
+    std::apply([&](const auto&... table) { (visit(table), ...); }, tables());
+}
+
+} // namespace boxwood::results

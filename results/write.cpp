@@ -1,0 +1,263 @@
+#include "results/handle.h"
+#include "results/results.h"
+#include "results/schema.h"
+#include "results/seal.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstddef>
+#include <cstring>
+#include <system_error>
+#include <type_traits>
+
+namespace boxwood::results {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr hsize_t rows_per_chunk = 4096;
+
+[[noreturn]] void fail(std::string_view cause) { throw std::runtime_error(std::string(cause)); }
+
+template <class Row> std::size_t size_of(const Column<Row>& column) {
+    return std::visit(
+        [&]<class Value>(Value Row::*) {
+            return std::is_same_v<Value, std::string> ? column.width : sizeof(Value);
+        },
+        column.member);
+}
+
+template <class Row> Handle type_of(const Column<Row>& column) {
+    return std::visit(
+        [&]<class Value>(Value Row::*) {
+            if constexpr (std::is_same_v<Value, std::string>)
+                return string_type(column.width);
+            else
+                return Handle(H5Tcopy(std::is_same_v<Value, double>          ? H5T_NATIVE_DOUBLE
+                                      : std::is_same_v<Value, std::uint32_t> ? H5T_NATIVE_UINT32
+                                                                             : H5T_NATIVE_UINT64),
+                              H5Tclose, column.name);
+        },
+        column.member);
+}
+
+/// The rows as the packed records of the dataset.
+template <class Row>
+std::vector<std::byte> encode(const Table<Row>& table, const std::vector<Row>& rows,
+                              std::size_t record_size) {
+    std::vector<std::byte> records(rows.size() * record_size); // zero bytes pad the strings
+    std::byte* out = records.data();
+    for (const Row& row : rows)
+        for (const auto& column : table.columns) {
+            std::visit(
+                [&]<class Value>(Value Row::*member) {
+                    const Value& value = row.*member;
+                    if constexpr (!std::is_same_v<Value, std::string>) {
+                        std::memcpy(out, &value, sizeof value);
+                        return;
+                    } else if (value.size() > column.width) {
+                        fail(fmt::format("{}.{}: \"{:.40}...\" has {} bytes, the column holds {}",
+                                         table.name, column.name, value, value.size(),
+                                         column.width));
+                    } else if (value.find('\0') != std::string::npos) {
+                        fail(fmt::format("{}.{}: \"{:.40}\" holds a zero byte", table.name,
+                                         column.name, value.c_str()));
+                    } else {
+                        std::copy_n(reinterpret_cast<const std::byte*>(value.data()), value.size(),
+                                    out);
+                    }
+                },
+                column.member);
+            out += size_of(column);
+        }
+    return records;
+}
+
+void put_attribute(hid_t object, const char* name, hid_t type, const void* value) {
+    const Handle space(H5Screate(H5S_SCALAR), H5Sclose, name);
+    const Handle attribute(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT),
+                           H5Aclose, name);
+    checked(H5Awrite(attribute, type, value), name);
+}
+
+void put_text(hid_t object, const char* name, std::string_view value) {
+    if (value.find('\0') != std::string_view::npos)
+        fail(fmt::format("attribute {} holds a zero byte", name));
+    const std::string terminated(value);
+    const char* pointer = terminated.c_str();
+    put_attribute(object, name, text_type(), &pointer);
+}
+
+/// {"column": "value", ...}; the texts of schema.cpp need no escapes.
+template <class Row>
+std::string json_of(const Table<Row>& table, std::string_view Column<Row>::*text) {
+    std::string json;
+    for (const auto& column : table.columns)
+        json +=
+            fmt::format("{}\"{}\": \"{}\"", json.empty() ? "{" : ", ", column.name, column.*text);
+    return json + "}";
+}
+
+template <class Row>
+void put_table(hid_t file, const Table<Row>& table, const std::vector<Row>& rows) {
+    const std::string name(table.name);
+    std::size_t record_size = 0;
+    for (const auto& column : table.columns)
+        record_size += size_of(column);
+    const Handle type(H5Tcreate(H5T_COMPOUND, record_size), H5Tclose, name);
+    std::size_t offset = 0;
+    for (const auto& column : table.columns) {
+        checked(H5Tinsert(type, std::string(column.name).c_str(), offset, type_of(column)), name);
+        offset += size_of(column);
+    }
+
+    const hsize_t n = rows.size(), unlimited = H5S_UNLIMITED;
+    const hsize_t chunk = n == 0 ? rows_per_chunk : std::min(n, rows_per_chunk);
+    const Handle space(H5Screate_simple(1, &n, &unlimited), H5Sclose, name);
+    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
+    checked(H5Pset_chunk(creation, 1, &chunk), name);
+    checked(H5Pset_shuffle(creation), name);
+    checked(H5Pset_deflate(creation, 1), name);
+    checked(H5Pset_fletcher32(creation), name);
+    checked(H5Pset_obj_track_times(creation, false), name);
+    const Handle dataset(
+        H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose,
+        name);
+    const auto records = encode(table, rows, record_size);
+    if (n > 0)
+        checked(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, records.data()), name);
+    put_text(dataset, "summary", table.summary);
+    put_text(dataset, "units", json_of(table, &Column<Row>::unit));
+    put_text(dataset, "columns", json_of(table, &Column<Row>::summary));
+}
+
+void put_texts(hid_t file, const std::map<std::string, std::string>& texts) {
+    const Handle group(H5Gcreate2(file, "text", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
+                       "text");
+    const Handle type = text_type();
+    const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "text");
+    for (const auto& [name, value] : texts) {
+        if (name.empty() || name == "." ||
+            name.find_first_of(std::string_view("/\0", 2)) != name.npos)
+            fail(fmt::format("text: \"{}\" cannot be the name of a text", name));
+        if (value.find('\0') != std::string::npos)
+            fail(fmt::format("text/{} holds a zero byte", name));
+        const Handle dataset(
+            H5Dcreate2(group, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+            H5Dclose, name);
+        const char* pointer = value.c_str();
+        checked(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &pointer), name);
+    }
+}
+
+/// A file descriptor; closes on destruction, unless closed before. Failures throw system_error.
+class Descriptor {
+  public:
+    explicit Descriptor(int fd) : fd_(fd) { require(fd >= 0); }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    ~Descriptor() {
+        if (fd_ >= 0)
+            ::close(fd_);
+    }
+    int number() const { return fd_; }
+    /// All that stands in `source`, and a seal.
+    void copy_sealed(const Descriptor& source) {
+        std::array<std::byte, 1 << 16> block;
+        Seal seal;
+        for (off_t offset = 0;;) {
+            const ssize_t n = ::pread(source.fd_, block.data(), block.size(), offset);
+            require(n >= 0);
+            if (n == 0)
+                return write(seal.bytes());
+            const auto part = std::span(block).first(static_cast<std::size_t>(n));
+            seal.add(part);
+            write(part);
+            offset += n;
+        }
+    }
+    void sync() { require(::fsync(fd_) == 0 || errno == EINVAL); } // EINVAL: nothing to sync
+    void close() { require(::close(std::exchange(fd_, -1)) == 0); }
+
+  private:
+    void write(std::span<const std::byte> bytes) {
+        while (!bytes.empty()) {
+            const ssize_t n = ::write(fd_, bytes.data(), bytes.size());
+            require(n >= 0);
+            bytes = bytes.subspan(static_cast<std::size_t>(n));
+        }
+    }
+    static void require(bool fine) {
+        if (!fine)
+            throw std::system_error(errno, std::generic_category());
+    }
+    int fd_;
+};
+
+/// Writes the HDF5 file to a memory file. HDF5 defers writes until the file is closed, and does not
+/// get over one that fails (a full disk) then. (Its own driver for files in memory, core, hands out
+/// an image with a wrong superblock checksum in HDF5 1.10.8.)
+void write_image(const Results& results, const Descriptor& memory) {
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");
+    checked(H5Pset_fapl_stdio(access), "file access"); // opens links such as those of /proc
+    checked(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110), "file access");
+    const auto name = fmt::format("/proc/self/fd/{}", memory.number());
+    Handle file(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "new file");
+    put_text(file, "format", format_name);
+    put_attribute(file, "schema_major", H5T_NATIVE_UINT32, &schema_major);
+    put_attribute(file, "schema_minor", H5T_NATIVE_UINT32, &schema_minor);
+    put_text(file, "run_uuid", results.run_uuid);
+    put_text(file, "created_utc", results.created_utc);
+    put_text(file, "sweep_hash", results.sweep_hash);
+    put_text(file, "generator", results.generator);
+    for_each_table([&](const auto& table) { put_table(file, table, results.*table.rows); });
+    put_texts(file, results.texts);
+    const std::uint32_t complete = results.complete;
+    put_attribute(file, "complete", H5T_NATIVE_UINT32, &complete);
+    file.close("closing the file");
+}
+
+/// Replaces `file` by the content, as a whole or not at all.
+void replace(const fs::path& file, const Descriptor& content) {
+    const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+    if (!fs::exists(folder))
+        fail(fmt::format("the folder '{}' does not exist; create it first", folder.string()));
+    if (fs::exists(file) && !fs::is_regular_file(file))
+        fail("it exists and is not a regular file; choose another name");
+    const fs::path temporary = file.string() + fmt::format(".tmp-{}", ::getpid());
+    try {
+        Descriptor out(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+        out.copy_sealed(content);
+        out.sync();
+        out.close();
+        fs::rename(temporary, file);
+    } catch (...) {
+        std::error_code ignored;
+        fs::remove(temporary, ignored);
+        throw;
+    }
+    Descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)).sync();
+}
+
+} // namespace
+
+void write(const fs::path& file, const Results& results) try {
+    const Silence silence;
+    const Descriptor image(::memfd_create("boxwood-results", MFD_CLOEXEC));
+    write_image(results, image);
+    replace(fs::exists(file) ? fs::canonical(file) : file, image); // a link stays a link
+} catch (const std::system_error& error) {
+    throw std::runtime_error(
+        fmt::format("cannot write result file '{}': {}", file.string(), error.code().message()));
+} catch (const std::exception& error) {
+    throw std::runtime_error(
+        fmt::format("cannot write result file '{}': {}", file.string(), error.what()));
+}
+
+} // namespace boxwood::results
