@@ -6,13 +6,20 @@
 namespace boxwood {
 namespace {
 
-/// x, y, z and a lane to spare: one register on every 64-bit machine (GCC and Clang vector type).
-/// The spare lane of a Prim is not a coordinate; it takes part in minima alone, never in
-/// arithmetic.
+/// x, y, z and a lane to spare: one register on every 64-bit machine (GCC and Clang vector types).
+/// The spare lane of a Prim is not a coordinate. It takes part in minima; for arithmetic it is
+/// cleared, for read as a float it may be a denormal, which is slow, or NaN.
 using Float4 = float __attribute__((vector_size(16)));
+using Int4 = std::int32_t __attribute__((vector_size(16)));
+
 Float4 load(const float* p) { return *reinterpret_cast<const Float4*>(p); }
 Float4 min4(Float4 a, Float4 b) { return a < b ? a : b; }
 Float4 max4(Float4 a, Float4 b) { return a > b ? a : b; }
+Float4 splat(float x) { return Float4{x, x, x, x}; }
+Float4 centre(const Prim& p) {
+    const Float4 sum = load(&p.min.x) * .5f + load(&p.max.x) * .5f;
+    return reinterpret_cast<Float4>(reinterpret_cast<Int4>(sum) & Int4{-1, -1, -1, 0});
+}
 
 struct Bin {
     Float4 min, max;
@@ -41,75 +48,81 @@ struct Bin {
     }
 };
 
-/// Which bin a centre falls in. Clamped even where rounding "cannot" leave the range, and a NaN
-/// from 0 * inf (a denormal spread) goes to bin 0.
+/// Which bin the centre of a box falls in, on each axis. Clamped even where rounding "cannot" leave
+/// the range; a NaN from 0 * inf (a denormal spread) goes to bin 0.
 struct Binning {
-    float low, scale, last;
-    int operator()(float centre) const {
-        const float x = (centre - low) * scale;
-        return static_cast<int>(x > 0 ? (x < last ? x : last) : 0);
+    Float4 low, scale, last;
+    Int4 operator()(const Prim& p) const {
+        const Float4 x = (centre(p) - low) * scale;
+        return __builtin_convertvector(min4(max4(x, splat(0)), last), Int4);
     }
 };
 
-std::size_t split_binned(std::span<Prim> prims, int most_bins) {
-    Box centres;
-    for (const Prim& p : prims)
-        centres.extend(Vec3<float>{p.centre(0), p.centre(1), p.centre(2)});
-    const Vec3<float> low = centres.min, spread = centres.max - centres.min;
-    if (spread == Vec3<float>{})
-        return split_median(prims);
+struct Plane {
+    int axis = -1, bin = 0;
+};
 
-    const int n_bins = static_cast<int>(
-        std::min<std::size_t>(static_cast<std::size_t>(most_bins), 4 + prims.size() / 16));
-    Binning binning[3];
-    Bin bins[3][BinnedSahBuilder::most_bins];
+/// The cheapest plane between bins. Equal costs (points on a line have no area at all) go to the
+/// more even split; no plane (axis -1) if on every axis all items fall in one bin.
+Plane cheapest_plane(const Bin (&bins)[3][BinnedSahBuilder::most_bins], int n_bins,
+                     std::uint32_t n) {
+    Plane best;
+    double best_cost = std::numeric_limits<double>::infinity();
+    std::uint32_t best_larger = n;
     for (int axis = 0; axis < 3; ++axis) {
-        const float scale = spread[axis] > 0 ? static_cast<float>(n_bins) / spread[axis] : 0;
-        binning[axis] = {low[axis], scale, static_cast<float>(n_bins - 1)};
-        for (int b = 0; b < n_bins; ++b)
-            bins[axis][b].clear();
-    }
-    for (const Prim& p : prims) {
-        const Float4 lo = load(&p.min.x), hi = load(&p.max.x);
-        for (int axis = 0; axis < 3; ++axis)
-            bins[axis][binning[axis](p.centre(axis))].add(lo, hi);
-    }
-
-    // Equal costs (points on a line have no area at all) go to the more even split.
-    double best = std::numeric_limits<double>::infinity();
-    std::uint32_t best_larger = 0;
-    int best_axis = -1, best_bin = 0;
-    const auto n = static_cast<std::uint32_t>(prims.size());
-    for (int axis = 0; axis < 3; ++axis) {
-        if (!(spread[axis] > 0))
-            continue;
         double right_cost[BinnedSahBuilder::most_bins];
         Bin side;
         side.clear();
         for (int b = n_bins; --b > 0;) {
             side.add(bins[axis][b]);
-            right_cost[b] = side.count ? side.cost() : -1;
+            right_cost[b] = side.cost();
         }
         side.clear();
         for (int b = 1; b < n_bins; ++b) {
             side.add(bins[axis][b - 1]);
-            if (side.count == 0 || right_cost[b] < 0)
+            if (side.count == 0 || side.count == n)
                 continue;
             const double cost = side.cost() + right_cost[b];
             const std::uint32_t larger = std::max(side.count, n - side.count);
-            if (cost < best || (cost == best && larger < best_larger)) {
-                best = cost;
+            if (cost < best_cost || (cost == best_cost && larger < best_larger)) {
+                best = {axis, b};
+                best_cost = cost;
                 best_larger = larger;
-                best_axis = axis;
-                best_bin = b;
             }
         }
     }
-    if (best_axis < 0)
+    return best;
+}
+
+std::size_t split_binned(std::span<Prim> prims, int most_bins) {
+    Float4 low = centre(prims[0]), high = low;
+    for (const Prim& p : prims) {
+        const Float4 c = centre(p);
+        low = min4(c, low);
+        high = max4(c, high);
+    }
+    const int n_bins = static_cast<int>(
+        std::min<std::size_t>(static_cast<std::size_t>(most_bins), 4 + prims.size() / 16));
+    const Float4 spread = high - low;
+    const Binning bin_of{low, splat(static_cast<float>(n_bins)) / max4(spread, splat(0)),
+                         splat(static_cast<float>(n_bins - 1))};
+    Bin bins[3][BinnedSahBuilder::most_bins];
+    for (auto& axis : bins)
+        for (int b = 0; b < n_bins; ++b)
+            axis[b].clear();
+    for (const Prim& p : prims) {
+        const Float4 lo = load(&p.min.x), hi = load(&p.max.x);
+        const Int4 bin = bin_of(p);
+        bins[0][bin[0]].add(lo, hi);
+        bins[1][bin[1]].add(lo, hi);
+        bins[2][bin[2]].add(lo, hi);
+    }
+
+    const Plane plane = cheapest_plane(bins, n_bins, static_cast<std::uint32_t>(prims.size()));
+    if (plane.axis < 0)
         return split_median(prims);
-    const Binning& bin = binning[best_axis];
     const auto middle = std::partition(prims.begin(), prims.end(), [&](const Prim& p) {
-        return bin(p.centre(best_axis)) < best_bin;
+        return bin_of(p)[plane.axis] < plane.bin;
     });
     return static_cast<std::size_t>(middle - prims.begin());
 }
