@@ -1,0 +1,57 @@
+#include "kernels/kernels.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+namespace boxwood {
+namespace {
+
+bool is_word(std::string_view s) {
+    return !s.empty() && std::all_of(s.begin(), s.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+    });
+}
+
+TEST(Catalogue, RowsAreWordsOnceEachWithASummary) {
+    std::set<std::string> names;
+    for (const KernelInfo& info : kernels()) {
+        EXPECT_TRUE(is_word(info.family)) << info.family;
+        EXPECT_TRUE(is_word(info.name)) << info.name;
+        EXPECT_FALSE(info.summary.empty()) << info.name;
+        EXPECT_EQ(info.summary.find('\n'), std::string_view::npos);
+        EXPECT_TRUE(names.insert(std::string(info.family) + '/' + std::string(info.name)).second);
+    }
+    EXPECT_EQ(kernels().size(), names.size());
+}
+
+TEST(Catalogue, EveryFamilyIsListed) {
+    std::set<std::string_view> families;
+    for (const KernelInfo& info : kernels())
+        families.insert(info.family);
+    EXPECT_EQ(families, (std::set<std::string_view>{"box_box", "box_ray", "ray_triangle",
+                                                    "triangle_triangle"}));
+}
+
+TEST(Catalogue, EveryWordFindsItsKernel) {
+    for (const KernelInfo& info : ray_kernels()) {
+        EXPECT_EQ(info.family, "ray_triangle");
+        std::string_view found;
+        EXPECT_TRUE(with_kernel<RayKernels>(
+            info.name, [&]<RayKernel K>(std::type_identity<K>) { found = K::name; }));
+        EXPECT_EQ(found, info.name);
+    }
+    for (const KernelInfo& info : triangle_kernels()) {
+        EXPECT_EQ(info.family, "triangle_triangle");
+        std::string_view found;
+        EXPECT_TRUE(with_kernel<TriangleKernels>(
+            info.name, [&]<TriangleKernel K>(std::type_identity<K>) { found = K::name; }));
+        EXPECT_EQ(found, info.name);
+    }
+    EXPECT_FALSE(with_kernel<RayKernels>("watertigth", [](auto) { FAIL(); }));
+}
+
+} // namespace
+} // namespace boxwood
