@@ -70,6 +70,7 @@ template <class Manager> class FclContender final : public Contender {
   private:
     static std::unique_ptr<Manager> make_tree(const std::vector<Object*>& objects) {
         auto tree = std::make_unique<Manager>();
+        tree->tree_init_level = 2; // Morton order: a third of the build time of the default, 0
         tree->registerObjects(objects);
         tree->setup();
         return tree;
@@ -87,10 +88,10 @@ template <class Manager> ContenderEntry entry(std::string name, std::string summ
     e.library = "fcl";
     e.summary = std::move(summary);
     e.notes =
-        "build = registerObjects in bulk + setup, with the defaults: median split from the top "
-        "(the mean split never ends on identical boxes); query = collide with a callback that "
-        "appends the pair; boxes in double, equal to the scene's floats; one thread; a build "
-        "also frees the tree before it";
+        "build = registerObjects in bulk + setup, tree_init_level 2 (Morton order: the fastest "
+        "to build and no slower to query than the default median split); query = collide with a "
+        "callback that appends the pair; boxes in double, equal to the scene's floats; one "
+        "thread; a build also frees the tree before it";
     e.precision = "f64";
     e.unsupported = [](const Job& job) -> Unsupported {
         if (auto why = not_box_ask(job))
@@ -114,6 +115,7 @@ Peer fcl_peer() {
     peer.contenders.push_back(entry<fcl::DynamicAABBTreeCollisionManager_Array<double>>(
         "fcl.dynamic_aabb_tree_array",
         "FCL's DynamicAABBTreeCollisionManager_Array: nodes in one array"));
+    peer.contenders.back().notes += "; FCL 0.7 loses the memory of the leaves at each bulk build";
     return peer;
 }
 
