@@ -41,10 +41,12 @@ struct Bin {
         max = max4(other.max, max);
         count += other.count;
     }
-    /// In double: no overflow for finite boxes. 0 for an empty bin.
+    /// Items times half area. For an empty bin it means nothing.
     double cost() const {
-        const Box box{{min[0], min[1], min[2]}, {max[0], max[1], max[2]}};
-        return static_cast<double>(count) * box.half_area();
+        const Float4 d = max - min;
+        const double x = static_cast<double>(d[0]), y = static_cast<double>(d[1]),
+                     z = static_cast<double>(d[2]);
+        return static_cast<double>(count) * (x * y + y * z + z * x);
     }
 };
 
