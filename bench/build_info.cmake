@@ -25,7 +25,7 @@ foreach(name IN LISTS cache_names)
 endforeach()
 file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/cmake_cache.h @ONLY CONTENT
 "// Made by bench/build_info.cmake.
-#define BOXWOOD_CMAKE_CACHE R\"cache(@cache_text@)cache\"
+inline constexpr char cmake_cache[] = R\"cache(@cache_text@)cache\";
 ")
 
 add_custom_target(boxwood_git_commit

@@ -57,7 +57,7 @@ std::vector<std::string> isas_supported() { return target_names(hwy::SupportedTa
 
 std::string isa_used() { return target_names(hwy::SupportedTargets() & HWY_TARGETS).at(0); }
 
-std::string cmake_cache_text() { return BOXWOOD_CMAKE_CACHE; }
+std::string cmake_cache_text() { return cmake_cache; }
 
 std::string lscpu_text() {
     struct Close {

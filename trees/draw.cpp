@@ -1,6 +1,7 @@
 #include "trees/draw.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <vector>
 
@@ -9,16 +10,27 @@ namespace {
 
 constexpr std::uint32_t most_named = 8;
 
-std::string interval(float low, float high) {
-    char text[64];
-    std::snprintf(text, sizeof text, "[%.6g, %.6g]", static_cast<double>(low),
-                  static_cast<double>(high));
-    return text;
+/// A quantum for coordinates that leaves the largest of the box four digits, a power of ten.
+double quantum_of(const Box& box) {
+    double largest = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float v : {box.min[axis], box.max[axis]})
+            largest = std::max(largest, std::abs(static_cast<double>(v)));
+    return largest > 0 ? std::pow(10, std::floor(std::log10(largest)) - 3) : 1;
 }
 
-std::string box_text(const Box& box) {
-    return "x " + interval(box.min.x, box.max.x) + "  y " + interval(box.min.y, box.max.y) +
-           "  z " + interval(box.min.z, box.max.z);
+std::string box_text(const Box& box, double quantum) {
+    const auto rounded = [&](float v) {
+        return std::round(static_cast<double>(v) / quantum) * quantum + 0; // + 0: no "-0"
+    };
+    std::string text;
+    for (int axis = 0; axis < 3; ++axis) {
+        char part[80];
+        std::snprintf(part, sizeof part, "%s%c [%.5g, %.5g]", axis ? "  " : "", "xyz"[axis],
+                      rounded(box.min[axis]), rounded(box.max[axis]));
+        text += part;
+    }
+    return text;
 }
 
 /// Columns on the terminal of UTF-8 text: its bytes but the continuation bytes.
@@ -61,11 +73,12 @@ std::string draw(const Tree& tree, std::span<const std::string> names) {
     std::vector<Line> stack{{0, "", ""}};
     std::vector<std::pair<std::string, std::string>> rows;
     std::size_t widest = 0;
+    const double quantum = quantum_of(tree.nodes[0].box);
     while (!stack.empty()) {
         const Line line = std::move(stack.back());
         stack.pop_back();
         rows.emplace_back(line.stem + describe(tree, line.node, names),
-                          box_text(tree.nodes[line.node].box));
+                          box_text(tree.nodes[line.node].box, quantum));
         widest = std::max(widest, width(rows.back().first));
         if (tree.is_leaf(line.node))
             continue;

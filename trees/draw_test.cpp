@@ -46,6 +46,15 @@ TEST(Draw, EmptyAndSingle) {
     EXPECT_EQ(draw(one), "0  x [0, 1]  y [0, 1]  z [0, 1]\n");
 }
 
+TEST(Draw, CoordinatesAreRoundedToTheSizeOfTheWhole) {
+    Tree one(1);
+    one.order[0] = 0;
+    one.nodes[0] = {{{-1e-9f, 0.123456f, -2e-8f}, {1e-15f, 1.99996f, 7}}, 0, 1};
+    EXPECT_EQ(draw(one), "0  x [0, 0]  y [0.123, 2]  z [0, 7]\n");
+    one.nodes[0].box = {{-1e36f, -12, 1e-30f}, {3e38f, 12, 1}};
+    EXPECT_EQ(draw(one), "0  x [-1e+36, 3e+38]  y [0, 0]  z [0, 0]\n");
+}
+
 TEST(Draw, RefusesAWrongNumberOfNames) {
     const std::vector<std::string> names{"ant", "bee"};
     EXPECT_THROW(draw(three(), names), std::invalid_argument);

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "bench/machine.h"
+
+#include <string>
+#include <vector>
+
+namespace boxwood::bench {
+
+enum class Level { ok, note, warn };
+
+/// One thing that was looked at: what it is, and what to do about it if it spoils timings.
+struct Finding {
+    Level level;
+    std::string name, value;
+    std::string advice; ///< empty where nothing is to be done
+};
+
+/// What of the machine spoils timings.
+std::vector<Finding> examine(const Machine& machine);
+
+/// The same of this program and the place where results would go.
+std::vector<Finding> examine_program();
+std::vector<Finding> examine_disk(const std::filesystem::path& folder);
+
+/// What `boxwood doctor` prints; measures the memory bandwidth (about 0.3 s).
+std::string doctor(bool json);
+
+} // namespace boxwood::bench

@@ -1,0 +1,188 @@
+#include "bench/commands/list.h"
+
+#include "bench/commands/command.h"
+#include "bench/contender.h"
+#include "bench/json.h"
+#include "kernels/catalogue.h"
+#include "scenes/suggest.h"
+#include "trees/builder.h"
+#include "trees/layout.h"
+
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <utility>
+#include <vector>
+
+namespace boxwood::bench {
+namespace {
+
+/// One line of a catalogue; `more` holds further JSON members, `notes` further indented lines.
+struct Row {
+    std::string name, summary;
+    std::vector<std::pair<std::string, std::string>> more;
+    std::vector<std::string> notes;
+};
+using Rows = std::vector<Row>;
+
+/// The rows of a catalogue of which no more is said than name and summary.
+template <class Entries> Rows plain(const Entries& entries) {
+    Rows rows;
+    for (const auto& entry : entries)
+        rows.push_back({std::string(entry.name), std::string(entry.summary), {}, {}});
+    return rows;
+}
+
+Rows builder_rows() {
+    Rows rows;
+    for (const BuilderEntry& builder : builders()) {
+        Row& row =
+            rows.emplace_back(Row{std::string(builder.name), std::string(builder.summary), {}, {}});
+        std::string settings;
+        for (const SettingInfo& s : builder.settings) {
+            settings += fmt::format(
+                "{}{{\"name\":{},\"summary\":{},\"default\":{},\"least\":{},\"most\":{}}}",
+                settings.empty() ? "" : ",", json_string(s.name), json_string(s.summary),
+                json_number(s.default_value), json_number(s.least), json_number(s.most));
+            row.notes.push_back(fmt::format("{} = {} ({} to {}): {}", s.name, s.default_value,
+                                            s.least, s.most, s.summary));
+        }
+        row.more.emplace_back("settings", "[" + settings + "]");
+    }
+    return rows;
+}
+
+Rows kernel_rows() {
+    Rows rows;
+    for (const KernelInfo& kernel : kernels())
+        rows.push_back(
+            {std::string(kernel.name),
+             fmt::format("{}, {}: {}", kernel.family, to_string(kernel.promise), kernel.summary),
+             {{"family", json_string(kernel.family)},
+              {"promise", json_string(to_string(kernel.promise))}},
+             {}});
+    return rows;
+}
+
+Rows peer_rows() {
+    Rows rows;
+    for (const Peer& peer : peers()) {
+        Row& row = rows.emplace_back(Row{
+            peer.name, fmt::format("{} ({}; {})", peer.summary, peer.version, peer.build), {}, {}});
+        std::string contenders;
+        for (const ContenderEntry& c : peer.contenders) {
+            contenders += fmt::format("{}{{\"name\":{},\"summary\":{},\"notes\":{}}}",
+                                      contenders.empty() ? "" : ",", json_string(c.name),
+                                      json_string(c.summary), json_string(c.notes));
+            row.notes.push_back(c.name + ": " + c.summary);
+        }
+        row.more = {{"present", "true"},
+                    {"version", json_string(peer.version)},
+                    {"build", json_string(peer.build)},
+                    {"contenders", "[" + contenders + "]"}};
+    }
+    for (const std::string_view name : absent_peers())
+        rows.push_back({std::string(name),
+                        "absent: its package was not found when boxwood was built "
+                        "(./scripts/setup installs it)",
+                        {{"present", "false"}},
+                        {}});
+    return rows;
+}
+
+struct Catalogue {
+    std::string_view name, summary;
+    Rows (*rows)();
+    std::string_view if_empty = "";
+};
+
+constexpr std::array catalogues{
+    Catalogue{"builders", "make the canonical tree from boxes", builder_rows},
+    Catalogue{"layouts", "the tree in memory, as a walk likes it", [] { return plain(layouts()); }},
+    Catalogue{"traversals", "walk layouts and hand what they find to a sink",
+              [] { return plain(traversals()); }},
+    Catalogue{"kernels", "decide about one primitive or pair", kernel_rows},
+    Catalogue{"scenes", "make the same input on every machine",
+              [] { return plain(scene_generators()); }},
+    Catalogue{"effects", "move bodies from frame to frame", [] { return Rows{}; },
+              "none yet: every scene is static"},
+    Catalogue{"asks", "what is wanted of a scene", [] { return plain(asks()); }},
+    Catalogue{"executors", "where work runs", [] { return plain(executors()); }},
+    Catalogue{"peers", "libraries that are timed and checked beside ours", peer_rows},
+    Catalogue{"families", "hard cases for kernels", [] { return Rows{}; },
+              "none yet: the hard-case corpus is not built"},
+};
+
+std::string as_text(const Catalogue& catalogue, const std::string& indent) {
+    const Rows rows = catalogue.rows();
+    if (rows.empty())
+        return fmt::format("{}({})\n", indent, catalogue.if_empty);
+    std::size_t width = 0;
+    for (const Row& row : rows)
+        width = std::max(width, row.name.size());
+    std::string text;
+    for (const Row& row : rows) {
+        text += fmt::format("{}{:<{}}  {}\n", indent, row.name, width, row.summary);
+        for (const std::string& note : row.notes)
+            text += fmt::format("{}{:<{}}    {}\n", indent, "", width, note);
+    }
+    return text;
+}
+
+std::string as_json(const Catalogue& catalogue) {
+    std::string text;
+    for (const Row& row : catalogue.rows()) {
+        text += fmt::format("{}{{\"name\":{},\"summary\":{}", text.empty() ? "" : ",",
+                            json_string(row.name), json_string(row.summary));
+        for (const auto& [key, value] : row.more)
+            text += fmt::format(",{}:{}", json_string(key), value);
+        text += "}";
+    }
+    return "[" + text + "]";
+}
+
+} // namespace
+
+std::span<const std::string_view> catalogue_names() {
+    static const std::vector<std::string_view> names = [] {
+        std::vector<std::string_view> list;
+        for (const Catalogue& catalogue : catalogues)
+            list.push_back(catalogue.name);
+        return list;
+    }();
+    return names;
+}
+
+std::string list_catalogues(std::string_view name, bool json) {
+    if (!name.empty()) {
+        const auto found = std::ranges::find(catalogues, name, &Catalogue::name);
+        if (found == catalogues.end())
+            throw BadInput(unknown_word("catalogue", name, catalogue_names()));
+        return json ? as_json(*found) + "\n" : as_text(*found, "");
+    }
+    std::string text;
+    for (const Catalogue& catalogue : catalogues)
+        text += json ? fmt::format("{}{}:{}", text.empty() ? "{" : ",\n ",
+                                   json_string(catalogue.name), as_json(catalogue))
+                     : fmt::format("{}{}: {}\n{}", text.empty() ? "" : "\n", catalogue.name,
+                                   catalogue.summary, as_text(catalogue, "  "));
+    return json ? text + "}\n" : text;
+}
+
+void add_list(CLI::App& app, int&) {
+    struct Options {
+        std::string catalogue;
+        bool json = false;
+    };
+    auto options = std::make_shared<Options>();
+    CLI::App* list = app.add_subcommand("list", "print the catalogues: what boxwood is made of");
+    list->add_option(
+        "catalogue", options->catalogue,
+        fmt::format("one of {}; all if not given", fmt::join(catalogue_names(), ", ")));
+    list->add_flag("--json", options->json,
+                   "a list of {\"name\",\"summary\"}; for all catalogues an object of such lists");
+    list->footer("Example: boxwood list builders");
+    list->callback([options] { std::cout << list_catalogues(options->catalogue, options->json); });
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,103 @@
+#include "bench/commands/query.h"
+
+#include "bench/commands/command.h"
+#include "scenes/suggest.h"
+
+#include <charconv>
+#include <thread>
+#include <vector>
+
+namespace boxwood::bench {
+namespace {
+
+template <class Entries> std::vector<std::string_view> words(const Entries& entries) {
+    std::vector<std::string_view> list;
+    for (const auto& entry : entries)
+        list.push_back(entry.name);
+    return list;
+}
+
+constexpr unsigned most_threads = 1024;
+constexpr std::size_t block_bytes = std::size_t{1} << 20;
+
+} // namespace
+
+void add_tree_options(CLI::App& app, TreeChoice& choice) {
+    const char* group = "How (the answers are the same for every choice)";
+    app.add_option("--builder", choice.builder, "a word of `boxwood list builders`")
+        ->capture_default_str()
+        ->group(group);
+    app.add_option("--layout", choice.layout, "a word of `boxwood list layouts`")
+        ->capture_default_str()
+        ->group(group);
+    app.add_option("--executor", choice.executor, "a word of `boxwood list executors`")
+        ->capture_default_str()
+        ->group(group);
+    app.add_option("--threads", choice.threads, "number of threads; all cores if not given")
+        ->check(CLI::Range(1u, most_threads))
+        ->group(group);
+}
+
+BuildFunction chosen_builder(const TreeChoice& choice) {
+    const BuilderEntry* entry = find_builder(choice.builder);
+    if (!entry)
+        throw BadInput(unknown_word("builder", choice.builder, words(builders())));
+    return entry->make({});
+}
+
+const LayoutEntry& chosen_layout(const TreeChoice& choice) {
+    const LayoutEntry* entry = find_layout(choice.layout);
+    if (!entry)
+        throw BadInput(unknown_word("layout", choice.layout, words(layouts())));
+    return *entry;
+}
+
+std::unique_ptr<Executor> chosen_executor(const TreeChoice& choice) {
+    const auto known = words(executors());
+    if (std::find(known.begin(), known.end(), choice.executor) == known.end())
+        throw BadInput(unknown_word("executor", choice.executor, known));
+    const unsigned all = choice.executor == "serial"
+                             ? 1
+                             : std::clamp(std::thread::hardware_concurrency(), 1u, most_threads);
+    return make_executor(choice.executor, choice.threads.value_or(all));
+}
+
+void add_format_options(CLI::App& app, Format& format) {
+    auto* header = app.add_flag("--header", format.header, "print a line of column names first");
+    app.add_flag("--json", format.json, "print one JSON object instead of lines")->excludes(header);
+}
+
+BlockWriter& BlockWriter::operator<<(std::string_view text) {
+    block_ += text;
+    if (block_.size() >= block_bytes)
+        flush();
+    return *this;
+}
+
+BlockWriter& BlockWriter::operator<<(std::uint32_t number) {
+    char digits[16];
+    return *this << std::string_view(digits,
+                                     std::to_chars(digits, digits + sizeof digits, number).ptr);
+}
+
+BlockWriter& BlockWriter::operator<<(float number) {
+    char digits[32];
+    return *this << std::string_view(digits,
+                                     std::to_chars(digits, digits + sizeof digits, number).ptr);
+}
+
+void BlockWriter::flush() {
+    out_.write(block_.data(), static_cast<std::streamsize>(block_.size()));
+    block_.clear();
+}
+
+void add_query(CLI::App& app, int&) {
+    CLI::App* query = app.add_subcommand("query", "answer one question about your own data");
+    query->require_subcommand(1);
+    query->footer("Answers go to stdout, one line per item; everything else goes to stderr.\n"
+                  "Example: boxwood query pairs boxes.csv");
+    add_query_pairs(*query);
+    add_query_rays(*query);
+}
+
+} // namespace boxwood::bench

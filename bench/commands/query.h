@@ -1,0 +1,76 @@
+#pragma once
+
+#include "trees/builder.h"
+#include "trees/layout.h"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <optional>
+#include <ostream>
+#include <string>
+
+namespace boxwood::bench {
+
+/// How a query is to be answered; every choice gives the same answers.
+struct TreeChoice {
+    std::string builder = "binned_sah", layout = "wide8", executor = "tbb";
+    std::optional<unsigned> threads; ///< all cores if not given (`serial`: one)
+};
+
+/// The options --builder, --layout, --executor and --threads.
+void add_tree_options(CLI::App& app, TreeChoice& choice);
+
+/// What the words of a choice stand for. Throw BadInput, with a suggestion, for an unknown word.
+BuildFunction chosen_builder(const TreeChoice& choice);
+const LayoutEntry& chosen_layout(const TreeChoice& choice);
+std::unique_ptr<Executor> chosen_executor(const TreeChoice& choice);
+
+/// How answers are printed.
+struct Format {
+    bool header = false; ///< a line of column names first
+    bool json = false;   ///< one object instead of lines
+};
+void add_format_options(CLI::App& app, Format& format);
+
+/// Collects text and hands it on in large pieces.
+class BlockWriter {
+  public:
+    explicit BlockWriter(std::ostream& out) : out_(out) {}
+    ~BlockWriter() { flush(); }
+    BlockWriter(const BlockWriter&) = delete;
+    BlockWriter& operator=(const BlockWriter&) = delete;
+
+    BlockWriter& operator<<(std::string_view text);
+    BlockWriter& operator<<(std::uint32_t number);
+    BlockWriter& operator<<(float number); ///< shortest form that reads back as the same float
+    void flush();
+
+  private:
+    std::ostream& out_;
+    std::string block_;
+};
+
+struct PairsQuery {
+    std::string boxes; ///< a file of rows min_x,min_y,min_z,max_x,max_y,max_z; - for standard input
+    TreeChoice tree;
+    Format format;
+    bool count = false; ///< only how many
+};
+/// Prints every unordered pair of boxes that share a point, once, sorted. Exact in double.
+void run(const PairsQuery& query, std::ostream& out);
+void add_query_pairs(CLI::App& query);
+
+struct RaysQuery {
+    std::string mesh; ///< a mesh file
+    std::string rays; ///< a file of rows ox,oy,oz,dx,dy,dz[,tmax]; - for standard input
+    TreeChoice tree;
+    Format format;
+    std::string kernel = "watertight";
+    bool any = false; ///< only whether a ray hits
+};
+/// Prints for each ray its nearest triangle, or whether there is one.
+void run(const RaysQuery& query, std::ostream& out);
+void add_query_rays(CLI::App& query);
+
+} // namespace boxwood::bench

@@ -1,0 +1,148 @@
+/// `boxwood query pairs`: boxes in double, answers exact in double, by a tree of floats.
+///
+/// Each box is put into a float box f: down(min), up(max), then clamped to the finite floats. Both
+/// maps are monotone, and down(x) <= up(x) for every x, so from a.min <= b.max in double follows
+/// down(a.min) <= down(b.max) <= up(b.max): boxes that share a point share one as floats, also
+/// those beyond the range of floats. So the tree misses no pair; what it finds too much, the
+/// comparison of the double boxes drops.
+
+#include "bench/commands/command.h"
+#include "bench/commands/query.h"
+#include "bench/csv.h"
+#include "kernels/rounding.h"
+#include "trees/filtered_pairs.h"
+
+#include <fmt/format.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <limits>
+
+namespace boxwood::bench {
+namespace {
+
+constexpr CsvFormat row_format{"min_x,min_y,min_z,max_x,max_y,max_z", 6, 6};
+constexpr std::array names{"min_x", "min_y", "min_z", "max_x", "max_y", "max_z"};
+
+std::vector<Aabb<double>> read_boxes(const std::string& path) {
+    const std::string source = source_name(path);
+    std::vector<Aabb<double>> boxes;
+    read_csv(read_text(path), source, row_format, [&](std::span<const double> v, std::size_t line) {
+        for (std::size_t i = 0; i < 6; ++i)
+            if (!std::isfinite(v[i]))
+                throw_bad_row(source, line,
+                              fmt::format("{} is {}; a box needs finite numbers", names[i], v[i]));
+        for (std::size_t i = 0; i < 3; ++i)
+            if (v[i] > v[i + 3])
+                throw_bad_row(source, line,
+                              fmt::format("{} {} is larger than {} {}; swap them", names[i], v[i],
+                                          names[i + 3], v[i + 3]));
+        boxes.push_back({{v[0], v[1], v[2]}, {v[3], v[4], v[5]}});
+    });
+    return boxes;
+}
+
+Box to_float(const Aabb<double>& box) {
+    constexpr float most = std::numeric_limits<float>::max();
+    const Vec3<float> low{-most, -most, -most}, high{most, most, most};
+    const Box rounded = round_outward(box);
+    return {min(max(rounded.min, low), high), min(max(rounded.max, low), high)};
+}
+
+/// Throws BadInput if that many pairs cannot be held: the list, and the parts it is joined from.
+void require_memory(std::uint64_t pairs) {
+    const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+    const double have = static_cast<double>(pages) * static_cast<double>(page);
+    const double need = static_cast<double>(pairs) * 2 * sizeof(Pair);
+    if (need > have)
+        throw BadInput(fmt::format("{} pairs overlap; listing them takes {:.0f} GB of memory, this "
+                                   "machine has {:.0f}; --count only counts them",
+                                   pairs, need * 1e-9, have * 1e-9));
+}
+
+void print_lines(const std::vector<Pair>& pairs, BlockWriter& text) {
+    for (const Pair p : pairs)
+        text << p.a << "," << p.b << "\n";
+}
+
+void print_json(const std::vector<Pair>& pairs, BlockWriter& text) {
+    std::string_view separator = "";
+    for (const Pair p : pairs) {
+        text << separator << "[" << p.a << "," << p.b << "]";
+        separator = ",";
+    }
+}
+
+} // namespace
+
+void run(const PairsQuery& query, std::ostream& out) {
+    const BuildFunction build = chosen_builder(query.tree);
+    const LayoutEntry& layout_entry = chosen_layout(query.tree);
+    const std::unique_ptr<Executor> executor = chosen_executor(query.tree);
+    const std::vector<Aabb<double>> boxes = read_boxes(query.boxes);
+
+    std::vector<Box> float_boxes(boxes.size());
+    std::transform(boxes.begin(), boxes.end(), float_boxes.begin(), to_float);
+    const auto layout = layout_entry.make(build(float_boxes, *executor));
+    const auto truly_overlap = [&](Pair p) { return overlaps(boxes[p.a], boxes[p.b]); };
+
+    // Counting first is cheap beside printing, and makes sure that the list will fit.
+    CountPairs counter;
+    FilteredPairs counted(truly_overlap, counter);
+    layout->self_pairs(*executor, counted);
+    const std::string count = std::to_string(counter.count());
+
+    std::vector<Pair> pairs;
+    if (!query.count) {
+        require_memory(counter.count());
+        pairs.reserve(counter.count());
+        AppendPairs append(pairs);
+        FilteredPairs kept(truly_overlap, append);
+        layout->self_pairs(*executor, kept);
+        std::sort(pairs.begin(), pairs.end());
+    }
+
+    BlockWriter text(out);
+    if (query.format.json) {
+        text << "{\"boxes\":" << std::to_string(boxes.size()) << ",\"count\":" << count;
+        if (!query.count) {
+            text << ",\"pairs\":[";
+            print_json(pairs, text);
+            text << "]";
+        }
+        text << "}\n";
+        return;
+    }
+    if (query.format.header)
+        text << (query.count ? "count\n" : "i,j\n");
+    if (query.count)
+        text << count << "\n";
+    else
+        print_lines(pairs, text);
+}
+
+void add_query_pairs(CLI::App& query) {
+    auto options = std::make_shared<PairsQuery>();
+    CLI::App* pairs = query.add_subcommand(
+        "pairs", "every pair of boxes that share a point, as lines i,j with i < j, sorted");
+    pairs
+        ->add_option("BOXES.csv", options->boxes,
+                     "rows min_x,min_y,min_z,max_x,max_y,max_z, decimal or hex float, read as "
+                     "doubles; lines with # are passed over; - reads standard input")
+        ->required();
+    pairs->add_flag("--count", options->count, "print only how many pairs there are");
+    add_format_options(*pairs, options->format);
+    add_tree_options(*pairs, options->tree);
+    pairs->footer(
+        "Boxes are closed (one shared point counts), numbered from 0 by row. Truth is in\n"
+        "double: no pair is missed or added by rounding.\n\n"
+        "Example:\n"
+        "  printf '0,0,0,1,1,1\\n1,1,1,2,2,2\\n3,3,3,4,4,4\\n' | boxwood query pairs -\n"
+        "prints 0,1");
+    pairs->callback([options] { run(*options, std::cout); });
+}
+
+} // namespace boxwood::bench

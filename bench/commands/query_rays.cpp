@@ -1,0 +1,142 @@
+/// `boxwood query rays`: rays against the triangles of the user's mesh.
+
+#include "bench/commands/command.h"
+#include "bench/commands/query.h"
+#include "bench/csv.h"
+#include "kernels/catalogue.h"
+#include "scenes/mesh_file.h"
+#include "scenes/suggest.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <iostream>
+
+namespace boxwood::bench {
+namespace {
+
+constexpr CsvFormat row_format{"ox,oy,oz,dx,dy,dz[,tmax]", 6, 7};
+constexpr std::array names{"ox", "oy", "oz", "dx", "dy", "dz"};
+constexpr double most = 0x1p126; // beyond it the ray kernels make no promise
+
+/// Rays are rounded to floats, to nearest: the kernels' own numbers.
+std::vector<Ray<float>> read_rays(const std::string& path) {
+    const std::string source = source_name(path);
+    std::vector<Ray<float>> rays;
+    read_csv(read_text(path), source, row_format, [&](std::span<const double> v, std::size_t line) {
+        for (std::size_t i = 0; i < 6; ++i)
+            if (!(std::abs(v[i]) < most))
+                throw_bad_row(source, line,
+                              fmt::format("{} is {}; a ray needs finite numbers below 2^126 "
+                                          "(8.5e37) in size",
+                                          names[i], v[i]));
+        Ray<float> ray;
+        ray.origin = static_cast<Vec3<float>>(Vec3<double>{v[0], v[1], v[2]});
+        ray.direction = static_cast<Vec3<float>>(Vec3<double>{v[3], v[4], v[5]});
+        if (ray.direction == Vec3<float>{})
+            throw_bad_row(source, line,
+                          "the direction dx,dy,dz is zero as floats; a ray needs one, of any "
+                          "length above 1e-45");
+        if (v.size() == 7) {
+            if (!(v[6] >= 0))
+                throw_bad_row(
+                    source, line,
+                    fmt::format("tmax is {}; it must be 0 or more (or be left out)", v[6]));
+            ray.t_max = static_cast<float>(v[6]); // beyond all floats: infinity, no limit
+        }
+        rays.push_back(ray);
+    });
+    return rays;
+}
+
+void require_kernel(const std::string& word) {
+    std::vector<std::string_view> known;
+    for (const KernelInfo& kernel : ray_kernels())
+        known.push_back(kernel.name);
+    if (std::find(known.begin(), known.end(), word) == known.end())
+        throw BadInput(unknown_word("ray kernel", word, known));
+}
+
+void print_lines(std::span<const RayHit> hits, bool any, BlockWriter& text) {
+    for (const RayHit& hit : hits)
+        if (any)
+            text << (hit.hit() ? "1\n" : "0\n");
+        else if (hit.hit())
+            text << hit.triangle << "," << hit.t << "," << hit.u << "," << hit.v << "\n";
+        else
+            text << "miss\n";
+}
+
+void print_json(std::span<const RayHit> hits, bool any, BlockWriter& text) {
+    text << "{\"rays\":" << std::to_string(hits.size()) << ",\"hits\":"
+         << std::to_string(std::count_if(hits.begin(), hits.end(),
+                                         [](const RayHit& hit) { return hit.hit(); }))
+         << ",\"answers\":[";
+    std::string_view separator = "";
+    for (const RayHit& hit : hits) {
+        text << separator;
+        separator = ",";
+        if (any)
+            text << (hit.hit() ? "1" : "0");
+        else if (hit.hit())
+            text << "{\"triangle\":" << hit.triangle << ",\"t\":" << hit.t << ",\"u\":" << hit.u
+                 << ",\"v\":" << hit.v << "}";
+        else
+            text << "null";
+    }
+    text << "]}\n";
+}
+
+} // namespace
+
+void run(const RaysQuery& query, std::ostream& out) {
+    const BuildFunction build = chosen_builder(query.tree);
+    const LayoutEntry& layout_entry = chosen_layout(query.tree);
+    const std::unique_ptr<Executor> executor = chosen_executor(query.tree);
+    require_kernel(query.kernel);
+    const TriangleMesh mesh = load_mesh(query.mesh);
+    const std::vector<Ray<float>> rays = read_rays(query.rays);
+
+    std::vector<Box> boxes(mesh.triangles.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        boxes[i] = mesh.triangle(i).bounds();
+    const Tree tree = build(boxes, *executor);
+    const OrderedTriangles triangles(tree, mesh);
+    std::vector<RayHit> hits(rays.size());
+    layout_entry.make(tree)->rays(rays, query.any ? RayQuery::any : RayQuery::closest, query.kernel,
+                                  triangles, *executor, hits);
+
+    BlockWriter text(out);
+    if (query.format.json)
+        return print_json(hits, query.any, text);
+    if (query.format.header)
+        text << (query.any ? "hit\n" : "triangle,t,u,v\n");
+    print_lines(hits, query.any, text);
+}
+
+void add_query_rays(CLI::App& query) {
+    auto options = std::make_shared<RaysQuery>();
+    CLI::App* rays = query.add_subcommand(
+        "rays", "for each ray the nearest triangle of a mesh, as triangle,t,u,v or miss");
+    rays->add_option("MESH", options->mesh, "a mesh file (OBJ, PLY, STL)")->required();
+    rays->add_option(
+            "RAYS.csv", options->rays,
+            "rows ox,oy,oz,dx,dy,dz[,tmax], decimal or hex float, rounded to floats; lines "
+            "with # are passed over; - reads standard input")
+        ->required();
+    rays->add_flag("--any", options->any, "print only 1 or 0: whether the ray hits anything");
+    rays->add_option("--kernel", options->kernel, "a ray kernel of `boxwood list kernels`")
+        ->capture_default_str();
+    add_format_options(*rays, options->format);
+    add_tree_options(*rays, options->tree);
+    rays->footer(
+        "The hit point is origin + t * direction, and (1 - u - v) a + u b + v c on the\n"
+        "triangle (a, b, c), with 0 <= t <= tmax. Of hits at the same t the lowest triangle\n"
+        "is named. Triangles are numbered from 0, in the order of the file.\n\n"
+        "Example:\n"
+        "  echo 0,0,-10,0,0,1 | boxwood query rays model.obj -");
+    rays->callback([options] { run(*options, std::cout); });
+}
+
+} // namespace boxwood::bench

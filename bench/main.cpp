@@ -1,0 +1,171 @@
+/// The `boxwood` command: finds the subcommand, and turns whatever goes wrong into one line on
+/// stderr and the exit code that bench/commands/command.h names.
+
+#include "bench/commands/command.h"
+#include "bench/environment.h"
+#include "scenes/suggest.h"
+
+#include <fmt/format.h>
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+#include <vector>
+
+namespace boxwood::bench {
+namespace {
+
+constexpr const char* overview =
+    "AABB trees and triangle kernels, and an honest bench that shows what each one costs and how\n"
+    "right it is, beside FCL, Embree, CGAL and Bullet.";
+
+constexpr const char* examples =
+    "Start here:\n"
+    "  boxwood demo four-link              a tree explained step by step on a small robot\n"
+    "  boxwood query pairs boxes.csv       which of your own boxes overlap\n"
+    "  boxwood doctor                      what on this machine would spoil timings\n"
+    "  boxwood sweep --config bench/configs/quick.toml --out quick.h5\n"
+    "                                      time and check everything in about a minute\n"
+    "\n"
+    "`boxwood COMMAND --help` explains a command. Exit codes: 0 success, 1 a check failed, 2 bad\n"
+    "usage or input, 3 compare cannot tell, 130 interrupted.";
+
+std::string version_text() {
+    std::string text =
+        fmt::format("boxwood {}\ncommit    {}\ncompiler  {}, {}{}\nisa       {}\n", version(),
+                    git_commit(), compiler(), build_type(),
+                    sanitizers().empty() ? "" : fmt::format(", {}", sanitizers()), isa_used());
+    const char* label = "packages ";
+    for (const auto& [name, number] : packages()) {
+        text += fmt::format("{} {} {}\n", label, name, number);
+        label = "         ";
+    }
+    text.pop_back(); // CLI11 ends the line
+    return text;
+}
+
+std::vector<std::string_view> command_names(CLI::App& app) {
+    std::vector<std::string_view> names;
+    for (const CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
+        names.push_back(command->get_name());
+    return names;
+}
+
+/// Throws BadInput, with a suggestion, if the command line starts with commands that do not exist.
+/// CLI11 would only call them unexpected.
+void require_known_commands(CLI::App& app, int argc, char** argv) {
+    CLI::App* at = &app;
+    for (int i = 1; i < argc && *argv[i] != '-'; ++i) {
+        const auto names = command_names(*at);
+        if (names.empty())
+            return;
+        if (std::find(names.begin(), names.end(), argv[i]) == names.end())
+            throw BadInput(
+                unknown_word(at == &app ? "command" : at->get_name() + " command", argv[i], names));
+        at = at->get_subcommand(argv[i]);
+    }
+}
+
+/// "boxwood query pairs": the innermost command that was named.
+CLI::App* innermost(CLI::App& app, std::string& path) {
+    CLI::App* at = &app;
+    path = app.get_name();
+    while (!at->get_subcommands().empty()) {
+        at = at->get_subcommands().front();
+        path += " " + at->get_name();
+    }
+    return at;
+}
+
+/// What to say about a command line that CLI11 refuses.
+std::string complaint(CLI::App& app, const CLI::ParseError& error) {
+    std::string path, text = error.what();
+    CLI::App* command = innermost(app, path);
+    const std::vector<std::string> extra = app.remaining(true);
+    if (!extra.empty() && extra.front().starts_with("-")) {
+        std::vector<std::string_view> words;
+        std::vector<std::string> names;
+        for (const CLI::Option* option : command->get_options())
+            for (const std::string& name : option->get_lnames())
+                names.push_back("--" + name);
+        words.assign(names.begin(), names.end());
+        text = unknown_word("option", extra.front().substr(0, extra.front().find('=')), words);
+    }
+    return fmt::format("{} (`{} --help` explains it)", text, path);
+}
+
+int run(int argc, char** argv) {
+    CLI::App app(overview, "boxwood");
+    int exit_code = exit_success;
+    app.set_version_flag("--version", version_text, "version, commit, compiler and packages");
+    app.footer(examples);
+    app.require_subcommand(0, 1);
+    app.get_formatter()->column_width(32);
+    add_list(app, exit_code);
+    add_sweep(app, exit_code);
+    add_show(app, exit_code);
+    add_compare(app, exit_code);
+    add_merge(app, exit_code);
+    add_doctor(app, exit_code);
+    add_demo(app, exit_code);
+    add_query(app, exit_code);
+
+    if (argc < 2) {
+        std::cerr << app.help();
+        return exit_bad_input;
+    }
+    require_known_commands(app, argc, argv);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& asked) { // --help, --version
+        return app.exit(asked);
+    } catch (const CLI::ParseError& error) {
+        throw BadInput(complaint(app, error));
+    }
+    return exit_code;
+}
+
+int fail(const std::string& what) {
+    std::fflush(stdout);
+    fmt::print(stderr, "boxwood: error: {}\n", what);
+    return exit_bad_input;
+}
+
+/// Whether nobody reads what we write any more (`boxwood list | head -1`).
+bool reader_has_left() {
+    pollfd out{STDOUT_FILENO, POLLOUT, 0};
+    return poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0;
+}
+
+/// What was printed must have arrived: a full disk is an error, a reader who has seen enough is
+/// not.
+int finish(int exit_code) {
+    std::cout.flush();
+    const bool written = std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout.good();
+    if (written || reader_has_left())
+        return exit_code;
+    return fail("standard output: cannot write it all: is the disk full?");
+}
+
+} // namespace
+} // namespace boxwood::bench
+
+int main(int argc, char** argv) {
+    using namespace boxwood::bench;
+    // A closed pipe then is a failed write, which `finish` judges, and no sudden death.
+    std::signal(SIGPIPE, SIG_IGN);
+    try {
+        return finish(run(argc, argv));
+    } catch (const std::bad_alloc&) {
+        return fail("not enough memory");
+    } catch (const std::exception& error) {
+        return fail(error.what());
+    }
+}
