@@ -90,6 +90,11 @@ def cross_out(ax, x, y):
     ax.plot([x], [y], marker="x", markersize=11, color="#C00000", markeredgewidth=1.5, zorder=6)
 
 
+def title(ax, text):
+    """A panel's title, made smaller where it would run into the next panel."""
+    ax.set_title(text, fontsize=9.5 * min(1, 56 / len(text)))
+
+
 def log_ticks(low, high):
     """Round numbers in [low, high], few enough to be read: the coarsest of these sets with three."""
     decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)

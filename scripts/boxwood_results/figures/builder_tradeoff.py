@@ -56,7 +56,7 @@ def draw_panel(ax, job, cells, rows):
         count = math.ceil(pays[id(dear)])
         text = f"{count:,} {'query' if count == 1 else 'queries'}"
         joints.append((math.sqrt(x0 * x1), math.sqrt(y0 * y1), text, "#555555"))
-    ax.set_title(str(job))
+    style.title(ax, str(job))
     ax.set_xlabel(METRICS["build"].axis)
     ax.set_ylabel(METRICS["query"].axis)
     for cell in shown:

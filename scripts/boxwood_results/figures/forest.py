@@ -2,7 +2,7 @@
 
 import math
 
-from .. import style
+from .. import stats, style
 from ..findings import VERDICT_WORDS, findings, floor_text, ratio_text, rounds_text
 from ..metrics import METRICS
 from ..picture import Picture, Skip
@@ -29,12 +29,17 @@ def draw_marks(ax, comparisons, heights, floor):
         if comparison is None:
             continue
         ratio, peer = comparison.ratio, comparison.peer
-        strength = 1.0 if comparison.verdict != "cannot_tell" else 0.45
+        strength = 0.45 if comparison.verdict == stats.CANNOT_TELL else 1.0
         colour, marker = style.look(peer.family)
         if ratio.known:
             ax.plot([ratio.lo, ratio.hi], [height, height], color=colour, linewidth=1.8, alpha=strength, zorder=3)
         ax.plot([ratio.mid], [height], marker=marker, markersize=6.5, color=colour, alpha=strength,
                 markeredgecolor="white", markeredgewidth=0.6, zorder=4)
+
+
+def said_of(verdict):
+    words = VERDICT_WORDS[verdict]
+    return f"Boxwood {words}" if verdict in (stats.FASTER, stats.SLOWER) else words
 
 
 def ratio_axis(ax, comparisons):
@@ -59,7 +64,7 @@ def draw_one(run, ask, threads, found, floor):
             y -= ROW
             entries.append((y, finding, peer))
     height = -y + 0.12
-    names, panel, texts, top, bottom = 2.5, 2.9, 2.0, 0.35, 0.8
+    names, panel, texts, top, bottom = 2.5, 2.9, 2.35, 0.35, 0.8
     size = (names + 2 * (panel + texts), height + top + bottom)
     figure = style.plt.figure(figsize=size)
     rows = []
@@ -87,7 +92,7 @@ def draw_one(run, ask, threads, found, floor):
                 ax.text(1.03, at, said, transform=ax.get_yaxis_transform(), va="center", fontsize=7.5,
                         color="#777777")
                 continue
-            said = f"{comparison.text}  {VERDICT_WORDS[comparison.verdict]}"
+            said = f"{comparison.text}  {said_of(comparison.verdict)}"
             ax.text(1.03, at, said, transform=ax.get_yaxis_transform(), va="center", fontsize=7.5)
             rows.append((ask, finding.job.scene, finding.job.n, threads, comparison.ours.label, peer.label,
                          peer.library, phase, comparison.ratio.n, comparison.ratio.mid, comparison.ratio.lo,

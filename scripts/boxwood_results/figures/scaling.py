@@ -72,7 +72,7 @@ def draw_panel(ax, lines, phase, rows):
     style.time_axis(ax.yaxis, min([*all_times, *guide]), max([*all_times, *guide]))
     job = lines[0][-1].job
     threads = "1 thread" if job.threads == 1 else f"{job.threads} threads"
-    ax.set_title(f"{job.scene} · {job.ask} · {threads} · {phase}")
+    style.title(ax, f"{job.scene} · {job.ask} · {threads} · {phase}")
     ax.set_xlabel(METRICS["n"].axis)
     ax.set_ylabel(METRICS[phase].axis)
     return ends, fits

@@ -77,7 +77,7 @@ def draw_panel(ax, job, lines, rows):
     ax.set_xlim(1 - 0.04 * most, most * 1.03)
     ax.set_ylim(min(0.9, *(end[1] * 0.95 for end in ends)), max(highest, most) * 1.05)
     ax.set_xticks(sorted({1, *(cell.job.threads for _, line in lines for cell in line)}))
-    ax.set_title(f"{job.scene} {job.n:,} · {job.ask} · build and one query")
+    style.title(ax, f"{job.scene} {job.n:,} · {job.ask} · build and one query")
     ax.set_xlabel(METRICS["threads"].axis)
     ax.set_ylabel(METRICS["speedup"].axis)
     return ends

@@ -35,7 +35,7 @@ def scatter(ax, job, points, x_name, y_name, time_on_y):
         ax.plot([x], [y], **{**style.point_style(cell, 7), "linestyle": ""}, zorder=5)
         if cell.status == "wrong":
             style.cross_out(ax, x, y)
-    ax.set_title(str(job))
+    style.title(ax, str(job))
     ax.set_xlabel(METRICS[x_name].axis)
     ax.set_ylabel(METRICS[y_name].axis)
     labels.beside_points(ax, [(x, y, c.label, style.text_colour(c.family)) for c, x, y in points])

@@ -1,0 +1,111 @@
+"""setup, test and sweep: help and bad usage. Nothing is installed, built or measured here."""
+
+import os
+import re
+
+import pytest
+from conftest import SCRIPTS
+
+
+@pytest.mark.parametrize("command", ["setup", "test", "sweep"])
+def test_help_has_an_example(script, command):
+    done = script(command, "--help")
+    assert done.returncode == 0 and f"Example: scripts/{command} " in done.stdout and "Exit codes" in done.stdout
+
+
+@pytest.fixture
+def mesh(tmp_path):
+    file = tmp_path / "a.obj"
+    file.write_text("v 0 0 0\n")
+    return file
+
+
+@pytest.mark.parametrize(
+    "arguments, said",
+    [
+        (("setup", "--nix"), "unknown argument '--nix'"),
+        (("setup", "--preset"), "--preset needs a name"),
+        (("setup", "--preset", "nix"), "unknown preset 'nix': one of release, debug, tsan, ci"),
+        (("test", "nix"), "unknown argument 'nix'"),
+        (("sweep", "--nix"), "unknown argument '--nix'"),
+        (("sweep", "--only"), "--only needs a value"),
+        (("sweep", "--config", "nix.toml"), "no readable configuration file 'nix.toml'"),
+        (("sweep", "--quick", "--config", "x"), "exclude each other"),
+        (("sweep", "--config", "{config}", "--mesh", "nix.obj"), "no readable mesh file 'nix.obj'"),
+        (("sweep", "--config", "{config}", "--out", "/proc/nix/a.h5"), "the folder '/proc/nix' cannot be made"),
+        (("sweep", "--config", "{config}", "--out", "/proc/a.h5"), "the folder '/proc' cannot be written to"),
+        (("sweep", "--config={config}", "--out={config}/a.h5"), "cannot be made"),
+        (("sweep", "--config", "{config}", "--out", "a.hdf"), "ends in .h5"),
+    ],
+)
+def test_bad_usage_is_told_before_any_work(script, tmp_path, arguments, said):
+    config = tmp_path / "a.toml"
+    config.write_text("")
+    done = script(*(a.format(config=config) for a in arguments), cwd=tmp_path)
+    assert done.returncode == 2 and said in done.stderr, done.stderr
+    assert "setup:" not in done.stderr or arguments[0] == "setup"
+    assert [p.name for p in tmp_path.iterdir()] == ["a.toml"]
+
+
+def test_packages_are_listed_once_and_well_formed():
+    lines = (SCRIPTS / "packages.txt").read_text().splitlines()
+    words = [line.split("#")[0].split() for line in lines]
+    packages = [w[0] for w in words if w]
+    assert len(packages) == len(set(packages)) > 20
+    assert all(re.fullmatch(r"[a-z0-9+.-]+", name) for name in packages)
+    assert all(w[1:] in ([], ["peer"]) for w in words if w)
+
+
+def test_without_apt_the_list_is_said_and_nothing_installed(script, tmp_path):
+    """A PATH with no apt-get: setup says what the build needs, and goes on."""
+    for tool in ("bash", "dirname", "sed", "awk", "grep", "cat", "env"):
+        os.symlink(f"/usr/bin/{tool}", tmp_path / tool)
+    done = script("setup", "--no-build", env={"PATH": str(tmp_path)})
+    assert done.returncode == 0 and "not a Debian system" in done.stderr and "libhdf5-dev" in done.stderr
+
+
+def fake(folder, name, body):
+    file = folder / name
+    file.write_text(f"#!/bin/bash\n{body}\n")
+    file.chmod(0o755)
+
+
+def tools(folder, dpkg, apt):
+    """A PATH whose dpkg-query and apt-get are fakes that log what they are asked."""
+    fake(folder, "dpkg-query", dpkg)
+    fake(folder, "apt-get", f'echo "apt-get $*" >> {folder}/log\n{apt}')
+    fake(folder, "sudo", "exit 1")
+    return {"PATH": f"{folder}:/usr/bin:/bin"}
+
+
+ALL_BUT_HDF5 = 'for p in "${@:4}"; do [[ $p == libhdf5-dev ]] || echo "$p installed"; done'
+ALL_BUT_FCL = 'for p in "${@:4}"; do [[ $p == libfcl-dev ]] || echo "$p installed"; done'
+root_alone = pytest.mark.skipif(os.geteuid() != 0, reason="as another user setup would call sudo")
+
+
+def test_nothing_missing_means_no_apt(script, tmp_path):
+    env = tools(tmp_path, 'for p in "${@:4}"; do echo "$p installed"; done', "exit 1")
+    assert script("setup", "--no-build", env=env).returncode == 0
+    assert not (tmp_path / "log").exists()
+
+
+@root_alone
+def test_only_what_is_missing_is_installed(script, tmp_path):
+    env = tools(tmp_path, ALL_BUT_HDF5, "exit 0")
+    done = script("setup", "--no-build", env=env)
+    assert done.returncode == 0 and "installing libhdf5-dev\n" in done.stderr
+    log = (tmp_path / "log").read_text()
+    assert re.search(r" install -y --no-install-recommends libhdf5-dev$", log, re.M)
+
+
+@root_alone
+def test_without_a_network_the_command_is_printed(script, tmp_path):
+    done = script("setup", "--no-build", env=tools(tmp_path, ALL_BUT_HDF5, "exit 100"))
+    assert done.returncode == 2
+    assert "apt-get update && apt-get install -y --no-install-recommends libhdf5-dev" in done.stderr
+
+
+@root_alone
+def test_a_peer_that_cannot_be_had_is_no_error(script, tmp_path):
+    done = script("setup", "--no-build", env=tools(tmp_path, ALL_BUT_FCL, "exit 100"))
+    assert done.returncode == 0 and "going on without the peer package libfcl-dev" in done.stderr

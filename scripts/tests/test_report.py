@@ -1,0 +1,138 @@
+"""The report is one offline page; the summary says the findings; both survive odd files."""
+
+from html.parser import HTMLParser
+
+import pytest
+import synthetic
+
+VOID = {"meta", "path", "use", "image", "br", "link", "img", "hr", "circle", "rect", "stop"}
+
+
+class Page(HTMLParser):
+    """Collects tags and text, and checks that tags close in order."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.tags, self.text, self.ids = [], [], [], []
+        self.feed(text)
+        assert self.open == [], f"never closed: {self.open}"
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append((tag, dict(attrs)))
+        self.ids += [value for name, value in attrs if name == "id"]
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attrs):
+        self.tags.append((tag, dict(attrs)))
+        self.ids += [value for name, value in attrs if name == "id"]
+
+    def handle_endtag(self, tag):
+        if tag not in VOID:
+            assert self.open and self.open.pop() == tag, tag
+
+    def handle_data(self, data):
+        self.text.append(data)
+
+    def named(self, tag):
+        return [attrs for name, attrs in self.tags if name == tag]
+
+
+@pytest.fixture(scope="module")
+def page(full, script, tmp_path_factory):
+    out = tmp_path_factory.mktemp("report") / "report.html"
+    done = script("report", full, "--out", out)
+    assert done.returncode == 0, done.stderr
+    return out.read_text(encoding="utf-8")
+
+
+def test_it_needs_nothing_from_outside(page):
+    parsed = Page(page)
+    assert not parsed.named("script") and not parsed.named("link") and not parsed.named("iframe")
+    assert "http://" not in page and "https://" not in page and "@import" not in page
+    for tag, attrs in parsed.tags:
+        for name in ("src", "href"):
+            if name in attrs:
+                assert attrs[name].startswith(("#", "data:")), (tag, attrs[name])
+        assert not any(name.startswith("on") for name in attrs), tag
+
+
+def test_every_picture_has_words_and_numbers(page):
+    parsed = Page(page)
+    pictures = parsed.named("svg")
+    assert len(pictures) >= 8
+    assert all(svg.get("role") == "img" and len(svg.get("aria-label", "")) > 40 for svg in pictures)
+    assert page.count("numbers in this figure") == len(pictures)
+    assert len(parsed.ids) == len(set(parsed.ids)), "an id stands twice"
+
+
+def test_references_within_pictures_resolve(page):
+    parsed = Page(page)
+    ids = set(parsed.ids)
+    used = [attrs["href"][1:] for attrs in parsed.named("use")]
+    assert used and not set(used) - ids
+
+
+def test_it_says_what_was_found(page):
+    text = " ".join(Page(page).text)
+    assert "Test CPU & <Core> 9" in text  # escaped, so that it comes back whole
+    assert "A/A noise floor ±" in text
+    assert "bars 100,000 · pairs · 1 thread: binned_sah.wide8 builds in" in text
+    assert "2 missing, 0 extra (pair 3,8)" in text
+    assert "FCL's manager runs on one thread" in text
+    assert "Peers absent on this machine: bullet" in text
+
+
+def test_hostile_text_stays_text(tmp_path, script):
+    made = synthetic.small()
+    made.rows["env"][0]["host"] = "<script>alert(1)</script>"
+    made.rows["checks"][0].update(status="wrong", witness='"><img src=x onerror=y>')
+    out = tmp_path / "r.html"
+    assert script("report", made.write(tmp_path / "a.h5"), "--out", out).returncode == 0
+    parsed = Page(out.read_text())
+    assert not parsed.named("script") and not parsed.named("img")
+
+
+def test_one_round_gives_a_page_that_says_so(small, script, tmp_path):
+    out = tmp_path / "r.html"
+    assert script("report", small, "--out", out).returncode == 0
+    text = " ".join(Page(out.read_text()).text)
+    assert "1 round: too few for a verdict" in text and "No figure: no scene was timed with 3" in text
+
+
+def test_summary(full, script):
+    done = script("summary", full)
+    assert done.returncode == 0, done.stderr
+    said = done.stdout
+    assert "A/A noise floor ±" in said and "15 rounds" in said
+    assert "bullet.dbvt: WRONG, not ranked: 2 missing, 0 extra (pair 3,8)" in said
+    assert "M rays/s" in said and "107 exact, 1 wrong" in said
+    assert max(map(len, said.splitlines())) < 150
+
+
+def test_summary_of_one_round_claims_nothing(small, script):
+    said = script("summary", small).stdout
+    assert "too few for a verdict" in said and "faster" not in said.split("\n\n", 2)[2]
+
+
+def test_what_cannot_be_written(small, script, tmp_path):
+    done = script("report", small, "--out", tmp_path / "no" / "folder.html")
+    assert done.returncode == 2 and "cannot write" in done.stderr and "folder.html" in done.stderr
+    blocker = tmp_path / "file"
+    blocker.write_text("")
+    done = script("plot", small, "--out", blocker / "figures")
+    assert done.returncode == 2 and "cannot write" in done.stderr and "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("command", ["plot", "report", "summary"])
+def test_help_has_an_example(script, command):
+    done = script(command, "--help")
+    assert done.returncode == 0 and f"Example: scripts/{command} " in done.stdout
+
+
+@pytest.mark.parametrize(
+    "arguments", [("plot",), ("plot", "x.h5", "--figure", "nix"), ("report", "x.h5", "--bad"), ("summary", "a", "b")]
+)
+def test_bad_usage(script, arguments):
+    done = script(*arguments)
+    assert done.returncode == 2 and "usage:" in done.stderr
