@@ -56,8 +56,12 @@ namespace boxwood::bench {
 
 HWY_EXPORT(append_row);
 
+/// Floats that a vector may reach past the last box: 2048 bits, the most that Highway drives.
+/// (HWY_MAX_BYTES is that of the target compiled last, not of the one that runs.)
+constexpr std::size_t longest_vector = 64;
+
 BruteForce::BruteForce(std::span<const Aabb<float>> boxes)
-    : size_(boxes.size()), stride_(boxes.size() + HWY_MAX_BYTES / sizeof(float)) {
+    : size_(boxes.size()), stride_(boxes.size() + longest_vector) {
     bounds_.resize(6 * stride_);
     for (std::size_t i = 0; i < size_; ++i)
         for (std::size_t axis = 0; axis < 3; ++axis) {
