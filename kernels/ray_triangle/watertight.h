@@ -32,7 +32,7 @@ struct Watertight {
         const int z = ax > ay ? (ax > az ? 0 : 2) : (ay > az ? 1 : 2);
         const int x = z == 2 ? 0 : z + 1, y = x == 2 ? 0 : x + 1;
         const float valid = d[z] - d[z]; // 0, or NaN for an infinite direction, which then misses
-        return {x, y, z, d[x] / d[z] + valid, d[y] / d[z] + valid};
+        return {x, y, z, d[x] / d[z] + valid, d[y] / d[z]};
     }
 
     static bool intersect(const PerRay& r, const Ray<float>& ray, const Triangle<float>& triangle,
@@ -55,9 +55,7 @@ struct Watertight {
         const double u = edge(c, b), v = edge(a, c), w = edge(b, a);
         if (!((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0)))
             return false;
-        const double sum = u + v + w;
-        if (sum == 0)
-            return false;
+        const double sum = u + v + w; // 0 only if all three are: then t is NaN, a miss
 
         // In double no product over- or underflows: their sizes are 0 or within 2^-450 .. 2^390.
         // Adding zero turns -0 into 0.

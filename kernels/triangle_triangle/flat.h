@@ -104,8 +104,7 @@ template <OrientationPredicates P> class FlatPair {
             axis = axis_to_drop(signs, b[0], b[1], a1);
         if (axis == collinear)
             return !before(b[1], a0) && !before(a1, b[0]);
-        return a.size == 2 && signs.orient3d(b[0], b[1], a0, a1) == 0 &&
-               !separated(signs, a, b, axis);
+        return signs.orient3d(b[0], b[1], a0, a1) == 0 && !separated(signs, a, b, axis);
     }
 
     static bool meet_triangle(Signs<P>& signs, const Hull& a, const Hull& b) {
@@ -115,9 +114,8 @@ template <OrientationPredicates P> class FlatPair {
         const int last = a.size == 1 ? first : signs.orient3d(b[0], b[1], b[2], a[1]);
         if (first == 0 && last == 0)
             return !separated(signs, a, b, b.axis);
-        if (first == last)
-            return false;
-        // The line of the segment meets b's plane in one point of the segment: is it in b?
+        // The segment's ends do not lie strictly on one side: its line meets b's plane in one of
+        // its points. Is that in b?
         const int u = signs.orient3d(a[0], a[1], b[0], b[1]);
         const int v = signs.orient3d(a[0], a[1], b[1], b[2]);
         const int w = signs.orient3d(a[0], a[1], b[2], b[0]);

@@ -294,6 +294,37 @@ TEST(GuigueDevillers, PowersOfTwoChangeNothing) {
     });
 }
 
+/// Exact on lattices of step 2^-540, where plain products underflow to zero.
+struct Magnified : Rounded {
+    static constexpr double factor = 0x1p540;
+    static int orient3d(Vec3<double> a, Vec3<double> b, Vec3<double> c, Vec3<double> d) {
+        return Rounded::orient3d(a * factor, b * factor, c * factor, d * factor);
+    }
+    static int orient2d(Point2 a, Point2 b, Point2 c) {
+        const auto up = [](Point2 p) { return Point2{p.x * factor, p.y * factor}; };
+        return Rounded::orient2d(up(a), up(b), up(c));
+    }
+};
+
+TEST(GuigueDevillers, AsksThePredicatesAlone) {
+    // The normal underflows, so that the axis to drop must be found by its sign.
+    const auto points = grid(3, 3, 1);
+    for (int turns = 0; turns < 3; ++turns)
+        for (const Corners& a : all_triangles(points, false))
+            for (const Corners& b : all_triangles(points, false)) {
+                const auto tiny = [&](Corners t) {
+                    for (Point& p : t)
+                        for (int i = 0; i < turns; ++i)
+                            p = {p.y, p.z, p.x};
+                    const Triangle<double> big = triangle(t);
+                    return Triangle<double>{big.a * 0x1p-540, big.b * 0x1p-540, big.c * 0x1p-540};
+                };
+                ASSERT_EQ(GuigueDevillers<Magnified>::intersect(tiny(a), tiny(b)).answer,
+                          answer(a, b))
+                    << print(a, b) << turns;
+            }
+}
+
 TEST(GuigueDevillers, CoplanarDisjoint) {
     EXPECT_EQ(answer({Point{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
                      {Point{10, 10, 0}, {11, 10, 0}, {10, 11, 0}}),
