@@ -4,6 +4,7 @@
 #include "kernels/ray.h"
 #include "kernels/triangle.h"
 
+#include <concepts>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -15,32 +16,34 @@ namespace boxwood {
 
 /// What a generator is asked for. The same spec gives the same bits on every machine.
 struct SceneSpec {
-    std::string generator;      ///< a word of `scene_generators()`
-    std::size_t n = 1000;       ///< wanted number of items (boxes, or triangles of a mesh)
-    std::uint64_t seed = 1;     ///< key of the counter-based random numbers
-    double overlaps = 10;       ///< wanted mean number of boxes that overlap a box (box scenes)
-    std::string rays;           ///< a word of `ray_kinds()`, or empty for no rays (mesh scenes)
-    std::size_t n_rays = 0;     ///< number of rays
-    std::filesystem::path file; ///< mesh file (`mesh` alone)
+    std::string generator{};      ///< a word of `scene_generators()`
+    std::size_t n = 1000;         ///< wanted number of items (boxes, or triangles of a mesh)
+    std::uint64_t seed = 1;       ///< key of the counter-based random numbers
+    double overlaps = 10;         ///< wanted mean number of boxes that overlap a box (box scenes)
+    std::string rays{};           ///< a word of `ray_kinds()`, or empty for no rays (mesh scenes)
+    std::size_t n_rays = 0;       ///< number of rays
+    std::filesystem::path file{}; ///< mesh file (`mesh` alone)
 };
 
 /// One frame of things to test: boxes always; a mesh when they are boxes of its triangles.
 struct Scene {
-    std::string name;                ///< words: generator, what differs from its defaults, rays
+    std::string name; ///< words: generator, what differs from its defaults, rays
     SceneSpec spec;
-    std::vector<Aabb<float>> boxes;  ///< scene units; box i bounds triangle i when there is a mesh
-    TriangleMesh mesh;               ///< empty in box scenes
+    std::vector<Aabb<float>> boxes; ///< scene units; box i bounds triangle i when there is a mesh
+    TriangleMesh mesh;              ///< empty in box scenes
     std::vector<Ray<float>> rays;
-    std::string params_json;         ///< the generator's parameters as one JSON object
-    std::uint64_t content_hash = 0;  ///< XXH3 of boxes, vertices, indices and rays, little-endian
+    std::string params_json;        ///< the generator's parameters as one JSON object
+    std::uint64_t content_hash = 0; ///< XXH3 of boxes, vertices, indices and rays, little-endian
 };
 
-/// A generator: name, summary and generate(spec) -> Scene without name, spec, rays and hash, which
-/// `make_scene` fills in.
+/// A generator: name, summary and generate(spec) -> Scene with boxes or a mesh, and params_json;
+/// `make_scene` fills in the rest, the boxes of a mesh too.
 template <class G>
 concept SceneGenerator = requires(const SceneSpec& spec) {
     { G::name } -> std::convertible_to<std::string_view>;
     { G::summary } -> std::convertible_to<std::string_view>;
+    { G::has_mesh } -> std::convertible_to<bool>;
+    { G::uses_overlaps } -> std::convertible_to<bool>;
     { G::generate(spec) } -> std::same_as<Scene>;
 };
 
@@ -48,6 +51,8 @@ concept SceneGenerator = requires(const SceneSpec& spec) {
 struct SceneEntry {
     std::string_view name, summary;
     Scene (*generate)(const SceneSpec&);
+    bool has_mesh;      ///< boxes of triangles, at which rays can be aimed
+    bool uses_overlaps; ///< spec.overlaps steers the sizes
 };
 
 std::span<const SceneEntry> scene_generators();

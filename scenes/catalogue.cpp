@@ -1,0 +1,41 @@
+#include "scenes/catalogue.h"
+
+#include "scenes/suggest.h"
+
+#include <stdexcept>
+
+#define BOXWOOD_SCENES(X)                                                                          \
+    X(uniform)                                                                                     \
+    X(clusters)                                                                                    \
+    X(bars)                                                                                        \
+    X(planks)                                                                                      \
+    X(needles)                                                                                     \
+    X(sphere_mesh)                                                                                 \
+    X(triangle_soup)                                                                               \
+    X(four_link)                                                                                   \
+    X(mesh)
+
+namespace boxwood {
+
+#define BOXWOOD_DECLARE(word) SceneEntry word##_scene();
+BOXWOOD_SCENES(BOXWOOD_DECLARE)
+#undef BOXWOOD_DECLARE
+
+std::span<const SceneEntry> scene_generators() {
+#define BOXWOOD_ROW(word) word##_scene(),
+    static const SceneEntry entries[] = {BOXWOOD_SCENES(BOXWOOD_ROW)};
+#undef BOXWOOD_ROW
+    return entries;
+}
+
+const SceneEntry& scene_generator(std::string_view name) {
+    std::vector<std::string_view> known;
+    for (const SceneEntry& entry : scene_generators()) {
+        if (entry.name == name)
+            return entry;
+        known.push_back(entry.name);
+    }
+    throw std::invalid_argument(unknown_word("scene", name, known));
+}
+
+} // namespace boxwood

@@ -1,0 +1,30 @@
+#include "scenes/catalogue.h"
+#include "scenes/mesh_file.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace boxwood {
+namespace {
+
+/// The user's own mesh.
+struct Mesh {
+    static constexpr std::string_view name = "mesh";
+    static constexpr std::string_view summary =
+        "the triangles of a file: OBJ, PLY, STL, ... (n, seed and overlaps unused)";
+    static constexpr bool has_mesh = true, uses_overlaps = false;
+
+    static Scene generate(const SceneSpec& spec) {
+        Scene scene;
+        scene.mesh = load_mesh(spec.file);
+        scene.params_json = fmt::format(R"({{"vertices":{}}})", scene.mesh.vertices.size());
+        return scene;
+    }
+};
+
+} // namespace
+
+SceneEntry mesh_scene() { return scene_entry<Mesh>(); }
+
+} // namespace boxwood

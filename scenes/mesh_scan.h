@@ -1,0 +1,36 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace boxwood {
+
+/// What is wrong in a mesh file and where; `load_mesh` puts the file's name before it.
+class MeshError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Read the bytes of a file before assimp does, and throw MeshError for what assimp would repair,
+/// repeat or drop without a word: coordinates that are no finite float, indices out of range, and
+/// files that end too soon. What they do not know they let pass.
+void scan_ply(std::string_view bytes);
+void scan_stl(std::string_view bytes);
+
+/// The same for OBJ. Returns its vertices and faces as a binary PLY file for assimp to go on with:
+/// assimp 5.2.5's own OBJ reader drops vertices such as "v .5 0 0", reads comments behind a
+/// statement, sorts by material, and is an ulp off for one float in four.
+/// The weight and colour of a vertex are left out. Throws as well if no face has three corners.
+std::string scan_obj(std::string_view text);
+
+/// A coordinate from text, rounded to nearest. Throws MeshError, naming the line (counted from 1)
+/// and the token, unless it is a decimal number that fits a finite float.
+float coordinate(std::string_view token, std::size_t line);
+
+/// Takes the next token (separated by blanks) off the front; empty at the end.
+std::string_view take_token(std::string_view& text);
+
+/// Takes the next line off the front, without its end ("\n" or "\r\n").
+std::string_view take_line(std::string_view& text);
+
+} // namespace boxwood

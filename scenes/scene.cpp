@@ -1,0 +1,116 @@
+#include "scenes/scene.h"
+
+#include "scenes/catalogue.h"
+#include "scenes/rays.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <array>
+#include <bit>
+#include <charconv>
+#include <memory>
+#include <stdexcept>
+
+namespace boxwood {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "content_hash is of little-endian bytes");
+
+template <class T> void add(XXH3_state_t& state, const std::vector<T>& elements) {
+    static_assert(sizeof(T) % 4 == 0 &&
+                  std::is_trivially_copyable_v<T>); // floats or 32-bit integers
+    if (!elements.empty())
+        XXH3_64bits_update(&state, elements.data(), elements.size() * sizeof(T));
+}
+
+std::uint64_t hash_of(const Scene& scene) {
+    const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
+                                                                         &XXH3_freeState);
+    if (!state)
+        throw std::bad_alloc();
+    XXH3_64bits_reset(state.get());
+    add(*state, scene.boxes);
+    add(*state, scene.mesh.vertices);
+    add(*state, scene.mesh.triangles);
+    add(*state, scene.rays);
+    return XXH3_64bits_digest(state.get());
+}
+
+/// Lower-case letters and digits, every run of other characters one underscore, none at the ends.
+std::string atom(std::string_view text) {
+    std::string result;
+    for (const char c : text) {
+        const bool upper = c >= 'A' && c <= 'Z';
+        if (upper || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'))
+            result += upper ? static_cast<char>(c - 'A' + 'a') : c;
+        else if (!result.empty() && result.back() != '_')
+            result += '_';
+    }
+    if (!result.empty() && result.back() == '_')
+        result.pop_back();
+    return result.empty() ? "file" : result;
+}
+
+/// The shortest decimal that reads back as x, without exponent: "0.5", "10".
+std::string fixed(double x) {
+    std::array<char, 400> digits; // a double has at most 309 before and 324 + 17 behind the point
+    const auto end = std::to_chars(digits.begin(), digits.end(), x, std::chars_format::fixed).ptr;
+    return {digits.begin(), end};
+}
+
+/// The row of the spec's generator. Throws std::invalid_argument for what does not go together.
+const SceneEntry& checked(const SceneSpec& spec) {
+    const SceneEntry& entry = scene_generator(spec.generator);
+    const bool reads_file = entry.name == "mesh";
+    if (reads_file && spec.file.empty())
+        throw std::invalid_argument("scene mesh: no file is given; name an OBJ, PLY or STL file");
+    if (!reads_file && !spec.file.empty())
+        throw std::invalid_argument(
+            fmt::format("scene {} reads no file, but {} is given; use the scene mesh", entry.name,
+                        spec.file.string()));
+    if (spec.n >= no_triangle)
+        throw std::invalid_argument(fmt::format(
+            "scene {}: n = {} is too large; items are numbered by 32 bits", entry.name, spec.n));
+    if (!spec.rays.empty()) {
+        check_ray_kind(spec.rays);
+        if (!entry.has_mesh)
+            throw std::invalid_argument(
+                fmt::format("scene {} has no triangles to aim {} rays at; use a mesh scene such as "
+                            "sphere_mesh, or leave rays out",
+                            entry.name, spec.rays));
+    }
+    return entry;
+}
+
+} // namespace
+
+std::string scene_name(const SceneSpec& spec) {
+    const SceneEntry& entry = checked(spec);
+    std::string name(entry.name);
+    if (!spec.file.empty())
+        name += '_' + atom(spec.file.stem().string());
+    if (entry.uses_overlaps && spec.overlaps != SceneSpec{}.overlaps)
+        name += "_overlaps" + atom(fixed(spec.overlaps));
+    if (!spec.rays.empty())
+        name += '_' + spec.rays;
+    return name;
+}
+
+Scene make_scene(const SceneSpec& spec) {
+    const SceneEntry& entry = checked(spec);
+    if (!spec.rays.empty() && spec.n_rays == 0)
+        throw std::invalid_argument(
+            fmt::format("scene {}: {} rays are asked for, but n_rays is 0", entry.name, spec.rays));
+    Scene scene = entry.generate(spec);
+    scene.name = scene_name(spec);
+    scene.spec = spec;
+    for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i)
+        scene.boxes.push_back(scene.mesh.triangle(i).bounds());
+    if (!spec.rays.empty())
+        scene.rays = make_rays(spec.rays, scene.mesh, spec.n_rays, spec.seed);
+    scene.content_hash = hash_of(scene);
+    return scene;
+}
+
+} // namespace boxwood

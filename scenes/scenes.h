@@ -1,0 +1,18 @@
+#pragma once
+
+/// Scenes: (name, n, seed) gives the same bits on every machine. This header shows the whole room.
+///
+///     Scene scene = make_scene({.generator = "uniform", .n = 100000, .seed = 1});
+///     scene.boxes         // what the trees are built of
+///     scene.content_hash  // the same on every machine
+///
+/// A generator draws item i from counter-based random numbers keyed by (seed, stream) and steers
+/// its sizes so that a box overlaps spec.overlaps others in the mean. It knows no tree.
+
+#include "scenes/four_link.h" // the demo's robot: forward kinematics and its boxes
+#include "scenes/mesh_file.h" // the user's mesh through assimp, with what is wrong in it said
+#include "scenes/random.h"    // Philox: item i is independent of n and of order
+#include "scenes/rays.h"      // camera, random, ambient and occlusion rays at a mesh
+#include "scenes/scatter.h"   // boxes that overlap as often as wanted
+#include "scenes/scene.h"     // the contract: SceneSpec, Scene, make_scene, the catalogues
+#include "scenes/suggest.h"   // "did you mean ...?"
