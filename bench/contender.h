@@ -29,6 +29,7 @@ struct AskEntry {
 std::span<const AskEntry> asks();
 std::string_view to_string(Ask ask);
 std::optional<Ask> ask_of(std::string_view name);
+inline bool is_ray_ask(Ask ask) { return ask == Ask::rays_closest || ask == Ask::rays_any; }
 
 /// The items of `tree_pairs`: boxes [0, n/2) against [n/2, n). In its answers a < n/2 <= b, both
 /// indices of the whole scene.

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "results/results.h"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace boxwood::bench {
+
+/// What the preparation found out about the time of one cell.
+struct Calibration {
+    std::uint64_t build_iterations = 1, query_iterations = 1; ///< per sample
+    double build_ns = 0, query_ns = 0;                        ///< of one iteration
+    bool operator==(const Calibration&) const = default;
+};
+
+/// By cell name. A cell that is not in it is not timed: it is unsupported, threw, or crashed.
+using Calibrations = std::map<std::string, Calibration, std::less<>>;
+
+/// How often to repeat a phase of `ns` so that a sample takes `target_ns`: at least once, at most
+/// 10^7 times.
+std::uint64_t iterations_for(double target_ns, double ns);
+
+/// Expected time of a cell in one round: each phase once to warm up and then as calibrated.
+double round_ns(const Calibration& calibration);
+
+/// As the table that /text/calibration holds, and back. Throws std::runtime_error for other text.
+std::string to_text(const Calibrations& calibrations);
+Calibrations calibrations_of(std::string_view text);
+
+/// The A/A cell: of ours that are right, the cheapest whose query takes 1 ms or more, else the one
+/// with the longest query; any cell if none is ours. Empty if there is nothing to time.
+std::string choose_aa(const results::Results& prepared, const Calibrations& calibrations);
+
+} // namespace boxwood::bench

@@ -1,0 +1,103 @@
+#include "bench/sweep.h"
+
+#include "bench/commands/command.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <fstream>
+#include <memory>
+
+namespace boxwood::bench {
+namespace {
+
+void add_plan_options(CLI::App& command, std::filesystem::path& config, Overrides& overrides) {
+    command
+        .add_option("--config", config,
+                    "what to measure: a sweep file such as bench/configs/quick.toml")
+        ->required();
+    command.add_option("--mesh", overrides.mesh,
+                       "a mesh of your own (OBJ, PLY, STL, ...) for the blocks with scene = "
+                       "\"mesh\"; without it they are left out");
+    command
+        .add_option("--threads", overrides.threads,
+                    "numbers of threads, such as 1,2, instead of those of the sweep file")
+        ->delimiter(',')
+        ->check(CLI::Range(1, 1024));
+    command.add_option("--only", overrides.only,
+                       "only cells whose name this regular expression is found in");
+    command.add_option("--seed", overrides.seed, "seed of scenes and shuffling");
+}
+
+/// "0/2" -> 0 of 2.
+void parse_shard(const std::string& text, SweepOptions& options) {
+    const std::size_t slash = text.find('/');
+    const auto number = [&](std::size_t from, std::size_t to, unsigned& value) {
+        const char* end = text.data() + to;
+        const auto result = std::from_chars(text.data() + from, end, value);
+        return result.ec == std::errc{} && result.ptr == end;
+    };
+    if (slash == std::string::npos || !number(0, slash, options.shard) ||
+        !number(slash + 1, text.size(), options.shards) || options.shard >= options.shards)
+        throw BadInput(fmt::format("--shard \"{}\": write I/N with 0 <= I < N, such as 0/2", text));
+}
+
+/// The arguments of this process, blanks between them.
+std::string own_command_line() {
+    std::ifstream file("/proc/self/cmdline", std::ios::binary);
+    std::string line;
+    for (std::string argument; std::getline(file, argument, '\0');)
+        line += (line.empty() ? "" : " ") + argument;
+    return line;
+}
+
+void add_child(CLI::App& app, int& exit_code) {
+    auto options = std::make_shared<ChildOptions>();
+    CLI::App* child =
+        app.add_subcommand("round", "one process of a sweep; started by boxwood sweep");
+    child->group(""); // not listed in the help
+    add_plan_options(*child, options->config, options->overrides);
+    child->add_option("--sweep-hash", options->sweep_hash, "of the parent's plan")->required();
+    child->add_option("--shard-out", options->out, "the file to write")->required();
+    child->add_option("--prepared", options->prepared, "what the preparation wrote");
+    child->add_flag("--prepare", options->is_preparation, "prepare instead of timing a round");
+    child->add_option("--round", options->round, "the round's number, from 0");
+    child->add_option("--skip", options->skip, "cells that the preparation leaves out")->take_all();
+    child->add_option("--report-fd", options->report_fd, "where to report")->required();
+    child->callback([options, &exit_code] { exit_code = run_sweep_child(*options); });
+}
+
+} // namespace
+
+void add_sweep(CLI::App& app, int& exit_code) {
+    auto options = std::make_shared<SweepOptions>();
+    auto shard = std::make_shared<std::string>();
+    auto is_dry_run = std::make_shared<bool>(false);
+    CLI::App* sweep = app.add_subcommand(
+        "sweep", "time and check the cells of a sweep file; goes on where it was interrupted");
+    add_plan_options(*sweep, options->config, options->overrides);
+    sweep->add_option("--out", options->out, "the result file to write (HDF5)");
+    sweep
+        ->add_option("--rounds", options->overrides.rounds,
+                     "how often each cell is timed; more rounds extend an earlier sweep")
+        ->check(CLI::Range(1, 10'000));
+    sweep->add_option("--shard", *shard,
+                      "I/N: only the rounds with number mod N = I (boxwood merge joins the files)");
+    sweep->add_flag("--dry-run", *is_dry_run, "list the cells and guess the time; measure nothing");
+    sweep->footer("Example: boxwood sweep --config bench/configs/quick.toml --out quick.h5\n"
+                  "Exit codes: 0 fine, 1 one of our answers is wrong or a contender crashed, 2 bad "
+                  "input, 130 interrupted.");
+    sweep->callback([=, &exit_code] {
+        if (!shard->empty())
+            parse_shard(*shard, *options);
+        options->command_line = own_command_line();
+        if (*is_dry_run)
+            return list_cells(*options);
+        if (options->out.empty())
+            throw BadInput("sweep: say where the results go: --out FILE.h5");
+        exit_code = run_sweep(*options);
+    });
+    add_child(app, exit_code);
+}
+
+} // namespace boxwood::bench

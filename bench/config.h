@@ -1,0 +1,48 @@
+#pragma once
+
+#include "bench/contender.h"
+#include "trees/builder.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace boxwood::bench {
+
+/// A builder as a sweep file names it: `"median"` or `{name = "binned_sah", bins = 16}`.
+struct BuilderChoice {
+    std::string name;
+    Settings settings;
+};
+
+/// One `[[cells]]` block: the cross product of its lists.
+struct Block {
+    std::string place; ///< "FILE:LINE", for messages
+    std::vector<std::string> scenes;
+    std::vector<std::size_t> n{1000};
+    std::vector<double> overlaps{10};
+    std::vector<std::string> rays; ///< kinds of rays; needed by the ray asks alone
+    std::size_t n_rays = 10000;
+    std::vector<Ask> asks;
+    std::vector<BuilderChoice> builders;
+    std::vector<std::string> layouts{"wide8"};
+    std::vector<std::string> kernels{"watertight"};
+    std::vector<std::string> executors; ///< empty: serial for one thread, tbb for more
+    std::vector<unsigned> threads;
+    std::vector<std::string> peers; ///< "all", libraries, or contenders
+};
+
+/// A sweep file, every word of it known to a catalogue.
+struct Config {
+    unsigned rounds = 15;
+    double min_time_ms = 200; ///< wanted time of one sample
+    double delta = 0.05;      ///< times within +-delta are "the same"
+    std::uint64_t seed = 1;
+    std::vector<Block> blocks;
+};
+
+/// Throws BadInput naming file, line, key and, for a misspelt key or word, the nearest known one.
+Config parse_config(std::string_view text, const std::string& file);
+
+} // namespace boxwood::bench

@@ -1,0 +1,110 @@
+#include "bench/config.h"
+
+#include "bench/commands/command.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace boxwood::bench {
+namespace {
+
+using testing::HasSubstr;
+
+std::string complaint(const std::string& text) {
+    try {
+        parse_config(text, "x.toml");
+    } catch (const BadInput& error) {
+        return error.what();
+    }
+    return "(accepted)";
+}
+
+const std::string block = "[[cells]]\nscene = \"uniform\"\nask = \"pairs\"\n";
+
+TEST(Config, ReadsWordsAndLists) {
+    const Config config = parse_config(R"(
+rounds = 9
+min_time_ms = 2.5
+seed = 7
+threads = [1, 2]
+
+[[cells]]
+scene = ["uniform", "bars"]
+n = [10, 20]
+overlaps = 1
+ask = ["pairs", "tree_pairs"]
+builders = ["median", {name = "binned_sah", bins = 16}]
+layouts = "binary"
+peers = "all"
+
+[[cells]]
+scene = "sphere_mesh"
+ask = "rays_any"
+rays = "occlusion"
+n_rays = 5
+threads = 3
+builders = "median"
+)",
+                                       "x.toml");
+    EXPECT_EQ(config.rounds, 9u);
+    EXPECT_EQ(config.min_time_ms, 2.5);
+    EXPECT_EQ(config.seed, 7u);
+    ASSERT_EQ(config.blocks.size(), 2u);
+    const Block& pairs = config.blocks[0];
+    EXPECT_EQ(pairs.scenes, (std::vector<std::string>{"uniform", "bars"}));
+    EXPECT_EQ(pairs.n, (std::vector<std::size_t>{10, 20}));
+    EXPECT_EQ(pairs.overlaps, std::vector<double>{1});
+    EXPECT_EQ(pairs.asks, (std::vector<Ask>{Ask::pairs, Ask::tree_pairs}));
+    EXPECT_EQ(pairs.builders[1].settings.at("bins"), 16);
+    EXPECT_EQ(pairs.threads, (std::vector<unsigned>{1, 2}));
+    EXPECT_EQ(config.blocks[1].threads, std::vector<unsigned>{3});
+    EXPECT_EQ(config.blocks[1].n_rays, 5u);
+}
+
+TEST(Config, SaysWhereAMisspeltWordStandsAndSuggests) {
+    EXPECT_THAT(complaint("rounds = 9\n" + block + "buildrs = \"median\"\n"),
+                testing::AllOf(HasSubstr("x.toml:5:"), HasSubstr("buildrs"),
+                               HasSubstr("did you mean 'builders'")));
+    EXPECT_THAT(complaint("rouns = 9\n" + block),
+                testing::AllOf(HasSubstr("x.toml:1:"), HasSubstr("'rounds'")));
+    EXPECT_THAT(complaint("[[cells]]\nscene = \"unifrom\"\nask = \"pairs\"\n"),
+                testing::AllOf(HasSubstr("x.toml:2:"), HasSubstr("'uniform'")));
+    EXPECT_THAT(complaint(block + "builders = [\"median\", \"binned_sha\"]\n"),
+                testing::AllOf(HasSubstr("x.toml:4:"), HasSubstr("'binned_sah'")));
+    EXPECT_THAT(complaint(block + "builders = [{name = \"binned_sah\", bin = 16}]\n"),
+                testing::AllOf(HasSubstr("x.toml:4:"), HasSubstr("bins")));
+    EXPECT_THAT(complaint(block + "peers = \"brute_forc\"\n"), HasSubstr("'brute_force'"));
+}
+
+TEST(Config, RefusesNumbersOutOfRangeAndOfTheWrongKind) {
+    EXPECT_THAT(complaint("rounds = 0\n" + block), HasSubstr("x.toml:1: rounds = 0"));
+    EXPECT_THAT(complaint("rounds = 2.5\n" + block), HasSubstr("whole number"));
+    EXPECT_THAT(complaint("min_time_ms = nan\n" + block), HasSubstr("out of range"));
+    EXPECT_THAT(complaint(block + "builders = \"median\"\nn = [10, -1]\n"),
+                HasSubstr("x.toml:5: n = -1"));
+    EXPECT_THAT(complaint(block + "threads = \"al\"\n"), HasSubstr("'all'"));
+    EXPECT_THAT(complaint(block + "builders = [{name = \"binned_sah\", bins = 1e9}]\n"),
+                HasSubstr("x.toml:4:"));
+}
+
+TEST(Config, RefusesBlocksThatMeanNothing) {
+    EXPECT_THAT(complaint(""), HasSubstr("no [[cells]] block"));
+    EXPECT_THAT(complaint("cells = 3\n"), HasSubstr("no [[cells]] block"));
+    EXPECT_THAT(complaint("rounds = [\n"), HasSubstr("x.toml:"));
+    EXPECT_THAT(complaint("[[cells]]\nask = \"pairs\"\nbuilders = \"median\"\n"),
+                HasSubstr("needs a scene"));
+    EXPECT_THAT(complaint("[[cells]]\nscene = \"uniform\"\nbuilders = \"median\"\n"),
+                HasSubstr("needs an ask"));
+    EXPECT_THAT(complaint(block), HasSubstr("needs builders, peers, or both"));
+    EXPECT_THAT(complaint("[[cells]]\nscene = \"sphere_mesh\"\nask = \"rays_any\"\n"
+                          "builders = \"median\"\n"),
+                HasSubstr("needs rays"));
+    EXPECT_THAT(complaint("[[cells]]\nscene = \"uniform\"\nask = \"rays_any\"\n"
+                          "rays = \"random\"\nbuilders = \"median\"\n"),
+                HasSubstr("no triangles"));
+    EXPECT_THAT(complaint("[[cells]]\nscene = \"mesh\"\nn = 5\nask = \"pairs\"\n"),
+                HasSubstr("x.toml:3:"));
+}
+
+} // namespace
+} // namespace boxwood::bench

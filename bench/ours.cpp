@@ -1,0 +1,211 @@
+#include "bench/ours.h"
+
+#include "kernels/catalogue.h"
+#include "scenes/suggest.h"
+#include "trees/layout.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+
+namespace boxwood::bench {
+namespace {
+
+/// The rays' contenders and those of pairs share all but the query.
+class OurContender : public Contender {
+  public:
+    OurContender(const Job& job, BuildFunction build, const LayoutEntry& layout)
+        : scene_(*job.scene), executor_(make_executor(job.executor, job.threads)),
+          build_(std::move(build)), layout_entry_(layout) {}
+
+  protected:
+    AppendPairs& sink(Answers& answers) {
+        answers.pairs.clear();
+        if (sink_target_ != &answers.pairs) {
+            sink_.emplace(answers.pairs);
+            sink_target_ = &answers.pairs;
+        }
+        return *sink_;
+    }
+
+    const Scene& scene_;
+    std::unique_ptr<Executor> executor_;
+    BuildFunction build_;
+    const LayoutEntry& layout_entry_;
+    Tree tree_;
+    std::unique_ptr<AnyLayout> layout_;
+
+  private:
+    std::optional<AppendPairs> sink_; ///< keeps its memory between queries
+    std::vector<Pair>* sink_target_ = nullptr;
+};
+
+class SelfPairs final : public OurContender {
+  public:
+    using OurContender::OurContender;
+    void build() override {
+        layout_.reset();
+        tree_ = build_(scene_.boxes, *executor_);
+        layout_ = layout_entry_.make(tree_);
+    }
+    void query(Answers& answers) override { layout_->self_pairs(*executor_, sink(answers)); }
+    std::optional<Work> counted_query(Answers& answers) override {
+        return layout_->self_pairs_counted(sink(answers));
+    }
+    std::optional<StructureInfo> structure() const override {
+        return StructureInfo{layout_->bytes(), &tree_};
+    }
+};
+
+/// A tree over each half of the boxes; the items of the second are numbered from its start, so its
+/// half of the pairs is moved by the split afterwards.
+class TreePairs final : public OurContender {
+  public:
+    using OurContender::OurContender;
+    void build() override {
+        layout_.reset();
+        other_.reset();
+        const Boxes boxes = scene_.boxes;
+        tree_ = build_(boxes.first(split_), *executor_);
+        layout_ = layout_entry_.make(tree_);
+        other_ = layout_entry_.make(build_(boxes.subspan(split_), *executor_));
+    }
+    void query(Answers& answers) override {
+        layout_->tree_pairs(*other_, *executor_, sink(answers));
+        move_second(answers);
+    }
+    std::optional<Work> counted_query(Answers& answers) override {
+        const Work work = layout_->tree_pairs_counted(*other_, sink(answers));
+        move_second(answers);
+        return work;
+    }
+    /// No tree: there are two, and a row of the tree table is about one.
+    std::optional<StructureInfo> structure() const override {
+        return StructureInfo{layout_->bytes() + other_->bytes(), nullptr};
+    }
+
+  private:
+    void move_second(Answers& answers) const {
+        for (Pair& pair : answers.pairs)
+            pair.b += static_cast<std::uint32_t>(split_);
+    }
+
+    std::size_t split_ = tree_pairs_split(scene_.boxes.size());
+    std::unique_ptr<AnyLayout> other_;
+};
+
+class Rays final : public OurContender {
+  public:
+    Rays(const Job& job, BuildFunction build, const LayoutEntry& layout, std::string kernel)
+        : OurContender(job, std::move(build), layout), kernel_(std::move(kernel)),
+          query_(job.ask == Ask::rays_closest ? RayQuery::closest : RayQuery::any) {}
+
+    void build() override {
+        layout_.reset();
+        triangles_.reset();
+        tree_ = build_(scene_.boxes, *executor_);
+        layout_ = layout_entry_.make(tree_);
+        triangles_.emplace(tree_, scene_.mesh);
+    }
+    void query(Answers& answers) override {
+        answers.hits.resize(scene_.rays.size());
+        layout_->rays(scene_.rays, query_, kernel_, *triangles_, *executor_, answers.hits);
+    }
+    std::optional<Work> counted_query(Answers& answers) override {
+        answers.hits.resize(scene_.rays.size());
+        return layout_->rays_counted(scene_.rays, query_, kernel_, *triangles_, answers.hits);
+    }
+    std::optional<StructureInfo> structure() const override {
+        return StructureInfo{
+            layout_->bytes() + triangles_->triangles.bytes() + triangles_->ids.bytes(), &tree_};
+    }
+
+  private:
+    std::string kernel_;
+    RayQuery query_;
+    std::optional<OrderedTriangles> triangles_;
+};
+
+std::string_view traversal_of(Ask ask) {
+    return ask == Ask::pairs ? "self_pairs" : ask == Ask::tree_pairs ? "tree_pairs" : "rays";
+}
+
+/// "binned_sah_bins16": words [a-z0-9_], so 1.5 is written 1_5 and a minus m.
+std::string builder_word(const Choice& choice) {
+    std::string word = choice.builder;
+    for (const auto& [name, value] : choice.settings) {
+        word += fmt::format("_{}", name);
+        for (const char c : fmt::format("{}", value))
+            if (c != '+')
+                word += c == '.' ? '_' : c == '-' ? 'm' : c;
+    }
+    return word;
+}
+
+template <class Entries>
+[[noreturn]] void throw_unknown(std::string_view what, std::string_view word,
+                                const Entries& entries) {
+    std::vector<std::string_view> known;
+    for (const auto& entry : entries)
+        known.push_back(entry.name);
+    throw std::invalid_argument(unknown_word(what, word, known));
+}
+
+} // namespace
+
+ContenderEntry our_contender(const Choice& choice, Ask ask) {
+    const BuilderEntry* builder = find_builder(choice.builder);
+    if (!builder)
+        throw_unknown("builder", choice.builder, builders());
+    const LayoutEntry* layout = find_layout(choice.layout);
+    if (!layout)
+        throw_unknown("layout", choice.layout, layouts());
+    if (is_ray_ask(ask) &&
+        std::ranges::find(ray_kernels(), choice.kernel, &KernelInfo::name) == ray_kernels().end())
+        throw_unknown("ray kernel", choice.kernel, ray_kernels());
+
+    ContenderEntry entry;
+    entry.library = "boxwood";
+    entry.is_peer = false;
+    entry.precision = "f32";
+    entry.builder = builder_word(choice);
+    entry.layout = choice.layout;
+    entry.traversal = traversal_of(ask);
+    entry.kernel = is_ray_ask(ask) ? choice.kernel : "";
+    entry.name = fmt::format("{}.{}.{}", entry.builder, entry.layout, entry.traversal);
+    if (!entry.kernel.empty())
+        entry.name += "." + entry.kernel;
+    entry.summary = fmt::format("{}; {}", builder->summary, layout->summary);
+    entry.notes = "build: boxes to tree to layout; answers in the same order for any number of "
+                  "threads";
+    std::string settings;
+    for (const auto& [name, value] : choice.settings)
+        settings += fmt::format("{}\"{}\": {}", settings.empty() ? "" : ", ", name, value);
+    entry.params_json = "{" + settings + "}";
+
+    entry.unsupported = [](const Job& job) -> std::optional<std::string> {
+        if (is_ray_ask(job.ask) && job.scene->mesh.triangles.empty())
+            return "the scene has no triangles";
+        if (job.executor == "serial" && job.threads != 1)
+            return "the executor serial has one thread";
+        return std::nullopt;
+    };
+    entry.make = [build = builder->make(choice.settings), layout,
+                  kernel = choice.kernel](const Job& job) -> std::unique_ptr<Contender> {
+        switch (job.ask) {
+        case Ask::pairs:
+            return std::make_unique<SelfPairs>(job, build, *layout);
+        case Ask::tree_pairs:
+            return std::make_unique<TreePairs>(job, build, *layout);
+        case Ask::rays_closest:
+        case Ask::rays_any:
+            break;
+        }
+        return std::make_unique<Rays>(job, build, *layout, kernel);
+    };
+    return entry;
+}
+
+} // namespace boxwood::bench

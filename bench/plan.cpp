@@ -1,0 +1,220 @@
+#include "bench/plan.h"
+
+#include "bench/cell_name.h"
+#include "bench/commands/command.h"
+#include "bench/csv.h"
+#include "bench/ours.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <random>
+#include <regex>
+
+namespace boxwood::bench {
+namespace {
+
+/// Whether a contender answers an ask at all, wherever it runs.
+bool answers(const ContenderEntry& contender, Ask ask) {
+    static const Scene smallest = [] {
+        Scene scene;
+        scene.boxes.assign(2, {{0, 0, 0}, {1, 1, 1}});
+        scene.mesh = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 1, 2}}};
+        scene.rays.push_back({{0, 0, 1}, {0, 0, -1}});
+        return scene;
+    }();
+    return !contender.unsupported || !contender.unsupported(Job{&smallest, ask, "serial", 1});
+}
+
+/// The contenders that a block's `peers` names. A library stands for those of its contenders that
+/// answer the ask; a contender named in full is planned even if all it can say is "unsupported".
+std::vector<ContenderEntry> chosen_peers(const std::vector<std::string>& words, Ask ask) {
+    const auto named = [&](std::string_view word) {
+        return std::ranges::find(words, word) != words.end();
+    };
+    std::vector<ContenderEntry> chosen;
+    for (const Peer& peer : peers())
+        for (const ContenderEntry& contender : peer.contenders)
+            if (named(contender.name) ||
+                ((named("all") || named(peer.name)) && answers(contender, ask)))
+                chosen.push_back(contender);
+    return chosen;
+}
+
+class Expansion {
+  public:
+    explicit Expansion(std::vector<PlannedCell>& cells) : cells_(cells) {}
+
+    void add(const Block& block, const SceneSpec& spec, Ask ask) {
+        for (const unsigned threads : block.threads) {
+            const std::string usual = threads == 1 ? "serial" : "tbb";
+            for (const std::string& executor :
+                 block.executors.empty() ? std::vector{usual} : block.executors)
+                if (threads == 1 || executor != "serial")
+                    add_ours(block, spec, ask, executor, threads);
+            for (const ContenderEntry& peer : chosen_peers(block.peers, ask))
+                add_cell(block, spec, ask, peer, usual, threads);
+        }
+    }
+
+  private:
+    void add_ours(const Block& block, const SceneSpec& spec, Ask ask, const std::string& executor,
+                  unsigned threads) {
+        const std::vector<std::string> no_kernel{""};
+        for (const BuilderChoice& builder : block.builders)
+            for (const std::string& layout : block.layouts)
+                for (const std::string& kernel : is_ray_ask(ask) ? block.kernels : no_kernel)
+                    add_cell(block, spec, ask,
+                             our_contender({builder.name, builder.settings, layout, kernel}, ask),
+                             executor, threads);
+    }
+
+    /// Equal cells collapse; two cells of one name that are not equal are an error.
+    void add_cell(const Block& block, const SceneSpec& spec, Ask ask, ContenderEntry contender,
+                  const std::string& executor, unsigned threads) {
+        const std::string name =
+            format_cell_name({scene_name(spec), spec.n, spec.seed, std::string(to_string(ask)),
+                              contender.name, contender.precision, executor, threads});
+        const auto [seen, is_new] = index_of_.try_emplace(name, cells_.size());
+        if (is_new) {
+            cells_.push_back({name, spec, ask, std::move(contender), executor, threads});
+            return;
+        }
+        const SceneSpec& other = cells_[seen->second].scene;
+        if (other.overlaps != spec.overlaps || other.n_rays != spec.n_rays)
+            throw BadInput(fmt::format("{}: the cell {} stands twice with different scenes "
+                                       "(overlaps {} and {}, n_rays {} and {}); make them equal",
+                                       block.place, name, other.overlaps, spec.overlaps,
+                                       other.n_rays, spec.n_rays));
+    }
+
+    std::vector<PlannedCell>& cells_;
+    std::map<std::string, std::size_t, std::less<>> index_of_;
+};
+
+/// The number of triangles of a mesh file, so that cell names can say it.
+std::size_t mesh_size(const std::filesystem::path& file) {
+    SceneSpec spec;
+    spec.generator = "mesh";
+    spec.file = file;
+    try {
+        return make_scene(spec).boxes.size();
+    } catch (const std::exception& error) {
+        throw BadInput(fmt::format("--mesh: {}", error.what()));
+    }
+}
+
+bool is_mesh(const Block& block) { return block.scenes.front() == "mesh"; }
+
+void expand(const Block& block, std::uint64_t seed, const std::filesystem::path& mesh,
+            Expansion& expansion) {
+    SceneSpec spec;
+    spec.seed = seed;
+    spec.file = is_mesh(block) ? mesh : "";
+    for (const std::string& scene : block.scenes)
+        for (const Ask ask : block.asks)
+            for (const std::size_t n : block.n)
+                for (const double overlaps : block.overlaps)
+                    for (const std::string& rays :
+                         is_ray_ask(ask) ? block.rays : std::vector<std::string>{""}) {
+                        spec.generator = scene;
+                        spec.n = n;
+                        spec.overlaps = overlaps;
+                        spec.rays = rays;
+                        spec.n_rays = rays.empty() ? 0 : block.n_rays;
+                        expansion.add(block, spec, ask);
+                    }
+}
+
+void keep_only(const std::string& pattern, std::vector<PlannedCell>& cells) {
+    try {
+        const std::regex only(pattern);
+        std::erase_if(cells,
+                      [&](const PlannedCell& cell) { return !std::regex_search(cell.name, only); });
+    } catch (const std::regex_error& error) {
+        throw BadInput(
+            fmt::format("--only \"{}\" is not a regular expression: {}", pattern, error.what()));
+    }
+}
+
+} // namespace
+
+Plan make_plan(const std::string& config_text, const std::string& config_file,
+               const Overrides& overrides) {
+    Config config = parse_config(config_text, config_file);
+    Plan plan;
+    plan.config_text = config_text;
+    plan.rounds = overrides.rounds.value_or(config.rounds);
+    plan.min_time_ms = config.min_time_ms;
+    plan.delta = config.delta;
+    plan.seed = overrides.seed.value_or(config.seed);
+
+    std::uint64_t mesh_hash = 0;
+    std::size_t mesh_items = 0;
+    if (!overrides.mesh.empty()) {
+        mesh_items = mesh_size(overrides.mesh);
+        const std::string bytes = read_text(overrides.mesh.string());
+        mesh_hash = XXH3_64bits(bytes.data(), bytes.size());
+    }
+    Expansion expansion(plan.cells);
+    for (Block& block : config.blocks) {
+        if (is_mesh(block) && overrides.mesh.empty())
+            continue;
+        if (is_mesh(block))
+            block.n = {mesh_items};
+        if (!overrides.threads.empty())
+            block.threads = overrides.threads;
+        try {
+            expand(block, plan.seed, overrides.mesh, expansion);
+        } catch (const std::invalid_argument& error) {
+            throw BadInput(fmt::format("{}: {}", block.place, error.what()));
+        }
+    }
+    if (!overrides.only.empty())
+        keep_only(overrides.only, plan.cells);
+    if (plan.cells.empty())
+        throw BadInput(overrides.only.empty()
+                           ? fmt::format("{}: no cell to measure; blocks of scene \"mesh\" need "
+                                         "--mesh FILE",
+                                         config_file)
+                           : fmt::format("--only \"{}\" leaves no cell of {}; --dry-run without "
+                                         "it lists all",
+                                         overrides.only, config_file));
+    plan.sweep_hash = sweep_hash_of(plan, mesh_hash);
+    return plan;
+}
+
+std::string sweep_hash_of(const Plan& plan, std::uint64_t mesh_hash) {
+    std::string canonical =
+        fmt::format("min_time_ms {} seed {} mesh {:x}\n", plan.min_time_ms, plan.seed, mesh_hash);
+    std::vector<std::string> lines;
+    for (const PlannedCell& cell : plan.cells)
+        lines.push_back(fmt::format("{} overlaps {} n_rays {}\n", cell.name, cell.scene.overlaps,
+                                    cell.scene.n_rays));
+    std::ranges::sort(lines); // the order of blocks does not matter
+    for (const std::string& line : lines)
+        canonical += line;
+    const XXH128_hash_t hash = XXH3_128bits(canonical.data(), canonical.size());
+    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+std::uint64_t order_seed_of(std::uint64_t seed, unsigned round) {
+    const std::uint64_t key[2] = {seed, round};
+    return XXH3_64bits(key, sizeof key);
+}
+
+std::vector<std::size_t> shuffled_order(std::size_t count, std::uint64_t order_seed) {
+    std::vector<std::size_t> order(count);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    // Fisher-Yates by hand: std::shuffle may differ between standard libraries. The modulo's bias
+    // is below count / 2^64.
+    std::mt19937_64 random(order_seed);
+    for (std::size_t i = count; i > 1; --i)
+        std::swap(order[i - 1], order[random() % i]);
+    return order;
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,169 @@
+#include "bench/plan.h"
+
+#include "bench/cell_name.h"
+#include "bench/commands/command.h"
+#include "bench/csv.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+namespace boxwood::bench {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string config = R"(
+rounds = 9
+[[cells]]
+scene = "uniform"
+n = [10, 20]
+ask = "pairs"
+threads = [1, 2]
+builders = ["median", "binned_sah"]
+layouts = ["binary", "wide8"]
+peers = "brute_force"
+)";
+
+Plan plan_of(const std::string& text, const Overrides& overrides = {}) {
+    return make_plan(text, "x.toml", overrides);
+}
+
+std::set<std::string> names_of(const Plan& plan) {
+    std::set<std::string> names;
+    for (const PlannedCell& cell : plan.cells)
+        names.insert(cell.name);
+    return names;
+}
+
+TEST(Plan, IsTheCrossProductWithNamesThatParse) {
+    const Plan plan = plan_of(config);
+    EXPECT_EQ(plan.cells.size(), 2u * 2 * (4 + 1));
+    EXPECT_EQ(names_of(plan).size(), plan.cells.size());
+    for (const PlannedCell& cell : plan.cells) {
+        const auto name = parse_cell_name(cell.name);
+        ASSERT_TRUE(name) << cell.name;
+        EXPECT_EQ(name->threads, cell.threads);
+        EXPECT_EQ(name->executor, cell.threads == 1 ? "serial" : "tbb");
+        EXPECT_EQ(name->n_items, cell.scene.n);
+        EXPECT_EQ(name->contender, cell.contender.name);
+    }
+    EXPECT_TRUE(
+        names_of(plan).contains("uniform/n20-s1/pairs/binned_sah.wide8.self_pairs/f32/tbb-2"));
+}
+
+TEST(Plan, EqualCellsCollapse) {
+    const std::string block = config.substr(config.find("[[cells]]"));
+    EXPECT_EQ(names_of(plan_of(config + block)), names_of(plan_of(config)));
+    EXPECT_EQ(plan_of(config + block).sweep_hash, plan_of(config).sweep_hash);
+}
+
+TEST(Plan, RefusesOneNameForTwoScenes) {
+    const std::string rays = "[[cells]]\nscene = \"sphere_mesh\"\nask = \"rays_any\"\n"
+                             "rays = \"random\"\nbuilders = \"median\"\n";
+    try {
+        plan_of(rays + "n_rays = 10\n" + rays + "n_rays = 20\n");
+        FAIL() << "accepted";
+    } catch (const BadInput& error) {
+        EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("x.toml:7"), HasSubstr("n_rays 10")));
+    }
+}
+
+TEST(Plan, SerialStaysOnOneThread) {
+    const Plan plan = plan_of("[[cells]]\nscene = \"uniform\"\nn = 10\nask = \"pairs\"\n"
+                              "threads = [1, 2]\nexecutors = [\"serial\", \"tbb\"]\n"
+                              "builders = \"median\"\n");
+    ASSERT_EQ(plan.cells.size(), 3u);
+    for (const PlannedCell& cell : plan.cells)
+        EXPECT_TRUE(cell.executor == "tbb" || cell.threads == 1);
+}
+
+TEST(Plan, PeersThatCannotAnswerAreLeftOutUnlessNamed) {
+    const std::string rays = "[[cells]]\nscene = \"sphere_mesh\"\nn = 20\nask = \"rays_any\"\n"
+                             "rays = \"random\"\nbuilders = \"median\"\npeers = ";
+    for (const PlannedCell& cell : plan_of(rays + "\"all\"\n").cells)
+        EXPECT_NE(cell.contender.library, "bullet");
+    // One that is named in full is planned, so that the results say that it cannot.
+    const bool has_bullet = std::ranges::find(peers(), "bullet", &Peer::name) != peers().end();
+    EXPECT_EQ(plan_of(rays + "\"bullet\"\n").cells.size(), 1u);
+    if (has_bullet) {
+        EXPECT_EQ(plan_of(rays + "\"bullet.dbvt\"\n").cells.size(), 2u);
+    }
+}
+
+TEST(Plan, OverridesReplace) {
+    Overrides overrides;
+    overrides.rounds = 30;
+    overrides.threads = {1};
+    overrides.seed = 5;
+    overrides.only = "n20.*wide8";
+    const Plan plan = plan_of(config, overrides);
+    EXPECT_EQ(plan.rounds, 30u);
+    EXPECT_EQ(names_of(plan),
+              (std::set<std::string>{"uniform/n20-s5/pairs/median.wide8.self_pairs/f32/serial-1",
+                                     "uniform/n20-s5/pairs/binned_sah.wide8.self_pairs/f32/"
+                                     "serial-1"}));
+}
+
+TEST(Plan, HashIsOfWhatIsMeasured) {
+    const std::string hash = plan_of(config).sweep_hash;
+    EXPECT_EQ(hash.size(), 32u);
+    EXPECT_EQ(plan_of("# a comment\n" + config).sweep_hash, hash);
+    Overrides rounds;
+    rounds.rounds = 100; // more rounds extend a sweep
+    EXPECT_EQ(plan_of(config, rounds).sweep_hash, hash);
+    Overrides seed;
+    seed.seed = 2;
+    EXPECT_NE(plan_of(config, seed).sweep_hash, hash);
+    Overrides only;
+    only.only = "wide8";
+    EXPECT_NE(plan_of(config, only).sweep_hash, hash);
+    EXPECT_NE(plan_of("min_time_ms = 1\n" + config).sweep_hash, hash);
+    EXPECT_NE(sweep_hash_of(plan_of(config), 1), hash);
+}
+
+TEST(Plan, MeshBlocksNeedAMesh) {
+    const std::string mesh =
+        "[[cells]]\nscene = \"mesh\"\nask = \"pairs\"\nbuilders = \"median\"\n";
+    EXPECT_EQ(names_of(plan_of(config + mesh)), names_of(plan_of(config)));
+    EXPECT_THROW(plan_of(mesh), BadInput);
+    Overrides overrides;
+    overrides.mesh = "there/is/no/such.obj";
+    EXPECT_THROW(plan_of(config + mesh, overrides), BadInput);
+}
+
+TEST(Plan, RefusesAPatternThatIsNoneOrLeavesNothing) {
+    Overrides overrides;
+    overrides.only = "(";
+    EXPECT_THROW(plan_of(config, overrides), BadInput);
+    overrides.only = "no such cell";
+    EXPECT_THROW(plan_of(config, overrides), BadInput);
+}
+
+TEST(Plan, ShippedSweepFilesAreGood) {
+    for (const char* name : {"quick", "default", "first_figures"}) {
+        const std::string file = std::string("bench/configs/") + name + ".toml";
+        const Plan plan = make_plan(read_text(file), file, {});
+        EXPECT_GE(plan.rounds, 9u);
+        EXPECT_FALSE(plan.cells.empty());
+    }
+}
+
+TEST(Order, IsASeededPermutationOfAllCells) {
+    const auto first = shuffled_order(100, order_seed_of(1, 0));
+    EXPECT_EQ(first, shuffled_order(100, order_seed_of(1, 0)));
+    auto sorted = first;
+    std::ranges::sort(sorted);
+    for (std::size_t i = 0; i < sorted.size(); ++i)
+        EXPECT_EQ(sorted[i], i);
+    EXPECT_NE(first, sorted);
+    EXPECT_NE(first, shuffled_order(100, order_seed_of(1, 1)));
+    EXPECT_NE(first, shuffled_order(100, order_seed_of(2, 0)));
+    EXPECT_TRUE(shuffled_order(0, 1).empty());
+}
+
+} // namespace
+} // namespace boxwood::bench

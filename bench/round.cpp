@@ -1,0 +1,240 @@
+#include "bench/round.h"
+
+#include "bench/calibration.h"
+#include "bench/prepare.h"
+#include "bench/truth.h"
+
+#include <benchmark/benchmark.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cfenv>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <stdexcept>
+
+namespace boxwood::bench {
+namespace {
+
+/// The eighth number of the first line of /proc/stat, in clock ticks; 0 where there is none.
+std::uint64_t steal_ticks() {
+    std::ifstream stat("/proc/stat");
+    std::string cpu;
+    std::uint64_t ticks = 0;
+    stat >> cpu;
+    for (int i = 0; i < 8; ++i)
+        if (!(stat >> ticks))
+            return 0;
+    return ticks;
+}
+
+/// What the operating system counts for the whole process.
+struct Usage {
+    std::uint64_t steal = steal_ticks();
+    rusage process = [] {
+        rusage usage{};
+        getrusage(RUSAGE_SELF, &usage);
+        return usage;
+    }();
+};
+
+void add_usage(results::Sample& sample, const Usage& before, const Usage& after) {
+    const auto difference = [](long a, long b) { return static_cast<std::uint64_t>(b - a); };
+    sample.nvcsw = difference(before.process.ru_nvcsw, after.process.ru_nvcsw);
+    sample.nivcsw = difference(before.process.ru_nivcsw, after.process.ru_nivcsw);
+    sample.minflt = difference(before.process.ru_minflt, after.process.ru_minflt);
+    if (after.steal > before.steal)
+        sample.flags |= results::disturbed_steal;
+    if (sample.nivcsw > 0)
+        sample.flags |= results::disturbed_switches;
+}
+
+/// One timing of a cell in this round.
+struct Timing {
+    const PlannedCell* cell;
+    Calibration calibration;
+    std::uint32_t cell_id;
+    std::uint64_t checked_hash, answers; ///< hash and number of the answers that were checked
+    bool is_twin;
+};
+
+class Round final : public benchmark::BenchmarkReporter {
+  public:
+    Round(const Report& report, std::size_t timings, unsigned round)
+        : report_(report), timings_(timings), round_(round) {}
+
+    std::vector<results::Sample> samples;
+
+    /// One contender at a time is alive: from the start of its build to the end of its query.
+    void build(benchmark::State& state, const Timing& timing) {
+        report_(samples.size() / 2, timings_, timing.cell->name);
+        start_sample(timing, "build");
+        const PlannedCell& cell = *timing.cell;
+        std::fegetenv(&floating_point_mode_);
+        const Scene& scene = scene_of(cell.scene);
+        contender_ = cell.contender.make(Job{&scene, cell.ask, cell.executor, cell.threads});
+        contender_->build(); // warms caches and allocator
+        time(state, [&] { contender_->build(); });
+    }
+
+    void query(benchmark::State& state, const Timing& timing) {
+        start_sample(timing, "query");
+        answers_.pairs.clear();
+        answers_.pairs.reserve(timing.answers);
+        answers_.hits.clear();
+        contender_->query(answers_); // warms caches and the answers' pages
+        time(state, [&] { contender_->query(answers_); });
+        if (answer_hash(answers_, timing.cell->ask) != timing.checked_hash)
+            samples.back().flags |= results::wrong_answer;
+        contender_.reset();
+        std::fesetenv(&floating_point_mode_);
+    }
+
+    bool ReportContext(const Context&) override { return true; }
+
+    /// Called once after each of the two functions above.
+    void ReportRuns(const std::vector<Run>& runs) override {
+        if (runs.size() != 1 || runs.front().error_occurred)
+            throw std::runtime_error("google-benchmark did not report one run per sample");
+        const Run& run = runs.front();
+        results::Sample& sample = samples.back();
+        sample.iterations = static_cast<std::uint64_t>(run.iterations);
+        sample.wall_ns = run.real_accumulated_time * 1e9 / static_cast<double>(run.iterations);
+        sample.cpu_ns = run.cpu_accumulated_time * 1e9 / static_cast<double>(run.iterations);
+    }
+
+  private:
+    void start_sample(const Timing& timing, const char* phase) {
+        results::Sample sample;
+        sample.cell_id = timing.cell_id;
+        sample.round = round_;
+        sample.position = static_cast<std::uint32_t>(samples.size());
+        sample.phase = phase;
+        sample.flags = timing.is_twin ? std::uint32_t{results::aa_twin} : 0;
+        samples.push_back(sample);
+    }
+
+    template <class Body> void time(benchmark::State& state, Body body) {
+        const Usage before;
+        for ([[maybe_unused]] auto iteration : state)
+            body();
+        add_usage(samples.back(), before, Usage{});
+    }
+
+    const Scene& scene_of(const SceneSpec& spec) {
+        const auto [found, is_new] = scenes_.try_emplace(scene_key(spec));
+        if (is_new)
+            found->second = make_scene(spec);
+        return found->second;
+    }
+
+    const Report& report_;
+    std::size_t timings_;
+    unsigned round_;
+    std::map<std::string, Scene> scenes_;
+    std::unique_ptr<Contender> contender_;
+    Answers answers_;
+    std::fenv_t floating_point_mode_{};
+};
+
+std::vector<Timing> timings_of(const Plan& plan, const results::Results& prepared) {
+    const Calibrations calibrations = calibrations_of(prepared.texts.at("calibration"));
+    std::map<std::string, std::uint32_t, std::less<>> id_of;
+    for (const results::Cell& cell : prepared.cells)
+        id_of.emplace(cell.name, cell.cell_id);
+    std::map<std::uint32_t, const results::Check*> check_of;
+    for (const results::Check& check : prepared.checks)
+        check_of.emplace(check.cell_id, &check);
+
+    std::vector<Timing> timings;
+    const std::string aa = choose_aa(prepared, calibrations);
+    for (const PlannedCell& cell : plan.cells) {
+        const auto found = calibrations.find(cell.name);
+        if (found == calibrations.end())
+            continue;
+        const std::uint32_t id = id_of.at(cell.name);
+        const results::Check& check = *check_of.at(id);
+        timings.push_back({&cell, found->second, id, check.result_hash, check.n_got, false});
+        if (cell.name == aa) {
+            timings.push_back(timings.back());
+            timings.back().is_twin = true;
+        }
+    }
+    return timings;
+}
+
+/// google-benchmark takes its settings from a command line, and once per process.
+void initialize_benchmark() {
+    static const bool done = [] {
+        std::array<char, 8> name{"boxwood"};
+        std::array<char*, 2> argv{name.data(), nullptr};
+        int argc = 1;
+        benchmark::Initialize(&argc, argv.data());
+        return true;
+    }();
+    (void)done;
+}
+
+} // namespace
+
+results::Results run_round(const Plan& plan, const results::Results& prepared, unsigned round,
+                           const Report& report) {
+    using namespace std::chrono;
+    results::Results out;
+    out.run_uuid = prepared.run_uuid;
+    out.created_utc = prepared.created_utc;
+    out.sweep_hash = prepared.sweep_hash;
+    out.generator = prepared.generator;
+    out.env = prepared.env;
+    out.scenes = prepared.scenes;
+    out.variants = prepared.variants;
+    out.cells = prepared.cells;
+
+    results::Shard shard;
+    shard.round = round;
+    shard.env_id = prepared.env.at(0).env_id;
+    shard.pid = static_cast<std::uint32_t>(getpid());
+    shard.order_seed = order_seed_of(plan.seed, round);
+    shard.t0_utc_ns = static_cast<std::uint64_t>(
+        duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count());
+    double load = 0;
+    if (getloadavg(&load, 1) == 1)
+        shard.load1 = load;
+    const std::uint64_t steal_before = steal_ticks();
+
+    const std::vector<Timing> timings = timings_of(plan, prepared);
+    Round engine(report, timings.size(), round);
+    initialize_benchmark();
+    benchmark::ClearRegisteredBenchmarks();
+    const auto add = [](const std::string& name, std::uint64_t iterations, auto body) {
+        benchmark::RegisterBenchmark(name.c_str(), body)
+            ->Iterations(static_cast<benchmark::IterationCount>(iterations))
+            ->Repetitions(1)
+            ->UseRealTime()
+            ->MeasureProcessCPUTime();
+    };
+    for (const std::size_t i : shuffled_order(timings.size(), shard.order_seed)) {
+        const Timing& timing = timings[i];
+        add(timing.cell->name + "/build", timing.calibration.build_iterations,
+            [&](benchmark::State& state) { engine.build(state, timing); });
+        add(timing.cell->name + "/query", timing.calibration.query_iterations,
+            [&](benchmark::State& state) { engine.query(state, timing); });
+    }
+    if (!timings.empty())
+        benchmark::RunSpecifiedBenchmarks(&engine);
+    benchmark::ClearRegisteredBenchmarks(); // they refer to what ends here
+
+    if (engine.samples.size() != 2 * timings.size())
+        throw std::runtime_error("google-benchmark did not run every cell of the round");
+    shard.steal_ticks = steal_ticks() - steal_before;
+    out.shards.push_back(shard);
+    out.samples = std::move(engine.samples);
+    return out;
+}
+
+} // namespace boxwood::bench
