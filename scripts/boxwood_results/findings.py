@@ -9,7 +9,7 @@ from .run import TOTAL
 @dataclass
 class Comparison:
     """ratio: the peer's time over ours, so above 1 Boxwood is the faster; p of the sign test, adjusted
-    for all comparisons of the run."""
+    within its family."""
 
     job: object
     ours: object
@@ -74,29 +74,30 @@ def compare(job, ours, peer, phase):
     )
 
 
+def judge(family, floor):
+    """Corrects the p of a family of claims and gives each its verdict."""
+    for claim, p in zip(family, stats.holm([c.p for c in family])):
+        claim.p, claim.verdict = p, stats.verdict(claim.ratio, p, floor)
+
+
 def findings(run):
-    """One Finding per job, in the order of run.jobs. The p of all comparisons are one Holm family."""
-    found = []
+    """One Finding per job, in the order of run.jobs. The claims about our cell in one phase are one Holm
+    family, as in `boxwood sweep`."""
+    found, floor = [], run.noise_floor
     for job in run.jobs:
         cells = run.of(job)
         ranked = [cell for cell in cells if cell.ranked]
         ours = min((c for c in ranked if c.ours), key=lambda c: c.median(TOTAL), default=None)
+        peers = sorted((c for c in ranked if not c.ours), key=lambda c: c.label)
         comparisons = []
-        for peer in sorted((c for c in ranked if not c.ours), key=lambda c: c.label):
+        for phase in (TOTAL, "query") if ours else ():
+            family = [c for c in (compare(job, ours, peer, phase) for peer in peers) if c]
+            judge(family, floor)
             # Where one side has no build, its query holds all the work: only the sum is fair.
-            phases = (TOTAL, "query") if ours and ours.has_build and peer.has_build else (TOTAL,)
-            comparisons += [compare(job, ours, peer, phase) for phase in phases if ours]
-        found.append(
-            Finding(
-                job, ours, [c for c in comparisons if c],
-                [c for c in cells if c.status == "wrong"],
-                [c for c in cells if c.status == "unchecked"],
-            )
-        )
-    claims = [c for finding in found for c in finding.comparisons]
-    floor = run.noise_floor
-    for claim, p in zip(claims, stats.holm([c.p for c in claims])):
-        claim.p, claim.verdict = p, stats.verdict(claim.ratio, p, floor)
+            comparisons += [c for c in family if phase == TOTAL or ours.has_build and c.peer.has_build]
+        wrong = [c for c in run.cells if c.job == job and c.status == "wrong"]  # timed or not
+        unchecked = [c for c in cells if c.status == "unchecked"]
+        found.append(Finding(job, ours, comparisons, wrong, unchecked))
     return found
 
 

@@ -5,8 +5,7 @@ from html import escape
 from . import registry
 from .findings import comparison_rows, findings, floor_text, rounds_text, sentence, time_text
 from .picture import as_inline_svg, cell_text
-from .selection import largest_jobs
-from .terminal import wrong_text
+from .selection import largest_jobs, wrong_text
 
 STYLE = """
 body { font: 15px/1.5 system-ui, "DejaVu Sans", sans-serif; color: #222; background: #fff;

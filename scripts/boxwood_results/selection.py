@@ -42,12 +42,20 @@ def left_out_note(count, what="variants"):
     return [f"{count} further {what} are left out here; the table of all cells has them."] if count else []
 
 
+def wrong_text(cell):
+    """What was wrong with a cell's answers."""
+    check = cell.check
+    witness = check["witness"] if check is not None else ""
+    if check is None or not (check["missing"] or check["extra"]):
+        return witness or "its answer changed between rounds"
+    counts = f"{check['missing']} missing, {check['extra']} extra"
+    return f"{counts} ({witness})" if witness else counts
+
+
 def wrong_notes(cells):
     """One sentence per cell that answered wrongly."""
     return [
-        f"Not ranked: {cell.label} on {cell.job} answered wrongly"
-        + (f" ({cell.check['missing']} missing, {cell.check['extra']} extra)" if cell.check is not None else "")
-        + "."
+        f"Not ranked: {cell.label} on {cell.job} answered wrongly: {wrong_text(cell)}."
         for cell in cells
         if cell.status == "wrong"
     ]

@@ -2,6 +2,7 @@
 
 from .findings import VERDICT_WORDS, findings, floor_text, rounds_text, time_text
 from .run import TOTAL
+from .selection import wrong_text
 
 
 def machine_line(run):
@@ -66,13 +67,6 @@ def summary(run):
         lines += [f"    {cell.label}: WRONG, not ranked: {wrong_text(cell)}" for cell in finding.wrong]
         lines += [f"    {cell.label}: not checked, not ranked" for cell in finding.unchecked]
     return lines + ["", *closing_lines(run)]
-
-
-def wrong_text(cell):
-    if cell.check is None:
-        return "its answer changed between rounds"
-    text = f"{cell.check['missing']} missing, {cell.check['extra']} extra"
-    return f"{text} ({cell.check['witness']})" if cell.check["witness"] else text
 
 
 def closing_lines(run):

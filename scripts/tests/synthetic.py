@@ -83,10 +83,10 @@ class Maker:
                                 is_peer=not builder, notes="double precision" if library == "fcl" else "")
         full = f"{scene}/n{n}-s1/{ask}/{name}/f32/{executor}-{threads}"
         cell_id = self.id_of("cells", full, name=full, scene_id=scene_id, variant_id=variant_id, ask=ask, n_items=n,
-                             n_queries=queries or n, precision="f32", executor=executor, threads=threads)
+                             n_queries=queries, precision="f32", executor=executor, threads=threads)
         gain = threads**0.8
         grow = math.log2(n) / 16
-        phases = [("query", query * (queries or n) * grow * factor / gain * (1000 if queries else 1) / (1000 if queries else 1))]
+        phases = [("query", query * (queries or n) * grow * factor / gain)]
         if build is not None:
             phases.append(("build", build * n * grow / gain))
         for phase, ns in phases:
@@ -108,19 +108,19 @@ class Maker:
             for flags in (0, 4) if twin else (0,):
                 disturbed = self.random.random() < 0.04
                 wall = ns * self.speed[round_] * math.exp(self.random.gauss(0, 0.012) + 0.1 * disturbed)
-                self.rows["samples"].append(dict(cell_id=cell_id, shard_id=round_, round=round_, position=len(self.rows["samples"]),
-                                                 phase=phase, wall_ns=wall, cpu_ns=wall, iterations=3,
+                self.rows["samples"].append(dict(cell_id=cell_id, shard_id=round_, round=round_, phase=phase,
+                                                 wall_ns=wall, cpu_ns=wall, iterations=3,
                                                  flags=flags | (2 if disturbed else 0)))
 
     def place_samples(self):
-        """A shuffled order per round; phases of one cell stand together."""
+        """A shuffled order per round; a cell's query comes right after its build."""
         for round_ in range(self.rounds):
             rows = [row for row in self.rows["samples"] if row["round"] == round_]
-            keys = list({(row["cell_id"], row["flags"] & 4) for row in rows})
+            keys = sorted({(row["cell_id"], row["flags"] & 4) for row in rows})
             self.random.shuffle(keys)
-            place = {key: index for index, key in enumerate(keys)}
+            place = {key: 2 * index for index, key in enumerate(keys)}
             for row in rows:
-                row["position"] = place[row["cell_id"], row["flags"] & 4]
+                row["position"] = place[row["cell_id"], row["flags"] & 4] + (row["phase"] == "query")
 
     def write(self, path, attrs=(), drop=()):
         self.place_samples()
