@@ -68,6 +68,12 @@ TEST_F(MachineTest, ReadsWhatLinuxWrites) {
     put("sys/devices/system/cpu/intel_pstate/no_turbo", "1\n");
     put("sys/devices/system/cpu/smt/active", "1\n");
     put("sys/kernel/mm/transparent_hugepage/enabled", "always [madvise] never\n");
+    put("sys/devices/system/cpu/cpu0/cache/index0/level", "1\n");
+    put("sys/devices/system/cpu/cpu0/cache/index0/type", "Instruction\n");
+    put("sys/devices/system/cpu/cpu0/cache/index0/size", "64K\n");
+    put("sys/devices/system/cpu/cpu0/cache/index1/level", "1\n");
+    put("sys/devices/system/cpu/cpu0/cache/index1/type", "Data\n");
+    put("sys/devices/system/cpu/cpu0/cache/index1/size", "48K\n");
     put(".dockerenv", "");
     const Machine m = read_machine("", root_);
     EXPECT_EQ(m.cpu, "Turtle 9");
@@ -76,6 +82,7 @@ TEST_F(MachineTest, ReadsWhatLinuxWrites) {
     EXPECT_DOUBLE_EQ(m.load1, 1.25);
     EXPECT_EQ(m.memory_bytes, 8000u << 10);
     EXPECT_EQ(m.quota, 1.5);
+    EXPECT_EQ(m.l1d_bytes, 48u << 10);
     EXPECT_EQ(m.governor, "powersave");
     EXPECT_EQ(m.boost, false);
     EXPECT_EQ(m.smt, true);

@@ -57,10 +57,8 @@ std::uint32_t usable_cores() {
     return std::max(1u, std::thread::hardware_concurrency()); // more than 1024 cores
 }
 
-/// By system call, which knows x86, else from /sys, which knows arm64.
+/// From /sys, which knows what of a host's cache is ours, else by system call.
 std::optional<std::uint64_t> cache_bytes(const path& root, int level, int name) {
-    if (const long bytes = sysconf(name); bytes > 0)
-        return static_cast<std::uint64_t>(bytes);
     for (int i = 0; i < 8; ++i) {
         const path index =
             root / "sys/devices/system/cpu/cpu0/cache" / ("index" + std::to_string(i));
@@ -73,6 +71,8 @@ std::optional<std::uint64_t> cache_bytes(const path& root, int level, int name) 
         if (size >> number >> unit)
             return number << (unit == 'M' ? 20 : 10);
     }
+    if (const long bytes = sysconf(name); bytes > 0)
+        return static_cast<std::uint64_t>(bytes);
     return std::nullopt;
 }
 

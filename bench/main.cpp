@@ -88,6 +88,9 @@ CLI::App* innermost(CLI::App& app, std::string& path) {
 std::string complaint(CLI::App& app, const CLI::ParseError& error) {
     std::string path, text = error.what();
     CLI::App* command = innermost(app, path);
+    const auto below = command_names(*command);
+    if (!below.empty() && command != &app)
+        return fmt::format("`{}` wants one of: {}", path, fmt::join(below, ", "));
     const std::vector<std::string> extra = app.remaining(true);
     if (!extra.empty() && extra.front().starts_with("-")) {
         std::vector<std::string_view> words;

@@ -195,7 +195,7 @@ std::vector<Finding> examine_program() {
         findings.push_back({Level::warn, "sanitizers", std::string(sanitizers()),
                             "they slow code many times: time the release preset"});
     findings.push_back({ieee_arithmetic() ? Level::ok : Level::warn, "floating point",
-                        fmt::format("MXCSR {:#06x}", mxcsr()),
+                        fmt::format("MXCSR {:#06x}", mxcsr() & ~0x3fu),
                         ieee_arithmetic() ? ""
                                           : "subnormals are flushed or rounding is not to nearest: "
                                             "exact answers may be wrong; look for a library built "

@@ -128,20 +128,16 @@ void add_query_pairs(CLI::App& query) {
     auto options = std::make_shared<PairsQuery>();
     CLI::App* pairs = query.add_subcommand(
         "pairs", "every pair of boxes that share a point, as lines i,j with i < j, sorted");
-    pairs
-        ->add_option("BOXES.csv", options->boxes,
-                     "rows min_x,min_y,min_z,max_x,max_y,max_z, decimal or hex float, read as "
-                     "doubles; lines with # are passed over; - reads standard input")
-        ->required();
+    pairs->add_option("BOXES.csv", options->boxes, "the boxes; - reads standard input")->required();
     pairs->add_flag("--count", options->count, "print only how many pairs there are");
     add_format_options(*pairs, options->format);
     add_tree_options(*pairs, options->tree);
     pairs->footer(
-        "Boxes are closed (one shared point counts), numbered from 0 by row. Truth is in\n"
-        "double: no pair is missed or added by rounding.\n\n"
-        "Example:\n"
-        "  printf '0,0,0,1,1,1\\n1,1,1,2,2,2\\n3,3,3,4,4,4\\n' | boxwood query pairs -\n"
-        "prints 0,1");
+        "Rows: min_x,min_y,min_z,max_x,max_y,max_z, decimal or hex float, read as doubles; blank\n"
+        "lines and lines with # in front are passed over. Boxes are closed (one shared point\n"
+        "counts) and numbered from 0. No pair is missed or added by rounding.\n\n"
+        "Example, which prints 0,1:\n"
+        "  printf '0,0,0,1,1,1\\n1,1,1,2,2,2\\n3,3,3,4,4,4\\n' | boxwood query pairs -");
     pairs->callback([options] { run(*options, std::cout); });
 }
 

@@ -120,20 +120,17 @@ void add_query_rays(CLI::App& query) {
     CLI::App* rays = query.add_subcommand(
         "rays", "for each ray the nearest triangle of a mesh, as triangle,t,u,v or miss");
     rays->add_option("MESH", options->mesh, "a mesh file (OBJ, PLY, STL)")->required();
-    rays->add_option(
-            "RAYS.csv", options->rays,
-            "rows ox,oy,oz,dx,dy,dz[,tmax], decimal or hex float, rounded to floats; lines "
-            "with # are passed over; - reads standard input")
-        ->required();
+    rays->add_option("RAYS.csv", options->rays, "the rays; - reads standard input")->required();
     rays->add_flag("--any", options->any, "print only 1 or 0: whether the ray hits anything");
     rays->add_option("--kernel", options->kernel, "a ray kernel of `boxwood list kernels`")
         ->capture_default_str();
     add_format_options(*rays, options->format);
     add_tree_options(*rays, options->tree);
     rays->footer(
-        "The hit point is origin + t * direction, and (1 - u - v) a + u b + v c on the\n"
-        "triangle (a, b, c), with 0 <= t <= tmax. Of hits at the same t the lowest triangle\n"
-        "is named. Triangles are numbered from 0, in the order of the file.\n\n"
+        "Rows: ox,oy,oz,dx,dy,dz[,tmax], decimal or hex float, rounded to floats; blank lines and\n"
+        "lines with # in front are passed over. The hit is at origin + t * direction with\n"
+        "0 <= t <= tmax, which is (1 - u - v) a + u b + v c on the triangle (a, b, c). Of hits at\n"
+        "the same t the lowest triangle is named; triangles are numbered from 0 in file order.\n\n"
         "Example:\n"
         "  echo 0,0,-10,0,0,1 | boxwood query rays model.obj -");
     rays->callback([options] { run(*options, std::cout); });
