@@ -1,0 +1,113 @@
+#include "bench/commands/compare.h"
+
+#include "bench/commands/command.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace boxwood::bench {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// One cell timed in some rounds, the same in each but for one part in a thousand.
+results::Results timed(double ns, std::uint32_t rounds = 9, const std::string& status = "exact") {
+    results::Results results;
+    results.env.resize(1);
+    results.env[0].git_commit = "0123456789abcdef";
+    results.scenes.resize(1);
+    results.variants.resize(1);
+    results.cells.resize(1);
+    results.cells[0].name = "soup/ours";
+    results.checks.resize(1);
+    results.checks[0].status = status;
+    for (std::uint32_t round = 0; round < rounds; ++round) {
+        results::Shard shard;
+        shard.shard_id = shard.round = round;
+        results.shards.push_back(shard);
+        results::Sample sample;
+        sample.shard_id = sample.round = round;
+        sample.phase = "query";
+        sample.wall_ns = ns * (1 + 0.001 * (round % 3));
+        results.samples.push_back(sample);
+    }
+    return results;
+}
+
+int exit_of(const results::Results& base, const results::Results& head,
+            std::optional<double> fail_if = std::nullopt) {
+    return exit_code_of(compare_files(base, head), default_delta, fail_if);
+}
+
+std::string text_of(const results::Results& base, const results::Results& head,
+                    bool markdown = false) {
+    return comparison_text(base, head, compare_files(base, head), markdown);
+}
+
+TEST(CompareCommand, Percentages) {
+    EXPECT_DOUBLE_EQ(percent_of("5%"), 0.05);
+    EXPECT_DOUBLE_EQ(percent_of("0.5 %"), 0.005);
+    EXPECT_DOUBLE_EQ(fail_threshold("slower>5%"), 0.05);
+    EXPECT_DOUBLE_EQ(fail_threshold("slower > 12.5 %"), 0.125);
+    for (const char* bad : {"", "5", "%", "five%", "-5%", "5%%", "nan%", "inf%", "1e9%"})
+        EXPECT_THROW(percent_of(bad), BadInput) << bad;
+    for (const char* bad : {"", "slower", "faster>5%", "slower>", "slower>=5%", "slower>5"})
+        EXPECT_THROW(fail_threshold(bad), BadInput) << bad;
+}
+
+TEST(CompareCommand, AFileWithItself) {
+    for (const std::uint32_t rounds : {1u, 5u, 20u})
+        for (const char* status : {"exact", "wrong", ""}) {
+            const auto file = timed(100, rounds, status);
+            EXPECT_EQ(exit_of(file, file), exit_success) << rounds << status;
+            EXPECT_EQ(exit_of(file, file, 0.0), exit_success) << rounds << status;
+        }
+    EXPECT_THAT(text_of(timed(100, 1), timed(100, 1)), HasSubstr("1 same"));
+}
+
+TEST(CompareCommand, ExitCodes) {
+    const auto base = timed(100);
+    EXPECT_EQ(exit_of(base, timed(110)), exit_failed);
+    EXPECT_EQ(exit_of(base, timed(110), 0.05), exit_failed);
+    EXPECT_EQ(exit_of(base, timed(110), 0.2), exit_success);
+    EXPECT_EQ(exit_of(base, timed(102)), exit_success);
+    EXPECT_EQ(exit_of(base, timed(102), 0.01), exit_cannot_tell); // the same within 5 %, not 1 %
+    EXPECT_EQ(exit_of(base, timed(80)), exit_success);
+    EXPECT_EQ(exit_of(timed(100, 8), timed(150, 8)), exit_cannot_tell);
+    EXPECT_EQ(exit_of(timed(100, 3), timed(101, 3)), exit_cannot_tell);
+    EXPECT_EQ(exit_of(base, timed(100, 9, "wrong")), exit_failed);
+    EXPECT_EQ(exit_of(timed(100, 9, "wrong"), base), exit_success);
+}
+
+TEST(CompareCommand, CellsThatAreGoneCannotBeTold) {
+    auto base = timed(100);
+    base.cells.push_back(base.cells[0]);
+    base.cells[1].cell_id = 1;
+    base.cells[1].name = "soup/gone";
+    base.samples.push_back(base.samples[0]);
+    base.samples.back().cell_id = 1;
+    EXPECT_EQ(exit_of(base, timed(100)), exit_cannot_tell);
+    EXPECT_THAT(text_of(base, timed(100)), HasSubstr("Only in the base:\n- soup/gone"));
+    EXPECT_EQ(exit_of(timed(100), base), exit_success);
+    auto other = timed(100);
+    other.scenes[0].content_hash = 1;
+    EXPECT_EQ(exit_of(timed(100), other), exit_cannot_tell);
+}
+
+TEST(CompareCommand, SaysWhatItSaw) {
+    const std::string slower = text_of(timed(100), timed(110));
+    EXPECT_THAT(slower, HasSubstr("0123456789ab"));
+    EXPECT_THAT(slower, HasSubstr("soup/ours  query       9  100 ns  110 ns       1.10"));
+    EXPECT_THAT(slower, HasSubstr("1 slower"));
+    EXPECT_THAT(slower, Not(HasSubstr("More rounds")));
+    const std::string few = text_of(timed(100, 3), timed(110, 3));
+    EXPECT_THAT(few, HasSubstr("can't tell"));
+    EXPECT_THAT(few, HasSubstr("at least 9 rounds"));
+    EXPECT_THAT(text_of(timed(100), timed(110), true),
+                HasSubstr("| cell | phase | rounds | base | head | head/base |"));
+    EXPECT_THAT(text_of(timed(100), timed(100, 9, "wrong")), HasSubstr("newly wrong"));
+}
+
+} // namespace
+} // namespace boxwood::bench

@@ -1,0 +1,111 @@
+#include "bench/commands/show.h"
+
+#include "bench/text_table.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace boxwood::bench {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Ours, a peer that is right, one that is wrong and one that cannot do it, in nine rounds.
+results::Results four_cells() {
+    results::Results results;
+    results.run_uuid = "the-run";
+    results.env.resize(1);
+    results.env[0].host = "the-host";
+    results.env[0].fcl_version = "0.7.0";
+    results.scenes.resize(1);
+    results.scenes[0].name = "soup";
+    results.scenes[0].n_items = 1000;
+    for (std::uint32_t round = 0; round < 9; ++round) {
+        results::Shard shard;
+        shard.shard_id = shard.round = round;
+        results.shards.push_back(shard);
+    }
+    const char* const names[] = {"binned_sah.wide8", "fcl.tree", "embree.fast", "bullet.dbvt"};
+    const char* const statuses[] = {"exact", "exact", "wrong", "unsupported"};
+    for (std::uint32_t id = 0; id < 4; ++id) {
+        results::Variant variant;
+        variant.variant_id = id;
+        variant.name = names[id];
+        variant.is_peer = id > 0;
+        results.variants.push_back(variant);
+        results::Cell cell;
+        cell.cell_id = cell.variant_id = id;
+        cell.ask = "pairs";
+        cell.precision = "f32";
+        cell.executor = "serial";
+        results.cells.push_back(cell);
+        results::Check check;
+        check.cell_id = id;
+        check.status = statuses[id];
+        check.missing = id == 2 ? 3 : 0;
+        check.n_expected = 70;
+        check.witness = id == 2 ? "pair 4,9" : id == 3 ? "no rays" : "";
+        results.checks.push_back(check);
+        for (std::uint32_t round = 0; round < 9 && id != 3; ++round) {
+            results::Sample sample;
+            sample.cell_id = id;
+            sample.shard_id = sample.round = round;
+            sample.phase = "query";
+            sample.wall_ns = 1000.0 * (id + 1) + round;
+            results.samples.push_back(sample);
+        }
+    }
+    results.counters.push_back({0, "box_tests", 12345});
+    return results;
+}
+
+TEST(Show, SaysWhatIsInTheFile) {
+    const std::string text = show_text(four_cells());
+    for (const char* part :
+         {"the-run", "the-host", "FCL 0.7.0", "Embree absent", "9 rounds", "4 cells, 27 samples",
+          "soup, 1000 items, pairs, 1 thread\n", "1.00 us", "2.00 us", "box_tests", "12345",
+          "wrong, not ranked: embree.fast f32 serial: 3 missing and 0 extra of 70; pair 4,9",
+          "unsupported: bullet.dbvt f32 serial: no rays", "no cell was timed twice"})
+        EXPECT_THAT(text, HasSubstr(part));
+    EXPECT_THAT(text, ::testing::ContainsRegex("binned_sah.wide8 f32 serial +fcl.tree f32 serial "
+                                               "+query +9 +0.50. +0.[0-9]+ to 0.[0-9]+ .*faster"));
+    EXPECT_THAT(text, HasSubstr("not ranked: a wrong answer"));
+}
+
+TEST(Show, FewRoundsAreSaid) {
+    results::Results results = four_cells();
+    std::erase_if(results.samples, [](const auto& sample) { return sample.round > 2; });
+    const std::string text = show_text(results);
+    EXPECT_THAT(text, HasSubstr("can't tell"));
+    EXPECT_THAT(text, HasSubstr("run the sweep with --rounds 9"));
+    EXPECT_THAT(text, Not(HasSubstr("faster")));
+}
+
+TEST(Show, AnEmptyFileIsFine) { EXPECT_THAT(show_text({}), HasSubstr("0 cells, 0 samples")); }
+
+TEST(TextTable, AlignsAndEscapes) {
+    TextTable table({"name", ">n"});
+    table.add({"a|b", "1"});
+    table.add({"\u00b5", "234"});
+    EXPECT_EQ(table.text(), "name    n\na|b     1\n\u00b5     234\n");
+    EXPECT_EQ(table.markdown(), "| name | n |\n| --- | ---: |\n| a\\|b | 1 |\n| \u00b5 | 234 |\n");
+}
+
+TEST(TextTable, ThreeDigits) {
+    EXPECT_EQ(time_text(0.5), "0.50 ns");
+    EXPECT_EQ(time_text(999.4), "999 ns");
+    EXPECT_EQ(time_text(999.6), "1.00 us");
+    EXPECT_EQ(time_text(12'345'678), "12.3 ms");
+    EXPECT_EQ(time_text(5e12), "5000 s");
+    EXPECT_EQ(time_text(std::numeric_limits<double>::quiet_NaN()), "-");
+    EXPECT_EQ(ratio_text(0.4117), "0.412");
+    EXPECT_EQ(ratio_text(1), "1.00");
+    EXPECT_EQ(ratio_text(12.34), "12.3");
+    EXPECT_EQ(ratio_text(123.4), "123");
+}
+
+} // namespace
+} // namespace boxwood::bench
