@@ -29,6 +29,10 @@ struct RaySpan {
 /// t_min >= 0 makes it void, and the sign of a product is right.
 /// Raising 1 / d of the exit by 2 ulp alone is refuted (box_ray_test.cpp). Scaling the exit by
 /// 1 + 2 gamma_3 costs a product per box and still fails where 1 / d is denormal or overflows.
+///
+/// The slack is 8u, not u, for the sake of float ray-triangle kernels: `Watertight` moves corners
+/// by up to u (2|x| + 4|z|) in ray space, 6u of their distance from the origin at a face of the
+/// box, so that what it hits in front of the origin the box of its triangle does not lose either.
 struct RaySlabs {
     static constexpr KernelInfo info{"box_ray", "slabs",
                                      "slab test, near and far planes by sign bit, reciprocals "
@@ -41,8 +45,7 @@ struct RaySlabs {
     std::array<bool, 3> negative; ///< signbit(direction): the near plane is box.max
 
     explicit RaySlabs(const Ray<float>& ray) : origin(ray.origin) {
-        // 2^-50 covers the rounding of the quotient itself. A zero component gives +-inf twice.
-        constexpr double slack = 0x1p-24 + 0x1p-50;
+        constexpr double slack = 0x1p-21; // a zero component gives +-inf twice all the same
         // With |o| < 2^103 near - o cannot overflow for a finite box. Beyond it the entry is given
         // up: entry_rdir = 0 makes it 0 (or NaN, which is skipped).
         constexpr float far_off = 0x1p103f;

@@ -27,7 +27,7 @@ float by_bisection(double x) {
         return std::bit_cast<float>(rank < 0 ? bits | 0x80000000u : bits);
     };
     std::int64_t low = -std::int64_t{0x7f800000} - 1, high = 0x7f800000; // -inf .. +inf
-    if (double{inf_f} <= x)
+    if (static_cast<double>(inf_f) <= x)
         return inf_f;
     while (high - low > 1) { // float_at(low) <= x < float_at(high)
         const std::int64_t middle = low + (high - low) / 2;

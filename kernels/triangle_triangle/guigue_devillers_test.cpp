@@ -47,14 +47,14 @@ using Corners = std::array<Point, 3>;
 
 bool origin_in_hull(const std::array<Point, 9>& p) {
     std::int64_t det[9][9][9];
-    for (int i = 0; i < 9; ++i) {
+    for (std::size_t i = 0; i < 9; ++i) {
         if (p[i] == Point{})
             return true;
-        for (int j = i + 1; j < 9; ++j) {
+        for (std::size_t j = i + 1; j < 9; ++j) {
             const Point ij = cross(p[i], p[j]);
             if (ij == Point{} && dot(p[i], p[j]) <= 0)
                 return true;
-            for (int k = j + 1; k < 9; ++k) {
+            for (std::size_t k = j + 1; k < 9; ++k) {
                 det[i][j][k] = dot(ij, p[k]);
                 if (det[i][j][k] != 0)
                     continue;
@@ -64,10 +64,10 @@ bool origin_in_hull(const std::array<Point, 9>& p) {
             }
         }
     }
-    for (int i = 0; i < 9; ++i)
-        for (int j = i + 1; j < 9; ++j)
-            for (int k = j + 1; k < 9; ++k)
-                for (int l = k + 1; l < 9; ++l) {
+    for (std::size_t i = 0; i < 9; ++i)
+        for (std::size_t j = i + 1; j < 9; ++j)
+            for (std::size_t k = j + 1; k < 9; ++k)
+                for (std::size_t l = k + 1; l < 9; ++l) {
                     const std::array<std::int64_t, 4> weight{det[j][k][l], -det[i][k][l],
                                                              det[i][j][l], -det[i][j][k]};
                     const auto [low, high] = std::minmax_element(weight.begin(), weight.end());
@@ -272,9 +272,9 @@ TEST(GuigueDevillers, TheOrderOfCornersAndSidesDoesNotMatter) {
     for (int i = 0; i < 4000; ++i) {
         const Corners a = random.triangle(3), b = random.triangle(3);
         const Answer expected = answer(a, b);
-        std::array<int, 3> pa{0, 1, 2};
+        std::array<std::size_t, 3> pa{0, 1, 2};
         do {
-            std::array<int, 3> pb{0, 1, 2};
+            std::array<std::size_t, 3> pb{0, 1, 2};
             do {
                 const Corners sa{a[pa[0]], a[pa[1]], a[pa[2]]}, sb{b[pb[0]], b[pb[1]], b[pb[2]]};
                 ASSERT_EQ(answer(sa, sb), expected) << print(sa, sb);
