@@ -99,8 +99,7 @@ std::string verdict(const PairedRatio& ratio, double p_adj, double delta, double
     const auto is_within = [](double value, double band) {
         return 1 / (1 + band) <= value && value <= 1 + band;
     };
-    const double band = std::max(delta, floor);
-    if (is_within(ratio.ci_lo, band) && is_within(ratio.ci_hi, band))
+    if (is_within(ratio.ci_lo, delta) && is_within(ratio.ci_hi, delta))
         return "same";
     if (p_adj > family_error || is_within(ratio.ratio, floor))
         return "cannot_tell";
