@@ -12,7 +12,8 @@ RANKED = ("exact", "conservative", "within_bound")
 STATUSES = ("wrong", "unsupported", "within_bound", "conservative", "exact")  # the worst first
 OURS = "boxwood"
 TOTAL = "build+query"  # within a round: what one use of the structure costs
-NO_BUILD = 1e-3  # a build under this part of the query is none
+# Under both of these a "build" only copies the input: no structure is made (ns per item; part of the query).
+COPY_NS, COPY_PART = 5, 0.05
 
 
 @dataclass(frozen=True)
@@ -73,7 +74,8 @@ class Cell:
 
     @property
     def has_build(self):
-        return self.median("build") > NO_BUILD * self.median("query")
+        build = self.median("build")
+        return build > COPY_NS * self.job.n or build > COPY_PART * self.median("query")
 
     def rounds(self, phase):
         """{shard_id: ns}. A contender without a build phase takes 0 ns to build."""

@@ -18,7 +18,7 @@ def interval_ranks(n, confidence=0.95):
     narrow as can be; None where n is too small. Exact for any continuous distribution."""
     tail, rank = 0.0, 0
     for k in range(n // 2):
-        tail += math.comb(n, k) / 2.0**n
+        tail += math.comb(n, k) / 2**n
         if 1 - 2 * tail < confidence:
             break
         rank = k + 1
@@ -64,7 +64,7 @@ def sign_test(logs):
     """Two-sided exact p of "neither is faster"; ties count for neither."""
     signs = [x > 0 for x in logs if x != 0]
     n, k = len(signs), min(sum(signs), len(signs) - sum(signs))
-    return min(1.0, 2 * sum(math.comb(n, i) for i in range(k + 1)) / 2.0**n)
+    return min(1.0, 2 * sum(math.comb(n, i) for i in range(k + 1)) / 2**n)
 
 
 def holm(ps):
@@ -82,9 +82,8 @@ def verdict(ratio, p_adjusted, floor):
     if ratio.n < LEAST_FOR_VERDICT or not ratio.known:
         return CANNOT_TELL
     floor = 0.0 if math.isnan(floor) else floor
-    same = max(SAME_WITHIN, floor)
-    if 1 / (1 + same) <= ratio.lo and ratio.hi <= 1 + same:
-        return SAME
+    if 1 / (1 + SAME_WITHIN) <= ratio.lo and ratio.hi <= 1 + SAME_WITHIN and floor <= SAME_WITHIN:
+        return SAME  # which a noisier machine cannot tell
     if p_adjusted > 0.05 or 1 / (1 + floor) <= ratio.mid <= 1 + floor:
         return CANNOT_TELL
     if ratio.lo > 1:

@@ -63,6 +63,7 @@ def interval(lo, mid, hi, n=15):
         (interval(1.9, 2.0, 2.1), 0.001, 0.02, stats.FASTER),
         (interval(0.4, 0.5, 0.6), 0.001, 0.02, stats.SLOWER),
         (interval(0.99, 1.0, 1.01), 0.9, 0.02, stats.SAME),
+        (interval(0.99, 1.0, 1.01), 0.9, 0.50, stats.CANNOT_TELL),  # the machine cannot tell 5 %
         (interval(0.8, 1.2, 1.4), 0.3, 0.02, stats.CANNOT_TELL),
         (interval(1.9, 2.0, 2.1), 0.2, 0.02, stats.CANNOT_TELL),  # not after the correction
         (interval(1.9, 2.0, 2.1, n=8), 0.001, 0.02, stats.CANNOT_TELL),  # too few rounds
@@ -89,3 +90,9 @@ def test_exponent_of_a_power_law():
     assert fit.n == 9 and fit.mid == pytest.approx(1.5) and fit.lo == pytest.approx(1.5)
     del times[1000][0]
     assert stats.exponent(times).n == 8
+
+
+def test_many_rounds():
+    lo, hi = stats.interval_ranks(3000)
+    assert hi == 3001 - lo and 1400 < lo < 1500
+    assert stats.sign_test([1.0] * 3000) == 0.0 and stats.sign_test([1.0, -1.0] * 1500) == 1.0
