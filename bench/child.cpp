@@ -166,7 +166,7 @@ void ChildReport::at(std::size_t done, std::size_t total, const std::string& cel
 /// SIGPIPE, as it should.
 void ChildReport::send(const char* word, std::string text) {
     std::ranges::replace(text, '\n', ' ');
-    const std::string line = fmt::format("{} {:.3000}\n", word, text);
+    const std::string line = fmt::format("{} {:.500}\n", word, text);
     while (write(descriptor_, line.data(), line.size()) < 0 && errno == EINTR) {
     }
 }

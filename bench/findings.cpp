@@ -97,7 +97,7 @@ void add_rows(const Results& results, const Catalogue& catalogue, const Best& be
             time_text(catalogue.median_ns(*cell, "query")),
         };
         if (ours != best.end() && library != "boxwood")
-            for (const char* phase : {"build", "query"})
+            for (const char* phase : {"build+query", "query"})
                 row.push_back(
                     comparison_text(results, cell->cell_id, ours->second->cell_id, phase));
         table.add(std::move(row));
@@ -121,7 +121,7 @@ bool has_crashed(const results::Check& check) {
 std::string findings_text(const Results& results) {
     const Catalogue catalogue(results);
     TextTable table({"scene", ">n", "ask", ">threads", "best of its library", ">build", ">query",
-                     "build, ours/peer", "query, ours/peer"});
+                     "build+query, ours/peer", "query, ours/peer"});
     for (const auto& [task, best] : best_of(results, catalogue))
         add_rows(results, catalogue, best, table);
 

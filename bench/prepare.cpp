@@ -153,7 +153,7 @@ class Preparation {
                 calibrations_.emplace(cell.name, calibration);
             } catch (const std::exception& error) {
                 check.status = "wrong";
-                check.witness = fmt::format("threw: {}", error.what());
+                check.witness = fmt::format("threw: {:.500}", error.what());
             }
         }
         check.cell_id = row.cell_id;

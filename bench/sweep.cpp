@@ -108,7 +108,8 @@ class Sweep {
             if (end.kind == ChildEnd::Kind::interrupted)
                 return false;
             note_crash(end, "the preparation");
-            if (end.kind == ChildEnd::Kind::done && !(found = shards_.prepared()))
+            found = shards_.prepared();
+            if (!found && end.kind == ChildEnd::Kind::done)
                 throw BadInput(
                     fmt::format("{} cannot be read back", shards_.prepared_file().string()));
         }
@@ -144,7 +145,7 @@ class Sweep {
                 return false;
             note_crash(end, fmt::format("round {}", *round + 1));
             take_out_crashed();
-            if (end.kind != ChildEnd::Kind::done)
+            if (!fs::exists(shards_.round_file(*round)))
                 continue;
             if (!progress_.is_terminal())
                 progress_.say(fmt::format("round {}/{} done, {} left", *round + 1, plan_.rounds,
