@@ -51,7 +51,7 @@ RayHit walk(const BinaryLayout& layout, const Ray<float>& ray, const RayJob& job
 
 void walk_all(const BinaryLayout& layout, RayJob job, const Executor& executor) {
     for_ray_chunks(job, executor, [&](const RayJob& part) {
-        with_ray_kernel(part.kernel, [&]<class K>(K) {
+        with_kernel<RayKernels>(part.kernel, [&]<class K>(std::type_identity<K>) {
             Buffer<Waiting> stack(layout.depth() + 1);
             const bool any = part.query == RayQuery::any;
             const auto one = part.work ? (any ? walk<K, true, true> : walk<K, false, true>)

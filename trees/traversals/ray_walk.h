@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/box_ray.h"
-#include "kernels/ray_triangle/watertight.h"
+#include "kernels/catalogue.h"
 #include "trees/layout.h"
 
 #include <algorithm>
@@ -9,14 +9,6 @@
 #include <string>
 
 namespace boxwood {
-
-/// Calls `f(K{})` with the ray kernel of that name. One line per kernel of the ladder.
-template <class F> void with_ray_kernel(std::string_view name, const F& f) {
-    if (name == Watertight::name)
-        return f(Watertight{});
-    throw std::invalid_argument("unknown ray kernel '" + std::string(name) +
-                                "'; `boxwood list kernels` names them");
-}
 
 /// One ray on its way through a tree: the nearest hit so far, and the tests of leaf triangles.
 template <RayKernel K, bool Counted> class RayWalk {
@@ -81,7 +73,9 @@ struct RayJob {
 template <class F> void for_ray_chunks(RayJob job, const Executor& executor, const F& walk) {
     if (job.hits.size() != job.rays.size())
         throw std::invalid_argument("rays: one hit per ray is wanted");
-    with_ray_kernel(job.kernel, [](auto) {});
+    if (!with_kernel<RayKernels>(job.kernel, [](auto) {}))
+        throw std::invalid_argument("unknown ray kernel '" + std::string(job.kernel) +
+                                    "'; `boxwood list kernels` names them");
     constexpr std::size_t chunk = 512;
     executor.for_each((job.rays.size() + chunk - 1) / chunk, [&](std::size_t c) {
         RayJob part = job;

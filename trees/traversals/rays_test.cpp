@@ -1,6 +1,6 @@
+#include "kernels/ray_triangle/watertight.h"
 #include "trees/builder.h"
 #include "trees/layout.h"
-#include "trees/traversals/ray_walk.h"
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>

@@ -196,8 +196,10 @@ std::vector<Pair> first_tasks(const Wide8Layout& a, const Wide8Layout& b, Work* 
 
 void self_pairs(const Wide8Layout& tree, const Executor& executor, PairSink& sink) {
     run_tasks(first_tasks<true>(tree, tree, nullptr), executor, sink, nullptr,
-              [&](PairWalk& state) { HWY_DYNAMIC_DISPATCH(SelfPairs)
-                                     (state, tree.blocks()); });
+              [&](PairWalk& state) {
+                  HWY_DYNAMIC_DISPATCH(SelfPairs)
+                  (state, tree.blocks());
+              });
 }
 
 Work self_pairs_counted(const Wide8Layout& tree, PairSink& sink) {

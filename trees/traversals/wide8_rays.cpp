@@ -98,7 +98,7 @@ RayHit WalkRay(const Wide8Layout& tree, const Ray<float>& ray, const RayJob& job
 void Rays(const Wide8Layout& tree, const RayJob& job) {
     // Each open block on a path leaves at most seven others waiting, and its own eight come on top.
     Buffer<WaitingBlock> stack(8 * tree.depth() + 8);
-    with_ray_kernel(job.kernel, [&]<class K>(K) HWY_ATTR {
+    with_kernel<RayKernels>(job.kernel, [&]<class K>(std::type_identity<K>) HWY_ATTR {
         const bool any = job.query == RayQuery::any;
         const auto one = job.work ? (any ? WalkRay<K, true, true> : WalkRay<K, false, true>)
                                   : (any ? WalkRay<K, true, false> : WalkRay<K, false, false>);
@@ -127,8 +127,10 @@ Work rays_counted(const Wide8Layout& tree, std::span<const Ray<float>> rays, Ray
                   std::span<RayHit> hits) {
     Work work;
     for_ray_chunks({rays, query, kernel, triangles, hits, &work}, serial(),
-                   [&](const RayJob& part) { HWY_DYNAMIC_DISPATCH(Rays)
-                                             (tree, part); });
+                   [&](const RayJob& part) {
+                       HWY_DYNAMIC_DISPATCH(Rays)
+                       (tree, part);
+                   });
     return work;
 }
 
