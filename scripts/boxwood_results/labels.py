@@ -34,22 +34,34 @@ def candidates(x, y, width, height, pixels):
             yield ring, Bbox.from_bounds(centre_x - width / 2, centre_y - height / 2, width, height)
 
 
-def beside_points(ax, labels, avoid=()):
-    """labels: [(x, y, text, colour)] in data units; avoid: further points. Each label goes to the
-    nearest free place within the axes, with a thin line to its point unless it is right beside it."""
+def beside_points(ax, labels, later=()):
+    """labels: [(x, y, text, colour)] in data units; later: more of them that choose last. Each goes to
+    the nearest free place within the axes, with a thin line to its point unless it is right beside
+    it. Those in a crowd choose first, and a thin line keeps clear of other labels and points."""
     figure = ax.figure
     pixels = figure.dpi / 72
     frame = ax.get_window_extent()
-    marks = [ax.transData.transform((x, y)) for x, y, *_ in labels]
-    marks += [ax.transData.transform(point) for point in avoid]
+    everything = [*labels, *later]
+    marks = [ax.transData.transform((x, y)) for x, y, *_ in everything]
     taken = [Bbox.from_bounds(x - 4 * pixels, y - 4 * pixels, 8 * pixels, 8 * pixels) for x, y in marks]
 
-    for (x, y, text, colour), (at_x, at_y) in zip(labels, marks):
+    def crowd(index):
+        if index >= len(labels):
+            return 0
+        x, y = marks[index]
+        return sum(abs(x - a) < 90 * pixels and abs(y - b) < 25 * pixels for a, b in marks[: len(labels)])
+
+    for index in sorted(range(len(everything)), key=crowd, reverse=True):
+        (x, y, text, colour), (at_x, at_y) = everything[index], marks[index]
         width, height = text_size(figure, text)
         best, least = None, math.inf
         for ring, box in candidates(at_x, at_y, width, height, pixels):
             outside = box.width * box.height - overlap(box, frame)
             cost = ring + 10 * (sum(overlap(box, other) for other in taken) + outside)
+            if ring > RINGS[1]:
+                steps = [(at_x + t * ((box.x0 + box.x1) / 2 - at_x), at_y + t * ((box.y0 + box.y1) / 2 - at_y))
+                         for t in (0.3, 0.5, 0.7)]
+                cost += 15 * sum(other.contains(*step) for other in taken for step in steps)
             if cost < least:
                 best, least = (ring, box), cost
         ring, box = best

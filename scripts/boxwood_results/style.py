@@ -9,7 +9,7 @@ matplotlib.use("Agg")
 
 from matplotlib import colors
 from matplotlib import pyplot as plt
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter, NullLocator
+from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullFormatter, NullLocator
 
 from .findings import time_text
 
@@ -96,14 +96,16 @@ def title(ax, text):
 
 
 def log_ticks(low, high):
-    """Round numbers in [low, high], few enough to be read: the coarsest of these sets with three."""
+    """Round numbers in [low, high], few enough to be read: the coarsest of these sets with three, or
+    even steps where the range is small."""
     decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
-    for steps in ((1,), (1, 2, 5), (1, 1.5, 2, 3, 4, 5, 7), [1 + k / 10 for k in range(90)]):
+    for steps in ((1,), (1, 2, 5), (1, 1.5, 2, 3, 4, 5, 7)):
         ticks = [step * 10.0**decade for decade in decades for step in steps]
         ticks = [tick for tick in ticks if low <= tick <= high]
         if len(ticks) >= 3:
-            break
-    return ticks[:: -(-len(ticks) // 7)]
+            return ticks[:: -(-len(ticks) // 7)]
+    even = MaxNLocator(5, steps=[1, 2, 5, 10]).tick_values(low, high)
+    return [tick for tick in even if low <= tick <= high]
 
 
 def log_axis(axis, low, high, text, room=0.06):

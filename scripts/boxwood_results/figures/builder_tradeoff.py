@@ -11,8 +11,9 @@ from ..selection import choose, front, largest_jobs, left_out_note, wrong_notes
 NAME = "builder_tradeoff"
 TITLE = "What a build buys"
 HOW_TO_READ = (
-    "Lower left is better. The line joins the variants that none beats in both; the number on each "
-    "piece is how many queries it takes until the slower build has paid for itself. A contender "
+    "Lower left is better. The line joins the variants that none beats in both; the number on a "
+    "piece is how many queries it takes until the slower build has paid for itself (no number: the "
+    "first query does). A contender "
     "without a build of its own stands at the left edge: its query holds all the work."
 )
 COLUMNS = ("ask", "scene", "n", "threads", "variant", "library", "status", "build_ns", "query_ns", "break_even_queries")
@@ -54,8 +55,8 @@ def draw_panel(ax, job, cells, rows):
     for cheap, dear in zip(best, best[1:]):
         (x0, y0), (x1, y1) = at(cheap), at(dear)
         count = math.ceil(pays[id(dear)])
-        text = f"{count:,} {'query' if count == 1 else 'queries'}"
-        joints.append((math.sqrt(x0 * x1), math.sqrt(y0 * y1), text, "#555555"))
+        if count > 1:
+            joints.append((math.sqrt(x0 * x1), math.sqrt(y0 * y1), f"{count:,} queries", "#555555"))
     style.title(ax, str(job))
     ax.set_xlabel(METRICS["build"].axis)
     ax.set_ylabel(METRICS["query"].axis)
@@ -64,7 +65,8 @@ def draw_panel(ax, job, cells, rows):
             (job.ask, job.scene, job.n, job.threads, cell.label, cell.library, cell.status,
              cell.median("build"), cell.median("query"), pays.get(id(cell)))
         )
-    return marks + joints, left_out
+    labels.beside_points(ax, marks, later=joints)
+    return left_out
 
 
 def draw(run):
@@ -77,11 +79,10 @@ def draw(run):
         raise Skip("it takes at least two variants with a build time on one job")
     pictures = []
     for ask, jobs in by_ask.items():
-        figure, axes = style.panels(len(jobs))
+        figure, axes = style.panels(len(jobs), width=5.4, height=3.9)
         rows, notes = [], []
         for ax, (job, cells) in zip(axes, jobs):
-            marks, left_out = draw_panel(ax, job, cells, rows)
-            labels.beside_points(ax, marks)
+            left_out = draw_panel(ax, job, cells, rows)
             notes += left_out_note(left_out, f"variants of {job}") + wrong_notes(cells)
         alt = "; ".join(
             f"{job}: no variant beats "
