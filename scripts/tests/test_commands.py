@@ -2,6 +2,8 @@
 
 import os
 import re
+import shutil
+import subprocess
 
 import pytest
 from conftest import SCRIPTS
@@ -109,3 +111,56 @@ def test_without_a_network_the_command_is_printed(script, tmp_path):
 def test_a_peer_that_cannot_be_had_is_no_error(script, tmp_path):
     done = script("setup", "--no-build", env=tools(tmp_path, ALL_BUT_FCL, "exit 100"))
     assert done.returncode == 0 and "going on without the peer package libfcl-dev" in done.stderr
+
+
+PRESETS = """{"version": 6, "configurePresets": [{"name": "release", "generator": "Ninja",
+ "binaryDir": "${sourceDir}/build/${presetName}"}],
+ "buildPresets": [{"name": "release", "configurePreset": "release"}],
+ "testPresets": [{"name": "release", "configurePreset": "release", "output": {"outputOnFailure": true}}]}"""
+
+
+@pytest.fixture
+def toy(tmp_path):
+    """toy(c_test, py_test, build): a checkout with one test of each kind, and scripts/test run in it."""
+
+    def make(c_test="true", py_test="pass", build="true"):
+        (tmp_path / "scripts").mkdir()
+        for name in ("setup", "test", "packages.txt"):
+            shutil.copy2(SCRIPTS / name, tmp_path / "scripts" / name)
+        (tmp_path / "CMakePresets.json").write_text(PRESETS)
+        (tmp_path / "CMakeLists.txt").write_text(
+            "cmake_minimum_required(VERSION 3.25)\nproject(toy NONE)\nenable_testing()\n"
+            f"add_custom_target(made ALL COMMAND {build})\nadd_test(NAME c_test COMMAND {c_test})\n"
+        )
+        (tmp_path / "scripts" / "test_toy.py").write_text(f"def test_toy():\n    {py_test}\n")
+        fakes = tmp_path / "fakes"
+        fakes.mkdir()
+        env = tools(fakes, 'for p in "${@:4}"; do echo "$p installed"; done', "exit 1")
+        done = subprocess.run(
+            [tmp_path / "scripts" / "test"], env=env, capture_output=True, text=True, timeout=120
+        )
+        return done.returncode, done.stdout + done.stderr
+
+    return make
+
+
+def test_test_runs_both_kinds_and_keeps_their_closing_lines(toy):
+    code, said = toy()
+    assert code == 0, said
+    assert "100% tests passed, 0 tests failed out of 1" in said and "1 passed" in said
+    assert said.count("test: all C++ and Python tests passed (preset release)") == 1
+
+
+@pytest.mark.parametrize(
+    "failing, said_of_it",
+    [({"c_test": "false"}, "FAILED: C++ (CTest)"), ({"py_test": "assert False"}, "FAILED: Python (pytest)")],
+)
+def test_a_failing_test_of_either_kind_fails(toy, failing, said_of_it):
+    code, said = toy(**failing)
+    assert code == 1 and said_of_it in said
+    assert "tests failed out of 1" in said and ("1 passed" in said or "1 failed" in said)
+
+
+def test_a_broken_build_fails(toy):
+    code, said = toy(build="false")
+    assert code == 1 and "the build failed" in said and "all C++ and Python" not in said
