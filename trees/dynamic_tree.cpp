@@ -25,6 +25,15 @@ Vec3<double> half_extents(const Box& b) {
     return static_cast<Vec3<double>>(0.5f * b.max - 0.5f * b.min);
 }
 
+/// The square of the distance between two centres.
+double apart(const Box& a, const Box& b) {
+    const auto centre = [](const Box& box) {
+        return static_cast<Vec3<double>>(0.5f * box.min + 0.5f * box.max);
+    };
+    const Vec3<double> d = centre(a) - centre(b);
+    return dot(d, d);
+}
+
 } // namespace
 
 double DynamicTree::measure(const Box& box) const {
@@ -58,8 +67,7 @@ void DynamicTree::remove(std::uint32_t item) {
 void DynamicTree::move(std::uint32_t item, Box box) {
     const Slot s = require(item);
     require_valid(item, box);
-    const Vec3<float> centre = 0.5f * box.min + 0.5f * box.max;
-    if (s == root || box_at(forks_[s / 2].parent).contains(centre)) {
+    if (box_at(parent_of(parent_of(s))).contains(box)) {
         box_at(s) = box;
         repair(s);
     } else {
@@ -105,8 +113,9 @@ std::uint32_t DynamicTree::take_fork() {
 
 /// Follows one path from the root. Beside a node with box b the new leaf costs size(b + box), for
 /// their common parent, and the growth of all boxes above; below it, at least that growth, the
-/// growth of b, and the size of `box` itself. Goes to the child with the lower bound, to the less
-/// tall of two equals, and stops when the best place seen is under both bounds.
+/// growth of b, and the size of `box` itself. Goes to the child with the lower bound and stops when
+/// the best place seen is under both. Equal bounds are common, as both children may hold the box:
+/// then the nearer centre decides, and at last the lesser height.
 DynamicTree::Slot DynamicTree::find_sibling(const Box& box) const {
     const double own = measure(box);
     double merged = measure(merge(box_at(root), box));
@@ -131,8 +140,11 @@ DynamicTree::Slot DynamicTree::find_sibling(const Box& box) const {
                 best = child + side;
             }
         }
-        const Slot side =
-            below[0] != below[1] ? below[1] < below[0] : height_at(child + 1) < height_at(child);
+        Slot side = below[1] < below[0];
+        if (below[0] == below[1]) {
+            const double near0 = apart(box_at(child), box), near1 = apart(box_at(child + 1), box);
+            side = near0 != near1 ? near1 < near0 : height_at(child + 1) < height_at(child);
+        }
         if (best_cost < below[side])
             break;
         s = child + side;
@@ -234,7 +246,7 @@ void DynamicTree::enclose(Slot s) {
 /// differs.
 void DynamicTree::repair(Slot s) {
     for (int quiet = 0; s != root && quiet < 2;) {
-        s = forks_[s / 2].parent;
+        s = parent_of(s);
         const Box old_box = box_at(s);
         const std::uint8_t old_height = height_at(s);
         enclose(s);

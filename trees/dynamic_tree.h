@@ -27,8 +27,8 @@ class DynamicTree {
     /// Throws std::invalid_argument for an item that is not in the tree.
     void remove(std::uint32_t item);
 
-    /// Gives the item a new box: in its place while the new centre is within the bounds of the item
-    /// and its sibling, else by insertion anew. Throws as `insert` and `remove` do.
+    /// Gives the item a new box: in its place while the bounds of its grandparent hold that, else
+    /// by insertion anew. Throws as `insert` and `remove` do.
     void move(std::uint32_t item, Box box);
 
     /// Forgets all items and keeps the memory.
@@ -81,6 +81,7 @@ class DynamicTree {
     std::uint32_t link_at(Slot s) const { return forks_[s / 2].link[s % 2]; }
     std::uint8_t& height_at(Slot s) { return forks_[s / 2].height[s % 2]; }
     std::uint8_t height_at(Slot s) const { return forks_[s / 2].height[s % 2]; }
+    Slot parent_of(Slot s) const { return s == root ? root : forks_[s / 2].parent; }
     bool is_leaf(Slot s) const { return (link_at(s) & leaf_bit) != 0; }
 
     /// An eighth of the surface area, xy + yz + zx for half-extents x, y, z, plus pad (x + y + z),

@@ -1,0 +1,42 @@
+#include "trees/builders/incremental.h"
+
+#include "trees/box_families_for_test.h"
+#include "trees/validate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace boxwood {
+namespace {
+
+TEST(Incremental, EveryFamilyGivesAWellFormedTree) {
+    for (const BoxFamily& family : box_families()) {
+        const Tree tree = IncrementalBuilder{}.build(family.boxes, serial());
+        EXPECT_EQ(validate(tree, family.boxes).value_or(""), "") << family.name;
+    }
+}
+
+TEST(Incremental, SameTreeEachTimeAndOnEveryExecutor) {
+    const auto boxes = random_boxes(2000, .05f, 3);
+    const Tree once = IncrementalBuilder{}.build(boxes, serial());
+    for (const ExecutorEntry& entry : executors()) {
+        const Tree again =
+            IncrementalBuilder{}.build(boxes, *entry.make(entry.name == "serial" ? 1 : 2));
+        EXPECT_TRUE(std::ranges::equal(once.order, again.order)) << entry.name;
+    }
+}
+
+TEST(Incremental, BadBoxIsNamed) {
+    auto boxes = random_boxes(10, .1f, 4);
+    boxes[7].max.y = boxes[7].min.y - 1;
+    try {
+        IncrementalBuilder{}.build(boxes, serial());
+        FAIL() << "an inverted box was taken";
+    } catch (const InvalidBox& e) {
+        EXPECT_EQ(e.index, 7u);
+    }
+}
+
+} // namespace
+} // namespace boxwood
