@@ -99,7 +99,6 @@ class Preparation {
 
   private:
     void prepare_scene(const std::vector<const PlannedCell*>& cells) {
-        report_(out_.cells.size(), plan_.cells.size(), cells.front()->name);
         scene_ = make_scene(cells.front()->scene);
         truths_.clear();
         quality_of_.clear();

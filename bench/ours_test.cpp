@@ -1,0 +1,100 @@
+#include "bench/ours.h"
+
+#include "bench/truth.h"
+#include "trees/layout.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace boxwood::bench {
+namespace {
+
+using testing::HasSubstr;
+
+std::string complaint(const Choice& choice, Ask ask) {
+    try {
+        our_contender(choice, ask);
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+    return "(accepted)";
+}
+
+TEST(OurContender, IsNamedByItsWords) {
+    EXPECT_EQ(our_contender({"median", {}, "binary", "watertight"}, Ask::pairs).name,
+              "median.binary.self_pairs");
+    EXPECT_EQ(
+        our_contender({"binned_sah", {{"bins", 16}}, "wide8", "watertight"}, Ask::tree_pairs).name,
+        "binned_sah_bins16.wide8.tree_pairs");
+    const ContenderEntry rays =
+        our_contender({"median", {}, "wide8", "watertight"}, Ask::rays_closest);
+    EXPECT_EQ(rays.name, "median.wide8.rays.watertight");
+    EXPECT_FALSE(rays.is_peer);
+    EXPECT_EQ(rays.kernel, "watertight");
+}
+
+TEST(OurContender, RefusesUnknownWords) {
+    EXPECT_THAT(complaint({"medain", {}, "wide8", ""}, Ask::pairs), HasSubstr("'median'"));
+    EXPECT_THAT(complaint({"median", {}, "wide9", ""}, Ask::pairs), HasSubstr("'wide8'"));
+    EXPECT_THAT(complaint({"median", {}, "wide8", "watertigth"}, Ask::rays_any),
+                HasSubstr("'watertight'"));
+    EXPECT_THAT(complaint({"binned_sah", {{"bin", 8}}, "wide8", ""}, Ask::pairs),
+                HasSubstr("bins"));
+    EXPECT_THAT(complaint({"binned_sah", {{"bins", 1e9}}, "wide8", ""}, Ask::pairs),
+                HasSubstr("must lie between"));
+}
+
+SceneSpec spec_of(Ask ask, std::size_t n) {
+    SceneSpec spec;
+    spec.generator = is_ray_ask(ask) ? "sphere_mesh" : "uniform";
+    spec.n = n;
+    spec.rays = is_ray_ask(ask) ? "random" : "";
+    spec.n_rays = is_ray_ask(ask) ? 200 : 0;
+    return spec;
+}
+
+TEST(OurContender, AnswersAsTheTruthAlsoWhenBuiltAndAskedAgain) {
+    for (const AskEntry& ask : asks())
+        for (const std::size_t n : {1u, 2u, 3u, 700u}) {
+            if (is_ray_ask(ask.ask) && n < 700)
+                continue; // a sphere needs more triangles
+            const Scene scene = make_scene(spec_of(ask.ask, n));
+            const auto truth = make_truth(scene, ask.ask, 1);
+            for (const BuilderEntry& builder : builders())
+                for (const LayoutEntry& layout : layouts())
+                    for (const unsigned threads : {1u, 2u}) {
+                        const ContenderEntry entry = our_contender(
+                            {std::string(builder.name), {}, std::string(layout.name), "watertight"},
+                            ask.ask);
+                        const Job job{&scene, ask.ask, threads == 1 ? "serial" : "tbb", threads};
+                        ASSERT_FALSE(entry.unsupported(job));
+                        const auto contender = entry.make(job);
+                        Answers answers, counted;
+                        for (int again = 0; again < 2; ++again) {
+                            contender->build();
+                            for (int i = 0; i < 2; ++i)
+                                contender->query(answers);
+                            const results::Check check = truth->check(answers);
+                            EXPECT_NE(check.status, "wrong") << entry.name << " n " << n;
+                            EXPECT_EQ(check.missing + check.extra, 0u) << entry.name << " n " << n;
+                        }
+                        ASSERT_TRUE(contender->counted_query(counted));
+                        EXPECT_EQ(answer_hash(counted, ask.ask), answer_hash(answers, ask.ask));
+                        EXPECT_GT(contender->structure()->bytes, 0u);
+                    }
+        }
+}
+
+TEST(OurContender, SaysWhatItCannotDo) {
+    const Scene boxes = make_scene(spec_of(Ask::pairs, 10));
+    const Choice choice;
+    EXPECT_TRUE(
+        our_contender(choice, Ask::rays_any).unsupported({&boxes, Ask::rays_any, "serial", 1}));
+    EXPECT_TRUE(our_contender(choice, Ask::pairs).unsupported({&boxes, Ask::pairs, "serial", 2}));
+    EXPECT_FALSE(our_contender(choice, Ask::pairs).unsupported({&boxes, Ask::pairs, "tbb", 2}));
+}
+
+} // namespace
+} // namespace boxwood::bench
