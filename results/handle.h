@@ -47,7 +47,8 @@ class Handle {
 Handle text_type();
 /// UTF-8 of `width` bytes, padded with zero bytes.
 Handle string_type(std::size_t width);
-/// HDF5 prints nothing while this lives; it had better be the first line of every entry point.
+
+/// HDF5 prints no errors of its own while this lives.
 class Silence {
   public:
     Silence();

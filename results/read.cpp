@@ -24,7 +24,7 @@ template <class Read> std::string text_of(hid_t type, std::string_view name, Rea
     if (checked(H5Tis_variable_str(type), name) > 0) {
         char* pointer = nullptr;
         checked(read(type, &pointer), name);
-        const std::string value = pointer ? pointer : "";
+        std::string value = pointer ? pointer : "";
         H5free_memory(pointer);
         return value;
     }

@@ -5,13 +5,12 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstddef>
+#include <cstdlib>
 #include <cstring>
 #include <system_error>
 #include <type_traits>
@@ -166,33 +165,19 @@ class Descriptor {
         if (fd_ >= 0)
             ::close(fd_);
     }
-    int number() const { return fd_; }
-    /// All that stands in `source`, and a seal.
-    void copy_sealed(const Descriptor& source) {
-        std::array<std::byte, 1 << 16> block;
-        Seal seal;
-        for (off_t offset = 0;;) {
-            const ssize_t n = ::pread(source.fd_, block.data(), block.size(), offset);
+    void write(std::span<const std::byte> bytes) {
+        while (!bytes.empty()) {
+            const ssize_t n = ::write(fd_, bytes.data(), bytes.size());
+            if (n < 0 && errno == EINTR)
+                continue;
             require(n >= 0);
-            if (n == 0)
-                return write(seal.bytes());
-            const auto part = std::span(block).first(static_cast<std::size_t>(n));
-            seal.add(part);
-            write(part);
-            offset += n;
+            bytes = bytes.subspan(static_cast<std::size_t>(n));
         }
     }
     void sync() { require(::fsync(fd_) == 0 || errno == EINVAL); } // EINVAL: nothing to sync
     void close() { require(::close(std::exchange(fd_, -1)) == 0); }
 
   private:
-    void write(std::span<const std::byte> bytes) {
-        while (!bytes.empty()) {
-            const ssize_t n = ::write(fd_, bytes.data(), bytes.size());
-            require(n >= 0);
-            bytes = bytes.subspan(static_cast<std::size_t>(n));
-        }
-    }
     static void require(bool fine) {
         if (!fine)
             throw std::system_error(errno, std::generic_category());
@@ -200,15 +185,55 @@ class Descriptor {
     int fd_;
 };
 
-/// Writes the HDF5 file to a memory file. HDF5 defers writes until the file is closed, and does not
-/// get over one that fails (a full disk) then. (Its own driver for files in memory, core, hands out
-/// an image with a wrong superblock checksum in HDF5 1.10.8.)
-void write_image(const Results& results, const Descriptor& memory) {
-    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");
-    checked(H5Pset_fapl_stdio(access), "file access"); // opens links such as those of /proc
-    checked(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110), "file access");
-    const auto name = fmt::format("/proc/self/fd/{}", memory.number());
-    Handle file(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "new file");
+/// Takes over the memory of a closed HDF5 file of the core driver. (H5Fget_file_image of 1.10.8
+/// gives a copy of the open file whose superblock has a wrong checksum.)
+class Image {
+  public:
+    explicit Image(hid_t access) {
+        H5FD_file_image_callbacks_t callbacks{};
+        callbacks.image_malloc = [](std::size_t size, H5FD_file_image_op_t op, void* self) {
+            return resize(nullptr, size, op, self);
+        };
+        callbacks.image_memcpy = [](void* to, const void* from, std::size_t size,
+                                    H5FD_file_image_op_t,
+                                    void*) { return std::memcpy(to, from, size); };
+        callbacks.image_realloc = resize;
+        callbacks.image_free = [](void* data, H5FD_file_image_op_t op, void*) -> herr_t {
+            if (op != H5FD_FILE_IMAGE_OP_FILE_CLOSE)
+                std::free(data);
+            return 0;
+        };
+        callbacks.udata_copy = [](void* self) { return self; };
+        callbacks.udata_free = [](void*) -> herr_t { return 0; };
+        callbacks.udata = this;
+        checked(H5Pset_file_image_callbacks(access, &callbacks), "file in memory");
+    }
+    Image(const Image&) = delete;
+    Image& operator=(const Image&) = delete;
+    ~Image() { std::free(data_); }
+    std::span<const std::byte> bytes() const { return {static_cast<std::byte*>(data_), size_}; }
+
+  private:
+    static void* resize(void* data, std::size_t size, H5FD_file_image_op_t, void* self) {
+        auto& image = *static_cast<Image*>(self);
+        void* const resized = std::realloc(data, size);
+        if (resized) {
+            image.data_ = resized;
+            image.size_ = size;
+        }
+        return resized;
+    }
+    void* data_ = nullptr;
+    std::size_t size_ = 0;
+};
+
+/// Makes the HDF5 file in the memory of `access`: HDF5 defers writes until a file is closed, and
+/// does not get over one that fails (a full disk) then.
+void write_image(const Results& results, hid_t access) {
+    // The format of HDF5 1.10 guards all metadata by checksums.
+    checked(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110), "file format");
+    Handle file(H5Fcreate("results in memory", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose,
+                "new file");
     put_text(file, "format", format_name);
     put_attribute(file, "schema_major", H5T_NATIVE_UINT32, &schema_major);
     put_attribute(file, "schema_minor", H5T_NATIVE_UINT32, &schema_minor);
@@ -224,7 +249,7 @@ void write_image(const Results& results, const Descriptor& memory) {
 }
 
 /// Replaces `file` by the content, as a whole or not at all.
-void replace(const fs::path& file, const Descriptor& content) {
+void replace(const fs::path& file, std::span<const std::byte> content) {
     const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
     if (!fs::exists(folder))
         fail(fmt::format("the folder '{}' does not exist; create it first", folder.string()));
@@ -233,7 +258,10 @@ void replace(const fs::path& file, const Descriptor& content) {
     const fs::path temporary = file.string() + fmt::format(".tmp-{}", ::getpid());
     try {
         Descriptor out(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-        out.copy_sealed(content);
+        Seal seal;
+        seal.add(content);
+        out.write(content);
+        out.write(seal.bytes());
         out.sync();
         out.close();
         fs::rename(temporary, file);
@@ -249,9 +277,12 @@ void replace(const fs::path& file, const Descriptor& content) {
 
 void write(const fs::path& file, const Results& results) try {
     const Silence silence;
-    const Descriptor image(::memfd_create("boxwood-results", MFD_CLOEXEC));
-    write_image(results, image);
-    replace(fs::exists(file) ? fs::canonical(file) : file, image); // a link stays a link
+    constexpr std::size_t growth = 1; // byte: the file is not padded
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");
+    checked(H5Pset_fapl_core(access, growth, /*backing_store=*/false), "file access");
+    const Image image(access);
+    write_image(results, access);
+    replace(fs::exists(file) ? fs::canonical(file) : file, image.bytes()); // a link stays a link
 } catch (const std::system_error& error) {
     throw std::runtime_error(
         fmt::format("cannot write result file '{}': {}", file.string(), error.code().message()));
