@@ -155,6 +155,10 @@ Plan make_plan(const std::string& config_text, const std::string& config_file,
     std::uint64_t mesh_hash = 0;
     std::size_t mesh_items = 0;
     if (!overrides.mesh.empty()) {
+        if (std::ranges::none_of(config.blocks, is_mesh))
+            throw BadInput(fmt::format("--mesh: {} has no [[cells]] block with scene = \"mesh\" "
+                                       "that would use it",
+                                       config_file));
         mesh_items = mesh_size(overrides.mesh);
         const std::string bytes = read_text(overrides.mesh.string());
         mesh_hash = XXH3_64bits(bytes.data(), bytes.size());

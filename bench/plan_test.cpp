@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <set>
 
 namespace boxwood::bench {
@@ -133,6 +134,27 @@ TEST(Plan, MeshBlocksNeedAMesh) {
     Overrides overrides;
     overrides.mesh = "there/is/no/such.obj";
     EXPECT_THROW(plan_of(config + mesh, overrides), BadInput);
+    EXPECT_THROW(plan_of(config, overrides), BadInput); // nothing would use it
+}
+
+TEST(Plan, MeshCellsAreNamedBySizeAndHashedByContent) {
+    const auto file = std::filesystem::temp_directory_path() / "boxwood_plan_test.obj";
+    Overrides overrides;
+    overrides.mesh = file;
+    const std::string mesh = "[[cells]]\nscene = \"mesh\"\nask = \"pairs\"\n"
+                             "builders = \"median\"\n";
+    const auto plan_with = [&](const char* last) {
+        std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n" << last;
+        return plan_of(mesh, overrides);
+    };
+    const Plan two = plan_with(""), three = plan_with("f 1 3 4\n"), moved = plan_with("# x\n");
+    std::filesystem::remove(file);
+    ASSERT_EQ(two.cells.size(), 1u);
+    EXPECT_EQ(parse_cell_name(two.cells[0].name)->n_items, 2u);
+    EXPECT_EQ(parse_cell_name(three.cells[0].name)->n_items, 3u);
+    EXPECT_NE(two.sweep_hash, three.sweep_hash);
+    EXPECT_EQ(names_of(two), names_of(moved));
+    EXPECT_NE(two.sweep_hash, moved.sweep_hash); // other bytes
 }
 
 TEST(Plan, RefusesAPatternThatIsNoneOrLeavesNothing) {

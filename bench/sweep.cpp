@@ -51,6 +51,9 @@ class Sweep {
           shards_(options.out, plan_.sweep_hash, environment(false).env_hash) {}
 
     int run() {
+        if (options_.shard >= plan_.rounds)
+            throw BadInput(fmt::format("--shard {}/{} has none of the {} rounds", options_.shard,
+                                       options_.shards, plan_.rounds));
         read_earlier_output();
         shards_.open();
         write_sweep_file();
@@ -250,9 +253,7 @@ class Sweep {
 
     int finish() {
         progress_.show({"joining", 1, -1, ""});
-        if (!write_output())
-            throw BadInput(fmt::format("--shard {}/{} leaves none of the {} rounds", options_.shard,
-                                       options_.shards, plan_.rounds));
+        write_output();
         shards_.remove();
         progress_.say("");
         fmt::print("{}", findings_text(merged_));

@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cstdint>
 #include <fstream>
+#include <limits>
 #include <memory>
 
 namespace boxwood::bench {
@@ -26,7 +28,9 @@ void add_plan_options(CLI::App& command, std::filesystem::path& config, Override
         ->check(CLI::Range(1, 1024));
     command.add_option("--only", overrides.only,
                        "only cells whose name this regular expression is found in");
-    command.add_option("--seed", overrides.seed, "seed of scenes and shuffling");
+    command.add_option("--seed", overrides.seed, "seed of scenes and shuffling")
+        ->check(
+            CLI::Range(std::uint64_t{0}, std::uint64_t{std::numeric_limits<std::int64_t>::max()}));
 }
 
 /// "0/2" -> 0 of 2.
