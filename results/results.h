@@ -113,7 +113,7 @@ struct TreeRow {
 struct Comparison {
     std::uint32_t cell_a = 0, cell_b = 0;
     std::string phase;
-    std::uint64_t n_pairs = 0; ///< paired rounds
+    std::uint64_t n_pairs = 0;                                                 ///< paired rounds
     double ratio = missing, ci_lo = missing, ci_hi = missing, p_adj = missing; ///< time of b / a
     std::string verdict; ///< faster | slower | same | cannot_tell | wrong (b against a)
 };
@@ -140,8 +140,8 @@ struct Results {
 /// cause (no such folder, no permission, disk full); the temporary file is removed.
 void write(const std::filesystem::path& file, const Results& results);
 
-/// Throws std::runtime_error naming the file for one that is missing, truncated, not HDF5, not ours,
-/// incomplete, or of another major version. Unknown tables and columns are passed over.
+/// Throws std::runtime_error naming the file for one that is missing, truncated, not HDF5, not
+/// ours, incomplete, or of another major version. Unknown tables and columns are passed over.
 Results read(const std::filesystem::path& file);
 
 /// Joins results of one or several machines: equal scenes, variants, cells and machine states (by
