@@ -164,6 +164,8 @@ int main(int argc, char** argv) {
     using namespace boxwood::bench;
     // A closed pipe then is a failed write, which `finish` judges, and no sudden death.
     std::signal(SIGPIPE, SIG_IGN);
+    // A file over the limit of `ulimit -f` too: the write fails and says why.
+    std::signal(SIGXFSZ, SIG_IGN);
     try {
         return finish(run(argc, argv));
     } catch (const std::bad_alloc&) {

@@ -99,8 +99,8 @@ std::string verdict(const PairedRatio& ratio, double p_adj, double delta, double
     const auto is_within = [](double value, double band) {
         return 1 / (1 + band) <= value && value <= 1 + band;
     };
-    if (is_within(ratio.ci_lo, delta) && is_within(ratio.ci_hi, delta))
-        return "same";
+    if (is_within(ratio.ci_lo, delta) && is_within(ratio.ci_hi, delta) && !(floor > delta))
+        return "same"; // which a machine noisier than delta cannot tell
     if (p_adj > family_error || is_within(ratio.ratio, floor))
         return "cannot_tell";
     return ratio.ci_hi < 1 ? "faster" : ratio.ci_lo > 1 ? "slower" : "cannot_tell";

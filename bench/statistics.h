@@ -45,9 +45,10 @@ struct PairedRatio {
 };
 PairedRatio paired_ratio(std::span<const double> log_ratios);
 
-/// b against a: "same" if the whole interval lies within a factor 1 + delta; "faster" or "slower"
-/// if it lies on one side of 1, p_adj is at most 5 % and the ratio is beyond the noise floor; else
-/// "cannot_tell", as for fewer than 9 pairs. Identical data are the same whatever their number.
+/// b against a: "same" if the whole interval lies within a factor 1 + delta and the noise floor is
+/// no wider; "faster" or "slower" if it lies on one side of 1, p_adj is at most 5 % and the ratio
+/// is beyond the noise floor; else "cannot_tell", as for fewer than 9 pairs. Identical data are the
+/// same whatever their number.
 std::string verdict(const PairedRatio& ratio, double p_adj, double delta, double floor);
 
 } // namespace boxwood::bench

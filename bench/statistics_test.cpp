@@ -92,6 +92,7 @@ TEST(Verdict, CaseByCase) {
     EXPECT_EQ(of(9, 0.7, 0.8, 0.9, 0.01, 0), "faster");
     EXPECT_EQ(of(9, 1.1, 1.2, 1.3, 0.01, 0), "slower");
     EXPECT_EQ(of(9, 0.96, 1.0, 1.04, 0.9, 0), "same");
+    EXPECT_EQ(of(9, 0.96, 1.0, 1.04, 0.9, 0.5), "cannot_tell"); // the machine cannot tell 5 %
     EXPECT_EQ(of(9, 1.01, 1.02, 1.04, 0.01, 0), "same");     // different, but by less than delta
     EXPECT_EQ(of(9, 0.9, 1.0, 1.1, 0.9, 0), "cannot_tell");  // wide
     EXPECT_EQ(of(9, 1.1, 1.2, 1.3, 0.06, 0), "cannot_tell"); // not significant in its family
