@@ -46,15 +46,25 @@ struct RaySlabs {
 
     explicit RaySlabs(const Ray<float>& ray) : origin(ray.origin) {
         constexpr double slack = 0x1p-21; // a zero component gives +-inf twice all the same
-        // With |o| < 2^103 near - o cannot overflow for a finite box. Beyond it the entry is given
-        // up: entry_rdir = 0 makes it 0 (or NaN, which is skipped).
-        constexpr float far_off = 0x1p103f;
         for (int k = 0; k < 3; ++k) {
             const float d = ray.direction[k];
             const double size = std::abs(static_cast<double>(d));
-            const bool exact = std::abs(origin[k]) < far_off;
-            entry_rdir[k] = std::copysign(exact ? round_down((1 - slack) / size) : 0.0f, d);
-            exit_rdir[k] = std::copysign(round_up((1 + slack) / size), d);
+            // With |o| < 2^103 near - o cannot overflow for a finite box. Beyond it the entry is
+            // given up: entry_rdir = 0 makes it 0 (or NaN, which is skipped).
+            const bool exact = std::abs(origin[k]) < 0x1p103f;
+            float entry, exit;
+            if (size > 0x1p-100 && size < 0x1p100) {
+                // No reciprocal under- or overflows: 2u more slack covers the rounding to float,
+                // and those of the quotient and product.
+                const double r = 1 / size;
+                entry = static_cast<float>(r * (1 - slack - 0x1p-23));
+                exit = static_cast<float>(r * (1 + slack + 0x1p-23));
+            } else {
+                entry = round_down((1 - slack) / size);
+                exit = round_up((1 + slack) / size);
+            }
+            entry_rdir[k] = std::copysign(exact ? entry : 0.0f, d);
+            exit_rdir[k] = std::copysign(exit, d);
             negative[static_cast<std::size_t>(k)] = std::signbit(d);
         }
     }

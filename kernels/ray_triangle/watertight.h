@@ -20,9 +20,10 @@ struct Watertight {
                                      "double ones that decide: no leak at shared edges (Woop 2013)",
                                      Promise::none};
 
-    /// Axis z has the largest |direction|. shear = direction of x and y per unit of z, at most 1.
+    /// Axis z has the largest |direction|; x and y follow it cyclically. shear = direction of x and
+    /// y per unit of z, at most 1.
     struct PerRay {
-        int x, y, z;
+        int z;
         float shear_x, shear_y;
     };
 
@@ -30,16 +31,27 @@ struct Watertight {
         const Vec3<float> d = ray.direction;
         const float ax = std::abs(d.x), ay = std::abs(d.y), az = std::abs(d.z);
         const int z = ax > ay ? (ax > az ? 0 : 2) : (ay > az ? 1 : 2);
-        const int x = z == 2 ? 0 : z + 1, y = x == 2 ? 0 : x + 1;
         const float valid = d[z] - d[z]; // 0, or NaN for an infinite direction, which then misses
-        return {x, y, z, d[x] / d[z] + valid, d[y] / d[z]};
+        return {z, d[next(z)] / d[z] + valid, d[next(next(z))] / d[z]};
     }
 
     static bool intersect(const PerRay& r, const Ray<float>& ray, const Triangle<float>& triangle,
                           float t_max, RayHit& hit) {
-        const Sheared a = shear(r, triangle.a - ray.origin);
-        const Sheared b = shear(r, triangle.b - ray.origin);
-        const Sheared c = shear(r, triangle.c - ray.origin);
+        // One branch that goes the same way for all triangles of a ray, and no permutation inside.
+        return r.z == 0   ? intersect_along<0>(r, ray, triangle, t_max, hit)
+               : r.z == 1 ? intersect_along<1>(r, ray, triangle, t_max, hit)
+                          : intersect_along<2>(r, ray, triangle, t_max, hit);
+    }
+
+  private:
+    static constexpr int next(int axis) { return axis == 2 ? 0 : axis + 1; }
+
+    template <int z>
+    static bool intersect_along(const PerRay& r, const Ray<float>& ray,
+                                const Triangle<float>& triangle, float t_max, RayHit& hit) {
+        const Sheared a = shear<z>(r, triangle.a - ray.origin);
+        const Sheared b = shear<z>(r, triangle.b - ray.origin);
+        const Sheared c = shear<z>(r, triangle.c - ray.origin);
 
         // Rounding is monotone, so the difference of two rounded products has the right sign or is
         // zero (NaN if both overflow): unequal signs are certain.
@@ -61,7 +73,7 @@ struct Watertight {
         // Adding zero turns -0 into 0.
         const double height = u * static_cast<double>(a.z) + v * static_cast<double>(b.z) +
                               w * static_cast<double>(c.z);
-        const double t_double = height / (sum * static_cast<double>(ray.direction[r.z]));
+        const double t_double = height / (sum * static_cast<double>(ray.direction[z]));
         const float t = static_cast<float>(t_double + 0.0);
         if (!(t_double >= static_cast<double>(ray.t_min) && t <= t_max &&
               t < std::numeric_limits<float>::infinity()))
@@ -72,13 +84,12 @@ struct Watertight {
         return true;
     }
 
-  private:
     struct Sheared {
         float x, y, z;
     };
 
-    static Sheared shear(const PerRay& r, Vec3<float> p) {
-        return {p[r.x] - r.shear_x * p[r.z], p[r.y] - r.shear_y * p[r.z], p[r.z]};
+    template <int z> static Sheared shear(const PerRay& r, Vec3<float> p) {
+        return {p[next(z)] - r.shear_x * p[z], p[next(next(z))] - r.shear_y * p[z], p[z]};
     }
 
     static double edge(const Sheared& p, const Sheared& q) {

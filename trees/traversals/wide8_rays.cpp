@@ -29,6 +29,15 @@ namespace boxwood::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 constexpr hn::CappedTag<float, 8> df;
 
+/// a > t ? a : t, and a < t ? a : t: where a is NaN the result is t. On x86 one instruction does
+/// just that; others give NaN for NaN.
+template <class V> HWY_INLINE V LaterOf(V a, V t) {
+    return HWY_ARCH_X86 ? hn::Max(a, t) : hn::IfThenElse(hn::Gt(a, t), a, t);
+}
+template <class V> HWY_INLINE V EarlierOf(V a, V t) {
+    return HWY_ARCH_X86 ? hn::Min(a, t) : hn::IfThenElse(hn::Lt(a, t), a, t);
+}
+
 /// `clip` of kernels/box_ray.h for eight boxes, operation for operation: the lanes that the ray
 /// hits as bits, and where it enters each.
 HWY_INLINE std::uint32_t Clip(const Block8& block, const RaySlabs& ray, float t_min, float t_max,
@@ -44,8 +53,8 @@ HWY_INLINE std::uint32_t Clip(const Block8& block, const RaySlabs& ray, float t_
                                    hn::Set(df, ray.entry_rdir[k]));
             const auto b = hn::Mul(hn::Sub(hn::Load(df, block.plane[far] + i), origin),
                                    hn::Set(df, ray.exit_rdir[k]));
-            t0 = hn::IfThenElse(hn::Gt(a, t0), a, t0);
-            t1 = hn::IfThenElse(hn::Lt(b, t1), b, t1);
+            t0 = LaterOf(a, t0);
+            t1 = EarlierOf(b, t1);
         }
         hn::StoreU(t0, df, entry + i);
         std::uint8_t part[8] = {};
