@@ -8,7 +8,7 @@ namespace boxwood::bench {
 /// One way of ours to do a job, by catalogue words.
 struct Choice {
     std::string builder = "binned_sah";
-    Settings settings;                 ///< of the builder
+    Settings settings; ///< of the builder
     std::string layout = "wide8";
     std::string kernel = "watertight"; ///< ray kernel; for ray asks alone
 };

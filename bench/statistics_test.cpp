@@ -93,10 +93,10 @@ TEST(Verdict, CaseByCase) {
     EXPECT_EQ(of(9, 1.1, 1.2, 1.3, 0.01, 0), "slower");
     EXPECT_EQ(of(9, 0.96, 1.0, 1.04, 0.9, 0), "same");
     EXPECT_EQ(of(9, 0.96, 1.0, 1.04, 0.9, 0.5), "cannot_tell"); // the machine cannot tell 5 %
-    EXPECT_EQ(of(9, 1.01, 1.02, 1.04, 0.01, 0), "same");     // different, but by less than delta
-    EXPECT_EQ(of(9, 0.9, 1.0, 1.1, 0.9, 0), "cannot_tell");  // wide
-    EXPECT_EQ(of(9, 1.1, 1.2, 1.3, 0.06, 0), "cannot_tell"); // not significant in its family
-    EXPECT_EQ(of(8, 0.7, 0.8, 0.9, 0.01, 0), "cannot_tell"); // too few
+    EXPECT_EQ(of(9, 1.01, 1.02, 1.04, 0.01, 0), "same");        // different, but by less than delta
+    EXPECT_EQ(of(9, 0.9, 1.0, 1.1, 0.9, 0), "cannot_tell");     // wide
+    EXPECT_EQ(of(9, 1.1, 1.2, 1.3, 0.06, 0), "cannot_tell");    // not significant in its family
+    EXPECT_EQ(of(8, 0.7, 0.8, 0.9, 0.01, 0), "cannot_tell");    // too few
     EXPECT_EQ(of(9, 1.02, 1.15, 1.5, 0.01, 0.2), "cannot_tell"); // within the noise floor
     EXPECT_EQ(of(9, 0.85, 0.9, 1.15, 0.01, 0.2), "cannot_tell"); // noise does not make them equal
     EXPECT_EQ(verdict({1, 1, unknown, unknown, 1, true}, 1, 0.05, 0), "same");

@@ -1,0 +1,31 @@
+#pragma once
+
+/// Trees of axis-aligned boxes.
+///
+///   boxes --builder--> Tree --layout--> BinaryLayout, Wide8Layout --traversal--> sink
+///
+/// A builder makes the canonical binary tree, a layout is a function of that tree alone, and a
+/// traversal walks layouts and hands what it finds to a sink; an executor says on which threads.
+/// Trees, answers and their order do not depend on the threads. README.md tells how to add one.
+
+#include "trees/allowed_collisions.h"
+#include "trees/builder.h"
+#include "trees/builders/binned_sah.h"
+#include "trees/builders/incremental.h"
+#include "trees/builders/median.h"
+#include "trees/draw.h"
+#include "trees/dynamic_tree.h"
+#include "trees/executor.h"
+#include "trees/filtered_pairs.h"
+#include "trees/layout.h"
+#include "trees/layouts/binary.h"
+#include "trees/layouts/wide8.h"
+#include "trees/pairs.h"
+#include "trees/quality.h"
+#include "trees/refit.h"
+#include "trees/traversals/rays.h"
+#include "trees/traversals/self_pairs.h"
+#include "trees/traversals/tree_pairs.h"
+#include "trees/tree.h"
+#include "trees/validate.h"
+#include "trees/work.h"
