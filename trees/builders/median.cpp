@@ -28,7 +28,9 @@ std::size_t split_median(std::span<Prim> prims) {
 }
 
 Tree MedianBuilder::build(Boxes boxes, const Executor& executor) const {
-    return build_top_down(boxes, executor, split_median);
+    return build_top_down(boxes, executor, [](std::span<Prim> prims, std::span<Prim>) {
+        return split_median(prims);
+    });
 }
 
 BuilderEntry median_builder() { return builder_entry<MedianBuilder>(); }

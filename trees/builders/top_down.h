@@ -30,7 +30,8 @@ static_assert(sizeof(Prim) == 32);
 std::size_t split_median(std::span<Prim> prims);
 
 /// The loop that top-down builders share; each brings its split alone:
-/// `split(prims) -> size_t` rearranges two or more items and says how many go left, in [1, n - 1].
+/// `split(prims, scratch) -> size_t` rearranges two or more items and says how many go left, in
+/// [1, n - 1]; `scratch` is as long and holds nothing.
 ///
 /// Nodes are numbered by arithmetic (a subtree of m items fills 2m - 1 slots), so subtrees are
 /// built in any order, on any thread, with no atomics. A branch deeper than 2 log2(n) + 32 is split
@@ -47,7 +48,7 @@ Tree build_top_down(Boxes boxes, const Executor& executor, const Split& split) {
         return tree;
     const std::uint32_t depth_limit = 2 * static_cast<std::uint32_t>(std::bit_width(n)) + 32;
 
-    Buffer<Prim> prims(n);
+    Buffer<Prim> prims(n), scratch(n);
     constexpr std::size_t chunk = 1 << 14;
     executor.for_each((n + chunk - 1) / chunk, [&](std::size_t c) {
         for (std::size_t i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i)
@@ -56,9 +57,10 @@ Tree build_top_down(Boxes boxes, const Executor& executor, const Split& split) {
 
     const auto halves = [&](Range r) {
         const std::span<Prim> range = prims.span().subspan(r.first, r.count);
-        const auto left = static_cast<std::uint32_t>(r.count == 2            ? 1
-                                                     : r.depth > depth_limit ? split_median(range)
-                                                                             : split(range));
+        const auto left = static_cast<std::uint32_t>(
+            r.count == 2            ? 1
+            : r.depth > depth_limit ? split_median(range)
+                                    : split(range, scratch.span().subspan(r.first, r.count)));
         return std::pair{Range{r.node + 1, r.first, left, r.depth + 1},
                          Range{r.node + 2 * left, r.first + left, r.count - left, r.depth + 1}};
     };
