@@ -76,8 +76,8 @@ std::string comparison_text(const Results& results, std::uint32_t peer, std::uin
                             const char* phase) {
     for (const results::Comparison& row : results.compare)
         if (row.cell_a == peer && row.cell_b == ours && row.phase == phase)
-            return fmt::format("{} [{}, {}] {}", ratio_text(row.ratio), ratio_text(row.ci_lo),
-                               ratio_text(row.ci_hi),
+            return fmt::format("{} [{}, {}] {}", ratio_text(1 / row.ratio),
+                               ratio_text(1 / row.ci_hi), ratio_text(1 / row.ci_lo),
                                row.verdict == "cannot_tell" ? "can't tell" : row.verdict);
     return "-";
 }
@@ -121,12 +121,12 @@ bool has_crashed(const results::Check& check) {
 std::string findings_text(const Results& results) {
     const Catalogue catalogue(results);
     TextTable table({"scene", ">n", "ask", ">threads", "best of its library", ">build", ">query",
-                     "build+query, ours/peer", "query, ours/peer"});
+                     "build+query, peer/ours", "query, peer/ours"});
     for (const auto& [task, best] : best_of(results, catalogue))
         add_rows(results, catalogue, best, table);
 
     std::string text = table.empty() ? "" : table.text();
-    text += "\nTimes are medians. ours/peer below 1: ours takes less time; in brackets the 95 % "
+    text += "\nTimes are medians. peer/ours above 1: ours takes less time; in brackets the 95 % "
             "interval of the paired ratio.\n";
     if (const auto floor = noise_floor(results))
         text += fmt::format("Noise floor (one cell timed twice per round): {:.1f} %; no smaller "

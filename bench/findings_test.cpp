@@ -62,8 +62,8 @@ TEST_F(Findings, ShowTheBestOfEachLibraryAndItsRatio) {
     const std::string text = findings_text(r);
     EXPECT_THAT(text, HasSubstr("ours_best"));
     EXPECT_THAT(text, HasSubstr("peer_best"));
-    EXPECT_THAT(text, HasSubstr("0.333 [0.333, 0.333] faster")); // 400 / 1200
-    EXPECT_THAT(text, HasSubstr("0.273 [0.273, 0.273] faster")); // 300 / 1100
+    EXPECT_THAT(text, HasSubstr("3.00 [3.00, 3.00] faster")); // 1200 / 400
+    EXPECT_THAT(text, HasSubstr("3.67 [3.67, 3.67] faster")); // 1100 / 300
     EXPECT_THAT(text, Not(HasSubstr("slow")));
     EXPECT_FALSE(is_promise_broken(r));
 }

@@ -222,17 +222,18 @@ class Group {
     }
 
     std::string verdicts() const {
-        TextTable table({"  ours", "peer", "phase", ">rounds", ">ours/peer", ">95 % interval", ">p",
+        TextTable table({"  ours", "peer", "phase", ">rounds", ">peer/ours", ">95 % interval", ">p",
                          "ours is"});
         for (const auto& row : comparisons_)
             if (labels_.contains(row.cell_a) && labels_.contains(row.cell_b))
-                table.add({"  " + labels_.at(row.cell_b), labels_.at(row.cell_a), row.phase,
-                           std::to_string(row.n_pairs), ratio_text(row.ratio),
-                           fmt::format("{} to {}", ratio_text(row.ci_lo), ratio_text(row.ci_hi)),
-                           std::isnan(row.p_adj) ? "-" : fmt::format("{:.2g}", row.p_adj),
-                           row.verdict == "cannot_tell" ? "can't tell"
-                           : row.verdict == "wrong"     ? "not ranked: a wrong answer"
-                                                        : row.verdict});
+                table.add(
+                    {"  " + labels_.at(row.cell_b), labels_.at(row.cell_a), row.phase,
+                     std::to_string(row.n_pairs), ratio_text(1 / row.ratio),
+                     fmt::format("{} to {}", ratio_text(1 / row.ci_hi), ratio_text(1 / row.ci_lo)),
+                     std::isnan(row.p_adj) ? "-" : fmt::format("{:.2g}", row.p_adj),
+                     row.verdict == "cannot_tell" ? "can't tell"
+                     : row.verdict == "wrong"     ? "not ranked: a wrong answer"
+                                                  : row.verdict});
         return table.empty() ? "" : table.text();
     }
 
@@ -253,7 +254,7 @@ std::string advice_text(const std::vector<results::Comparison>& comparisons) {
             ++open;
             short_of += row.n_pairs < least_pairs_verdict;
         }
-    std::string text = "\nours/peer below 1: ours takes less time; medians of paired rounds, p "
+    std::string text = "\npeer/ours above 1: ours takes less time; medians of paired rounds, p "
                        "corrected (Holm) over the peers of a cell.\n";
     if (short_of > 0)
         text += fmt::format("{} of {} comparisons have fewer than {} rounds, too few for a "
