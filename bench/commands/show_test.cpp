@@ -71,7 +71,7 @@ TEST(Show, SaysWhatIsInTheFile) {
           "unsupported: bullet.dbvt f32 serial: no rays", "no cell was timed twice"})
         EXPECT_THAT(text, HasSubstr(part));
     EXPECT_THAT(text, ::testing::ContainsRegex("binned_sah.wide8 f32 serial +fcl.tree f32 serial "
-                                               "+query +9 +0.50. +0.[0-9]+ to 0.[0-9]+ .*faster"));
+                                               "+query +9 +2.00 +1.[0-9]+ to 2.[0-9]+ .*faster"));
     EXPECT_THAT(text, HasSubstr("not ranked: a wrong answer"));
 }
 
