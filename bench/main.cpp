@@ -51,10 +51,12 @@ std::string version_text() {
     return text;
 }
 
-std::vector<std::string_view> command_names(CLI::App& app) {
+/// The commands of a command. Those in no group are for the program itself and not shown.
+std::vector<std::string_view> command_names(CLI::App& app, bool also_hidden = true) {
     std::vector<std::string_view> names;
     for (const CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
-        names.push_back(command->get_name());
+        if (also_hidden || !command->get_group().empty())
+            names.push_back(command->get_name());
     return names;
 }
 
@@ -67,8 +69,8 @@ void require_known_commands(CLI::App& app, int argc, char** argv) {
         if (names.empty())
             return;
         if (std::find(names.begin(), names.end(), argv[i]) == names.end())
-            throw BadInput(
-                unknown_word(at == &app ? "command" : at->get_name() + " command", argv[i], names));
+            throw BadInput(unknown_word(at == &app ? "command" : at->get_name() + " command",
+                                        argv[i], command_names(*at, false)));
         at = at->get_subcommand(argv[i]);
     }
 }
