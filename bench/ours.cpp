@@ -104,28 +104,27 @@ class Rays final : public OurContender {
 
     void build() override {
         layout_.reset();
-        triangles_.reset();
+        triangles_ = {};
         tree_ = build_(scene_.boxes, *executor_);
         layout_ = layout_entry_.make(tree_);
-        triangles_.emplace(tree_, scene_.mesh);
+        triangles_ = layout_->triangles(scene_.mesh);
     }
     void query(Answers& answers) override {
         answers.hits.resize(scene_.rays.size());
-        layout_->rays(scene_.rays, query_, kernel_, *triangles_, *executor_, answers.hits);
+        layout_->rays(scene_.rays, query_, kernel_, triangles_, *executor_, answers.hits);
     }
     std::optional<Work> counted_query(Answers& answers) override {
         answers.hits.resize(scene_.rays.size());
-        return layout_->rays_counted(scene_.rays, query_, kernel_, *triangles_, answers.hits);
+        return layout_->rays_counted(scene_.rays, query_, kernel_, triangles_, answers.hits);
     }
     std::optional<StructureInfo> structure() const override {
-        return StructureInfo{
-            layout_->bytes() + triangles_->triangles.bytes() + triangles_->ids.bytes(), &tree_};
+        return StructureInfo{layout_->bytes() + triangles_.bytes(), &tree_};
     }
 
   private:
     std::string kernel_;
     RayQuery query_;
-    std::optional<OrderedTriangles> triangles_;
+    TriangleBlocks triangles_;
 };
 
 std::string_view traversal_of(Ask ask) {

@@ -2,12 +2,21 @@
 
 namespace boxwood {
 
-OrderedTriangles::OrderedTriangles(const Tree& tree, const TriangleMesh& mesh)
-    : triangles(tree.size()), ids(tree.size()) {
-    for (std::size_t slot = 0; slot < tree.size(); ++slot) {
-        triangles[slot] = mesh.triangle(tree.order[slot]);
-        ids[slot] = tree.order[slot];
+Triangle<float> TriangleBlock8::triangle(std::uint32_t lane) const {
+    const auto at = [&](int k) {
+        return Vec3<float>{corner[k][0][lane], corner[k][1][lane], corner[k][2][lane]};
+    };
+    return {at(0), at(1), at(2)};
+}
+
+void TriangleBlock8::set(std::uint32_t lane, const TriangleMesh& mesh, std::uint32_t triangle) {
+    const Triangle<float> t = mesh.triangle(triangle);
+    for (int axis = 0; axis < 3; ++axis) {
+        corner[0][axis][lane] = t.a[axis];
+        corner[1][axis][lane] = t.b[axis];
+        corner[2][axis][lane] = t.c[axis];
     }
+    id[lane] = triangle;
 }
 
 } // namespace boxwood

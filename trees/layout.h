@@ -23,12 +23,18 @@ concept Layout = std::constructible_from<L, const Tree&> && requires(const L lay
     { L::summary } -> std::convertible_to<std::string_view>;
 };
 
-/// Triangles in the slot order of a tree, so that the triangles of a leaf lie side by side.
-struct OrderedTriangles {
-    OrderedTriangles(const Tree& tree, const TriangleMesh& mesh);
-    Buffer<Triangle<float>> triangles; ///< by slot
-    Buffer<std::uint32_t> ids;         ///< slot -> triangle of the mesh
+/// Up to eight triangles side by side, 320 bytes. Unused lanes repeat lane 0.
+struct alignas(64) TriangleBlock8 {
+    float corner[3][3][8]; ///< 288 bytes: by corner, axis and lane
+    std::uint32_t id[8];   ///< 32 bytes: triangle of the mesh
+
+    Triangle<float> triangle(std::uint32_t lane) const;
+    void set(std::uint32_t lane, const TriangleMesh& mesh, std::uint32_t triangle);
 };
+static_assert(sizeof(TriangleBlock8) == 320);
+
+/// The triangles of a mesh where the ray walk of one layout looks for them.
+using TriangleBlocks = Buffer<TriangleBlock8>;
 
 enum class RayQuery : std::uint8_t {
     closest, ///< the hit with the least t, ties to the lowest triangle index
@@ -51,12 +57,16 @@ class AnyLayout {
                             PairSink& sink) const = 0;
     virtual Work tree_pairs_counted(const AnyLayout& other, PairSink& sink) const = 0;
 
-    /// hits[i] answers rays[i]; hits.size() == rays.size(). `kernel` is a word of `ray_kernels()`.
+    /// The triangles whose boxes this is the layout of, for `rays`.
+    virtual TriangleBlocks triangles(const TriangleMesh& mesh) const = 0;
+
+    /// hits[i] answers rays[i]; hits.size() == rays.size(). `kernel` is a word of `ray_kernels()`,
+    /// `triangles` those of this very layout.
     virtual void rays(std::span<const Ray<float>> rays, RayQuery query, std::string_view kernel,
-                      const OrderedTriangles& triangles, const Executor& executor,
+                      const TriangleBlocks& triangles, const Executor& executor,
                       std::span<RayHit> hits) const = 0;
     virtual Work rays_counted(std::span<const Ray<float>> rays, RayQuery query,
-                              std::string_view kernel, const OrderedTriangles& triangles,
+                              std::string_view kernel, const TriangleBlocks& triangles,
                               std::span<RayHit> hits) const = 0;
 };
 

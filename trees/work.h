@@ -9,7 +9,7 @@ namespace boxwood {
 struct Work {
     std::uint64_t node_visits = 0; ///< nodes or blocks opened
     std::uint64_t box_tests = 0;   ///< box-box or ray-box tests (a SIMD test of k lanes counts k)
-    std::uint64_t triangle_tests = 0; ///< ray-triangle tests
+    std::uint64_t triangle_tests = 0; ///< ray-triangle tests (of k lanes: k)
     std::uint64_t answers = 0;        ///< pairs or hits reported
     std::uint64_t stack_max = 0;      ///< most entries on a traversal stack
 

@@ -101,11 +101,10 @@ void run(const RaysQuery& query, std::ostream& out) {
     std::vector<Box> boxes(mesh.triangles.size());
     for (std::size_t i = 0; i < boxes.size(); ++i)
         boxes[i] = mesh.triangle(i).bounds();
-    const Tree tree = build(boxes, *executor);
-    const OrderedTriangles triangles(tree, mesh);
+    const std::unique_ptr<AnyLayout> layout = layout_entry.make(build(boxes, *executor));
     std::vector<RayHit> hits(rays.size());
-    layout_entry.make(tree)->rays(rays, query.any ? RayQuery::any : RayQuery::closest, query.kernel,
-                                  triangles, *executor, hits);
+    layout->rays(rays, query.any ? RayQuery::any : RayQuery::closest, query.kernel,
+                 layout->triangles(mesh), *executor, hits);
 
     BlockWriter text(out);
     if (query.format.json)

@@ -30,13 +30,16 @@ template <Layout L> class LayoutModel final : public AnyLayout {
     Work tree_pairs_counted(const AnyLayout& other, PairSink& sink) const override {
         return boxwood::tree_pairs_counted(layout_, same(other), sink);
     }
+    TriangleBlocks triangles(const TriangleMesh& mesh) const override {
+        return boxwood::triangles_of(layout_, mesh);
+    }
     void rays(std::span<const Ray<float>> rays, RayQuery query, std::string_view kernel,
-              const OrderedTriangles& triangles, const Executor& executor,
+              const TriangleBlocks& triangles, const Executor& executor,
               std::span<RayHit> hits) const override {
         boxwood::rays(layout_, rays, query, kernel, triangles, executor, hits);
     }
     Work rays_counted(std::span<const Ray<float>> rays, RayQuery query, std::string_view kernel,
-                      const OrderedTriangles& triangles, std::span<RayHit> hits) const override {
+                      const TriangleBlocks& triangles, std::span<RayHit> hits) const override {
         return boxwood::rays_counted(layout_, rays, query, kernel, triangles, hits);
     }
 

@@ -92,7 +92,6 @@ Wide8Layout::Wide8Layout(const Tree& tree) : size_(tree.size()) {
         const TreeNode& node = tree.nodes[top.node];
         Block8& block = blocks_[top.block];
         block.bounds = node.box;
-        block.first = node.first;
         if (node.count <= width) {
             block.count = node.count;
             fill_leaf(block, tree, top.node);

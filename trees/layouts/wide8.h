@@ -11,8 +11,7 @@ struct alignas(64) Block8 {
                           ///< are (+inf, -inf): they overlap nothing and no ray hits them
     std::uint32_t ref[8]; ///< 32 bytes: a child reference, or in a leaf the item
     Box bounds;           ///< 24 bytes: bounds of all lanes
-    std::uint32_t count;  ///< lanes in use, from lane 0
-    std::uint32_t first;  ///< leaf: slot of lane 0 in the tree's order
+    std::uint32_t count;  ///< lanes in use, from lane 0; 4 bytes unused
 
     Box lane(std::uint32_t i) const {
         return {{plane[0][i], plane[1][i], plane[2][i]}, {plane[3][i], plane[4][i], plane[5][i]}};
@@ -38,7 +37,7 @@ class Wide8Layout {
     bool empty() const { return blocks_.empty(); }
     std::size_t size() const { return size_; }
     std::uint32_t root() const { return root_; }
-    const Block8* blocks() const { return blocks_.data(); }
+    std::span<const Block8> blocks() const { return blocks_.span(); }
     const Block8& block(std::uint32_t ref) const { return blocks_[index(ref)]; }
     /// Most blocks on a path from the root to a leaf.
     std::size_t depth() const { return depth_; }

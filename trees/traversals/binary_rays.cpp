@@ -14,7 +14,7 @@ template <RayKernel K, bool Any, bool Counted>
 RayHit walk(const BinaryLayout& layout, const Ray<float>& ray, const RayJob& job,
             Buffer<Waiting>& stack) {
     const Tree& tree = layout.tree();
-    RayWalk<K, Counted> state(ray, job.triangles, job.work);
+    RayWalk<K, Counted> state(ray, job.work);
     const auto entry = [&](std::size_t node) {
         return clip(state.slabs, tree.nodes[node].box, state.t_min(), state.t_max());
     };
@@ -42,7 +42,8 @@ RayHit walk(const BinaryLayout& layout, const Ray<float>& ray, const RayJob& job
         }
         if (!tree.is_leaf(node))
             continue;
-        state.test(tree.nodes[node].first);
+        const std::uint32_t slot = tree.nodes[node].first;
+        state.test(job.triangles[slot / 8], slot % 8);
         if (Any && state.hit())
             break;
     }
@@ -65,14 +66,22 @@ void walk_all(const BinaryLayout& layout, RayJob job, const Executor& executor) 
 
 } // namespace
 
+TriangleBlocks triangles_of(const BinaryLayout& tree, const TriangleMesh& mesh) {
+    const Buffer<std::uint32_t>& order = tree.tree().order;
+    TriangleBlocks blocks((order.size() + 7) / 8);
+    for (std::uint32_t slot = 0; slot < 8 * blocks.size(); ++slot)
+        blocks[slot / 8].set(slot % 8, mesh, order[slot < order.size() ? slot : slot / 8 * 8]);
+    return blocks;
+}
+
 void rays(const BinaryLayout& tree, std::span<const Ray<float>> rays, RayQuery query,
-          std::string_view kernel, const OrderedTriangles& triangles, const Executor& executor,
+          std::string_view kernel, const TriangleBlocks& triangles, const Executor& executor,
           std::span<RayHit> hits) {
     walk_all(tree, {rays, query, kernel, triangles, hits}, executor);
 }
 
 Work rays_counted(const BinaryLayout& tree, std::span<const Ray<float>> rays, RayQuery query,
-                  std::string_view kernel, const OrderedTriangles& triangles,
+                  std::string_view kernel, const TriangleBlocks& triangles,
                   std::span<RayHit> hits) {
     Work work;
     walk_all(tree, {rays, query, kernel, triangles, hits, &work}, serial());

@@ -13,27 +13,34 @@ namespace boxwood {
 /// One ray on its way through a tree: the nearest hit so far, and the tests of leaf triangles.
 template <RayKernel K, bool Counted> class RayWalk {
   public:
-    RayWalk(const Ray<float>& ray, const OrderedTriangles& triangles, Work* work)
-        : slabs(ray), ray_(ray), per_ray_(K::prepare(ray)), triangles_(triangles), work_(work) {
+    RayWalk(const Ray<float>& ray, Work* work)
+        : slabs(ray), per_ray(K::prepare(ray)), ray_(ray), work_(work) {
         best_.t = ray.t_max;
     }
 
     const RaySlabs slabs;
+    const typename K::PerRay per_ray;
 
     float t_min() const { return ray_.t_min; }
     /// Nothing beyond this t matters any more.
     float t_max() const { return best_.t; }
     bool hit() const { return best_.hit(); }
 
-    void test(std::uint32_t slot) {
+    void test(const TriangleBlock8& block, std::uint32_t lane) {
         RayHit hit;
         if constexpr (Counted)
             ++work_->triangle_tests;
-        if (!K::intersect(per_ray_, ray_, triangles_.triangles[slot], best_.t, hit))
+        if (!K::intersect(per_ray, ray_, block.triangle(lane), best_.t, hit))
             return;
-        hit.triangle = triangles_.ids[slot];
+        hit.triangle = block.id[lane];
         if (hit.t < best_.t || hit.triangle < best_.triangle)
             best_ = hit;
+    }
+
+    /// Triangles that a SIMD test of several ruled out.
+    void count_rejected(std::uint64_t triangles) {
+        if constexpr (Counted)
+            work_->triangle_tests += triangles;
     }
 
     /// One node opened with `box_tests` tests; compiled away unless Counted.
@@ -53,8 +60,6 @@ template <RayKernel K, bool Counted> class RayWalk {
 
   private:
     const Ray<float>& ray_;
-    typename K::PerRay per_ray_;
-    const OrderedTriangles& triangles_;
     Work* work_;
     RayHit best_;
 };
@@ -64,7 +69,7 @@ struct RayJob {
     std::span<const Ray<float>> rays;
     RayQuery query;
     std::string_view kernel;
-    const OrderedTriangles& triangles;
+    const TriangleBlocks& triangles;
     std::span<RayHit> hits;
     Work* work = nullptr; ///< null in the timed pass
 };

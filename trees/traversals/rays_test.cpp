@@ -118,7 +118,7 @@ TEST(Rays, AgreeWithBruteForceForEveryWayExecutorAndInstructionSet) {
             for (const LayoutEntry& entry : layouts()) {
                 const Tree tree = builder.make({})(boxes, serial());
                 const auto layout = entry.make(tree);
-                const OrderedTriangles triangles(tree, mesh);
+                const TriangleBlocks triangles = layout->triangles(mesh);
                 for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
                     SCOPED_TRACE(std::string(builder.name) + "." + std::string(entry.name) + " " +
                                  hwy::TargetName(target));
@@ -150,11 +150,11 @@ TEST(Rays, AgreeWithBruteForceForEveryWayExecutorAndInstructionSet) {
 TEST(Rays, RefuseWrongArguments) {
     const TriangleMesh mesh = soup(10);
     const Tree tree = builders()[0].make({})(triangle_boxes(mesh), serial());
-    const OrderedTriangles triangles(tree, mesh);
     const std::vector<Ray<float>> rays(3, Ray<float>{{0, 0, 0}, {1, 0, 0}});
     std::vector<RayHit> hits(3), few(2);
     for (const LayoutEntry& entry : layouts()) {
         const auto layout = entry.make(tree);
+        const TriangleBlocks triangles = layout->triangles(mesh);
         EXPECT_THROW(layout->rays(rays, RayQuery::any, "nosuch", triangles, serial(), hits),
                      std::invalid_argument);
         EXPECT_THROW(layout->rays(rays, RayQuery::any, "watertight", triangles, serial(), few),

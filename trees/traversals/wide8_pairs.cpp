@@ -198,14 +198,14 @@ void self_pairs(const Wide8Layout& tree, const Executor& executor, PairSink& sin
     run_tasks(first_tasks<true>(tree, tree, nullptr), executor, sink, nullptr,
               [&](PairWalk& state) {
                   HWY_DYNAMIC_DISPATCH(SelfPairs)
-                  (state, tree.blocks());
+                  (state, tree.blocks().data());
               });
 }
 
 Work self_pairs_counted(const Wide8Layout& tree, PairSink& sink) {
     Work work;
     run_tasks(first_tasks<true>(tree, tree, &work), serial(), sink, &work, [&](PairWalk& state) {
-        HWY_DYNAMIC_DISPATCH(SelfPairsCounted)(state, tree.blocks());
+        HWY_DYNAMIC_DISPATCH(SelfPairsCounted)(state, tree.blocks().data());
     });
     return work;
 }
@@ -213,14 +213,14 @@ Work self_pairs_counted(const Wide8Layout& tree, PairSink& sink) {
 void tree_pairs(const Wide8Layout& a, const Wide8Layout& b, const Executor& executor,
                 PairSink& sink) {
     run_tasks(first_tasks<false>(a, b, nullptr), executor, sink, nullptr, [&](PairWalk& state) {
-        HWY_DYNAMIC_DISPATCH(TreePairs)(state, a.blocks(), b.blocks());
+        HWY_DYNAMIC_DISPATCH(TreePairs)(state, a.blocks().data(), b.blocks().data());
     });
 }
 
 Work tree_pairs_counted(const Wide8Layout& a, const Wide8Layout& b, PairSink& sink) {
     Work work;
     run_tasks(first_tasks<false>(a, b, &work), serial(), sink, &work, [&](PairWalk& state) {
-        HWY_DYNAMIC_DISPATCH(TreePairsCounted)(state, a.blocks(), b.blocks());
+        HWY_DYNAMIC_DISPATCH(TreePairsCounted)(state, a.blocks().data(), b.blocks().data());
     });
     return work;
 }

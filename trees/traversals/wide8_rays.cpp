@@ -10,6 +10,7 @@
 #include "trees/traversals/rays.h"
 
 #include <bit>
+#include <vector>
 
 #ifndef BOXWOOD_WIDE8_RAYS_ONCE
 #define BOXWOOD_WIDE8_RAYS_ONCE
@@ -64,30 +65,70 @@ HWY_INLINE std::uint32_t Clip(const Block8& block, const RaySlabs& ray, float t_
     return bits;
 }
 
+/// The lanes of a block that a kernel does not reject at once, as bits: all, unless a version for
+/// that kernel follows.
+template <class PerRay>
+HWY_INLINE std::uint32_t Candidates(const TriangleBlock8&, const Ray<float>&, const PerRay&) {
+    return 0xff;
+}
+
+/// `Watertight` rejects where its float edge functions have both signs: the same, eight at a time.
+HWY_INLINE std::uint32_t Candidates(const TriangleBlock8& block, const Ray<float>& ray,
+                                    const Watertight::PerRay& per_ray) {
+    const int z = per_ray.z, x = z == 2 ? 0 : z + 1, y = x == 2 ? 0 : x + 1;
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < 8; i += hn::Lanes(df)) {
+        const auto from_origin = [&](int corner, int axis) HWY_ATTR {
+            return hn::Sub(hn::Load(df, block.corner[corner][axis] + i),
+                           hn::Set(df, ray.origin[axis]));
+        };
+        const auto along = [&](int corner, int axis, float shear) HWY_ATTR {
+            return hn::Sub(from_origin(corner, axis),
+                           hn::Mul(hn::Set(df, shear), from_origin(corner, z)));
+        };
+        const auto ax = along(0, x, per_ray.shear_x), ay = along(0, y, per_ray.shear_y);
+        const auto bx = along(1, x, per_ray.shear_x), by = along(1, y, per_ray.shear_y);
+        const auto cx = along(2, x, per_ray.shear_x), cy = along(2, y, per_ray.shear_y);
+        const auto u = hn::Sub(hn::Mul(cx, by), hn::Mul(cy, bx));
+        const auto v = hn::Sub(hn::Mul(ax, cy), hn::Mul(ay, cx));
+        const auto w = hn::Sub(hn::Mul(bx, ay), hn::Mul(by, ax));
+        const auto zero = hn::Zero(df);
+        const auto some_negative =
+            hn::Or(hn::Lt(u, zero), hn::Or(hn::Lt(v, zero), hn::Lt(w, zero)));
+        const auto some_positive =
+            hn::Or(hn::Gt(u, zero), hn::Or(hn::Gt(v, zero), hn::Gt(w, zero)));
+        std::uint8_t part[8] = {};
+        hn::StoreMaskBits(df, hn::Not(hn::And(some_negative, some_positive)), part);
+        bits |= std::uint32_t{part[0]} << i;
+    }
+    return bits;
+}
+
 template <RayKernel K, bool Any, bool Counted>
 RayHit WalkRay(const Wide8Layout& tree, const Ray<float>& ray, const RayJob& job,
                WaitingBlock* stack) {
-    RayWalk<K, Counted> state(ray, job.triangles, job.work);
+    RayWalk<K, Counted> state(ray, job.work);
     std::size_t top = 0;
     float entry[8];
     WaitingBlock at{tree.root(), ray.t_min};
     for (;;) {
-        const Block8& block = tree.block(at.ref);
-        state.count(8, top);
-        std::uint32_t bits = Clip(block, state.slabs, state.t_min(), state.t_max(), entry);
         if (Wide8Layout::is_leaf(at.ref)) {
+            const TriangleBlock8& block = job.triangles[Wide8Layout::index(at.ref)];
+            std::uint32_t bits = Candidates(block, ray, state.per_ray);
+            state.count_rejected(8 - static_cast<unsigned>(std::popcount(bits)));
             for (; bits; bits &= bits - 1) {
-                const auto lane = static_cast<std::uint32_t>(std::countr_zero(bits));
-                if (!(entry[lane] > state.t_max()))
-                    state.test(block.first + lane);
+                state.test(block, static_cast<std::uint32_t>(std::countr_zero(bits)));
                 if (Any && state.hit())
                     return state.result();
             }
-        } else if (bits) {
+        } else {
+            const Block8& block = tree.block(at.ref);
+            state.count(8, top);
             // New entries are kept sorted, the nearest on top; few are hit, so insertion is
             // quickest.
             const std::size_t base = top;
-            for (; bits; bits &= bits - 1) {
+            for (std::uint32_t bits = Clip(block, state.slabs, state.t_min(), state.t_max(), entry);
+                 bits; bits &= bits - 1) {
                 const auto lane = static_cast<std::uint32_t>(std::countr_zero(bits));
                 std::size_t place = top++;
                 if constexpr (!Any)
@@ -123,8 +164,29 @@ HWY_AFTER_NAMESPACE();
 namespace boxwood {
 HWY_EXPORT(Rays);
 
+/// The triangles of a leaf are in the block of the same index; those of inner blocks stay unused.
+TriangleBlocks triangles_of(const Wide8Layout& tree, const TriangleMesh& mesh) {
+    TriangleBlocks triangles(tree.blocks().size());
+    std::vector<std::uint32_t> open;
+    if (!tree.empty())
+        open.push_back(tree.root());
+    while (!open.empty()) {
+        const std::uint32_t ref = open.back();
+        open.pop_back();
+        const Block8& block = tree.block(ref);
+        if (!Wide8Layout::is_leaf(ref)) {
+            open.insert(open.end(), block.ref, block.ref + block.count);
+            continue;
+        }
+        for (std::uint32_t lane = 0; lane < 8; ++lane)
+            triangles[Wide8Layout::index(ref)].set(lane, mesh,
+                                                   block.ref[lane < block.count ? lane : 0]);
+    }
+    return triangles;
+}
+
 void rays(const Wide8Layout& tree, std::span<const Ray<float>> rays, RayQuery query,
-          std::string_view kernel, const OrderedTriangles& triangles, const Executor& executor,
+          std::string_view kernel, const TriangleBlocks& triangles, const Executor& executor,
           std::span<RayHit> hits) {
     for_ray_chunks({rays, query, kernel, triangles, hits}, executor, [&](const RayJob& part) {
         HWY_DYNAMIC_DISPATCH(Rays)(tree, part);
@@ -132,7 +194,7 @@ void rays(const Wide8Layout& tree, std::span<const Ray<float>> rays, RayQuery qu
 }
 
 Work rays_counted(const Wide8Layout& tree, std::span<const Ray<float>> rays, RayQuery query,
-                  std::string_view kernel, const OrderedTriangles& triangles,
+                  std::string_view kernel, const TriangleBlocks& triangles,
                   std::span<RayHit> hits) {
     Work work;
     for_ray_chunks({rays, query, kernel, triangles, hits, &work}, serial(),
