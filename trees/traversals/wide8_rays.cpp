@@ -124,17 +124,25 @@ RayHit WalkRay(const Wide8Layout& tree, const Ray<float>& ray, const RayJob& job
         } else {
             const Block8& block = tree.block(at.ref);
             state.count(8, top);
-            // New entries are kept sorted, the nearest on top; few are hit, so insertion is
-            // quickest.
-            const std::size_t base = top;
-            for (std::uint32_t bits = Clip(block, state.slabs, state.t_min(), state.t_max(), entry);
-                 bits; bits &= bits - 1) {
-                const auto lane = static_cast<std::uint32_t>(std::countr_zero(bits));
-                std::size_t place = top++;
-                if constexpr (!Any)
-                    for (; place > base && stack[place - 1].entry < entry[lane]; --place)
-                        stack[place] = stack[place - 1];
-                stack[place] = {block.ref[lane], entry[lane]};
+            std::uint32_t bits = Clip(block, state.slabs, state.t_min(), state.t_max(), entry);
+            if (bits != 0) {
+                // The nearest is opened next; the others wait, sorted. Few are hit: insertion is
+                // quickest.
+                auto lane = static_cast<std::uint32_t>(std::countr_zero(bits));
+                at = {block.ref[lane], entry[lane]};
+                const std::size_t base = top;
+                while ((bits &= bits - 1) != 0) {
+                    lane = static_cast<std::uint32_t>(std::countr_zero(bits));
+                    WaitingBlock other{block.ref[lane], entry[lane]};
+                    if (Any || other.entry < at.entry)
+                        std::swap(other, at);
+                    std::size_t place = top++;
+                    if constexpr (!Any)
+                        for (; place > base && stack[place - 1].entry < other.entry; --place)
+                            stack[place] = stack[place - 1];
+                    stack[place] = other;
+                }
+                continue;
             }
         }
         do {
