@@ -2,13 +2,6 @@
 
 namespace boxwood {
 
-Triangle<float> TriangleBlock8::triangle(std::uint32_t lane) const {
-    const auto at = [&](int k) {
-        return Vec3<float>{corner[k][0][lane], corner[k][1][lane], corner[k][2][lane]};
-    };
-    return {at(0), at(1), at(2)};
-}
-
 void TriangleBlock8::set(std::uint32_t lane, const TriangleMesh& mesh, std::uint32_t triangle) {
     const Triangle<float> t = mesh.triangle(triangle);
     for (int axis = 0; axis < 3; ++axis) {

@@ -28,7 +28,12 @@ struct alignas(64) TriangleBlock8 {
     float corner[3][3][8]; ///< 288 bytes: by corner, axis and lane
     std::uint32_t id[8];   ///< 32 bytes: triangle of the mesh
 
-    Triangle<float> triangle(std::uint32_t lane) const;
+    Triangle<float> triangle(std::uint32_t lane) const {
+        const auto at = [&](int k) {
+            return Vec3<float>{corner[k][0][lane], corner[k][1][lane], corner[k][2][lane]};
+        };
+        return {at(0), at(1), at(2)};
+    }
     void set(std::uint32_t lane, const TriangleMesh& mesh, std::uint32_t triangle);
 };
 static_assert(sizeof(TriangleBlock8) == 320);
