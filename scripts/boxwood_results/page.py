@@ -18,11 +18,12 @@ figcaption, .note { color: #555; font-size: .88rem; }
 table { border-collapse: collapse; font-size: .82rem; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; padding: .18rem .7rem .18rem 0; border-bottom: 1px solid #e4e4e4; vertical-align: top; }
 td.number { text-align: right; }
-.scroll { overflow-x: auto; max-height: 30rem; overflow-y: auto; }
+.scroll { overflow-x: auto; }
+details .scroll { max-height: 30rem; overflow-y: auto; }
 summary { cursor: pointer; font-size: .88rem; color: #0058a3; }
 .wrong { color: #b00000; font-weight: 600; }
 @media print { body { max-width: none; margin: 0; } figure, tr { break-inside: avoid; }
-               .scroll { max-height: none; overflow: visible; } }
+               .scroll, details .scroll { max-height: none; overflow: visible; } }
 """
 MISSING = (2**32 - 1, 2**64 - 1)
 
@@ -135,7 +136,8 @@ def unsupported_html(run):
 
 def machine_html(run):
     env = run.source["env"]
-    rows = [(name, *(as_plain(row[name]) for row in env)) for name in env.dtype.names]
+    # As text: one column of values of all kinds reads best from the left.
+    rows = [(name, *(shown(as_plain(row[name]))[0] for row in env)) for name in env.dtype.names]
     columns = ("", *(f"machine state {row['env_id']}" for row in env))
     texts = "".join(folded(name, f"<pre>{escape(text)}</pre>") for name, text in sorted(run.source.texts.items()) if text)
     return table(columns, rows) + texts
