@@ -1,5 +1,8 @@
 #pragma once
 
+#include "kernels/continuous/continuous_kernel.h"
+#include "kernels/triangle_distance/distance_kernel.h"
+#include "kernels/verdict.h"
 #include "scenes/scene.h"
 #include "trees/pairs.h"
 #include "trees/tree.h"
@@ -17,10 +20,24 @@ namespace boxwood::bench {
 
 /// What is wanted of a scene.
 enum class Ask : std::uint8_t {
-    pairs,        ///< every unordered overlapping pair of the scene's boxes
-    tree_pairs,   ///< every overlapping pair between the first half of the boxes and the rest
-    rays_closest, ///< for each ray the nearest triangle
-    rays_any      ///< for each ray whether it meets a triangle
+    pairs,          ///< every unordered overlapping pair of the scene's boxes
+    tree_pairs,     ///< every overlapping pair between the first half of the boxes and the rest
+    rays_closest,   ///< for each ray the nearest triangle
+    rays_any,       ///< for each ray whether it meets a triangle
+    triangle_pairs, ///< every unordered pair of the scene's triangles that share a point
+
+    // Of the cases of a hard-case family, one answer each: the families of kernels.
+    triangle_triangle, ///< do two triangles share a point
+    triangle_distance, ///< their least distance
+    segment_segment,   ///< the least distance of an edge of each
+    point_triangle,    ///< the least distance of a corner of one to the other
+    point_segment,     ///< the least distance of a corner of one to an edge of the other
+    ray_triangle,      ///< where a ray meets a triangle, or the nearest of a fan
+    ray_box,           ///< whether a ray meets a box
+    vertex_face,       ///< whether and when a moving vertex touches a moving triangle
+    edge_edge,         ///< whether and when two moving edges touch
+    obb_obb,           ///< whether two boxes in any pose share a point
+    box_fit            ///< the axis-aligned box of a transformed box
 };
 struct AskEntry {
     Ask ask;
@@ -29,6 +46,8 @@ struct AskEntry {
 std::span<const AskEntry> asks();
 std::string_view to_string(Ask ask);
 std::optional<Ask> ask_of(std::string_view name);
+/// Whether it is asked of the scene's cases (`Scene::cases`), not of its boxes or mesh.
+inline bool is_kernel_ask(Ask ask) { return ask >= Ask::triangle_triangle; }
 inline bool is_ray_ask(Ask ask) { return ask == Ask::rays_closest || ask == Ask::rays_any; }
 
 /// The items of `tree_pairs`: boxes [0, n/2) against [n/2, n). In its answers a < n/2 <= b, both
@@ -48,6 +67,11 @@ struct Job {
 struct Answers {
     std::vector<Pair> pairs;
     std::vector<RayHit> hits; ///< resized to the number of rays; for rays_any only hit() counts
+    // Of the kernel asks, one per case, resized by the contender.
+    std::vector<Verdict> verdicts;   ///< triangle_triangle, ray_box, obb_obb
+    std::vector<Distance> distances; ///< the four distances
+    std::vector<Impact> impacts;     ///< vertex_face, edge_edge
+    std::vector<Aabb<double>> boxes; ///< box_fit
 };
 
 /// What a structure is, for the tree table.

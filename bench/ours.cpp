@@ -200,6 +200,7 @@ ContenderEntry our_contender(const Choice& choice, Ask ask) {
             return std::make_unique<TreePairs>(job, build, *layout);
         case Ask::rays_closest:
         case Ask::rays_any:
+        default:
             break;
         }
         return std::make_unique<Rays>(job, build, *layout, kernel);

@@ -19,7 +19,9 @@ struct Verdict {
 
 /// What a rung of the accuracy ladder promises on every finite input.
 /// never_miss: a true yes is never answered no. never_false: a true no is never answered yes.
-enum class Promise : std::uint8_t { none, never_miss, never_false, exact };
+/// certified: both; what it is sure of holds (no, yes, an interval), else it says maybe or widens.
+/// exact: certified, and always sure.
+enum class Promise : std::uint8_t { none, never_miss, never_false, certified, exact };
 
 constexpr std::string_view to_string(Promise p) {
     switch (p) {
@@ -27,6 +29,8 @@ constexpr std::string_view to_string(Promise p) {
         return "never-miss";
     case Promise::never_false:
         return "never-false";
+    case Promise::certified:
+        return "certified";
     case Promise::exact:
         return "exact";
     case Promise::none:
@@ -39,8 +43,10 @@ constexpr std::string_view to_string(Promise p) {
 struct KernelInfo {
     std::string_view family;  ///< "ray_triangle", "triangle_triangle", ...
     std::string_view name;    ///< catalogue word within the family
-    std::string_view summary; ///< one line: method, bound and source
+    std::string_view summary; ///< one line: method and source
     Promise promise = Promise::none;
+    std::string_view bound = "none"; ///< the error bound and its source, or why there is none
+    std::string_view cost = ""; ///< cost class: "about 100 flops", "filter, then integers", ...
 };
 
 } // namespace boxwood

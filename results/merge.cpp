@@ -93,6 +93,8 @@ class Merger {
     Joined<std::pair<std::uint32_t, std::string>, Counter> counters_{all_.counters};
     Joined<std::pair<std::uint32_t, std::string>, Check> checks_{all_.checks};
     Joined<std::uint32_t, TreeRow> trees_{all_.trees};
+    Joined<std::pair<std::uint32_t, std::string>, KernelRow> kernels_{all_.kernels};
+    Joined<std::pair<std::uint32_t, double>, ConditionRow> conditions_{all_.conditions};
     Joined<std::tuple<std::uint32_t, std::uint32_t, std::string>, Comparison> compare_{
         all_.compare};
     std::map<std::string, std::uint64_t> content_of_; ///< of the scene of a cell name
@@ -191,6 +193,16 @@ void Merger::add_facts(const Results& part) {
     for (TreeRow row : part.trees) {
         row.cell_id = cell_ids_(row.cell_id);
         trees_.add(row.cell_id, row);
+    }
+    for (KernelRow row : part.kernels) {
+        row.cell_id = cell_ids_(row.cell_id);
+        KernelRow& kept = all_.kernels[kernels_.add({row.cell_id, row.family}, row).first];
+        if (badness(row.status) > badness(kept.status))
+            kept = row;
+    }
+    for (ConditionRow row : part.conditions) {
+        row.cell_id = cell_ids_(row.cell_id);
+        conditions_.add({row.cell_id, row.log10_condition}, row);
     }
     for (Comparison row : part.compare) {
         row.cell_a = cell_ids_(row.cell_a);

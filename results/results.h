@@ -109,6 +109,33 @@ struct TreeRow {
            overlap = missing;
 };
 
+/// One rung of a kernel, ours or a peer's, on one family of hard cases.
+struct KernelRow {
+    std::uint32_t cell_id = 0;
+    std::string family;        ///< hard-case family, or "typical"
+    std::string panel;         ///< generic | touching | degenerate
+    std::string kernel_family; ///< triangle_triangle, ray_triangle, ...
+    std::string rung, promise;
+    std::uint64_t n = 0;
+    double ns_per_call = missing; ///< of the check's own timing; a sweep's samples are better
+    std::uint64_t false_pos = 0, false_neg = 0, maybe = 0;
+    double max_ulp = missing, max_rel_err = missing;
+    std::uint64_t bound_violations = 0;
+    double escalation_rate = missing; ///< share of the calls that tier 0 did not decide
+    std::uint64_t tier_0 = 0, tier_1 = 0, tier_2 = 0, tier_3 = 0; ///< calls decided by each tier
+    std::string status;  ///< exact | conservative | within_bound | wrong | unsupported
+    std::string witness; ///< a wrong case and the command that replays it
+};
+
+/// The error of one rung at one condition number (a decade each).
+struct ConditionRow {
+    std::uint32_t cell_id = 0;
+    double log10_condition = missing; ///< L/d of a distance, 1/sin^2 of a segment pair
+    std::uint64_t n = 0;
+    double max_rel_err = missing;
+    double bound = missing; ///< the greatest relative bound that the rung itself gave
+};
+
 /// Derived; can be made again from `samples`.
 struct Comparison {
     std::uint32_t cell_a = 0, cell_b = 0;
@@ -132,6 +159,8 @@ struct Results {
     std::vector<Counter> counters;
     std::vector<Check> checks;
     std::vector<TreeRow> trees;
+    std::vector<KernelRow> kernels;
+    std::vector<ConditionRow> conditions;
     std::vector<Comparison> compare;
 };
 

@@ -3,6 +3,7 @@
 #include "kernels/aabb.h"
 #include "kernels/ray.h"
 #include "kernels/triangle.h"
+#include "scenes/hard_cases/hard_cases.h"
 
 #include <concepts>
 #include <cstdint>
@@ -16,13 +17,15 @@ namespace boxwood {
 
 /// What a generator is asked for. The same spec gives the same bits on every machine.
 struct SceneSpec {
-    std::string generator{};      ///< a word of `scene_generators()`
+    std::string generator{};      ///< a word of `scene_generators()` or `hard_case_families()`
     std::size_t n = 1000;         ///< wanted number of items (boxes, or triangles of a mesh)
     std::uint64_t seed = 1;       ///< key of the counter-based random numbers
     double overlaps = 10;         ///< wanted mean number of boxes that overlap a box (box scenes)
     std::string rays{};           ///< a word of `ray_kinds()`, or empty for no rays (mesh scenes)
     std::size_t n_rays = 0;       ///< number of rays
-    std::filesystem::path file{}; ///< mesh file (`mesh` alone)
+    std::filesystem::path file{}; ///< mesh file (`mesh` alone), or a family's cases
+    std::optional<int> k{};       ///< of a hard-case family: its parameter
+    int scale = 0;                ///< of a hard-case family: power of two on every coordinate
 };
 
 /// One frame of things to test: boxes always; a mesh when they are boxes of its triangles.
@@ -32,6 +35,7 @@ struct Scene {
     std::vector<Aabb<float>> boxes; ///< scene units; box i bounds triangle i when there is a mesh
     TriangleMesh mesh;              ///< empty in box scenes
     std::vector<Ray<float>> rays;
+    Cases cases;                    ///< of a hard-case family, else none
     std::string params_json;        ///< the generator's parameters as one JSON object
     std::uint64_t content_hash = 0; ///< XXH3 of boxes, vertices, indices and rays, little-endian
 };

@@ -25,6 +25,7 @@ template <OrientationPredicates P> struct GuigueDevillers {
         "rank: ";
 
   public:
+    using Real = double;
     static constexpr std::string_view name = Joined<name_prefix, P::name>::value;
     static constexpr KernelInfo info{"triangle_triangle", name,
                                      Joined<summary_prefix, P::summary>::value, P::promise};

@@ -1,0 +1,16 @@
+#include "kernels/oracle/oracle.h"
+
+#include <cmath>
+
+namespace boxwood::oracle {
+
+int compare(double d, const mpq_class& squared) {
+    if (std::isinf(d))
+        return d > 0 ? 1 : -1;
+    if (d < 0)
+        return -1;
+    const mpq_class root(d);
+    return sgn(mpq_class(root * root - squared));
+}
+
+} // namespace boxwood::oracle

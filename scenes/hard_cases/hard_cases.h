@@ -1,0 +1,114 @@
+#pragma once
+
+#include "kernels/aabb.h"
+#include "kernels/boxes/obb.h"
+#include "kernels/boxes/rigid_transform.h"
+#include "kernels/continuous/continuous_kernel.h"
+#include "kernels/ray.h"
+#include "kernels/triangle.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace boxwood {
+
+/// What is known of a case by its construction. `ask`: only an exact oracle can tell.
+enum class Known : std::uint8_t { no, yes, ask };
+
+/// Two triangles. Kernels of smaller things take what they need of them: segments a.a a.b and
+/// b.a b.b, the point a.a, the triangle b.
+struct TrianglePairCase {
+    Triangle<double> a, b;
+    Known touch = Known::ask;
+};
+
+/// A ray and the triangles [first, first + count) of `RayCases::triangles`: one, or a closed fan.
+/// `hit`: whether it must hit at least one of them.
+struct RayCase {
+    Ray<float> ray;
+    std::uint32_t first = 0, count = 1;
+    Known hit = Known::ask;
+};
+struct RayCases {
+    std::vector<Triangle<float>> triangles;
+    std::vector<RayCase> rays;
+};
+
+struct RayBoxCase {
+    Ray<float> ray;
+    Aabb<float> box;
+    Known hit = Known::ask;
+};
+
+enum class MotionKind : std::uint8_t { vertex_face, edge_edge };
+struct MotionCase {
+    LinearMotion motion;
+    Known touch = Known::ask;
+};
+struct MotionCases {
+    MotionKind kind = MotionKind::vertex_face;
+    std::vector<MotionCase> motions;
+};
+
+struct ObbPairCase {
+    Obb<double> a, b;
+    Known touch = Known::ask;
+};
+
+/// A box to be fitted anew after a transform.
+struct FitCase {
+    RigidTransform<double> transform;
+    Aabb<double> box;
+};
+
+/// Boxes whose number of overlapping pairs is known.
+struct BoxCases {
+    std::vector<Aabb<float>> boxes;
+    std::uint64_t n_pairs = 0;
+};
+
+/// The cases of one family. Their type says which kernels they are for.
+using Cases =
+    std::variant<std::monostate, std::vector<TrianglePairCase>, RayCases, std::vector<RayBoxCase>,
+                 MotionCases, std::vector<ObbPairCase>, std::vector<FitCase>, BoxCases>;
+
+/// How ordinary the input is: the panels of the accuracy figures.
+enum class Panel : std::uint8_t { generic, touching, degenerate };
+std::string_view to_string(Panel panel);
+
+/// What a family is asked for. The same spec gives the same bits on every machine.
+struct HardCaseSpec {
+    std::size_t n = 1000;       ///< wanted number of cases
+    std::uint64_t seed = 1;     ///< key of the counter-based random numbers
+    std::optional<int> k;       ///< the family's own parameter; its default if not given
+    int scale = 0;              ///< every coordinate is multiplied by 2^scale, exactly
+    std::filesystem::path file; ///< for families that read their cases from a file or folder
+};
+
+/// A family of hard cases: `boxwood list families`. One file in scenes/hard_cases/ and one word.
+struct HardCaseFamily {
+    std::string_view name;    ///< catalogue word
+    std::string_view summary; ///< one line
+    Panel panel = Panel::generic;
+    std::string_view k_meaning; ///< what k is; empty if there is none
+    int k_default = 0, k_least = 0, k_most = 0;
+    int scale_least = 0, scale_most = 0; ///< where every coordinate stays exact
+    bool reads_file = false;
+    Cases (*generate)(const HardCaseSpec& spec);
+};
+
+std::span<const HardCaseFamily> hard_case_families();
+/// The family by its catalogue word, or nullptr.
+const HardCaseFamily* find_hard_case_family(std::string_view name);
+
+/// Throws std::invalid_argument naming family, parameter and range for a bad spec, and
+/// std::runtime_error naming file and line for a bad file.
+Cases make_cases(const HardCaseFamily& family, const HardCaseSpec& spec);
+
+} // namespace boxwood
