@@ -1,4 +1,5 @@
 #include "bench/peers/capability.h"
+#include "bench/peers/kernel_peers.h"
 
 #include <BulletCollision/BroadphaseCollision/btDbvt.h>
 #include <fmt/format.h>
@@ -97,6 +98,8 @@ Peer bullet_peer() {
                        entry("bullet.dbvt.top_down",
                              "Bullet's btDbvt, rebuilt from the top after the insertions",
                              "build = insert each box + optimizeTopDown(32)", true)};
+    for (ContenderEntry& e : bullet_kernels())
+        peer.contenders.push_back(std::move(e));
     return peer;
 }
 

@@ -1,6 +1,7 @@
 #include "bench/peers/capability.h"
+#include "bench/peers/embree_handles.h"
+#include "bench/peers/kernel_peers.h"
 
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -9,67 +10,9 @@
 
 #include <array>
 #include <cstdint>
-#include <stdexcept>
-#include <type_traits>
-
-#if defined(__SSE2__)
-#include <xmmintrin.h>
-#endif
 
 namespace boxwood::bench {
 namespace {
-
-/// Embree asks its callers to flush denormals; the thread's own setting comes back at the end.
-class FlushDenormals {
-  public:
-#if defined(__SSE2__)
-    FlushDenormals() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ | 0x8040u); } // FTZ and DAZ
-    ~FlushDenormals() { _mm_setcsr(saved_); }
-    FlushDenormals(const FlushDenormals&) = delete;
-
-  private:
-    unsigned saved_;
-#endif
-};
-
-template <auto Release> struct Releaser {
-    template <class Handle> void operator()(Handle handle) const { Release(handle); }
-};
-template <class Handle, auto Release>
-using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Releaser<Release>>;
-using Device = Owned<RTCDevice, rtcReleaseDevice>;
-using SceneHandle = Owned<RTCScene, rtcReleaseScene>;
-using Geometry = Owned<RTCGeometry, rtcReleaseGeometry>;
-
-/// While a device with so many threads lives, all of TBB in this process is held to them.
-Device make_device(unsigned threads) {
-    Device device(rtcNewDevice(fmt::format("threads={},set_affinity=0", threads).c_str()));
-    if (!device)
-        throw std::runtime_error(fmt::format("embree: no device with {} threads (error {})",
-                                             threads,
-                                             static_cast<int>(rtcGetDeviceError(nullptr))));
-    return device;
-}
-
-void throw_if_failed(RTCDevice device, const char* what) {
-    if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
-        throw std::runtime_error(
-            fmt::format("embree: {} failed (error {})", what, static_cast<int>(error)));
-}
-
-/// A committed scene of one geometry.
-SceneHandle commit(RTCDevice device, Geometry geometry, RTCBuildQuality quality,
-                   RTCSceneFlags flags) {
-    rtcSetGeometryBuildQuality(geometry.get(), quality);
-    rtcCommitGeometry(geometry.get());
-    SceneHandle scene(rtcNewScene(device));
-    rtcSetSceneBuildQuality(scene.get(), quality);
-    rtcSetSceneFlags(scene.get(), flags);
-    rtcAttachGeometry(scene.get(), geometry.get());
-    rtcCommitScene(scene.get());
-    throw_if_failed(device, "building the scene");
-    return scene;
-}
 
 void bounds_of_box(const RTCBoundsFunctionArguments* args) {
     const Aabb<float>& box = static_cast<const Aabb<float>*>(args->geometryUserPtr)[args->primID];
@@ -171,7 +114,8 @@ class Rays final : public Contender {
         const auto cast = [&](std::size_t begin, std::size_t end) {
             const FlushDenormals flush;
             for (std::size_t i = begin; i < end; ++i)
-                answers.hits[i] = any_ ? occluded(scene_.rays[i]) : closest(scene_.rays[i]);
+                answers.hits[i] =
+                    any_ ? occluded(scene_.rays[i]) : closest(embree_scene_.get(), scene_.rays[i]);
         };
         if (threads_ == 1)
             return cast(0, scene_.rays.size());
@@ -183,33 +127,6 @@ class Rays final : public Contender {
     }
 
   private:
-    static RTCRay converted(const Ray<float>& ray) {
-        return {ray.origin.x,
-                ray.origin.y,
-                ray.origin.z,
-                ray.t_min,
-                ray.direction.x,
-                ray.direction.y,
-                ray.direction.z,
-                0,
-                ray.t_max,
-                ~0u,
-                0,
-                0};
-    }
-
-    RayHit closest(const Ray<float>& ray) const {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        RTCRayHit query;
-        query.ray = converted(ray);
-        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(embree_scene_.get(), &context, &query);
-        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
-            return {};
-        return {query.ray.tfar, query.hit.u, query.hit.v, query.hit.primID};
-    }
-
     /// A hit is told by some triangle number; Embree does not say which triangle it was.
     RayHit occluded(const Ray<float>& ray) const {
         RTCIntersectContext context;
@@ -301,6 +218,8 @@ Peer embree_peer() {
                        rays(Ask::rays_closest, true),
                        rays(Ask::rays_any, false),
                        rays(Ask::rays_any, true)};
+    for (ContenderEntry& e : embree_kernels())
+        peer.contenders.push_back(std::move(e));
     return peer;
 }
 

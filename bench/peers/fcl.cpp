@@ -1,4 +1,5 @@
 #include "bench/peers/capability.h"
+#include "bench/peers/kernel_peers.h"
 
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree_array.h>
@@ -116,6 +117,8 @@ Peer fcl_peer() {
         "fcl.dynamic_aabb_tree_array",
         "FCL's DynamicAABBTreeCollisionManager_Array: nodes in one array"));
     peer.contenders.back().notes += "; FCL 0.7 loses the memory of the leaves at each bulk build";
+    for (ContenderEntry& e : fcl_kernels())
+        peer.contenders.push_back(std::move(e));
     return peer;
 }
 

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "bench/contender.h"
+
+#include <vector>
+
+/// The peers' kernels: what each library offers for one pair of primitives, beside its trees. Each
+/// is made in peers/NAME_kernels.cpp and appended to the contenders of its peer.
+namespace boxwood::bench {
+
+std::vector<ContenderEntry> fcl_kernels();
+std::vector<ContenderEntry> cgal_kernels();
+std::vector<ContenderEntry> embree_kernels();
+std::vector<ContenderEntry> bullet_kernels();
+
+} // namespace boxwood::bench
