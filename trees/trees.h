@@ -23,6 +23,7 @@
 #include "trees/pairs.h"
 #include "trees/quality.h"
 #include "trees/refit.h"
+#include "trees/touching_pairs.h"
 #include "trees/traversals/rays.h"
 #include "trees/traversals/self_pairs.h"
 #include "trees/traversals/tree_pairs.h"
