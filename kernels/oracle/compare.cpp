@@ -1,3 +1,4 @@
+#include "kernels/oracle/exact_vector.h"
 #include "kernels/oracle/oracle.h"
 
 #include <cmath>
@@ -9,7 +10,7 @@ int compare(double d, const mpq_class& squared) {
         return d > 0 ? 1 : -1;
     if (d < 0)
         return -1;
-    const mpq_class root(d);
+    const mpq_class root = exact(d);
     return sgn(mpq_class(root * root - squared));
 }
 
