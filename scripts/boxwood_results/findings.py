@@ -105,7 +105,7 @@ def floor_text(run):
     floor = run.noise_floor
     if floor == floor:
         return f"A/A noise floor ±{100 * floor:.1f} %: no difference below it is claimed"
-    if not any(cell.twin for cell in run.cells):
+    if not any(cell.twin for cell in (*run.cells, *(p.cell for p in run.kernels))):
         return "A/A noise floor not known: no cell was timed twice, so no small difference is meaningful"
     return (
         f"A/A noise floor not known: it takes {stats.LEAST_FOR_INTERVAL} rounds, and this run has "

@@ -4,6 +4,7 @@ from html import escape
 
 from . import registry
 from .findings import comparison_rows, findings, floor_text, rounds_text, sentence, time_text
+from .kernels import take_home
 from .picture import as_inline_svg, cell_text
 from .selection import largest_jobs, wrong_text
 
@@ -75,6 +76,22 @@ def figures_html(run):
         parts.append(f"<p class=note>{escape(drawn.how_to_read)}</p>")
         parts += [figure_html(picture) for picture in drawn.pictures]
     return "".join(parts)
+
+
+def kernels_html(run):
+    if not run.kernels:
+        return ""
+    lines = "".join(f"<li>{escape(line)}.</li>" for line in take_home(run))
+    columns = ("kernels", "cases", "rung", "library", "promise", "status", "n", "ns", "false pos", "false neg", "maybe",
+               "out of bound", "worst relative error", "witness")
+    rows = [
+        (p.kernel_family, p.cases, p.rung, p.library, p.row["promise"], p.row["status"], p.n, p.ns,
+         int(p.row["false_pos"]), int(p.row["false_neg"]), int(p.row["maybe"]), int(p.row["bound_violations"]), p.error,
+         p.row["witness"])
+        for p in run.kernels
+    ]
+    return (f"<h2>What accuracy costs, in words</h2><ul>{lines}</ul>"
+            + folded(f"All {len(rows):,} kernels on hard cases", table(columns, rows)))
 
 
 def quantile(times, part):
@@ -168,6 +185,7 @@ def report(run):
             "paired within rounds: above 1 Boxwood is the faster. Ours is the variant with the least build and "
             f"query together, chosen from this same run.</p><ul>{sentences}</ul>",
             folded(f"All {len(rows):,} comparisons, smaller sizes too", table(columns, rows)),
+            kernels_html(run),
             figures_html(run),
             "<h2>Is it right</h2>", checks_html(run),
             "<h2>Unsupported and absent</h2>", unsupported_html(run),

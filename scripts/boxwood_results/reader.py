@@ -13,7 +13,7 @@ REMEDY = "run the sweep again (it keeps its finished rounds)"
 REQUIRED = {
     "env": ("env_id", "host", "cpu", "ncpu"),
     "scenes": ("scene_id", "name", "n_items", "seed"),
-    "variants": ("variant_id", "name", "library", "builder", "traversal", "notes"),
+    "variants": ("variant_id", "name", "library", "builder", "traversal", "kernel", "notes"),
     "cells": (
         "cell_id", "name", "scene_id", "variant_id", "ask", "n_items", "n_queries", "precision",
         "executor", "threads",
@@ -25,6 +25,12 @@ REQUIRED = {
 OPTIONAL = {
     "counters": ("cell_id", "counter", "value"),
     "trees": ("cell_id", "sah_cost", "epo", "depth_max", "bytes"),
+    "kernels": (
+        "cell_id", "family", "panel", "kernel_family", "rung", "promise", "n", "ns_per_call", "false_pos",
+        "false_neg", "maybe", "max_ulp", "max_rel_err", "bound_violations", "tier_0", "tier_1", "tier_2",
+        "tier_3", "status", "witness",
+    ),
+    "conditions": ("cell_id", "log10_condition", "n", "max_rel_err", "bound"),
 }
 
 

@@ -2,12 +2,15 @@
 
 from dataclasses import dataclass
 
-from .figures import builder_tradeoff, forest, run_health, scaling, speedup, work
+from .figures import (
+    accuracy, builder_tradeoff, condition, escalation, forest, price, robustness, run_health, scaling, speedup, work,
+)
 from .picture import Skip
 
 # In the order of the report. To add one: a module in figures/ with NAME, TITLE, HOW_TO_READ and
 # draw(run) -> [Picture] that raises Skip where the run lacks the data, and its name here.
-MODULES = (forest, builder_tradeoff, scaling, speedup, work, run_health)
+MODULES = (forest, builder_tradeoff, scaling, speedup, work, accuracy, robustness, condition, escalation, price,
+           run_health)
 
 
 @dataclass(frozen=True)

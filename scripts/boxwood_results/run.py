@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from statistics import median
 
 from . import stats
+from .kernels import KernelPoint
 from .reader import load
 
 AA_TWIN, WRONG_ANSWER, DISTURBED = 4, 8, 1 | 2
@@ -40,6 +41,7 @@ class Cell:
     library: str
     builder: str
     traversal: str
+    kernel: str
     precision: str
     executor: str
     n_queries: int
@@ -96,12 +98,13 @@ class Cell:
 
 @dataclass
 class Run:
-    """One result file, read."""
+    """One result file, read. Kernels on hard cases are no cells: they are judged and drawn apart."""
 
     source: object  # reader.Tables
     cells: list
     jobs: list
     missing_samples: int
+    kernels: list = field(default_factory=list)  # KernelPoint
 
     @property
     def name(self):
@@ -120,7 +123,7 @@ class Run:
         """Relative difference that the A/A cell shows between two timings of the same thing."""
         return stats.noise_floor(
             stats.paired_logs(cell.twin[phase], cell.times.get(phase, {}))
-            for cell in self.cells
+            for cell in (*self.cells, *(point.cell for point in self.kernels))
             for phase in cell.twin
         )
 
@@ -141,7 +144,7 @@ def read_cells(source):
         )
         cells[row["cell_id"]] = Cell(
             int(row["cell_id"]), row["name"], job, variant["name"], variant["library"],
-            variant["builder"], variant["traversal"], row["precision"], row["executor"],
+            variant["builder"], variant["traversal"], variant["kernel"], row["precision"], row["executor"],
             int(row["n_queries"]),
         )
     return cells
@@ -169,6 +172,20 @@ def add_checks(cells, checks):
             cell.status, cell.check = status, row
 
 
+def kernel_points(cells, source):
+    """The kernels' rows with their times; their cells are taken out of `cells`."""
+    conditions = {}
+    for row in source["conditions"] if source["conditions"] is not None else ():
+        conditions.setdefault(row["cell_id"], []).append(row)
+    points = [
+        KernelPoint(row, cells[row["cell_id"]], conditions.get(row["cell_id"], []))
+        for row in (source["kernels"] if source["kernels"] is not None else ())
+    ]
+    for point in points:
+        cells.pop(point.cell.cell_id, None)
+    return points
+
+
 def read(path):
     """Loads a result file; raises reader.BadFile."""
     source = load(path)
@@ -179,9 +196,10 @@ def read(path):
         cells[row["cell_id"]].counters[row["counter"]] = int(row["value"])
     for row in source["trees"] if source["trees"] is not None else ():
         cells[row["cell_id"]].tree = row
+    kernels = kernel_points(cells, source)
     ordered = list(cells.values())
     jobs = sorted(
         {cell.job for cell in ordered if cell.rounds("query")},
         key=lambda job: (job.ask, job.scene, job.n, job.threads, job.seed),
     )
-    return Run(source, ordered, jobs, missing)
+    return Run(source, ordered, jobs, missing, kernels)

@@ -1,6 +1,7 @@
 """The table of main findings, as plain text."""
 
 from .findings import VERDICT_WORDS, findings, floor_text, rounds_text, time_text
+from .kernels import take_home
 from .run import TOTAL
 from .selection import wrong_text
 
@@ -38,20 +39,17 @@ def comparison_row(finding, peer):
 def summary(run):
     """All lines of scripts/summary."""
     found = findings(run)
-    lines = [
-        f"{run.source.path}: {machine_line(run)}",
-        rounds_text(run),
-        floor_text(run),
-        "",
-        "Peer's time / ours, paired within rounds: above 1 Boxwood is the faster.",
-    ]
+    lines = [f"{run.source.path}: {machine_line(run)}", rounds_text(run), floor_text(run)]
+    if found:
+        lines += ["", "Peer's time / ours, paired within rounds: above 1 Boxwood is the faster."]
     header = ("    peer", "build+query", "so ours is", "query", "so ours is", "check of the peer")
     rows, places = [header], []
     for finding in found:
         places.append((len(rows), finding))
         rows += [comparison_row(finding, peer) for peer in finding.peers]
     table = columns_text(rows)
-    lines.append(table[0])
+    if found:
+        lines.append(table[0])
     for place, (start, finding) in enumerate(places):
         end = places[place + 1][0] if place + 1 < len(places) else len(rows)
         lines += ["", str(finding.job)]
@@ -66,16 +64,29 @@ def summary(run):
         lines += table[start:end]
         lines += [f"    {cell.label}: WRONG, not ranked: {wrong_text(cell)}" for cell in finding.wrong]
         lines += [f"    {cell.label}: not checked, not ranked" for cell in finding.unchecked]
+    if run.kernels:
+        lines += ["", *kernel_lines(run)]
     return lines + ["", *closing_lines(run)]
 
 
+def kernel_lines(run):
+    broken = [
+        f"  BROKEN PROMISE: {p.rung} ({p.row['promise']}) on {p.cases}, {p.kernel_family}: {p.row['witness']}"
+        for p in run.kernels
+        if p.breaks_promise
+    ]
+    return ["What accuracy costs:", *(f"  {line}" for line in take_home(run)), *broken]
+
+
 def closing_lines(run):
-    timed = [cell for cell in run.cells if cell.rounds("query")]
-    counts = {}
-    for cell in timed:
-        counts[cell.status] = counts.get(cell.status, 0) + 1
-    said = ", ".join(f"{count} {status}" for status, count in sorted(counts.items()))
-    lines = [f"checks: {len(timed)} timed cells: {said}"]
+    lines = []
+    for what, statuses in (
+        ("timed cells", [cell.status for cell in run.cells if cell.rounds("query")]),
+        ("kernels on hard cases", [p.row["status"] for p in run.kernels]),
+    ):
+        said = ", ".join(f"{statuses.count(status)} {status}" for status in sorted(set(statuses)))
+        if statuses:
+            lines.append(f"checks: {len(statuses)} {what}: {said}")
     unsupported = sum(cell.status == "unsupported" for cell in run.cells)
     if unsupported:
         lines.append(f"unsupported: {unsupported} cells, each with its reason in the report")

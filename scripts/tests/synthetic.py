@@ -15,7 +15,7 @@ COLUMNS = {
     "scenes": [("scene_id", U4), ("name", NAME), ("generator", WORD), ("n_items", U8), ("seed", U8),
                ("content_hash", U8)],
     "variants": [("variant_id", U4), ("name", NAME), ("library", WORD), ("builder", WORD), ("layout", WORD),
-                 ("traversal", WORD), ("is_peer", U4), ("notes", TEXT)],
+                 ("traversal", WORD), ("kernel", WORD), ("is_peer", U4), ("notes", TEXT)],
     "cells": [("cell_id", U4), ("name", "S320"), ("scene_id", U4), ("variant_id", U4), ("ask", WORD),
               ("n_items", U8), ("n_queries", U8), ("precision", WORD), ("executor", WORD), ("threads", U4),
               ("isa", WORD), ("iterations", U8)],
@@ -26,6 +26,11 @@ COLUMNS = {
     "counters": [("cell_id", U4), ("counter", WORD), ("value", U8)],
     "checks": [("cell_id", U4), ("oracle", WORD), ("status", WORD), ("n_checked", U8), ("n_expected", U8),
                ("n_got", U8), ("missing", U8), ("extra", U8), ("max_ulp", F8), ("witness", TEXT)],
+    "kernels": [("cell_id", U4), ("family", WORD), ("panel", WORD), ("kernel_family", WORD), ("rung", WORD),
+                ("promise", WORD), ("n", U8), ("ns_per_call", F8), ("false_pos", U8), ("false_neg", U8), ("maybe", U8),
+                ("max_ulp", F8), ("max_rel_err", F8), ("bound_violations", U8), ("escalation_rate", F8), ("tier_0", U8),
+                ("tier_1", U8), ("tier_2", U8), ("tier_3", U8), ("status", WORD), ("witness", TEXT)],
+    "conditions": [("cell_id", U4), ("log10_condition", F8), ("n", U8), ("max_rel_err", F8), ("bound", F8)],
     "trees": [("cell_id", U4), ("n_nodes", U8), ("depth_max", U8), ("bytes", U8), ("sah_cost", F8), ("epo", F8)],
 }
 # name -> (library, builder, traversal?, build ns per item, query ns per item, box tests per item)
@@ -49,6 +54,25 @@ RAY_CONTENDERS = {
     "embree.rtc_intersect1.default": ("embree", "", 90, 0.8, 0),
     "embree.rtc_intersect1.robust": ("embree", "", 90, 0.9, 0),
 }
+# rung -> (library, promise, ns, wrong share on touching input, share that goes beyond tier 0 there)
+TRIANGLE_RUNGS = {
+    "moller_f32": ("boxwood", "no promise", 5.1, 0.3, 0),
+    "guigue_devillers_f64": ("boxwood", "no promise", 9.4, 0.2, 0),
+    "sat_certified": ("boxwood", "never-miss", 71.0, 0.05, 0),
+    "guigue_devillers_exact": ("boxwood", "exact", 22.0, 0, 0.14),
+    "rational": ("boxwood", "exact", 36000.0, 0, 0),
+    "fcl.intersect_triangle": ("fcl", "", 161.0, 0.25, 0),
+    "cgal.epick.do_intersect": ("cgal", "", 93.0, 0, 0),
+}
+DISTANCE_RUNGS = {  # rung -> (library, promise, ns, error at condition 1, power of the condition)
+    "features_f64": ("boxwood", "no promise", 90.0, 1e-16, 2),
+    "cross_product_f64": ("boxwood", "no promise", 110.0, 1e-16, 1),
+    "certified": ("boxwood", "certified", 160.0, 1e-16, 1),
+    "rational": ("boxwood", "exact", 150000.0, 0, 0),
+    "fcl.tri_distance": ("fcl", "", 216.0, 1e-16, 2),
+}
+CASES = {"generic_pairs": "generic", "parallel_planes": "generic", "vertex_on_face": "touching",
+         "shared_edge": "touching", "slivers_k6": "degenerate", "zero_area": "degenerate"}
 
 
 class Maker:
@@ -73,14 +97,15 @@ class Maker:
             self.rows[table].append({**row, table[:-1] + "_id": ids[key]})
         return ids[key]
 
-    def cell(self, scene, n, ask, contender, spec, threads, factor=1.0, status="exact", twin=False, queries=0):
+    def cell(self, scene, n, ask, contender, spec, threads, factor=1.0, status="exact", twin=False, queries=0, kernel=""):
         library, builder, build, query, tests = spec
-        traversal = {"pairs": "self_pairs", "rays_closest": "rays"}[ask] if builder else ""
+        traversal = {"pairs": "self_pairs", "rays_closest": "rays", "triangle_pairs": "self_pairs"}[ask] if builder else ""
         name = f"{contender}.{traversal}" if builder else contender
+        name = f"{name}.{kernel}" if kernel else name
         executor = "serial" if threads == 1 else "tbb"
         scene_id = self.id_of("scenes", (scene, n), name=scene, n_items=n, seed=1)
         variant_id = self.id_of("variants", name, name=name, library=library, builder=builder, traversal=traversal,
-                                is_peer=not builder, notes="double precision" if library == "fcl" else "")
+                                kernel=kernel, is_peer=not builder, notes="double precision" if library == "fcl" else "")
         full = f"{scene}/n{n}-s1/{ask}/{name}/f32/{executor}-{threads}"
         cell_id = self.id_of("cells", full, name=full, scene_id=scene_id, variant_id=variant_id, ask=ask, n_items=n,
                              n_queries=queries, precision="f32", executor=executor, threads=threads)
@@ -111,6 +136,39 @@ class Maker:
                 self.rows["samples"].append(dict(cell_id=cell_id, shard_id=round_, round=round_, phase=phase,
                                                  wall_ns=wall, cpu_ns=wall, iterations=3,
                                                  flags=flags | (2 if disturbed else 0)))
+
+    def kernel(self, cases, kernel_family, rung, library, promise, ns, n=4000, **row):
+        """A kernel on a family of hard cases, as its cell, its samples and its row."""
+        scene_id = self.id_of("scenes", (cases, n), name=cases, n_items=n, seed=1)
+        variant_id = self.id_of("variants", (kernel_family, rung), name=rung, library=library, kernel=rung,
+                                is_peer=library != "boxwood")
+        full = f"{cases}/n{n}-s1/{kernel_family}/{rung}/f64/serial-1"
+        cell_id = self.id_of("cells", full, name=full, scene_id=scene_id, variant_id=variant_id, ask=kernel_family,
+                             n_items=n, n_queries=n, precision="f64", executor="serial", threads=1)
+        self.samples(cell_id, "query", ns * n)
+        wrong = row.get("false_pos", 0) + row.get("false_neg", 0)
+        self.rows["kernels"].append({**dict(cell_id=cell_id, family=cases.split("_k")[0], panel=CASES[cases],
+                                            kernel_family=kernel_family, rung=rung, promise=promise, n=n,
+                                            ns_per_call=1.1 * ns, max_ulp=math.nan, max_rel_err=math.nan, tier_0=n,
+                                            status="wrong" if wrong else "exact"), **row})
+        return cell_id
+
+    def kernels(self):
+        """The ladder of two kernel families on all cases."""
+        for cases, panel in CASES.items():
+            hard = panel != "generic"
+            for rung, (library, promise, ns, share, up) in TRIANGLE_RUNGS.items():
+                wrong, tier_1 = round(4000 * share * hard), round(4000 * up * hard)
+                self.kernel(cases, "triangle_triangle", rung, library, promise, ns * (1 + hard * up * 20),
+                            false_pos=wrong // 3, false_neg=0 if promise == "never-miss" else wrong - wrong // 3,
+                            maybe=9 * hard if rung == "sat_certified" else 0, tier_0=4000 - tier_1, tier_1=tier_1)
+            for rung, (library, promise, ns, error, power) in DISTANCE_RUNGS.items():
+                cell_id = self.kernel(cases, "triangle_distance", rung, library, promise, ns,
+                                      max_rel_err=error * 10.0 ** (power * (6 if hard else 1)))
+                for decade in range(7 if hard else 2):
+                    self.rows["conditions"].append(dict(
+                        cell_id=cell_id, log10_condition=decade, n=500, max_rel_err=error * 10.0 ** (power * decade),
+                        bound=4 * error * 10.0 ** (power * decade) if promise == "certified" else math.nan))
 
     def place_samples(self):
         """A shuffled order per round; a cell's query comes right after its build."""
@@ -160,6 +218,10 @@ def full(rounds=15, wrong=True):
         for contender, spec in RAY_CONTENDERS.items():
             made.cell("mesh_stanford_bunny_primary", 69451, "rays_closest", contender, (*spec[:3], 1000 * spec[3], spec[4]),
                       threads, queries=100000)
+    for kernel, factor in (("moller_f32", 1.0), ("guigue_devillers_f64", 1.1), ("guigue_devillers_exact", 1.3)):
+        made.cell("triangle_soup", 20000, "triangle_pairs", "median.wide8", PAIR_CONTENDERS["median.wide8"], 1, factor,
+                  "wrong" if kernel == "moller_f32" else "exact", kernel=kernel)
+    made.kernels()
     made.id_of("variants", "fcl.dynamic_aabb_tree_2", name="fcl.dynamic_aabb_tree", library="fcl", is_peer=1)
     lost = made.id_of("cells", "lost", name="uniform/n1000-s1/pairs/fcl.dynamic_aabb_tree/f64/serial-2", scene_id=0,
                       variant_id=made.ids["variants"]["fcl.dynamic_aabb_tree"], ask="pairs", n_items=1000, threads=2,

@@ -36,7 +36,7 @@ def text_box(annotation, renderer):
     return Text.get_window_extent(annotation, renderer)
 
 
-@pytest.mark.parametrize("name", ["builder_tradeoff", "scaling", "speedup", "work"])
+@pytest.mark.parametrize("name", ["builder_tradeoff", "scaling", "speedup", "work", "accuracy", "condition"])
 def test_labels_do_not_overlap(results, name):
     for made in registry.draw(name, results).pictures:
         renderer = made.figure.canvas.get_renderer()
@@ -108,3 +108,37 @@ def test_spread_keeps_order_and_gap():
 @pytest.mark.parametrize("low, high", [(1, 1.2), (3, 8), (20, 700), (1, 1e6), (0.7, 1.4), (9.99, 10.01)])
 def test_ticks_are_few_and_not_none(low, high):
     assert 2 <= len(style.log_ticks(low, high)) <= 7 or high / low < 1.01
+
+
+def rows_of(name, results, place=0):
+    made = registry.draw(name, results).pictures[place]
+    return [dict(zip(made.columns, row)) for row in made.rows]
+
+
+def test_accuracy_counts_wrong_answers_per_million(results):
+    rows = {(r["panel"], r["rung"]): r for r in rows_of("accuracy", results)}
+    assert rows["touching", "moller_f32"]["per_million"] == pytest.approx(300000)
+    assert rows["touching", "guigue_devillers_exact"]["wrong"] == 0
+    assert rows["generic", "moller_f32"]["ns"] == pytest.approx(5.1, rel=0.1)  # the samples, not the check's own time
+
+
+def test_the_zero_lane_has_a_bar_up_to_three_over_n(results):
+    made = registry.draw("accuracy", results).pictures[0]
+    generic = made.figure.axes[0]
+    tops = [max(line.get_ydata()) for line in generic.lines if len(set(line.get_xdata())) == 1 and len(line.get_xdata()) == 2]
+    assert tops and all(top == pytest.approx(3e6 / 8000) for top in tops)
+
+
+def test_kernels_stay_out_of_the_other_figures(results):
+    assert results.kernels and not any(cell.job.ask == "triangle_triangle" for cell in results.cells)
+
+
+def test_robustness_shows_each_kernel_and_family(results):
+    rows = rows_of("robustness", results)
+    assert len(rows) == len(synthetic.TRIANGLE_RUNGS) * len(synthetic.CASES)
+
+
+def test_price_is_relative_to_the_fastest_kernel(results):
+    rows = {r["kernel"]: r for r in rows_of("price", results)}
+    assert rows["guigue_devillers_exact"]["times_the_fastest"] == pytest.approx(1.3, rel=0.05)
+    assert rows["moller_f32"]["status"] == "wrong"

@@ -106,8 +106,19 @@ def test_summary(full, script):
     said = done.stdout
     assert "A/A noise floor ±" in said and "15 rounds" in said
     assert "bullet.dbvt: WRONG, not ranked: 2 missing, 0 extra (pair 3,8)" in said
-    assert "M rays/s" in said and "107 exact, 1 wrong" in said
+    assert "M rays/s" in said and "109 exact, 2 wrong" in said
     assert max(map(len, said.splitlines())) < 150
+
+
+def test_summary_says_what_accuracy_costs_and_who_broke_a_promise(tmp_path, script):
+    made = synthetic.full()
+    said = script("summary", made.write(tmp_path / "a.h5")).stdout
+    assert "touching input: cheapest rung with no wrong answer in 8,000: guigue_devillers_exact" in said
+    assert "BROKEN PROMISE" not in said
+    row = next(row for row in made.rows["kernels"] if row["rung"] == "guigue_devillers_exact")
+    row.update(false_neg=1, witness="replay me")
+    said = script("summary", made.write(tmp_path / "b.h5")).stdout
+    assert "BROKEN PROMISE: guigue_devillers_exact (exact) on generic_pairs" in said and "replay me" in said
 
 
 def test_summary_of_one_round_claims_nothing(small, script):

@@ -34,7 +34,7 @@ def draw(run):
     for row in samples:
         by_cell.setdefault(int(row["cell_id"]), []).append(float(row["wall_ns"]))
     middle = {cell: median(times) for cell, times in by_cell.items()}
-    names = {cell.cell_id: cell.name for cell in run.cells}
+    names = {cell.cell_id: cell.name for cell in (*run.cells, *(point.cell for point in run.kernels))}
 
     line = {shard: place for place, (_, shard) in enumerate(shards)}
     columns = sorted({int(row["position"]) for row in samples})

@@ -1,0 +1,67 @@
+"""Error against condition number, with bounds: does a kernel lose digits as theory says?"""
+
+import math
+
+from .. import labels, style
+from ..kernels import LEAST_ERROR, by_kernel_family
+from ..picture import Picture, Skip
+
+NAME = "condition"
+TITLE = "Error against condition number"
+HOW_TO_READ = (
+    "Lower is better. Each line is the worst relative error of one kernel over all cases of one decade of the condition "
+    "number (extent over distance). Dashed: the bound that a certified kernel itself gave there, which its error may "
+    "not pass. Dotted: u times the condition and u times its square, u = 2^-53."
+)
+COLUMNS = ("kernel_family", "rung", "library", "log10_condition", "n", "max_rel_err", "bound")
+FLOOR = LEAST_ERROR
+
+
+def lines_of(points):
+    """{(ours, library, rung, promise): {decade: (n, error, bound)}}, the worst over the families."""
+    lines = {}
+    for point in points:
+        line = lines.setdefault((point.ours, point.library, point.rung, point.row["promise"]), {})
+        for row in point.conditions:
+            decade, error, bound = (float(row[k]) for k in ("log10_condition", "max_rel_err", "bound"))
+            n, worst, wide = line.get(decade, (0, 0.0, 0.0))
+            line[decade] = (n + int(row["n"]), max(worst, error), max(wide, bound) if bound == bound else wide)
+    return {key: line for key, line in lines.items() if len(line) >= 2}
+
+
+def draw(run):
+    pictures = []
+    for kernel_family, points in by_kernel_family(run).items():
+        lines = lines_of([p for p in points if p.supported])
+        if not lines:
+            continue
+        figure, (ax,) = style.panels(1, width=6.8, height=4.6, labels_right=1.9)
+        decades = sorted({d for line in lines.values() for d in line})
+        ax.set_yscale("log")
+        ax.set_ylim(FLOOR / 3, 30)
+        ax.set_xlim(decades[0] - 0.3, decades[-1] + 0.3)
+        for power in (1, 2):
+            ys = [FLOOR * 10 ** (power * d) for d in decades]
+            ax.plot(decades, ys, color="#888888", linestyle=":", linewidth=1)
+        rows, ends = [], []
+        for (ours, library, rung, promise), line in sorted(lines.items(), key=lambda item: (not item[0][0], item[0][2])):
+            colour, marker = style.look(rung if ours else library)
+            xs = sorted(line)
+            ys = [min(max(line[x][1], FLOOR), 20.0) for x in xs]
+            ax.plot(xs, ys, color=colour, marker=marker, markersize=4, linewidth=1.3, linestyle="-" if ours else "--",
+                    markerfacecolor=colour if ours else "white")
+            if promise == "certified":
+                ax.plot(xs, [max(line[x][2], FLOOR) for x in xs], color=colour, linewidth=1, linestyle=(0, (5, 2)))
+            ends.append((xs[-1], ys[-1], rung, style.text_colour(rung if ours else library)))
+            rows += [(kernel_family, rung, library, x, *line[x]) for x in xs]
+        style.title(ax, kernel_family)
+        ax.set_xlabel("log10 of the condition number L/d")
+        ax.set_ylabel("worst relative error")
+        labels.at_line_ends(ax, ends)
+        said = "; ".join(f"{rung} reaches {max(e for _, e, _ in line.values()):.1g}" for (_, _, rung, _), line in
+                         lines.items() if all(math.isfinite(e) for _, e, _ in line.values()))
+        pictures.append(Picture(f"{NAME}_{kernel_family}", figure, f"{TITLE}: {kernel_family}",
+                                f"Worst relative error by decade of the condition number. {said}.", COLUMNS, rows))
+    if not pictures:
+        raise Skip("no distance kernel was judged over more than one decade of condition numbers")
+    return pictures

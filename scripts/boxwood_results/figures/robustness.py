@@ -1,0 +1,88 @@
+"""Families of hard cases against kernels and peers: how often each is wrong."""
+
+import math
+
+import numpy as np
+from matplotlib.colors import LinearSegmentedColormap
+
+from .. import style
+from ..kernels import LEAST_ERROR, by_kernel_family, is_measured, rungs
+from ..picture import Picture, Skip
+
+NAME = "robustness"
+TITLE = "Robustness"
+HOW_TO_READ = (
+    "Each row is a family of hard cases, each column a kernel, ours left of the line, peers right of it. The number "
+    "is wrong answers per million (for distances the worst relative error); green is none, the darker the more. "
+    "A number in brackets counts what was left undecided per million. A dash: not supported."
+)
+COLUMNS = ("kernel_family", "cases", "rung", "library", "n", "wrong", "maybe", "max_rel_err")
+COLOURS = LinearSegmentedColormap.from_list("wrong", ["#FFF3D6", "#F5B971", "#D55E00", "#6E1A00"])
+RIGHT = "#D9EFDD"
+
+
+def entry(point, measured):
+    """(text, darkness 0..1 or None if right)."""
+    if measured:
+        error = point.error
+        if point.row["bound_violations"]:
+            return f"{int(point.row['bound_violations'])} out", 1.0
+        if not error > LEAST_ERROR:
+            return "0", None
+        if error < 1e-9:
+            return f"{error:.0e}", None
+        return ("inf" if math.isinf(error) else f"{error:.0e}"), min(1.0, (math.log10(error) + 9) / 9)
+    rate = 1e6 * point.wrong / point.n
+    undecided = 1e6 * int(point.row["maybe"]) / point.n
+    text = "0" if not rate else style.count_text(float(f"{rate:.2g}")).replace(" ", "")
+    if undecided:
+        text += f" ({style.count_text(float(f'{undecided:.2g}')).replace(' ', '')})"
+    return text, min(1.0, math.log10(max(rate, 1)) / 6) if rate else None
+
+
+def draw(run):
+    pictures = []
+    for kernel_family, points in by_kernel_family(run).items():
+        measured = is_measured(kernel_family)
+        columns = [(r.ours, r.library, r.name) for r in rungs(points)]
+        families = list(dict.fromkeys(p.cases for p in points))
+        if not columns:
+            continue
+        at = {(p.cases, (p.ours, p.library, p.rung)): p for p in points if p.supported}
+        width, height = 2.6 + 0.62 * len(columns), 1.9 + 0.2 * len(families)
+        figure = style.plt.figure(figsize=(width, height))
+        ax = figure.add_axes((2.4 / width, 0.1 / height, 0.62 * len(columns) / width, 0.2 * len(families) / height))
+        rows = []
+        for y, cases in enumerate(families):
+            for x, column in enumerate(columns):
+                point = at.get((cases, column))
+                if point is None:
+                    ax.text(x, y, "-", ha="center", va="center", fontsize=6.5, color="#999999")
+                    continue
+                text, dark = entry(point, measured)
+                colour = RIGHT if dark is None else COLOURS(dark)
+                ax.add_patch(style.plt.Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=colour, edgecolor="white"))
+                ax.text(x, y, text, ha="center", va="center", fontsize=6 if len(text) < 7 else 4.8,
+                        color="white" if dark is not None and dark > 0.7 else style.INK)
+                rows.append((kernel_family, cases, point.rung, point.library, point.n, point.wrong,
+                             int(point.row["maybe"]), point.error))
+        ours = sum(column[0] for column in columns)
+        ax.axvline(ours - 0.5, color=style.INK, linewidth=1.2)
+        ax.set_xlim(-0.5, len(columns) - 0.5)
+        ax.set_ylim(len(families) - 0.5, -0.5)
+        ax.set_yticks(np.arange(len(families)), families, fontsize=7)
+        ax.xaxis.tick_top()
+        ax.set_xticks(np.arange(len(columns)), [name for *_, name in columns], fontsize=7, rotation=40, ha="left")
+        ax.tick_params(length=0)
+        ax.grid(False)
+        for side in ax.spines.values():
+            side.set_visible(False)
+        clean = [name for ours_, _, name in columns
+                 if ours_ and all(not p.wrong for p in points if p.rung == name and p.ours)]
+        pictures.append(Picture(
+            f"{NAME}_{kernel_family}", figure, f"{TITLE}: {kernel_family}",
+            f"{len(families)} families of hard cases by {len(columns)} kernels. Never wrong: {', '.join(clean) or 'none'}.",
+            COLUMNS, rows))
+    if not pictures:
+        raise Skip("no kernel was run on hard cases (bench/configs/accuracy.toml and boxwood check do)")
+    return pictures
