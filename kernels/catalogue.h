@@ -1,7 +1,8 @@
 #pragma once
 
-#include "kernels/box_ray.h"
 #include "kernels/predicates/rounded.h"
+#include "kernels/ray_box/plain.h"
+#include "kernels/ray_box/slabs.h"
 #include "kernels/ray_triangle/watertight.h"
 #include "kernels/triangle_triangle/guigue_devillers.h"
 #include "kernels/verdict.h"
@@ -14,13 +15,15 @@
 namespace boxwood {
 
 /// The rungs, one word each: to add a kernel, write its file and put its type here.
+using RayBoxKernels = std::tuple<PlainSlabs, RaySlabs>;
 using RayKernels = std::tuple<Watertight>;
-using TriangleKernels = std::tuple<GuigueDevillers<Rounded>>;
+using TriangleKernels = std::tuple<GuigueDevillers<Rounded<double>>>;
 
 /// Every kernel of every family: what `boxwood list kernels` prints.
 std::span<const KernelInfo> kernels();
 
 /// The rows of one family: a word of `--kernel` each.
+std::span<const KernelInfo> ray_box_kernels();
 std::span<const KernelInfo> ray_kernels();
 std::span<const KernelInfo> triangle_kernels();
 

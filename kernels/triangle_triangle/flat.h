@@ -17,7 +17,9 @@ template <OrientationPredicates P> class Signs {
     int orient3d(Vec3<double> a, Vec3<double> b, Vec3<double> c, Vec3<double> d) {
         return known(P::orient3d(a, b, c, d));
     }
-    int orient2d(Point2 a, Point2 b, Point2 c) { return known(P::orient2d(a, b, c)); }
+    int orient2d(Point2<double> a, Point2<double> b, Point2<double> c) {
+        return known(P::orient2d(a, b, c));
+    }
     bool unsure() const { return unsure_; }
 
   private:
@@ -62,8 +64,10 @@ template <OrientationPredicates P> class FlatPair {
         return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
     }
 
-    static Point2 project(Vec3<double> p, int dropped) {
-        return dropped == 0 ? Point2{p.y, p.z} : dropped == 1 ? Point2{p.z, p.x} : Point2{p.x, p.y};
+    static Point2<double> project(Vec3<double> p, int dropped) {
+        return dropped == 0   ? Point2<double>{p.y, p.z}
+               : dropped == 1 ? Point2<double>{p.z, p.x}
+                              : Point2<double>{p.x, p.y};
     }
 
     static constexpr int collinear = -1;
@@ -131,7 +135,7 @@ template <OrientationPredicates P> class FlatPair {
         const std::size_t edges = a.size == 3 ? 3 : 1;
         for (std::size_t i = 0; i < edges; ++i) {
             // The inside of edge i; a segment has none and parts on either side, a point never.
-            const Point2 p = project(a[i], axis), q = project(a[(i + 1) % a.size], axis);
+            const Point2<double> p = project(a[i], axis), q = project(a[(i + 1) % a.size], axis);
             const int inside = a.size < 3 ? 0 : signs.orient2d(p, q, project(a[(i + 2) % 3], axis));
             const int side = signs.orient2d(p, q, project(b[0], axis));
             bool parted = side != 0 && side != inside;

@@ -27,8 +27,9 @@ template <OrientationPredicates P> struct GuigueDevillers {
   public:
     using Real = double;
     static constexpr std::string_view name = Joined<name_prefix, P::name>::value;
-    static constexpr KernelInfo info{"triangle_triangle", name,
-                                     Joined<summary_prefix, P::summary>::value, P::promise};
+    static constexpr KernelInfo info{
+        "triangle_triangle", name,     Joined<summary_prefix, P::summary>::value,
+        P::promise,          P::bound, P::cost};
 
     static Verdict intersect(const Triangle<double>& a, const Triangle<double>& b) {
         Signs<P> signs;

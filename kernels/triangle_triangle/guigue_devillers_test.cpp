@@ -15,9 +15,9 @@
 namespace boxwood {
 namespace {
 
-using Kernel = GuigueDevillers<Rounded>;
+using Kernel = GuigueDevillers<Rounded<double>>;
 static_assert(TriangleKernel<Kernel>);
-static_assert(Kernel::name == "guigue_devillers_rounded");
+static_assert(Kernel::name == "guigue_devillers_f64");
 
 struct NoVerdict {
     static constexpr std::string_view name = "none";
@@ -27,13 +27,13 @@ struct NoVerdict {
 static_assert(!TriangleKernel<NoVerdict>);
 
 /// Undecided wherever the determinant is zero: what a filter does.
-struct Coy : Rounded {
+struct Coy : Rounded<double> {
     static int orient3d(Vec3<double> a, Vec3<double> b, Vec3<double> c, Vec3<double> d) {
-        const int sign = Rounded::orient3d(a, b, c, d);
+        const int sign = Rounded<double>::orient3d(a, b, c, d);
         return sign == 0 ? undecided : sign;
     }
-    static int orient2d(Point2 a, Point2 b, Point2 c) {
-        const int sign = Rounded::orient2d(a, b, c);
+    static int orient2d(Point2<double> a, Point2<double> b, Point2<double> c) {
+        const int sign = Rounded<double>::orient2d(a, b, c);
         return sign == 0 ? undecided : sign;
     }
 };
@@ -295,14 +295,14 @@ TEST(GuigueDevillers, PowersOfTwoChangeNothing) {
 }
 
 /// Exact on lattices of step 2^-540, where plain products underflow to zero.
-struct Magnified : Rounded {
+struct Magnified : Rounded<double> {
     static constexpr double factor = 0x1p540;
     static int orient3d(Vec3<double> a, Vec3<double> b, Vec3<double> c, Vec3<double> d) {
-        return Rounded::orient3d(a * factor, b * factor, c * factor, d * factor);
+        return Rounded<double>::orient3d(a * factor, b * factor, c * factor, d * factor);
     }
-    static int orient2d(Point2 a, Point2 b, Point2 c) {
-        const auto up = [](Point2 p) { return Point2{p.x * factor, p.y * factor}; };
-        return Rounded::orient2d(up(a), up(b), up(c));
+    static int orient2d(Point2<double> a, Point2<double> b, Point2<double> c) {
+        const auto up = [](Point2<double> p) { return Point2<double>{p.x * factor, p.y * factor}; };
+        return Rounded<double>::orient2d(up(a), up(b), up(c));
     }
 };
 
