@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/aabb.h"
+#include "kernels/boxes/rigid_transform.h"
 #include "kernels/continuous/continuous_kernel.h"
 #include "kernels/ray.h"
 #include "kernels/segment.h"
@@ -49,5 +50,12 @@ bool ray_box(const Ray<float>& ray, const Aabb<float>& box);
 /// the parallelepiped centre + sum s_k half_k axis_k, |s_k| <= 1.
 bool boxes_touch(const std::array<Vec3<double>, 4>& centre_and_axes_a, Vec3<double> half_a,
                  const std::array<Vec3<double>, 4>& centre_and_axes_b, Vec3<double> half_b);
+
+/// The least axis-aligned box that holds the image of a box that is not empty, under the matrix as
+/// it stands.
+struct RationalBox {
+    RationalPoint min, max;
+};
+RationalBox image(const RigidTransform<double>& transform, const Aabb<double>& box);
 
 } // namespace boxwood::oracle
