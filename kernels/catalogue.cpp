@@ -14,20 +14,22 @@ template <class... K>
 constexpr std::array<KernelInfo, sizeof...(K)> rows(std::type_identity<std::tuple<K...>>) {
     return {K::info...};
 }
+constexpr auto ray_box_rows = rows(std::type_identity<RayBoxKernels>{});
 constexpr auto ray_rows = rows(std::type_identity<RayKernels>{});
 constexpr auto triangle_rows = rows(std::type_identity<TriangleKernels>{});
 
-constexpr auto all_rows = [] {
-    std::array<KernelInfo, 2 + ray_rows.size() + triangle_rows.size()> all{closed_overlap,
-                                                                           RaySlabs::info};
-    const auto end = std::copy(ray_rows.begin(), ray_rows.end(), all.begin() + 2);
-    std::copy(triangle_rows.begin(), triangle_rows.end(), end);
+template <std::size_t... n> constexpr auto joined(const std::array<KernelInfo, n>&... parts) {
+    std::array<KernelInfo, (n + ...)> all{};
+    auto to = all.begin();
+    ((to = std::copy(parts.begin(), parts.end(), to)), ...);
     return all;
-}();
+}
+constexpr auto all_rows = joined(std::array{closed_overlap}, ray_box_rows, ray_rows, triangle_rows);
 
 } // namespace
 
 std::span<const KernelInfo> kernels() { return all_rows; }
+std::span<const KernelInfo> ray_box_kernels() { return ray_box_rows; }
 std::span<const KernelInfo> ray_kernels() { return ray_rows; }
 std::span<const KernelInfo> triangle_kernels() { return triangle_rows; }
 

@@ -31,7 +31,7 @@ TEST(Catalogue, EveryFamilyIsListed) {
     std::set<std::string_view> families;
     for (const KernelInfo& info : kernels())
         families.insert(info.family);
-    EXPECT_EQ(families, (std::set<std::string_view>{"box_box", "box_ray", "ray_triangle",
+    EXPECT_EQ(families, (std::set<std::string_view>{"box_box", "ray_box", "ray_triangle",
                                                     "triangle_triangle"}));
 }
 
@@ -41,6 +41,13 @@ TEST(Catalogue, EveryWordFindsItsKernel) {
         std::string_view found;
         EXPECT_TRUE(with_kernel<RayKernels>(
             info.name, [&]<RayKernel K>(std::type_identity<K>) { found = K::name; }));
+        EXPECT_EQ(found, info.name);
+    }
+    for (const KernelInfo& info : ray_box_kernels()) {
+        EXPECT_EQ(info.family, "ray_box");
+        std::string_view found;
+        EXPECT_TRUE(with_kernel<RayBoxKernels>(
+            info.name, [&]<RayBoxKernel K>(std::type_identity<K>) { found = K::name; }));
         EXPECT_EQ(found, info.name);
     }
     for (const KernelInfo& info : triangle_kernels()) {

@@ -4,11 +4,13 @@
 /// What each kernel promises is its KernelInfo (verdict.h); `boxwood list kernels` prints them all.
 
 #include "kernels/aabb.h"                               // closed boxes: overlap, merge, half area
-#include "kernels/box_ray.h"                            // clip a ray by a box, losing no true hit
 #include "kernels/catalogue.h"                          // every kernel by its word
 #include "kernels/predicates/orientation.h"             // who decides triangle truth
 #include "kernels/predicates/rounded.h"                 // ... plain double
 #include "kernels/ray.h"                                // rays and their hits
+#include "kernels/ray_box/plain.h"                      // ... textbook slabs, nothing padded
+#include "kernels/ray_box/ray_box_kernel.h"             // contract: ray against box
+#include "kernels/ray_box/slabs.h"                      // ... losing no true hit
 #include "kernels/ray_triangle/ray_kernel.h"            // contract: ray against triangle
 #include "kernels/ray_triangle/watertight.h"            // ... Woop, Benthin, Wald 2013
 #include "kernels/rounding.h"                           // double -> float, outward

@@ -1,6 +1,6 @@
 #include "kernels/ray_triangle/watertight.h"
 
-#include "kernels/box_ray.h"
+#include "kernels/ray_box/slabs.h"
 
 #include <gtest/gtest.h>
 

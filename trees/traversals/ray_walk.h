@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/box_ray.h"
+#include "kernels/ray_box/slabs.h"
 #include "kernels/catalogue.h"
 #include "trees/layout.h"
 

@@ -39,7 +39,7 @@ template <class V> HWY_INLINE V EarlierOf(V a, V t) {
     return HWY_ARCH_X86 ? hn::Min(a, t) : hn::IfThenElse(hn::Lt(a, t), a, t);
 }
 
-/// `clip` of kernels/box_ray.h for eight boxes, operation for operation: the lanes that the ray
+/// `clip` of kernels/ray_box/slabs.h for eight boxes, operation for operation: the lanes that the ray
 /// hits as bits, and where it enters each.
 HWY_INLINE std::uint32_t Clip(const Block8& block, const RaySlabs& ray, float t_min, float t_max,
                               float* entry) {
