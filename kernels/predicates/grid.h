@@ -1,0 +1,165 @@
+#pragma once
+
+#include "kernels/predicates/binary64.h"
+#include "kernels/vec3.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace boxwood {
+
+/// `points` points of doubles as integers: each axis a multiple of its own power of two (positive
+/// factors per axis change no orientation sign). A number is `digits` digits in base 2^60, the
+/// upper one signed, the others not negative; so are differences, except that all their digits are
+/// signed and below 2^61. Sums of products of digits stay below 2^127 (cases at each function).
+template <std::size_t digits, std::size_t points> class Grid {
+    static_assert(digits == 1 || digits == 2, "see normal() and sign() for the room in Int128");
+
+  public:
+    using Number = std::array<std::int64_t, digits>;
+    using Difference = Vec3<Number>;
+    using Minor = std::array<std::int64_t, 2 * digits>; ///< the digits of a 2 x 2 determinant
+    using Normal = std::array<Minor, 3>;
+
+    /// False if the points do not fit: then the grid says nothing. The points are finite, and
+    /// denormals are kept (float_mode.h).
+    bool place(const std::array<const Vec3<double>*, points>& p) {
+        return place(p, &Vec3<double>::x, at_[0]) && place(p, &Vec3<double>::y, at_[1]) &&
+               place(p, &Vec3<double>::z, at_[2]);
+    }
+
+    /// (b - a) x (c - a).
+    Normal normal(std::size_t a, std::size_t b, std::size_t c) const {
+        return cross(difference(b, a), difference(c, a));
+    }
+    /// Sign of (d - a) . n.
+    int side(const Normal& n, std::size_t a, std::size_t d) const {
+        return dot_sign(n, difference(d, a));
+    }
+    int orient3d(std::size_t a, std::size_t b, std::size_t c, std::size_t d) const {
+        return side(normal(a, b, c), a, d);
+    }
+    /// In the plane of the axes u, v.
+    int orient2d(std::size_t u, std::size_t v, std::size_t a, std::size_t b, std::size_t c) const {
+        const Minor m = minor(minus(u, b, a), minus(v, c, a), minus(v, b, a), minus(u, c, a));
+        return sign(m);
+    }
+    static int sign(const Minor& m) {
+        bool below = false;
+        for (std::size_t i = 0; i + 1 < m.size(); ++i)
+            below |= m[i] != 0;
+        return m.back() != 0 ? (m.back() > 0 ? 1 : -1) : below;
+    }
+
+  private:
+    static constexpr int digit_bits = 60;
+    static constexpr std::int64_t low_digit = (std::int64_t{1} << digit_bits) - 1;
+
+    using Axis = std::array<Number, points>;
+
+    static bool place(const std::array<const Vec3<double>*, points>& p,
+                      double Vec3<double>::*coordinate, Axis& at) {
+        if constexpr (digits == 1) {
+            double most = 0;
+            for (const Vec3<double>* q : p)
+                most = std::max(most, std::abs(q->*coordinate));
+            // 2^e <= most < 2^(e+1); scaled below 2^60, exactly, but for what underflows.
+            const int exponent = Binary64(most).weight - 1022;
+            if (exponent < -900)
+                return most == 0 && clear(at);
+            const double up = power_of_two(59 - exponent), down = power_of_two(exponent - 59);
+            bool fits = true;
+            for (std::size_t i = 0; i < points; ++i) {
+                const double x = p[i]->*coordinate;
+                const auto scaled = static_cast<std::int64_t>(x * up);
+                fits &= static_cast<double>(scaled) * down == x;
+                at[i] = {scaled};
+            }
+            return fits;
+        } else {
+            constexpr int room = digit_bits * 2 - 53;
+            int low = 2046, high = 0;
+            for (const Vec3<double>* q : p) {
+                const Binary64 x(q->*coordinate);
+                if (x.mantissa != 0) {
+                    low = std::min(low, x.weight);
+                    high = std::max(high, x.weight);
+                }
+            }
+            if (high - low > room)
+                return false;
+            for (std::size_t i = 0; i < points; ++i) {
+                const Binary64 x(p[i]->*coordinate);
+                const Int128 size = x.mantissa == 0 ? 0 : Int128{x.mantissa} << (x.weight - low);
+                const Int128 value = x.negative ? -size : size;
+                at[i] = {static_cast<std::int64_t>(value & low_digit),
+                         static_cast<std::int64_t>(value >> digit_bits)};
+            }
+            return true;
+        }
+    }
+    static bool clear(Axis& at) {
+        at = {};
+        return true;
+    }
+    /// -1022 <= exponent <= 1023.
+    static double power_of_two(int exponent) {
+        return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
+    }
+
+    Number minus(std::size_t axis, std::size_t a, std::size_t b) const {
+        Number d;
+        for (std::size_t i = 0; i < digits; ++i)
+            d[i] = at_[axis][a][i] - at_[axis][b][i];
+        return d;
+    }
+    Difference difference(std::size_t a, std::size_t b) const {
+        return {minus(0, a, b), minus(1, a, b), minus(2, a, b)};
+    }
+
+    /// a d - b c. A column has at most 2 * digits products of 2^122: below 2^124. The value is
+    /// below 2 * (2 * 2^(60 digits))^2, so that the upper digit is below 2^63.
+    static Minor minor(const Number& a, const Number& d, const Number& b, const Number& c) {
+        std::array<Int128, 2 * digits - 1> column{};
+        for (std::size_t i = 0; i < digits; ++i)
+            for (std::size_t j = 0; j < digits; ++j)
+                column[i + j] += Int128{a[i]} * d[j] - Int128{b[i]} * c[j];
+        Minor m;
+        Int128 carry = 0;
+        for (std::size_t i = 0; i < column.size(); ++i) {
+            carry += column[i];
+            m[i] = static_cast<std::int64_t>(carry & low_digit);
+            carry >>= digit_bits;
+        }
+        m.back() = static_cast<std::int64_t>(carry);
+        return m;
+    }
+    static Normal cross(const Difference& a, const Difference& b) {
+        return {minor(a.y, b.z, a.z, b.y), minor(a.z, b.x, a.x, b.z), minor(a.x, b.y, a.y, b.x)};
+    }
+
+    /// A column has at most 3 * digits products; those of an upper digit are below 2^63 * 2^61 and
+    /// meet at most 3 * (digits - 1) of 2^60 * 2^61: below 2^126.
+    static int dot_sign(const Normal& n, const Difference& d) {
+        std::array<Int128, 3 * digits - 1> column{};
+        for (std::size_t i = 0; i < 2 * digits; ++i)
+            for (std::size_t j = 0; j < digits; ++j)
+                column[i + j] +=
+                    Int128{n[0][i]} * d.x[j] + Int128{n[1][i]} * d.y[j] + Int128{n[2][i]} * d.z[j];
+        Int128 carry = 0;
+        std::int64_t below = 0;
+        for (std::size_t i = 0; i + 1 < column.size(); ++i) {
+            carry += column[i];
+            below |= static_cast<std::int64_t>(carry & low_digit);
+            carry >>= digit_bits;
+        }
+        carry += column.back();
+        return carry != 0 ? (carry > 0 ? 1 : -1) : below != 0;
+    }
+
+    std::array<Axis, 3> at_;
+};
+
+} // namespace boxwood
