@@ -5,12 +5,17 @@
 
 #include <bit>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <type_traits>
 
 namespace boxwood::oracle {
 namespace {
 
-constexpr int least_exponent = -1074; // of the last bit of a double
-constexpr int digits = 53;
+template <class Real> constexpr int digits = std::numeric_limits<Real>::digits;
+/// Of the last bit among the denormals.
+template <class Real>
+constexpr int least_exponent = std::numeric_limits<Real>::min_exponent - digits<Real>;
 
 /// x * 2^shift rounded down, and whether anything was cut off.
 struct Cut {
@@ -27,26 +32,25 @@ Cut cut(const mpq_class& x, long shift) {
     return c;
 }
 
-/// Nearest double, ties to even, to (c.floor + a fraction in (0, 1) if c.more) * 2^exponent >= 0.
-/// c.floor has more than 53 bits.
-double rounded(const Cut& c, long exponent) {
+/// The Real nearest to (c.floor + a fraction in (0, 1) if c.more) * 2^exponent > 0, ties to even.
+/// c.floor has more bits than a Real.
+template <class Real> Real rounded(const Cut& c, long exponent) {
+    using Bits = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
+    constexpr long least = least_exponent<Real>, most = std::numeric_limits<Real>::max_exponent;
     const long bits = static_cast<long>(mpz_sizeinbase(c.floor.get_mpz_t(), 2));
-    const long last = std::max<long>(exponent + bits - digits, least_exponent);
+    if (exponent + bits > most)
+        return std::numeric_limits<Real>::infinity();
+    const long last = std::max(exponent + bits - digits<Real>, least);
     const auto drop = static_cast<mp_bitcnt_t>(last - exponent); // >= 1
     Integer kept = c.floor >> drop;
     const bool half = mpz_tstbit(c.floor.get_mpz_t(), drop - 1) != 0;
     const bool below = c.more || mpz_scan1(c.floor.get_mpz_t(), 0) < drop - 1;
     if (half && (below || mpz_odd_p(kept.get_mpz_t())))
         ++kept;
-    // A kept of 2^53 carries into the exponent's bits, and so does 2^52 from among the denormals.
-    constexpr std::uint64_t one = std::uint64_t{1} << (digits - 1);
-    const std::uint64_t mantissa = mpz_get_ui(kept.get_mpz_t());
-    const std::uint64_t largest = std::bit_cast<std::uint64_t>(Aabb<double>::inf);
-    if (last - least_exponent > 2046)
-        return Aabb<double>::inf;
-    const std::uint64_t pattern =
-        mantissa + static_cast<std::uint64_t>(last - least_exponent) * one;
-    return std::bit_cast<double>(std::min(pattern, largest));
+    // The leading bit of `kept`, if there, adds 1 to the exponent's bits; so does a carry, and from
+    // the largest number it makes infinity.
+    const Bits exponent_bits = static_cast<Bits>(last - least) << (digits<Real> - 1);
+    return std::bit_cast<Real>(static_cast<Bits>(exponent_bits + mpz_get_ui(kept.get_mpz_t())));
 }
 
 /// log2 x for x > 0, at most 1 off.
@@ -65,16 +69,19 @@ Cut cut_root(const mpq_class& q, long shift) {
     return c;
 }
 
-} // namespace
-
-double nearest_double(const mpq_class& x) {
+template <class Real> Real nearest(const mpq_class& x) {
     if (x == 0)
         return 0;
     const mpq_class positive = abs(x);
     const long shift = 64 - size(positive);
-    const double d = rounded(cut(positive, shift), -shift);
-    return sgn(x) < 0 ? -d : d;
+    const Real size_of_x = rounded<Real>(cut(positive, shift), -shift);
+    return sgn(x) < 0 ? -size_of_x : size_of_x;
 }
+
+} // namespace
+
+double nearest_double(const mpq_class& x) { return nearest<double>(x); }
+float nearest_float(const mpq_class& x) { return nearest<float>(x); }
 
 double next_above(double x) {
     const auto bits = std::bit_cast<std::uint64_t>(std::abs(x));
@@ -89,7 +96,7 @@ double nearest_sqrt(const mpq_class& q) {
     if (q == 0)
         return 0;
     const long shift = 64 - size(q) / 2;
-    return rounded(cut_root(q, shift), -shift);
+    return rounded<double>(cut_root(q, shift), -shift);
 }
 
 int compare(double d, const mpq_class& squared) {
@@ -105,9 +112,10 @@ double ulps_off(double d, const mpq_class& squared) {
     if (!std::isfinite(d))
         return d;
     const double root = std::min(nearest_sqrt(squared), std::numeric_limits<double>::max());
-    const auto biased = static_cast<int>(std::bit_cast<std::uint64_t>(root) >> (digits - 1));
+    const auto biased =
+        static_cast<int>(std::bit_cast<std::uint64_t>(root) >> (digits<double> - 1));
     // In units of 2^-64 ulp, below which nothing is told.
-    const long shift = 64 - (std::max(biased, 1) - 1 + least_exponent);
+    const long shift = 64 - (std::max(biased, 1) - 1 + least_exponent<double>);
     const Cut scaled_root = cut_root(squared, shift);
     const Integer difference = Integer(scaled(exact(d), shift)) - scaled_root.floor;
     long exponent = 0;

@@ -4,9 +4,10 @@
 
 namespace boxwood::oracle {
 
-/// The double nearest to x, ties to even; beyond the doubles infinite. Made from its bits: right
+/// The double or float nearest to x, ties to even; beyond them infinite. Made from its bits: right
 /// among the denormals and in flush-to-zero modes.
 double nearest_double(const mpq_class& x);
+float nearest_float(const mpq_class& x);
 
 /// The doubles next to x >= 0, which may be infinite; 0 is its own next below.
 double next_above(double x);

@@ -42,6 +42,22 @@ TEST(OracleRoots, ExactReadsWhatTheDoubleIs) {
     }
 }
 
+// A float is the nearest if no double between it and its neighbours is half way or more.
+TEST(OracleRoots, NearestFloatOfWhatNoDoubleHolds) {
+    for (const double x : doubles(2000)) {
+        EXPECT_EQ(nearest_float(exact(x)), static_cast<float>(x)) << x;
+        const auto f = std::abs(static_cast<float>(x));
+        const double above =
+            static_cast<double>(std::nextafter(f, std::numeric_limits<float>::infinity()));
+        if (std::isinf(above))
+            continue;
+        const mpq_class tie = (exact(f) + exact(above)) / 2, little = scaled(mpq_class(1), -2000);
+        EXPECT_EQ(nearest_float(tie - little), f);
+        EXPECT_EQ(nearest_float(tie + little), static_cast<float>(above));
+        EXPECT_EQ(nearest_float(-tie - little), -static_cast<float>(above));
+    }
+}
+
 /// q is in [ (r + below)/2, (r + above)/2 ]^2, and only if r is even may it be an end.
 void expect_nearest(double r, const mpq_class& q) {
     const auto square_of_mid = [](double x, double y) {

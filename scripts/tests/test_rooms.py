@@ -35,6 +35,8 @@ def plant(root, name, text):
         ("kernels/a.h", "#  include <trees/tree.h>\n", "kernels/a.h:1: kernels/ must not"),
         ("results/a.h", '#include "bench/contender.h"\n', "results/a.h:1: results/ must not"),
         ("bench/a.cpp", "#include <hdf5.h>\n", "only results/ includes HDF5"),
+        ("kernels/a.h", '#include "kernels/oracle/oracle.h"\n', "a.h:1: only tests and bench/ ask"),
+        ("trees/a.h", '#include "kernels/oracle/nearest.h"\n', "a.h:1: only tests and bench/ ask"),
         ("trees/mesh_utils.h", "", "'mesh_utils' says nothing"),
         ("trees/a.cpp", "//\n" * 451, "451 lines; at most 450"),
         ("trees/README.md", "line\n" * 41, "41 lines; at most 40"),
@@ -52,6 +54,9 @@ def test_what_is_allowed_passes(tmp_path):
     plant(tmp_path, "bench/a.cpp", '#include "trees/tree.h"\n#include "results/results.h"\n')
     plant(tmp_path, "results/a.cpp", "#include <hdf5.h>\n")
     plant(tmp_path, "trees/a.h", '#include "kernels/aabb.h"\n#include <vector>\n')
+    asks_oracle = '#include "kernels/oracle/oracle.h"\n'
+    for file in ("kernels/oracle/a.cpp", "kernels/b_test.cpp", "bench/b.cpp", "trees/b_test.cpp"):
+        plant(tmp_path, file, asks_oracle)
     plant(tmp_path, "build/utils.h", '#include "scenes/scene.h"\n')
     assert check(tmp_path)[0] == 0
 
