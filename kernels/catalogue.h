@@ -17,7 +17,7 @@ namespace boxwood {
 /// The rungs, one word each: to add a kernel, write its file and put its type here.
 using RayBoxKernels = std::tuple<PlainSlabs, RaySlabs>;
 using RayKernels = std::tuple<Watertight>;
-using TriangleKernels = std::tuple<GuigueDevillers<Rounded<double>>>;
+using TriangleKernels = std::tuple<GuigueDevillersF32, GuigueDevillersF64>;
 
 /// Every kernel of every family: what `boxwood list kernels` prints.
 std::span<const KernelInfo> kernels();
