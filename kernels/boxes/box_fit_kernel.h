@@ -1,0 +1,22 @@
+#pragma once
+
+#include "kernels/aabb.h"
+#include "kernels/boxes/rigid_transform.h"
+#include "kernels/verdict.h"
+
+#include <concepts>
+#include <string_view>
+
+namespace boxwood {
+
+/// An axis-aligned box around the image of one, under the matrix as it stands (which need not be a
+/// rotation). K::Real (float or double) is what it reads and gives. The empty box stays empty.
+template <class K>
+concept BoxFitKernel = requires(const RigidTransform<typename K::Real>& transform,
+                                const Aabb<typename K::Real>& box) {
+    { K::name } -> std::convertible_to<std::string_view>;
+    { K::info } -> std::convertible_to<KernelInfo>;
+    { K::fit(transform, box) } -> std::same_as<Aabb<typename K::Real>>;
+};
+
+} // namespace boxwood
