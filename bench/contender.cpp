@@ -61,6 +61,26 @@ std::span<const Peer> peers() {
     return found;
 }
 
+bool answers_at_all(const ContenderEntry& contender, Ask ask) {
+    static const Scene smallest = [] {
+        Scene scene;
+        scene.boxes.assign(2, {{0, 0, 0}, {1, 1, 1}});
+        scene.mesh = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 1, 2}}};
+        scene.rays.push_back({{0, 0, 1}, {0, 0, -1}});
+        return scene;
+    }();
+    return !contender.unsupported || !contender.unsupported(Job{&smallest, ask, "serial", 1});
+}
+
+std::vector<ContenderEntry> peers_that_answer(Ask ask) {
+    std::vector<ContenderEntry> all;
+    for (const Peer& peer : peers())
+        for (const ContenderEntry& contender : peer.contenders)
+            if (answers_at_all(contender, ask))
+                all.push_back(contender);
+    return all;
+}
+
 std::span<const std::string_view> absent_peers() {
 #define BOXWOOD_NAME(name) #name,
     static const std::vector<std::string_view> absent{BOXWOOD_PEERS_ABSENT(BOXWOOD_NAME)};

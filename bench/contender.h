@@ -80,6 +80,12 @@ struct StructureInfo {
     const Tree* tree = nullptr; ///< ours alone: valid until the next build
 };
 
+/// A work counter beyond those of Work.
+struct NamedCount {
+    std::string name;
+    std::uint64_t value = 0;
+};
+
 /// What the bench times, ours or a peer's. The job's scene outlives it. Construction converts the
 /// input to the library's own types (untimed); destruction releases devices and threads.
 class Contender {
@@ -91,6 +97,8 @@ class Contender {
     virtual void query(Answers& answers) = 0;
     /// Untimed: the same query with its work counted, where that can be told.
     virtual std::optional<Work> counted_query(Answers&) { return std::nullopt; }
+    /// Further counters of the last counted query.
+    virtual std::vector<NamedCount> more_counts() const { return {}; }
     virtual std::optional<StructureInfo> structure() const { return std::nullopt; }
 };
 
@@ -107,6 +115,7 @@ struct ContenderEntry {
     std::function<std::optional<std::string>(const Job&)> unsupported;
     std::function<std::unique_ptr<Contender>(const Job&)> make;
     std::string params_json = "{}";
+    Promise promise = Promise::none; ///< ours, of kernel asks
 };
 
 /// One peer library: a file of bench/peers/, compiled where its package is found.
@@ -121,5 +130,9 @@ struct Peer {
 /// The peers compiled in, and the names of those whose package was not found.
 std::span<const Peer> peers();
 std::span<const std::string_view> absent_peers();
+
+/// Whether a contender answers an ask on any scene; the contenders of peers that do.
+bool answers_at_all(const ContenderEntry& contender, Ask ask);
+std::vector<ContenderEntry> peers_that_answer(Ask ask);
 
 } // namespace boxwood::bench

@@ -115,6 +115,7 @@ int run(int argc, char** argv) {
     app.get_formatter()->column_width(32);
     add_list(app, exit_code);
     add_sweep(app, exit_code);
+    add_check(app, exit_code);
     add_show(app, exit_code);
     add_compare(app, exit_code);
     add_merge(app, exit_code);

@@ -17,18 +17,6 @@
 namespace boxwood::bench {
 namespace {
 
-/// Whether a contender answers an ask at all, wherever it runs.
-bool answers(const ContenderEntry& contender, Ask ask) {
-    static const Scene smallest = [] {
-        Scene scene;
-        scene.boxes.assign(2, {{0, 0, 0}, {1, 1, 1}});
-        scene.mesh = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 1, 2}}};
-        scene.rays.push_back({{0, 0, 1}, {0, 0, -1}});
-        return scene;
-    }();
-    return !contender.unsupported || !contender.unsupported(Job{&smallest, ask, "serial", 1});
-}
-
 /// The contenders that a block's `peers` names. A library stands for those of its contenders that
 /// answer the ask; a contender named in full is planned even if all it can say is "unsupported".
 std::vector<ContenderEntry> chosen_peers(const std::vector<std::string>& words, Ask ask) {
@@ -39,7 +27,7 @@ std::vector<ContenderEntry> chosen_peers(const std::vector<std::string>& words, 
     for (const Peer& peer : peers())
         for (const ContenderEntry& contender : peer.contenders)
             if (named(contender.name) ||
-                ((named("all") || named(peer.name)) && answers(contender, ask)))
+                ((named("all") || named(peer.name)) && answers_at_all(contender, ask)))
                 chosen.push_back(contender);
     return chosen;
 }

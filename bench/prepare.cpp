@@ -1,19 +1,18 @@
 #include "bench/prepare.h"
 
 #include "bench/calibration.h"
+#include "bench/judging/judge.h"
+#include "bench/record.h"
 #include "bench/truth.h"
 #include "trees/quality.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cfenv>
 #include <chrono>
 #include <map>
 #include <memory>
 #include <optional>
-#include <random>
 #include <thread>
 
 namespace boxwood::bench {
@@ -42,45 +41,15 @@ template <class Body> double calibrate_ns(double target_ns, Body body) {
     }
 }
 
-/// Some libraries leave the rounding or denormal mode changed.
-class KeepFloatingPointMode {
-  public:
-    KeepFloatingPointMode() { std::fegetenv(&saved_); }
-    ~KeepFloatingPointMode() { std::fesetenv(&saved_); }
-    KeepFloatingPointMode(const KeepFloatingPointMode&) = delete;
-
-  private:
-    std::fenv_t saved_;
-};
-
-std::string random_uuid() {
-    std::random_device device;
-    const auto bits = [&](unsigned mask, unsigned set) { return (device() & mask) | set; };
-    return fmt::format("{:08x}-{:04x}-{:04x}-{:04x}-{:08x}{:04x}", bits(~0u, 0), bits(0xffff, 0),
-                       bits(0x0fff, 0x4000), bits(0x3fff, 0x8000), bits(~0u, 0), bits(0xffff, 0));
-}
-
-std::string library_version(const ContenderEntry& contender, const results::Env& env) {
-    for (const Peer& peer : peers())
-        if (peer.name == contender.library)
-            return peer.version;
-    return env.git_commit;
-}
-
 class Preparation {
   public:
     Preparation(const Plan& plan, const results::Env& env, const std::set<std::string>& skip,
                 const Report& report)
-        : plan_(plan), env_(env), skip_(skip), report_(report), target_ns_(plan.min_time_ms * 1e6) {
-    }
+        : plan_(plan), skip_(skip), report_(report), target_ns_(plan.min_time_ms * 1e6),
+          record_(env, "boxwood sweep"), out_(record_.out) {}
 
     results::Results run() {
-        out_.run_uuid = random_uuid();
-        out_.created_utc =
-            fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::now()));
         out_.sweep_hash = plan_.sweep_hash;
-        out_.generator = "boxwood sweep";
-        out_.env.push_back(env_);
 
         std::vector<std::string> keys; // scenes in the order of the plan
         std::map<std::string, std::vector<const PlannedCell*>> cells_of;
@@ -99,45 +68,25 @@ class Preparation {
 
   private:
     void prepare_scene(const std::vector<const PlannedCell*>& cells) {
-        scene_ = make_scene(cells.front()->scene);
         truths_.clear();
+        judges_.clear();
+        scene_ = make_scene(cells.front()->scene);
         quality_of_.clear();
 
-        results::SceneRow row;
-        row.scene_id = static_cast<std::uint32_t>(out_.scenes.size());
-        row.name = scene_.name;
-        row.generator = scene_.spec.generator;
-        row.n_items = scene_.boxes.size();
-        row.n_triangles = scene_.mesh.triangles.size();
-        row.seed = scene_.spec.seed;
         std::set<std::string_view> asked;
         for (const PlannedCell* cell : cells)
             asked.insert(to_string(cell->ask));
-        row.asks = fmt::format("{}", fmt::join(asked, ","));
-        row.content_hash = scene_.content_hash;
-        row.params_json = scene_.params_json;
-        out_.scenes.push_back(row);
-
+        const std::uint32_t scene_id =
+            record_.add_scene(scene_, fmt::format("{}", fmt::join(asked, ",")));
         for (const PlannedCell* cell : cells) {
             report_(out_.cells.size(), plan_.cells.size(), cell->name);
-            prepare_cell(*cell, row.scene_id);
+            prepare_cell(*cell, scene_id);
         }
     }
 
     void prepare_cell(const PlannedCell& cell, std::uint32_t scene_id) {
-        results::Cell row;
-        row.cell_id = static_cast<std::uint32_t>(out_.cells.size());
-        row.name = cell.name;
-        row.scene_id = scene_id;
-        row.variant_id = variant_id_of(cell.contender);
-        row.ask = to_string(cell.ask);
-        row.n_items = scene_.boxes.size();
-        row.n_queries = scene_.rays.size();
-        row.precision = cell.contender.precision;
-        row.executor = cell.executor;
-        row.threads = cell.threads;
-        row.isa = cell.contender.is_peer ? "" : env_.isa_used;
-
+        results::Cell row = record_.cell(cell.name, scene_, scene_id, cell.ask, cell.contender,
+                                         cell.executor, cell.threads);
         results::Check check;
         const Job job{&scene_, cell.ask, cell.executor, cell.threads};
         const std::optional<std::string> why =
@@ -147,7 +96,9 @@ class Preparation {
             check.witness = *why;
         } else if (!skip_.contains(cell.name)) {
             try {
-                const Calibration calibration = measure(cell, job, row.cell_id, check);
+                const Calibration calibration = is_kernel_ask(cell.ask)
+                                                    ? measure_kernel(cell, job, row.cell_id, check)
+                                                    : measure(cell, job, row.cell_id, check);
                 row.iterations = calibration.query_iterations;
                 calibrations_.emplace(cell.name, calibration);
             } catch (const std::exception& error) {
@@ -174,6 +125,8 @@ class Preparation {
         calibration.query_iterations = iterations_for(target_ns_, calibration.query_ns);
         check = truth.check(answers);
         check.result_hash = answer_hash(answers, cell.ask);
+        if (cell.ask == Ask::triangle_pairs)
+            add_kernel_row(cell, cell_id, check);
 
         count(cell.ask, *contender, answers, cell_id, check);
         if (const auto structure = contender->structure()) {
@@ -181,6 +134,29 @@ class Preparation {
             if (structure->tree)
                 add_tree(cell.contender.builder, *structure->tree, cell_id);
         }
+        return calibration;
+    }
+
+    /// A kernel has nothing to build: all its time is in the query.
+    Calibration measure_kernel(const PlannedCell& cell, const Job& job, std::uint32_t cell_id,
+                               results::Check& check) {
+        Judge& judge = judge_of(cell.ask);
+        const KeepFloatingPointMode keep;
+        const std::unique_ptr<Contender> contender = cell.contender.make(job);
+        contender->build();
+        Answers answers;
+        Calibration calibration;
+        calibration.build_iterations = 0;
+        calibration.query_ns = calibrate_ns(target_ns_, [&] { contender->query(answers); });
+        calibration.query_iterations = iterations_for(target_ns_, calibration.query_ns);
+
+        Judgement judgement = judge.judge(answers, cell.contender);
+        judgement.kernel.ns_per_call =
+            calibration.query_ns /
+            static_cast<double>(std::max<std::uint64_t>(1, items_of(scene_)));
+        check = judgement.check;
+        check.result_hash = answer_hash(answers, cell.ask);
+        record_.add(std::move(judgement), cell_id);
         return calibration;
     }
 
@@ -209,6 +185,24 @@ class Preparation {
         }
     }
 
+    /// Whole queries are rows of the kernel they use, too: what its wrong answers come to.
+    void add_kernel_row(const PlannedCell& cell, std::uint32_t cell_id,
+                        const results::Check& check) {
+        results::KernelRow row;
+        row.cell_id = cell_id;
+        row.family = "typical";
+        row.panel = to_string(Panel::generic);
+        row.kernel_family = to_string(cell.ask);
+        row.rung = cell.contender.kernel.empty() ? cell.contender.name : cell.contender.kernel;
+        row.promise = to_string(cell.contender.promise);
+        row.n = check.n_checked;
+        row.false_pos = check.extra;
+        row.false_neg = check.missing;
+        row.status = check.status;
+        row.witness = check.witness;
+        out_.kernels.push_back(std::move(row));
+    }
+
     /// One measurement per builder and scene: the tree is the same in all of its cells.
     void add_tree(const std::string& builder, const Tree& tree, std::uint32_t cell_id) {
         const auto [found, is_new] = quality_of_.try_emplace(builder);
@@ -221,26 +215,6 @@ class Preparation {
                               q.overlap});
     }
 
-    std::uint32_t variant_id_of(const ContenderEntry& contender) {
-        for (const results::Variant& variant : out_.variants)
-            if (variant.name == contender.name && variant.library == contender.library)
-                return variant.variant_id;
-        results::Variant row;
-        row.variant_id = static_cast<std::uint32_t>(out_.variants.size());
-        row.name = contender.name;
-        row.library = contender.library;
-        row.lib_version = library_version(contender, env_);
-        row.builder = contender.builder;
-        row.layout = contender.layout;
-        row.traversal = contender.traversal;
-        row.kernel = contender.kernel;
-        row.is_peer = contender.is_peer;
-        row.params_json = contender.params_json;
-        row.notes = contender.notes;
-        out_.variants.push_back(row);
-        return row.variant_id;
-    }
-
     const Truth& truth_of(Ask ask) {
         std::unique_ptr<Truth>& truth = truths_[ask];
         if (!truth)
@@ -248,16 +222,24 @@ class Preparation {
         return *truth;
     }
 
+    Judge& judge_of(Ask ask) {
+        std::unique_ptr<Judge>& judge = judges_[ask];
+        if (!judge)
+            judge = make_judge(scene_, ask, std::max(1u, std::thread::hardware_concurrency()));
+        return *judge;
+    }
+
     const Plan& plan_;
-    const results::Env& env_;
     const std::set<std::string>& skip_;
     const Report& report_;
     double target_ns_;
-    results::Results out_;
+    Record record_;
+    results::Results& out_; ///< of the record
     Calibrations calibrations_;
     // Of the scene at hand.
     Scene scene_;
     std::map<Ask, std::unique_ptr<Truth>> truths_;
+    std::map<Ask, std::unique_ptr<Judge>> judges_;
     std::map<std::string, Quality> quality_of_; ///< by builder
 };
 

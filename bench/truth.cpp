@@ -258,7 +258,40 @@ std::unique_ptr<Truth> make_truth(const Scene& scene, Ask ask, unsigned threads)
     return std::make_unique<RaysTruth>(scene, ask, threads);
 }
 
+namespace {
+
+/// Of the answers to kernel asks; of numbers the bits, padding left out.
+std::uint64_t kernel_answer_hash(const Answers& answers) {
+    std::vector<std::uint64_t> words;
+    const auto add = [&](double x) { words.push_back(std::bit_cast<std::uint64_t>(x)); };
+    const auto add_sure = [&](Answer answer, std::uint8_t tier) {
+        words.push_back(static_cast<std::uint64_t>(answer) * 256 + tier);
+    };
+    for (const Verdict& v : answers.verdicts)
+        add_sure(v.answer, v.tier);
+    for (const Distance& d : answers.distances)
+        for (const double x : {d.distance, d.lo, d.hi})
+            add(x);
+    for (const Impact& impact : answers.impacts) {
+        add_sure(impact.answer, impact.tier);
+        add(impact.t_free);
+        add(impact.t_hit);
+    }
+    for (const Aabb<double>& box : answers.boxes)
+        for (int k = 0; k < 3; ++k) {
+            add(box.min[k]);
+            add(box.max[k]);
+        }
+    for (const RayHit& hit : answers.hits)
+        words.push_back(hit.hit() ? std::bit_cast<std::uint32_t>(hit.t) : ~std::uint64_t{0});
+    return XXH3_64bits(words.data(), words.size() * sizeof(words[0]));
+}
+
+} // namespace
+
 std::uint64_t answer_hash(const Answers& answers, Ask ask) {
+    if (is_kernel_ask(ask))
+        return kernel_answer_hash(answers);
     if (ask == Ask::pairs || ask == Ask::tree_pairs) {
         std::vector<Pair> sorted = answers.pairs;
         std::ranges::sort(sorted);

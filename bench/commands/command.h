@@ -21,6 +21,7 @@ inline constexpr int exit_interrupted = 130;
 /// sets `exit_code`. One file of bench/commands/ per command.
 void add_list(CLI::App& app, int& exit_code);
 void add_sweep(CLI::App& app, int& exit_code);
+void add_check(CLI::App& app, int& exit_code);
 void add_show(CLI::App& app, int& exit_code);
 void add_compare(CLI::App& app, int& exit_code);
 void add_merge(CLI::App& app, int& exit_code);

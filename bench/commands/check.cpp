@@ -1,0 +1,98 @@
+#include "bench/check.h"
+
+#include "bench/commands/command.h"
+#include "bench/environment.h"
+#include "bench/judging/judge.h"
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <limits>
+#include <memory>
+
+namespace boxwood::bench {
+namespace {
+
+Scene checked_scene(SceneSpec spec, const CheckOptions& options) {
+    Scene scene = make_scene(spec);
+    if (options.one) {
+        const std::size_t n = n_cases(scene.cases);
+        if (*options.one >= n)
+            throw BadInput(fmt::format("--case {}: {} has {} cases, numbered from 0", *options.one,
+                                       scene.name, n));
+        scene.cases = only_case(scene.cases, *options.one);
+    }
+    return scene;
+}
+
+int run(const CheckOptions& options, const std::filesystem::path& out) {
+    const std::vector<SceneSpec> specs = check_scenes(options);
+    if (options.one && specs.size() > 1)
+        throw BadInput("--case needs one family and one scale: name them with --only and --scale");
+    results::Env env = environment(false);
+    env.seed = options.seed;
+    CheckRun check(options, env);
+
+    Progress progress(stderr);
+    Eta eta(static_cast<double>(specs.size()));
+    const auto start = std::chrono::steady_clock::now();
+    for (const SceneSpec& spec : specs) {
+        const Scene scene = checked_scene(spec, options);
+        check.judge(scene, [&](Ask ask) {
+            const double elapsed =
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            progress.show({"checking", eta.fraction(), eta.left_s(elapsed),
+                           fmt::format("{}/{}", scene.name, to_string(ask))});
+        });
+        eta.done(1);
+    }
+    progress.show({"checking", 1, 0, ""});
+    if (!out.empty())
+        results::write(out, check.results());
+    fmt::print("{}{}", check.details(), check_text(check.results()));
+    if (!out.empty())
+        fmt::print("results: {}\n", out.string());
+    return broken_promises(check.results()) > 0 ? exit_failed : exit_success;
+}
+
+} // namespace
+
+void add_check(CLI::App& app, int& exit_code) {
+    auto options = std::make_shared<CheckOptions>();
+    auto out = std::make_shared<std::filesystem::path>();
+    auto n = std::make_shared<std::optional<std::size_t>>();
+    CLI::App* check = app.add_subcommand(
+        "check", "hold every kernel, ours and the peers', against the truth on the hard cases");
+    check->add_option("--only", options->only,
+                      "only what this regular expression is found in: family/kernel_family/rung");
+    check->add_option("--out", *out, "a result file to write (HDF5), for scripts/plot");
+    check->add_option("--n", *n, "cases of each family (300; with --quick 60)")
+        ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}));
+    check->add_option("--seed", options->seed, "key of the random numbers")
+        ->check(
+            CLI::Range(std::uint64_t{0}, std::uint64_t{std::numeric_limits<std::int64_t>::max()}));
+    check->add_option("--k", options->k, "the families' own parameter (`boxwood list families`)");
+    check->add_option("--scale", options->scale,
+                      "every coordinate times 2^SCALE; without it 0 and both ends of the range");
+    check->add_option("--case", options->one, "only this case: prints it, the truth, each answer");
+    check->add_flag("--quick", options->is_quick, "fewer cases, one scale: some ten seconds");
+    check->add_option("--ccd", options->ccd,
+                      "a folder of query files for the families that read files, such as data/ccd");
+    check->footer(
+        "A promise is what a rung states in `boxwood list kernels`: never-miss (no false no),\n"
+        "never-false (no false yes), certified (sure answers and bounds hold), exact. Each family\n"
+        "is judged at its default k; the truth comes by construction or from rational arithmetic.\n"
+        "A broken promise is printed with its case in hex floats and the command that replays it.\n"
+        "Peers and rungs without a promise are judged on the same cases, and may err.\n\n"
+        "Examples:\n"
+        "  boxwood check --quick\n"
+        "  boxwood check --only triangle_distance --out check.h5\n"
+        "  boxwood check --only '^slivers/triangle_triangle/' --k 12 --scale 40 --case 17\n"
+        "Exit codes: 0 every promise is kept, 1 one of ours is broken, 2 bad input.");
+    check->callback([=, &exit_code] {
+        options->n = n->value_or(options->is_quick ? 60 : 300);
+        exit_code = run(*options, *out);
+    });
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "bench/judging/judge.h"
+
+namespace boxwood::bench {
+
+/// One file of this folder per kind of answer.
+std::unique_ptr<Judge> verdict_judge(const Scene& scene, Ask ask, unsigned threads);
+std::unique_ptr<Judge> distance_judge(const Scene& scene, Ask ask, unsigned threads);
+std::unique_ptr<Judge> ray_judge(const Scene& scene, unsigned threads);
+std::unique_ptr<Judge> impact_judge(const Scene& scene, unsigned threads);
+std::unique_ptr<Judge> fit_judge(const Scene& scene, unsigned threads);
+
+/// Answers are as many as the cases, or the contender is broken.
+void require_one_per_case(std::size_t answers, std::size_t cases);
+
+std::string text_of(Answer answer);
+inline std::string text_of(bool truth) { return truth ? "yes" : "no"; }
+
+} // namespace boxwood::bench
