@@ -17,6 +17,8 @@ constexpr std::array<KernelInfo, sizeof...(K)> rows(std::type_identity<std::tupl
 constexpr auto ray_box_rows = rows(std::type_identity<RayBoxKernels>{});
 constexpr auto ray_rows = rows(std::type_identity<RayKernels>{});
 constexpr auto triangle_rows = rows(std::type_identity<TriangleKernels>{});
+constexpr auto box_fit_rows = rows(std::type_identity<BoxFitKernels>{});
+constexpr auto obb_rows = rows(std::type_identity<ObbKernels>{});
 
 template <std::size_t... n> constexpr auto joined(const std::array<KernelInfo, n>&... parts) {
     std::array<KernelInfo, (n + ...)> all{};
@@ -24,7 +26,8 @@ template <std::size_t... n> constexpr auto joined(const std::array<KernelInfo, n
     ((to = std::copy(parts.begin(), parts.end(), to)), ...);
     return all;
 }
-constexpr auto all_rows = joined(std::array{closed_overlap}, ray_box_rows, ray_rows, triangle_rows);
+constexpr auto all_rows = joined(std::array{closed_overlap}, ray_box_rows, ray_rows, triangle_rows,
+                                 box_fit_rows, obb_rows);
 
 } // namespace
 
@@ -32,5 +35,7 @@ std::span<const KernelInfo> kernels() { return all_rows; }
 std::span<const KernelInfo> ray_box_kernels() { return ray_box_rows; }
 std::span<const KernelInfo> ray_kernels() { return ray_rows; }
 std::span<const KernelInfo> triangle_kernels() { return triangle_rows; }
+std::span<const KernelInfo> box_fit_kernels() { return box_fit_rows; }
+std::span<const KernelInfo> obb_kernels() { return obb_rows; }
 
 } // namespace boxwood

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "kernels/boxes/fit.h"
+#include "kernels/boxes/sat.h"
 #include "kernels/predicates/rounded.h"
 #include "kernels/ray_box/plain.h"
 #include "kernels/ray_box/slabs.h"
@@ -18,6 +20,10 @@ namespace boxwood {
 using RayBoxKernels = std::tuple<PlainSlabs, RaySlabs>;
 using RayKernels = std::tuple<Watertight>;
 using TriangleKernels = std::tuple<GuigueDevillersF32, GuigueDevillersF64>;
+using BoxFitKernels =
+    std::tuple<PlainFit<float>, PlainFit<double>, PaddedFit<float>, PaddedFit<double>>;
+using ObbKernels =
+    std::tuple<PlainSat<float>, PlainSat<double>, CertifiedSat<float>, CertifiedSat<double>>;
 
 /// Every kernel of every family: what `boxwood list kernels` prints.
 std::span<const KernelInfo> kernels();
@@ -26,6 +32,8 @@ std::span<const KernelInfo> kernels();
 std::span<const KernelInfo> ray_box_kernels();
 std::span<const KernelInfo> ray_kernels();
 std::span<const KernelInfo> triangle_kernels();
+std::span<const KernelInfo> box_fit_kernels();
+std::span<const KernelInfo> obb_kernels();
 
 /// Calls f(std::type_identity<K>{}) for the kernel K of `Kernels` (RayKernels, TriangleKernels)
 /// whose name is `name`. False if there is none.

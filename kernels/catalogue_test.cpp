@@ -31,8 +31,8 @@ TEST(Catalogue, EveryFamilyIsListed) {
     std::set<std::string_view> families;
     for (const KernelInfo& info : kernels())
         families.insert(info.family);
-    EXPECT_EQ(families, (std::set<std::string_view>{"box_box", "ray_box", "ray_triangle",
-                                                    "triangle_triangle"}));
+    EXPECT_EQ(families, (std::set<std::string_view>{"box_box", "box_fit", "obb_obb", "ray_box",
+                                                    "ray_triangle", "triangle_triangle"}));
 }
 
 TEST(Catalogue, EveryWordFindsItsKernel) {
@@ -55,6 +55,20 @@ TEST(Catalogue, EveryWordFindsItsKernel) {
         std::string_view found;
         EXPECT_TRUE(with_kernel<TriangleKernels>(
             info.name, [&]<TriangleKernel K>(std::type_identity<K>) { found = K::name; }));
+        EXPECT_EQ(found, info.name);
+    }
+    for (const KernelInfo& info : box_fit_kernels()) {
+        EXPECT_EQ(info.family, "box_fit");
+        std::string_view found;
+        EXPECT_TRUE(with_kernel<BoxFitKernels>(
+            info.name, [&]<BoxFitKernel K>(std::type_identity<K>) { found = K::name; }));
+        EXPECT_EQ(found, info.name);
+    }
+    for (const KernelInfo& info : obb_kernels()) {
+        EXPECT_EQ(info.family, "obb_obb");
+        std::string_view found;
+        EXPECT_TRUE(with_kernel<ObbKernels>(
+            info.name, [&]<ObbKernel K>(std::type_identity<K>) { found = K::name; }));
         EXPECT_EQ(found, info.name);
     }
     EXPECT_FALSE(with_kernel<RayKernels>("watertigth", [](auto) { FAIL(); }));

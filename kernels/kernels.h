@@ -4,6 +4,12 @@
 /// What each kernel promises is its KernelInfo (verdict.h); `boxwood list kernels` prints them all.
 
 #include "kernels/aabb.h"                               // closed boxes: overlap, merge, half area
+#include "kernels/boxes/box_fit_kernel.h"               // contract: the box of a transformed box
+#include "kernels/boxes/fit.h"                          // ... plain, and padded by its rounding
+#include "kernels/boxes/obb.h"                          // boxes in any pose
+#include "kernels/boxes/obb_kernel.h"                   // contract: such a box against another
+#include "kernels/boxes/rigid_transform.h"              // rotation and translation
+#include "kernels/boxes/sat.h"                          // ... 15 directions, plain and certified
 #include "kernels/catalogue.h"                          // every kernel by its word
 #include "kernels/predicates/orientation.h"             // who decides triangle truth
 #include "kernels/predicates/rounded.h"                 // ... plain double
