@@ -48,6 +48,10 @@ std::string_view to_string(Ask ask);
 std::optional<Ask> ask_of(std::string_view name);
 /// Whether it is asked of the scene's cases (`Scene::cases`), not of its boxes or mesh.
 inline bool is_kernel_ask(Ask ask) { return ask >= Ask::triangle_triangle; }
+/// Whether a whole query decides about triangles by a kernel that can be chosen.
+inline bool takes_kernel(Ask ask) {
+    return ask == Ask::rays_closest || ask == Ask::rays_any || ask == Ask::triangle_pairs;
+}
 inline bool is_ray_ask(Ask ask) { return ask == Ask::rays_closest || ask == Ask::rays_any; }
 
 /// The items of `tree_pairs`: boxes [0, n/2) against [n/2, n). In its answers a < n/2 <= b, both

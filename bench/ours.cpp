@@ -1,5 +1,6 @@
 #include "bench/ours.h"
 
+#include "bench/triangle_pairs.h"
 #include "kernels/catalogue.h"
 #include "scenes/suggest.h"
 #include "trees/layout.h"
@@ -128,7 +129,7 @@ class Rays final : public OurContender {
 };
 
 std::string_view traversal_of(Ask ask) {
-    return ask == Ask::pairs ? "self_pairs" : ask == Ask::tree_pairs ? "tree_pairs" : "rays";
+    return is_ray_ask(ask) ? "rays" : ask == Ask::tree_pairs ? "tree_pairs" : "self_pairs";
 }
 
 /// "binned_sah_bins16": words [a-z0-9_], so 1.5 is written 1_5 and a minus m.
@@ -161,9 +162,10 @@ ContenderEntry our_contender(const Choice& choice, Ask ask) {
     const LayoutEntry* layout = find_layout(choice.layout);
     if (!layout)
         throw_unknown("layout", choice.layout, layouts());
-    if (is_ray_ask(ask) &&
-        std::ranges::find(ray_kernels(), choice.kernel, &KernelInfo::name) == ray_kernels().end())
-        throw_unknown("ray kernel", choice.kernel, ray_kernels());
+    const auto kernels = is_ray_ask(ask) ? ray_kernels() : triangle_kernels();
+    const auto kernel = std::ranges::find(kernels, choice.kernel, &KernelInfo::name);
+    if (takes_kernel(ask) && kernel == kernels.end())
+        throw_unknown(is_ray_ask(ask) ? "ray kernel" : "triangle kernel", choice.kernel, kernels);
 
     ContenderEntry entry;
     entry.library = "boxwood";
@@ -172,7 +174,10 @@ ContenderEntry our_contender(const Choice& choice, Ask ask) {
     entry.builder = builder_word(choice);
     entry.layout = choice.layout;
     entry.traversal = traversal_of(ask);
-    entry.kernel = is_ray_ask(ask) ? choice.kernel : "";
+    if (takes_kernel(ask)) {
+        entry.kernel = choice.kernel;
+        entry.promise = kernel->promise;
+    }
     entry.name = fmt::format("{}.{}.{}", entry.builder, entry.layout, entry.traversal);
     if (!entry.kernel.empty())
         entry.name += "." + entry.kernel;
@@ -185,7 +190,7 @@ ContenderEntry our_contender(const Choice& choice, Ask ask) {
     entry.params_json = "{" + settings + "}";
 
     entry.unsupported = [](const Job& job) -> std::optional<std::string> {
-        if (is_ray_ask(job.ask) && job.scene->mesh.triangles.empty())
+        if (takes_kernel(job.ask) && job.scene->mesh.triangles.empty())
             return "the scene has no triangles";
         if (job.executor == "serial" && job.threads != 1)
             return "the executor serial has one thread";
@@ -198,12 +203,11 @@ ContenderEntry our_contender(const Choice& choice, Ask ask) {
             return std::make_unique<SelfPairs>(job, build, *layout);
         case Ask::tree_pairs:
             return std::make_unique<TreePairs>(job, build, *layout);
-        case Ask::rays_closest:
-        case Ask::rays_any:
+        case Ask::triangle_pairs:
+            return make_triangle_pairs(job, build, *layout, kernel);
         default:
-            break;
+            return std::make_unique<Rays>(job, build, *layout, kernel);
         }
-        return std::make_unique<Rays>(job, build, *layout, kernel);
     };
     return entry;
 }

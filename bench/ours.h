@@ -10,7 +10,7 @@ struct Choice {
     std::string builder = "binned_sah";
     Settings settings; ///< of the builder
     std::string layout = "wide8";
-    std::string kernel = "watertight"; ///< ray kernel; for ray asks alone
+    std::string kernel = "watertight"; ///< a ray or triangle kernel, where the ask takes one
 };
 
 /// The contender "<builder>[_<setting><value>...].<layout>.<traversal>[.<kernel>]" for an ask.

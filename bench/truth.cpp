@@ -2,6 +2,7 @@
 
 #include "bench/peers/brute_force.h"
 #include "bench/ray_truth.h"
+#include "kernels/oracle/oracle.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -80,6 +81,34 @@ std::vector<Pair> swept_pairs(std::span<const Aabb<float>> boxes, bool between_h
     });
 }
 
+/// Of the pairs whose boxes overlap, those whose triangles share a point: a corner of the mesh by
+/// number, else by the rational oracle.
+std::vector<Pair> touching(const TriangleMesh& mesh, std::vector<Pair> candidates,
+                           unsigned threads) {
+    const auto triangle = [&](std::uint32_t i) {
+        const Triangle<float> t = mesh.triangle(i);
+        return Triangle<double>{Vec3<double>(t.a), Vec3<double>(t.b), Vec3<double>(t.c)};
+    };
+    const auto share_a_corner = [&](Pair p) {
+        return std::ranges::any_of(mesh.triangles[p.a], [&](std::uint32_t corner) {
+            return std::ranges::find(mesh.triangles[p.b], corner) != mesh.triangles[p.b].end();
+        });
+    };
+    std::vector<std::uint8_t> touch(candidates.size());
+    tbb::task_arena(static_cast<int>(threads)).execute([&] {
+        tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
+            const Pair p = candidates[i];
+            touch[i] = share_a_corner(p) || oracle::intersect(triangle(p.a), triangle(p.b));
+        });
+    });
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+        if (touch[i])
+            candidates[kept++] = candidates[i];
+    candidates.resize(kept);
+    return candidates;
+}
+
 class PairTruth final : public Truth {
   public:
     PairTruth(const Scene& scene, Ask ask, unsigned threads) : ask_(ask) {
@@ -93,6 +122,10 @@ class PairTruth final : public Truth {
             const std::size_t split = tree_pairs_split(boxes.size());
             expected_ = all_pairs(boxes, between_halves ? split : 0,
                                   between_halves ? split : boxes.size(), threads);
+        }
+        if (ask == Ask::triangle_pairs) {
+            oracle_ = "rational";
+            expected_ = touching(scene.mesh, std::move(expected_), threads);
         }
     }
 
@@ -253,7 +286,7 @@ class RaysTruth final : public Truth {
 } // namespace
 
 std::unique_ptr<Truth> make_truth(const Scene& scene, Ask ask, unsigned threads) {
-    if (ask == Ask::pairs || ask == Ask::tree_pairs)
+    if (!is_ray_ask(ask))
         return std::make_unique<PairTruth>(scene, ask, threads);
     return std::make_unique<RaysTruth>(scene, ask, threads);
 }
@@ -292,7 +325,7 @@ std::uint64_t kernel_answer_hash(const Answers& answers) {
 std::uint64_t answer_hash(const Answers& answers, Ask ask) {
     if (is_kernel_ask(ask))
         return kernel_answer_hash(answers);
-    if (ask == Ask::pairs || ask == Ask::tree_pairs) {
+    if (!is_ray_ask(ask)) {
         std::vector<Pair> sorted = answers.pairs;
         std::ranges::sort(sorted);
         return XXH3_64bits(sorted.data(), sorted.size() * sizeof(Pair));

@@ -12,6 +12,7 @@ AA_TWIN, WRONG_ANSWER, DISTURBED = 4, 8, 1 | 2
 RANKED = ("exact", "conservative", "within_bound")
 STATUSES = ("wrong", "unsupported", "within_bound", "conservative", "exact")  # the worst first
 OURS = "boxwood"
+WHOLE_QUERY = "typical"  # a kernel row about a whole query, whose cell stays among the others
 TOTAL = "build+query"  # within a round: what one use of the structure costs
 # Under both of these a "build" only copies the input: no structure is made (ns per item; part of the query).
 COPY_NS, COPY_PART = 5, 0.05
@@ -180,6 +181,7 @@ def kernel_points(cells, source):
     points = [
         KernelPoint(row, cells[row["cell_id"]], conditions.get(row["cell_id"], []))
         for row in (source["kernels"] if source["kernels"] is not None else ())
+        if row["family"] != WHOLE_QUERY
     ]
     for point in points:
         cells.pop(point.cell.cell_id, None)

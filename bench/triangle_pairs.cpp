@@ -1,0 +1,78 @@
+#include "bench/triangle_pairs.h"
+
+#include "kernels/catalogue.h"
+#include "trees/touching_pairs.h"
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace boxwood::bench {
+namespace {
+
+template <TriangleKernel K> class TrianglePairs final : public Contender {
+  public:
+    TrianglePairs(const Job& job, BuildFunction build, const LayoutEntry& layout)
+        : scene_(*job.scene), executor_(make_executor(job.executor, job.threads)),
+          build_(std::move(build)), layout_entry_(layout) {}
+
+    void build() override {
+        layout_.reset();
+        tree_ = build_(scene_.boxes, *executor_);
+        layout_ = layout_entry_.make(tree_);
+    }
+
+    void query(Answers& answers) override {
+        answers.pairs.clear();
+        AppendPairs append(answers.pairs);
+        TouchingPairs<K> touching(scene_.mesh, append);
+        layout_->self_pairs(*executor_, touching);
+    }
+
+    std::optional<Work> counted_query(Answers& answers) override {
+        answers.pairs.clear();
+        tiers_ = {};
+        AppendPairs append(answers.pairs);
+        TouchingPairs<K> touching(scene_.mesh, append, &tiers_);
+        Work work = layout_->self_pairs_counted(touching);
+        work.triangle_tests = work.answers; // every candidate
+        work.answers = answers.pairs.size();
+        return work;
+    }
+
+    std::vector<NamedCount> more_counts() const override {
+        return {{"tier_0", tiers_.decided[0]},
+                {"tier_1", tiers_.decided[1]},
+                {"tier_2", tiers_.decided[2]},
+                {"tier_3", tiers_.decided[3]},
+                {"undecided", tiers_.undecided}};
+    }
+
+    std::optional<StructureInfo> structure() const override {
+        return StructureInfo{layout_->bytes(), &tree_};
+    }
+
+  private:
+    const Scene& scene_;
+    std::unique_ptr<Executor> executor_;
+    BuildFunction build_;
+    const LayoutEntry& layout_entry_;
+    Tree tree_;
+    std::unique_ptr<AnyLayout> layout_;
+    TierCounts tiers_;
+};
+
+} // namespace
+
+std::unique_ptr<Contender> make_triangle_pairs(const Job& job, BuildFunction build,
+                                               const LayoutEntry& layout, std::string_view kernel) {
+    std::unique_ptr<Contender> made;
+    with_kernel<TriangleKernels>(kernel, [&]<class K>(std::type_identity<K>) {
+        made = std::make_unique<TrianglePairs<K>>(job, std::move(build), layout);
+    });
+    if (!made)
+        throw std::invalid_argument("no triangle kernel " + std::string(kernel));
+    return made;
+}
+
+} // namespace boxwood::bench
