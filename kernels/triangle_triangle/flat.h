@@ -32,17 +32,59 @@ struct Projection {
     static constexpr int none = -1;
 };
 
-/// The signs that decide a pair. What it cannot decide, orient3d calls `undecided`; orient2d and
-/// project read it as 0 and set unsure(). Axes u, v span the plane that orient2d means.
+/// A triangle's corners, turned for the interval test (guigue_devillers.h).
+struct Turned {
+    Corner p, q, r;
+};
+
+/// The signs that decide a pair. sides() is what is known at no great cost, decided_sides() the
+/// most that can be known. What cannot be decided is `unknown`, `maybe`, `undecided`; orient2d and
+/// project read it as 0 and set unsure().
 template <class S>
-concept PairSigns = requires(S& s, int i, Corner c) {
+concept PairSigns = requires(S& s, int i, Corner c, Turned t) {
     { s.sides(i) } -> std::same_as<Sides>; ///< of the other's corners to triangle i's plane
-    { s.project(i) } -> std::same_as<Projection>;
+    { s.decided_sides(i) } -> std::same_as<Sides>;
+    { s.project(i, i) } -> std::same_as<Projection>; ///< of triangle i, by this axis if it will do
+    { s.overlap_along_line(t, t) } -> std::same_as<Answer>; ///< see overlap_by_orient3d
     { s.orient3d(c, c, c, c) } -> std::same_as<int>;
-    { s.orient2d(i, c, c, c) } -> std::same_as<int>; ///< with axis i dropped
+    { s.orient2d(i, c, c, c) } -> std::same_as<int>;         ///< with axis i dropped
+    { s.overlap_in_plane(i, i, i) } -> std::same_as<Answer>; ///< see overlap_by_orient2d
     { s.point(c) } -> std::convertible_to<Vec3<typename S::Real>>;
     { s.unsure() } -> std::same_as<bool>;
 };
+
+/// Of turned triangles the intervals on the planes' common line: disjoint if
+/// orient3d(q1, p2, p1, q2) or orient3d(p1, p2, r1, r2) is 1.
+template <class S> Answer overlap_by_orient3d(S& s, const Turned& a, const Turned& b) {
+    const int low = s.orient3d(a.q, b.p, a.p, b.q);
+    if (low == 1)
+        return Answer::no;
+    const int high = s.orient3d(a.p, b.p, a.r, b.r);
+    return high == 1                               ? Answer::no
+           : low == undecided || high == undecided ? Answer::maybe
+                                                   : Answer::yes;
+}
+
+/// Of coplanar triangles that turn by these signs with an axis dropped: disjoint if the line of an
+/// edge of one has all of the other strictly on its outside. Unsure as s is.
+template <class S> bool overlap_by_orient2d(S& s, int dropped, const std::array<int, 2>& turns) {
+    for (const Corner t : {0, 3})
+        for (Corner i = 0; i < 3; ++i) {
+            const Corner p = t + i, q = t + (i + 1) % 3;
+            const int outside = -turns[t / 3];
+            bool parted = true;
+            for (Corner j = 0; parted && j < 3; ++j)
+                parted = s.orient2d(dropped, p, q, 3 - t + j) == outside;
+            if (parted)
+                return false;
+        }
+    return true;
+}
+
+template <class Real> int largest_axis(const Vec3<Real>& v) {
+    const Real x = std::abs(v.x), y = std::abs(v.y), z = std::abs(v.z);
+    return x > y ? (x > z ? 0 : 2) : (y > z ? 1 : 2);
+}
 
 /// A pair as orientation predicates P see it, one determinant at a time.
 template <OrientationPredicates P> class Signs {
@@ -62,18 +104,19 @@ template <OrientationPredicates P> class Signs {
         }
         return s;
     }
-    /// The largest component of the normal is asked first; any whose sign is not zero is right.
-    Projection project(int of) {
+    Sides decided_sides(int of) const { return sides(of); }
+    Projection project(int of, int preferred) {
         const Corner t = of == 0 ? 0 : 3;
-        const Vec3<Real> n = cross(p_[t + 1] - p_[t], p_[t + 2] - p_[t]);
-        const Real x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z);
-        const int largest = x > y ? (x > z ? 0 : 2) : (y > z ? 1 : 2);
+        const int first = preferred != Projection::none ? preferred : largest_axis(normal(t));
         for (int k = 0; k < 3; ++k) {
-            const int axis = (largest + k) % 3;
+            const int axis = (first + k) % 3;
             if (const int turn = orient2d(axis, t, t + 1, t + 2); turn != 0)
                 return {axis, turn};
         }
         return {};
+    }
+    Answer overlap_along_line(const Turned& a, const Turned& b) const {
+        return overlap_by_orient3d(*this, a, b);
     }
     int orient3d(Corner a, Corner b, Corner c, Corner d) const {
         return P::orient3d(p_[a], p_[b], p_[c], p_[d]);
@@ -85,10 +128,15 @@ template <OrientationPredicates P> class Signs {
         unsure_ |= sign == undecided;
         return sign == undecided ? 0 : sign;
     }
+    Answer overlap_in_plane(int dropped, int turn_a, int turn_b) {
+        return overlap_by_orient2d(*this, dropped, {turn_a, turn_b}) ? Answer::yes : Answer::no;
+    }
     Vec3<Real> point(Corner k) const { return p_[k]; }
     bool unsure() const { return unsure_; }
 
   private:
+    Vec3<Real> normal(Corner t) const { return cross(p_[t + 1] - p_[t], p_[t + 2] - p_[t]); }
+
     std::array<Vec3<Real>, 6> p_;
     bool unsure_ = false;
 };
@@ -107,7 +155,7 @@ template <PairSigns S> class FlatPair {
     /// Of two triangles without a degenerate one, only coplanar ones may be asked.
     static Answer meet(S& signs) {
         FlatPair pair{signs};
-        const Hull a = pair.hull(0), b = pair.hull(1);
+        const Hull a = pair.hull(0, Projection::none), b = pair.hull(1, a.projection.axis);
         const bool yes = a.size <= b.size ? pair.meet(a, b) : pair.meet(b, a);
         return pair.unsure_ || signs.unsure() ? Answer::maybe : yes ? Answer::yes : Answer::no;
     }
@@ -129,9 +177,9 @@ template <PairSigns S> class FlatPair {
     }
     bool same(Corner a, Corner b) const { return signs_.point(a) == signs_.point(b); }
 
-    Hull hull(int of) {
+    Hull hull(int of, int preferred) {
         const Corner t = of == 0 ? 0 : 3;
-        const Projection projection = signs_.project(of);
+        const Projection projection = signs_.project(of, preferred);
         if (projection.axis != Projection::none)
             return {{t, t + 1, t + 2}, 3, projection};
         Corner low = t, high = t;
@@ -174,11 +222,8 @@ template <PairSigns S> class FlatPair {
     }
 
     bool meet_triangle(const Hull& a, const Hull& b) {
-        if (a.size == 3) {
-            const auto [axis, turn] = b.projection;
-            return !parted_by_edge(b, turn, a, axis) &&
-                   !parted_by_edge(a, turn_along(axis, a), b, axis);
-        }
+        if (a.size == 3)
+            return meet_in_plane(a, b);
         const int first = orient3d(b[0], b[1], b[2], a[0]);
         const int last = a.size == 1 ? first : orient3d(b[0], b[1], b[2], a[1]);
         if (first == 0 && last == 0)
@@ -193,23 +238,25 @@ template <PairSigns S> class FlatPair {
         return std::min({u, v, w}) >= 0 || std::max({u, v, w}) <= 0;
     }
 
-    int turn_along(int axis, const Hull& t) {
-        return axis == t.projection.axis ? t.projection.turn
-                                         : signs_.orient2d(axis, t[0], t[1], t[2]);
+    bool meet_in_plane(const Hull& a, const Hull& b) {
+        const auto [axis, turn] = a.projection;
+        const int turn_b =
+            axis == b.projection.axis ? b.projection.turn : signs_.orient2d(axis, b[0], b[1], b[2]);
+        const Answer answer = signs_.overlap_in_plane(axis, turn, turn_b);
+        unsure_ |= answer == Answer::maybe;
+        return answer == Answer::yes;
     }
 
-    /// Whether the line of an edge of triangle t has all of the other strictly on its outside. No
-    /// branch on a sign: they are as good as random.
+    /// Whether the line of an edge of triangle t has all of the other strictly on its outside.
     bool parted_by_edge(const Hull& t, int turn, const Hull& other, int axis) {
-        bool parted = false;
         for (std::size_t i = 0; i < 3; ++i) {
-            const Corner p = t[i], q = t[i == 2 ? 0 : i + 1];
-            bool outside = true;
-            for (std::size_t j = 0; j < 3; ++j)
-                outside &= signs_.orient2d(axis, p, q, other[j]) == -turn;
-            parted |= outside;
+            bool parted = true;
+            for (std::size_t j = 0; parted && j < other.size; ++j)
+                parted = signs_.orient2d(axis, t[i], t[(i + 1) % 3], other[j]) == -turn;
+            if (parted)
+                return true;
         }
-        return parted;
+        return false;
     }
 
     /// The same for a segment, which has two outsides; a point parts nothing.

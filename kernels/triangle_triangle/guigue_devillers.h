@@ -2,11 +2,13 @@
 
 #include "kernels/joined.h"
 #include "kernels/predicates/rounded.h"
+#include "kernels/triangle_triangle/determinants.h"
 #include "kernels/triangle_triangle/flat.h"
 #include "kernels/triangle_triangle/triangle_kernel.h"
 
 #include <array>
 #include <bit>
+#include <cstdint>
 
 namespace boxwood {
 
@@ -18,32 +20,29 @@ namespace boxwood {
 template <PairSigns S> class IntervalTest {
   public:
     static Answer meet(S& signs) {
-        const Sides of_b = signs.sides(0);
-        if (of_b.strictly_one_side())
+        Sides of_b = signs.sides(0), of_a = signs.sides(1);
+        if (of_b.strictly_one_side() || of_a.strictly_one_side())
             return Answer::no;
-        // Coplanar, or a has no plane.
-        if (of_b.all_on_plane())
+        if ((of_a.unknown | of_b.unknown) != 0) {
+            of_b = signs.decided_sides(0);
+            if (of_b.strictly_one_side())
+                return Answer::no;
+            if (of_b.all_on_plane()) // of_a may stay unknown
+                return FlatPair<S>::meet(signs);
+            of_a = signs.decided_sides(1);
+            if (of_a.strictly_one_side())
+                return Answer::no;
+            if ((of_a.unknown | of_b.unknown) != 0)
+                return Answer::maybe;
+        }
+        // Coplanar, or one of them has no plane.
+        if (of_b.all_on_plane() || of_a.all_on_plane())
             return FlatPair<S>::meet(signs);
-        const Sides of_a = signs.sides(1);
-        if (of_a.strictly_one_side())
-            return Answer::no;
-        if (of_a.all_on_plane()) // b has no plane
-            return FlatPair<S>::meet(signs);
-        if ((of_a.unknown | of_b.unknown) != 0)
-            return Answer::maybe;
 
         // Turned so that each lone corner lies on the positive side of the other's plane, the
         // common line leaves a between q1 and r1, and b between q2 and r2.
         const Lone la = lone(of_a), lb = lone(of_b);
-        const auto [p1, q1, r1] = from(0, la.corner, lb.sign);
-        const auto [p2, q2, r2] = from(3, lb.corner, la.sign);
-        const int low = signs.orient3d(q1, p2, p1, q2);
-        if (low == 1)
-            return Answer::no;
-        const int high = signs.orient3d(p1, p2, r1, r2);
-        if (high == 1)
-            return Answer::no;
-        return low == undecided || high == undecided ? Answer::maybe : Answer::yes;
+        return signs.overlap_along_line(from(0, la.corner, lb.sign), from(3, lb.corner, la.sign));
     }
 
   private:
@@ -72,19 +71,23 @@ template <PairSigns S> class IntervalTest {
     }();
     static Lone lone(const Sides& s) { return lone_of[s.above | s.below << 3]; }
 
+    static constexpr std::array<std::uint8_t, 5> around{0, 1, 2, 0, 1};
+
     /// The corners of the triangle that begins at `first`, from the lone one on; the last two
     /// swapped if `sign` is -1, which turns the triangle's plane over.
-    struct Turned {
-        Corner p, q, r;
-    };
     static Turned from(Corner first, std::uint8_t corner, int sign) {
-        constexpr std::array<std::uint8_t, 5> around{0, 1, 2, 0, 1};
-        const Corner next = first + around[corner + 1u], last = first + around[corner + 2u];
-        return sign > 0 ? Turned{first + corner, next, last} : Turned{first + corner, last, next};
+        const std::size_t flip = sign < 0;
+        return {first + corner, first + around[corner + 1 + flip],
+                first + around[corner + 2 - flip]};
     }
 };
 
-/// The interval test with one determinant at a time by predicates P, on what P promises.
+/// How a pair asks predicates P: one sign at a time, or by determinants that share their normals.
+template <OrientationPredicates P> struct PairSignsOf { using type = Signs<P>; };
+template <class Real> struct PairSignsOf<Rounded<Real>> { using type = Determinants<Real>; };
+template <> struct PairSignsOf<Filtered> { using type = Determinants<double, true>; };
+
+/// The interval test by predicates P, on what they promise.
 template <OrientationPredicates P> struct GuigueDevillers {
   private:
     static constexpr std::string_view name_prefix = "guigue_devillers_";
@@ -100,12 +103,14 @@ template <OrientationPredicates P> struct GuigueDevillers {
         P::promise,          P::bound, P::cost};
 
     static Verdict intersect(const Triangle<Real>& a, const Triangle<Real>& b) {
-        Signs<P> signs(a, b);
-        return {IntervalTest<Signs<P>>::meet(signs), P::tier};
+        using Pair = typename PairSignsOf<P>::type;
+        Pair signs(a, b);
+        return {IntervalTest<Pair>::meet(signs), P::tier};
     }
 };
 
 using GuigueDevillersF32 = GuigueDevillers<Rounded<float>>;
 using GuigueDevillersF64 = GuigueDevillers<Rounded<double>>;
+using GuigueDevillersFiltered = GuigueDevillers<Filtered>;
 
 } // namespace boxwood
