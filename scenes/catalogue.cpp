@@ -35,6 +35,8 @@ const SceneEntry& scene_generator(std::string_view name) {
             return entry;
         known.push_back(entry.name);
     }
+    for (const HardCaseFamily& family : hard_case_families())
+        known.push_back(family.name);
     throw std::invalid_argument(unknown_word("scene", name, known));
 }
 

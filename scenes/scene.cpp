@@ -9,6 +9,7 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <cstdlib>
 #include <memory>
 #include <stdexcept>
 
@@ -24,6 +25,41 @@ template <class T> void add(XXH3_state_t& state, const std::vector<T>& elements)
         XXH3_64bits_update(&state, elements.data(), elements.size() * sizeof(T));
 }
 
+/// The numbers of a case without the padding between its members.
+class CaseHash {
+  public:
+    explicit CaseHash(XXH3_state_t& state) : state_(state) {}
+
+    void operator()(std::monostate) {}
+    template <class Case> void operator()(const std::vector<Case>& cases) {
+        for (const Case& c : cases)
+            one(c);
+    }
+    void operator()(const RayCases& cases) {
+        boxwood::add(state_, cases.triangles);
+        (*this)(cases.rays);
+    }
+    void operator()(const MotionCases& cases) {
+        add(cases.kind);
+        (*this)(cases.motions);
+    }
+    void operator()(const BoxCases& cases) { add(cases.n_pairs); } // the boxes are the scene's
+
+  private:
+    void one(const TrianglePairCase& c) { add(c.a, c.b, c.touch); }
+    void one(const RayCase& c) { add(c.ray, c.first, c.count, c.hit); }
+    void one(const RayBoxCase& c) { add(c.ray, c.box, c.hit); }
+    void one(const MotionCase& c) { add(c.motion, c.touch); }
+    void one(const ObbPairCase& c) { add(c.a, c.b, c.touch); }
+    void one(const FitCase& c) { add(c.transform, c.box); }
+    template <class... Part> void add(const Part&... parts) {
+        static_assert((std::is_trivially_copyable_v<Part> && ...));
+        (XXH3_64bits_update(&state_, &parts, sizeof(Part)), ...); // no part has padding
+    }
+
+    XXH3_state_t& state_;
+};
+
 std::uint64_t hash_of(const Scene& scene) {
     const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
                                                                          &XXH3_freeState);
@@ -34,6 +70,7 @@ std::uint64_t hash_of(const Scene& scene) {
     add(*state, scene.mesh.vertices);
     add(*state, scene.mesh.triangles);
     add(*state, scene.rays);
+    std::visit(CaseHash(*state), scene.cases);
     return XXH3_64bits_digest(state.get());
 }
 
@@ -59,6 +96,53 @@ std::string fixed(double x) {
     return {digits.begin(), end};
 }
 
+/// What the spec's family is asked for. Throws std::invalid_argument for what does not go together.
+HardCaseSpec checked(const HardCaseFamily& family, const SceneSpec& spec) {
+    if (!spec.rays.empty())
+        throw std::invalid_argument(fmt::format(
+            "family {} has no mesh to aim {} rays at; leave rays out", family.name, spec.rays));
+    if (spec.n >= no_triangle)
+        throw std::invalid_argument(fmt::format(
+            "family {}: n = {} is too large; cases are numbered by 32 bits", family.name, spec.n));
+    const HardCaseSpec asked{spec.n, spec.seed, spec.k, spec.scale, spec.file};
+    check_hard_case_spec(family, asked);
+    return asked;
+}
+
+/// "k12", "km3" for -3.
+std::string signed_atom(std::string_view word, int value) {
+    return fmt::format("_{}{}{}", word, value < 0 ? "m" : "", std::abs(value));
+}
+
+std::string family_scene_name(const HardCaseFamily& family, const SceneSpec& spec) {
+    std::string name(family.name);
+    if (family.reads_file) {
+        const auto& file = spec.file;
+        name += '_' + atom((file.has_filename() ? file : file.parent_path()).stem().string());
+    }
+    if (spec.k && *spec.k != family.k_default)
+        name += signed_atom("k", *spec.k);
+    if (spec.scale != 0)
+        name += signed_atom("scale", spec.scale);
+    return name;
+}
+
+Scene family_scene(const HardCaseFamily& family, const SceneSpec& spec) {
+    Scene scene;
+    scene.cases = make_cases(family, checked(family, spec));
+    if (const auto* boxes = std::get_if<BoxCases>(&scene.cases))
+        scene.boxes = boxes->boxes;
+    const std::string k = family.k_meaning.empty()
+                              ? ""
+                              : fmt::format(R"(,"k":{})", spec.k.value_or(family.k_default));
+    scene.params_json =
+        fmt::format(R"({{"family":"{}"{},"scale":{}}})", family.name, k, spec.scale);
+    scene.name = family_scene_name(family, spec);
+    scene.spec = spec;
+    scene.content_hash = hash_of(scene);
+    return scene;
+}
+
 /// The row of the spec's generator. Throws std::invalid_argument for what does not go together.
 const SceneEntry& checked(const SceneSpec& spec) {
     const SceneEntry& entry = scene_generator(spec.generator);
@@ -69,6 +153,10 @@ const SceneEntry& checked(const SceneSpec& spec) {
         throw std::invalid_argument(
             fmt::format("scene {} reads no file, but {} is given; use the scene mesh", entry.name,
                         spec.file.string()));
+    if (spec.k || spec.scale != 0)
+        throw std::invalid_argument(
+            fmt::format("scene {} has no parameter {}; hard-case families have", entry.name,
+                        spec.k ? "k" : "scale"));
     if (spec.n >= no_triangle)
         throw std::invalid_argument(fmt::format(
             "scene {}: n = {} is too large; items are numbered by 32 bits", entry.name, spec.n));
@@ -86,6 +174,10 @@ const SceneEntry& checked(const SceneSpec& spec) {
 } // namespace
 
 std::string scene_name(const SceneSpec& spec) {
+    if (const HardCaseFamily* family = find_hard_case_family(spec.generator)) {
+        checked(*family, spec);
+        return family_scene_name(*family, spec);
+    }
     const SceneEntry& entry = checked(spec);
     std::string name(entry.name);
     if (!spec.file.empty())
@@ -98,6 +190,8 @@ std::string scene_name(const SceneSpec& spec) {
 }
 
 Scene make_scene(const SceneSpec& spec) {
+    if (const HardCaseFamily* family = find_hard_case_family(spec.generator))
+        return family_scene(*family, spec);
     const SceneEntry& entry = checked(spec);
     if (!spec.rays.empty() && spec.n_rays == 0)
         throw std::invalid_argument(

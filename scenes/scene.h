@@ -30,14 +30,15 @@ struct SceneSpec {
 
 /// One frame of things to test: boxes always; a mesh when they are boxes of its triangles.
 struct Scene {
-    std::string name; ///< words: generator, what differs from its defaults, rays
+    std::string name; ///< words: generator or family, what differs from its defaults, rays
     SceneSpec spec;
     std::vector<Aabb<float>> boxes; ///< scene units; box i bounds triangle i when there is a mesh
     TriangleMesh mesh;              ///< empty in box scenes
     std::vector<Ray<float>> rays;
-    Cases cases;                    ///< of a hard-case family, else none
-    std::string params_json;        ///< the generator's parameters as one JSON object
-    std::uint64_t content_hash = 0; ///< XXH3 of boxes, vertices, indices and rays, little-endian
+    Cases cases;             ///< of a hard-case family, else none
+    std::string params_json; ///< the generator's parameters as one JSON object
+    /// XXH3 of boxes, vertices, indices and rays, then of each case number by number, little-endian
+    std::uint64_t content_hash = 0;
 };
 
 /// A generator: name, summary and generate(spec) -> Scene with boxes or a mesh, and params_json;
@@ -67,8 +68,9 @@ struct RayKindEntry {
 };
 std::span<const RayKindEntry> ray_kinds();
 
-/// Makes the scene. Throws std::invalid_argument for a bad spec and std::runtime_error, naming file
-/// and place, for a mesh file that is missing, empty, or holds NaN or indices out of range.
+/// Makes the scene: of a generator, or the cases of a family (the boxes are a scene's boxes then).
+/// Throws std::invalid_argument for a bad spec and std::runtime_error, naming file and place, for a
+/// mesh file that is missing, empty, or holds NaN or indices out of range, or a bad query file.
 Scene make_scene(const SceneSpec& spec);
 
 /// The name that `make_scene` would give, without making it.

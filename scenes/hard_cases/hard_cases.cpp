@@ -1,12 +1,67 @@
 #include "scenes/hard_cases/hard_cases.h"
 
+#include "scenes/random.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <stdexcept>
 
 // To add a family: its file, which defines `HardCaseFamily NAME_family()`, and its word here.
-#define BOXWOOD_FAMILIES(X)
+#define BOXWOOD_FAMILIES(X)                                                                        \
+    X(generic_triangles)                                                                           \
+    X(separated_triangles)                                                                         \
+    X(coplanar_overlapping)                                                                        \
+    X(coplanar_touching)                                                                           \
+    X(coplanar_disjoint)                                                                           \
+    X(parallel_planes)                                                                             \
+    X(translated_copies)                                                                           \
+    X(shared_vertex)                                                                               \
+    X(shared_edge)                                                                                 \
+    X(identical_triangles)                                                                         \
+    X(near_coplanar)                                                                               \
+    X(near_parallel_edges)                                                                         \
+    X(vertex_on_face)                                                                              \
+    X(edge_on_edge)                                                                                \
+    X(within_one_ulp)                                                                              \
+    X(slivers)                                                                                     \
+    X(needle_triangles)                                                                            \
+    X(cap_triangles)                                                                               \
+    X(zero_area_triangles)                                                                         \
+    X(points_and_duplicates)                                                                       \
+    X(tiny_triangles)                                                                              \
+    X(mixed_scale)                                                                                 \
+    X(decimal_scale)                                                                               \
+    X(far_from_origin)                                                                             \
+    X(generic_rays)                                                                                \
+    X(ray_through_edge)                                                                            \
+    X(ray_through_vertex)                                                                          \
+    X(ray_in_plane)                                                                                \
+    X(ray_grazing)                                                                                 \
+    X(ray_at_small_triangle)                                                                       \
+    X(generic_ray_boxes)                                                                           \
+    X(signed_zero_directions)                                                                      \
+    X(slab_corner_ties)                                                                            \
+    X(flat_boxes)                                                                                  \
+    X(identical_boxes)                                                                             \
+    X(nested_boxes)                                                                                \
+    X(touching_grid)                                                                               \
+    X(generic_obbs)                                                                                \
+    X(kissing_obbs)                                                                                \
+    X(thin_obbs)                                                                                   \
+    X(rotated_boxes)                                                                               \
+    X(generic_vertex_face)                                                                         \
+    X(generic_edge_edge)                                                                           \
+    X(touch_at_ends_vertex_face)                                                                   \
+    X(touch_at_ends_edge_edge)                                                                     \
+    X(tangential_vertex_face)                                                                      \
+    X(tangential_edge_edge)                                                                        \
+    X(still_vertex_face)                                                                           \
+    X(still_edge_edge)                                                                             \
+    X(coplanar_vertex_face)                                                                        \
+    X(coplanar_edge_edge)                                                                          \
+    X(ccd_queries_vertex_face)                                                                     \
+    X(ccd_queries_edge_edge)
 
 namespace boxwood {
 
@@ -18,6 +73,23 @@ std::string_view to_string(Panel panel) {
     return panel == Panel::generic    ? "generic"
            : panel == Panel::touching ? "touching"
                                       : "degenerate";
+}
+
+std::size_t n_cases(const Cases& cases) {
+    return std::visit(
+        []<class C>(const C& c) -> std::size_t {
+            if constexpr (std::is_same_v<C, std::monostate>)
+                return 0;
+            else if constexpr (std::is_same_v<C, RayCases>)
+                return c.rays.size();
+            else if constexpr (std::is_same_v<C, MotionCases>)
+                return c.motions.size();
+            else if constexpr (std::is_same_v<C, BoxCases>)
+                return c.boxes.size();
+            else
+                return c.size();
+        },
+        cases);
 }
 
 std::span<const HardCaseFamily> hard_case_families() {
@@ -32,18 +104,37 @@ const HardCaseFamily* find_hard_case_family(std::string_view name) {
     return found == hard_case_families().end() ? nullptr : &*found;
 }
 
-Cases make_cases(const HardCaseFamily& family, const HardCaseSpec& spec) {
+void check_hard_case_spec(const HardCaseFamily& family, const HardCaseSpec& spec) {
+    const auto refuse = [&]<class... Part>(fmt::format_string<Part...> text, Part&&... parts) {
+        throw std::invalid_argument(fmt::format("family {}: {}", family.name,
+                                                fmt::format(text, std::forward<Part>(parts)...)));
+    };
+    if (spec.k && family.k_meaning.empty())
+        refuse("it has no parameter k, but k = {} is given", *spec.k);
     const int k = spec.k.value_or(family.k_default);
     if (k < family.k_least || k > family.k_most)
-        throw std::invalid_argument(fmt::format("family {}: k = {} is not within {} .. {}",
-                                                family.name, k, family.k_least, family.k_most));
+        refuse("k = {} is not within {} .. {} (k: {})", k, family.k_least, family.k_most,
+               family.k_meaning);
     if (spec.scale < family.scale_least || spec.scale > family.scale_most)
-        throw std::invalid_argument(fmt::format("family {}: scale = {} is not within {} .. {}",
-                                                family.name, spec.scale, family.scale_least,
-                                                family.scale_most));
+        refuse("scale = {} is not within {} .. {}, where multiplying every coordinate by 2^scale "
+               "is exact",
+               spec.scale, family.scale_least, family.scale_most);
+    if (family.reads_file) {
+        if (spec.file.empty())
+            refuse("no file is given; name a query file, or a folder of them");
+    } else {
+        if (!spec.file.empty())
+            refuse("it reads no file, but {} is given", spec.file.string());
+        if (spec.n == 0)
+            refuse("n is 0; ask for at least one case");
+    }
+}
+
+Cases make_cases(const HardCaseFamily& family, const HardCaseSpec& spec) {
+    check_hard_case_spec(family, spec);
     HardCaseSpec full = spec;
-    full.k = k;
-    return family.generate(full);
+    full.k = spec.k.value_or(family.k_default);
+    return family.generate(full, Random(spec.seed, family.name));
 }
 
 } // namespace boxwood

@@ -78,6 +78,8 @@ using Cases =
     std::variant<std::monostate, std::vector<TrianglePairCase>, RayCases, std::vector<RayBoxCase>,
                  MotionCases, std::vector<ObbPairCase>, std::vector<FitCase>, BoxCases>;
 
+std::size_t n_cases(const Cases& cases); ///< pairs, rays, motions, fits or boxes
+
 /// How ordinary the input is: the panels of the accuracy figures.
 enum class Panel : std::uint8_t { generic, touching, degenerate };
 std::string_view to_string(Panel panel);
@@ -91,24 +93,30 @@ struct HardCaseSpec {
     std::filesystem::path file; ///< for families that read their cases from a file or folder
 };
 
-/// A family of hard cases: `boxwood list families`. One file in scenes/hard_cases/ and one word.
+class Random;
+
+/// A family of hard cases: `boxwood list families`. A word of BOXWOOD_FAMILIES in hard_cases.cpp
+/// and a function that makes this row.
 struct HardCaseFamily {
     std::string_view name;    ///< catalogue word
     std::string_view summary; ///< one line
     Panel panel = Panel::generic;
-    std::string_view k_meaning; ///< what k is; empty if there is none
+    std::string_view k_meaning{}; ///< what k is; empty if there is none
     int k_default = 0, k_least = 0, k_most = 0;
     int scale_least = 0, scale_most = 0; ///< where every coordinate stays exact
     bool reads_file = false;
-    Cases (*generate)(const HardCaseSpec& spec);
+    /// Called by `make_cases`, with k given and the random numbers of (seed, name).
+    Cases (*generate)(const HardCaseSpec& spec, const Random& random) = nullptr;
 };
 
 std::span<const HardCaseFamily> hard_case_families();
 /// The family by its catalogue word, or nullptr.
 const HardCaseFamily* find_hard_case_family(std::string_view name);
 
-/// Throws std::invalid_argument naming family, parameter and range for a bad spec, and
-/// std::runtime_error naming file and line for a bad file.
+/// Throws std::invalid_argument naming family, parameter and range for a bad spec.
+void check_hard_case_spec(const HardCaseFamily& family, const HardCaseSpec& spec);
+
+/// Throws as `check_hard_case_spec`, and std::runtime_error naming file and line for a bad file.
 Cases make_cases(const HardCaseFamily& family, const HardCaseSpec& spec);
 
 } // namespace boxwood

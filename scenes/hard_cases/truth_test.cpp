@@ -1,0 +1,97 @@
+#include "kernels/oracle/continuous.h"
+#include "kernels/oracle/oracle.h"
+#include "scenes/hard_cases/hard_cases.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+namespace boxwood {
+namespace {
+
+// The truth of each case in rational arithmetic.
+
+bool truth(const TrianglePairCase& c) { return oracle::intersect(c.a, c.b); }
+bool truth(const RayBoxCase& c) { return oracle::ray_box(c.ray, c.box); }
+bool truth(const ObbPairCase& c) {
+    const auto pose = [](const Obb<double>& b) {
+        return std::array{b.centre, b.axis[0], b.axis[1], b.axis[2]};
+    };
+    return oracle::boxes_touch(pose(c.a), c.a.half, pose(c.b), c.b.half);
+}
+
+struct Judged {
+    Known known;
+    bool truth;
+};
+
+std::vector<Judged> judged(const Cases& cases) {
+    std::vector<Judged> result;
+    std::visit(
+        [&]<class C>(const C& all) {
+            if constexpr (std::is_same_v<C, RayCases>) {
+                for (const RayCase& c : all.rays) {
+                    bool hit = false;
+                    for (std::uint32_t i = c.first; i < c.first + c.count; ++i)
+                        hit |= oracle::ray_triangle(c.ray, all.triangles[i]).has_value();
+                    result.push_back({c.hit, hit});
+                }
+            } else if constexpr (std::is_same_v<C, MotionCases>) {
+                const oracle::ExactContinuous exact;
+                for (const MotionCase& c : all.motions) {
+                    const Impact impact = all.kind == MotionKind::vertex_face
+                                              ? exact.vertex_face(c.motion)
+                                              : exact.edge_edge(c.motion);
+                    EXPECT_NE(impact.answer, Answer::maybe);
+                    result.push_back({c.touch, impact.answer == Answer::yes});
+                }
+            } else if constexpr (std::is_same_v<C, std::vector<RayBoxCase>>) {
+                for (const RayBoxCase& c : all)
+                    result.push_back({c.hit, truth(c)});
+            } else if constexpr (std::is_same_v<C, std::vector<TrianglePairCase>> ||
+                                 std::is_same_v<C, std::vector<ObbPairCase>>) {
+                for (const auto& c : all)
+                    result.push_back({c.touch, truth(c)});
+            } else if constexpr (std::is_same_v<C, BoxCases>) {
+                std::uint64_t pairs = 0;
+                for (std::size_t i = 0; i < all.boxes.size(); ++i)
+                    for (std::size_t j = 0; j < i; ++j)
+                        pairs += overlaps(all.boxes[i], all.boxes[j]);
+                EXPECT_EQ(pairs, all.n_pairs);
+            }
+        },
+        cases);
+    return result;
+}
+
+TEST(HardCases, TruthByConstructionIsWhatTheOracleSays) {
+    for (const HardCaseFamily& family : hard_case_families()) {
+        if (family.reads_file)
+            continue;
+        SCOPED_TRACE(family.name);
+        const int middle = (family.k_least + family.k_default) / 2;
+        for (const int k : std::set<int>{family.k_least, middle, family.k_default, family.k_most})
+            for (const int scale : {0, family.scale_least, family.scale_most})
+                for (const std::uint64_t seed : {1u, 2u}) {
+                    const bool plain = k == family.k_default && scale == 0;
+                    const HardCaseSpec spec{plain ? 400u : 100u,
+                                            seed,
+                                            family.k_meaning.empty() ? std::nullopt
+                                                                     : std::optional(k),
+                                            scale,
+                                            {}};
+                    const Cases cases = make_cases(family, spec);
+                    const std::vector<Judged> all = judged(cases);
+                    for (std::size_t i = 0; i < all.size(); ++i)
+                        if (all[i].known != Known::ask) {
+                            ASSERT_EQ(all[i].known == Known::yes, all[i].truth)
+                                << "case " << i << ", k " << k << ", scale " << scale << ", seed "
+                                << seed;
+                        }
+                }
+    }
+}
+
+} // namespace
+} // namespace boxwood
