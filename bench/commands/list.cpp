@@ -4,6 +4,7 @@
 #include "bench/contender.h"
 #include "bench/json.h"
 #include "kernels/catalogue.h"
+#include "scenes/hard_cases/hard_cases.h"
 #include "scenes/suggest.h"
 #include "trees/builder.h"
 #include "trees/layout.h"
@@ -90,6 +91,33 @@ Rows peer_rows() {
     return rows;
 }
 
+Rows family_rows() {
+    Rows rows;
+    for (const HardCaseFamily& family : hard_case_families()) {
+        const bool has_k = !family.k_meaning.empty();
+        const std::string k = fmt::format(
+            "{{\"meaning\":{},\"default\":{},\"least\":{},\"most\":{}}}",
+            json_string(family.k_meaning), family.k_default, family.k_least, family.k_most);
+        const std::string scale =
+            fmt::format("{{\"least\":{},\"most\":{}}}", family.scale_least, family.scale_most);
+        Row& row =
+            rows.emplace_back(Row{std::string(family.name),
+                                  fmt::format("{}: {}", to_string(family.panel), family.summary),
+                                  {{"panel", json_string(to_string(family.panel))},
+                                   {"k", has_k ? k : "null"},
+                                   {"scale", scale},
+                                   {"reads_file", family.reads_file ? "true" : "false"}},
+                                  {}});
+        if (has_k)
+            row.notes.push_back(fmt::format("k = {} ({} to {}): {}", family.k_default,
+                                            family.k_least, family.k_most, family.k_meaning));
+        if (family.scale_least != family.scale_most)
+            row.notes.push_back(fmt::format("scale = 0 ({} to {}): coordinates times 2^scale",
+                                            family.scale_least, family.scale_most));
+    }
+    return rows;
+}
+
 struct Catalogue {
     std::string_view name, summary;
     Rows (*rows)();
@@ -109,8 +137,7 @@ constexpr std::array catalogues{
     Catalogue{"asks", "what is wanted of a scene", [] { return plain(asks()); }},
     Catalogue{"executors", "where work runs", [] { return plain(executors()); }},
     Catalogue{"peers", "libraries that are timed and checked beside ours", peer_rows},
-    Catalogue{"families", "hard cases for kernels", [] { return Rows{}; },
-              "none yet: the hard-case corpus is not built"},
+    Catalogue{"families", "hard cases for kernels; each is a scene too", family_rows},
 };
 
 std::string as_text(const Catalogue& catalogue, const std::string& indent) {
