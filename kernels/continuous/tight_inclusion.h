@@ -1,0 +1,47 @@
+#pragma once
+
+#include "kernels/continuous/continuous_kernel.h"
+
+#include <cstddef>
+#include <limits>
+
+namespace boxwood {
+
+/// Tight inclusion: patches of (u, v) are searched, earliest time first. For each a direction is
+/// guessed that separates it from the origin, and the time until which it does so is bounded with
+/// the rounding taken off; a patch whose bound is poor is halved. So no touch is missed at any
+/// scale, and a `yes` is proven (Poincare-Miranda). `maybe`: nearer than the tolerance, or than
+/// rounding can tell, at t_free; then t_hit is 1. NaN or infinity: maybe.
+/// Tier 0: the boxes of the motions are apart. 1: no patch was halved. 2: some were. 3: a limit.
+/// Source: Wang et al. 2021 (inclusion function, tolerance); time is cut by separating planes, as
+/// in conservative advancement, where they halve it.
+struct TightInclusion {
+    static constexpr std::string_view name = "tight_inclusion";
+    static constexpr KernelInfo vertex_face_info{
+        "vertex_face",
+        name,
+        "inclusion function over (t, u, v), time cut by separating planes (after Wang 2021)",
+        Promise::certified,
+        "36 u max|x| per axis on F, homogeneous of degree 1 (inclusion.h); a yes is proven, else "
+        "maybe",
+        "box of the motion, then about 100 ns per plane; 1 or 2 planes as a rule"};
+    static constexpr KernelInfo edge_edge_info{"edge_edge",
+                                               name,
+                                               vertex_face_info.summary,
+                                               vertex_face_info.promise,
+                                               vertex_face_info.bound,
+                                               vertex_face_info.cost};
+
+    /// Scene units: what is nearer than this is not halved further. Smaller means fewer maybes and
+    /// a later t_free; 0 means as far as rounding can tell.
+    double tolerance = 1e-6;
+    /// Planes tried at most; after that maybe, with the time reached as t_free.
+    std::size_t max_checks = 100'000;
+    /// Seconds at most, looked at every 64 planes; answers then depend on the machine.
+    double time_limit_s = std::numeric_limits<double>::infinity();
+
+    Impact vertex_face(const LinearMotion& motion) const;
+    Impact edge_edge(const LinearMotion& motion) const;
+};
+
+} // namespace boxwood
