@@ -20,6 +20,13 @@ constexpr auto triangle_rows = rows(std::type_identity<TriangleKernels>{});
 constexpr auto box_fit_rows = rows(std::type_identity<BoxFitKernels>{});
 constexpr auto obb_rows = rows(std::type_identity<ObbKernels>{});
 
+template <class... K>
+constexpr std::array<KernelInfo, 2 * sizeof...(K)>
+continuous_rows(std::type_identity<std::tuple<K...>>) {
+    return {K::vertex_face_info..., K::edge_edge_info...};
+}
+constexpr auto motion_rows = continuous_rows(std::type_identity<ContinuousKernels>{});
+
 template <std::size_t... n> constexpr auto joined(const std::array<KernelInfo, n>&... parts) {
     std::array<KernelInfo, (n + ...)> all{};
     auto to = all.begin();
@@ -27,7 +34,7 @@ template <std::size_t... n> constexpr auto joined(const std::array<KernelInfo, n
     return all;
 }
 constexpr auto all_rows = joined(std::array{closed_overlap}, ray_box_rows, ray_rows, triangle_rows,
-                                 box_fit_rows, obb_rows);
+                                 box_fit_rows, obb_rows, motion_rows);
 
 } // namespace
 
@@ -37,5 +44,11 @@ std::span<const KernelInfo> ray_kernels() { return ray_rows; }
 std::span<const KernelInfo> triangle_kernels() { return triangle_rows; }
 std::span<const KernelInfo> box_fit_kernels() { return box_fit_rows; }
 std::span<const KernelInfo> obb_kernels() { return obb_rows; }
+std::span<const KernelInfo> vertex_face_kernels() {
+    return std::span(motion_rows).first(motion_rows.size() / 2);
+}
+std::span<const KernelInfo> edge_edge_kernels() {
+    return std::span(motion_rows).last(motion_rows.size() / 2);
+}
 
 } // namespace boxwood

@@ -2,6 +2,8 @@
 
 #include "kernels/boxes/fit.h"
 #include "kernels/boxes/sat.h"
+#include "kernels/continuous/cubic.h"
+#include "kernels/continuous/tight_inclusion.h"
 #include "kernels/predicates/rounded.h"
 #include "kernels/ray_box/plain.h"
 #include "kernels/ray_box/slabs.h"
@@ -24,6 +26,8 @@ using BoxFitKernels =
     std::tuple<PlainFit<float>, PlainFit<double>, PaddedFit<float>, PaddedFit<double>>;
 using ObbKernels =
     std::tuple<PlainSat<float>, PlainSat<double>, CertifiedSat<float>, CertifiedSat<double>>;
+/// Rows vertex_face and edge_edge each.
+using ContinuousKernels = std::tuple<CubicF64, TightInclusion>;
 
 /// Every kernel of every family: what `boxwood list kernels` prints.
 std::span<const KernelInfo> kernels();
@@ -34,6 +38,8 @@ std::span<const KernelInfo> ray_kernels();
 std::span<const KernelInfo> triangle_kernels();
 std::span<const KernelInfo> box_fit_kernels();
 std::span<const KernelInfo> obb_kernels();
+std::span<const KernelInfo> vertex_face_kernels();
+std::span<const KernelInfo> edge_edge_kernels();
 
 /// Calls f(std::type_identity<K>{}) for the kernel K of `Kernels` (RayKernels, TriangleKernels)
 /// whose name is `name`. False if there is none.

@@ -31,8 +31,9 @@ TEST(Catalogue, EveryFamilyIsListed) {
     std::set<std::string_view> families;
     for (const KernelInfo& info : kernels())
         families.insert(info.family);
-    EXPECT_EQ(families, (std::set<std::string_view>{"box_box", "box_fit", "obb_obb", "ray_box",
-                                                    "ray_triangle", "triangle_triangle"}));
+    EXPECT_EQ(families,
+              (std::set<std::string_view>{"box_box", "box_fit", "edge_edge", "obb_obb", "ray_box",
+                                          "ray_triangle", "triangle_triangle", "vertex_face"}));
 }
 
 TEST(Catalogue, EveryWordFindsItsKernel) {
@@ -71,6 +72,16 @@ TEST(Catalogue, EveryWordFindsItsKernel) {
             info.name, [&]<ObbKernel K>(std::type_identity<K>) { found = K::name; }));
         EXPECT_EQ(found, info.name);
     }
+    EXPECT_EQ(vertex_face_kernels().size(), edge_edge_kernels().size());
+    for (const KernelInfo& info : vertex_face_kernels()) {
+        EXPECT_EQ(info.family, "vertex_face");
+        std::string_view found;
+        EXPECT_TRUE(with_kernel<ContinuousKernels>(
+            info.name, [&]<ContinuousKernel K>(std::type_identity<K>) { found = K::name; }));
+        EXPECT_EQ(found, info.name);
+    }
+    for (const KernelInfo& info : edge_edge_kernels())
+        EXPECT_EQ(info.family, "edge_edge");
     EXPECT_FALSE(with_kernel<RayKernels>("watertigth", [](auto) { FAIL(); }));
 }
 

@@ -11,6 +11,9 @@
 #include "kernels/boxes/rigid_transform.h"              // rotation and translation
 #include "kernels/boxes/sat.h"                          // ... 15 directions, plain and certified
 #include "kernels/catalogue.h"                          // every kernel by its word
+#include "kernels/continuous/continuous_kernel.h"        // contract: points in linear motion
+#include "kernels/continuous/cubic.h"                   // ... roots of a cubic
+#include "kernels/continuous/tight_inclusion.h"         // ... separating planes, no miss
 #include "kernels/predicates/orientation.h"             // who decides triangle truth
 #include "kernels/predicates/rounded.h"                 // ... plain double
 #include "kernels/ray.h"                                // rays and their hits
