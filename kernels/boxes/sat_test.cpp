@@ -100,7 +100,7 @@ Vec3<double> some_direction(RandomPoses& random, const Obb<double>& a, const Obb
 TEST(ObbSat, GenericBoxesAreDecided) {
     RandomPoses random(1);
     Counts counts;
-    for (int i = 0; i < 10'000; ++i) {
+    for (int i = 0; i < 4000; ++i) {
         const Obb<double> a = random_box(random);
         Obb<double> b = random_box(random);
         b.centre = random.vector(1.5);
@@ -108,15 +108,15 @@ TEST(ObbSat, GenericBoxesAreDecided) {
     }
     counts.expect_kept();
     EXPECT_EQ(counts.certified.said[Answer::maybe], 0);
-    EXPECT_LT(counts.certified32.said[Answer::maybe], 10);
-    EXPECT_GT(counts.certified.said[Answer::yes], 2000);
-    EXPECT_GT(counts.certified.said[Answer::no], 2000);
+    EXPECT_LT(counts.certified32.said[Answer::maybe], 5);
+    EXPECT_GT(counts.certified.said[Answer::yes], 800);
+    EXPECT_GT(counts.certified.said[Answer::no], 800);
 }
 
 TEST(ObbSat, BoxesThatTouchOrNearlySo) {
     RandomPoses random(2);
     Counts counts;
-    for (int i = 0; i < 20'000; ++i) {
+    for (int i = 0; i < 8000; ++i) {
         const Obb<double> a = random_box(random);
         Obb<double> b = random_box(random);
         const double gap = i % 3 == 0 ? 0 : random.any_size(-54, i % 2 ? -20 : -44);
@@ -136,14 +136,14 @@ TEST(ObbSat, BoxesThatTouchOrNearlySo) {
     EXPECT_GT(counts.plain.wrong[Answer::no], 100);
     EXPECT_GT(counts.plain.wrong[Answer::yes], 100);
     EXPECT_GT(counts.plain32.wrong[Answer::no], 100);
-    EXPECT_LT(counts.certified.said[Answer::maybe], 15'000);
+    EXPECT_LT(counts.certified.said[Answer::maybe], 6000);
 }
 
 // Axes of b those of a, turned by an angle down to nothing, and boxes a little apart or deep.
 TEST(ObbSat, NearlyParallelAxes) {
     RandomPoses random(3);
     Counts counts;
-    for (int i = 0; i < 20'000; ++i) {
+    for (int i = 0; i < 8000; ++i) {
         const Obb<double> a = random_box(random, i % 4 ? -3 : -12);
         Obb<double> b = random_box(random);
         const double angle = i % 5 ? random.any_size(-58, -5) : 0;
@@ -157,9 +157,9 @@ TEST(ObbSat, NearlyParallelAxes) {
         counts.note(a, b);
     }
     counts.expect_kept();
-    EXPECT_GT(counts.certified.said[Answer::yes], 5000);
-    EXPECT_GT(counts.certified.said[Answer::no], 5000);
-    EXPECT_GT(counts.certified32.said[Answer::yes], 1500);
+    EXPECT_GT(counts.certified.said[Answer::yes], 1000);
+    EXPECT_GT(counts.certified.said[Answer::no], 1000);
+    EXPECT_GT(counts.certified32.said[Answer::yes], 400);
 }
 
 // hard-cases.md 3.
@@ -228,7 +228,7 @@ TEST(ObbSat, AlignedBoxesOnAGrid) {
         return o;
     };
     int touching = 0;
-    for (int i = 0; i < 20'000; ++i) {
+    for (int i = 0; i < 8000; ++i) {
         Aabb<double> bounds_a, bounds_b;
         const Obb<double> a = box(bounds_a), b = box(bounds_b);
         const bool touch = overlaps(bounds_a, bounds_b);
@@ -241,14 +241,14 @@ TEST(ObbSat, AlignedBoxesOnAGrid) {
                                                               : touch ? Answer::maybe
                                                                       : Answer::no);
     }
-    EXPECT_GT(touching, 3000);
+    EXPECT_GT(touching, 1200);
 }
 
 // Boxes without volume, and axes that are not orthonormal or not of unit length.
 TEST(ObbSat, FlatBoxesAndPoorAxes) {
     RandomPoses random(6);
     Counts counts;
-    for (int i = 0; i < 20'000; ++i) {
+    for (int i = 0; i < 8000; ++i) {
         Obb<double> a = random_box(random), b = random_box(random);
         for (Obb<double>* o : {&a, &b}) {
             const double lack = i % 2 ? 0 : std::exp2(random.real(-50, -2));
@@ -270,7 +270,7 @@ TEST(ObbSat, FlatBoxesAndPoorAxes) {
 // All lengths times a power of two: the same verdicts, down to the denormals and up to 2^1000.
 TEST(ObbSat, ScaledByPowersOfTwo) {
     RandomPoses random(7);
-    for (int i = 0; i < 5000; ++i) {
+    for (int i = 0; i < 1500; ++i) {
         const Obb<double> a = random_box(random);
         Obb<double> b = random_box(random);
         set_apart(random, a, b, some_direction(random, a, b), random.any_size(-54, -20));

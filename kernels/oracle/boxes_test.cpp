@@ -73,7 +73,7 @@ class Random {
 TEST(OracleBoxes, TouchAsTheirSurfacesDo) {
     Random random;
     int touching = 0, apart = 0, nested = 0, flat = 0;
-    for (int i = 0; i < 1500; ++i) {
+    for (int i = 0; i < 600; ++i) {
         const auto box = [&](int most) {
             return Box{{random.vector(6), random.vector(1), random.vector(1), random.vector(1)},
                        random.half(most)};
@@ -89,10 +89,10 @@ TEST(OracleBoxes, TouchAsTheirSurfacesDo) {
         ASSERT_EQ(touch(a, b), meet || inside) << i;
         ASSERT_EQ(touch(b, a), meet || inside) << i;
     }
-    EXPECT_GT(touching, 200);
-    EXPECT_GT(apart, 200);
-    EXPECT_GT(nested, 5);
-    EXPECT_GT(flat, 50);
+    EXPECT_GT(touching, 100);
+    EXPECT_GT(apart, 100);
+    EXPECT_GT(nested, 2);
+    EXPECT_GT(flat, 20);
 }
 
 TEST(OracleBoxes, UnalignedScalesAndThinGaps) {

@@ -21,14 +21,14 @@ INSTANTIATE_TEST_SUITE_P(Oracle, OnGrid, testing::Values(1, 2, 4, 20));
 
 TEST_P(OnGrid, TrianglesMeetAsTheirDifferencesSay) {
     int touching = 0;
-    for (int i = 0; i < 20'000; ++i) {
+    for (int i = 0; i < 8000; ++i) {
         const auto a = corners(3), b = corners(3);
         const bool truth = hull_to_hull(a, b).num == 0;
         touching += truth;
         ASSERT_EQ(intersect(triangle(a), triangle(b)), truth) << "case " << i;
     }
-    EXPECT_GT(touching, 1000);
-    EXPECT_LT(touching, 19'000);
+    EXPECT_GT(touching, 400);
+    EXPECT_LT(touching, 7600);
 }
 
 /// |a - b|^2 of the points where a distance is taken.
@@ -45,7 +45,7 @@ TEST_P(OnGrid, DistancesAreThoseOfTheirDifferences) {
         EXPECT_EQ(n.squared, rational(hull_to_hull(a, b)));
         EXPECT_EQ(squared_length(n), n.squared);
     };
-    for (int i = 0; i < 4000 && !HasFailure(); ++i) {
+    for (int i = 0; i < 1500 && !HasFailure(); ++i) {
         SCOPED_TRACE(i);
         const auto a = corners(3), b = corners(3);
         const std::vector<Grid> edge_a{a[0], a[1]}, edge_b{b[0], b[1]}, corner_a{a[0]};
@@ -59,7 +59,7 @@ TEST_P(OnGrid, DistancesAreThoseOfTheirDifferences) {
 
 /// The point is in the hull iff its distance to it is 0.
 TEST_P(OnGrid, WitnessesLieInTheirTriangles) {
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < 700; ++i) {
         const auto a = corners(3), b = corners(3);
         const Nearest n = nearest(triangle(a), triangle(b));
         // Coordinates are fractions: a common denominator makes whole numbers of them.

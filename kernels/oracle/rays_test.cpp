@@ -37,7 +37,7 @@ GridRay random_ray(std::mt19937_64& random, int most) {
 TEST(OracleRays, TrianglesAreHitAsTheirDifferencesSay) {
     std::mt19937_64 random(11);
     int hits = 0;
-    for (int i = 0; i < 20'000; ++i) {
+    for (int i = 0; i < 8000; ++i) {
         const auto t = random_points(random, 3, 4);
         const GridRay r = random_ray(random, 4);
         const auto n = normal(minus(t[1], t[0]), minus(t[2], t[0]));
@@ -59,13 +59,13 @@ TEST(OracleRays, TrianglesAreHitAsTheirDifferencesSay) {
             ASSERT_EQ(on_ray, on_triangle) << i;
         }
     }
-    EXPECT_GT(hits, 1000);
+    EXPECT_GT(hits, 400);
 }
 
 TEST(OracleRays, BoxesAreMetAsTheirDifferencesSay) {
     std::mt19937_64 random(12);
     int hits = 0;
-    for (int i = 0; i < 4000; ++i) {
+    for (int i = 0; i < 1500; ++i) {
         const auto ends = random_points(random, 2, 4);
         Aabb<float> box;
         box.extend(static_cast<Vec3<float>>(point(ends[0])));
@@ -78,7 +78,7 @@ TEST(OracleRays, BoxesAreMetAsTheirDifferencesSay) {
         hits += truth;
         ASSERT_EQ(ray_box(r.ray(), box), truth) << i;
     }
-    EXPECT_GT(hits, 500);
+    EXPECT_GT(hits, 200);
 }
 
 TEST(OracleRays, KnownAnswers) {
