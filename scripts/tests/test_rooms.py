@@ -55,7 +55,8 @@ def test_what_is_allowed_passes(tmp_path):
     plant(tmp_path, "results/a.cpp", "#include <hdf5.h>\n")
     plant(tmp_path, "trees/a.h", '#include "kernels/aabb.h"\n#include <vector>\n')
     asks_oracle = '#include "kernels/oracle/oracle.h"\n'
-    for file in ("kernels/oracle/a.cpp", "kernels/b_test.cpp", "bench/b.cpp", "trees/b_test.cpp"):
+    for file in ("kernels/oracle/a.cpp", "kernels/b_test.cpp", "kernels/pairs_for_test.h",
+                 "bench/b.cpp", "trees/b_test.cpp"):
         plant(tmp_path, file, asks_oracle)
     plant(tmp_path, "build/utils.h", '#include "scenes/scene.h"\n')
     assert check(tmp_path)[0] == 0
