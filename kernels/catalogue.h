@@ -7,6 +7,10 @@
 #include "kernels/predicates/rounded.h"
 #include "kernels/ray_box/plain.h"
 #include "kernels/ray_box/slabs.h"
+#include "kernels/ray_triangle/baldwin_weber.h"
+#include "kernels/ray_triangle/exact.h"
+#include "kernels/ray_triangle/moller_trumbore.h"
+#include "kernels/ray_triangle/plucker.h"
 #include "kernels/ray_triangle/watertight.h"
 #include "kernels/triangle_triangle/guigue_devillers.h"
 #include "kernels/verdict.h"
@@ -20,7 +24,8 @@ namespace boxwood {
 
 /// The rungs, one word each: to add a kernel, write its file and put its type here.
 using RayBoxKernels = std::tuple<PlainSlabs, RaySlabs>;
-using RayKernels = std::tuple<Watertight>;
+using RayKernels = std::tuple<MollerTrumbore<float>, BaldwinWeber, Plucker, Watertight,
+                              MollerTrumbore<double>, ExactRayTriangle>;
 using TriangleKernels = std::tuple<GuigueDevillersF32, GuigueDevillersF64>;
 using BoxFitKernels =
     std::tuple<PlainFit<float>, PlainFit<double>, PaddedFit<float>, PaddedFit<double>>;

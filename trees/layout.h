@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/ray.h"
+#include "kernels/ray_triangle/triangle_block.h"
 #include "kernels/triangle.h"
 #include "trees/executor.h"
 #include "trees/pairs.h"
@@ -23,23 +24,8 @@ concept Layout = std::constructible_from<L, const Tree&> && requires(const L lay
     { L::summary } -> std::convertible_to<std::string_view>;
 };
 
-/// Up to eight triangles side by side, 320 bytes. Unused lanes repeat lane 0.
-struct alignas(64) TriangleBlock8 {
-    float corner[3][3][8]; ///< 288 bytes: by corner, axis and lane
-    std::uint32_t id[8];   ///< 32 bytes: triangle of the mesh
-
-    Triangle<float> triangle(std::uint32_t lane) const {
-        const auto at = [&](int k) {
-            return Vec3<float>{corner[k][0][lane], corner[k][1][lane], corner[k][2][lane]};
-        };
-        return {at(0), at(1), at(2)};
-    }
-    void set(std::uint32_t lane, const TriangleMesh& mesh, std::uint32_t triangle);
-};
-static_assert(sizeof(TriangleBlock8) == 320);
-
 /// The triangles of a mesh where the ray walk of one layout looks for them.
-using TriangleBlocks = Buffer<TriangleBlock8>;
+using TriangleBlocks = Buffer<TriangleBlock<8>>;
 
 enum class RayQuery : std::uint8_t {
     closest, ///< the hit with the least t, ties to the lowest triangle index

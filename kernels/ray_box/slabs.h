@@ -3,8 +3,10 @@
 #include "kernels/ray_box/ray_box_kernel.h"
 #include "kernels/rounding.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace boxwood {
 
@@ -21,9 +23,8 @@ namespace boxwood {
 /// Raising 1 / d of the exit by 2 ulp alone is refuted (slabs_test.cpp). Scaling the exit by
 /// 1 + 2 gamma_3 costs a product per box and still fails where 1 / d is denormal or overflows.
 ///
-/// The slack is 8u, not u, for the sake of float ray-triangle kernels: `Watertight` moves corners
-/// by up to u (2|x| + 4|z|) in ray space, 6u of their distance from the origin at a face of the
-/// box, so that what it hits in front of the origin the box of its triangle does not lose either.
+/// The slack is 8u, not u, and there is a margin (see ray_margin) for the sake of float
+/// ray-triangle kernels.
 struct RaySlabs {
     static constexpr std::string_view name = "slabs";
     static constexpr KernelInfo info{
@@ -40,8 +41,10 @@ struct RaySlabs {
     Vec3<float> entry_rdir;       ///< 1 / direction, rounded towards zero with the slack above
     Vec3<float> exit_rdir;        ///< 1 / direction, rounded away from zero
     std::array<bool, 3> negative; ///< signbit(direction): the near plane is box.max
+    float margin;                 ///< every entry is moved forward by this t
 
-    explicit RaySlabs(const Ray<float>& ray) : origin(ray.origin) {
+    explicit RaySlabs(const Ray<float>& ray, float t_margin = 0)
+        : origin(ray.origin), margin(t_margin) {
         constexpr double slack = 0x1p-21; // a zero component gives +-inf twice all the same
         for (int k = 0; k < 3; ++k) {
             const float d = ray.direction[k];
@@ -71,10 +74,10 @@ struct RaySlabs {
 ///   near, far = negative[k] ? (max, min) : (min, max)
 ///   a = (near - origin) * entry_rdir;  t0 = a > t0 ? a : t0     starting with t0 = t_min
 ///   b = (far - origin) * exit_rdir;    t1 = b < t1 ? b : t1     starting with t1 = t_max
-/// A hit if t0 <= t1. Never misses: if a real t in [t_min, t_max] puts origin + t d into the box,
-/// it is a hit with entry <= fl(t) <= exit. Right for +-0 components (0 * inf = NaN is passed
-/// over), origins on a face, flat boxes, and the empty box, which is never hit. NaN in a box does
-/// not clip.
+/// entry = t0 - margin, exit = t1. A hit if entry <= exit. Never misses: if a real t in [t_min,
+/// t_max] puts origin + t d into the box, it is a hit with entry <= fl(t) <= exit. Right for +-0
+/// components (0 * inf = NaN is passed over), origins on a face, flat boxes, and the empty box,
+/// which is never hit. NaN in a box does not clip.
 inline RaySpan clip(const RaySlabs& ray, const Aabb<float>& box, float t_min, float t_max) {
     float t0 = t_min, t1 = t_max;
     for (int k = 0; k < 3; ++k) {
@@ -86,7 +89,28 @@ inline RaySpan clip(const RaySlabs& ray, const Aabb<float>& box, float t_min, fl
         t0 = a > t0 ? a : t0;
         t1 = b < t1 ? b : t1;
     }
-    return {t0, t1};
+    return {t0 - ray.margin, t1};
+}
+
+/// The margin with which a tree loses no triangle that `Watertight` hits. bounds: those of all its
+/// triangles.
+///
+/// Why, u = 2^-24, in the terms of watertight.h: s = d_x / d_z, corners at (X_i, Y_i, Z_i) from the
+/// origin, |Z_i| <= reach. The kernel finds weights w_i >= 0 of corners moved by e_i across and f_i
+/// along the ray, sum w_i (X_i - s Z_i + e_i) = 0 and t d_z = sum w_i (Z_i + f_i). So
+/// t d_x = sum w_i (X_i + e_i + s f_i), where |e_i| <= 2u |X_i| + 4u |s| reach and |f_i| <= u
+/// reach: t is within 5u reach / |d_z| of the slab of the X_i (1 +- 2u), which the slack of
+/// RaySlabs holds; likewise in y and z. Entry and exit may so part by 10u reach / |d_z|; 16u leave
+/// room for the rounding of t and here. 2^-147 stands for what underflows in denormal coordinates.
+inline float ray_margin(const Ray<float>& ray, const Aabb<float>& bounds) {
+    const Vec3<float> low = bounds.min - ray.origin, high = bounds.max - ray.origin;
+    const float ax = std::abs(ray.direction.x), ay = std::abs(ray.direction.y),
+                az = std::abs(ray.direction.z);
+    const float largest = std::max({ax, ay, az});
+    const float reach = std::max({std::abs(low.x), std::abs(high.x), std::abs(low.y),
+                                  std::abs(high.y), std::abs(low.z), std::abs(high.z)});
+    const float margin = (0x1p-20f * reach + 0x1p-147f) / largest;
+    return margin < std::numeric_limits<float>::max() ? margin : std::numeric_limits<float>::max();
 }
 
 } // namespace boxwood

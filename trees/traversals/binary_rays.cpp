@@ -14,7 +14,7 @@ template <RayKernel K, bool Any, bool Counted>
 RayHit walk(const BinaryLayout& layout, const Ray<float>& ray, const RayJob& job,
             Buffer<Waiting>& stack) {
     const Tree& tree = layout.tree();
-    RayWalk<K, Counted> state(ray, job.work);
+    RayWalk<K, Counted> state(ray, tree.nodes[0].box, job.work);
     const auto entry = [&](std::size_t node) {
         return clip(state.slabs, tree.nodes[node].box, state.t_min(), state.t_max());
     };
@@ -69,8 +69,10 @@ void walk_all(const BinaryLayout& layout, RayJob job, const Executor& executor) 
 TriangleBlocks triangles_of(const BinaryLayout& tree, const TriangleMesh& mesh) {
     const Buffer<std::uint32_t>& order = tree.tree().order;
     TriangleBlocks blocks((order.size() + 7) / 8);
-    for (std::uint32_t slot = 0; slot < 8 * blocks.size(); ++slot)
-        blocks[slot / 8].set(slot % 8, mesh, order[slot < order.size() ? slot : slot / 8 * 8]);
+    for (std::uint32_t slot = 0; slot < 8 * blocks.size(); ++slot) {
+        const std::uint32_t triangle = order[slot < order.size() ? slot : slot / 8 * 8];
+        blocks[slot / 8].set(slot % 8, mesh.triangle(triangle), triangle);
+    }
     return blocks;
 }
 

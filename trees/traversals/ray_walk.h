@@ -1,10 +1,11 @@
 #pragma once
 
-#include "kernels/ray_box/slabs.h"
 #include "kernels/catalogue.h"
+#include "kernels/ray_box/slabs.h"
 #include "trees/layout.h"
 
 #include <algorithm>
+#include <bit>
 #include <stdexcept>
 #include <string>
 
@@ -13,8 +14,9 @@ namespace boxwood {
 /// One ray on its way through a tree: the nearest hit so far, and the tests of leaf triangles.
 template <RayKernel K, bool Counted> class RayWalk {
   public:
-    RayWalk(const Ray<float>& ray, Work* work)
-        : slabs(ray), per_ray(K::prepare(ray)), ray_(ray), work_(work) {
+    /// bounds: those of the whole tree.
+    RayWalk(const Ray<float>& ray, const Aabb<float>& bounds, Work* work)
+        : slabs(ray, ray_margin(ray, bounds)), per_ray(K::prepare(ray)), ray_(ray), work_(work) {
         best_.t = ray.t_max;
     }
 
@@ -26,21 +28,24 @@ template <RayKernel K, bool Counted> class RayWalk {
     float t_max() const { return best_.t; }
     bool hit() const { return best_.hit(); }
 
-    void test(const TriangleBlock8& block, std::uint32_t lane) {
+    /// One triangle of a block.
+    void test(const TriangleBlock<8>& block, std::uint32_t lane) {
         RayHit hit;
         if constexpr (Counted)
             ++work_->triangle_tests;
-        if (!K::intersect(per_ray, ray_, block.triangle(lane), best_.t, hit))
-            return;
-        hit.triangle = block.id[lane];
-        if (hit.t < best_.t || hit.triangle < best_.triangle)
-            best_ = hit;
+        if (K::intersect(per_ray, ray_, block.triangle(lane), best_.t, hit))
+            take(hit, block.id[lane]);
     }
 
-    /// Triangles that a SIMD test of several ruled out.
-    void count_rejected(std::uint64_t triangles) {
+    /// A whole block, whose test `bits` and `hits` are the answer of.
+    void tested(const TriangleBlock<8>& block, std::uint32_t bits, const BlockHits<8>& hits) {
         if constexpr (Counted)
-            work_->triangle_tests += triangles;
+            work_->triangle_tests += 8;
+        for (; bits != 0; bits &= bits - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(bits));
+            if (hits.t[i] <= best_.t)
+                take({hits.t[i], hits.u[i], hits.v[i]}, block.id[i]);
+        }
     }
 
     /// One node opened with `box_tests` tests; compiled away unless Counted.
@@ -59,6 +64,13 @@ template <RayKernel K, bool Counted> class RayWalk {
     }
 
   private:
+    /// A hit with t <= t_max(): the nearer one, or the lower triangle.
+    void take(RayHit hit, std::uint32_t triangle) {
+        hit.triangle = triangle;
+        if (hit.t < best_.t || hit.triangle < best_.triangle)
+            best_ = hit;
+    }
+
     const Ray<float>& ray_;
     Work* work_;
     RayHit best_;

@@ -5,6 +5,8 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
+#include "kernels/ray_triangle/moller_trumbore_block-inl.h"
+#include "kernels/ray_triangle/watertight_block-inl.h"
 #include "trees/layouts/wide8.h"
 #include "trees/traversals/ray_walk.h"
 #include "trees/traversals/rays.h"
@@ -39,67 +41,44 @@ template <class V> HWY_INLINE V EarlierOf(V a, V t) {
     return HWY_ARCH_X86 ? hn::Min(a, t) : hn::IfThenElse(hn::Lt(a, t), a, t);
 }
 
-/// `clip` of kernels/ray_box/slabs.h for eight boxes, operation for operation: the lanes that the ray
-/// hits as bits, and where it enters each.
-HWY_INLINE std::uint32_t Clip(const Block8& block, const RaySlabs& ray, float t_min, float t_max,
-                              float* entry) {
-    std::uint32_t bits = 0;
-    for (std::size_t i = 0; i < 8; i += hn::Lanes(df)) {
-        auto t0 = hn::Set(df, t_min), t1 = hn::Set(df, t_max);
-        for (int k = 0; k < 3; ++k) {
-            const int near = ray.negative[static_cast<std::size_t>(k)] ? 3 + k : k;
-            const int far = near < 3 ? 3 + k : k;
-            const auto origin = hn::Set(df, ray.origin[k]);
-            const auto a = hn::Mul(hn::Sub(hn::Load(df, block.plane[near] + i), origin),
-                                   hn::Set(df, ray.entry_rdir[k]));
-            const auto b = hn::Mul(hn::Sub(hn::Load(df, block.plane[far] + i), origin),
-                                   hn::Set(df, ray.exit_rdir[k]));
-            t0 = LaterOf(a, t0);
-            t1 = EarlierOf(b, t1);
+/// Where a block keeps the near and the far planes of each axis, for one ray.
+struct PlaneOrder {
+    std::size_t near[3], far[3];
+
+    explicit PlaneOrder(const RaySlabs& ray) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            near[k] = ray.negative[k] ? 3 + k : k;
+            far[k] = ray.negative[k] ? k : 3 + k;
         }
-        hn::StoreU(t0, df, entry + i);
-        std::uint8_t part[8] = {};
-        hn::StoreMaskBits(df, hn::Le(t0, t1), part);
-        bits |= std::uint32_t{part[0]} << i;
     }
-    return bits;
-}
+};
 
-/// The lanes of a block that a kernel does not reject at once, as bits: all, unless a version for
-/// that kernel follows.
-template <class PerRay>
-HWY_INLINE std::uint32_t Candidates(const TriangleBlock8&, const Ray<float>&, const PerRay&) {
-    return 0xff;
-}
-
-/// `Watertight` rejects where its float edge functions have both signs: the same, eight at a time.
-HWY_INLINE std::uint32_t Candidates(const TriangleBlock8& block, const Ray<float>& ray,
-                                    const Watertight::PerRay& per_ray) {
-    const int z = per_ray.z, x = z == 2 ? 0 : z + 1, y = x == 2 ? 0 : x + 1;
+/// `clip` of kernels/ray_box/slabs.h for eight boxes, operation for operation: the lanes that the
+/// ray hits as bits, and where it enters each.
+HWY_INLINE std::uint32_t Clip(const Block8& block, const RaySlabs& ray, const PlaneOrder& order,
+                              float t_min, float t_max, float* entry) {
     std::uint32_t bits = 0;
     for (std::size_t i = 0; i < 8; i += hn::Lanes(df)) {
-        const auto from_origin = [&](int corner, int axis) HWY_ATTR {
-            return hn::Sub(hn::Load(df, block.corner[corner][axis] + i),
-                           hn::Set(df, ray.origin[axis]));
+        const auto entry_at = [&](std::size_t k, float origin, float rdir) HWY_ATTR {
+            return hn::Mul(
+                hn::Sub(hn::Load(df, block.plane[order.near[k]] + i), hn::Set(df, origin)),
+                hn::Set(df, rdir));
         };
-        const auto along = [&](int corner, int axis, float shear) HWY_ATTR {
-            return hn::Sub(from_origin(corner, axis),
-                           hn::Mul(hn::Set(df, shear), from_origin(corner, z)));
+        const auto exit_at = [&](std::size_t k, float origin, float rdir) HWY_ATTR {
+            return hn::Mul(
+                hn::Sub(hn::Load(df, block.plane[order.far[k]] + i), hn::Set(df, origin)),
+                hn::Set(df, rdir));
         };
-        const auto ax = along(0, x, per_ray.shear_x), ay = along(0, y, per_ray.shear_y);
-        const auto bx = along(1, x, per_ray.shear_x), by = along(1, y, per_ray.shear_y);
-        const auto cx = along(2, x, per_ray.shear_x), cy = along(2, y, per_ray.shear_y);
-        const auto u = hn::Sub(hn::Mul(cx, by), hn::Mul(cy, bx));
-        const auto v = hn::Sub(hn::Mul(ax, cy), hn::Mul(ay, cx));
-        const auto w = hn::Sub(hn::Mul(bx, ay), hn::Mul(by, ax));
-        const auto zero = hn::Zero(df);
-        const auto some_negative =
-            hn::Or(hn::Lt(u, zero), hn::Or(hn::Lt(v, zero), hn::Lt(w, zero)));
-        const auto some_positive =
-            hn::Or(hn::Gt(u, zero), hn::Or(hn::Gt(v, zero), hn::Gt(w, zero)));
-        std::uint8_t part[8] = {};
-        hn::StoreMaskBits(df, hn::Not(hn::And(some_negative, some_positive)), part);
-        bits |= std::uint32_t{part[0]} << i;
+        auto t0 = hn::Set(df, t_min), t1 = hn::Set(df, t_max);
+        t0 = LaterOf(entry_at(0, ray.origin.x, ray.entry_rdir.x), t0);
+        t1 = EarlierOf(exit_at(0, ray.origin.x, ray.exit_rdir.x), t1);
+        t0 = LaterOf(entry_at(1, ray.origin.y, ray.entry_rdir.y), t0);
+        t1 = EarlierOf(exit_at(1, ray.origin.y, ray.exit_rdir.y), t1);
+        t0 = LaterOf(entry_at(2, ray.origin.z, ray.entry_rdir.z), t0);
+        t1 = EarlierOf(exit_at(2, ray.origin.z, ray.exit_rdir.z), t1);
+        t0 = hn::Sub(t0, hn::Set(df, ray.margin));
+        hn::StoreU(t0, df, entry + i);
+        bits |= LaneBits(df, hn::Le(t0, t1), i);
     }
     return bits;
 }
@@ -107,24 +86,25 @@ HWY_INLINE std::uint32_t Candidates(const TriangleBlock8& block, const Ray<float
 template <RayKernel K, bool Any, bool Counted>
 RayHit WalkRay(const Wide8Layout& tree, const Ray<float>& ray, const RayJob& job,
                WaitingBlock* stack) {
-    RayWalk<K, Counted> state(ray, job.work);
+    RayWalk<K, Counted> state(ray, tree.block(tree.root()).bounds, job.work);
+    const PlaneOrder order(state.slabs);
     std::size_t top = 0;
     float entry[8];
+    BlockHits<8> hits;
     WaitingBlock at{tree.root(), ray.t_min};
     for (;;) {
         if (Wide8Layout::is_leaf(at.ref)) {
-            const TriangleBlock8& block = job.triangles[Wide8Layout::index(at.ref)];
-            std::uint32_t bits = Candidates(block, ray, state.per_ray);
-            state.count_rejected(8 - static_cast<unsigned>(std::popcount(bits)));
-            for (; bits; bits &= bits - 1) {
-                state.test(block, static_cast<std::uint32_t>(std::countr_zero(bits)));
-                if (Any && state.hit())
-                    return state.result();
-            }
+            const TriangleBlock<8>& block = job.triangles[Wide8Layout::index(at.ref)];
+            const std::uint32_t bits = IntersectBlock(std::type_identity<K>{}, state.per_ray, ray,
+                                                      block, state.t_max(), hits);
+            state.tested(block, bits, hits);
+            if (Any && bits != 0)
+                return state.result();
         } else {
             const Block8& block = tree.block(at.ref);
             state.count(8, top);
-            std::uint32_t bits = Clip(block, state.slabs, state.t_min(), state.t_max(), entry);
+            std::uint32_t bits =
+                Clip(block, state.slabs, order, state.t_min(), state.t_max(), entry);
             if (bits != 0) {
                 // The nearest is opened next; the others wait, sorted. Few are hit: insertion is
                 // quickest.
@@ -186,9 +166,10 @@ TriangleBlocks triangles_of(const Wide8Layout& tree, const TriangleMesh& mesh) {
             open.insert(open.end(), block.ref, block.ref + block.count);
             continue;
         }
-        for (std::uint32_t lane = 0; lane < 8; ++lane)
-            triangles[Wide8Layout::index(ref)].set(lane, mesh,
-                                                   block.ref[lane < block.count ? lane : 0]);
+        for (std::uint32_t lane = 0; lane < 8; ++lane) {
+            const std::uint32_t triangle = block.ref[lane < block.count ? lane : 0];
+            triangles[Wide8Layout::index(ref)].set(lane, mesh.triangle(triangle), triangle);
+        }
     }
     return triangles;
 }
