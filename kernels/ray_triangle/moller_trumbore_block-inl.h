@@ -1,0 +1,101 @@
+// Once per instruction set: include after <hwy/foreach_target.h>.
+#if defined(BOXWOOD_MOLLER_TRUMBORE_BLOCK_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BOXWOOD_MOLLER_TRUMBORE_BLOCK_INL_H
+#undef BOXWOOD_MOLLER_TRUMBORE_BLOCK_INL_H
+#else
+#define BOXWOOD_MOLLER_TRUMBORE_BLOCK_INL_H
+#endif
+
+#include "kernels/ray_triangle/block-inl.h"
+#include "kernels/ray_triangle/moller_trumbore.h"
+
+#include <limits>
+
+HWY_BEFORE_NAMESPACE();
+namespace boxwood::HWY_NAMESPACE {
+
+/// Three components, a register each.
+template <class V> struct Vector {
+    V x, y, z;
+
+    HWY_INLINE Vector operator-(const Vector& b) const {
+        return {hwy::HWY_NAMESPACE::Sub(x, b.x), hwy::HWY_NAMESPACE::Sub(y, b.y),
+                hwy::HWY_NAMESPACE::Sub(z, b.z)};
+    }
+};
+
+/// `cross` and `dot` of kernels/vec3.h.
+template <class V> HWY_INLINE Vector<V> Cross(const Vector<V>& a, const Vector<V>& b) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
+            hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
+            hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
+}
+template <class V> HWY_INLINE V Dot(const Vector<V>& a, const Vector<V>& b) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+
+/// MollerTrumbore::intersect operation for operation, a register at a time.
+template <class Real, std::size_t lanes>
+HWY_INLINE std::uint32_t IntersectBlock(std::type_identity<MollerTrumbore<Real>>,
+                                        const typename MollerTrumbore<Real>::PerRay& per_ray,
+                                        const Ray<float>& ray, const TriangleBlock<lanes>& block,
+                                        float t_max, BlockHits<lanes>& hits) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    const hn::CappedTag<Real, lanes> dr;
+    const hn::Rebind<float, decltype(dr)> df;
+    using V = hn::Vec<decltype(dr)>;
+    const V zero = hn::Zero(dr);
+    const auto everywhere = [&](Vec3<Real> p) HWY_ATTR {
+        return Vector<V>{hn::Set(dr, p.x), hn::Set(dr, p.y), hn::Set(dr, p.z)};
+    };
+    const auto to_float = [&](V x) HWY_ATTR {
+        if constexpr (std::is_same_v<Real, float>)
+            return x;
+        else
+            return hn::DemoteTo(df, x);
+    };
+    const Vector<V> direction = everywhere(per_ray.direction);
+    const Vector<V> origin = everywhere(per_ray.origin);
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < lanes; i += hn::Lanes(dr)) {
+        const auto load = [&](int k, int axis) HWY_ATTR {
+            if constexpr (std::is_same_v<Real, float>)
+                return hn::Load(df, block.corner[k][axis] + i);
+            else
+                return hn::PromoteTo(dr, hn::Load(df, block.corner[k][axis] + i));
+        };
+        const auto corner = [&](int k) HWY_ATTR {
+            return Vector<V>{load(k, 0), load(k, 1), load(k, 2)};
+        };
+        const Vector<V> a = corner(0), e1 = corner(1) - a, e2 = corner(2) - a;
+        const Vector<V> p = Cross(direction, e2);
+        const V det = Dot(e1, p), size = hn::Abs(det);
+        const Vector<V> s = origin - a, q = Cross(s, e1);
+        const V sign = hn::And(hn::SignBit(dr), det);
+        const V u = hn::Xor(sign, Dot(s, p)), v = hn::Xor(sign, Dot(direction, q));
+        const auto inside =
+            hn::And(hn::And(hn::Ge(u, zero), hn::Ge(v, zero)), hn::Le(hn::Add(u, v), size));
+        if (hn::AllFalse(dr, inside))
+            continue;
+        const V t_real = hn::Add(hn::Div(Dot(e2, q), det), zero);
+        const auto t = to_float(t_real);
+        hn::Store(t, df, hits.t + i);
+        hn::Store(to_float(hn::Add(hn::Div(u, size), zero)), df, hits.u + i);
+        hn::Store(to_float(hn::Add(hn::Div(v, size), zero)), df, hits.v + i);
+        const auto from_t_min =
+            hn::And(hn::And(inside, hn::Ge(t_real, hn::Set(dr, Real{ray.t_min}))),
+                    hn::Lt(size, hn::Set(dr, std::numeric_limits<Real>::infinity())));
+        const auto to_t_max =
+            hn::And(hn::Le(t, hn::Set(df, t_max)),
+                    hn::Lt(t, hn::Set(df, std::numeric_limits<float>::infinity())));
+        bits |= LaneBits(dr, from_t_min, i) & LaneBits(df, to_t_max, i);
+    }
+    return bits;
+}
+
+} // namespace boxwood::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
