@@ -2,6 +2,7 @@
 
 #include "bench/cell_name.h"
 #include "bench/commands/command.h"
+#include "bench/isolated.h"
 #include "bench/judging/judge.h"
 #include "bench/ours.h"
 #include "bench/rungs/rungs.h"
@@ -48,7 +49,30 @@ double least_ns(Contender& contender, Answers& answers, double budget_ns) {
     return least;
 }
 
+/// Builds, answers, and times the query. Peers in a process of their own: some crash on such input.
+Outcome outcome_of(const ContenderEntry& contender, const Job& job, double budget_ns) {
+    const auto work = [&](Outcome& outcome) {
+        const KeepFloatingPointMode keep;
+        const std::unique_ptr<Contender> instance = contender.make(job);
+        instance->build();
+        instance->query(outcome.answers);
+        outcome.ns = least_ns(*instance, outcome.answers, budget_ns);
+    };
+    if (contender.is_peer)
+        return isolated(work);
+    Outcome outcome;
+    work(outcome);
+    return outcome;
+}
+
 bool is_box_family(const Cases& cases) { return std::holds_alternative<BoxCases>(cases); }
+
+/// What a time is divided by: cases, or pairs and boxes.
+std::uint64_t calls_of(const Scene& scene) {
+    const auto* boxes = std::get_if<BoxCases>(&scene.cases);
+    return boxes ? std::max<std::uint64_t>(boxes->n_pairs, boxes->boxes.size())
+                 : n_cases(scene.cases);
+}
 
 std::vector<Ask> asks_of(const Cases& cases) {
     std::vector<Ask> fitting;
@@ -159,7 +183,7 @@ void CheckRun::judge(const Scene& scene, const std::function<void(Ask)>& said) {
     }
 }
 
-/// work(contender, job, answers) gives the judgement of one cell.
+/// work(contender, answers) gives the judgement of one cell.
 template <class Work>
 void CheckRun::record_cell(const Scene& scene, std::uint32_t scene_id, Ask ask,
                            const ContenderEntry& contender, const Work& work) {
@@ -173,14 +197,19 @@ void CheckRun::record_cell(const Scene& scene, std::uint32_t scene_id, Ask ask,
         contender.unsupported ? contender.unsupported(job).value_or("") : std::string();
     judgement.kernel.status = judgement.check.status = "unsupported";
     if (judgement.check.witness.empty()) {
-        const KeepFloatingPointMode keep;
         try {
-            judgement = work(contender, job);
+            const Outcome outcome = outcome_of(contender, job, budget_ns_);
+            if (!outcome.failure.empty())
+                throw std::runtime_error(outcome.failure);
+            judgement = work(contender, outcome.answers);
+            judgement.check.result_hash = answer_hash(outcome.answers, ask);
+            judgement.kernel.ns_per_call =
+                outcome.ns / static_cast<double>(std::max<std::uint64_t>(1, calls_of(scene)));
         } catch (const InvalidBox& error) { // the promised answer to a box that is none
             judgement.check.witness = error.what();
         } catch (const std::exception& error) {
             judgement.kernel.status = judgement.check.status = "wrong";
-            judgement.check.witness = fmt::format("threw: {:.500}", error.what());
+            judgement.check.witness = error.what();
         }
     }
     results::KernelRow& row = judgement.kernel;
@@ -202,22 +231,15 @@ void CheckRun::judge_cases(const Scene& scene, std::uint32_t scene_id, Ask ask,
     const std::unique_ptr<Judge> judge = make_judge(scene, ask, all_cores());
     std::string said;
     for (const ContenderEntry& contender : contenders)
-        record_cell(scene, scene_id, ask, contender, [&](const ContenderEntry& c, const Job& job) {
-            const std::unique_ptr<Contender> instance = c.make(job);
-            instance->build();
-            Answers answers;
-            instance->query(answers);
-            Judgement judgement = judge->judge(answers, c);
-            judgement.check.result_hash = answer_hash(answers, ask);
-            judgement.kernel.ns_per_call =
-                least_ns(*instance, answers, budget_ns_) /
-                static_cast<double>(std::max<std::size_t>(1, n_cases(scene.cases)));
-            if (options_.one)
-                said += fmt::format("  {} ({}): {}; truth {}: {}\n", c.name, c.precision,
-                                    judge->answer_text(answers, 0),
-                                    judge->truth_text(0, c.precision), judgement.kernel.status);
-            return judgement;
-        });
+        record_cell(
+            scene, scene_id, ask, contender, [&](const ContenderEntry& c, const Answers& answers) {
+                Judgement judgement = judge->judge(answers, c);
+                if (options_.one)
+                    said += fmt::format("  {} ({}): {}; truth {}: {}\n", c.name, c.precision,
+                                        judge->answer_text(answers, 0),
+                                        judge->truth_text(0, c.precision), judgement.kernel.status);
+                return judgement;
+            });
     if (options_.one)
         details_ += fmt::format("{}, case {}\n{}\n{}", address(scene.name, ask, ""), *options_.one,
                                 judge->case_text(0), said);
@@ -229,30 +251,20 @@ void CheckRun::judge_pairs(const Scene& scene, std::uint32_t scene_id,
     const std::unique_ptr<Truth> truth = make_truth(scene, Ask::pairs, all_cores());
     const std::uint64_t known = std::get<BoxCases>(scene.cases).n_pairs;
     for (const ContenderEntry& contender : contenders)
-        record_cell(
-            scene, scene_id, Ask::pairs, contender, [&](const ContenderEntry& c, const Job& job) {
-                const std::unique_ptr<Contender> instance = c.make(job);
-                Answers answers;
-                instance->build();
-                instance->query(answers);
-                Judgement judgement;
-                judgement.check = truth->check(answers);
-                if (judgement.check.n_expected != known)
-                    throw std::logic_error(fmt::format("brute force finds {} pairs, {} are known",
-                                                       judgement.check.n_expected, known));
-                judgement.kernel.status = judgement.check.status;
-                judgement.kernel.n = std::max<std::uint64_t>(known, scene.boxes.size());
-                judgement.kernel.false_pos = judgement.check.extra;
-                judgement.kernel.false_neg = judgement.check.missing;
-                judgement.kernel.ns_per_call =
-                    least_ns(*instance, answers, budget_ns_) /
-                    static_cast<double>(std::max<std::uint64_t>(1, judgement.kernel.n));
-                return judgement;
-            });
-}
-
-std::size_t broken_promises(const results::Results& results) {
-    return static_cast<std::size_t>(std::ranges::count_if(results.kernels, breaks_promise));
+        record_cell(scene, scene_id, Ask::pairs, contender,
+                    [&](const ContenderEntry&, const Answers& answers) {
+                        Judgement judgement;
+                        judgement.check = truth->check(answers);
+                        if (judgement.check.n_expected != known)
+                            throw std::logic_error(
+                                fmt::format("brute force finds {} pairs, {} are known",
+                                            judgement.check.n_expected, known));
+                        judgement.kernel.status = judgement.check.status;
+                        judgement.kernel.n = judgement.kernel.tier_0 = calls_of(scene);
+                        judgement.kernel.false_pos = judgement.check.extra;
+                        judgement.kernel.false_neg = judgement.check.missing;
+                        return judgement;
+                    });
 }
 
 } // namespace boxwood::bench

@@ -69,10 +69,4 @@ class CheckRun {
     std::string details_;
 };
 
-/// What `boxwood check` prints: a table per kernel family, what being right costs, broken promises.
-std::string check_text(const results::Results& results);
-
-/// How many rows of our rungs break their promise.
-std::size_t broken_promises(const results::Results& results);
-
 } // namespace boxwood::bench

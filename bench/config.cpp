@@ -1,6 +1,8 @@
 #include "bench/config.h"
 
 #include "bench/commands/command.h"
+#include "bench/families.h"
+#include "bench/rungs/rungs.h"
 #include "kernels/catalogue.h"
 #include "scenes/scene.h"
 #include "scenes/suggest.h"
@@ -10,6 +12,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <thread>
 
@@ -143,61 +146,165 @@ class Reader {
     std::string file_;
 };
 
-Block read_block(const Reader& reader, const toml::table& table,
-                 const std::vector<unsigned>& default_threads) {
-    reader.require_known_keys(table, "[[cells]]",
-                              {"scene", "n", "overlaps", "rays", "n_rays", "ask", "builders",
-                               "layouts", "kernels", "executors", "threads", "peers"});
-    Block block;
-    block.place = reader.place(table.source());
-    block.threads = default_threads;
+/// What a `kernels` key may say for an ask; empty if it takes none.
+Words kernel_words(Ask ask) {
+    return is_kernel_ask(ask)           ? names_of(rungs(ask))
+           : is_ray_ask(ask)            ? names_of(ray_kernels())
+           : ask == Ask::triangle_pairs ? names_of(triangle_kernels())
+                                        : Words{};
+}
+
+/// Keys that only kernel asks take, and those that only the others do.
+constexpr std::array kernel_keys{"k", "scale"};
+constexpr std::array tree_keys{"overlaps", "rays",      "n_rays", "builders",
+                               "layouts",  "executors", "threads"};
+
+/// The asks of a block are all kernel asks or none is.
+bool asks_kernels(const Reader& reader, const toml::table& table, const Block& block) {
+    const bool some = std::ranges::any_of(block.asks, is_kernel_ask);
+    if (some && !std::ranges::all_of(block.asks, is_kernel_ask))
+        reader.fail(table.source(), "asks of kernels and of trees need [[cells]] blocks of their "
+                                    "own");
+    const auto refuse = [&](const auto& keys, const char* whose) {
+        for (const char* key : keys)
+            if (const toml::node* node = table.get(key))
+                reader.fail(node->source(), fmt::format("{} is for the asks of {}", key, whose));
+    };
+    if (some)
+        refuse(tree_keys, "trees");
+    else
+        refuse(kernel_keys, "kernels");
+    return some;
+}
+
+void read_kernels(const Reader& reader, const toml::table& table, Block& block) {
+    const toml::node* node = table.get("kernels");
+    if (!node)
+        return;
+    Words known{"all"};
+    for (const Ask ask : block.asks)
+        for (const std::string_view word : kernel_words(ask))
+            if (std::ranges::find(known, word) == known.end())
+                known.push_back(word);
+    if (known.size() == 1)
+        reader.fail(node->source(),
+                    fmt::format("the ask {} takes no kernels", to_string(block.asks.front())));
+    reader.words(table, "kernels", block.kernels.emplace(), known);
+    for (const Ask ask : block.asks)
+        for (const std::string& word : *block.kernels) {
+            const Words words = kernel_words(ask);
+            if (word != "all" && std::ranges::find(words, word) == words.end())
+                reader.fail(node->source(), fmt::format("kernels: the ask {} has no kernel {}; "
+                                                        "give it a [[cells]] block of its own",
+                                                        to_string(ask), word));
+        }
+}
+
+/// The keys of a block of kernel asks.
+void read_families(const Reader& reader, const toml::table& table, Block& block) {
+    reader.words(table, "scene", block.scenes, family_words());
+    const auto read_int = [&](std::string_view key) {
+        return [&reader, key](const toml::node& node) {
+            return static_cast<int>(
+                static_cast<std::int64_t>(reader.whole(node, key, -100'000, 100'000)));
+        };
+    };
+    reader.list(table, "k", block.k, read_int("k"));
+    reader.list(table, "scale", block.scales, read_int("scale"));
+    for (const std::string& scene : block.scenes)
+        for (const Ask ask : block.asks) {
+            if (is_group(scene) && !block.k.empty())
+                reader.fail(table.get("k")->source(),
+                            fmt::format("k means something else for each family: name the "
+                                        "families instead of \"{}\"",
+                                        scene));
+            if (families_of(scene, ask).empty())
+                reader.fail(
+                    table.get("scene")->source(),
+                    is_group(scene) || !find_hard_case_family(scene)->reads_file
+                        ? fmt::format("\"{}\" has no cases for the ask {}", scene, to_string(ask))
+                        : fmt::format("the family \"{}\" reads files: only `boxwood check "
+                                      "--ccd DIR` takes it",
+                                      scene));
+        }
+}
+
+/// The keys of a block of asks of trees.
+void read_trees(const Reader& reader, const toml::table& table, Block& block) {
     reader.words(table, "scene", block.scenes, names_of(scene_generators()));
-    if (block.scenes.empty())
-        reader.fail(table.source(), "[[cells]] needs a scene, such as scene = \"uniform\"");
     const bool has_mesh = std::ranges::find(block.scenes, "mesh") != block.scenes.end();
     if (has_mesh && block.scenes.size() > 1)
         reader.fail(table.source(), "the scene \"mesh\" needs a [[cells]] block of its own");
     if (const toml::node* n = table.get("n"); n && has_mesh)
         reader.fail(n->source(), "the scene \"mesh\" takes no n: the size is that of its file");
-
-    reader.list(table, "n", block.n, [&](const toml::node& node) -> std::size_t {
-        return reader.whole(node, "n", 1, 100'000'000);
-    });
     reader.list(table, "overlaps", block.overlaps,
                 [&](const toml::node& node) { return reader.number(node, "overlaps", 0, 1e6); });
     reader.words(table, "rays", block.rays, names_of(ray_kinds()));
     if (const toml::node* n_rays = table.get("n_rays"))
         block.n_rays = reader.whole(*n_rays, "n_rays", 1, 1'000'000'000);
-    reader.list(table, "ask", block.asks, [&](const toml::node& node) {
-        return *ask_of(reader.word(node, "ask", names_of(asks())));
-    });
     reader.list(table, "builders", block.builders,
                 [&](const toml::node& node) { return reader.builder(node); });
     reader.words(table, "layouts", block.layouts, names_of(layouts()));
-    reader.words(table, "kernels", block.kernels, names_of(ray_kernels()));
     reader.words(table, "executors", block.executors, names_of(executors()));
     reader.list(table, "threads", block.threads,
                 [&](const toml::node& node) { return reader.threads(node); });
-    reader.words(table, "peers", block.peers, peer_words());
 
-    if (block.asks.empty())
-        reader.fail(table.source(), fmt::format("[[cells]] needs an ask: one or more of {}",
-                                                fmt::join(names_of(asks()), ", ")));
     if (block.rays.empty() && std::ranges::any_of(block.asks, is_ray_ask))
         reader.fail(table.source(), fmt::format("a ray ask needs rays: one or more of {}",
                                                 fmt::join(names_of(ray_kinds()), ", ")));
+    const auto needs_mesh = [](Ask ask) { return is_ray_ask(ask) || ask == Ask::triangle_pairs; };
     for (const SceneEntry& entry : scene_generators())
-        if (!entry.has_mesh && std::ranges::find(block.scenes, entry.name) != block.scenes.end() &&
-            std::ranges::any_of(block.asks, is_ray_ask))
-            reader.fail(
-                table.source(),
-                fmt::format("the scene \"{}\" has no triangles to aim rays at", entry.name));
+        if (!entry.has_mesh && std::ranges::find(block.scenes, entry.name) != block.scenes.end())
+            for (const Ask ask : block.asks)
+                if (needs_mesh(ask))
+                    reader.fail(table.source(),
+                                fmt::format("the scene \"{}\" has no triangles to {}", entry.name,
+                                            is_ray_ask(ask) ? "aim rays at" : "test"));
     if (block.builders.empty() && block.peers.empty())
         reader.fail(table.source(), "[[cells]] needs builders, peers, or both");
+}
+
+Block read_block(const Reader& reader, const toml::table& table,
+                 const std::vector<unsigned>& default_threads) {
+    reader.require_known_keys(table, "[[cells]]",
+                              {"scene", "n", "overlaps", "rays", "n_rays", "ask", "builders",
+                               "layouts", "kernels", "executors", "threads", "peers", "k",
+                               "scale"});
+    Block block;
+    block.place = reader.place(table.source());
+    block.threads = default_threads;
+    reader.list(table, "ask", block.asks, [&](const toml::node& node) {
+        return *ask_of(reader.word(node, "ask", names_of(asks())));
+    });
+    if (!table.get("scene"))
+        reader.fail(table.source(), "[[cells]] needs a scene, such as scene = \"uniform\"");
+    if (block.asks.empty())
+        reader.fail(table.source(), fmt::format("[[cells]] needs an ask: one or more of {}",
+                                                fmt::join(names_of(asks()), ", ")));
+    reader.list(table, "n", block.n, [&](const toml::node& node) -> std::size_t {
+        return reader.whole(node, "n", 1, 100'000'000);
+    });
+    reader.words(table, "peers", block.peers, peer_words());
+    if (asks_kernels(reader, table, block))
+        read_families(reader, table, block);
+    else
+        read_trees(reader, table, block);
+    read_kernels(reader, table, block);
+    if (block.scenes.empty())
+        reader.fail(table.source(), "[[cells]] needs a scene, such as scene = \"uniform\"");
     return block;
 }
 
 } // namespace
+
+std::vector<std::string> kernels_of(const Block& block, Ask ask) {
+    const Words known = kernel_words(ask);
+    const auto every = [&] { return std::vector<std::string>(known.begin(), known.end()); };
+    if (!block.kernels)
+        return is_ray_ask(ask) ? std::vector<std::string>{"watertight"} : every();
+    return std::ranges::find(*block.kernels, "all") != block.kernels->end() ? every()
+                                                                            : *block.kernels;
+}
 
 Config parse_config(std::string_view text, const std::string& file) {
     const Reader reader(file);

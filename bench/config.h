@@ -4,6 +4,7 @@
 #include "trees/builder.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,8 +19,8 @@ struct BuilderChoice {
 
 /// One `[[cells]]` block: the cross product of its lists.
 struct Block {
-    std::string place; ///< "FILE:LINE", for messages
-    std::vector<std::string> scenes;
+    std::string place;               ///< "FILE:LINE", for messages
+    std::vector<std::string> scenes; ///< of kernel asks: families, panels, or "all"
     std::vector<std::size_t> n{1000};
     std::vector<double> overlaps{10};
     std::vector<std::string> rays; ///< kinds of rays; needed by the ray asks alone
@@ -27,11 +28,16 @@ struct Block {
     std::vector<Ask> asks;
     std::vector<BuilderChoice> builders;
     std::vector<std::string> layouts{"wide8"};
-    std::vector<std::string> kernels{"watertight"};
+    std::optional<std::vector<std::string>> kernels; ///< else the ask's default; see kernels_of
+    std::vector<int> k, scales;         ///< of hard-case families; empty: their default, 0
     std::vector<std::string> executors; ///< empty: serial for one thread, tbb for more
     std::vector<unsigned> threads;
     std::vector<std::string> peers; ///< "all", libraries, or contenders
 };
+
+/// The kernels that a block times for one of its asks: words of the ask's catalogue, "all"
+/// resolved. By default watertight for rays, else every one.
+std::vector<std::string> kernels_of(const Block& block, Ask ask);
 
 /// A sweep file, every word of it known to a catalogue.
 struct Config {

@@ -1,6 +1,7 @@
 #include "bench/findings.h"
 
 #include "bench/compare.h"
+#include "bench/ladders.h"
 #include "bench/text_table.h"
 
 #include <fmt/format.h>
@@ -112,6 +113,18 @@ std::string witness_of(const Results& results, std::uint32_t cell_id) {
     return "right when checked, but a timed round answered otherwise";
 }
 
+/// Kernels are judged by what they promise, in the ladders.
+bool is_judged(const Results& results, const results::Cell& cell) {
+    return std::ranges::find(results.kernels, cell.cell_id, &results::KernelRow::cell_id) !=
+           results.kernels.end();
+}
+
+bool is_checked_wrong(const Results& results, const results::Cell& cell) {
+    return std::ranges::any_of(results.checks, [&](const results::Check& check) {
+        return check.cell_id == cell.cell_id && check.status == "wrong";
+    });
+}
+
 bool has_crashed(const results::Check& check) {
     return check.status == "wrong" && check.witness.starts_with("crashed: ");
 }
@@ -125,9 +138,11 @@ std::string findings_text(const Results& results) {
     for (const auto& [task, best] : best_of(results, catalogue))
         add_rows(results, catalogue, best, table);
 
-    std::string text = table.empty() ? "" : table.text();
-    text += "\nTimes are medians. peer/ours above 1: ours takes less time; in brackets the 95 % "
-            "interval of the paired ratio.\n";
+    std::string text = ladders_text(results);
+    if (!table.empty())
+        text += fmt::format("{}{}\nTimes are medians. peer/ours above 1: ours takes less time; in "
+                            "brackets the 95 % interval of the paired ratio.\n",
+                            text.empty() ? "" : "\n", table.text());
     if (const auto floor = noise_floor(results))
         text += fmt::format("Noise floor (one cell timed twice per round): {:.1f} %; no smaller "
                             "difference is claimed.\n",
@@ -142,21 +157,27 @@ std::string findings_text(const Results& results) {
                         results.samples.size(), disturbed);
     std::string wrong;
     for (const results::Cell& cell : results.cells)
-        if (catalogue.is_wrong(cell))
+        if (catalogue.is_wrong(cell) &&
+            !(is_judged(results, cell) && is_checked_wrong(results, cell)))
             wrong += fmt::format("  {}: {}\n", cell.name, witness_of(results, cell.cell_id));
-    text += wrong.empty() ? "Every timed answer agrees with the truth.\n"
-                          : "Wrong, recorded and not ranked:\n" + wrong;
+    if (!results.kernels.empty())
+        text += promises_text(results);
+    if (!wrong.empty())
+        text += "Wrong, recorded and not ranked:\n" + wrong;
+    else if (results.kernels.size() < results.cells.size())
+        text += "Every timed answer agrees with the truth.\n";
     return text;
 }
 
 bool is_promise_broken(const Results& results) {
     const Catalogue catalogue(results);
-    return std::ranges::any_of(results.cells,
-                               [&](const results::Cell& cell) {
-                                   return catalogue.is_wrong(cell) &&
-                                          !catalogue.variant(cell).is_peer;
-                               }) ||
-           std::ranges::any_of(results.checks, has_crashed);
+    return std::ranges::any_of(
+               results.cells,
+               [&](const results::Cell& cell) {
+                   return catalogue.is_wrong(cell) && !catalogue.variant(cell).is_peer &&
+                          !(is_judged(results, cell) && is_checked_wrong(results, cell));
+               }) ||
+           broken_promises(results) > 0 || std::ranges::any_of(results.checks, has_crashed);
 }
 
 } // namespace boxwood::bench

@@ -3,7 +3,9 @@
 #include "bench/cell_name.h"
 #include "bench/commands/command.h"
 #include "bench/csv.h"
+#include "bench/families.h"
 #include "bench/ours.h"
+#include "bench/rungs/rungs.h"
 
 #include <fmt/format.h>
 #include <xxhash.h>
@@ -37,6 +39,8 @@ class Expansion {
     explicit Expansion(std::vector<PlannedCell>& cells) : cells_(cells) {}
 
     void add(const Block& block, const SceneSpec& spec, Ask ask) {
+        if (is_kernel_ask(ask))
+            return add_kernels(block, spec, ask);
         for (const unsigned threads : block.threads) {
             const std::string usual = threads == 1 ? "serial" : "tbb";
             for (const std::string& executor :
@@ -49,12 +53,22 @@ class Expansion {
     }
 
   private:
+    /// One pair of primitives at a time: on one thread, whatever the sweep says.
+    void add_kernels(const Block& block, const SceneSpec& spec, Ask ask) {
+        for (const std::string& kernel : kernels_of(block, ask))
+            add_cell(block, spec, ask, rung_contender(ask, kernel), "serial", 1);
+        for (const ContenderEntry& peer : chosen_peers(block.peers, ask))
+            add_cell(block, spec, ask, peer, "serial", 1);
+    }
+
     void add_ours(const Block& block, const SceneSpec& spec, Ask ask, const std::string& executor,
                   unsigned threads) {
-        const std::vector<std::string> no_kernel{""};
+        const bool has_kernel = is_ray_ask(ask) || ask == Ask::triangle_pairs;
+        const std::vector<std::string> kernels =
+            has_kernel ? kernels_of(block, ask) : std::vector<std::string>{""};
         for (const BuilderChoice& builder : block.builders)
             for (const std::string& layout : block.layouts)
-                for (const std::string& kernel : is_ray_ask(ask) ? block.kernels : no_kernel)
+                for (const std::string& kernel : kernels)
                     add_cell(block, spec, ask,
                              our_contender({builder.name, builder.settings, layout, kernel}, ask),
                              executor, threads);
@@ -97,8 +111,36 @@ std::size_t mesh_size(const std::filesystem::path& file) {
 
 bool is_mesh(const Block& block) { return block.scenes.front() == "mesh"; }
 
+/// Every family that the block's words stand for, at every k and scale. A group of families passes
+/// over those that a scale is out of range for; a named family refuses it.
+void expand_families(const Block& block, std::uint64_t seed, Expansion& expansion) {
+    const std::vector<int> scales = block.scales.empty() ? std::vector{0} : block.scales;
+    std::vector<std::optional<int>> all_k(block.k.begin(), block.k.end());
+    if (all_k.empty())
+        all_k.emplace_back();
+    SceneSpec spec;
+    spec.seed = seed;
+    for (const std::string& word : block.scenes)
+        for (const Ask ask : block.asks)
+            for (const HardCaseFamily* family : families_of(word, ask))
+                for (const std::size_t n : block.n)
+                    for (const std::optional<int> k : all_k)
+                        for (const int scale : scales) {
+                            if (is_group(word) &&
+                                (scale < family->scale_least || scale > family->scale_most))
+                                continue;
+                            spec.generator = family->name;
+                            spec.n = n;
+                            spec.k = k;
+                            spec.scale = scale;
+                            expansion.add(block, spec, ask);
+                        }
+}
+
 void expand(const Block& block, std::uint64_t seed, const std::filesystem::path& mesh,
             Expansion& expansion) {
+    if (is_kernel_ask(block.asks.front()))
+        return expand_families(block, seed, expansion);
     SceneSpec spec;
     spec.seed = seed;
     spec.file = is_mesh(block) ? mesh : "";

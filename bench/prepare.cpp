@@ -176,7 +176,7 @@ class Preparation {
             return;
         add("node_visits", work->node_visits);
         add("box_tests", work->box_tests);
-        if (is_rays)
+        if (is_rays || ask == Ask::triangle_pairs)
             add("triangle_tests", work->triangle_tests);
         add("stack_max", work->stack_max);
         if (answer_hash(answers, ask) != check.result_hash) {
@@ -195,7 +195,7 @@ class Preparation {
         row.kernel_family = to_string(cell.ask);
         row.rung = cell.contender.kernel.empty() ? cell.contender.name : cell.contender.kernel;
         row.promise = to_string(cell.contender.promise);
-        row.n = check.n_checked;
+        row.n = row.tier_0 = check.n_expected;
         row.false_pos = check.extra;
         row.false_neg = check.missing;
         row.status = check.status;

@@ -72,27 +72,30 @@ class Round final : public benchmark::BenchmarkReporter {
 
     /// One contender at a time is alive: from the start of its build to the end of its query.
     void build(benchmark::State& state, const Timing& timing) {
-        report_(samples.size() / 2, timings_, timing.cell->name);
+        make(timing);
         start_sample(timing, "build");
-        const PlannedCell& cell = *timing.cell;
-        std::fegetenv(&floating_point_mode_);
-        const Scene& scene = scene_of(cell.scene);
-        contender_ = cell.contender.make(Job{&scene, cell.ask, cell.executor, cell.threads});
         contender_->build(); // warms caches and allocator
         time(state, [&] { contender_->build(); });
     }
 
+    /// Kernels have nothing to build, and no sample of it.
     void query(benchmark::State& state, const Timing& timing) {
+        if (is_kernel_ask(timing.cell->ask)) {
+            make(timing);
+            contender_->build();
+        }
         start_sample(timing, "query");
-        answers_.pairs.clear();
-        answers_.pairs.reserve(timing.answers);
-        answers_.hits.clear();
+        answers_ = {};
+        if (timing.cell->ask == Ask::pairs || timing.cell->ask == Ask::tree_pairs ||
+            timing.cell->ask == Ask::triangle_pairs)
+            answers_.pairs.reserve(timing.answers);
         contender_->query(answers_); // warms caches and the answers' pages
         time(state, [&] { contender_->query(answers_); });
         if (answer_hash(answers_, timing.cell->ask) != timing.checked_hash)
             samples.back().flags |= results::wrong_answer;
         contender_.reset();
         std::fesetenv(&floating_point_mode_);
+        ++done_;
     }
 
     bool ReportContext(const Context&) override { return true; }
@@ -109,6 +112,14 @@ class Round final : public benchmark::BenchmarkReporter {
     }
 
   private:
+    void make(const Timing& timing) {
+        report_(done_, timings_, timing.cell->name);
+        const PlannedCell& cell = *timing.cell;
+        std::fegetenv(&floating_point_mode_);
+        const Scene& scene = scene_of(cell.scene);
+        contender_ = cell.contender.make(Job{&scene, cell.ask, cell.executor, cell.threads});
+    }
+
     void start_sample(const Timing& timing, const char* phase) {
         results::Sample sample;
         sample.cell_id = timing.cell_id;
@@ -134,7 +145,7 @@ class Round final : public benchmark::BenchmarkReporter {
     }
 
     const Report& report_;
-    std::size_t timings_;
+    std::size_t timings_, done_ = 0;
     unsigned round_;
     std::map<std::string, Scene> scenes_;
     std::unique_ptr<Contender> contender_;
@@ -218,10 +229,15 @@ results::Results run_round(const Plan& plan, const results::Results& prepared, u
             ->UseRealTime()
             ->MeasureProcessCPUTime();
     };
+    std::size_t expected = 0;
     for (const std::size_t i : shuffled_order(timings.size(), shard.order_seed)) {
         const Timing& timing = timings[i];
-        add(timing.cell->name + "/build", timing.calibration.build_iterations,
-            [&](benchmark::State& state) { engine.build(state, timing); });
+        if (!is_kernel_ask(timing.cell->ask)) {
+            add(timing.cell->name + "/build", timing.calibration.build_iterations,
+                [&](benchmark::State& state) { engine.build(state, timing); });
+            ++expected;
+        }
+        ++expected;
         add(timing.cell->name + "/query", timing.calibration.query_iterations,
             [&](benchmark::State& state) { engine.query(state, timing); });
     }
@@ -229,7 +245,7 @@ results::Results run_round(const Plan& plan, const results::Results& prepared, u
         benchmark::RunSpecifiedBenchmarks(&engine);
     benchmark::ClearRegisteredBenchmarks(); // they refer to what ends here
 
-    if (engine.samples.size() != 2 * timings.size())
+    if (engine.samples.size() != expected)
         throw std::runtime_error("google-benchmark did not run every cell of the round");
     shard.steal_ticks = steal_ticks() - steal_before;
     out.shards.push_back(shard);

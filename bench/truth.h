@@ -7,8 +7,9 @@
 
 namespace boxwood::bench {
 
-/// The right answer to (scene, ask), by an oracle that uses no tree: brute force for pairs, brute
-/// force in double for a seeded sample of rays. Computed once, shared by all contenders.
+/// The right answer to (scene, ask), by an oracle that uses no tree: brute force for pairs, with
+/// rational arithmetic for those of triangles, brute force in double for a seeded sample of rays.
+/// Computed once, shared by all contenders. The kernel asks have `judging/judge.h` instead.
 class Truth {
   public:
     virtual ~Truth() = default;

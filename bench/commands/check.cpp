@@ -3,6 +3,7 @@
 #include "bench/commands/command.h"
 #include "bench/environment.h"
 #include "bench/judging/judge.h"
+#include "bench/ladders.h"
 
 #include <fmt/format.h>
 
@@ -49,7 +50,8 @@ int run(const CheckOptions& options, const std::filesystem::path& out) {
     progress.show({"checking", 1, 0, ""});
     if (!out.empty())
         results::write(out, check.results());
-    fmt::print("{}{}", check.details(), check_text(check.results()));
+    fmt::print("{}{}\n{}", check.details(), ladders_text(check.results()),
+               promises_text(check.results()));
     if (!out.empty())
         fmt::print("results: {}\n", out.string());
     return broken_promises(check.results()) > 0 ? exit_failed : exit_success;

@@ -16,9 +16,6 @@ using DistanceKernels = std::tuple<>;
 using SegmentDistanceKernels = std::tuple<>;
 using PointTriangleKernels = std::tuple<>;
 using PointSegmentKernels = std::tuple<>;
-using ContinuousKernels = std::tuple<>;
-using ObbKernels = std::tuple<>;
-using BoxFitKernels = std::tuple<>;
 
 namespace boxwood::bench {
 

@@ -1,4 +1,7 @@
-#include "bench/check.h"
+#include "bench/ladders.h"
+
+#include "bench/compare.h"
+#include "bench/contender.h"
 #include "bench/judging/judge.h"
 #include "bench/text_table.h"
 
@@ -8,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace boxwood::bench {
@@ -17,45 +21,63 @@ using results::KernelRow;
 
 constexpr std::array panels{"generic", "touching", "degenerate"};
 
+/// Whether false_pos and false_neg are of distances.
 bool is_measured(std::string_view kernel_family) {
-    return kernel_family == "triangle_distance" || kernel_family == "segment_segment" ||
-           kernel_family == "point_triangle" || kernel_family == "point_segment";
+    const std::optional<Ask> ask = ask_of(kernel_family);
+    return ask == Ask::triangle_distance || ask == Ask::segment_segment ||
+           ask == Ask::point_triangle || ask == Ask::point_segment;
 }
+
+/// A row and the time of a call.
+struct Row {
+    const KernelRow* kernel;
+    double ns;
+};
 
 /// One rung on all families that were judged.
 struct Rung {
     std::string name, promise;
     bool is_peer = false;
-    std::vector<const KernelRow*> rows;
+    std::vector<Row> rows;
 
     std::uint64_t sum(std::uint64_t KernelRow::*column) const {
         std::uint64_t all = 0;
-        for (const KernelRow* row : rows)
-            all += row->*column;
+        for (const Row& row : rows)
+            all += row.kernel->*column;
         return all;
     }
     double worst(double KernelRow::*column) const {
         double most = results::missing;
-        for (const KernelRow* row : rows)
-            most = std::fmax(most, row->*column);
+        for (const Row& row : rows)
+            most = std::fmax(most, row.kernel->*column);
         return most;
     }
     /// Mean over the families of a panel; NaN if there are none.
     double ns(std::string_view panel) const {
         double all = 0;
         int n = 0;
-        for (const KernelRow* row : rows)
-            if (row->panel == panel && row->n > 0) {
-                all += row->ns_per_call;
+        for (const Row& row : rows)
+            if (row.kernel->panel == panel && row.kernel->n > 0) {
+                all += row.ns;
                 ++n;
             }
         return n > 0 ? all / n : results::missing;
     }
+    /// Whether a sum over the rows of a panel is 0 and each of them was judged.
+    template <class Errors> bool has_none(std::string_view panel, const Errors& errors) const {
+        return std::ranges::all_of(rows, [&](const Row& row) {
+            return row.kernel->panel != panel || (row.kernel->n > 0 && errors(*row.kernel) == 0);
+        });
+    }
     bool is_right(std::string_view panel) const {
-        return std::ranges::all_of(rows, [&](const KernelRow* row) {
-            return row->panel != panel ||
-                   (row->n > 0 && row->false_pos + row->false_neg + row->bound_violations == 0 &&
-                    row->maybe == 0 && row->status != "wrong");
+        return has_none(panel, [](const KernelRow& row) {
+            return row.false_pos + row.false_neg + row.bound_violations + row.maybe;
+        });
+    }
+    bool misses_nothing(std::string_view panel) const {
+        return has_none(panel, [](const KernelRow& row) {
+            return row.false_neg + row.bound_violations +
+                   (row.promise == to_string(Promise::never_miss) ? 0 : row.maybe);
         });
     }
     std::string escalated() const {
@@ -68,32 +90,33 @@ struct Rung {
     }
     std::string status() const {
         const auto has = [&](std::string_view status) {
-            return std::ranges::any_of(rows,
-                                       [&](const KernelRow* row) { return row->status == status; });
+            return std::ranges::any_of(
+                rows, [&](const Row& row) { return row.kernel->status == status; });
         };
-        if (std::ranges::any_of(rows, [](const KernelRow* row) { return breaks_promise(*row); }))
+        if (std::ranges::any_of(rows, [](const Row& row) { return breaks_promise(*row.kernel); }))
             return "BROKEN";
-        for (const char* status : {"wrong", "within_bound", "conservative", "exact"})
+        if (has("wrong"))
+            return "wrong";
+        for (const char* status : {"within_bound", "conservative", "exact"})
             if (has(status))
-                return promise != "no promise" && *status != 'w' ? fmt::format("kept") : status;
+                return promise == to_string(Promise::none) ? status : "kept";
         return "unsupported";
     }
 };
 
 std::string number(double x) { return std::isnan(x) ? "-" : fmt::format("{:.3g}", x); }
-std::string count(std::uint64_t n) { return n == 0 ? "0" : std::to_string(n); }
 
 /// The rows of one kernel family, by rung: ours first, in the order they came.
 class Ladder {
   public:
     explicit Ladder(std::string name) : name_(std::move(name)) {}
 
-    void add(const KernelRow& row, const std::string& label, bool is_peer) {
+    void add(const KernelRow& row, double ns, const std::string& label, bool is_peer) {
         const auto found = std::ranges::find(rungs_, label, &Rung::name);
         Rung& rung = found != rungs_.end()
                          ? *found
                          : rungs_.emplace_back(Rung{label, row.promise, is_peer, {}});
-        rung.rows.push_back(&row);
+        rung.rows.push_back({&row, ns});
         families_.insert(row.family);
     }
 
@@ -113,11 +136,11 @@ class Ladder {
         for (const Rung& rung : rungs_) {
             std::vector<std::string> row{"  " + rung.name,
                                          rung.is_peer ? "peer" : rung.promise,
-                                         count(rung.sum(&KernelRow::n)),
-                                         count(rung.sum(&KernelRow::false_pos)),
-                                         count(rung.sum(&KernelRow::false_neg)),
-                                         count(rung.sum(&KernelRow::maybe)),
-                                         count(rung.sum(&KernelRow::bound_violations)),
+                                         std::to_string(rung.sum(&KernelRow::n)),
+                                         std::to_string(rung.sum(&KernelRow::false_pos)),
+                                         std::to_string(rung.sum(&KernelRow::false_neg)),
+                                         std::to_string(rung.sum(&KernelRow::maybe)),
+                                         std::to_string(rung.sum(&KernelRow::bound_violations)),
                                          number(rung.worst(&KernelRow::max_ulp)),
                                          number(rung.worst(&KernelRow::max_rel_err)),
                                          rung.escalated()};
@@ -135,7 +158,7 @@ class Ladder {
         std::string text;
         for (const Rung& rung : rungs_) {
             std::map<std::string, std::pair<std::uint64_t, std::uint64_t>> wrong_of; // of n
-            for (const KernelRow* row : rung.rows) {
+            for (const auto& [row, ns] : rung.rows) {
                 auto& [wrong, n] = wrong_of[row->family];
                 wrong += row->false_pos + row->false_neg + row->bound_violations;
                 n += row->n;
@@ -159,25 +182,39 @@ class Ladder {
         return text;
     }
 
+    /// The cheapest of ours that `suits`; nullptr if none does.
+    template <class Suits> const Rung* cheapest(std::string_view panel, const Suits& suits) const {
+        const Rung* best = nullptr;
+        for (const Rung& rung : rungs_)
+            if (!rung.is_peer && !std::isnan(rung.ns(panel)) && suits(rung) &&
+                (!best || rung.ns(panel) < best->ns(panel)))
+                best = &rung;
+        return best;
+    }
+
     std::string sentences() const {
         std::string text;
-        for (const char* panel : panels) {
-            const Rung *fastest = nullptr, *right = nullptr;
-            for (const Rung& rung : rungs_) {
-                if (rung.is_peer || std::isnan(rung.ns(panel)))
-                    continue;
-                if (!fastest || rung.ns(panel) < fastest->ns(panel))
-                    fastest = &rung;
-                if (rung.is_right(panel) && (!right || rung.ns(panel) < right->ns(panel)))
-                    right = &rung;
-            }
-            if (fastest)
-                text += right ? fmt::format("  {} input: cheapest rung with no wrong answer on "
-                                            "these cases: {}, at {} times the fastest{}\n",
-                                            panel, right->name,
-                                            ratio_text(right->ns(panel) / fastest->ns(panel)),
-                                            right == fastest ? "" : " (" + fastest->name + ")")
-                              : fmt::format("  {} input: no rung without a wrong answer\n", panel);
+        for (const std::string_view panel : panels) {
+            const Rung* fastest = cheapest(panel, [](const Rung&) { return true; });
+            if (!fastest)
+                continue;
+            const auto named = [&](const Rung& rung) {
+                return &rung == fastest
+                           ? rung.name + ", the fastest"
+                           : fmt::format("{}, at {} times the fastest ({})", rung.name,
+                                         ratio_text(rung.ns(panel) / fastest->ns(panel)),
+                                         fastest->name);
+            };
+            const Rung* right = cheapest(panel, [&](const Rung& r) { return r.is_right(panel); });
+            const Rung* safe =
+                cheapest(panel, [&](const Rung& r) { return r.misses_nothing(panel); });
+            text += fmt::format("  {} input: ", panel);
+            if (right)
+                text += fmt::format("cheapest rung with no wrong answer on these cases: {}\n",
+                                    named(*right));
+            else
+                text += fmt::format("no rung without a wrong answer{}\n",
+                                    safe ? "; cheapest that misses nothing: " + named(*safe) : "");
         }
         return text;
     }
@@ -189,13 +226,17 @@ class Ladder {
 
 } // namespace
 
-std::string check_text(const results::Results& results) {
+std::string ladders_text(const results::Results& results) {
     std::map<std::uint32_t, const results::Cell*> cells;
     for (const results::Cell& cell : results.cells)
         cells[cell.cell_id] = &cell;
     std::map<std::uint32_t, const results::Variant*> variants;
     for (const results::Variant& variant : results.variants)
         variants[variant.variant_id] = &variant;
+    std::map<std::uint32_t, double> median_of;
+    for (const CellStats& stats : cell_stats(results))
+        if (stats.phase == "query")
+            median_of[stats.cell_id] = stats.median_ns;
 
     std::vector<std::string> order;
     std::map<std::string, Ladder> ladders;
@@ -204,29 +245,41 @@ std::string check_text(const results::Results& results) {
         const bool is_peer = variants.at(cell.variant_id)->is_peer != 0;
         const std::string label =
             is_peer && cell.precision != "f64" ? row.rung + " " + cell.precision : row.rung;
+        const auto sweep = median_of.find(row.cell_id);
+        const double ns = sweep != median_of.end() && row.n > 0
+                              ? sweep->second / static_cast<double>(row.n)
+                              : row.ns_per_call;
         if (!ladders.contains(row.kernel_family))
             order.push_back(row.kernel_family);
         ladders.try_emplace(row.kernel_family, row.kernel_family)
-            .first->second.add(row, label, is_peer);
+            .first->second.add(row, ns, label, is_peer);
     }
     std::string text;
     for (const std::string& name : order)
         text += ladders.at(name).text();
-    text += "Times are means over the families of a panel, per call, of this run's own short "
-            "timing (a sweep is better).\nA kernel of floats is judged on the cases rounded to "
-            "float. Worst ulp: of the answer's own type.\n";
+    if (!text.empty())
+        text += "Times are per call, means over the families of a panel. A kernel of floats is "
+                "judged on the cases\nrounded to float. Worst ulp: of the answer's own type.\n";
+    return text;
+}
 
+std::string promises_text(const results::Results& results) {
     constexpr std::size_t most_shown = 10;
+    std::string text;
     std::size_t broken = 0;
     for (const KernelRow& row : results.kernels)
         if (breaks_promise(row) && ++broken <= most_shown)
-            text += fmt::format("\nBROKEN PROMISE: {} promises {} on {}/{}\n  {}\n", row.rung,
+            text += fmt::format("BROKEN PROMISE: {} promises {} on {}/{}\n  {}\n", row.rung,
                                 row.promise, row.family, row.kernel_family, row.witness);
     if (broken > most_shown)
-        text += fmt::format("\nand {} broken promises more\n", broken - most_shown);
-    text += broken == 0 ? "\nEvery promise is kept.\n"
-                        : fmt::format("\n{} broken promise{}.\n", broken, broken == 1 ? "" : "s");
-    return text;
+        text += fmt::format("and {} more\n", broken - most_shown);
+    return broken == 0
+               ? "Every promise is kept.\n"
+               : text + fmt::format("{} broken promise{}.\n", broken, broken == 1 ? "" : "s");
+}
+
+std::size_t broken_promises(const results::Results& results) {
+    return static_cast<std::size_t>(std::ranges::count_if(results.kernels, breaks_promise));
 }
 
 } // namespace boxwood::bench
