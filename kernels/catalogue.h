@@ -13,6 +13,10 @@
 #include "kernels/ray_triangle/plucker.h"
 #include "kernels/ray_triangle/watertight.h"
 #include "kernels/triangle_triangle/guigue_devillers.h"
+#include "kernels/triangle_triangle/guigue_devillers_batch.h"
+#include "kernels/triangle_triangle/moller.h"
+#include "kernels/triangle_triangle/sat.h"
+#include "kernels/triangle_triangle/sat_certified.h"
 #include "kernels/verdict.h"
 
 #include <span>
@@ -26,7 +30,9 @@ namespace boxwood {
 using RayBoxKernels = std::tuple<PlainSlabs, RaySlabs>;
 using RayKernels = std::tuple<MollerTrumbore<float>, BaldwinWeber, Plucker, Watertight,
                               MollerTrumbore<double>, ExactRayTriangle>;
-using TriangleKernels = std::tuple<GuigueDevillersF32, GuigueDevillersF64>;
+using TriangleKernels =
+    std::tuple<MollerF32, MollerF64, SatF64, SatCertified, GuigueDevillersF32, GuigueDevillersF64,
+               GuigueDevillersF32Batch, GuigueDevillersExactF32Batch, GuigueDevillersExactBatch>;
 using BoxFitKernels =
     std::tuple<PlainFit<float>, PlainFit<double>, PaddedFit<float>, PaddedFit<double>>;
 using ObbKernels =

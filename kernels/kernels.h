@@ -11,7 +11,7 @@
 #include "kernels/boxes/rigid_transform.h"              // rotation and translation
 #include "kernels/boxes/sat.h"                          // ... 15 directions, plain and certified
 #include "kernels/catalogue.h"                          // every kernel by its word
-#include "kernels/continuous/continuous_kernel.h"        // contract: points in linear motion
+#include "kernels/continuous/continuous_kernel.h"       // contract: points in linear motion
 #include "kernels/continuous/cubic.h"                   // ... roots of a cubic
 #include "kernels/continuous/tight_inclusion.h"         // ... separating planes, no miss
 #include "kernels/predicates/orientation.h"             // who decides triangle truth
@@ -25,6 +25,10 @@
 #include "kernels/rounding.h"                           // double -> float, outward
 #include "kernels/triangle.h"                           // triangles and indexed meshes
 #include "kernels/triangle_triangle/guigue_devillers.h" // ... Guigue, Devillers 2003
-#include "kernels/triangle_triangle/triangle_kernel.h"  // contract: triangle against triangle
-#include "kernels/vec3.h"                               // points and directions
-#include "kernels/verdict.h"                            // no, yes, maybe; promises
+#include "kernels/triangle_triangle/guigue_devillers_batch.h" // ... sixteen pairs at a time
+#include "kernels/triangle_triangle/moller.h"                 // ... Moeller 1997
+#include "kernels/triangle_triangle/sat.h"                    // ... separating axes
+#include "kernels/triangle_triangle/sat_certified.h"          // ... with proven gaps and overlaps
+#include "kernels/triangle_triangle/triangle_kernel.h"        // contract: triangle against triangle
+#include "kernels/vec3.h"                                     // points and directions
+#include "kernels/verdict.h"                                  // no, yes, maybe; promises
