@@ -160,8 +160,6 @@ TYPED_TEST(Batch, NearTouch) {
 }
 
 TYPED_TEST(Batch, Magnitudes) {
-    if (!this->exact)
-        GTEST_SKIP() << "promises nothing";
     const int least = this->floats ? -149 : -1074, most = this->floats ? 127 : 1023;
     for (const auto& pairs :
          {this->families(1).magnitudes(4000, least, most),
@@ -174,8 +172,10 @@ TYPED_TEST(Batch, Magnitudes) {
           this->families(9).grid(2000, 60, least / 3),
           this->families(9).grid(2000, 60, most / 3)}) {
         const auto tally = this->judge(pairs);
-        EXPECT_EQ(tally.wrong, 0u);
-        EXPECT_EQ(tally.maybe, 0u);
+        if (this->exact) {
+            EXPECT_EQ(tally.wrong, 0u);
+            EXPECT_EQ(tally.maybe, 0u);
+        }
     }
 }
 
