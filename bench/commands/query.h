@@ -73,4 +73,16 @@ struct RaysQuery {
 void run(const RaysQuery& query, std::ostream& out);
 void add_query_rays(CLI::App& query);
 
+struct CcdQuery {
+    std::string queries; ///< a file of rational queries (ccd_file.h); - for standard input
+    std::string kind;    ///< vertex-face | edge-edge
+    std::string kernel = "exact";
+    std::optional<double> tolerance;       ///< of tight_inclusion
+    std::optional<std::size_t> max_checks; ///< of tight_inclusion
+    Format format;
+};
+/// Prints for each query 1 if the features touch, or if the kernel cannot tell, else 0.
+void run(const CcdQuery& query, std::ostream& out);
+void add_query_ccd(CLI::App& query);
+
 } // namespace boxwood::bench
