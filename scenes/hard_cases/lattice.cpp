@@ -25,7 +25,9 @@ LatticeMap draw_signed_permutation(Draws& draws) {
 /// Integer coordinates that `lattice_pairs` and `lattice_motions` make: |x| < 2^(k + 9), as
 /// (4 + 2 + 2) 2^k grows by at most 3 s^2 + 2 s + 1 = 34 < 2^6. They are multiples of 2^(scale -
 /// k).
-constexpr int growth_bits = 9, k_least = 6, k_most = 53 - growth_bits, k_default = 24 - growth_bits;
+/// From about k = 18 a determinant of differences is rounded in double, and at 30 nearly always.
+constexpr int growth_bits = 9, k_least = 6, k_most = 53 - growth_bits, k_default = 30;
+static_assert(24 - growth_bits == 15, "see k_meaning");
 
 LatticePoint draw_shift(Draws& draws, std::int64_t size) {
     return draw_point(draws, {-2 * size, -2 * size, -2 * size}, {2 * size, 2 * size, 2 * size});
@@ -152,7 +154,8 @@ HardCaseFamily lattice_family(std::string_view name, std::string_view summary, P
     return {.name = name,
             .summary = summary,
             .panel = panel,
-            .k_meaning = "size in lattice units is 2^k, so the least gap is 2^-k of it",
+            .k_meaning = "the size in lattice units is 2^k, the least gap 2^-k of it; floats hold "
+                         "it up to k = 15",
             .k_default = k_default,
             .k_least = k_least,
             .k_most = k_most,

@@ -80,7 +80,7 @@ using DrawLatticeMotion = LatticeMotion (*)(Draws& draws, std::int64_t size);
 Cases lattice_motions(const HardCaseSpec& spec, const Random& random, MotionKind kind,
                       DrawLatticeMotion draw);
 
-/// The rows of their families. At the default k, floats hold all coordinates.
+/// The rows of their families.
 HardCaseFamily lattice_family(std::string_view name, std::string_view summary, Panel panel,
                               decltype(HardCaseFamily::generate) generate);
 template <DrawLatticePair draw>

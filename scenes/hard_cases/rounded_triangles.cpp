@@ -72,7 +72,7 @@ TrianglePairCase near_coplanar(Draws& draws, int k) {
 /// 1e-2 to 1e-16; the other corners lie below and above.
 TrianglePairCase near_parallel(Draws& draws, int k) {
     const double gap = draw_small(draws, k);
-    const double slope = draw_small(draws, static_cast<int>(draw_integer(draws, 1, 15)));
+    const double slope = draw_small(draws, static_cast<int>(draw_integer(draws, 1, 16)));
     const double ends[4] = {draws.uniform(-1, -0.25), draws.uniform(0.25, 1),
                             draws.uniform(-1, -0.25), draws.uniform(0.25, 1)};
     const double aside = draw_coin(draws) ? 0 : slope * draws.uniform(-1, 1);
@@ -183,7 +183,7 @@ HardCaseFamily within_one_ulp_family() {
 HardCaseFamily near_coplanar_family() {
     return with_k(family("near_coplanar", "triangles of two planes at an angle of 10^-k",
                          Panel::degenerate, rounded_pairs<near_coplanar>),
-                  "the angle is 10^-k", 12, 1, 18);
+                  "the angle is 10^-k", 16, 1, 18);
 }
 
 HardCaseFamily near_parallel_edges_family() {

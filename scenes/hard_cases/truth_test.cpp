@@ -75,7 +75,7 @@ TEST(HardCases, TruthByConstructionIsWhatTheOracleSays) {
             for (const int scale : {0, family.scale_least, family.scale_most})
                 for (const std::uint64_t seed : {1u, 2u}) {
                     const bool plain = k == family.k_default && scale == 0;
-                    const HardCaseSpec spec{plain ? 400u : 100u,
+                    const HardCaseSpec spec{plain ? 400u : 50u,
                                             seed,
                                             family.k_meaning.empty() ? std::nullopt
                                                                      : std::optional(k),
