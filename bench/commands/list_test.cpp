@@ -35,11 +35,11 @@ TEST(List, EmptyCataloguesSaySo) {
 TEST(List, AFamilySaysItsPanelAndItsParameters) {
     const std::string text = list_catalogues("families", false);
     EXPECT_THAT(text, HasSubstr("degenerate: triangles of two planes at an angle of 10^-k"));
-    EXPECT_THAT(text, HasSubstr("k = 12 (1 to 18): the angle is 10^-k"));
+    EXPECT_THAT(text, HasSubstr("k = 16 (1 to 18): the angle is 10^-k"));
     EXPECT_THAT(text, HasSubstr("scale = 0 (-860 to 860)"));
     const std::string json = list_catalogues("families", true);
     EXPECT_THAT(json, HasSubstr(R"("panel":"degenerate","k":{"meaning":"the angle is 10^-k",)"
-                                R"("default":12,"least":1,"most":18},)"
+                                R"("default":16,"least":1,"most":18},)"
                                 R"("scale":{"least":-860,"most":860},"reads_file":false})"));
     EXPECT_THAT(json, HasSubstr(R"("k":null)"));
     EXPECT_THAT(json, HasSubstr(R"("reads_file":true)"));
