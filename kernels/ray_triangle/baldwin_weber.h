@@ -64,8 +64,9 @@ struct BaldwinWeber {
         const float at_i = o[i] + t * d[i], at_j = o[j] + t * d[j];
         const float u = u_row.i * at_i + u_row.j * at_j + u_row.constant;
         const float v = v_row.i * at_i + v_row.j * at_j + v_row.constant;
-        if (!(u >= 0 && v >= 0 && u + v <= 1 && t >= ray.t_min && t <= t_max &&
-              t < std::numeric_limits<float>::infinity()))
+        constexpr float infinity = std::numeric_limits<float>::infinity();
+        if (!(u >= 0 && v >= 0 && u + v <= 1 && t >= ray.t_min && t <= t_max && t < infinity &&
+              std::abs(speed) < infinity))
             return false;
         hit.t = t;
         hit.u = u;

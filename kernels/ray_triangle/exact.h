@@ -91,7 +91,7 @@ struct ExactRayTriangle {
         if (compare(t, r.t_min, ray.t_min, ray, triangle, depth, tier) < 0 ||
             compare(t, r.t_max, ray.t_max, ray, triangle, depth, tier) > 0)
             return {Answer::no, tier};
-        const float rounded = std::min(std::max(static_cast<float>(t), ray.t_min), ray.t_max);
+        const float rounded = std::min(std::max(static_cast<float>(t + 0.0), ray.t_min), ray.t_max);
         if (!(rounded <= t_max))
             return {Answer::no, tier};
         hit.t = rounded;

@@ -15,9 +15,9 @@ namespace boxwood {
 /// the relative zero is that of Embree's robust test.
 ///
 /// Bound: a side is within 8u |d||q - p||q + p| (u = 2^-24, sums of products). It may exceed the
-/// relative zero, so rays at shared vertices can still leak, mostly of needles; edges away from
-/// their ends do not. A hit may lie beside its triangle by 16u |corner| / sin(d, edge), unbounded
-/// for edges seen end-on: a tree may lose hits that the kernel alone would report.
+/// relative zero, so rays at shared vertices still leak, from far off and at a slant; edges away
+/// from their ends do not. A hit may lie beside its triangle by 16u |corner| / sin(d, edge),
+/// unbounded for edges seen end-on: a tree may lose hits that the kernel alone would report.
 struct Plucker {
     static constexpr std::string_view name = "plucker_f32";
     static constexpr KernelInfo info{
@@ -27,7 +27,7 @@ struct Plucker {
         "(Platis, Theoharis 2003)",
         Promise::none,
         "sides within 8u |direction| |q - p| |q + p|, opposite for the neighbour: leaks at "
-        "vertices of needles alone (plucker.h)",
+        "few vertices and no edges (plucker.h)",
         "39 products in float"};
 
     struct PerRay {};

@@ -20,8 +20,10 @@ namespace boxwood {
 /// Bound, u = 2^-24: a corner at (X, Y, Z) from the origin, Z along the largest component of the
 /// direction, moves across the ray by at most 2u |X| + 4u |s Z| in x, s = d_x / d_z (its roundings:
 /// X; s, Z, product; difference), and by u |Z| along it; the same for all triangles that share it.
-/// So what is hit may lie beside the triangle's box, by much if the triangle reaches far behind the
-/// hit: `ray_margin` (ray_box/slabs.h) makes up for it in a tree.
+/// A closed mesh so moved stays closed: nothing leaks from an origin that is not itself left
+/// outside, 6u times the farthest corner from the mesh. What is hit may lie beside the triangle's
+/// box, by much if the triangle reaches far behind the hit: `ray_margin` (ray_box/slabs.h) makes up
+/// for it.
 struct Watertight {
     static constexpr std::string_view name = "watertight";
     static constexpr KernelInfo info{
