@@ -109,7 +109,8 @@ void add_query_ccd(CLI::App& query) {
         ->capture_default_str();
     ccd->add_option(
         "--tolerance", options->tolerance,
-        "tight_inclusion: nearer than this it says 1 rather than search on (default 1e-6)");
+        "tight_inclusion: nearer than this part of a query's size it says 1 rather than search "
+        "on (default 1e-6)");
     ccd->add_option("--max-checks", options->max_checks,
                     "tight_inclusion: work at most, after which it says 1 (default 100000)");
     add_format_options(*ccd, options->format);

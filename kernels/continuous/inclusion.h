@@ -75,7 +75,7 @@ template <int n> struct Inclusion {
     };
     Ends start, end;
     Vec3<double> bound;
-    double scale; ///< of F, a power of two; may be infinite or 0
+    double size = 0; ///< the largest |F| on any axis, not below by more than rounding
 
     static constexpr double least = 0x1p-1060;
 
@@ -86,7 +86,6 @@ template <int n> struct Inclusion {
             bits == 0 ? 0 : std::ilogb(std::bit_cast<double>(bits)) + 1; // |x| < 2^exponent
         const double half = std::ldexp(1.0, -exponent / 2);
         const double rest = std::ldexp(1.0, -exponent - -exponent / 2);
-        scale = half * rest;
         start = ends(motion.start, half, rest);
         end = ends(motion.end, half, rest);
         Vec3<double> w{}, r{};
@@ -97,6 +96,7 @@ template <int n> struct Inclusion {
             for (std::size_t i = 0; i < n; ++i)
                 r = max(r, absolute(side->at(all.u[i], all.v[i])));
         }
+        size = std::max({r.x, r.y, r.z});
         bound = w * (4.01 * 0x1p-53) + r * (6.01 * 0x1p-53);
     }
 

@@ -27,8 +27,7 @@ template <int n> struct Piece {
 template <int n> class Search {
   public:
     Search(const TightInclusion& settings, const LinearMotion& motion, std::uint64_t bits)
-        : settings_(settings), f_(motion, bits),
-          tolerance_(settings.tolerance > 0 ? settings.tolerance * f_.scale : 0) {}
+        : settings_(settings), f_(motion, bits), tolerance_(settings.tolerance * f_.size) {}
 
     Impact run() {
         if (apart_on_an_axis())

@@ -10,8 +10,8 @@ namespace boxwood {
 /// Tight inclusion: patches of (u, v) are searched, earliest time first. For each a direction is
 /// guessed that separates it from the origin, and the time until which it does so is bounded with
 /// the rounding taken off; a patch whose bound is poor is halved. So no touch is missed at any
-/// scale, and a `yes` is proven (Poincare-Miranda). `maybe`: nearer than the tolerance, or than
-/// rounding can tell, at t_free; then t_hit is 1. NaN or infinity: maybe.
+/// scale, and even a `yes` is proven (Poincare-Miranda). `maybe`: nearer than the tolerance, or
+/// than rounding can tell, at t_free; then t_hit is 1. NaN or infinity: maybe.
 /// Tier 0: the boxes of the motions are apart. 1: no patch was halved. 2: some were. 3: a limit.
 /// Source: Wang et al. 2021 (inclusion function, tolerance); time is cut by separating planes, as
 /// in conservative advancement, where they halve it.
@@ -21,7 +21,7 @@ struct TightInclusion {
         "vertex_face",
         name,
         "inclusion function over (t, u, v), time cut by separating planes (after Wang 2021)",
-        Promise::certified,
+        Promise::never_miss,
         "36 u max|x| per axis on F, homogeneous of degree 1 (inclusion.h); a yes is proven, else "
         "maybe",
         "box of the motion, then about 100 ns per plane; 1 or 2 planes as a rule"};
