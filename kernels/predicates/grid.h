@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace boxwood {
 
@@ -26,8 +27,8 @@ template <std::size_t digits, std::size_t points> class Grid {
     /// False if the points do not fit: then the grid says nothing. The points are finite, and
     /// denormals are kept (float_mode.h).
     bool place(const std::array<const Vec3<double>*, points>& p) {
-        return place(p, &Vec3<double>::x, at_[0]) && place(p, &Vec3<double>::y, at_[1]) &&
-               place(p, &Vec3<double>::z, at_[2]);
+        return place<&Vec3<double>::x>(p, at_[0]) && place<&Vec3<double>::y>(p, at_[1]) &&
+               place<&Vec3<double>::z>(p, at_[2]);
     }
 
     /// (b - a) x (c - a).
@@ -42,9 +43,9 @@ template <std::size_t digits, std::size_t points> class Grid {
         return side(normal(a, b, c), a, d);
     }
     /// In the plane of the axes u, v.
-    int orient2d(std::size_t u, std::size_t v, std::size_t a, std::size_t b, std::size_t c) const {
-        const Minor m = minor(minus(u, b, a), minus(v, c, a), minus(v, b, a), minus(u, c, a));
-        return sign(m);
+    int orient2d(int u, int v, std::size_t a, std::size_t b, std::size_t c) const {
+        const Axis &x = at_[static_cast<std::size_t>(u)], &y = at_[static_cast<std::size_t>(v)];
+        return sign(minor(minus(x, b, a), minus(y, c, a), minus(y, b, a), minus(x, c, a)));
     }
     static int sign(const Minor& m) {
         bool below = false;
@@ -59,46 +60,53 @@ template <std::size_t digits, std::size_t points> class Grid {
 
     using Axis = std::array<Number, points>;
 
-    static bool place(const std::array<const Vec3<double>*, points>& p,
-                      double Vec3<double>::*coordinate, Axis& at) {
-        if constexpr (digits == 1) {
-            double most = 0;
-            for (const Vec3<double>* q : p)
-                most = std::max(most, std::abs(q->*coordinate));
-            // 2^e <= most < 2^(e+1); scaled below 2^60, exactly, but for what underflows.
-            const int exponent = Binary64(most).weight - 1022;
-            if (exponent < -900)
-                return most == 0 && clear(at);
-            const double up = power_of_two(59 - exponent), down = power_of_two(exponent - 59);
-            bool fits = true;
-            for (std::size_t i = 0; i < points; ++i) {
-                const double x = p[i]->*coordinate;
-                const auto scaled = static_cast<std::int64_t>(x * up);
-                fits &= static_cast<double>(scaled) * down == x;
-                at[i] = {scaled};
+    template <double Vec3<double>::*axis>
+    static bool place(const std::array<const Vec3<double>*, points>& p, Axis& at) {
+        if constexpr (digits == 1)
+            return place_narrow<axis>(p, at, std::make_index_sequence<points>());
+        else
+            return place_wide<axis>(p, at);
+    }
+
+    /// 2^e <= the largest < 2^(e+1): scaled below 2^60, exactly, but for what underflows.
+    template <double Vec3<double>::*axis, std::size_t... i>
+    static bool place_narrow(const std::array<const Vec3<double>*, points>& p, Axis& at,
+                             std::index_sequence<i...>) {
+        double most = 0;
+        ((most = std::max(most, std::abs(p[i]->*axis))), ...);
+        const int exponent = Binary64(most).weight - 1022;
+        if (exponent < -900)
+            return most == 0 && clear(at);
+        const double up = power_of_two(59 - exponent), down = power_of_two(exponent - 59);
+        std::uint64_t lost = 0;
+        const auto put = [&](const double x, Number& number) {
+            const auto scaled = static_cast<std::int64_t>(x * up);
+            number = {scaled};
+            lost |= std::bit_cast<std::uint64_t>(static_cast<double>(scaled) * down - x);
+        };
+        (put(p[i]->*axis, at[i]), ...);
+        return lost == 0;
+    }
+
+    template <double Vec3<double>::*axis>
+    static bool place_wide(const std::array<const Vec3<double>*, points>& p, Axis& at) {
+        constexpr int room = digit_bits * 2 - 53;
+        int low = 2046, high = 0;
+        for (const Vec3<double>* q : p)
+            if (const Binary64 x(q->*axis); x.mantissa != 0) {
+                low = std::min(low, x.weight);
+                high = std::max(high, x.weight);
             }
-            return fits;
-        } else {
-            constexpr int room = digit_bits * 2 - 53;
-            int low = 2046, high = 0;
-            for (const Vec3<double>* q : p) {
-                const Binary64 x(q->*coordinate);
-                if (x.mantissa != 0) {
-                    low = std::min(low, x.weight);
-                    high = std::max(high, x.weight);
-                }
-            }
-            if (high - low > room)
-                return false;
-            for (std::size_t i = 0; i < points; ++i) {
-                const Binary64 x(p[i]->*coordinate);
-                const Int128 size = x.mantissa == 0 ? 0 : Int128{x.mantissa} << (x.weight - low);
-                const Int128 value = x.negative ? -size : size;
-                at[i] = {static_cast<std::int64_t>(value & low_digit),
-                         static_cast<std::int64_t>(value >> digit_bits)};
-            }
-            return true;
+        if (high - low > room)
+            return false;
+        for (std::size_t i = 0; i < points; ++i) {
+            const Binary64 x(p[i]->*axis);
+            const Int128 size = x.mantissa == 0 ? 0 : Int128{x.mantissa} << (x.weight - low);
+            const Int128 value = x.negative ? -size : size;
+            at[i] = {static_cast<std::int64_t>(value & low_digit),
+                     static_cast<std::int64_t>(value >> digit_bits)};
         }
+        return true;
     }
     static bool clear(Axis& at) {
         at = {};
@@ -109,14 +117,14 @@ template <std::size_t digits, std::size_t points> class Grid {
         return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
     }
 
-    Number minus(std::size_t axis, std::size_t a, std::size_t b) const {
+    static Number minus(const Axis& at, std::size_t a, std::size_t b) {
         Number d;
         for (std::size_t i = 0; i < digits; ++i)
-            d[i] = at_[axis][a][i] - at_[axis][b][i];
+            d[i] = at[a][i] - at[b][i];
         return d;
     }
     Difference difference(std::size_t a, std::size_t b) const {
-        return {minus(0, a, b), minus(1, a, b), minus(2, a, b)};
+        return {minus(at_[0], a, b), minus(at_[1], a, b), minus(at_[2], a, b)};
     }
 
     /// a d - b c. A column has at most 2 * digits products of 2^122: below 2^124. The value is

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -32,28 +33,39 @@ template <> struct TwoOf<float> {
 /// computed extent.
 template <class R, bool filtered = false> class Determinants {
     static_assert(!filtered || std::is_same_v<R, double>);
+    using Two = typename TwoOf<R>::Values;
+    using Bits = typename TwoOf<R>::Bits;
+    using Bit = typename TwoOf<R>::Bit;
 
   public:
     using Real = R;
 
     Determinants(const Triangle<Real>& a, const Triangle<Real>& b)
         : p_{&a.a, &a.b, &a.c, &b.a, &b.b, &b.c} {
-        const Points corner[3] = {points(0, 3), points(1, 4), points(2, 5)};
-        const Points base = swapped(corner[0]);
-        const Points n = swapped(cross(corner[1] - corner[0], corner[2] - corner[0]));
+        const Points p = points(0, 3), q = points(1, 4), r = points(2, 5);
         Two error{};
-        if constexpr (filtered)
-            error = set_extents(corner);
-        for (std::size_t k = 0; k < 3; ++k) {
-            // First a's corner to b's plane, second b's to a's.
-            const Two det = dot(corner[k] - base, n);
-            const Bits bit = Bits{} + (Bit{1} << k);
-            above_ |= (det > error) & bit;
-            below_ |= (det < -error) & bit;
-            if constexpr (!filtered)
-                known_ |= (det == det) & bit;
+        if constexpr (filtered) {
+            const Points low = min(min(p, q), r), high = max(max(p, q), r);
+            const Points gap = low - swapped(high);
+            const Two widest = most_of(most_of(gap.x, gap.y), gap.z);
+            apart_ = std::max(widest[0], widest[1]) > 0;
+            if (apart_)
+                return;
+            error = set_extents(low, high);
         }
+        // First a's corners to b's plane, second b's to a's.
+        const Points base = swapped(p), n = swapped(cross(q - p, r - p));
+        const Two dp = dot(p - base, n), dq = dot(q - base, n), dr = dot(r - base, n);
+        const Bits bit_p = Bits{} + 1, bit_q = Bits{} + 2, bit_r = Bits{} + 4;
+        above_ = ((dp > error) & bit_p) | ((dq > error) & bit_q) | ((dr > error) & bit_r);
+        below_ = ((dp < -error) & bit_p) | ((dq < -error) & bit_q) | ((dr < -error) & bit_r);
+        if constexpr (!filtered)
+            known_ = ((dp == dp) & bit_p) | ((dq == dq) & bit_q) | ((dr == dr) & bit_r);
+        normal_ = {n.x, n.y, n.z};
     }
+
+    /// Whether an axis parts the triangles' boxes; asked of a filtered pair only.
+    bool boxes_apart() const { return apart_; }
 
     Sides sides(int of) const {
         const auto bits = [of](const Bits& b) { return static_cast<unsigned>(b[of == 0 ? 1 : 0]); };
@@ -80,85 +92,126 @@ template <class R, bool filtered = false> class Determinants {
         return sign(dot(*p_[d] - pa, cross(*p_[b] - pa, *p_[c] - pa)), error3d());
     }
 
-    int orient2d(int dropped, Corner a, Corner b, Corner c) {
-        return known(judged2d(dropped, a, b, c));
-    }
-    /// The same, with `undecided` handed on.
-    int judged2d(int dropped, Corner a, Corner b, Corner c) const {
-        const int u = (dropped + 1) % 3, v = (dropped + 2) % 3;
-        const Vec3<Real>&p = *p_[a], &q = *p_[b], &r = *p_[c];
-        return sign((q[u] - p[u]) * (r[v] - p[v]) - (q[v] - p[v]) * (r[u] - p[u]), error2d(u, v));
+    int orient2d(int dropped, Corner a, Corner b, Corner c) const {
+        const auto [u, v] = plane_axes[dropped];
+        const Real pu = at(a, u), pv = at(a, v);
+        return sign((at(b, u) - pu) * (at(c, v) - pv) - (at(b, v) - pv) * (at(c, u) - pu),
+                    error2d(u, v));
     }
 
-    /// The edges of both triangles at a time, the other's corners against each.
+    /// The edges of both triangles at a time, the other's corners against each: by edge the corner
+    /// farthest inside, of these the one least so. Is it outside, or inside?
     Answer overlap_in_plane(int dropped, int turn_a, int turn_b) const {
-        constexpr Real Vec3<Real>::*axes[] = {&Vec3<Real>::x, &Vec3<Real>::y, &Vec3<Real>::z,
-                                              &Vec3<Real>::x, &Vec3<Real>::y};
-        Two u[3], v[3];
-        for (Corner k = 0; k < 3; ++k) {
-            u[k] = Two{p_[k]->*axes[dropped + 1], p_[k + 3]->*axes[dropped + 1]};
-            v[k] = Two{p_[k]->*axes[dropped + 2], p_[k + 3]->*axes[dropped + 2]};
-        }
+        const auto [u, v] = plane_axes[dropped];
+        const Two u0{at(0, u), at(3, u)}, u1{at(1, u), at(4, u)}, u2{at(2, u), at(5, u)};
+        const Two v0{at(0, v), at(3, v)}, v1{at(1, v), at(4, v)}, v2{at(2, v), at(5, v)};
+        const Two ou0 = swapped(u0), ou1 = swapped(u1), ou2 = swapped(u2);
+        const Two ov0 = swapped(v0), ov1 = swapped(v1), ov2 = swapped(v2);
         const Two turn{static_cast<Real>(turn_a), static_cast<Real>(turn_b)};
-        const Real error = error2d((dropped + 1) % 3, (dropped + 2) % 3);
-        Bits parted{}, together = ~parted;
-        for (Corner i = 0; i < 3; ++i) {
-            const Two du = turn * (u[(i + 1) % 3] - u[i]), dv = turn * (v[(i + 1) % 3] - v[i]);
-            Bits outside = ~Bits{}, inside{};
-            for (Corner j = 0; j < 3; ++j) {
-                const Two det = du * (swapped(v[j]) - v[i]) - dv * (swapped(u[j]) - u[i]);
-                outside &= det < -error;
-                inside |= filtered ? det > error : det >= error;
-            }
-            parted |= outside;
-            together &= inside;
-        }
-        return (parted[0] | parted[1]) != 0       ? Answer::no
-               : (together[0] & together[1]) != 0 ? Answer::yes
-                                                  : Answer::maybe;
+        const auto farthest = [&](const Two& pu, const Two& pv, const Two& qu, const Two& qv) {
+            const Two du = turn * (qu - pu), dv = turn * (qv - pv);
+            const auto inside = [&](const Two& ou, const Two& ov) -> Two {
+                return du * (ov - pv) - dv * (ou - pu);
+            };
+            return most_of(most_of(inside(ou0, ov0), inside(ou1, ov1)), inside(ou2, ov2));
+        };
+        const Two least = least_of(least_of(farthest(u0, v0, u1, v1), farthest(u1, v1, u2, v2)),
+                                   farthest(u2, v2, u0, v0));
+        const Real worst = std::min(least[0], least[1]), error = error2d(u, v);
+        return worst < -error ? Answer::no
+               : filtered     ? (worst > error ? Answer::yes : Answer::maybe)
+                              : (worst >= error ? Answer::yes : Answer::maybe);
     }
 
     /// The largest component of the normal is the surest.
-    Projection project(int of, int preferred) {
-        const Corner t = of == 0 ? 0 : 3;
-        const Vec3<Real> n = cross(*p_[t + 1] - *p_[t], *p_[t + 2] - *p_[t]);
+    Projection project(int of, Projection like) const {
+        const int lane = of == 0 ? 1 : 0;
         const auto turn = [&](int axis) {
-            return sign(n[axis], error2d((axis + 1) % 3, (axis + 2) % 3));
+            const auto [u, v] = plane_axes[axis];
+            return sign(normal_[static_cast<std::size_t>(axis)][lane], error2d(u, v));
         };
-        if (preferred != Projection::none) {
-            const int known_turn = turn(preferred);
-            if (known_turn == 1 || known_turn == -1)
-                return {preferred, known_turn};
-        }
-        const int axis = largest_axis(n), known_turn = known(turn(axis));
-        return known_turn == 0 ? Projection{} : Projection{axis, known_turn};
+        if (like)
+            if (const int t = turn(like.axis()); t == 1 || t == -1)
+                return {like.axis(), t};
+        const int axis =
+            largest_axis(Vec3<Real>{normal_[0][lane], normal_[1][lane], normal_[2][lane]});
+        const int t = turn(axis);
+        return t == undecided ? Projection::undecided() : Projection(axis, t);
     }
 
     Vec3<Real> point(Corner k) const { return *p_[k]; }
-    bool unsure() const { return unsure_; }
-    /// Whether the extent of both along an axis is zero, or was flushed to zero.
-    bool seems_flat(int axis) const { return extent_[axis] == 0; }
+    const std::array<const Vec3<Real>*, 6>& points() const { return p_; }
+
+    /// By corner of a and b: the sum of its coordinates, rounded, never -0.
+    struct Sums {
+        Two of[3];
+    };
+    Sums sums() const {
+        const auto sum = [](const Points& p) -> Two { return p.x + p.y + p.z + Real{0}; };
+        return {{sum(points(0, 3)), sum(points(1, 4)), sum(points(2, 5))}};
+    }
+    /// Whether no coordinate is an infinity or NaN; if so, perhaps false for huge ones.
+    static bool surely_finite(const Sums& sums) {
+        const Two all = sums.of[0] + sums.of[1] + sums.of[2];
+        return all[0] + all[1] - (all[0] + all[1]) == 0;
+    }
+    /// Whether a corner of one is a corner of the other: then their sums are the same bits.
+    bool share_a_vertex(const Sums& sums) const {
+        const Bits p = std::bit_cast<Bits>(sums.of[0]), q = std::bit_cast<Bits>(sums.of[1]),
+                   r = std::bit_cast<Bits>(sums.of[2]);
+        const auto is_of_b = [&](Bit a) { return a == p[1] || a == q[1] || a == r[1]; };
+        if (!is_of_b(p[0]) && !is_of_b(q[0]) && !is_of_b(r[0])) [[likely]]
+            return false;
+        for (Corner i = 0; i < 3; ++i)
+            for (Corner j = 3; j < 6; ++j)
+                if (*p_[i] == *p_[j])
+                    return true;
+        return false;
+    }
+    /// Of a filtered pair: whether all corners have a coordinate in common.
+    bool in_coordinate_plane() const {
+        return extent_[0] == 0 || extent_[1] == 0 || extent_[2] == 0;
+    }
+    /// Of a filtered pair: whether no determinant of it is rounded. On each axis, with the extent
+    /// J, 2^e <= J < 2^(e+1), all coordinates must be multiples of g = 2^(e-15): then differences,
+    /// below 2^16 g, are exact, and so are minors below 2^33 and determinants below 6 * 2^48 of
+    /// their units. x + 1.5 * 2^52 g rounds to a multiple of g if |x| < 2^51 g.
+    bool rounds_nothing() const {
+        Two lost{};
+        const auto on_grid = [&](int axis) {
+            const Real extent = extent_[static_cast<std::size_t>(axis)];
+            constexpr Bit exponent_bits = Bit{0x7ff} << 52;
+            const Real power = std::bit_cast<Real>(std::bit_cast<Bit>(extent) & exponent_bits);
+            const Real round = power * 0x1.8p37;
+            for (Corner k = 0; k < 3; ++k) {
+                const Two x{at(k, axis), at(k + 3, axis)}, off = (x + round) - round - x;
+                lost = most_of(lost, most_of(off, -off));
+            }
+            return extent == 0 || (extent > 0x1p-300 && extent < filter_bound::largest &&
+                                   std::abs(at(0, axis)) < power * 0x1p35);
+        };
+        return on_grid(0) && on_grid(1) && on_grid(2) && lost[0] == 0 && lost[1] == 0;
+    }
 
   private:
-    using Two = typename TwoOf<Real>::Values;
-    using Bits = typename TwoOf<Real>::Bits;
-    using Bit = typename TwoOf<Real>::Bit;
     using Points = Vec3<Two>;
 
+    static constexpr Real Vec3<Real>::*axes[3] = {&Vec3<Real>::x, &Vec3<Real>::y, &Vec3<Real>::z};
+    Real at(Corner k, int axis) const { return p_[k]->*axes[axis]; }
     Points points(Corner a, Corner b) const {
         return {Two{p_[a]->x, p_[b]->x}, Two{p_[a]->y, p_[b]->y}, Two{p_[a]->z, p_[b]->z}};
     }
     static Two swapped(const Two& v) { return __builtin_shufflevector(v, v, 1, 0); }
+    static Two least_of(const Two& a, const Two& b) { return b < a ? b : a; }
+    static Two most_of(const Two& a, const Two& b) { return a < b ? b : a; }
     static Points swapped(const Points& p) { return {swapped(p.x), swapped(p.y), swapped(p.z)}; }
 
     /// The errors of sides(1) and sides(0).
-    Two set_extents(const Points (&corner)[3]) {
-        const Points low = min(min(corner[0], corner[1]), corner[2]);
-        const Points high = max(max(corner[0], corner[1]), corner[2]);
+    Two set_extents(const Points& low, const Points& high) {
         const Points t = swapped(high - low);
         const Points both = max(high, swapped(high)) - min(low, swapped(low));
         extent_ = {both.x[0], both.y[0], both.z[0]};
-        const Real most = std::max(std::max(extent_.x, extent_.y), extent_.z);
+        const Real most = std::max(std::max(extent_[0], extent_[1]), extent_[2]);
         // Beyond `largest`, and with an infinity among the extents, no error stands (it is infinite
         // or NaN); NaN makes its determinants NaN.
         scale_ = most < filter_bound::largest ? 2 : std::numeric_limits<Real>::infinity();
@@ -167,13 +220,14 @@ template <class R, bool filtered = false> class Determinants {
     }
     Real error3d() const {
         if constexpr (filtered)
-            return 3 * scale_ * filter_bound::orient3d * (extent_.x * extent_.y * extent_.z) +
+            return 3 * scale_ * filter_bound::orient3d * (extent_[0] * extent_[1] * extent_[2]) +
                    filter_bound::flushing;
         return 0;
     }
     Real error2d(int u, int v) const {
         if constexpr (filtered)
-            return scale_ * filter_bound::orient2d * extent_[u] * extent_[v] +
+            return scale_ * filter_bound::orient2d * extent_[static_cast<std::size_t>(u)] *
+                       extent_[static_cast<std::size_t>(v)] +
                    filter_bound::flushing;
         return 0;
     }
@@ -183,16 +237,12 @@ template <class R, bool filtered = false> class Determinants {
             return det > error ? 1 : det < -error ? -1 : undecided;
         return det == det ? int{det > 0} - int{det < 0} : undecided;
     }
-    int known(int sign) {
-        unsure_ |= sign == undecided;
-        return sign == undecided ? 0 : sign;
-    }
-
     std::array<const Vec3<Real>*, 6> p_;
-    Bits above_{}, below_{}, known_{};
-    Vec3<Real> extent_;
+    std::array<Two, 3> normal_; ///< of b and a, by axis
+    Bits above_, below_, known_;
+    std::array<Real, 3> extent_;
     Real scale_ = 2;
-    bool unsure_ = false;
+    bool apart_ = false;
 };
 
 using FilteredPair = Determinants<double, true>;

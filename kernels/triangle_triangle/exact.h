@@ -22,9 +22,9 @@ class GuigueDevillersExact {
         "filter; 3 to 5 times that where it fails"};
 
     static Verdict intersect(const Triangle<double>& a, const Triangle<double>& b) {
-        FilteredPair filtered(a, b);
-        const Answer answer = IntervalTest<FilteredPair>::meet(filtered);
-        return answer != Answer::maybe ? Verdict{answer, 0} : decide_exactly(filtered, a, b);
+        const FilteredPair pair(a, b);
+        const Answer answer = GuigueDevillersFiltered::meet(pair);
+        return answer != Answer::maybe ? Verdict{answer, 0} : decide_exactly(pair, a, b);
     }
 
   private:

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <tuple>
 
 namespace boxwood {
@@ -16,21 +17,63 @@ namespace boxwood {
 using Corner = std::size_t;
 
 /// On which side of a triangle's plane the other's corners lie: bit k for the other's corner k. On
-/// the plane is neither; `unknown` was not decided.
-struct Sides {
-    unsigned above = 0, below = 0, unknown = 0;
+/// the plane is neither above nor below; `unknown` was not decided. In one register.
+class Sides {
+  public:
+    Sides() = default;
+    Sides(unsigned above, unsigned below, unsigned unknown)
+        : bits_(above | below << 3 | unknown << 6) {}
 
-    bool strictly_one_side() const { return above == 7 || below == 7; }
-    bool all_on_plane() const { return (above | below | unknown) == 0; }
+    unsigned above() const { return bits_ & 7; }
+    unsigned below() const { return bits_ >> 3 & 7; }
+    unsigned unknown() const { return bits_ >> 6; }
+    unsigned above_and_below() const { return bits_ & 63; }
+    bool strictly_one_side() const { return one_strictly_one_side(*this, *this); }
+    /// Of either triangle; in one branch.
+    static bool one_strictly_one_side(const Sides& a, const Sides& b) {
+        constexpr std::uint64_t all_above_or_all_below = 1ull << 7 | 1ull << (7 << 3);
+        return ((all_above_or_all_below >> a.above_and_below() |
+                 all_above_or_all_below >> b.above_and_below()) &
+                1) != 0;
+    }
+    bool all_on_plane() const { return bits_ == 0; }
+
+    /// What was not known of corner k.
+    void decide(Corner k, int sign) {
+        bits_ &= ~(64u << k);
+        bits_ |= sign > 0 ? 1u << k : sign < 0 ? 8u << k : 0;
+    }
+
+  private:
+    unsigned bits_ = 0;
 };
 
 /// The coordinate plane (the axis to drop, 0 .. 2) that a triangle is projected on one to one, and
-/// the sign of its turn there. No axis: it is degenerate.
-struct Projection {
-    int axis = none;
-    int turn = 0;
-    static constexpr int none = -1;
+/// the sign of its turn there; or none, as it is degenerate or that is undecided. In one register.
+class Projection {
+  public:
+    Projection() = default;
+    Projection(int axis, int turn) : code_(turn * (axis + 1)) {}
+    static Projection undecided() {
+        Projection p;
+        p.code_ = 4;
+        return p;
+    }
+
+    bool is_undecided() const { return code_ == 4; }
+    explicit operator bool() const { return code_ != 0 && code_ != 4; }
+    int axis() const { return (code_ < 0 ? -code_ : code_) - 1; }
+    int turn() const { return code_ < 0 ? -1 : 1; }
+
+  private:
+    int code_ = 0;
 };
+
+/// The axes that span a coordinate plane, by the axis dropped.
+struct PlaneAxes {
+    int u, v;
+};
+inline constexpr PlaneAxes plane_axes[3] = {{1, 2}, {2, 0}, {0, 1}};
 
 /// A triangle's corners, turned for the interval test (guigue_devillers.h).
 struct Turned {
@@ -38,19 +81,17 @@ struct Turned {
 };
 
 /// The signs that decide a pair. sides() is what is known at no great cost, decided_sides() the
-/// most that can be known. What cannot be decided is `unknown`, `maybe`, `undecided`; orient2d and
-/// project read it as 0 and set unsure().
+/// most that can be known. What cannot be decided is `unknown`, `maybe`, `undecided`.
 template <class S>
 concept PairSigns = requires(S& s, int i, Corner c, Turned t) {
     { s.sides(i) } -> std::same_as<Sides>; ///< of the other's corners to triangle i's plane
     { s.decided_sides(i) } -> std::same_as<Sides>;
-    { s.project(i, i) } -> std::same_as<Projection>; ///< of triangle i, by this axis if it will do
-    { s.overlap_along_line(t, t) } -> std::same_as<Answer>; ///< see overlap_by_orient3d
+    { s.project(i, Projection()) } -> std::same_as<Projection>; ///< like that one if it will do
+    { s.overlap_along_line(t, t) } -> std::same_as<Answer>;     ///< see overlap_by_orient3d
     { s.orient3d(c, c, c, c) } -> std::same_as<int>;
     { s.orient2d(i, c, c, c) } -> std::same_as<int>;         ///< with axis i dropped
     { s.overlap_in_plane(i, i, i) } -> std::same_as<Answer>; ///< see overlap_by_orient2d
     { s.point(c) } -> std::convertible_to<Vec3<typename S::Real>>;
-    { s.unsure() } -> std::same_as<bool>;
 };
 
 /// Of turned triangles the intervals on the planes' common line: disjoint if
@@ -60,25 +101,44 @@ template <class S> Answer overlap_by_orient3d(S& s, const Turned& a, const Turne
     if (low == 1)
         return Answer::no;
     const int high = s.orient3d(a.p, b.p, a.r, b.r);
-    return high == 1                               ? Answer::no
-           : low == undecided || high == undecided ? Answer::maybe
-                                                   : Answer::yes;
+    if (high == 1)
+        return Answer::no;
+    return low == undecided || high == undecided ? Answer::maybe : Answer::yes;
 }
 
 /// Of coplanar triangles that turn by these signs with an axis dropped: disjoint if the line of an
-/// edge of one has all of the other strictly on its outside. Unsure as s is.
-template <class S> bool overlap_by_orient2d(S& s, int dropped, const std::array<int, 2>& turns) {
-    for (const Corner t : {0, 3})
+/// edge of one has all of the other strictly on its outside.
+template <class S> Answer overlap_by_orient2d(S& s, int dropped, const std::array<int, 2>& turns) {
+    Answer answer = Answer::yes;
+    for (const Corner t : {Corner{0}, Corner{3}})
         for (Corner i = 0; i < 3; ++i) {
-            const Corner p = t + i, q = t + (i + 1) % 3;
             const int outside = -turns[t / 3];
-            bool parted = true;
-            for (Corner j = 0; parted && j < 3; ++j)
-                parted = s.orient2d(dropped, p, q, 3 - t + j) == outside;
-            if (parted)
-                return false;
+            bool surely = true, perhaps = true;
+            for (Corner j = 0; perhaps && j < 3; ++j) {
+                const int side = s.orient2d(dropped, t + i, t + (i + 1) % 3, 3 - t + j);
+                surely &= side == outside;
+                perhaps = side == outside || side == undecided;
+            }
+            if (perhaps && surely)
+                return Answer::no;
+            if (perhaps)
+                answer = Answer::maybe;
         }
-    return true;
+    return answer;
+}
+
+/// s.project by s.orient2d, beginning with the axis `first`.
+template <class S> Projection project_by_orient2d(S& s, int of, int first) {
+    const Corner t = of == 0 ? 0 : 3;
+    Projection none;
+    for (int k = 0; k < 3; ++k) {
+        const int axis = (first + k) % 3, turn = s.orient2d(axis, t, t + 1, t + 2);
+        if (turn == 1 || turn == -1)
+            return {axis, turn};
+        if (turn == undecided)
+            none = Projection::undecided();
+    }
+    return none;
 }
 
 template <class Real> int largest_axis(const Vec3<Real>& v) {
@@ -95,25 +155,20 @@ template <OrientationPredicates P> class Signs {
 
     Sides sides(int of) const {
         const Corner t = of == 0 ? 0 : 3, other = 3 - t;
-        Sides s;
+        unsigned above = 0, below = 0, unknown = 0;
         for (Corner k = 0; k < 3; ++k) {
             const int sign = orient3d(t, t + 1, t + 2, other + k);
-            s.above |= unsigned{sign == 1} << k;
-            s.below |= unsigned{sign == -1} << k;
-            s.unknown |= unsigned{sign == undecided} << k;
+            above |= unsigned{sign == 1} << k;
+            below |= unsigned{sign == -1} << k;
+            unknown |= unsigned{sign == undecided} << k;
         }
-        return s;
+        return {above, below, unknown};
     }
     Sides decided_sides(int of) const { return sides(of); }
-    Projection project(int of, int preferred) {
+    Projection project(int of, Projection like) const {
         const Corner t = of == 0 ? 0 : 3;
-        const int first = preferred != Projection::none ? preferred : largest_axis(normal(t));
-        for (int k = 0; k < 3; ++k) {
-            const int axis = (first + k) % 3;
-            if (const int turn = orient2d(axis, t, t + 1, t + 2); turn != 0)
-                return {axis, turn};
-        }
-        return {};
+        const Vec3<Real> n = cross(p_[t + 1] - p_[t], p_[t + 2] - p_[t]);
+        return project_by_orient2d(*this, of, like ? like.axis() : largest_axis(n));
     }
     Answer overlap_along_line(const Turned& a, const Turned& b) const {
         return overlap_by_orient3d(*this, a, b);
@@ -121,24 +176,18 @@ template <OrientationPredicates P> class Signs {
     int orient3d(Corner a, Corner b, Corner c, Corner d) const {
         return P::orient3d(p_[a], p_[b], p_[c], p_[d]);
     }
-    int orient2d(int dropped, Corner a, Corner b, Corner c) {
-        const int u = (dropped + 1) % 3, v = (dropped + 2) % 3;
+    int orient2d(int dropped, Corner a, Corner b, Corner c) const {
+        const int u = plane_axes[dropped].u, v = plane_axes[dropped].v;
         const auto at = [&](Corner k) { return Point2<Real>{p_[k][u], p_[k][v]}; };
-        const int sign = P::orient2d(at(a), at(b), at(c));
-        unsure_ |= sign == undecided;
-        return sign == undecided ? 0 : sign;
+        return P::orient2d(at(a), at(b), at(c));
     }
-    Answer overlap_in_plane(int dropped, int turn_a, int turn_b) {
-        return overlap_by_orient2d(*this, dropped, {turn_a, turn_b}) ? Answer::yes : Answer::no;
+    Answer overlap_in_plane(int dropped, int turn_a, int turn_b) const {
+        return overlap_by_orient2d(*this, dropped, {turn_a, turn_b});
     }
     Vec3<Real> point(Corner k) const { return p_[k]; }
-    bool unsure() const { return unsure_; }
 
   private:
-    Vec3<Real> normal(Corner t) const { return cross(p_[t + 1] - p_[t], p_[t + 2] - p_[t]); }
-
     std::array<Vec3<Real>, 6> p_;
-    bool unsure_ = false;
 };
 
 /// Triangle pairs that no two planes describe: coplanar ones, and those of which one is degenerate
@@ -154,10 +203,13 @@ template <PairSigns S> class FlatPair {
   public:
     /// Of two triangles without a degenerate one, only coplanar ones may be asked.
     static Answer meet(S& signs) {
+        const Projection of_a = signs.project(0, {}), of_b = signs.project(1, of_a);
+        if (of_a && of_b && of_a.axis() == of_b.axis())
+            return signs.overlap_in_plane(of_a.axis(), of_a.turn(), of_b.turn());
         FlatPair pair{signs};
-        const Hull a = pair.hull(0, Projection::none), b = pair.hull(1, a.projection.axis);
+        const Hull a = pair.hull(0, of_a), b = pair.hull(1, of_b);
         const bool yes = a.size <= b.size ? pair.meet(a, b) : pair.meet(b, a);
-        return pair.unsure_ || signs.unsure() ? Answer::maybe : yes ? Answer::yes : Answer::no;
+        return pair.unsure_ ? Answer::maybe : yes ? Answer::yes : Answer::no;
     }
 
   private:
@@ -171,16 +223,28 @@ template <PairSigns S> class FlatPair {
         Corner operator[](std::size_t i) const { return corners[i]; }
     };
 
+    /// A sign; undecided is read as 0, and the answer built on it is `maybe`.
+    int known(int sign) {
+        unsure_ |= sign == undecided;
+        return sign == undecided ? 0 : sign;
+    }
+    int orient3d(Corner a, Corner b, Corner c, Corner d) {
+        return known(signs_.orient3d(a, b, c, d));
+    }
+    int orient2d(int dropped, Corner a, Corner b, Corner c) {
+        return known(signs_.orient2d(dropped, a, b, c));
+    }
+
     bool before(Corner a, Corner b) const {
         const auto p = signs_.point(a), q = signs_.point(b);
         return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
     }
     bool same(Corner a, Corner b) const { return signs_.point(a) == signs_.point(b); }
 
-    Hull hull(int of, int preferred) {
+    Hull hull(int of, Projection projection) {
         const Corner t = of == 0 ? 0 : 3;
-        const Projection projection = signs_.project(of, preferred);
-        if (projection.axis != Projection::none)
+        unsure_ |= projection.is_undecided();
+        if (projection)
             return {{t, t + 1, t + 2}, 3, projection};
         Corner low = t, high = t;
         for (const Corner k : {t + 1, t + 2}) {
@@ -190,14 +254,10 @@ template <PairSigns S> class FlatPair {
         return {{low, high, high}, same(low, high) ? std::size_t{1} : std::size_t{2}, {}};
     }
 
-    int orient3d(Corner a, Corner b, Corner c, Corner d) {
-        const int sign = signs_.orient3d(a, b, c, d);
-        unsure_ |= sign == undecided;
-        return sign == undecided ? 0 : sign;
-    }
-
     /// a.size <= b.size.
     bool meet(const Hull& a, const Hull& b) {
+        if (a.size == 3)
+            return meet_in_plane(a, b);
         if (b.size == 3)
             return meet_triangle(a, b);
         if (b.size == 1)
@@ -206,29 +266,37 @@ template <PairSigns S> class FlatPair {
         // it.
         const Corner a0 = a[0], a1 = a[a.size - 1];
         int axis = axis_to_drop(b[0], b[1], a0);
-        if (axis == Projection::none && a.size == 2)
+        if (axis == collinear && a.size == 2)
             axis = axis_to_drop(b[0], b[1], a1);
-        if (axis == Projection::none)
+        if (axis == collinear)
             return !before(b[1], a0) && !before(a1, b[0]);
-        return orient3d(b[0], b[1], a0, a1) == 0 && !parted_by_edge(a, b, axis) &&
-               !parted_by_edge(b, a, axis);
+        return orient3d(b[0], b[1], a0, a1) == 0 && !parted_by_segment(a, b, axis) &&
+               !parted_by_segment(b, a, axis);
     }
 
+    static constexpr int collinear = -1;
     int axis_to_drop(Corner a, Corner b, Corner c) {
         for (const int axis : {0, 1, 2})
-            if (signs_.orient2d(axis, a, b, c) != 0)
+            if (orient2d(axis, a, b, c) != 0)
                 return axis;
-        return Projection::none;
+        return collinear;
     }
 
+    bool meet_in_plane(const Hull& a, const Hull& b) {
+        const int axis = a.projection.axis();
+        const int turn_b =
+            axis == b.projection.axis() ? b.projection.turn() : orient2d(axis, b[0], b[1], b[2]);
+        const Answer answer = signs_.overlap_in_plane(axis, a.projection.turn(), turn_b);
+        unsure_ |= answer == Answer::maybe;
+        return answer == Answer::yes;
+    }
+
+    /// A segment or point against a triangle.
     bool meet_triangle(const Hull& a, const Hull& b) {
-        if (a.size == 3)
-            return meet_in_plane(a, b);
         const int first = orient3d(b[0], b[1], b[2], a[0]);
         const int last = a.size == 1 ? first : orient3d(b[0], b[1], b[2], a[1]);
         if (first == 0 && last == 0)
-            return !parted_by_edge(b, b.projection.turn, a, b.projection.axis) &&
-                   !parted_by_edge(a, b, b.projection.axis);
+            return !parted_by_triangle(b, a) && !parted_by_segment(a, b, b.projection.axis());
         if (first == last)
             return false;
         // The segment's line meets b's plane in one of the segment's points. Is that in b?
@@ -238,21 +306,14 @@ template <PairSigns S> class FlatPair {
         return std::min({u, v, w}) >= 0 || std::max({u, v, w}) <= 0;
     }
 
-    bool meet_in_plane(const Hull& a, const Hull& b) {
-        const auto [axis, turn] = a.projection;
-        const int turn_b =
-            axis == b.projection.axis ? b.projection.turn : signs_.orient2d(axis, b[0], b[1], b[2]);
-        const Answer answer = signs_.overlap_in_plane(axis, turn, turn_b);
-        unsure_ |= answer == Answer::maybe;
-        return answer == Answer::yes;
-    }
-
-    /// Whether the line of an edge of triangle t has all of the other strictly on its outside.
-    bool parted_by_edge(const Hull& t, int turn, const Hull& other, int axis) {
+    /// Whether the line of an edge of triangle t has all of the other, in its plane, strictly on
+    /// its outside.
+    bool parted_by_triangle(const Hull& t, const Hull& other) {
+        const int axis = t.projection.axis(), outside = -t.projection.turn();
         for (std::size_t i = 0; i < 3; ++i) {
             bool parted = true;
             for (std::size_t j = 0; parted && j < other.size; ++j)
-                parted = signs_.orient2d(axis, t[i], t[(i + 1) % 3], other[j]) == -turn;
+                parted = orient2d(axis, t[i], t[(i + 1) % 3], other[j]) == outside;
             if (parted)
                 return true;
         }
@@ -260,12 +321,12 @@ template <PairSigns S> class FlatPair {
     }
 
     /// The same for a segment, which has two outsides; a point parts nothing.
-    bool parted_by_edge(const Hull& segment, const Hull& other, int axis) {
+    bool parted_by_segment(const Hull& segment, const Hull& other, int axis) {
         if (segment.size == 1)
             return false;
         bool left = true, right = true;
         for (std::size_t j = 0; j < other.size; ++j) {
-            const int side = signs_.orient2d(axis, segment[0], segment[1], other[j]);
+            const int side = orient2d(axis, segment[0], segment[1], other[j]);
             left &= side == 1;
             right &= side == -1;
         }

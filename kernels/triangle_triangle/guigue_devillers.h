@@ -21,9 +21,9 @@ template <PairSigns S> class IntervalTest {
   public:
     static Answer meet(S& signs) {
         Sides of_b = signs.sides(0), of_a = signs.sides(1);
-        if (of_b.strictly_one_side() || of_a.strictly_one_side())
+        if (Sides::one_strictly_one_side(of_a, of_b))
             return Answer::no;
-        if ((of_a.unknown | of_b.unknown) != 0) {
+        if ((of_a.unknown() | of_b.unknown()) != 0) {
             of_b = signs.decided_sides(0);
             if (of_b.strictly_one_side())
                 return Answer::no;
@@ -32,7 +32,7 @@ template <PairSigns S> class IntervalTest {
             of_a = signs.decided_sides(1);
             if (of_a.strictly_one_side())
                 return Answer::no;
-            if ((of_a.unknown | of_b.unknown) != 0)
+            if ((of_a.unknown() | of_b.unknown()) != 0)
                 return Answer::maybe;
         }
         // Coplanar, or one of them has no plane.
@@ -69,7 +69,7 @@ template <PairSigns S> class IntervalTest {
             }
         return table;
     }();
-    static Lone lone(const Sides& s) { return lone_of[s.above | s.below << 3]; }
+    static Lone lone(const Sides& s) { return lone_of[s.above_and_below()]; }
 
     static constexpr std::array<std::uint8_t, 5> around{0, 1, 2, 0, 1};
 
@@ -85,7 +85,6 @@ template <PairSigns S> class IntervalTest {
 /// How a pair asks predicates P: one sign at a time, or by determinants that share their normals.
 template <OrientationPredicates P> struct PairSignsOf { using type = Signs<P>; };
 template <class Real> struct PairSignsOf<Rounded<Real>> { using type = Determinants<Real>; };
-template <> struct PairSignsOf<Filtered> { using type = Determinants<double, true>; };
 
 /// The interval test by predicates P, on what they promise.
 template <OrientationPredicates P> struct GuigueDevillers {
@@ -111,6 +110,29 @@ template <OrientationPredicates P> struct GuigueDevillers {
 
 using GuigueDevillersF32 = GuigueDevillers<Rounded<float>>;
 using GuigueDevillersF64 = GuigueDevillers<Rounded<double>>;
+
+/// The interval test on filtered determinants, with the bounding boxes as its first.
+template <> struct GuigueDevillers<Filtered> {
+    using Real = double;
+    static constexpr std::string_view name = "guigue_devillers_filtered";
+    static constexpr KernelInfo info{
+        "triangle_triangle",
+        name,
+        "boxes, then interval overlap on the common line (2003) by signs that their error bound "
+        "lets stand",
+        Filtered::promise,
+        Filtered::bound,
+        Filtered::cost};
+
+    static Verdict intersect(const Triangle<double>& a, const Triangle<double>& b) {
+        return {meet(FilteredPair(a, b)), 0};
+    }
+    static Answer meet(const FilteredPair& pair) {
+        if (pair.boxes_apart())
+            return pair.surely_finite(pair.sums()) ? Answer::no : Answer::maybe;
+        return IntervalTest<const FilteredPair>::meet(pair);
+    }
+};
 using GuigueDevillersFiltered = GuigueDevillers<Filtered>;
 
 } // namespace boxwood
