@@ -4,6 +4,9 @@
 #include "kernels/boxes/sat.h"
 #include "kernels/continuous/cubic.h"
 #include "kernels/continuous/tight_inclusion.h"
+#include "kernels/features/point_segment.h"
+#include "kernels/features/point_triangle.h"
+#include "kernels/features/segment_segment.h"
 #include "kernels/predicates/rounded.h"
 #include "kernels/ray_box/plain.h"
 #include "kernels/ray_box/slabs.h"
@@ -12,6 +15,10 @@
 #include "kernels/ray_triangle/moller_trumbore.h"
 #include "kernels/ray_triangle/plucker.h"
 #include "kernels/ray_triangle/watertight.h"
+#include "kernels/triangle_distance/certified.h"
+#include "kernels/triangle_distance/features.h"
+#include "kernels/triangle_distance/features_batch.h"
+#include "kernels/triangle_triangle/exact.h"
 #include "kernels/triangle_triangle/guigue_devillers.h"
 #include "kernels/triangle_triangle/guigue_devillers_batch.h"
 #include "kernels/triangle_triangle/moller.h"
@@ -32,7 +39,14 @@ using RayKernels = std::tuple<MollerTrumbore<float>, BaldwinWeber, Plucker, Wate
                               MollerTrumbore<double>, ExactRayTriangle>;
 using TriangleKernels =
     std::tuple<MollerF32, MollerF64, SatF64, SatCertified, GuigueDevillersF32, GuigueDevillersF64,
-               GuigueDevillersF32Batch, GuigueDevillersExactF32Batch, GuigueDevillersExactBatch>;
+               GuigueDevillersFiltered, GuigueDevillersExact, GuigueDevillersF32Batch,
+               GuigueDevillersExactF32Batch, GuigueDevillersExactBatch>;
+using DistanceKernels =
+    std::tuple<FeaturesF32, FeaturesF64, FeaturesF64Batch, CrossProductF64, CertifiedDistance>;
+using SegmentDistanceKernels =
+    std::tuple<SegmentSegmentF32, SegmentSegmentF64, SegmentSegmentCross>;
+using PointTriangleKernels = std::tuple<PointTriangleF32, PointTriangleF64, PointTriangleCross>;
+using PointSegmentKernels = std::tuple<PointSegmentF32, PointSegmentF64>;
 using BoxFitKernels =
     std::tuple<PlainFit<float>, PlainFit<double>, PaddedFit<float>, PaddedFit<double>>;
 using ObbKernels =
@@ -47,6 +61,10 @@ std::span<const KernelInfo> kernels();
 std::span<const KernelInfo> ray_box_kernels();
 std::span<const KernelInfo> ray_kernels();
 std::span<const KernelInfo> triangle_kernels();
+std::span<const KernelInfo> distance_kernels();
+std::span<const KernelInfo> segment_distance_kernels();
+std::span<const KernelInfo> point_triangle_kernels();
+std::span<const KernelInfo> point_segment_kernels();
 std::span<const KernelInfo> box_fit_kernels();
 std::span<const KernelInfo> obb_kernels();
 std::span<const KernelInfo> vertex_face_kernels();

@@ -31,9 +31,10 @@ TEST(Catalogue, EveryFamilyIsListed) {
     std::set<std::string_view> families;
     for (const KernelInfo& info : kernels())
         families.insert(info.family);
-    EXPECT_EQ(families,
-              (std::set<std::string_view>{"box_box", "box_fit", "edge_edge", "obb_obb", "ray_box",
-                                          "ray_triangle", "triangle_triangle", "vertex_face"}));
+    EXPECT_EQ(families, (std::set<std::string_view>{
+                            "box_box", "box_fit", "edge_edge", "obb_obb", "point_segment",
+                            "point_triangle", "ray_box", "ray_triangle", "segment_segment",
+                            "triangle_distance", "triangle_triangle", "vertex_face"}));
 }
 
 TEST(Catalogue, EveryWordFindsItsKernel) {
@@ -56,6 +57,34 @@ TEST(Catalogue, EveryWordFindsItsKernel) {
         std::string_view found;
         EXPECT_TRUE(with_kernel<TriangleKernels>(
             info.name, [&]<TriangleKernel K>(std::type_identity<K>) { found = K::name; }));
+        EXPECT_EQ(found, info.name);
+    }
+    for (const KernelInfo& info : distance_kernels()) {
+        EXPECT_EQ(info.family, "triangle_distance");
+        std::string_view found;
+        EXPECT_TRUE(with_kernel<DistanceKernels>(
+            info.name, [&]<TriangleDistanceKernel K>(std::type_identity<K>) { found = K::name; }));
+        EXPECT_EQ(found, info.name);
+    }
+    for (const KernelInfo& info : segment_distance_kernels()) {
+        EXPECT_EQ(info.family, "segment_segment");
+        std::string_view found;
+        EXPECT_TRUE(with_kernel<SegmentDistanceKernels>(
+            info.name, [&]<SegmentDistanceKernel K>(std::type_identity<K>) { found = K::name; }));
+        EXPECT_EQ(found, info.name);
+    }
+    for (const KernelInfo& info : point_triangle_kernels()) {
+        EXPECT_EQ(info.family, "point_triangle");
+        std::string_view found;
+        EXPECT_TRUE(with_kernel<PointTriangleKernels>(
+            info.name, [&]<PointTriangleKernel K>(std::type_identity<K>) { found = K::name; }));
+        EXPECT_EQ(found, info.name);
+    }
+    for (const KernelInfo& info : point_segment_kernels()) {
+        EXPECT_EQ(info.family, "point_segment");
+        std::string_view found;
+        EXPECT_TRUE(with_kernel<PointSegmentKernels>(
+            info.name, [&]<PointSegmentKernel K>(std::type_identity<K>) { found = K::name; }));
         EXPECT_EQ(found, info.name);
     }
     for (const KernelInfo& info : box_fit_kernels()) {
