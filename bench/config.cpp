@@ -252,11 +252,10 @@ void read_trees(const Reader& reader, const toml::table& table, Block& block) {
     if (block.rays.empty() && std::ranges::any_of(block.asks, is_ray_ask))
         reader.fail(table.source(), fmt::format("a ray ask needs rays: one or more of {}",
                                                 fmt::join(names_of(ray_kinds()), ", ")));
-    const auto needs_mesh = [](Ask ask) { return is_ray_ask(ask) || ask == Ask::triangle_pairs; };
     for (const SceneEntry& entry : scene_generators())
         if (!entry.has_mesh && std::ranges::find(block.scenes, entry.name) != block.scenes.end())
             for (const Ask ask : block.asks)
-                if (needs_mesh(ask))
+                if (takes_kernel(ask))
                     reader.fail(table.source(),
                                 fmt::format("the scene \"{}\" has no triangles to {}", entry.name,
                                             is_ray_ask(ask) ? "aim rays at" : "test"));

@@ -1,6 +1,8 @@
 #include "bench/config.h"
 
 #include "bench/commands/command.h"
+#include "bench/rungs/rungs.h"
+#include "kernels/catalogue.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -104,6 +106,71 @@ TEST(Config, RefusesBlocksThatMeanNothing) {
                 HasSubstr("no triangles"));
     EXPECT_THAT(complaint("[[cells]]\nscene = \"mesh\"\nn = 5\nask = \"pairs\"\n"),
                 HasSubstr("x.toml:3:"));
+}
+
+const std::string kernel_block = "[[cells]]\nask = \"triangle_triangle\"\n";
+
+TEST(Config, BlocksOfKernelAsksNameFamilies) {
+    const Config config = parse_config(R"(
+threads = [1, 2]
+[[cells]]
+scene = ["slivers", "degenerate"]
+ask = ["triangle_triangle", "point_segment"]
+n = 50
+scale = [-3, 5]
+
+[[cells]]
+scene = "slivers"
+ask = "triangle_triangle"
+k = [1, 2]
+kernels = ["rational", "guigue_devillers_f64"]
+peers = "all"
+)",
+                                       "x.toml");
+    ASSERT_EQ(config.blocks.size(), 2u);
+    const Block& all = config.blocks[0];
+    EXPECT_EQ(all.scenes, (std::vector<std::string>{"slivers", "degenerate"}));
+    EXPECT_EQ(all.scales, (std::vector<int>{-3, 5}));
+    EXPECT_EQ(kernels_of(all, Ask::triangle_triangle).size(), rungs(Ask::triangle_triangle).size());
+    EXPECT_EQ(kernels_of(all, Ask::point_segment).size(), rungs(Ask::point_segment).size());
+    const Block& some = config.blocks[1];
+    EXPECT_EQ(some.k, (std::vector<int>{1, 2}));
+    EXPECT_EQ(kernels_of(some, Ask::triangle_triangle),
+              (std::vector<std::string>{"rational", "guigue_devillers_f64"}));
+}
+
+TEST(Config, KernelsHaveTheirDefaults) {
+    const Config config =
+        parse_config("[[cells]]\nscene = \"sphere_mesh\"\nask = [\"rays_any\", "
+                     "\"triangle_pairs\"]\nrays = \"random\"\nbuilders = \"median\"\n",
+                     "x.toml");
+    EXPECT_EQ(kernels_of(config.blocks[0], Ask::rays_any), std::vector<std::string>{"watertight"});
+    EXPECT_EQ(kernels_of(config.blocks[0], Ask::triangle_pairs).size(), triangle_kernels().size());
+}
+
+TEST(Config, RefusesWhatKernelAsksDoNotTake) {
+    EXPECT_THAT(complaint(kernel_block + "scene = \"uniform\"\n"), HasSubstr("uniform"));
+    EXPECT_THAT(complaint(kernel_block + "scene = \"slivres\"\n"), HasSubstr("'slivers'"));
+    EXPECT_THAT(complaint(kernel_block + "scene = \"ray_grazing\"\n"),
+                HasSubstr("no cases for the ask triangle_triangle"));
+    EXPECT_THAT(complaint(kernel_block + "scene = \"all\"\nbuilders = \"median\"\n"),
+                HasSubstr("builders is for the asks of trees"));
+    EXPECT_THAT(complaint(kernel_block + "scene = \"all\"\nk = 3\n"),
+                HasSubstr("name the families"));
+    EXPECT_THAT(complaint(kernel_block + "scene = \"slivers\"\nkernels = \"watertight\"\n"),
+                HasSubstr("watertight"));
+    EXPECT_THAT(complaint("[[cells]]\nask = \"vertex_face\"\nscene = "
+                          "\"ccd_queries_vertex_face\"\n"),
+                HasSubstr("--ccd"));
+    EXPECT_THAT(complaint("[[cells]]\nask = [\"pairs\", \"obb_obb\"]\nscene = \"uniform\"\n"),
+                HasSubstr("blocks of their own"));
+    EXPECT_THAT(complaint(block + "builders = \"median\"\nk = 1\n"),
+                HasSubstr("k is for the asks of kernels"));
+    EXPECT_THAT(complaint(block + "builders = \"median\"\nkernels = \"watertight\"\n"),
+                HasSubstr("takes no kernels"));
+    EXPECT_THAT(complaint("[[cells]]\nscene = \"uniform\"\nask = \"triangle_pairs\"\n"
+                          "builders = \"median\"\n"),
+                HasSubstr("no triangles to test"));
 }
 
 } // namespace

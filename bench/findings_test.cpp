@@ -90,5 +90,38 @@ TEST_F(Findings, ALaterWrongAnswerOrACrashBreaksThePromise) {
     EXPECT_TRUE(is_promise_broken(r));
 }
 
+TEST_F(Findings, AKernelWithoutAPromiseMayErrAndOneWithMayNot) {
+    const auto add_kernel = [&](const std::string& rung, const std::string& promise,
+                                std::uint64_t false_neg, double ns) {
+        add(rung, "boxwood", results::missing, 100 * ns, false_neg > 0 ? "wrong" : "exact");
+        r.cells.back().ask = "triangle_triangle";
+        results::KernelRow row;
+        row.cell_id = r.cells.back().cell_id;
+        row.family = "slivers";
+        row.panel = "degenerate";
+        row.kernel_family = "triangle_triangle";
+        row.rung = rung;
+        row.promise = promise;
+        row.n = row.tier_0 = 100;
+        row.false_neg = false_neg;
+        row.status = false_neg > 0 ? "wrong" : "exact";
+        row.witness = "case 7";
+        r.kernels.push_back(row);
+    };
+    add_kernel("plain", "no promise", 3, 10);
+    add_kernel("sure", "exact", 0, 25);
+    const std::string text = findings_text(r);
+    EXPECT_FALSE(is_promise_broken(r));
+    EXPECT_THAT(text, HasSubstr("plain errs on slivers 3/100"));
+    EXPECT_THAT(text, HasSubstr("degenerate input: cheapest rung with no wrong answer on these "
+                                "cases: sure, at 2.50 times the fastest (plain)"));
+    EXPECT_THAT(text, HasSubstr("Every promise is kept."));
+    EXPECT_THAT(text, Not(HasSubstr("not ranked")));
+    add_kernel("liar", "never-miss", 1, 5);
+    EXPECT_TRUE(is_promise_broken(r));
+    EXPECT_THAT(findings_text(r), HasSubstr("BROKEN PROMISE: liar promises never-miss on slivers/"
+                                            "triangle_triangle\n  case 7"));
+}
+
 } // namespace
 } // namespace boxwood::bench

@@ -63,10 +63,10 @@ struct Rung {
             }
         return n > 0 ? all / n : results::missing;
     }
-    /// Whether a sum over the rows of a panel is 0 and each of them was judged.
+    /// Whether no judged row of a panel has such errors, and there is one.
     template <class Errors> bool has_none(std::string_view panel, const Errors& errors) const {
-        return std::ranges::all_of(rows, [&](const Row& row) {
-            return row.kernel->panel != panel || (row.kernel->n > 0 && errors(*row.kernel) == 0);
+        return !std::isnan(ns(panel)) && std::ranges::all_of(rows, [&](const Row& row) {
+            return row.kernel->panel != panel || errors(*row.kernel) == 0;
         });
     }
     bool is_right(std::string_view panel) const {

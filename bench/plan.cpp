@@ -63,9 +63,8 @@ class Expansion {
 
     void add_ours(const Block& block, const SceneSpec& spec, Ask ask, const std::string& executor,
                   unsigned threads) {
-        const bool has_kernel = is_ray_ask(ask) || ask == Ask::triangle_pairs;
         const std::vector<std::string> kernels =
-            has_kernel ? kernels_of(block, ask) : std::vector<std::string>{""};
+            takes_kernel(ask) ? kernels_of(block, ask) : std::vector<std::string>{""};
         for (const BuilderChoice& builder : block.builders)
             for (const std::string& layout : block.layouts)
                 for (const std::string& kernel : kernels)

@@ -3,6 +3,7 @@
 #include "bench/cell_name.h"
 #include "bench/commands/command.h"
 #include "bench/csv.h"
+#include "bench/families.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -185,6 +186,38 @@ TEST(Order, IsASeededPermutationOfAllCells) {
     EXPECT_NE(first, shuffled_order(100, order_seed_of(1, 1)));
     EXPECT_NE(first, shuffled_order(100, order_seed_of(2, 0)));
     EXPECT_TRUE(shuffled_order(0, 1).empty());
+}
+
+TEST(Plan, KernelCellsRunOnOneThreadAndSayKAndScale) {
+    const Plan plan = plan_of(R"(
+threads = [1, 2]
+[[cells]]
+scene = "slivers"
+ask = "triangle_triangle"
+n = 50
+k = [3, 5]
+scale = [0, -4]
+kernels = "rational"
+)");
+    EXPECT_EQ(names_of(plan),
+              (std::set<std::string>{
+                  "slivers/n50-s1/triangle_triangle/rational/f64/serial-1",
+                  "slivers_k5/n50-s1/triangle_triangle/rational/f64/serial-1",
+                  "slivers_scalem4/n50-s1/triangle_triangle/rational/f64/serial-1",
+                  "slivers_k5_scalem4/n50-s1/triangle_triangle/rational/f64/serial-1"}));
+    for (const PlannedCell& cell : plan.cells)
+        EXPECT_TRUE(parse_cell_name(cell.name));
+}
+
+TEST(Plan, GroupsOfFamiliesPassOverAScaleOutOfRange) {
+    const std::string text = "[[cells]]\nscene = \"all\"\nask = \"triangle_triangle\"\n"
+                             "kernels = \"rational\"\nscale = ";
+    const std::size_t all = plan_of(text + "0\n").cells.size();
+    EXPECT_EQ(all, families_of("all", Ask::triangle_triangle).size());
+    EXPECT_LT(plan_of(text + "1000\n").cells.size(), all);
+    EXPECT_THROW(plan_of("[[cells]]\nscene = \"slivers\"\nask = \"triangle_triangle\"\n"
+                         "scale = 1000\n"),
+                 BadInput);
 }
 
 } // namespace

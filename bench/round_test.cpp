@@ -4,7 +4,9 @@
 
 #include "bench/calibration.h"
 #include "bench/prepare.h"
+#include "bench/rungs/rungs.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -225,6 +227,45 @@ TEST_F(RoundTest, WhatAContenderThrowsInARoundComesOut) {
         return std::make_unique<Made>(job, Fault::throws, queries["a"]);
     };
     EXPECT_THROW(run_round(plan, p, 0, report()), std::runtime_error);
+}
+
+TEST_F(RoundTest, KernelsAreJudgedAndHaveAQueryAlone) {
+    PlannedCell cell;
+    cell.scene.generator = "generic_triangles";
+    cell.scene.n = 20;
+    cell.executor = "serial";
+    for (const Ask ask : {Ask::triangle_triangle, Ask::triangle_distance}) {
+        cell.ask = ask;
+        cell.contender = rung_contender(ask, "rational");
+        cell.name = std::string(to_string(ask));
+        plan.cells.push_back(cell);
+    }
+    add("tree", Fault::none);
+    const results::Results r = prepared();
+    ASSERT_EQ(r.kernels.size(), 2u);
+    EXPECT_EQ(r.kernels[0].family, "generic_triangles");
+    EXPECT_EQ(r.kernels[0].n, 20u);
+    EXPECT_EQ(r.kernels[0].status, "exact");
+    EXPECT_GT(r.kernels[0].ns_per_call, 0);
+    EXPECT_EQ(r.kernels[1].cell_id, 1u);
+    EXPECT_FALSE(r.conditions.empty());
+    EXPECT_EQ(r.conditions[0].cell_id, 1u);
+    EXPECT_EQ(check_of(r, "triangle_triangle")->status, "exact");
+    EXPECT_EQ(r.cells[0].n_items, 20u);
+    EXPECT_EQ(r.cells[0].n_queries, 20u);
+
+    const results::Results round = run_round(plan, r, 0, report());
+    std::multiset<std::string> phases;
+    for (const results::Sample& sample : round.samples) {
+        phases.insert(fmt::format("{} {}", sample.cell_id, sample.phase));
+        EXPECT_EQ(sample.flags & results::wrong_answer, 0u) << sample.phase;
+    }
+    // The A/A cell, one of ours, is there twice.
+    EXPECT_EQ(phases.count("0 build") + phases.count("1 build"), 0u);
+    EXPECT_GE(phases.count("0 query"), 1u);
+    EXPECT_GE(phases.count("1 query"), 1u);
+    EXPECT_GE(phases.count("2 build"), 1u);
+    EXPECT_EQ(phases.count("2 build"), phases.count("2 query"));
 }
 
 } // namespace

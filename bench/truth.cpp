@@ -151,25 +151,6 @@ class PairTruth final : public Truth {
     }
 
   private:
-    /// Of the pairs of boxes those whose triangles share a point.
-    void keep_touching(const TriangleMesh& mesh, unsigned threads) {
-        constexpr std::size_t per_part = 256;
-        const auto corners = [&](std::uint32_t i) {
-            const Triangle<float> t = mesh.triangle(i);
-            return Triangle<double>{static_cast<Vec3<double>>(t.a), static_cast<Vec3<double>>(t.b),
-                                    static_cast<Vec3<double>>(t.c)};
-        };
-        const std::vector<Pair> boxes = std::move(expected_);
-        expected_ = gather((boxes.size() + per_part - 1) / per_part, threads,
-                           [&](std::size_t part, std::vector<Pair>& out) {
-                               const std::size_t end =
-                                   std::min(boxes.size(), (part + 1) * per_part);
-                               for (std::size_t i = part * per_part; i < end; ++i)
-                                   if (oracle::intersect(corners(boxes[i].a), corners(boxes[i].b)))
-                                       out.push_back(boxes[i]);
-                           });
-    }
-
     Ask ask_;
     std::string oracle_;
     std::vector<Pair> expected_;

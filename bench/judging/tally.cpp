@@ -79,11 +79,13 @@ Judgement Tally::rows(std::string witness) const {
     constexpr std::size_t column_width = 1024; // of the schema
     witness.resize(std::min(witness.size(), column_width));
 
+    if (row_.n == 0)
+        witness = "no case has only finite numbers in this precision";
     Judgement all;
     all.breaks_promise = worst_ == Worth::broken_promise;
     all.kernel = row_;
     all.kernel.promise = to_string(promise_);
-    all.kernel.status = status_of(worst_);
+    all.kernel.status = row_.n > 0 ? status_of(worst_) : "unsupported";
     all.kernel.witness = witness;
     all.kernel.escalation_rate =
         row_.n > 0 ? 1 - static_cast<double>(row_.tier_0) / static_cast<double>(row_.n)
