@@ -102,9 +102,8 @@ template <OrientationPredicates P> struct GuigueDevillers {
         P::promise,          P::bound, P::cost};
 
     static Verdict intersect(const Triangle<Real>& a, const Triangle<Real>& b) {
-        using Pair = typename PairSignsOf<P>::type;
-        Pair signs(a, b);
-        return {IntervalTest<Pair>::meet(signs), P::tier};
+        typename PairSignsOf<P>::type signs(a, b);
+        return {IntervalTest<decltype(signs)>::meet(signs), P::tier};
     }
 };
 
