@@ -98,6 +98,7 @@ void add_query(CLI::App& app, int&) {
                   "Example: boxwood query pairs boxes.csv");
     add_query_pairs(*query);
     add_query_rays(*query);
+    add_query_triangles(*query);
     add_query_ccd(*query);
 }
 

@@ -73,6 +73,16 @@ struct RaysQuery {
 void run(const RaysQuery& query, std::ostream& out);
 void add_query_rays(CLI::App& query);
 
+struct TrianglesQuery {
+    std::string pairs;     ///< a file of rows of 18 numbers; - for standard input
+    std::string kernel;    ///< guigue_devillers_exact, or certified for distances, if empty
+    bool distance = false; ///< distance,lo,hi instead of 0 or 1
+    Format format;
+};
+/// Prints for each pair whether the triangles touch, or how far apart they are.
+void run(const TrianglesQuery& query, std::ostream& out);
+void add_query_triangles(CLI::App& query);
+
 struct CcdQuery {
     std::string queries; ///< a file of rational queries (ccd_file.h); - for standard input
     std::string kind;    ///< vertex-face | edge-edge
