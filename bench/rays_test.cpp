@@ -14,13 +14,14 @@
 namespace boxwood::bench {
 namespace {
 
-std::vector<ContenderEntry> ours(Ask ask) {
+std::vector<ContenderEntry> ours(Ask ask, std::string_view kernel = "watertight") {
     std::vector<ContenderEntry> all;
     for (const BuilderEntry& builder : builders())
         for (const LayoutEntry& layout : layouts())
             all.push_back(our_contender({.builder = std::string(builder.name),
                                          .settings = {},
-                                         .layout = std::string(layout.name)},
+                                         .layout = std::string(layout.name),
+                                         .kernel = std::string(kernel)},
                                         ask));
     return all;
 }
@@ -125,10 +126,11 @@ TEST(Rays, NoneLeaksThroughTheEdgesAndVerticesOfAClosedMesh) {
             scene.rays.push_back({centre, from + (to - from) * s - centre});
         }
     ASSERT_GT(scene.rays.size(), 90000u);
-    for (const ContenderEntry& contender : ours(Ask::rays_closest)) {
-        const std::vector<RayHit> hits = hits_of(contender, scene);
-        EXPECT_TRUE(std::ranges::all_of(hits, &RayHit::hit)) << contender.name;
-    }
+    for (const char* kernel : {"watertight", "exact"})
+        for (const ContenderEntry& contender : ours(Ask::rays_closest, kernel)) {
+            const std::vector<RayHit> hits = hits_of(contender, scene);
+            EXPECT_TRUE(std::ranges::all_of(hits, &RayHit::hit)) << contender.name;
+        }
 }
 
 } // namespace
