@@ -1,5 +1,6 @@
 #include "kernels/triangle_triangle/guigue_devillers.h"
 
+#include "kernels/predicates/exact.h"
 #include "kernels/predicates/rounded.h"
 
 #include <gtest/gtest.h>
@@ -15,8 +16,10 @@
 namespace boxwood {
 namespace {
 
-using Kernel = GuigueDevillers<Rounded<double>>;
+using Kernel = GuigueDevillersF64;
 static_assert(TriangleKernel<Kernel>);
+static_assert(TriangleKernel<GuigueDevillersF32>);
+static_assert(GuigueDevillersF32::name == "guigue_devillers_f32");
 static_assert(Kernel::name == "guigue_devillers_f64");
 
 struct NoVerdict {
@@ -89,7 +92,20 @@ Triangle<double> triangle(const Corners& t) {
 }
 
 template <class K = Kernel> Answer answer(const Corners& a, const Corners& b) {
-    return K::intersect(triangle(a), triangle(b)).answer;
+    const auto read = [](const Corners& t) {
+        using Vector = Vec3<typename K::Real>;
+        return Triangle<typename K::Real>{Vector(t[0]), Vector(t[1]), Vector(t[2])};
+    };
+    return K::intersect(read(a), read(b)).answer;
+}
+
+/// Whether float determinants round nothing: 6 * (2 * 64)^3 < 2^24.
+bool is_small(const Corners& a, const Corners& b) {
+    std::int64_t most = 0;
+    for (const Corners& t : {a, b})
+        for (const Point& p : t)
+            most = std::max({most, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    return most <= 64;
 }
 
 std::string print(const Corners& a, const Corners& b) {
@@ -108,6 +124,10 @@ class Judge {
         const bool expected = truth(a, b);
         const Answer wanted = expected ? Answer::yes : Answer::no;
         ASSERT_EQ(answer(a, b), wanted) << print(a, b);
+        ASSERT_EQ(answer<GuigueDevillers<Exact>>(a, b), wanted) << print(a, b);
+        if (is_small(a, b)) {
+            ASSERT_EQ(answer<GuigueDevillersF32>(a, b), wanted) << print(a, b);
+        }
         const Answer coy = answer<GuigueDevillers<Coy>>(a, b);
         if (coy != Answer::maybe) {
             ASSERT_EQ(coy, wanted) << print(a, b);
