@@ -26,7 +26,13 @@
 #include "kernels/ray_box/plain.h"                     // ... textbook slabs, nothing padded
 #include "kernels/ray_box/ray_box_kernel.h"            // contract: ray against box
 #include "kernels/ray_box/slabs.h"                     // ... losing no true hit
+#include "kernels/ray_triangle/baldwin_weber.h"        // ... map to the unit triangle
+#include "kernels/ray_triangle/blocks.h"               // ... 4 or 8 triangles at a time
+#include "kernels/ray_triangle/exact.h"                // ... exactly: filter, fixed point
+#include "kernels/ray_triangle/moller_trumbore.h"      // ... in float or double
+#include "kernels/ray_triangle/plucker.h"              // ... sides of the edges
 #include "kernels/ray_triangle/ray_kernel.h"           // contract: ray against triangle
+#include "kernels/ray_triangle/triangle_block.h"       // triangles side by side for SIMD
 #include "kernels/ray_triangle/watertight.h"           // ... Woop, Benthin, Wald 2013
 #include "kernels/rounding.h"                          // double -> float, outward
 #include "kernels/triangle.h"                          // triangles and indexed meshes
