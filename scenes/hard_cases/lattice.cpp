@@ -154,8 +154,7 @@ HardCaseFamily lattice_family(std::string_view name, std::string_view summary, P
     return {.name = name,
             .summary = summary,
             .panel = panel,
-            .k_meaning = "the size in lattice units is 2^k, the least gap 2^-k of it; floats hold "
-                         "it up to k = 15",
+            .k_meaning = "the least gap is 2^-k of the size; exact in floats up to k = 15",
             .k_default = k_default,
             .k_least = k_least,
             .k_most = k_most,

@@ -1,19 +1,21 @@
 #include "scenes/hard_cases/lattice.h"
+#include "scenes/hard_cases/rounded.h"
 
 #include <cstddef>
 
 namespace boxwood {
 namespace {
 
-/// Rays and fans are built around the origin, where the ray passes exactly, in the basis
-/// (x, y / 2^k, D): seen along the ray's direction D the triangles cover a disc around the origin,
-/// whatever their heights along D. Sizes are integers of at most 2^18, so floats hold them all.
-constexpr int size_bits = 12, k_most = 8;
-constexpr std::int64_t size = 1 << 10; ///< of a fan across the ray; squeezed to size / 2^k in y
+/// Rays and fans are built around the origin, where the ray passes, in the basis (x, y / 2^k, D):
+/// seen along the ray's direction D the triangles cover a disc around the origin, whatever their
+/// heights along D. Sizes are integers below 2^24 after the tilt, so that floats hold them all.
+constexpr int size_bits = 20, k_most = 12;
+constexpr std::int64_t size = 1 << 18; ///< of a fan across the ray; squeezed to size / 2^k in y
 
 struct Fan {
-    std::vector<LatticePoint> corners; ///< x, y, height
+    std::vector<LatticePoint> corners; ///< x, y, height; the ray is aimed at [0] or between 0 and 1
     std::vector<std::array<std::size_t, 3>> triangles;
+    bool aims_at_edge = false;
 };
 
 /// Three to eight triangles around the origin. Among the eight compass points numbers 0, 3 and 5
@@ -21,7 +23,7 @@ struct Fan {
 Fan draw_vertex_fan(Draws& draws) {
     constexpr std::int64_t compass[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
                                             {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
-    Fan fan{{LatticePoint{}}, {}};
+    Fan fan{{LatticePoint{}}, {}, false};
     for (std::size_t i = 0; i < 8; ++i)
         if (i == 0 || i == 3 || i == 5 || draw_coin(draws)) {
             const std::int64_t radius = draw_integer(draws, size / 2, size);
@@ -35,31 +37,39 @@ Fan draw_vertex_fan(Draws& draws) {
 
 /// Two triangles on both sides of an edge through the origin.
 Fan draw_edge_fan(Draws& draws) {
-    const LatticePoint step{draw_integer(draws, size / 4, size / 2), 0, draw_integer(draws, -3, 3)};
-    const std::int64_t back = draw_integer(draws, 1, 2), forth = draw_integer(draws, 1, 2);
+    const LatticePoint step{draw_integer(draws, size / 8, size / 4), 0, draw_integer(draws, -1, 1)};
+    const std::int64_t back = draw_integer(draws, 2, 4), forth = draw_integer(draws, 2, 4);
     const auto side = [&](std::int64_t sign) {
-        return LatticePoint{draw_integer(draws, -size / 2, size / 2),
+        return LatticePoint{draw_integer(draws, -size / 4, size / 4),
                             sign * draw_integer(draws, size / 2, size), draw_integer(draws, -6, 6)};
     };
     const LatticePoint left = side(1), right = side(-1);
-    return {{-back * step, forth * step, left, right}, {{0, 1, 2}, {1, 0, 3}}};
+    return {{-back * step, forth * step, left, right}, {{0, 1, 2}, {1, 0, 3}}, true};
 }
 
-/// Every other ray goes through the origin exactly, as direction = - D. The others have a direction
-/// of any length, rounded: from at most 6 16 255 units away they miss the origin by 2^-9 on each
-/// axis, by 16 2^-9 before the tilt, and seen along D by (1 + 255 / 64) 2^-5 < 0.2; while the disc
-/// of a fan reaches 0.5 even at k = 8, where its corners have |y| >= 2 or y = 0.
+/// Every other ray goes through the origin exactly, as direction = - D. In the other cases all
+/// corners are multiplied by a factor that fills their last bits and are rounded to float, and so
+/// is the direction to the corner or to a point of the edge. On each axis that displaces the ray by
+/// 1 unit, the corners by 1, and those off the target's height by 2 more; seen along D, before the
+/// tilt, by at most (1 + 4) 16 4 = 320, as |D| <= 4 |D.z| and the inverse of the tilt grows by 16;
+/// in y before the squeeze by 320 2^5. The disc reaches 2^15 2 / sqrt(29) > 12000.
+constexpr int k_rounded = 5; ///< thinner fans get exact rays alone
+
 template <Fan (*draw_fan)(Draws&)> Cases rays_at(const HardCaseSpec& spec, const Random& random) {
     RayCases cases;
     for (std::size_t i = 0; i < spec.n; ++i) {
         Draws draws = random.item(i);
-        const LatticePoint along = draw_point(draws, {-255, -255, 64}, {255, 255, 255});
+        const LatticePoint along =
+            draw_point(draws, {-65535, -65535, 16384}, {65535, 65535, 65535});
         const Fan fan = draw_fan(draws);
         const LatticeMap tilt = draw_tilt(draws, 1);
         const LatticePoint shift =
             draw_point(draws, {-2 * size, -2 * size, -2 * size}, {2 * size, 2 * size, 2 * size});
+        const bool is_exact = draw_coin(draws) || *spec.k > k_rounded;
+        const double factor =
+            is_exact ? 1 : 1 + static_cast<double>(draw_integer(draws, 1, 255)) / 256;
         const auto placed = [&](LatticePoint p) {
-            return Vec3<float>(to_scene(tilt(p + shift), spec.scale - size_bits));
+            return Vec3<float>(factor * to_scene(tilt(p + shift), -size_bits));
         };
         const auto corner = [&](std::size_t c) {
             const LatticePoint p = fan.corners[c];
@@ -70,11 +80,17 @@ template <Fan (*draw_fan)(Draws&)> Cases rays_at(const HardCaseSpec& spec, const
         ray.count = static_cast<std::uint32_t>(fan.triangles.size());
         ray.hit = Known::yes;
         for (const auto& [a, b, c] : fan.triangles)
-            cases.triangles.push_back({corner(a), corner(b), corner(c)});
-        ray.ray.origin = placed(draw_integer(draws, 7, 16) * along);
-        const Vec3<double> direction = to_scene(tilt(-along), -8);
-        ray.ray.direction =
-            Vec3<float>(draw_coin(draws) ? direction : draws.uniform(0.5, 2) * direction);
+            cases.triangles.push_back({scaled(corner(a), spec.scale), scaled(corner(b), spec.scale),
+                                       scaled(corner(c), spec.scale)});
+        const Vec3<float> origin = placed(draw_integer(draws, 7, 16) * along);
+        ray.ray.origin = scaled(origin, spec.scale);
+        if (is_exact) {
+            ray.ray.direction = Vec3<float>(to_scene(tilt(-along), -16));
+        } else {
+            const auto a = Vec3<double>(corner(0)), b = Vec3<double>(corner(1));
+            const double share = fan.aims_at_edge ? draws.uniform(0.25, 0.75) : 0;
+            ray.ray.direction = Vec3<float>(a + share * (b - a) - Vec3<double>(origin));
+        }
     }
     return cases;
 }
@@ -84,11 +100,12 @@ HardCaseFamily family(std::string_view name, std::string_view summary,
     return {.name = name,
             .summary = summary,
             .panel = Panel::touching,
-            .k_meaning = "the fan is 2^-k as wide as long",
+            .k_meaning =
+                "the fan is 2^-k as wide as long; above 5 all rays pass through it exactly",
             .k_default = 0,
             .k_least = 0,
             .k_most = k_most,
-            .scale_least = -149 + size_bits,
+            .scale_least = -149 + size_bits + 8,
             .scale_most = 120,
             .generate = generate};
 }

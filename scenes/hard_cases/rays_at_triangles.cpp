@@ -36,10 +36,10 @@ Triangle<float> generic(Draws& draws, int, RayCase& ray) {
     return rounded(t);
 }
 
-/// Integers of at most 34 2^14: the ray runs in the triangle's plane z = 0, through its inside or
-/// along an edge. By definition it misses.
+/// Integers of at most 34 2^18, which floats hold: the ray runs in the triangle's plane z = 0,
+/// through its inside or along an edge. By definition it misses.
 Triangle<float> in_plane(Draws& draws, int, RayCase& ray) {
-    constexpr std::int64_t size = 1 << 12;
+    constexpr std::int64_t size = 1 << 16;
     const LatticeTriangle t = draw_around_origin(draws, size);
     const LatticeMap tilt = draw_tilt(draws, 3);
     const LatticePoint shift = draw_point(draws, {-size, -size, -size}, {size, size, size});
@@ -47,9 +47,9 @@ Triangle<float> in_plane(Draws& draws, int, RayCase& ray) {
                                      ? draw_point(draws, {1, -size / 2, 0}, {size / 2, size / 2, 0})
                                      : t[1] - t[0];
     const LatticePoint through = draw_coin(draws) ? LatticePoint{} : t[0];
-    const auto placed = [&](LatticePoint p) { return Vec3<float>(to_scene(tilt(p + shift), -12)); };
+    const auto placed = [&](LatticePoint p) { return Vec3<float>(to_scene(tilt(p + shift), -16)); };
     ray.ray.origin = placed(through - towards);
-    ray.ray.direction = Vec3<float>(to_scene(tilt(towards), -12));
+    ray.ray.direction = Vec3<float>(to_scene(tilt(towards), -16));
     ray.hit = Known::no;
     return {placed(t[0]), placed(t[1]), placed(t[2])};
 }
@@ -107,7 +107,7 @@ HardCaseFamily ray_in_plane_family() {
     return {.name = "ray_in_plane",
             .summary = "rays in the triangle's plane, through it or along an edge: a miss",
             .panel = Panel::degenerate,
-            .scale_least = -149 + 12,
+            .scale_least = -149 + 16,
             .scale_most = 120,
             .generate = [](const HardCaseSpec& spec, const Random& random) {
                 return single_rays(spec, random, in_plane);
