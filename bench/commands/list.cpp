@@ -112,7 +112,7 @@ Rows family_rows() {
             row.notes.push_back(fmt::format("k = {} ({} to {}): {}", family.k_default,
                                             family.k_least, family.k_most, family.k_meaning));
         if (family.scale_least != family.scale_most)
-            row.notes.push_back(fmt::format("scale = 0 ({} to {}): coordinates times 2^scale",
+            row.notes.push_back(fmt::format("scale = {} to {} (coordinates times 2^scale)",
                                             family.scale_least, family.scale_most));
     }
     return rows;

@@ -36,7 +36,7 @@ TEST(List, AFamilySaysItsPanelAndItsParameters) {
     const std::string text = list_catalogues("families", false);
     EXPECT_THAT(text, HasSubstr("degenerate: triangles of two planes at an angle of 10^-k"));
     EXPECT_THAT(text, HasSubstr("k = 16 (1 to 18): the angle is 10^-k"));
-    EXPECT_THAT(text, HasSubstr("scale = 0 (-860 to 860)"));
+    EXPECT_THAT(text, HasSubstr("scale = -860 to 860 ("));
     const std::string json = list_catalogues("families", true);
     EXPECT_THAT(json, HasSubstr(R"("panel":"degenerate","k":{"meaning":"the angle is 10^-k",)"
                                 R"("default":16,"least":1,"most":18},)"
