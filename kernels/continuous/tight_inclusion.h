@@ -24,7 +24,8 @@ struct TightInclusion {
         Promise::never_miss,
         "36 u max|x| per axis on F, homogeneous of degree 1 (inclusion.h); a yes is proven, else "
         "maybe",
-        "box of the motion, then about 100 ns per plane; 1 or 2 planes as a rule"};
+        "boxes of the motion, then about 100 ns per plane; 5 to 10 as a rule, 50 for a grazing "
+        "touch"};
     static constexpr KernelInfo edge_edge_info{"edge_edge",
                                                name,
                                                vertex_face_info.summary,
