@@ -15,8 +15,7 @@ namespace {
 
 using T = Triangle<double>;
 
-/// Each kernel keeps its promise on what its numbers make of the triangles; it is `right` if it
-/// says `truth`, or maybe where it promises no more.
+/// The kernel keeps its promise on what its own numbers make of the triangles.
 template <class K> void expect_kept(const T& a, const T& b) {
     using Real = typename K::Real;
     const auto x = as<Real>(a), y = as<Real>(b);
@@ -38,7 +37,7 @@ void expect_apart(const T& a, const T& b, double distance) {
         expect_kept<K>(b, a);
         EXPECT_NE(K::intersect(as<Real>(a), as<Real>(b)).answer, Answer::yes) << K::name;
     });
-    for_each_kernel<oracle::RationalTriangleDistanceKernels>([&]<class K> {
+    for_each_kernel<DistanceKernels, oracle::RationalTriangleDistanceKernels>([&]<class K> {
         using Real = typename K::Real;
         const Distance d = K::distance(as<Real>(a), as<Real>(b));
         const double error = std::is_same_v<Real, float> ? 1e-4 : 1e-9;
