@@ -6,9 +6,12 @@
 namespace boxwood {
 namespace {
 
-constexpr KernelInfo closed_overlap{"box_box", "overlaps",
+constexpr KernelInfo closed_overlap{"box_box",
+                                    "overlaps",
                                     "closed boxes share a point: six comparisons, no arithmetic",
-                                    Promise::exact};
+                                    Promise::exact,
+                                    "0: nothing is rounded",
+                                    "6 comparisons"};
 
 template <class... K>
 constexpr std::array<KernelInfo, sizeof...(K)> rows(std::type_identity<std::tuple<K...>>) {

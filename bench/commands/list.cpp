@@ -3,6 +3,7 @@
 #include "bench/commands/command.h"
 #include "bench/contender.h"
 #include "bench/json.h"
+#include "bench/rungs/rungs.h"
 #include "kernels/catalogue.h"
 #include "scenes/hard_cases/hard_cases.h"
 #include "scenes/suggest.h"
@@ -53,15 +54,26 @@ Rows builder_rows() {
     return rows;
 }
 
+Row kernel_row(const KernelInfo& kernel) {
+    return {std::string(kernel.name),
+            fmt::format("{}, {}: {}", kernel.family, to_string(kernel.promise), kernel.summary),
+            {{"family", json_string(kernel.family)},
+             {"promise", json_string(to_string(kernel.promise))},
+             {"bound", json_string(kernel.bound)},
+             {"cost", json_string(kernel.cost)}},
+            {fmt::format("bound: {}", kernel.bound), fmt::format("cost: {}", kernel.cost)}};
+}
+
+/// Family by family, the rational rungs last; first what no question of its own asks for.
 Rows kernel_rows() {
     Rows rows;
     for (const KernelInfo& kernel : kernels())
-        rows.push_back(
-            {std::string(kernel.name),
-             fmt::format("{}, {}: {}", kernel.family, to_string(kernel.promise), kernel.summary),
-             {{"family", json_string(kernel.family)},
-              {"promise", json_string(to_string(kernel.promise))}},
-             {}});
+        if (!ask_of(kernel.family))
+            rows.push_back(kernel_row(kernel));
+    for (const AskEntry& entry : asks())
+        if (is_kernel_ask(entry.ask))
+            for (const KernelInfo& kernel : rungs(entry.ask))
+                rows.push_back(kernel_row(kernel));
     return rows;
 }
 

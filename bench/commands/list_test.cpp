@@ -27,6 +27,16 @@ TEST(List, OneCatalogueHasALinePerEntry) {
     EXPECT_THAT(list_catalogues("kernels", true), HasSubstr("\"name\":\"watertight\""));
 }
 
+TEST(List, ARungSaysPromiseBoundAndCost) {
+    const std::string text = list_catalogues("kernels", false);
+    EXPECT_THAT(text, HasSubstr("triangle_triangle, exact: "));
+    EXPECT_THAT(text, HasSubstr("bound: "));
+    EXPECT_THAT(text, HasSubstr("cost: rational: microseconds, allocates"));
+    EXPECT_THAT(text, HasSubstr("vertex_face, exact: "));
+    const std::string json = list_catalogues("kernels", true);
+    EXPECT_THAT(json, HasSubstr(R"("family":"triangle_triangle","promise":"certified","bound":)"));
+}
+
 TEST(List, EmptyCataloguesSaySo) {
     EXPECT_EQ(list_catalogues("effects", true), "[]\n");
     EXPECT_THAT(list_catalogues("effects", false), HasSubstr("none yet"));

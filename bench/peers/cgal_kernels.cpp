@@ -33,10 +33,28 @@ template <class K> Verdict intersect(const TrianglePair<K>& p) {
     return yes_or_no(CGAL::do_intersect(p.a, p.b));
 }
 
+/// The root of an exact square, also where the square itself is beyond the doubles.
+double root(const Exact::FT& squared) {
+    constexpr double usual_least = 0x1p-900, usual_most = 0x1p900;
+    squared.exact(); // else a double within 1e-5 would do for CGAL
+    const double nearest = CGAL::to_double(squared);
+    if ((nearest > usual_least && nearest < usual_most) || CGAL::is_zero(squared))
+        return std::sqrt(nearest);
+    const bool small = nearest <= usual_least;
+    Exact::FT scaled = squared;
+    int exponent = 0;
+    for (double x = nearest; !(x > usual_least && x < usual_most); x = CGAL::to_double(scaled)) {
+        scaled *= small ? Exact::FT(0x1p600) : Exact::FT(0x1p-600);
+        exponent += small ? -300 : 300;
+    }
+    return std::ldexp(std::sqrt(CGAL::to_double(scaled)), exponent);
+}
+double root(double squared) { return std::sqrt(squared); }
+
 template <class K> Distance distance(const TrianglePair<K>& p) {
     if (!p.valid)
         return plain_distance(std::nan(""));
-    return plain_distance(std::sqrt(CGAL::to_double(CGAL::squared_distance(p.a, p.b))));
+    return plain_distance(root(CGAL::squared_distance(p.a, p.b)));
 }
 
 } // namespace
