@@ -129,7 +129,7 @@ TEST(Exact, SmallIntegers) {
 
 /// d in the plane of a, b, c or beside it by as little as can be: all widths of numbers.
 TEST(Exact, NearThePlane) {
-    const Tally tally = run(60000, [](Random& random, std::array<Point, 4>& p) {
+    const Tally tally = run(20000, [](Random& random, std::array<Point, 4>& p) {
         const int bits = 10 + random.below(44), scale = random.below(41) - 20;
         for_each_coordinate(p, [&] { return std::ldexp(random.fraction(bits), scale); });
         const double s = random.fraction(3), t = random.fraction(3);
@@ -137,14 +137,14 @@ TEST(Exact, NearThePlane) {
         if (random.below(2) == 0)
             p[3].x = std::nextafter(p[3].x, random.below(2) == 0 ? 1e300 : -1e300);
     });
-    EXPECT_GT(tally.zero, 5000);
-    EXPECT_GT(tally.below, 5000);
-    EXPECT_GT(tally.above, 5000);
+    EXPECT_GT(tally.zero, 1500);
+    EXPECT_GT(tally.below, 1500);
+    EXPECT_GT(tally.above, 1500);
 }
 
 /// The same at all scales, by axis, down to denormals.
 TEST(Exact, ScaledByPowersOfTwo) {
-    const Tally tally = run(40000, [](Random& random, std::array<Point, 4>& p) {
+    const Tally tally = run(15000, [](Random& random, std::array<Point, 4>& p) {
         for_each_coordinate(p, [&] { return random.below(9) - 4.0; });
         const bool each_axis = random.below(2) == 0;
         int scale = random.below(2040) - 1070;
@@ -160,7 +160,7 @@ TEST(Exact, ScaledByPowersOfTwo) {
 }
 
 TEST(Exact, MixedMagnitudes) {
-    Tally tally = run(20000, [](Random& random, std::array<Point, 4>& p) {
+    Tally tally = run(8000, [](Random& random, std::array<Point, 4>& p) {
         const int span = 1 << random.below(12);
         for_each_coordinate(p, [&] {
             return std::ldexp(random.fraction(53),
@@ -170,12 +170,12 @@ TEST(Exact, MixedMagnitudes) {
             p[3] = p[0];
     });
     EXPECT_GT(tally.zero, 1000);
-    tally = run(10000, [](Random& random, std::array<Point, 4>& p) {
+    tally = run(4000, [](Random& random, std::array<Point, 4>& p) {
         for_each_coordinate(p, [&] { return random.any(); });
     });
-    EXPECT_GT(tally.below, 1000);
+    EXPECT_GT(tally.below, 500);
     // Huge and tiny on a lattice, so that the tiny decides.
-    tally = run(20000, [](Random& random, std::array<Point, 4>& p) {
+    tally = run(8000, [](Random& random, std::array<Point, 4>& p) {
         const double steps[] = {0, 1, 0x1p-1074, 0x1p1023, -0x1p1023, 0x1p-500, 1e300, -1e-300};
         for_each_coordinate(p, [&] { return steps[random.below(8)]; });
     });
@@ -209,6 +209,36 @@ TEST(Exact, NonFiniteIsUndecided) {
                               undecided);
                 }
             }
+}
+
+/// c on the line of a and b, rounded, or beside it by as little as can be.
+TEST(Exact, NearTheLine) {
+    int zero = 0;
+    run(20000, [&](Random& random, std::array<Point, 4>& p) {
+        const int bits = 10 + random.below(44);
+        for_each_coordinate(p, [&] { return random.fraction(bits); });
+        const double t = random.fraction(1 + random.below(20));
+        p[2] = p[0] + t * (p[1] - p[0]);
+        if (random.below(2) == 0)
+            p[2].y = std::nextafter(p[2].y, random.below(2) == 0 ? 1e300 : -1e300);
+        zero += truth(p[0], p[1], p[2]) == 0;
+    });
+    EXPECT_GT(zero, 1500);
+}
+
+TEST(Superaccumulator, CarriesRipple) {
+    const Binary64 one(1);
+    Superaccumulator sum;
+    // All ones from bit 0 to 53 * 18 - 1, then one more.
+    for (int i = 0; i < 18; ++i)
+        sum.add(Binary64(std::ldexp(0x1p53 - 1, 53 * i)), one, one);
+    EXPECT_EQ(sum.sign(), 1);
+    sum.add(Binary64(std::ldexp(1.0, 53 * 18)), one, one, true);
+    EXPECT_EQ(sum.sign(), -1);
+    sum.add(one, one, one);
+    EXPECT_EQ(sum.sign(), 0);
+    sum.add(Binary64(0x1p-1074), Binary64(-0x1p-1074), Binary64(0x1p-1074));
+    EXPECT_EQ(sum.sign(), -1);
 }
 
 /// The filter's bound is a bound, and no emptily wide one: random determinants next to it are

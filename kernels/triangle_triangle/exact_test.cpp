@@ -8,7 +8,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace boxwood {
@@ -92,6 +95,106 @@ TEST(GuigueDevillersExact, GridsAtEveryTier) {
             EXPECT_EQ(tally.by_tier[other] > 0, other == static_cast<std::size_t>(tier))
                 << exponent;
     }
+}
+
+/// A lattice vector d with n . d = 1, of n = u x v, close to the parallelogram of u and v: as near
+/// to their plane as their lattice has points. No value if the components of n share a factor.
+std::optional<Vec3<std::int64_t>> next_to_plane(Vec3<std::int64_t> u, Vec3<std::int64_t> v) {
+    __extension__ using Wide = __int128;
+    const Vec3<std::int64_t> n = cross(u, v);
+    // a x + b y = g
+    const auto bezout = [](Wide a, Wide b) {
+        std::array<Wide, 3> r{a, 1, 0}, s{b, 0, 1};
+        while (s[0] != 0) {
+            const Wide q = r[0] / s[0];
+            for (std::size_t i = 0; i < 3; ++i)
+                r[i] -= q * s[i];
+            std::swap(r, s);
+        }
+        return r;
+    };
+    const auto [g, x, y] = bezout(n.x, n.y);
+    const auto [one, of_g, z] = bezout(g, n.z);
+    if (one != 1 && one != -1)
+        return std::nullopt;
+    std::array<Wide, 3> d{x * of_g * one, y * of_g * one, z * one};
+    // Off with the multiples of u and v; twice, as doubles round.
+    for (int pass = 0; pass < 4; ++pass) {
+        const Vec3<double> at{double(d[0]), double(d[1]), double(d[2])}, normal(n);
+        const double square = dot(normal, normal);
+        const auto s =
+            static_cast<Wide>(std::round(dot(cross(at, Vec3<double>(v)), normal) / square));
+        const auto t =
+            static_cast<Wide>(std::round(dot(cross(Vec3<double>(u), at), normal) / square));
+        for (int k = 0; k < 3; ++k)
+            d[static_cast<std::size_t>(k)] -= s * u[k] + t * v[k];
+    }
+    return Vec3<std::int64_t>{static_cast<std::int64_t>(d[0]), static_cast<std::int64_t>(d[1]),
+                              static_cast<std::int64_t>(d[2])};
+}
+
+/// b points with a corner at a, on its plane or the least step of the grid to one side of it: where
+/// a determinant that was rounded by one unit would be wrong. Near the origin and far from it.
+TEST(GuigueDevillersExact, TheLeastStepOffThePlane) {
+    PairFamilies random(11);
+    using Lattice = Vec3<std::int64_t>;
+    for (const int bits : {8, 14, 15, 16, 17, 18, 20, 22}) {
+        std::vector<TrianglePair> pairs;
+        const auto component = [&] { return std::int64_t{random.below(2 << bits)} - (1 << bits); };
+        while (pairs.size() < 1500 / for_test::thinned) {
+            const Lattice u{component(), component(), component()};
+            const Lattice v{component(), component(), component()};
+            const auto step = next_to_plane(u, v);
+            if (!step)
+                continue;
+            const std::int64_t side = random.below(3) - 1;
+            const auto times = [](const Lattice& p, std::int64_t s) {
+                return Lattice{p.x * s, p.y * s, p.z * s};
+            };
+            const Lattice near = times(*step, side), n = cross(u, v);
+            // The two others of b on one side: above, where n points.
+            const auto above = [&] {
+                const Lattice p{component(), component(), component()};
+                return dot(n, p) > 0 ? p : times(p, -1);
+            };
+            const int far = random.below(3) == 0 ? bits + 18 + random.below(5) : 0;
+            const double offset = far == 0 ? 0 : std::ldexp(random.below(2) == 0 ? 1 : -1, far);
+            const auto point = [&](const Lattice& p) {
+                return Point(p) + Point{offset, offset, offset};
+            };
+            TrianglePair pair{{point({0, 0, 0}), point(u), point(v)},
+                              {point(near), point(near + above()), point(near + above())},
+                              false};
+            if (random.below(2) == 0)
+                std::swap(pair.a, pair.b);
+            pair.touch = oracle::intersect(pair.a, pair.b);
+            pairs.push_back(pair);
+        }
+        const Tally tally = judge(pairs);
+        ASSERT_FALSE(HasFatalFailure()) << bits;
+        EXPECT_GT(std::min(tally.yes, tally.no), 30) << bits;
+    }
+}
+
+/// In a coordinate plane, where only the test of the plane is left: corners rounded onto edges.
+TEST(GuigueDevillersExact, NearlyTouchingInAPlane) {
+    PairFamilies families(12);
+    std::vector<TrianglePair> pairs = families.nearly_touching(6000);
+    for (TrianglePair& pair : pairs) {
+        const int axis = families.below(3);
+        const auto& [p, q, r] = pair.a;
+        const double t = std::ldexp(families.below(1 << 20), -20);
+        pair.b.a = families.below(2) == 0 ? p + (q - p) * t : q + (r - q) * t;
+        if (families.below(2) == 0)
+            pair.b.b = pair.b.a + (q - p);
+        for (Triangle<double>* side : {&pair.a, &pair.b})
+            for (Point* point : {&side->a, &side->b, &side->c})
+                (*point)[axis] = 0.3;
+        pair.touch = oracle::intersect(pair.a, pair.b);
+    }
+    const Tally tally = judge(pairs);
+    EXPECT_GT(std::min(tally.yes, tally.no), 500);
+    EXPECT_GT(tally.by_tier[1], 500);
 }
 
 TEST(GuigueDevillersExact, NearlyTouching) {
