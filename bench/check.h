@@ -18,8 +18,8 @@
 namespace boxwood::bench {
 
 struct CheckOptions {
-    std::string only;    ///< regular expression searched for in "family/kernel_family/rung"
-    std::size_t n = 300; ///< wanted cases of a family
+    std::string only;     ///< regular expression searched for in "family/kernel_family/rung"
+    std::size_t n = 1000; ///< wanted cases of a family
     std::uint64_t seed = 1;
     std::optional<int> k, scale;    ///< else each family's default, and three scales
     std::optional<std::size_t> one; ///< judge this case alone

@@ -165,7 +165,8 @@ std::string findings_text(const Results& results) {
     if (!wrong.empty())
         text += "Wrong, recorded and not ranked:\n" + wrong;
     else if (results.kernels.size() < results.cells.size())
-        text += "Every timed answer agrees with the truth.\n";
+        text += fmt::format("Every {}timed answer agrees with the truth.\n",
+                            results.kernels.empty() ? "" : "other ");
     return text;
 }
 

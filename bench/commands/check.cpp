@@ -68,7 +68,7 @@ void add_check(CLI::App& app, int& exit_code) {
     check->add_option("--only", options->only,
                       "only what this regular expression is found in: family/kernel_family/rung");
     check->add_option("--out", *out, "a result file to write (HDF5), for scripts/plot");
-    check->add_option("--n", *n, "cases of each family (300; with --quick 60)")
+    check->add_option("--n", *n, "cases of each family (1000; with --quick 300)")
         ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}));
     check->add_option("--seed", options->seed, "key of the random numbers")
         ->check(
@@ -92,7 +92,7 @@ void add_check(CLI::App& app, int& exit_code) {
         "  boxwood check --only '^slivers/triangle_triangle/' --k 12 --scale 40 --case 17\n"
         "Exit codes: 0 every promise is kept, 1 one of ours is broken, 2 bad input.");
     check->callback([=, &exit_code] {
-        options->n = n->value_or(options->is_quick ? 60 : 300);
+        options->n = n->value_or(options->is_quick ? 300 : 1000);
         exit_code = run(*options, *out);
     });
 }

@@ -2,6 +2,8 @@
 
 #include "bench/commands/command.h"
 #include "bench/compare.h"
+#include "bench/contender.h"
+#include "bench/ladders.h"
 #include "bench/text_table.h"
 
 #include <fmt/format.h>
@@ -269,33 +271,46 @@ std::string advice_text(const std::vector<results::Comparison>& comparisons) {
 
 } // namespace
 
-std::string show_text(const Results& results) {
+std::string show_text(const Results& results, bool with_kernels) {
     std::string text = header_text(results) + scenes_text(results);
-    using Job = std::tuple<std::uint32_t, std::string, std::uint32_t>;
-    std::map<Job, std::vector<const Cell*>> groups;
-    std::vector<Job> order;
+    if (!results.kernels.empty())
+        text += "\n" + ladders_text(results) + "\n" + promises_text(results);
+    using Work = std::tuple<std::uint32_t, std::string, std::uint32_t>;
+    std::map<Work, std::vector<const Cell*>> groups;
+    std::vector<Work> order;
+    std::size_t passed_over = 0;
     for (const Cell& cell : results.cells) {
-        const Job job{cell.scene_id, cell.ask, cell.threads};
-        if (!groups.contains(job))
-            order.push_back(job);
-        groups[job].push_back(&cell);
+        const auto ask = ask_of(cell.ask);
+        if (ask && is_kernel_ask(*ask) && !with_kernels) {
+            ++passed_over; // summed up in the ladders
+            continue;
+        }
+        const Work work{cell.scene_id, cell.ask, cell.threads};
+        if (!groups.contains(work))
+            order.push_back(work);
+        groups[work].push_back(&cell);
     }
     const auto stats = cell_stats(results);
     const auto comparisons = compare_to_peers(results);
-    for (const Job& job : order)
-        text += Group(results, stats, comparisons, groups[job]).text();
+    for (const Work& work : order)
+        text += Group(results, stats, comparisons, groups[work]).text();
+    if (passed_over > 0)
+        text += fmt::format("\n{} cells of kernels are summed up above; --kernels prints each.\n",
+                            passed_over);
     return comparisons.empty() ? text : text + advice_text(comparisons);
 }
 
 void add_show(CLI::App& app, int&) {
     auto file = std::make_shared<std::string>();
+    auto with_kernels = std::make_shared<bool>(false);
     CLI::App* show = app.add_subcommand(
         "show", "what is in a result file: machine, cells, times, checks, verdicts");
     show->add_option("file", *file, "a result file (HDF5)")->required();
+    show->add_flag("--kernels", *with_kernels, "each cell of a kernel, not only their sums");
     show->footer("Example: boxwood show quick.h5");
-    show->callback([file] {
+    show->callback([file, with_kernels] {
         const Results results = results::read(*file);
-        std::cout << *file << ": " << show_text(results);
+        std::cout << *file << ": " << show_text(results, *with_kernels);
     });
 }
 

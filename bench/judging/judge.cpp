@@ -131,6 +131,13 @@ std::string replay_command(const Scene& scene, Ask ask, const std::string& rung,
     return command;
 }
 
+std::string query_command(const ContenderEntry& contender, Ask ask) {
+    if (contender.is_peer)
+        return "";
+    return fmt::format(" (| boxwood query triangles - --kernel {}{})", contender.name,
+                       ask == Ask::triangle_distance ? " --distance" : "");
+}
+
 void require_one_per_case(std::size_t answers, std::size_t cases) {
     if (answers != cases)
         throw std::runtime_error(fmt::format("{} answers to {} cases", answers, cases));

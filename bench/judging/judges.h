@@ -14,6 +14,9 @@ std::unique_ptr<Judge> fit_judge(const Scene& scene, unsigned threads);
 /// Answers are as many as the cases, or the contender is broken.
 void require_one_per_case(std::size_t answers, std::size_t cases);
 
+/// What a row of two triangles can be piped into, to be asked of a rung again; empty for peers.
+std::string query_command(const ContenderEntry& contender, Ask ask);
+
 std::string text_of(Answer answer);
 inline std::string text_of(bool truth) { return truth ? "yes" : "no"; }
 

@@ -43,9 +43,10 @@ template <class Case> class VerdictJudge final : public Judge {
             tally.answered(i, answers.verdicts[i].answer, *truths[i]);
         }
         return tally.finish([&](std::size_t i) {
-            return fmt::format("case {}: said {}, truth {}; {}; {}", i, answer_text(answers, i),
+            return fmt::format("case {}: said {}, truth {}; {}{}; {}", i, answer_text(answers, i),
                                text_of(*truths[i]),
                                text_of(truths_.as_read(i, contender.precision)),
+                               ask_ == Ask::triangle_triangle ? query_command(contender, ask_) : "",
                                replay_command(scene_, ask_, contender.name, i));
         });
     }

@@ -11,12 +11,6 @@
 #include <utility>
 #include <vector>
 
-// Until kernels/catalogue.h has them: namespace boxwood is looked at first.
-using DistanceKernels = std::tuple<>;
-using SegmentDistanceKernels = std::tuple<>;
-using PointTriangleKernels = std::tuple<>;
-using PointSegmentKernels = std::tuple<>;
-
 namespace boxwood::bench {
 
 /// What rungs.cpp knows of a rung.
