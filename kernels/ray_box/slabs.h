@@ -41,7 +41,7 @@ struct RaySlabs {
     Vec3<float> entry_rdir;       ///< 1 / direction, rounded towards zero with the slack above
     Vec3<float> exit_rdir;        ///< 1 / direction, rounded away from zero
     std::array<bool, 3> negative; ///< signbit(direction): the near plane is box.max
-    float margin;                 ///< every entry is moved forward by this t
+    float margin;                 ///< every entry is made earlier by this t
 
     explicit RaySlabs(const Ray<float>& ray, float t_margin = 0)
         : origin(ray.origin), margin(t_margin) {

@@ -34,7 +34,8 @@ struct ExactRayTriangle {
         "floats in fixed point",
         Promise::exact,
         "decisions exact; t within 0.63 ulp, u and v within 2^-23 (derived in exact.h)",
-        "filter of 27 products in double, then 18 to 54 products in 1152-bit fixed point"};
+        "filter of 27 products in double, then up to 132 products of floats in 1152-bit fixed "
+        "point"};
 
     struct PerRay {
         Vec3<double> origin, direction;

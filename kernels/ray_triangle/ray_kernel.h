@@ -11,7 +11,9 @@ namespace boxwood {
 
 /// A ray against one triangle. `prepare` does once per ray what all triangles share. `intersect` is
 /// true if they meet at t_min <= t <= t_max, and writes t, u and v then and only then; whose
-/// triangle it is (hit.triangle) the caller knows. NaN or infinite input is a miss.
+/// triangle it is (hit.triangle) the caller knows. The argument t_max, at most ray.t_max, is
+/// compared with hit.t as written, so that the nearest of several triangles does not depend on
+/// their order. NaN or infinite input is a miss.
 template <class K>
 concept RayKernel = requires(const Ray<float>& ray, const Triangle<float>& triangle, float t_max,
                              const typename K::PerRay& per_ray, RayHit& hit) {
