@@ -10,6 +10,7 @@ namespace boxwood {
 namespace {
 
 using for_test::DistanceFamilies;
+using for_test::few;
 
 // What a pair of triangles gives to each family: edges a.a a.b and b.a b.b, the corner a.a.
 template <class Real> Segment<Real> edge(const Triangle<Real>& t) { return {t.a, t.b}; }
@@ -58,7 +59,7 @@ TYPED_TEST_SUITE(FeaturePairs, Rungs);
 TYPED_TEST(FeaturePairs, SmallIntegersAndDegenerateOnes) {
     DistanceFamilies make;
     for (const int n : {1, 2, 8})
-        for (int i = 0; i < 2000; ++i) {
+        for (int i = 0; i < few(2000); ++i) {
             const auto a = make.triangle(i % 2 == 0 ? make.grid(n) : make.degraded(make.grid(n)));
             const auto b = make.triangle(i % 3 == 0 ? make.grid(n) : make.degraded(make.grid(n)));
             ASSERT_LT(this->error(a, b), 4 * this->u) << for_test::print({a, b, false});
@@ -68,7 +69,7 @@ TYPED_TEST(FeaturePairs, SmallIntegersAndDegenerateOnes) {
 TYPED_TEST(FeaturePairs, OrdinaryPairs) {
     DistanceFamilies make(2);
     for (const DistanceFamilies::Family& family : make.ordinary())
-        for (int i = 0; i < 1000; ++i) {
+        for (int i = 0; i < few(1000); ++i) {
             const auto made = family.make();
             const auto a = make.triangle(made.a), b = make.triangle(made.b);
             ASSERT_LT(this->error(a, b), 16 * this->u)
@@ -80,7 +81,7 @@ TYPED_TEST(FeaturePairs, PowersOfTwoChangeNothing) {
     using Real = typename TypeParam::Kernel::Real;
     DistanceFamilies make(3);
     const int reach = sizeof(Real) == 4 ? 100 : 900;
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < few(1000); ++i) {
         const auto a = for_test::as<Real>(make.triangle(make.inside()));
         const auto b = for_test::as<Real>(make.triangle(make.inside()));
         const int k = make.below(2 * reach) - reach;
@@ -94,7 +95,7 @@ TYPED_TEST(FeaturePairs, PowersOfTwoChangeNothing) {
 TYPED_TEST(FeaturePairs, WitnessesLieThatFarApart) {
     using Real = typename TypeParam::Kernel::Real;
     DistanceFamilies make(4);
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < few(1000); ++i) {
         const auto a = for_test::as<Real>(make.triangle(make.inside()));
         const auto b = for_test::as<Real>(make.triangle(make.inside()));
         const Distance d = this->measure(a, b);
@@ -121,7 +122,7 @@ TYPED_TEST(FeaturePairs, NanAndInfinity) {
 TEST(SegmentSegment, CrossProductKeepsItsDigitsWhereTheyAreNearlyParallel) {
     DistanceFamilies make(5);
     double ericson = 0, cross = 0;
-    for (int i = 0; i < 5000; ++i) {
+    for (int i = 0; i < few(5000); ++i) {
         const auto made = make.near_parallel_edges(std::pow(10, -2 - i % 15), 1e-10);
         const Segment<double> a = edge(make.triangle(made.a)), b = edge(make.triangle(made.b));
         const double d = oracle::nearest_sqrt(oracle::squared_distance(a, b));
@@ -137,7 +138,7 @@ TEST(PointTriangle, CrossProductKeepsItsDigitsInSlivers) {
     DistanceFamilies make(6);
     double ericson = 0, cross = 0;
     for (const DistanceFamilies::Family& family : make.thin())
-        for (int i = 0; i < 2000; ++i) {
+        for (int i = 0; i < few(2000); ++i) {
             const auto made = family.make();
             const Triangle<double> t = make.triangle(made.a);
             const Vec3<double> p = made.b[0];

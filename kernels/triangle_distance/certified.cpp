@@ -42,7 +42,7 @@ DistanceBounds bounds_from(const Pair& pair, const Triangle<double>& a, const Tr
     const Vec3<double> extent = max(abs(x1), abs(x2)) + max(max(abs(y0), abs(y1)), abs(y2));
     const double squared = dot(n, n), length = std::sqrt(squared);
     const double hi =
-        length * (1 + 4 * u) + (20 * u * (extent.x + extent.y + extent.z) + underflow);
+        length * (1 + 6 * u) + (20 * u * (extent.x + extent.y + extent.z) + underflow);
     const double near_a = std::min(std::min(dot(n, x1), dot(n, x2)), 0.0);
     const double near_b = std::max(std::max(dot(n, y0), dot(n, y1)), dot(n, y2));
     const double gap = (near_a - near_b) - (6 * u * dot(abs(n), extent) + underflow);

@@ -14,6 +14,7 @@ namespace {
 
 using for_test::DistanceFamilies;
 using for_test::DistancePair;
+using for_test::few;
 using Kernel = CertifiedDistance;
 
 static_assert(Kernel::info.promise == Promise::certified);
@@ -60,8 +61,8 @@ Tally judge(DistanceFamilies& make, const Families& families, std::size_t n) {
 TEST(CertifiedDistance, OrdinaryPairs) {
     DistanceFamilies make(3);
     const Tally tally = judge(make, make.ordinary(), 1500);
-    EXPECT_GT(tally.tiers[0], 5000);
-    EXPECT_GT(tally.touching, 500);
+    EXPECT_GT(tally.tiers[0], few(5000));
+    EXPECT_GT(tally.touching, few(500));
     EXPECT_LT(tally.widest, 1e-9);
 }
 
@@ -69,7 +70,7 @@ TEST(CertifiedDistance, NearContact) {
     DistanceFamilies make(4);
     const Tally tally = judge(make, make.near_contact(), 500);
     for (int tier = 0; tier < 3; ++tier)
-        EXPECT_GT(tally.tiers[static_cast<std::size_t>(tier)], 300) << tier;
+        EXPECT_GT(tally.tiers[static_cast<std::size_t>(tier)], few(300)) << tier;
     EXPECT_EQ(tally.tiers[3], 0);
     EXPECT_LT(tally.widest, 1e-6); // at gaps down to 1e-18
 }
@@ -82,21 +83,21 @@ TEST(CertifiedDistance, NearlyParallelEdges) {
 TEST(CertifiedDistance, ThinAndDegenerate) {
     DistanceFamilies make(6);
     const Tally tally = judge(make, make.thin(), 1000);
-    EXPECT_GT(tally.touching, 500);
+    EXPECT_GT(tally.touching, few(500));
     EXPECT_LT(tally.widest, 1e-2);
 }
 
 TEST(CertifiedDistance, AnyMagnitude) {
     DistanceFamilies make(7);
     const Tally tally = judge(make, make.extreme(), 800);
-    EXPECT_GT(tally.tiers[3], 50);
+    EXPECT_GT(tally.tiers[3], few(50));
 }
 
 TEST(CertifiedDistance, FlushedDenormals) {
     const DenormalFlushing on(true);
     DistanceFamilies make(7);
     for (const DistanceFamilies::Family& family : make.extreme())
-        for (int i = 0; i < 200; ++i) {
+        for (int i = 0; i < few(200); ++i) {
             const auto [a, b] = [&] {
                 const DenormalFlushing off(false);
                 const auto made = family.make();
@@ -217,8 +218,10 @@ TEST(LeastSeparation, IsBelowEveryDistanceOfAGrid) {
             ASSERT_LE(oracle::compare(least_separation(0, 3), pair.squared), 0) << pair.print();
             nearest = std::min(nearest, pair.distance);
         }
-    EXPECT_LT(nearest, 16 * least_separation(0, 3)); // not needlessly small
-    EXPECT_EQ(least_separation(-1074, -1070), 0);    // underflows
+    if (for_test::thinned == 1) {
+        EXPECT_LT(nearest, 16 * least_separation(0, 3)); // not needlessly small
+    }
+    EXPECT_EQ(least_separation(-1074, -1070), 0); // underflows
     EXPECT_EQ(coordinate_grid({{4, 0, 0}, {8, 12, 0}, {0, 0, 0}}, {{0, 4, 0}, {0, 0, 0}, {}}), 2);
     EXPECT_EQ(coordinate_grid({{0x1p-1074, 0, 0}, {1, 0, 0}, {}}, {}), -1074);
 }

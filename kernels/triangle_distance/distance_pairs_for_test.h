@@ -17,6 +17,9 @@
 /// Pairs of triangles that are hard to measure, by family, with the true distance by the oracle.
 namespace boxwood::for_test {
 
+/// n, or fewer where the oracle is slow.
+constexpr int few(int n) { return (n + static_cast<int>(thinned) - 1) / static_cast<int>(thinned); }
+
 /// The longest distance of two corners of either; not 0, not infinite.
 inline double size_of(const Triangle<double>& a, const Triangle<double>& b) {
     const std::array corners{a.a, a.b, a.c, b.a, b.b, b.c};
@@ -59,8 +62,7 @@ class DistanceFamilies {
     /// n pairs of one, its sides swapped at random.
     std::vector<DistancePair> pairs(const Family& family, std::size_t n) {
         std::vector<DistancePair> all;
-        all.reserve(n);
-        for (std::size_t i = 0; i < n; ++i) {
+        for (int i = 0; i < few(static_cast<int>(n)); ++i) {
             Made made = family.make();
             if (below(2) == 0)
                 std::swap(made.a, made.b);
@@ -163,7 +165,7 @@ class DistanceFamilies {
              }},
             {"nearly_touching",
              [&] {
-                 const TrianglePair pair = touching_.nearly_touching(1).front();
+                 const TrianglePair pair = touching_.nearly_touching(thinned).front();
                  return Made{corners(pair.a), corners(pair.b)};
              }},
         };
@@ -235,12 +237,12 @@ class DistanceFamilies {
              }},
             {"any_magnitude",
              [&] {
-                 const TrianglePair pair = touching_.magnitudes(1, -1074, 1020).front();
+                 const TrianglePair pair = touching_.magnitudes(thinned, -1074, 1020).front();
                  return Made{corners(pair.a), corners(pair.b)};
              }},
             {"forty_orders",
              [&] {
-                 const TrianglePair pair = touching_.magnitudes(1, -40, 40).front();
+                 const TrianglePair pair = touching_.magnitudes(thinned, -40, 40).front();
                  return Made{corners(pair.a), corners(pair.b)};
              }},
         };

@@ -13,6 +13,7 @@ namespace {
 
 using for_test::DistanceFamilies;
 using for_test::DistancePair;
+using for_test::few;
 
 struct NoDistance {
     using Real = double;
@@ -45,7 +46,7 @@ TYPED_TEST(Features, SmallIntegers) {
     // Every logic error shows: degenerate ones, touching ones, shared corners and edges.
     DistanceFamilies make;
     for (const int n : {1, 2, 3, 8})
-        for (int i = 0; i < 1500; ++i) {
+        for (int i = 0; i < few(1500); ++i) {
             auto a = make.grid(n), b = make.grid(n);
             if (i % 3 == 0)
                 a = make.degraded(a);
@@ -61,7 +62,7 @@ TYPED_TEST(Features, SmallIntegers) {
 TYPED_TEST(Features, OrdinaryPairs) {
     DistanceFamilies make(2);
     for (const DistanceFamilies::Family& family : make.ordinary())
-        for (int i = 0; i < 250; ++i) {
+        for (int i = 0; i < few(250); ++i) {
             const auto [a, b] = family.make();
             ASSERT_LT(error<TypeParam>(make.triangle(a), make.triangle(b)), 64 * this->u)
                 << family.name << for_test::print({make.triangle(a), make.triangle(b), false});
@@ -71,7 +72,7 @@ TYPED_TEST(Features, OrdinaryPairs) {
 TYPED_TEST(Features, NearContact) {
     DistanceFamilies make(3);
     for (const DistanceFamilies::Family& family : make.near_contact())
-        for (int i = 0; i < 250; ++i) {
+        for (int i = 0; i < few(250); ++i) {
             const auto [a, b] = family.make();
             // Floats of coplanar corners are slivers' worth of angles apart.
             ASSERT_LT(error<TypeParam>(make.triangle(a), make.triangle(b)),
@@ -84,7 +85,7 @@ TYPED_TEST(Features, ThinOnes) {
     // The normal of a sliver is off by u / sin, the sliver sin wide: at worst about sqrt(u).
     DistanceFamilies make(4);
     for (const DistanceFamilies::Family& family : make.thin())
-        for (int i = 0; i < 250; ++i) {
+        for (int i = 0; i < few(250); ++i) {
             const auto [a, b] = family.make();
             ASSERT_LT(error<TypeParam>(make.triangle(a), make.triangle(b)), 8 * std::sqrt(this->u))
                 << family.name << for_test::print({make.triangle(a), make.triangle(b), false});
@@ -95,7 +96,7 @@ TYPED_TEST(Features, PowersOfTwoChangeNothing) {
     using Real = typename TypeParam::Real;
     DistanceFamilies make(5);
     const int reach = this->f32 ? 100 : 900;
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < few(1000); ++i) {
         const auto a = for_test::as<Real>(make.triangle(make.inside()));
         const auto b = for_test::as<Real>(make.triangle(make.inside()));
         const int k = make.below(2 * reach) - reach;
@@ -110,7 +111,7 @@ TYPED_TEST(Features, PowersOfTwoChangeNothing) {
 
 TYPED_TEST(Features, WitnessesLieThatFarApart) {
     DistanceFamilies make(6);
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < few(1000); ++i) {
         const auto a = for_test::as<typename TypeParam::Real>(make.triangle(make.inside()));
         const auto b = for_test::as<typename TypeParam::Real>(make.triangle(make.inside()));
         const Distance d = TypeParam::distance(a, b);
@@ -164,7 +165,7 @@ TYPED_TEST(Features, NanAndInfinity) {
 template <class K> double worst_relative_error(double apart) {
     DistanceFamilies make(7);
     double worst = 0;
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < few(3000); ++i) {
         const double angle = std::pow(10, -2 - i % 15);
         const auto [a, b] = make.near_parallel_edges(angle, apart);
         const DistancePair pair(make.triangle(a), make.triangle(b));
@@ -185,7 +186,7 @@ TEST(FeaturesBatch, SameBitsOnEveryTarget) {
     std::vector<Triangle<double>> a, b;
     for (auto families : {make.ordinary(), make.near_contact(), make.thin(), make.extreme()})
         for (const DistanceFamilies::Family& family : families)
-            for (int i = 0; i < 150; ++i) {
+            for (int i = 0; i < few(150); ++i) {
                 const auto made = family.make();
                 a.push_back(make.triangle(made.a));
                 b.push_back(make.triangle(made.b));
