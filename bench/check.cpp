@@ -213,9 +213,8 @@ void CheckRun::record_cell(const Scene& scene, std::uint32_t scene_id, Ask ask,
         }
     }
     results::KernelRow& row = judgement.kernel;
-    const HardCaseFamily* family = find_hard_case_family(scene.spec.generator);
     row.family = scene.spec.generator;
-    row.panel = to_string(family ? family->panel : Panel::generic);
+    row.panel = to_string(panel_of(scene));
     row.kernel_family = to_string(ask);
     row.rung = contender.name;
     row.promise = to_string(contender.promise);

@@ -13,7 +13,7 @@ Judgement with_names(Judgement judgement, const Scene& scene, Ask ask, const std
     results::KernelRow& row = judgement.kernel;
     const HardCaseFamily* family = find_hard_case_family(scene.spec.generator);
     row.family = family ? std::string(family->name) : "typical";
-    row.panel = family ? to_string(family->panel) : "generic";
+    row.panel = to_string(panel_of(scene));
     row.kernel_family = to_string(ask);
     row.rung = rung;
     return judgement;
@@ -112,6 +112,16 @@ Cases only_case(const Cases& cases, std::size_t i) {
         },
         one);
     return one;
+}
+
+Panel panel_of(const Scene& scene) {
+    const HardCaseFamily* family = find_hard_case_family(scene.spec.generator);
+    if (!family)
+        return Panel::generic;
+    const int scale = scene.spec.scale;
+    const bool is_extreme =
+        scale != 0 && (scale == family->scale_least || scale == family->scale_most);
+    return is_extreme ? Panel::degenerate : family->panel;
 }
 
 bool breaks_promise(const results::KernelRow& row) {

@@ -48,6 +48,10 @@ bool fits(const Cases& cases, Ask ask);
 /// Cut down to one of them. Throws std::out_of_range if there is no such case.
 Cases only_case(const Cases& cases, std::size_t i);
 
+/// The panel of a scene's family; degenerate at the ends of its range of scales, where products
+/// over- and underflow; generic for other scenes.
+Panel panel_of(const Scene& scene);
+
 /// Whether a rung of ours did what it promises not to do.
 bool breaks_promise(const results::KernelRow& row);
 
