@@ -17,6 +17,7 @@
 #include <fcntl.h>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 #include <thread>
 
@@ -166,6 +167,28 @@ TEST_F(SweepTest, MeasuresChecksAndCleansUp) {
     EXPECT_FALSE(fs::exists(out().string() + ".shards"));
     EXPECT_THAT(text_of(log()), HasSubstr("brute_force"));
     EXPECT_THAT(text_of(log()), testing::Not(HasSubstr("DEBUG")));
+}
+
+TEST_F(SweepTest, KernelsAreTimedWhereTheyErrAndJudgedByTheirPromise) {
+    std::ofstream(config()) << "rounds = 2\nmin_time_ms = 1\n[[cells]]\nscene = "
+                               "\"edge_on_edge\"\nask = [\"triangle_triangle\", "
+                               "\"point_segment\"]\nn = 200\npeers = \"all\"\n";
+    ASSERT_EQ(sweep(), 0) << text_of(log());
+    const results::Results r = results::read(out());
+    EXPECT_EQ(r.kernels.size(), r.cells.size());
+    EXPECT_FALSE(r.conditions.empty());
+    std::set<std::uint32_t> wrong, timed;
+    for (const results::KernelRow& row : r.kernels)
+        if (row.status == "wrong")
+            wrong.insert(row.cell_id);
+    for (const results::Sample& sample : r.samples) {
+        EXPECT_EQ(sample.phase, "query");
+        timed.insert(sample.cell_id);
+    }
+    EXPECT_FALSE(wrong.empty()); // plain doubles do not get these right
+    EXPECT_TRUE(std::ranges::includes(timed, wrong));
+    EXPECT_THAT(text_of(log()), HasSubstr("cheapest rung with no wrong answer on these cases: "));
+    EXPECT_THAT(text_of(log()), HasSubstr("Every promise is kept."));
 }
 
 TEST_F(SweepTest, MoreRoundsExtendAndShardsShareThem) {
