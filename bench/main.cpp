@@ -30,6 +30,7 @@ constexpr const char* examples =
     "Start here:\n"
     "  boxwood demo four-link              a tree explained step by step on a small robot\n"
     "  boxwood query pairs boxes.csv       which of your own boxes overlap\n"
+    "  boxwood check --quick               every kernel, ours and the peers', on hard cases\n"
     "  boxwood doctor                      what on this machine would spoil timings\n"
     "  boxwood sweep --config bench/configs/quick.toml --out quick.h5\n"
     "                                      time and check everything in about a minute\n"

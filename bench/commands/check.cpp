@@ -89,7 +89,7 @@ void add_check(CLI::App& app, int& exit_code) {
         "Examples:\n"
         "  boxwood check --quick\n"
         "  boxwood check --only triangle_distance --out check.h5\n"
-        "  boxwood check --only '^slivers/triangle_triangle/' --k 12 --scale 40 --case 17\n"
+        "  boxwood check --only '^slivers/triangle_triangle/' --k 6 --scale 40 --case 17\n"
         "Exit codes: 0 every promise is kept, 1 one of ours is broken, 2 bad input.");
     check->callback([=, &exit_code] {
         options->n = n->value_or(options->is_quick ? 300 : 1000);
