@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/predicates/binary64.h"
+#include "kernels/predicates/two.h"
 #include "kernels/vec3.h"
 
 #include <algorithm>
@@ -63,29 +64,43 @@ template <std::size_t digits, std::size_t points> class Grid {
     template <double Vec3<double>::*axis>
     static bool place(const std::array<const Vec3<double>*, points>& p, Axis& at) {
         if constexpr (digits == 1)
-            return place_narrow<axis>(p, at, std::make_index_sequence<points>());
+            return place_narrow<axis>(p, at, std::make_index_sequence<(points + 1) / 2>());
         else
             return place_wide<axis>(p, at);
     }
 
-    /// 2^e <= the largest < 2^(e+1): scaled below 2^60, exactly, but for what underflows.
+    /// 2^e <= the largest < 2^(e+1): times 2^(59 - e) all are below 2^60, and that is exact, but
+    /// for what underflows. Two points at a time, an odd last one twice.
     template <double Vec3<double>::*axis, std::size_t... i>
     static bool place_narrow(const std::array<const Vec3<double>*, points>& p, Axis& at,
                              std::index_sequence<i...>) {
-        double most = 0;
-        ((most = std::max(most, std::abs(p[i]->*axis))), ...);
-        const int exponent = Binary64(most).weight - 1022;
-        if (exponent < -900)
-            return most == 0 && clear(at);
-        const double up = power_of_two(59 - exponent), down = power_of_two(exponent - 59);
-        std::uint64_t lost = 0;
-        const auto put = [&](const double x, Number& number) {
-            const auto scaled = static_cast<std::int64_t>(x * up);
-            number = {scaled};
-            lost |= std::bit_cast<std::uint64_t>(static_cast<double>(scaled) * down - x);
+        using Two = TwoOf<double>::Values;
+        using Bits = TwoOf<double>::Unsigned;
+        constexpr std::uint64_t one = std::uint64_t{1} << 52; // in the exponent
+        constexpr std::uint64_t no_sign = ~(std::uint64_t{1} << 63);
+        constexpr auto second = [](std::size_t k) { return std::min(2 * k + 1, points - 1); };
+        const Two x[] = {Two{p[2 * i]->*axis, p[second(i)]->*axis}...};
+        Two most{};
+        const auto grow = [&most](const Two& v) { most = most < v ? v : most; };
+        (grow(std::bit_cast<Two>(std::bit_cast<Bits>(x[i]) & no_sign)), ...);
+        grow(__builtin_shufflevector(most, most, 1, 0));
+        if (!(most[0] >= 0x1p-900))
+            return most[0] == 0 && clear(at);
+        const Bits power = std::bit_cast<Bits>(most) & (0x7ff * one); // e + 1023
+        const Two up = std::bit_cast<Two>((1023 + 59 + 1023) * one - power);
+        const Two down = std::bit_cast<Two>(power - 59 * one);
+        Bits lost{};
+        const auto put = [&](const Two& v, Number& first, Number& other) {
+            const Two scaled = v * up;
+            const auto a = static_cast<std::int64_t>(scaled[0]);
+            const auto b = static_cast<std::int64_t>(scaled[1]);
+            first = {a};
+            other = {b};
+            const Two back{static_cast<double>(a), static_cast<double>(b)};
+            lost |= std::bit_cast<Bits>(back * down - v);
         };
-        (put(p[i]->*axis, at[i]), ...);
-        return lost == 0;
+        (put(x[i], at[2 * i], at[second(i)]), ...);
+        return (lost[0] | lost[1]) == 0;
     }
 
     template <double Vec3<double>::*axis>
@@ -112,11 +127,6 @@ template <std::size_t digits, std::size_t points> class Grid {
         at = {};
         return true;
     }
-    /// -1022 <= exponent <= 1023.
-    static double power_of_two(int exponent) {
-        return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
-    }
-
     static Number minus(const Axis& at, std::size_t a, std::size_t b) {
         Number d;
         for (std::size_t i = 0; i < digits; ++i)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/predicates/filtered.h"
+#include "kernels/predicates/two.h"
 #include "kernels/triangle_triangle/flat.h"
 
 #include <algorithm>
@@ -13,19 +14,6 @@
 
 namespace boxwood {
 
-/// Two numbers in one register, and the same number of bits for what comparisons answer.
-template <class Real> struct TwoOf;
-template <> struct TwoOf<double> {
-    using Bit = std::int64_t;
-    using Values [[gnu::vector_size(16)]] = double;
-    using Bits [[gnu::vector_size(16)]] = Bit;
-};
-template <> struct TwoOf<float> {
-    using Bit = std::int32_t;
-    using Values [[gnu::vector_size(8)]] = float;
-    using Bits [[gnu::vector_size(8)]] = Bit;
-};
-
 /// The signs of a pair by determinants in plain Real arithmetic, normals shared, two at a time, no
 /// branch on a sign. With `filtered` (double only), just those that the error bound of
 /// predicates/filtered.h lets stand, S taken from the triangles' extents: a triple product has a
@@ -33,6 +21,7 @@ template <> struct TwoOf<float> {
 /// computed extent.
 template <class R, bool filtered = false> class Determinants {
     static_assert(!filtered || std::is_same_v<R, double>);
+    friend class Determinants<R, false>;
     using Two = typename TwoOf<R>::Values;
     using Bits = typename TwoOf<R>::Bits;
     using Bit = typename TwoOf<R>::Bit;
@@ -55,13 +44,15 @@ template <class R, bool filtered = false> class Determinants {
         }
         // First a's corners to b's plane, second b's to a's.
         const Points base = swapped(p), n = swapped(cross(q - p, r - p));
-        const Two dp = dot(p - base, n), dq = dot(q - base, n), dr = dot(r - base, n);
-        const Bits bit_p = Bits{} + 1, bit_q = Bits{} + 2, bit_r = Bits{} + 4;
-        above_ = ((dp > error) & bit_p) | ((dq > error) & bit_q) | ((dr > error) & bit_r);
-        below_ = ((dp < -error) & bit_p) | ((dq < -error) & bit_q) | ((dr < -error) & bit_r);
-        if constexpr (!filtered)
-            known_ = ((dp == dp) & bit_p) | ((dq == dq) & bit_q) | ((dr == dr) & bit_r);
         normal_ = {n.x, n.y, n.z};
+        heights_ = {dot(p - base, n), dot(q - base, n), dot(r - base, n)};
+        judge(error);
+    }
+
+    /// The same determinants, taken at their word.
+    explicit Determinants(const Determinants<Real, true>& pair) requires(!filtered)
+        : p_(pair.p_), normal_(pair.normal_), heights_(pair.heights_) {
+        judge(Two{});
     }
 
     /// Whether an axis parts the triangles' boxes; asked of a filtered pair only.
@@ -177,20 +168,21 @@ template <class R, bool filtered = false> class Determinants {
     /// below 2^16 g, are exact, and so are minors below 2^33 and determinants below 6 * 2^48 of
     /// their units. x + 1.5 * 2^52 g rounds to a multiple of g if |x| < 2^51 g.
     bool rounds_nothing() const {
-        Two lost{};
         const auto on_grid = [&](int axis) {
             const Real extent = extent_[static_cast<std::size_t>(axis)];
             constexpr Bit exponent_bits = Bit{0x7ff} << 52;
             const Real power = std::bit_cast<Real>(std::bit_cast<Bit>(extent) & exponent_bits);
             const Real round = power * 0x1.8p37;
+            Two lost{};
             for (Corner k = 0; k < 3; ++k) {
                 const Two x{at(k, axis), at(k + 3, axis)}, off = (x + round) - round - x;
                 lost = most_of(lost, most_of(off, -off));
             }
-            return extent == 0 || (extent > 0x1p-300 && extent < filter_bound::largest &&
-                                   std::abs(at(0, axis)) < power * 0x1p35);
+            return std::max(lost[0], lost[1]) == 0 &&
+                   (extent == 0 || (extent > 0x1p-300 && extent < filter_bound::largest &&
+                                    std::abs(at(0, axis)) < power * 0x1p35));
         };
-        return on_grid(0) && on_grid(1) && on_grid(2) && lost[0] == 0 && lost[1] == 0;
+        return on_grid(0) && on_grid(1) && on_grid(2);
     }
 
   private:
@@ -206,7 +198,17 @@ template <class R, bool filtered = false> class Determinants {
     static Two most_of(const Two& a, const Two& b) { return a < b ? b : a; }
     static Points swapped(const Points& p) { return {swapped(p.x), swapped(p.y), swapped(p.z)}; }
 
-    /// The errors of sides(1) and sides(0).
+    /// The signs of the heights, with the errors of sides(1) and sides(0).
+    void judge(const Two& error) {
+        const auto& [p, q, r] = heights_;
+        const Bits bit_p = Bits{} + 1, bit_q = Bits{} + 2, bit_r = Bits{} + 4;
+        above_ = ((p > error) & bit_p) | ((q > error) & bit_q) | ((r > error) & bit_r);
+        below_ = ((p < -error) & bit_p) | ((q < -error) & bit_q) | ((r < -error) & bit_r);
+        if constexpr (!filtered)
+            known_ = ((p == p) & bit_p) | ((q == q) & bit_q) | ((r == r) & bit_r);
+    }
+
+    /// Those errors.
     Two set_extents(const Points& low, const Points& high) {
         const Points t = swapped(high - low);
         const Points both = max(high, swapped(high)) - min(low, swapped(low));
@@ -238,7 +240,8 @@ template <class R, bool filtered = false> class Determinants {
         return det == det ? int{det > 0} - int{det < 0} : undecided;
     }
     std::array<const Vec3<Real>*, 6> p_;
-    std::array<Two, 3> normal_; ///< of b and a, by axis
+    std::array<Two, 3> normal_;  ///< of b and a, by axis
+    std::array<Two, 3> heights_; ///< determinants, by corner of a and b
     Bits above_, below_, known_;
     std::array<Real, 3> extent_;
     Real scale_ = 2;

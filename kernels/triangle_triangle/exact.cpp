@@ -106,16 +106,20 @@ bool finite(const FilteredPair& pair) {
     return all;
 }
 
-Verdict decide(const FilteredPair& pair, const Triangle<double>& a, const Triangle<double>& b) {
-    const auto sums = pair.sums();
-    if (!pair.surely_finite(sums) && !finite(pair))
-        return {Answer::maybe, 0};
-    if (pair.boxes_apart())
-        return {Answer::no, 0};
-    if (pair.share_a_vertex(sums))
-        return {Answer::yes, 0};
+Verdict decide(const FilteredPair& pair) {
+    using Plain = Determinants<double>;
+    // If all sides are known, all is finite and no vertex shared: a shared one has a determinant 0.
+    if (pair.boxes_apart() || (pair.sides(0).unknown() | pair.sides(1).unknown()) != 0) {
+        const auto sums = pair.sums();
+        if (!pair.surely_finite(sums) && !finite(pair))
+            return {Answer::maybe, 0};
+        if (pair.boxes_apart())
+            return {Answer::no, 0};
+        if (pair.share_a_vertex(sums))
+            return {Answer::yes, 0};
+    }
     if (pair.rounds_nothing())
-        return GuigueDevillersF64::intersect(a, b);
+        return {IntervalTest<const Plain>::meet(Plain(pair)), 0};
     ExactSigns signs(pair);
     const Answer answer = IntervalTest<ExactSigns>::meet(signs);
     return {answer, signs.used()};
@@ -126,8 +130,8 @@ Verdict decide(const FilteredPair& pair, const Triangle<double>& a, const Triang
 Verdict GuigueDevillersExact::decide_exactly(const FilteredPair& filtered,
                                              const Triangle<double>& a, const Triangle<double>& b) {
     if (!flushes_denormals())
-        return decide(filtered, a, b);
-    return without_flushing([&] { return decide(FilteredPair(a, b), a, b); });
+        return decide(filtered);
+    return without_flushing([&] { return decide(FilteredPair(a, b)); });
 }
 
 } // namespace boxwood
