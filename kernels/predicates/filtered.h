@@ -40,7 +40,7 @@ struct Filtered {
     static constexpr std::string_view bound =
         "9u * (sum of |triple products|) + 2^-600 per sign, else maybe; derived in "
         "predicates/filtered.h";
-    static constexpr std::string_view cost = "1.5 to 2 times f64";
+    static constexpr std::string_view cost = "1.4 times f64";
     static constexpr Promise promise = Promise::certified;
     static constexpr std::uint8_t tier = 0;
 

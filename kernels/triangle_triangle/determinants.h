@@ -168,21 +168,21 @@ template <class R, bool filtered = false> class Determinants {
     /// below 2^16 g, are exact, and so are minors below 2^33 and determinants below 6 * 2^48 of
     /// their units. x + 1.5 * 2^52 g rounds to a multiple of g if |x| < 2^51 g.
     bool rounds_nothing() const {
-        const auto on_grid = [&](int axis) {
-            const Real extent = extent_[static_cast<std::size_t>(axis)];
+        const Points a = points(0, 3), b = points(1, 4), c = points(2, 5);
+        const auto on_grid = [](Real extent, const Two& p, const Two& q, const Two& r) {
             constexpr Bit exponent_bits = Bit{0x7ff} << 52;
             const Real power = std::bit_cast<Real>(std::bit_cast<Bit>(extent) & exponent_bits);
             const Real round = power * 0x1.8p37;
-            Two lost{};
-            for (Corner k = 0; k < 3; ++k) {
-                const Two x{at(k, axis), at(k + 3, axis)}, off = (x + round) - round - x;
-                lost = most_of(lost, most_of(off, -off));
-            }
-            return std::max(lost[0], lost[1]) == 0 &&
+            const auto off = [round](const Two& x) -> Bits {
+                return std::bit_cast<Bits>((x + round) - round - x);
+            };
+            const Bits lost = off(p) | off(q) | off(r);
+            return (lost[0] | lost[1]) == 0 &&
                    (extent == 0 || (extent > 0x1p-300 && extent < filter_bound::largest &&
-                                    std::abs(at(0, axis)) < power * 0x1p35));
+                                    std::abs(p[0]) < power * 0x1p35));
         };
-        return on_grid(0) && on_grid(1) && on_grid(2);
+        return on_grid(extent_[0], a.x, b.x, c.x) && on_grid(extent_[1], a.y, b.y, c.y) &&
+               on_grid(extent_[2], a.z, b.z, c.z);
     }
 
   private:
