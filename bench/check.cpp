@@ -240,7 +240,7 @@ void CheckRun::judge_cases(const Scene& scene, std::uint32_t scene_id, Ask ask,
                 return judgement;
             });
     if (options_.one)
-        details_ += fmt::format("{}, case {}\n{}\n{}", address(scene.name, ask, ""), *options_.one,
+        details_ += fmt::format("{}/{}, case {}\n{}\n{}", scene.name, to_string(ask), *options_.one,
                                 judge->case_text(0), said);
 }
 
