@@ -35,9 +35,26 @@ template <class Real> struct NearestPoints {
     }
 };
 
-/// by_cross: the lines' parameter from the cross product of the two, which does not cancel if they
-/// are nearly parallel; else from 1 - cos^2 (Ericson 2005, "Real-Time Collision Detection", 5.1.9).
-/// Clamped; then the other's nearest to it, clamped; then the first again.
+/// The nearest points of two segments. by_cross: the lines' parameter from the cross product of the
+/// two, which does not cancel if they are nearly parallel; else from 1 - cos^2 (Ericson 2005,
+/// "Real-Time Collision Detection", 5.1.9). Clamped; then the other's nearest to it, clamped; then
+/// the first again.
+template <bool by_cross, class Real>
+NearestPoints<Real> nearest_on_segments(const Segment<Real>& a, const Segment<Real>& b) {
+    const Vec3<Real> ea = a.b - a.a, eb = b.b - b.a, r = a.a - b.a;
+    const Real aa = dot(ea, ea), bb = dot(eb, eb), ab = dot(ea, eb);
+    const Real ca = dot(ea, r), fb = dot(eb, r);
+    Real first;
+    if constexpr (by_cross) {
+        const Vec3<Real> n = cross(ea, eb);
+        first = clamped_ratio(dot(cross(eb, r), n), dot(n, n));
+    } else {
+        first = clamped_ratio(ab * fb - ca * bb, aa * bb - ab * ab);
+    }
+    const Real t = clamped_ratio(ab * first + fb, bb), s = clamped_ratio(ab * t - ca, aa);
+    return {a.a + s * ea, b.a + t * eb, (r + s * ea) - t * eb};
+}
+
 template <class RealOf, bool by_cross> struct SegmentSegmentDistance {
     using Real = RealOf;
 
@@ -45,26 +62,11 @@ template <class RealOf, bool by_cross> struct SegmentSegmentDistance {
         const Vec3<Real> ea = a.b - a.a, eb = b.b - b.a, r = a.a - b.a;
         const Real size = dot(ea, ea) + dot(eb, eb) + dot(r, r);
         if (size > smallest_squared_size<Real> && size < largest_squared_size<Real>) [[likely]]
-            return nearest(a, b).distance();
-        return at_unit_size(
-            std::array{a.a, a.b, b.a, b.b}, a, b,
-            [](const auto& ua, const auto& ub) { return nearest(ua, ub).distance(); });
-    }
-
-  private:
-    static NearestPoints<Real> nearest(const Segment<Real>& a, const Segment<Real>& b) {
-        const Vec3<Real> ea = a.b - a.a, eb = b.b - b.a, r = a.a - b.a;
-        const Real aa = dot(ea, ea), bb = dot(eb, eb), ab = dot(ea, eb);
-        const Real ca = dot(ea, r), fb = dot(eb, r);
-        Real first;
-        if constexpr (by_cross) {
-            const Vec3<Real> n = cross(ea, eb);
-            first = clamped_ratio(dot(cross(eb, r), n), dot(n, n));
-        } else {
-            first = clamped_ratio(ab * fb - ca * bb, aa * bb - ab * ab);
-        }
-        const Real t = clamped_ratio(ab * first + fb, bb), s = clamped_ratio(ab * t - ca, aa);
-        return {a.a + s * ea, b.a + t * eb, (r + s * ea) - t * eb};
+            return nearest_on_segments<by_cross>(a, b).distance();
+        return at_unit_size(std::array{a.a, a.b, b.a, b.b}, a, b,
+                            [](const auto& ua, const auto& ub) {
+                                return nearest_on_segments<by_cross>(ua, ub).distance();
+                            });
     }
 };
 

@@ -10,7 +10,7 @@ namespace boxwood::one_lane {
 
 /// What the arithmetic of nearest_features can take, of a type of numbers.
 /// margin:            16u, of products of lengths
-/// noise:             (16u)^2, of squared heights
+/// noise:             (8u)^2, of squared heights
 /// rounding:          (32u)^2: two points are the same if (distance / size)^2 is not above
 /// sliver:            the normal of a triangle is mostly rounding if its angle's sin^2 is not above
 /// sine_squared:      lines are parallel below it
@@ -19,12 +19,12 @@ namespace boxwood::one_lane {
 /// smallest, largest: size_squared for which no product of six lengths leaves the range
 template <class V> struct Limits;
 template <> struct Limits<double> {
-    static constexpr double margin = 0x1p-49, noise = 0x1p-98, rounding = 0x1p-96, sliver = 0x1p-40,
-                            sine_squared = 0x1p-200, shortest_squared = 0x1p-200, least = 0x1p-1022,
-                            smallest = 0x1p-120, largest = 0x1p120;
+    static constexpr double margin = 0x1p-49, noise = 0x1p-100, rounding = 0x1p-96,
+                            sliver = 0x1p-40, sine_squared = 0x1p-200, shortest_squared = 0x1p-200,
+                            least = 0x1p-1022, smallest = 0x1p-120, largest = 0x1p120;
 };
 template <> struct Limits<float> {
-    static constexpr double margin = 0x1p-20, noise = 0x1p-40, rounding = 0x1p-38, sliver = 0x1p-20,
+    static constexpr double margin = 0x1p-20, noise = 0x1p-42, rounding = 0x1p-38, sliver = 0x1p-20,
                             sine_squared = 0x1p-40, shortest_squared = 0x1p-50, least = 0x1p-126,
                             smallest = 0x1p-12, largest = 0x1p40;
 };

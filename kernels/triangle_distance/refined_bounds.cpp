@@ -1,5 +1,6 @@
 #include "kernels/triangle_distance/refined_bounds.h"
 
+#include "kernels/features/segment_segment.h"
 #include "kernels/predicates/binary64.h"
 #include "kernels/triangle_distance/double_double.h"
 
@@ -49,6 +50,9 @@ Real ratio(Real x, Real y) { return y.hi == 0 ? zero : x / y; }
 /// The rest of 2^-98 is for coordinates off by 2^-1070 and for underflow.
 constexpr double error = 0x1p-98;
 
+/// What plain arithmetic is trusted to, of distances at this size.
+constexpr double rough = 0x1p-38;
+
 /// A pair of points, one on each: `offset` from b's to a's.
 struct Candidate {
     Vector offset, on_a, on_b; ///< on_*: from the triangle's first corner
@@ -64,18 +68,26 @@ struct Shape {
     explicit Shape(const Triangle<double>& t)
         : corner{t.a, t.b, t.c}, edge{difference(t.b, t.a), difference(t.c, t.a),
                                       difference(t.c, t.b)} {}
+    Segment<double> segment(std::size_t k) const {
+        return {corner[start[k]], corner[k == 0 ? 1 : 2]};
+    }
 };
 
 class Search {
   public:
     Search(const Triangle<double>& a, const Triangle<double>& b) : a_(a), b_(b) {
-        for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j)
-                add_edges(i, j);
-        for (std::size_t k = 0; k < 3; ++k) {
-            add_foot(a_, b_, k, false);
-            add_foot(b_, a_, k, true);
-        }
+        // In plain arithmetic first, to leave out what is not nearly the least: only how tight the
+        // bounds are depends on it.
+        std::array<double, 9> roughly;
+        for (std::size_t k = 0; k < 9; ++k)
+            roughly[k] =
+                length(nearest_on_segments<true>(a_.segment(k / 3), b_.segment(k % 3)).offset);
+        const double least = *std::min_element(roughly.begin(), roughly.end());
+        for (std::size_t k = 0; k < 9; ++k)
+            if (roughly[k] <= least + rough)
+                add_edges(k / 3, k % 3);
+        add_feet(a_, b_, least, false);
+        add_feet(b_, a_, least, true);
         const auto shorter = [](const Candidate& p, const Candidate& q) {
             return p.squared < q.squared;
         };
@@ -103,18 +115,33 @@ class Search {
         found_[count_++].squared = dot(c.offset, c.offset).hi;
     }
 
-    /// As facing_edges of nearest_features, by the cross product.
-    void add_edges(int i, int j) {
-        const auto ui = static_cast<std::size_t>(i), uj = static_cast<std::size_t>(j);
-        const Vector &ea = a_.edge[ui], &eb = b_.edge[uj];
-        const std::size_t ia = Shape::start[ui], jb = Shape::start[uj];
-        const Vector r = difference(a_.corner[ia], b_.corner[jb]), n = cross(ea, eb);
+    /// As nearest_on_segments, by the cross product.
+    void add_edges(std::size_t i, std::size_t j) {
+        const Vector &ea = a_.edge[i], &eb = b_.edge[j];
+        const Vec3<double>&a = a_.corner[Shape::start[i]], &b = b_.corner[Shape::start[j]];
+        const Vector r = difference(a, b), n = cross(ea, eb);
         const Real aa = dot(ea, ea), bb = dot(eb, eb), ab = dot(ea, eb);
         const Real first = in_unit(ratio(dot(cross(eb, r), n), dot(n, n)));
         const Real t = in_unit(ratio(ab * first + dot(eb, r), bb));
         const Real s = in_unit(ratio(ab * t - dot(ea, r), aa));
-        add({(r + s * ea) - t * eb, difference(a_.corner[ia], a_.corner[0]) + s * ea,
-             difference(b_.corner[jb], b_.corner[0]) + t * eb, 0, i, j});
+        add({(r + s * ea) - t * eb, difference(a, a_.corner[0]) + s * ea,
+             difference(b, b_.corner[0]) + t * eb, 0, static_cast<int>(i), static_cast<int>(j)});
+    }
+
+    /// Of a face, those corners of the other that are nearest to its plane, and not farther than
+    /// `least`.
+    void add_feet(const Shape& face, const Shape& other, double least, bool face_is_b) {
+        const Vec3<double> e1 = rounded(face.edge[0]), e2 = rounded(face.edge[1]);
+        const Vec3<double> n = cross(e1, e2);
+        std::array<double, 3> heights;
+        for (std::size_t k = 0; k < 3; ++k)
+            heights[k] = std::abs(dot(n, other.corner[k] - face.corner[0]));
+        const double noise = rough * length(e1) * length(e2);
+        const double most =
+            std::min(*std::min_element(heights.begin(), heights.end()), least * length(n)) + noise;
+        for (std::size_t k = 0; k < 3; ++k)
+            if (heights[k] <= most)
+                add_foot(face, other, k, face_is_b);
     }
 
     /// Corner k of the other and its foot in the face, if that is inside.
