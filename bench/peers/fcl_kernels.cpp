@@ -92,14 +92,14 @@ std::vector<ContenderEntry> fcl_kernels() {
             Ask::triangle_triangle, "fcl", "intersect_triangle", "f64",
             "FCL's Intersect::intersect_Triangle: separating axes", stateless),
         each_case<Pair, TrianglePair<float>, intersect<float>, &Answers::verdicts>(
-            Ask::triangle_triangle, "fcl", "intersect_triangle", "f32",
+            Ask::triangle_triangle, "fcl", "intersect_triangle_f32", "f32",
             "FCL's Intersect::intersect_Triangle in floats",
             stateless + "; input rounded to float"),
         each_case<Pair, TrianglePair<double>, distance<double>, &Answers::distances>(
             Ask::triangle_distance, "fcl", "tri_distance", "f64",
             "FCL's TriangleDistance::triDistance, after PQP", "one pair per call"),
         each_case<Pair, TrianglePair<float>, distance<float>, &Answers::distances>(
-            Ask::triangle_distance, "fcl", "tri_distance", "f32",
+            Ask::triangle_distance, "fcl", "tri_distance_f32", "f32",
             "FCL's TriangleDistance::triDistance in floats",
             "one pair per call; input rounded to float"),
         each_case<MotionCase, Motion, vertex_face, &Answers::impacts>(

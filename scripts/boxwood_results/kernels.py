@@ -33,8 +33,8 @@ class KernelPoint:
     @property
     def rung(self):
         """As a label; a peer that has one name in both precisions says which."""
-        peer = "" if self.ours or self.cell.precision == "f64" else " " + self.cell.precision
-        return self.row["rung"] + peer
+        rung, precision = self.row["rung"], self.cell.precision
+        return rung if self.ours or precision == "f64" or precision in rung else f"{rung} {precision}"
 
     @property
     def ours(self):
