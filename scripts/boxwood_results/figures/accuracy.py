@@ -11,7 +11,7 @@ from ..picture import Picture, Skip
 NAME = "accuracy"
 TITLE = "What accuracy costs"
 HOW_TO_READ = (
-    "Lower left is better. The line joins our rungs from the fastest to the slowest; hollow marks are peers. "
+    "Lower left is better. The line joins our rungs that no faster one of ours betters; hollow marks are peers. "
     "A rung in the zero lane at the bottom gave no wrong answer; its bar reaches up to 3/N, the rate that so "
     "many right answers cannot exclude (95 %). Distances are drawn by their worst relative error; their lane "
     "is half an ulp or less. Times are means over the families of a panel."
@@ -35,9 +35,9 @@ def y_axis(ax, values, bars, measured):
     low = 10.0 ** math.floor(math.log10(min(seen, default=1e-16 if measured else 1)))
     high = 10.0 ** math.ceil(math.log10(max(max(seen, default=1), 100 * low)) + 0.2)
     decades = math.log10(high / low)
-    lane = low / 10 ** (0.16 * decades)
+    lane = low / 10 ** (0.3 * decades)
     ax.set_yscale("log")
-    ax.set_ylim(lane / 10 ** (0.09 * decades), high)
+    ax.set_ylim(lane / 10 ** (0.22 * decades), high)
     steps = range(round(math.log10(low)), round(math.log10(high)) + 1, max(1, round(decades / 6)))
     ticks = [lane] + [10.0**d for d in steps]
     ax.yaxis.set_major_locator(FixedLocator(ticks))
@@ -45,7 +45,7 @@ def y_axis(ax, values, bars, measured):
     ax.yaxis.set_major_formatter(
         FuncFormatter(lambda v, _: "0" if v <= lane * 1.01 else f"{v:.0e}" if measured else style.count_text(v))
     )
-    ax.axhspan(lane / 10 ** (0.09 * decades), lane * 10 ** (0.07 * decades), color="#EAF4EA", zorder=0)
+    ax.axhspan(lane / 10 ** (0.22 * decades), lane * 10 ** (0.15 * decades), color="#EAF4EA", zorder=0)
     return lane
 
 
@@ -64,9 +64,11 @@ def draw_panel(ax, panel, found, measured):
                 markeredgecolor=colour if not rung.ours else "white",
                 markerfacecolor="white" if not rung.ours else colour)
         marks.append((rung.ns, y, rung.name, style.text_colour(rung.library if not rung.ours else "binned_sah")))
-    ours = [(r.ns, v or lane) for r, v in zip(found, values) if r.ours]
-    if len(ours) > 1:
-        ax.plot(*zip(*ours), color=style.FAINT, linewidth=1.1, zorder=1)
+    best = []  # no other rung of ours is both faster and less wrong
+    for rung, v in zip(found, values):
+        if rung.ours and (not best or v < best[-1][2]):
+            best.append((rung.ns, v or lane, v))
+    ax.plot([x for x, _, _ in best], [y for _, y, _ in best], color=style.FAINT, linewidth=1.1, zorder=1)
     style.title(ax, f"{panel} input, {max(r.n for r in found):,} cases")
     ax.set_xlabel("time per call (lower is better)")
     ax.set_ylabel("worst relative error" if measured else "wrong answers per million")
@@ -81,7 +83,7 @@ def draw(run):
         panels = [(panel, found) for panel, found in panels if found]
         if not panels:
             continue
-        figure, axes = style.panels(len(panels), width=5.6, height=4.3, columns=3)
+        figure, axes = style.panels(len(panels), width=7.4, height=4.6, columns=2)
         rows = []
         for ax, (panel, found) in zip(axes, panels):
             draw_panel(ax, panel, found, measured)
