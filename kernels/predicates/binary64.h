@@ -31,4 +31,10 @@ inline bool is_finite_bits(double x) {
     return (std::bit_cast<std::uint64_t>(x) & infinite) != infinite;
 }
 
+/// x == y of numbers that are not NaN, by their bits: flushed denormals would all be equal.
+inline bool is_same_number_bits(double x, double y) {
+    const auto a = std::bit_cast<std::uint64_t>(x), b = std::bit_cast<std::uint64_t>(y);
+    return a == b || (a | b) << 1 == 0;
+}
+
 } // namespace boxwood

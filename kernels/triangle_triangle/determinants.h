@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/predicates/binary64.h"
 #include "kernels/predicates/filtered.h"
 #include "kernels/predicates/two.h"
 #include "kernels/triangle_triangle/flat.h"
@@ -32,30 +33,51 @@ template <class R, bool filtered = false> class Determinants {
     Determinants(const Triangle<Real>& a, const Triangle<Real>& b)
         : p_{&a.a, &a.b, &a.c, &b.a, &b.b, &b.c} {
         const Points p = points(0, 3), q = points(1, 4), r = points(2, 5);
+        // First a's corners to b's plane, second b's to a's.
+        const Points base = swapped(p), edge = q - p, other_edge = r - p, first = p - base;
+        const Points n = swapped(cross(edge, other_edge));
+        normal_ = {n.x, n.y, n.z};
+        heights_ = {dot(first, n), dot(q - base, n), dot(r - base, n)};
         Two error{};
         if constexpr (filtered) {
-            const Points low = min(min(p, q), r), high = max(max(p, q), r);
-            const Points gap = low - swapped(high);
-            const Two widest = most_of(most_of(gap.x, gap.y), gap.z);
-            apart_ = std::max(widest[0], widest[1]) > 0;
-            if (apart_)
+            error = set_reach(largest(edge), largest(other_edge), largest(first)[0]);
+            const auto& [hp, hq, hr] = heights_;
+            const Two least = least_of(least_of(hp, hq), hr), most = most_of(most_of(hp, hq), hr);
+            const Two sum = hp + hq + hr;
+            const Bits parted = ((least > error) | (most < -error)) & (sum == sum);
+            parted_ = (parted[0] | parted[1]) != 0;
+            if (parted_)
                 return;
-            error = set_extents(low, high);
         }
-        // First a's corners to b's plane, second b's to a's.
-        const Points base = swapped(p), n = swapped(cross(q - p, r - p));
-        normal_ = {n.x, n.y, n.z};
-        heights_ = {dot(p - base, n), dot(q - base, n), dot(r - base, n)};
         judge(error);
     }
 
     /// The same determinants, taken at their word.
-    explicit Determinants(const Determinants<Real, true>& pair) requires(!filtered)
+    template <bool other>
+    requires(other && !filtered) explicit Determinants(const Determinants<Real, other>& pair)
         : p_(pair.p_), normal_(pair.normal_), heights_(pair.heights_) {
         judge(Two{});
     }
 
-    /// Whether an axis parts the triangles' boxes; asked of a filtered pair only.
+    /// Of a filtered pair: takes the triangles' extents for the bounds, axis by axis, which else
+    /// come from the edges' largest components. Needed before all but sides() and
+    /// overlap_along_line().
+    void narrow() requires(filtered) {
+        if (narrow_)
+            return;
+        narrow_ = true;
+        const Points p = points(0, 3), q = points(1, 4), r = points(2, 5);
+        const Points low = min(min(p, q), r), high = max(max(p, q), r);
+        const Points gap = low - swapped(high);
+        const Two widest = most_of(most_of(gap.x, gap.y), gap.z);
+        apart_ = std::max(widest[0], widest[1]) > 0;
+        judge(set_extents(low, high));
+    }
+
+    /// Of a filtered pair: whether a triangle's plane parts it from the other. If so, nothing else
+    /// may be asked.
+    bool parted() const { return parted_; }
+    /// Whether an axis parts the triangles' boxes; asked of a narrowed pair only.
     bool boxes_apart() const { return apart_; }
 
     Sides sides(int of) const {
@@ -71,7 +93,7 @@ template <class R, bool filtered = false> class Determinants {
         const Points a0 = points(a.q, a.p), a1 = points(a.p, a.r);
         const Points b0 = points(b.p, b.p), b1 = points(b.q, b.r);
         const Two det = dot(b0 - a0, cross(a1 - a0, b1 - b0));
-        const Real error = error3d();
+        const Real error = filtered && !narrow_ ? error_along_line_ : error3d();
         const Bits apart = det > error, meet = filtered ? det < -error : det <= error;
         return (apart[0] | apart[1]) != 0 ? Answer::no
                : (meet[0] & meet[1]) != 0 ? Answer::yes
@@ -146,7 +168,8 @@ template <class R, bool filtered = false> class Determinants {
         const Two all = sums.of[0] + sums.of[1] + sums.of[2];
         return all[0] + all[1] - (all[0] + all[1]) == 0;
     }
-    /// Whether a corner of one is a corner of the other: then their sums are the same bits.
+    /// Whether a corner of one is a corner of the other, in any floating-point mode: then their
+    /// sums are the same bits.
     bool share_a_vertex(const Sums& sums) const {
         const Bits p = std::bit_cast<Bits>(sums.of[0]), q = std::bit_cast<Bits>(sums.of[1]),
                    r = std::bit_cast<Bits>(sums.of[2]);
@@ -155,7 +178,9 @@ template <class R, bool filtered = false> class Determinants {
             return false;
         for (Corner i = 0; i < 3; ++i)
             for (Corner j = 3; j < 6; ++j)
-                if (*p_[i] == *p_[j])
+                if (is_same_number_bits(p_[i]->x, p_[j]->x) &&
+                    is_same_number_bits(p_[i]->y, p_[j]->y) &&
+                    is_same_number_bits(p_[i]->z, p_[j]->z))
                     return true;
         return false;
     }
@@ -208,7 +233,24 @@ template <class R, bool filtered = false> class Determinants {
             known_ = ((p == p) & bit_p) | ((q == q) & bit_q) | ((r == r) & bit_r);
     }
 
-    /// Those errors.
+    static Two largest(const Points& v) {
+        const auto abs = [](const Two& x) -> Two {
+            return std::bit_cast<Two>(std::bit_cast<Bits>(x) & std::numeric_limits<Bit>::max());
+        };
+        return most_of(most_of(abs(v.x), abs(v.y)), abs(v.z));
+    }
+    /// Those errors, from the largest components of a's and b's edges at their first corners, and
+    /// of the step between these. No edge is longer than twice the `longer` one, no corner farther
+    /// from another than `reach`. NaN makes the determinants that it is in NaN.
+    Two set_reach(const Two& edge, const Two& other_edge, Real first) {
+        const Two longer = most_of(edge, other_edge);
+        const Real reach = first + (longer[0] + longer[1]);
+        scale_ = reach < filter_bound::largest ? 2 : std::numeric_limits<Real>::infinity();
+        const Real most = 3 * scale_ * filter_bound::orient3d * reach;
+        error_along_line_ = 4 * most * (longer[0] * longer[1]) + filter_bound::flushing;
+        return most * swapped(edge * other_edge) + filter_bound::flushing;
+    }
+    /// The same from the extents.
     Two set_extents(const Points& low, const Points& high) {
         const Points t = swapped(high - low);
         const Points both = max(high, swapped(high)) - min(low, swapped(low));
@@ -245,7 +287,8 @@ template <class R, bool filtered = false> class Determinants {
     Bits above_, below_, known_;
     std::array<Real, 3> extent_;
     Real scale_ = 2;
-    bool apart_ = false;
+    Real error_along_line_ = 0; ///< until it is narrowed
+    bool parted_ = false, narrow_ = false, apart_ = false;
 };
 
 using FilteredPair = Determinants<double, true>;

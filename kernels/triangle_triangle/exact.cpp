@@ -106,12 +106,13 @@ bool finite(const FilteredPair& pair) {
     return all;
 }
 
-Verdict decide(const FilteredPair& pair) {
+/// What the filter has left as `maybe`.
+Verdict decide(FilteredPair& pair) {
     using Plain = Determinants<double>;
-    // If all sides are known, all is finite and no vertex shared: a shared one has a determinant 0.
-    if (pair.boxes_apart() || (pair.sides(0).unknown() | pair.sides(1).unknown()) != 0) {
-        const auto sums = pair.sums();
-        if (!pair.surely_finite(sums) && !finite(pair))
+    pair.narrow();
+    const auto sums = pair.sums();
+    if (!pair.surely_finite(sums)) {
+        if (!finite(pair))
             return {Answer::maybe, 0};
         if (pair.boxes_apart())
             return {Answer::no, 0};
@@ -127,11 +128,15 @@ Verdict decide(const FilteredPair& pair) {
 
 } // namespace
 
-Verdict GuigueDevillersExact::decide_exactly(const FilteredPair& filtered,
-                                             const Triangle<double>& a, const Triangle<double>& b) {
+Verdict GuigueDevillersExact::decide_exactly(FilteredPair& filtered, const Triangle<double>& a,
+                                             const Triangle<double>& b) {
     if (!flushes_denormals())
         return decide(filtered);
-    return without_flushing([&] { return decide(FilteredPair(a, b)); });
+    return without_flushing([&] {
+        FilteredPair pair(a, b);
+        const Answer answer = GuigueDevillersFiltered::meet(pair);
+        return answer != Answer::maybe ? Verdict{answer, 0} : decide(pair);
+    });
 }
 
 } // namespace boxwood

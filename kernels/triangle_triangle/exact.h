@@ -22,13 +22,13 @@ class GuigueDevillersExact {
         "1.4 times f64; 2 to 5 times where the filter fails"};
 
     static Verdict intersect(const Triangle<double>& a, const Triangle<double>& b) {
-        const FilteredPair pair(a, b);
+        FilteredPair pair(a, b);
         const Answer answer = GuigueDevillersFiltered::meet(pair);
         return answer != Answer::maybe ? Verdict{answer, 0} : decide_exactly(pair, a, b);
     }
 
   private:
-    static Verdict decide_exactly(const FilteredPair& filtered, const Triangle<double>& a,
+    static Verdict decide_exactly(FilteredPair& filtered, const Triangle<double>& a,
                                   const Triangle<double>& b);
 };
 

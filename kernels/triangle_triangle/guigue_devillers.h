@@ -110,25 +110,37 @@ template <OrientationPredicates P> struct GuigueDevillers {
 using GuigueDevillersF32 = GuigueDevillers<Rounded<float>>;
 using GuigueDevillersF64 = GuigueDevillers<Rounded<double>>;
 
-/// The interval test on filtered determinants, with the bounding boxes as its first.
+/// The interval test on filtered determinants, with shared vertices and the bounding boxes where
+/// their first bounds do not decide.
 template <> struct GuigueDevillers<Filtered> {
     using Real = double;
     static constexpr std::string_view name = "guigue_devillers_filtered";
     static constexpr KernelInfo info{
         "triangle_triangle",
         name,
-        "boxes, then interval overlap on the common line (2003) by signs that their error bound "
-        "lets stand",
+        "interval overlap on the common line (2003) by signs that their error bound lets stand; "
+        "shared vertices and boxes before the rest",
         Filtered::promise,
         Filtered::bound,
         Filtered::cost};
 
     static Verdict intersect(const Triangle<double>& a, const Triangle<double>& b) {
-        return {meet(FilteredPair(a, b)), 0};
+        FilteredPair pair(a, b);
+        return {meet(pair), 0};
     }
-    static Answer meet(const FilteredPair& pair) {
-        if (pair.boxes_apart())
-            return pair.surely_finite(pair.sums()) ? Answer::no : Answer::maybe;
+    /// `maybe` leaves the pair to finer tests, not always narrowed.
+    static Answer meet(FilteredPair& pair) {
+        if (pair.parted())
+            return Answer::no;
+        if ((pair.sides(0).unknown() | pair.sides(1).unknown()) != 0) {
+            const auto sums = pair.sums();
+            const bool finite = pair.surely_finite(sums);
+            if (finite && pair.share_a_vertex(sums))
+                return Answer::yes;
+            pair.narrow();
+            if (pair.boxes_apart())
+                return finite ? Answer::no : Answer::maybe;
+        }
         return IntervalTest<const FilteredPair>::meet(pair);
     }
 };
