@@ -101,20 +101,30 @@ class Reader {
         return static_cast<unsigned>(whole(node, "threads", 1, 1024));
     }
 
+    /// "ploc", or with a stage after it "ploc+reinsertion".
+    std::string builder_words(const toml::node& node) const {
+        const std::string words = node.value_or(std::string());
+        const std::size_t plus = words.find('+');
+        if (!node.is_string() || plus == std::string::npos)
+            return word(node, "builders", names_of(builders()));
+        word(toml::value<std::string>(words.substr(0, plus)), "builders", names_of(builders()));
+        word(toml::value<std::string>(words.substr(plus + 1)), "stages", names_of(stages()));
+        return words;
+    }
+
     BuilderChoice builder(const toml::node& node) const {
-        const Words known = names_of(builders());
         if (node.is_string())
-            return {word(node, "builders", known), {}};
+            return {builder_words(node), {}};
         const toml::table* table = node.as_table();
         const toml::node* name = table ? table->get("name") : nullptr;
         if (!name)
             fail(node.source(), "a builder is a word, or {name = \"WORD\", SETTING = NUMBER, ...}");
-        BuilderChoice choice{word(*name, "builders", known), {}};
+        BuilderChoice choice{builder_words(*name), {}};
         for (const auto& [key, value] : *table)
             if (key != "name")
                 choice.settings[std::string(key.str())] = number(value, key.str(), -1e300, 1e300);
         try {
-            find_builder(choice.name)->make(choice.settings);
+            make_builder(choice.name, choice.settings);
         } catch (const std::invalid_argument& error) {
             fail(node.source(), error.what());
         }

@@ -4,6 +4,7 @@
 #include "kernels/triangle_distance/distance_kernel.h"
 #include "kernels/verdict.h"
 #include "scenes/scene.h"
+#include "trees/layout.h"
 #include "trees/pairs.h"
 #include "trees/tree.h"
 #include "trees/work.h"
@@ -25,6 +26,13 @@ enum class Ask : std::uint8_t {
     rays_closest,   ///< for each ray the nearest triangle
     rays_any,       ///< for each ray whether it meets a triangle
     triangle_pairs, ///< every unordered pair of the scene's triangles that share a point
+    moving_pairs,   ///< frame after frame: take the new boxes, then every overlapping pair
+    tree,           ///< a binary tree of the boxes and nothing else: builders alone
+    rays_all,       ///< for each ray every triangle
+    points,         ///< for each point every box that contains it
+    regions,        ///< for each region every box that shares a point with it
+    nearest,        ///< for each point the nearest boxes
+    closest_points, ///< for each point the nearest point of the mesh
 
     // Of the cases of a hard-case family, one answer each: the families of kernels.
     triangle_triangle, ///< do two triangles share a point
@@ -50,9 +58,17 @@ std::optional<Ask> ask_of(std::string_view name);
 inline bool is_kernel_ask(Ask ask) { return ask >= Ask::triangle_triangle; }
 /// Whether a whole query decides about triangles by a kernel that can be chosen.
 inline bool takes_kernel(Ask ask) {
-    return ask == Ask::rays_closest || ask == Ask::rays_any || ask == Ask::triangle_pairs;
+    return ask == Ask::rays_closest || ask == Ask::rays_any || ask == Ask::rays_all ||
+           ask == Ask::triangle_pairs;
 }
-inline bool is_ray_ask(Ask ask) { return ask == Ask::rays_closest || ask == Ask::rays_any; }
+inline bool is_ray_ask(Ask ask) {
+    return ask == Ask::rays_closest || ask == Ask::rays_any || ask == Ask::rays_all;
+}
+/// Whether it is asked of `Scene::points` or `Scene::regions`.
+inline bool is_point_ask(Ask ask) {
+    return ask == Ask::points || ask == Ask::regions || ask == Ask::nearest ||
+           ask == Ask::closest_points;
+}
 
 /// The items of `tree_pairs`: boxes [0, n/2) against [n/2, n). In its answers a < n/2 <= b, both
 /// indices of the whole scene.
@@ -69,7 +85,9 @@ struct Job {
 /// The buffers that every contender answers into; the caller reserves them before timing and clears
 /// them between queries. Pairs may come in any order, but each pair once and lower item first.
 struct Answers {
-    std::vector<Pair> pairs;
+    std::vector<Pair> pairs;                  ///< of rays_all, points and regions: (query, item)
+    std::vector<Neighbour> neighbours;        ///< nearest: Scene::k of each point
+    std::vector<SurfacePoint> surface_points; ///< closest_points
     std::vector<RayHit> hits; ///< resized to the number of rays; for rays_any only hit() counts
     // Of the kernel asks, one per case, resized by the contender.
     std::vector<Verdict> verdicts;   ///< triangle_triangle, ray_box, obb_obb
@@ -99,6 +117,9 @@ class Contender {
     virtual void build() = 0;
     /// Timed: answers the job into `answers`, which is cleared. Needs a build before it.
     virtual void query(Answers& answers) = 0;
+    /// Timed, of moving_pairs: takes the boxes of scene.frames[frame]; a query then answers for
+    /// them. After a build frames come in order from 0.
+    virtual void update(std::size_t /*frame*/) {}
     /// Untimed: the same query with its work counted, where that can be told.
     virtual std::optional<Work> counted_query(Answers&) { return std::nullopt; }
     /// Further counters of the last counted query.

@@ -48,15 +48,14 @@ class SelfPairs final : public OurContender {
     using OurContender::OurContender;
     void build() override {
         layout_.reset();
-        tree_ = build_(scene_.boxes, *executor_);
-        layout_ = layout_entry_.make(tree_);
+        layout_ = make_layout(layout_entry_, build_, scene_.boxes, *executor_, tree_);
     }
     void query(Answers& answers) override { layout_->self_pairs(*executor_, sink(answers)); }
     std::optional<Work> counted_query(Answers& answers) override {
         return layout_->self_pairs_counted(sink(answers));
     }
     std::optional<StructureInfo> structure() const override {
-        return StructureInfo{layout_->bytes(), &tree_};
+        return StructureInfo{layout_->bytes(), tree_.empty() ? nullptr : &tree_};
     }
 };
 
@@ -69,9 +68,8 @@ class TreePairs final : public OurContender {
         layout_.reset();
         other_.reset();
         const Boxes boxes = scene_.boxes;
-        tree_ = build_(boxes.first(split_), *executor_);
-        layout_ = layout_entry_.make(tree_);
-        other_ = layout_entry_.make(build_(boxes.subspan(split_), *executor_));
+        layout_ = make_layout(layout_entry_, build_, boxes.first(split_), *executor_, tree_);
+        other_ = make_layout(layout_entry_, build_, boxes.subspan(split_), *executor_, tree_);
     }
     void query(Answers& answers) override {
         layout_->tree_pairs(*other_, *executor_, sink(answers));
@@ -106,8 +104,7 @@ class Rays final : public OurContender {
     void build() override {
         layout_.reset();
         triangles_ = {};
-        tree_ = build_(scene_.boxes, *executor_);
-        layout_ = layout_entry_.make(tree_);
+        layout_ = make_layout(layout_entry_, build_, scene_.boxes, *executor_, tree_);
         triangles_ = layout_->triangles(scene_.mesh);
     }
     void query(Answers& answers) override {
@@ -135,6 +132,7 @@ std::string_view traversal_of(Ask ask) {
 /// "binned_sah_bins16": words [a-z0-9_], so 1.5 is written 1_5 and a minus m.
 std::string builder_word(const Choice& choice) {
     std::string word = choice.builder;
+    std::ranges::replace(word, '+', '_');
     for (const auto& [name, value] : choice.settings) {
         word += fmt::format("_{}", name);
         for (const char c : fmt::format("{}", value))
@@ -156,9 +154,11 @@ template <class Entries>
 } // namespace
 
 ContenderEntry our_contender(const Choice& choice, Ask ask) {
-    const BuilderEntry* builder = find_builder(choice.builder);
+    const std::string_view builder_name =
+        std::string_view(choice.builder).substr(0, choice.builder.find('+'));
+    const BuilderEntry* builder = find_builder(builder_name);
     if (!builder)
-        throw_unknown("builder", choice.builder, builders());
+        throw_unknown("builder", builder_name, builders());
     const LayoutEntry* layout = find_layout(choice.layout);
     if (!layout)
         throw_unknown("layout", choice.layout, layouts());
@@ -196,7 +196,7 @@ ContenderEntry our_contender(const Choice& choice, Ask ask) {
             return "the executor serial has one thread";
         return std::nullopt;
     };
-    entry.make = [build = builder->make(choice.settings), layout,
+    entry.make = [build = make_builder(choice.builder, choice.settings), layout,
                   kernel = choice.kernel](const Job& job) -> std::unique_ptr<Contender> {
         switch (job.ask) {
         case Ask::pairs:

@@ -18,8 +18,7 @@ template <TriangleKernel K> class TrianglePairs final : public Contender {
 
     void build() override {
         layout_.reset();
-        tree_ = build_(scene_.boxes, *executor_);
-        layout_ = layout_entry_.make(tree_);
+        layout_ = make_layout(layout_entry_, build_, scene_.boxes, *executor_, tree_);
     }
 
     void query(Answers& answers) override {

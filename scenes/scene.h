@@ -2,6 +2,7 @@
 
 #include "kernels/aabb.h"
 #include "kernels/ray.h"
+#include "kernels/sphere.h"
 #include "kernels/triangle.h"
 #include "scenes/hard_cases/hard_cases.h"
 
@@ -24,8 +25,18 @@ struct SceneSpec {
     std::string rays{};           ///< a word of `ray_kinds()`, or empty for no rays (mesh scenes)
     std::size_t n_rays = 0;       ///< number of rays
     std::filesystem::path file{}; ///< mesh file (`mesh` alone), or a family's cases
+    std::size_t n_points = 0;     ///< number of points or regions
+    std::string regions{};        ///< a word of `region_kinds()`, or empty for no regions
+    std::string motion{};         ///< a word of `motions()`, or empty for boxes at rest
+    std::size_t n_frames = 0;     ///< number of frames of the motion
     std::optional<int> k{};       ///< of a hard-case family: its parameter
     int scale = 0;                ///< of a hard-case family: power of two on every coordinate
+};
+
+/// The boxes of a moving scene at one moment, all of them, and which are not what they were.
+struct Frame {
+    std::vector<Aabb<float>> boxes;
+    std::vector<std::uint32_t> moved; ///< ascending
 };
 
 /// One frame of things to test: boxes always; a mesh when they are boxes of its triangles.
@@ -35,8 +46,12 @@ struct Scene {
     std::vector<Aabb<float>> boxes; ///< scene units; box i bounds triangle i when there is a mesh
     TriangleMesh mesh;              ///< empty in box scenes
     std::vector<Ray<float>> rays;
-    Cases cases;             ///< of a hard-case family, else none
-    std::string params_json; ///< the generator's parameters as one JSON object
+    std::vector<Vec3<float>> points;
+    std::vector<Aabb<float>> regions; ///< boxes or spheres, not both
+    std::vector<Sphere<float>> spheres;
+    std::vector<Frame> frames; ///< what follows `boxes` if they move
+    Cases cases;               ///< of a hard-case family, else none
+    std::string params_json;   ///< the generator's parameters as one JSON object
     /// XXH3 of boxes, vertices, indices and rays, then of each case number by number, little-endian
     std::uint64_t content_hash = 0;
 };

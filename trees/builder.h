@@ -16,6 +16,7 @@ namespace boxwood {
 /// A builder makes the canonical tree of any number of boxes: the same tree on every executor.
 /// It throws InvalidBox for a box with a NaN, an infinity or min > max. Its settings are documented
 /// data members with defaults, listed by `settings()` so that a sweep file can reach them.
+/// One that finds a good order of the items without a tree may hand it out by `order`.
 template <class B>
 concept Builder = std::default_initializable<B> &&
     requires(const B builder, Boxes boxes, const Executor& executor) {
@@ -37,7 +38,16 @@ struct SettingInfo {
 };
 
 using Settings = std::map<std::string, double, std::less<>>;
-using BuildFunction = std::function<Tree(Boxes, const Executor&)>;
+
+/// A builder with its settings, and with the stage after it if one is named.
+struct BuildFunction {
+    std::function<Tree(Boxes, const Executor&)> build;
+    /// The items as the leaves of the tree would have them, without the tree; empty if the builder
+    /// needs the tree for it. Throws as `build` does.
+    std::function<Buffer<std::uint32_t>(Boxes, const Executor&)> order;
+
+    Tree operator()(Boxes boxes, const Executor& executor) const { return build(boxes, executor); }
+};
 
 /// A catalogue row. `make` throws std::invalid_argument for an unknown or out-of-range setting.
 struct BuilderEntry {
@@ -51,39 +61,84 @@ std::span<const BuilderEntry> builders();
 /// The builder by its catalogue word, or nullptr.
 const BuilderEntry* find_builder(std::string_view name);
 
+/// A stage improves a finished tree: same items, a valid canonical tree, the same on every
+/// executor. Settings as a builder's.
+template <class S>
+concept Stage = std::default_initializable<S> &&
+    requires(const S stage, Tree& tree, const Executor& executor) {
+    stage.improve(tree, executor);
+    { S::name } -> std::convertible_to<std::string_view>;
+    { S::summary } -> std::convertible_to<std::string_view>;
+};
+struct StageEntry {
+    std::string_view name, summary;
+    std::vector<SettingInfo> settings;
+    std::function<std::function<void(Tree&, const Executor&)>(const Settings&)> make;
+};
+std::span<const StageEntry> stages();
+
+/// "ploc", or with a stage after it "ploc+reinsertion"; each setting goes to the one that has it.
+/// Throws std::invalid_argument for an unknown word or setting, with a suggestion.
+BuildFunction make_builder(std::string_view words, const Settings& settings = {});
+
 [[noreturn]] void throw_unknown_setting(std::string_view builder, std::string_view setting,
                                         std::span<const SettingInfo> known);
 [[noreturn]] void throw_setting_range(std::string_view builder, const SettingInfo& setting,
                                       double value);
 
-/// The catalogue row of a Builder type.
-template <Builder B> BuilderEntry builder_entry() {
+template <class B> std::vector<SettingInfo> setting_infos() {
     std::vector<SettingInfo> infos;
     if constexpr (requires { B::settings(); })
         for (const Setting<B>& s : B::settings())
             infos.push_back({s.name, s.summary, B{}.*(s.value), s.least, s.most});
-    auto make = [infos](const Settings& values) -> BuildFunction {
-        B builder;
-        for (const auto& [name, value] : values) {
-            bool known = false;
-            if constexpr (requires { B::settings(); })
-                for (std::size_t i = 0; const Setting<B>& s : B::settings()) {
-                    if (s.name == name) {
-                        if (!(value >= s.least && value <= s.most))
-                            throw_setting_range(B::name, infos[i], value);
-                        builder.*(s.value) = value;
-                        known = true;
-                    }
-                    ++i;
+    return infos;
+}
+
+/// A B with these settings. Throws std::invalid_argument for an unknown or out-of-range one.
+template <class B> B with_settings(const Settings& values) {
+    B made;
+    const std::vector<SettingInfo> infos = setting_infos<B>();
+    for (const auto& [name, value] : values) {
+        bool known = false;
+        if constexpr (requires { B::settings(); })
+            for (std::size_t i = 0; const Setting<B>& s : B::settings()) {
+                if (s.name == name) {
+                    if (!(value >= s.least && value <= s.most))
+                        throw_setting_range(B::name, infos[i], value);
+                    made.*(s.value) = value;
+                    known = true;
                 }
-            if (!known)
-                throw_unknown_setting(B::name, name, infos);
-        }
-        return [builder](Boxes boxes, const Executor& executor) {
-            return builder.build(boxes, executor);
-        };
-    };
-    return {B::name, B::summary, std::move(infos), std::move(make)};
+                ++i;
+            }
+        if (!known)
+            throw_unknown_setting(B::name, name, infos);
+    }
+    return made;
+}
+
+/// The catalogue row of a Builder type.
+template <Builder B> BuilderEntry builder_entry() {
+    return {B::name, B::summary, setting_infos<B>(), [](const Settings& values) {
+                const B builder = with_settings<B>(values);
+                BuildFunction made;
+                made.build = [builder](Boxes boxes, const Executor& executor) {
+                    return builder.build(boxes, executor);
+                };
+                if constexpr (requires(Boxes b, const Executor& e) { builder.order(b, e); })
+                    made.order = [builder](Boxes boxes, const Executor& executor) {
+                        return builder.order(boxes, executor);
+                    };
+                return made;
+            }};
+}
+
+/// The catalogue row of a Stage type.
+template <Stage S> StageEntry stage_entry() {
+    return {S::name, S::summary, setting_infos<S>(), [](const Settings& values) {
+                return [stage = with_settings<S>(values)](Tree& tree, const Executor& executor) {
+                    stage.improve(tree, executor);
+                };
+            }};
 }
 
 } // namespace boxwood

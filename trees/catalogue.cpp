@@ -1,5 +1,6 @@
-/// The catalogues of this room. To add a builder, layout or executor: write its file, which defines
-/// `BuilderEntry NAME_builder()` (or NAME_layout, NAME_executor), and add its word here.
+/// The catalogues of this room. To add a builder, stage, layout or executor: write its file, which
+/// defines `BuilderEntry NAME_builder()` (or NAME_stage, NAME_layout, NAME_executor), and add its
+/// word here.
 
 #include "trees/builder.h"
 #include "trees/executor.h"
@@ -9,8 +10,10 @@
 #include <array>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #define BOXWOOD_BUILDERS(X) X(median) X(binned_sah) X(incremental)
+#define BOXWOOD_STAGES(X)
 #define BOXWOOD_LAYOUTS(X) X(binary) X(wide8)
 #define BOXWOOD_EXECUTORS(X) X(serial) X(openmp) X(tbb)
 
@@ -18,6 +21,9 @@ namespace boxwood {
 
 #define X(word) BuilderEntry word##_builder();
 BOXWOOD_BUILDERS(X)
+#undef X
+#define X(word) StageEntry word##_stage();
+BOXWOOD_STAGES(X)
 #undef X
 #define X(word) LayoutEntry word##_layout();
 BOXWOOD_LAYOUTS(X)
@@ -33,11 +39,25 @@ template <class Entry> const Entry* find(std::span<const Entry> entries, std::st
     return it == entries.end() ? nullptr : &*it;
 }
 
+template <class Entry> std::string joined(std::span<const Entry> entries) {
+    std::string words;
+    for (const Entry& entry : entries)
+        words += (words.empty() ? "" : ", ") + std::string(entry.name);
+    return words.empty() ? "none" : words;
+}
+
 } // namespace
 
 std::span<const BuilderEntry> builders() {
 #define X(word) word##_builder(),
     static const std::array entries{BOXWOOD_BUILDERS(X)};
+#undef X
+    return entries;
+}
+
+std::span<const StageEntry> stages() {
+#define X(word) word##_stage(),
+    static const std::vector<StageEntry> entries{BOXWOOD_STAGES(X)};
 #undef X
     return entries;
 }
@@ -57,12 +77,56 @@ std::span<const ExecutorEntry> executors() {
 }
 
 std::span<const TraversalEntry> traversals() {
-    static constexpr std::array<TraversalEntry, 3> entries{{
+    static constexpr std::array<TraversalEntry, 7> entries{{
         {"self_pairs", "every unordered pair of overlapping items of one tree, once"},
         {"tree_pairs", "every overlapping pair between the items of two trees, once"},
-        {"rays", "for each ray the nearest triangle, or whether there is any"},
+        {"rays", "for each ray the nearest triangle, or whether there is any, or all of them"},
+        {"points", "for each point all items that contain it"},
+        {"regions", "for each box or sphere all items that share a point with it"},
+        {"nearest", "for each point the k nearest items"},
+        {"closest_points", "for each point the nearest point of a mesh"},
     }};
     return entries;
+}
+
+BuildFunction make_builder(std::string_view words, const Settings& settings) {
+    const std::size_t plus = words.find('+');
+    const std::string_view first = words.substr(0, plus);
+    const BuilderEntry* builder = find_builder(first);
+    if (!builder)
+        throw std::invalid_argument("unknown builder '" + std::string(first) + "'; it is one of " +
+                                    joined(builders()));
+    if (plus == std::string_view::npos)
+        return builder->make(settings);
+    const std::string_view second = words.substr(plus + 1);
+    const StageEntry* stage = find(stages(), second);
+    if (!stage)
+        throw std::invalid_argument("unknown stage '" + std::string(second) + "' after '" +
+                                    std::string(first) + "'; it is one of " + joined(stages()));
+    Settings of_builder, of_stage;
+    for (const auto& setting : settings) {
+        const bool stages_own = std::ranges::find(stage->settings, setting.first,
+                                                  &SettingInfo::name) != stage->settings.end();
+        (stages_own ? of_stage : of_builder).insert(setting);
+    }
+    BuildFunction made;
+    made.build = [build = builder->make(of_builder),
+                  improve = stage->make(of_stage)](Boxes boxes, const Executor& executor) {
+        Tree tree = build(boxes, executor);
+        improve(tree, executor);
+        return tree;
+    };
+    return made;
+}
+
+std::unique_ptr<AnyLayout> make_layout(const LayoutEntry& layout, const BuildFunction& builder,
+                                       Boxes boxes, const Executor& executor, Tree& tree) {
+    if (layout.make_of_order && builder.order) {
+        tree = {};
+        return layout.make_of_order(boxes, builder.order(boxes, executor).span(), executor);
+    }
+    tree = builder(boxes, executor);
+    return layout.make(tree, executor);
 }
 
 const BuilderEntry* find_builder(std::string_view name) { return find(builders(), name); }
@@ -82,15 +146,15 @@ std::unique_ptr<Executor> make_executor(std::string_view name, unsigned threads)
 
 void throw_unknown_setting(std::string_view builder, std::string_view setting,
                            std::span<const SettingInfo> known) {
-    std::string message = "builder '" + std::string(builder) + "' has no setting '" +
-                          std::string(setting) + "'; it has ";
+    std::string message =
+        "'" + std::string(builder) + "' has no setting '" + std::string(setting) + "'; it has ";
     for (std::size_t i = 0; i < known.size(); ++i)
         message += (i ? ", " : "") + std::string(known[i].name);
     throw std::invalid_argument(known.empty() ? message + "none" : message);
 }
 
 void throw_setting_range(std::string_view builder, const SettingInfo& setting, double value) {
-    throw std::invalid_argument("setting '" + std::string(setting.name) + "' of builder '" +
+    throw std::invalid_argument("setting '" + std::string(setting.name) + "' of '" +
                                 std::string(builder) + "' must lie between " +
                                 std::to_string(setting.least) + " and " +
                                 std::to_string(setting.most) + ", not " + std::to_string(value));

@@ -2,13 +2,17 @@
 
 #include "kernels/ray.h"
 #include "kernels/ray_triangle/triangle_block.h"
+#include "kernels/sphere.h"
 #include "kernels/triangle.h"
+#include "trees/builder.h"
 #include "trees/executor.h"
 #include "trees/pairs.h"
 #include "trees/tree.h"
 #include "trees/work.h"
 
+#include <compare>
 #include <concepts>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -16,9 +20,12 @@
 namespace boxwood {
 
 /// A layout owns a copy of a tree in the form that some walk likes best. It is a function of the
-/// tree alone, so that every builder serves every layout.
+/// tree alone, the same on every executor, so that every builder serves every layout. One that
+/// needs no more than an order of the items is also made from that: L::of_order(boxes, order,
+/// executor).
 template <class L>
-concept Layout = std::constructible_from<L, const Tree&> && requires(const L layout) {
+concept Layout = std::constructible_from<L, const Tree&, const Executor&> &&
+    requires(const L layout) {
     { layout.bytes() } -> std::convertible_to<std::size_t>;
     { L::name } -> std::convertible_to<std::string_view>;
     { L::summary } -> std::convertible_to<std::string_view>;
@@ -30,6 +37,33 @@ using TriangleBlocks = Buffer<TriangleBlock<8>>;
 enum class RayQuery : std::uint8_t {
     closest, ///< the hit with the least t, ties to the lowest triangle index
     any      ///< whether there is a hit at all: some hit, not always the same between layouts
+};
+
+/// An item near a point, and the square of the distance from the point to its box (0 inside).
+struct Neighbour {
+    std::uint32_t item = none;
+    double squared_distance = std::numeric_limits<double>::infinity();
+
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+    constexpr auto operator<=>(const Neighbour&) const = default;
+};
+
+/// The point of a mesh that is nearest to a query point, on the lowest of the triangles that have
+/// it; `triangle` is Neighbour::none if the mesh is empty.
+struct SurfacePoint {
+    Vec3<float> point{};
+    std::uint32_t triangle = Neighbour::none;
+    double squared_distance = std::numeric_limits<double>::infinity();
+};
+
+/// Where all hits of a ray go: by chunks as PairSink, a ray's hits in one batch, by t and then by
+/// triangle.
+class HitSink {
+  public:
+    virtual ~HitSink() = default;
+    virtual void begin(std::size_t chunks, bool in_order) = 0;
+    virtual bool take(std::size_t chunk, std::uint32_t ray, std::span<const RayHit> hits) = 0;
+    virtual void end() = 0;
 };
 
 /// A layout with its queries behind virtual calls: one per query, none inside.
@@ -59,18 +93,54 @@ class AnyLayout {
     virtual Work rays_counted(std::span<const Ray<float>> rays, RayQuery query,
                               std::string_view kernel, const TriangleBlocks& triangles,
                               std::span<RayHit> hits) const = 0;
+    /// Every hit of every ray with t_min <= t <= t_max.
+    virtual void rays_all(std::span<const Ray<float>> rays, std::string_view kernel,
+                          const TriangleBlocks& triangles, const Executor& executor,
+                          HitSink& sink) const = 0;
+
+    // Queries of many points, boxes or spheres at a time. The sink's pairs are (index of the query,
+    // item), those of one query by item. `work`, if given, is added to, and wants the executor
+    // serial().
+
+    /// Every item whose box contains the point; shares a point with the box; with the sphere.
+    virtual void points(std::span<const Vec3<float>> points, const Executor& executor,
+                        PairSink& sink, Work* work = nullptr) const = 0;
+    virtual void regions(std::span<const Box> regions, const Executor& executor, PairSink& sink,
+                         Work* work = nullptr) const = 0;
+    virtual void regions(std::span<const Sphere<float>> regions, const Executor& executor,
+                         PairSink& sink, Work* work = nullptr) const = 0;
+
+    /// The k items nearest to each point, by distance and then by item: out[k i ...] answers
+    /// points[i], filled up with no item if there are fewer. out.size() == k * points.size().
+    virtual void nearest(std::span<const Vec3<float>> points, std::size_t k,
+                         const Executor& executor, std::span<Neighbour> out,
+                         Work* work = nullptr) const = 0;
+
+    /// The nearest point of the mesh whose triangles' boxes this is the layout of, computed in
+    /// doubles and rounded.
+    virtual void closest_points(std::span<const Vec3<float>> points, const TriangleMesh& mesh,
+                                const Executor& executor, std::span<SurfacePoint> out,
+                                Work* work = nullptr) const = 0;
 };
 
 /// A catalogue row.
 struct LayoutEntry {
     std::string_view name, summary;
-    std::unique_ptr<AnyLayout> (*make)(const Tree&);
+    std::unique_ptr<AnyLayout> (*make)(const Tree&, const Executor&);
+    /// From an order of the items alone; null if the layout needs the tree.
+    std::unique_ptr<AnyLayout> (*make_of_order)(Boxes, std::span<const std::uint32_t> order,
+                                                const Executor&);
 };
 
 std::span<const LayoutEntry> layouts();
 
 /// The layout by its catalogue word, or nullptr.
 const LayoutEntry* find_layout(std::string_view name);
+
+/// The layout of the boxes by this builder: by its order alone if both sides know how; else by its
+/// tree, which is kept in `tree` (else that is left empty).
+std::unique_ptr<AnyLayout> make_layout(const LayoutEntry& layout, const BuildFunction& builder,
+                                       Boxes boxes, const Executor& executor, Tree& tree);
 
 /// A row of the traversal catalogue.
 struct TraversalEntry {

@@ -36,7 +36,7 @@ template <class K> void check(const TriangleMesh& mesh, const std::vector<Pair>&
         boxes.push_back(mesh.triangle(i).bounds());
     const Tree tree = builders().front().make({})(boxes, serial());
     for (const LayoutEntry& entry : layouts()) {
-        const auto layout = entry.make(tree);
+        const auto layout = entry.make(tree, serial());
         std::vector<Pair> in_order;
         for (const unsigned threads : {1u, 3u}) {
             std::vector<Pair> pairs;

@@ -125,7 +125,7 @@ Walk confirmed_walk(const Tree& tree) {
     Walk walk(tree);
     std::vector<Pair> found;
     AppendPairs sink(found);
-    find_layout("binary")->make(tree)->self_pairs(serial(), sink);
+    find_layout("binary")->make(tree, serial())->self_pairs(serial(), sink);
     std::sort(found.begin(), found.end());
     if (found != walk.pairs)
         throw std::logic_error("demo four-link: the walk shown finds " + names_of(walk.pairs) +
@@ -138,7 +138,7 @@ std::vector<Pair> reported_pairs(const Tree& tree, const AllowedCollisions& allo
     std::vector<Pair> found;
     AppendPairs append(found);
     auto sink = without_allowed(allowed, append);
-    find_layout("binary")->make(tree)->self_pairs(serial(), sink);
+    find_layout("binary")->make(tree, serial())->self_pairs(serial(), sink);
     std::sort(found.begin(), found.end());
     return found;
 }
@@ -176,7 +176,7 @@ std::string large_case() {
     const Scene scene = make_scene(spec);
     CountPairs sink;
     const Tree tree = find_builder("median")->make({})(scene.boxes, serial());
-    const Work work = find_layout("binary")->make(tree)->self_pairs_counted(sink);
+    const Work work = find_layout("binary")->make(tree, serial())->self_pairs_counted(sink);
     return fmt::format(
         "   With many boxes the saving grows: for {} random boxes with {} overlapping\n"
         "   pairs the same walk makes {} box tests, brute force {}: {:.0f} times more.\n",

@@ -60,7 +60,7 @@ TEST(FourLinkDemo, TheWalkShownCountsWhatTheLibraryCounts) {
                                                 : merge(tree.nodes[Tree::left(i)].box,
                                                         tree.nodes[tree.right(i)].box);
         CountPairs sink;
-        const Work work = find_layout("binary")->make(tree)->self_pairs_counted(sink);
+        const Work work = find_layout("binary")->make(tree, serial())->self_pairs_counted(sink);
         const std::string text = step(at);
         const std::regex line("\n +test [0-9]+: ");
         EXPECT_EQ(std::distance(std::sregex_iterator(text.begin(), text.end(), line), {}),

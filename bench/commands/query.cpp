@@ -39,10 +39,11 @@ void add_tree_options(CLI::App& app, TreeChoice& choice) {
 }
 
 BuildFunction chosen_builder(const TreeChoice& choice) {
-    const BuilderEntry* entry = find_builder(choice.builder);
-    if (!entry)
-        throw BadInput(unknown_word("builder", choice.builder, words(builders())));
-    return entry->make({});
+    try {
+        return make_builder(choice.builder);
+    } catch (const std::invalid_argument& error) {
+        throw BadInput(error.what());
+    }
 }
 
 const LayoutEntry& chosen_layout(const TreeChoice& choice) {

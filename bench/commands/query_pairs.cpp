@@ -86,7 +86,8 @@ void run(const PairsQuery& query, std::ostream& out) {
 
     std::vector<Box> float_boxes(boxes.size());
     std::transform(boxes.begin(), boxes.end(), float_boxes.begin(), to_float);
-    const auto layout = layout_entry.make(build(float_boxes, *executor));
+    Tree tree;
+    const auto layout = make_layout(layout_entry, build, float_boxes, *executor, tree);
     const auto truly_overlap = [&](Pair p) { return overlaps(boxes[p.a], boxes[p.b]); };
 
     // Counting first is cheap beside printing, and makes sure that the list will fit.

@@ -101,7 +101,9 @@ void run(const RaysQuery& query, std::ostream& out) {
     std::vector<Box> boxes(mesh.triangles.size());
     for (std::size_t i = 0; i < boxes.size(); ++i)
         boxes[i] = mesh.triangle(i).bounds();
-    const std::unique_ptr<AnyLayout> layout = layout_entry.make(build(boxes, *executor));
+    Tree tree;
+    const std::unique_ptr<AnyLayout> layout =
+        make_layout(layout_entry, build, boxes, *executor, tree);
     std::vector<RayHit> hits(rays.size());
     layout->rays(rays, query.any ? RayQuery::any : RayQuery::closest, query.kernel,
                  layout->triangles(mesh), *executor, hits);

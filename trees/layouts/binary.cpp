@@ -6,7 +6,7 @@
 
 namespace boxwood {
 
-BinaryLayout::BinaryLayout(const Tree& tree) : tree_(tree.size()) {
+BinaryLayout::BinaryLayout(const Tree& tree, const Executor&) : tree_(tree.size()) {
     std::ranges::copy(tree.nodes, tree_.nodes.begin());
     std::ranges::copy(tree.order, tree_.order.begin());
     // In depth-first order the open ancestors are a stack of subtree ends.

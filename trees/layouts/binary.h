@@ -11,7 +11,7 @@ class BinaryLayout {
     static constexpr std::string_view summary =
         "32-byte nodes in depth-first order, one item per leaf; the plain form";
 
-    explicit BinaryLayout(const Tree& tree);
+    BinaryLayout(const Tree& tree, const Executor& executor);
 
     const Tree& tree() const { return tree_; }
     /// Most nodes on a path from the root to a leaf.

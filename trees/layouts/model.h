@@ -1,19 +1,21 @@
 #pragma once
 
 #include "trees/layout.h"
+#include "trees/traversals/points.h"
 #include "trees/traversals/rays.h"
 #include "trees/traversals/self_pairs.h"
 #include "trees/traversals/tree_pairs.h"
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace boxwood {
 
 /// Puts a layout and the traversals that are overloaded for it behind AnyLayout.
 template <Layout L> class LayoutModel final : public AnyLayout {
   public:
-    explicit LayoutModel(const Tree& tree) : layout_(tree) {}
+    explicit LayoutModel(L layout) : layout_(std::move(layout)) {}
 
     std::size_t bytes() const override { return layout_.bytes(); }
 
@@ -43,6 +45,33 @@ template <Layout L> class LayoutModel final : public AnyLayout {
         return boxwood::rays_counted(layout_, rays, query, kernel, triangles, hits);
     }
 
+    void rays_all(std::span<const Ray<float>> rays, std::string_view kernel,
+                  const TriangleBlocks& triangles, const Executor& executor,
+                  HitSink& sink) const override {
+        boxwood::rays_all(layout_, rays, kernel, triangles, executor, sink);
+    }
+    void points(std::span<const Vec3<float>> points, const Executor& executor, PairSink& sink,
+                Work* work) const override {
+        boxwood::points(layout_, points, executor, sink, work);
+    }
+    void regions(std::span<const Box> regions, const Executor& executor, PairSink& sink,
+                 Work* work) const override {
+        boxwood::regions(layout_, regions, executor, sink, work);
+    }
+    void regions(std::span<const Sphere<float>> regions, const Executor& executor, PairSink& sink,
+                 Work* work) const override {
+        boxwood::regions(layout_, regions, executor, sink, work);
+    }
+    void nearest(std::span<const Vec3<float>> points, std::size_t k, const Executor& executor,
+                 std::span<Neighbour> out, Work* work) const override {
+        boxwood::nearest(layout_, points, k, executor, out, work);
+    }
+    void closest_points(std::span<const Vec3<float>> points, const TriangleMesh& mesh,
+                        const Executor& executor, std::span<SurfacePoint> out,
+                        Work* work) const override {
+        boxwood::closest_points(layout_, points, mesh, executor, out, work);
+    }
+
   private:
     static const L& same(const AnyLayout& other) {
         if (const auto* model = dynamic_cast<const LayoutModel*>(&other))
@@ -56,9 +85,18 @@ template <Layout L> class LayoutModel final : public AnyLayout {
 
 /// The catalogue row of a Layout type.
 template <Layout L> LayoutEntry layout_entry() {
-    return {L::name, L::summary, [](const Tree& tree) -> std::unique_ptr<AnyLayout> {
-                return std::make_unique<LayoutModel<L>>(tree);
-            }};
+    LayoutEntry entry{L::name, L::summary,
+                      [](const Tree& tree, const Executor& executor) -> std::unique_ptr<AnyLayout> {
+                          return std::make_unique<LayoutModel<L>>(L(tree, executor));
+                      },
+                      nullptr};
+    if constexpr (requires(Boxes boxes, std::span<const std::uint32_t> order,
+                           const Executor& executor) { L::of_order(boxes, order, executor); })
+        entry.make_of_order = [](Boxes boxes, std::span<const std::uint32_t> order,
+                                 const Executor& executor) -> std::unique_ptr<AnyLayout> {
+            return std::make_unique<LayoutModel<L>>(L::of_order(boxes, order, executor));
+        };
+    return entry;
 }
 
 } // namespace boxwood

@@ -66,7 +66,7 @@ void fill_leaf(Block8& block, const Tree& tree, std::uint32_t node) {
 
 } // namespace
 
-Wide8Layout::Wide8Layout(const Tree& tree) : size_(tree.size()) {
+Wide8Layout::Wide8Layout(const Tree& tree, const Executor&) : size_(tree.size()) {
     if (tree.empty())
         return;
     struct Open {

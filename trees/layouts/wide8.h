@@ -32,7 +32,7 @@ class Wide8Layout {
     static constexpr bool is_leaf(std::uint32_t ref) { return (ref & leaf_bit) != 0; }
     static constexpr std::uint32_t index(std::uint32_t ref) { return ref & ~leaf_bit; }
 
-    explicit Wide8Layout(const Tree& tree);
+    Wide8Layout(const Tree& tree, const Executor& executor);
 
     bool empty() const { return blocks_.empty(); }
     std::size_t size() const { return size_; }

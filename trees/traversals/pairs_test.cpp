@@ -36,7 +36,7 @@ TEST(SelfPairs, AgreeWithBruteForceOnEveryFamilyWayAndExecutor) {
         const std::vector<Pair> expected = brute_force(family.boxes);
         for_all_ways([&](const BuilderEntry& builder, const LayoutEntry& entry) {
             const Tree tree = builder.make({})(family.boxes, serial());
-            const auto layout = entry.make(tree);
+            const auto layout = entry.make(tree, serial());
             std::vector<Pair> first;
             for (const ExecutorEntry& executor : executors())
                 for (const unsigned threads : {1u, 2u, 4u}) {
@@ -71,8 +71,8 @@ TEST(TreePairs, AgreeWithBruteForceOnEveryFamilyWayAndExecutor) {
                 if (overlaps(a[i], b[j]))
                     expected.push_back({i, j});
         for_all_ways([&](const BuilderEntry& builder, const LayoutEntry& entry) {
-            const auto layout_a = entry.make(builder.make({})(a, serial()));
-            const auto layout_b = entry.make(builder.make({})(b, serial()));
+            const auto layout_a = entry.make(builder.make({})(a, serial()), serial());
+            const auto layout_b = entry.make(builder.make({})(b, serial()), serial());
             std::vector<Pair> first;
             for (const ExecutorEntry& executor : executors()) {
                 std::vector<Pair> pairs;
@@ -109,8 +109,9 @@ TEST(SelfPairs, AgreeOnEveryInstructionSet) {
             hwy::GetChosenTarget().Update(hwy::SupportedTargets());
             std::vector<Pair> pairs, halves;
             AppendPairs sink(pairs), sink_halves(halves);
-            entry.make(tree)->self_pairs(serial(), sink);
-            entry.make(half_a)->tree_pairs(*entry.make(half_b), serial(), sink_halves);
+            entry.make(tree, serial())->self_pairs(serial(), sink);
+            entry.make(half_a, serial())
+                ->tree_pairs(*entry.make(half_b, serial()), serial(), sink_halves);
             std::ranges::sort(pairs);
             std::ranges::sort(halves);
             EXPECT_EQ(pairs, expected);
@@ -125,8 +126,9 @@ TEST(TreePairs, RefuseTwoLayouts) {
     const Tree tree = find_builder("median")->make({})(boxes, serial());
     std::vector<Pair> pairs;
     AppendPairs sink(pairs);
-    EXPECT_THROW(find_layout("binary")->make(tree)->tree_pairs(*find_layout("wide8")->make(tree),
-                                                               serial(), sink),
+    EXPECT_THROW(find_layout("binary")
+                     ->make(tree, serial())
+                     ->tree_pairs(*find_layout("wide8")->make(tree, serial()), serial(), sink),
                  std::invalid_argument);
 }
 
@@ -150,7 +152,7 @@ TEST(SelfPairs, TreesAreTheSameOnEveryExecutor) {
 TEST(SelfPairs, EarlyExitStopsTheWalk) {
     const std::vector<Box> boxes(500, Box{{0, 0, 0}, {1, 1, 1}});
     for_all_ways([&](const BuilderEntry& builder, const LayoutEntry& entry) {
-        const auto layout = entry.make(builder.make({})(boxes, serial()));
+        const auto layout = entry.make(builder.make({})(boxes, serial()), serial());
         std::size_t seen = 0;
         ForEachPair sink([&](Pair) { return ++seen < 10; });
         layout->self_pairs(serial(), sink);
@@ -161,7 +163,7 @@ TEST(SelfPairs, EarlyExitStopsTheWalk) {
 TEST(SelfPairs, WorkOnIdenticalBoxesIsThatOfTheOutput) {
     const std::vector<Box> boxes(4000, Box{{0, 0, 0}, {1, 1, 1}});
     for_all_ways([&](const BuilderEntry& builder, const LayoutEntry& entry) {
-        const auto layout = entry.make(builder.make({})(boxes, serial()));
+        const auto layout = entry.make(builder.make({})(boxes, serial()), serial());
         CountPairs count;
         const Work work = layout->self_pairs_counted(count);
         EXPECT_EQ(count.count(), 4000u * 3999 / 2);

@@ -24,7 +24,7 @@ std::unique_ptr<AnyLayout> layout_of(const TriangleMesh& mesh, const LayoutEntry
     std::vector<Box> boxes;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
         boxes.push_back(mesh.triangle(i).bounds());
-    return entry.make(find_builder("binned_sah")->make({})(boxes, serial()));
+    return entry.make(make_builder("binned_sah")(boxes, serial()), serial());
 }
 
 /// Rays from within a mesh that hit nothing, closest and any together.

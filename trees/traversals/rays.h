@@ -2,6 +2,8 @@
 
 #include "trees/layout.h"
 
+#include <stdexcept>
+
 namespace boxwood {
 
 class BinaryLayout;
@@ -21,6 +23,13 @@ void rays(const BinaryLayout& tree, std::span<const Ray<float>> rays, RayQuery q
 void rays(const Wide8Layout& tree, std::span<const Ray<float>> rays, RayQuery query,
           std::string_view kernel, const TriangleBlocks& triangles, const Executor& executor,
           std::span<RayHit> hits);
+
+/// Every hit of every ray, see AnyLayout.
+template <class L>
+void rays_all(const L&, std::span<const Ray<float>>, std::string_view, const TriangleBlocks&,
+              const Executor&, HitSink&) {
+    throw std::logic_error("rays_all: not there yet");
+}
 
 /// The same on one thread, with the work counted.
 Work rays_counted(const BinaryLayout& tree, std::span<const Ray<float>> rays, RayQuery query,

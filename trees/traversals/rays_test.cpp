@@ -147,7 +147,7 @@ TEST(Rays, AgreeWithBruteForceForEveryWayExecutorAndInstructionSet) {
         for (const BuilderEntry& builder : builders())
             for (const LayoutEntry& entry : layouts()) {
                 SCOPED_TRACE(std::string(builder.name) + "." + std::string(entry.name));
-                const auto layout = entry.make(builder.make({})(boxes, serial()));
+                const auto layout = entry.make(builder.make({})(boxes, serial()), serial());
                 expect_hits<Watertight>(*layout, mesh, rays, expected);
             }
     }
@@ -166,7 +166,7 @@ TEST(Rays, AgreeWithBruteForceForEveryKernel) {
                 for (const LayoutEntry& entry : layouts()) {
                     SCOPED_TRACE(std::string(K::name) + "." + std::string(entry.name));
                     const auto layout =
-                        entry.make(builders()[0].make({})(triangle_boxes(mesh), serial()));
+                        entry.make(builders()[0].make({})(triangle_boxes(mesh), serial()), serial());
                     expect_hits<K>(*layout, mesh, rays, expected);
                 }
             });
@@ -178,7 +178,7 @@ TEST(Rays, RefuseWrongArguments) {
     const std::vector<Ray<float>> rays(3, Ray<float>{{0, 0, 0}, {1, 0, 0}});
     std::vector<RayHit> hits(3), few(2);
     for (const LayoutEntry& entry : layouts()) {
-        const auto layout = entry.make(tree);
+        const auto layout = entry.make(tree, serial());
         const TriangleBlocks triangles = layout->triangles(mesh);
         EXPECT_THROW(layout->rays(rays, RayQuery::any, "nosuch", triangles, serial(), hits),
                      std::invalid_argument);
