@@ -76,21 +76,22 @@ std::vector<double> log_ratios(const Rounds& a, const Rounds& b) {
     return logs;
 }
 
-/// The phases of each cell, and what build and query take together.
+/// The phases of each cell, and what build or update takes together with the query.
 std::map<std::uint32_t, std::map<std::string, Rounds>> phases_of(const Times& times) {
     std::map<std::uint32_t, std::map<std::string, Rounds>> phases;
     for (const auto& [key, rounds] : times)
         phases[key.first][key.second] = rounds;
-    for (auto& [cell, rounds_of] : phases) {
-        if (!rounds_of.contains("build") || !rounds_of.contains("query"))
-            continue;
-        Rounds sum;
-        for_each_pair(rounds_of["build"], rounds_of["query"],
-                      [&](const RoundKey& key, double build, double query) {
-                          sum[key].push_back(build + query);
-                      });
-        rounds_of["build+query"] = std::move(sum);
-    }
+    for (auto& [cell, rounds_of] : phases)
+        for (const char* first : {"build", "update"}) {
+            if (!rounds_of.contains(first) || !rounds_of.contains("query"))
+                continue;
+            Rounds sum;
+            for_each_pair(rounds_of[first], rounds_of["query"],
+                          [&](const RoundKey& key, double ns, double query_ns) {
+                              sum[key].push_back(ns + query_ns);
+                          });
+            rounds_of[std::string(first) + "+query"] = std::move(sum);
+        }
     return phases;
 }
 
@@ -286,7 +287,7 @@ FileComparison compare_files(const Results& base, const Results& head, double de
         const bool is_wrong = head_standing[b.cell_id] == Standing::wrong;
         for (const auto& [phase, rounds] : *a.phases) {
             const auto other = b.phases->find(phase);
-            if (phase == "build+query" || other == b.phases->end())
+            if (phase.find('+') != std::string::npos || other == b.phases->end())
                 continue;
             const auto ratio = paired_ratio(log_ratios(rounds, other->second));
             if (was_wrong || is_wrong) {

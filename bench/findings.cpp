@@ -16,6 +16,19 @@ namespace {
 
 using results::Results;
 
+/// What contenders are ranked by, each by the best of its variants.
+struct Measure {
+    const char* name; ///< as in results::Comparison
+    std::vector<const char*> phases;
+};
+const std::vector<Measure>& measures() {
+    static const std::vector<Measure> all{{"build+query", {"build", "query"}},
+                                          {"query", {"query"}},
+                                          {"update+query", {"update", "query"}},
+                                          {"build", {"build"}}};
+    return all;
+}
+
 /// The rows that a cell refers to.
 class Catalogue {
   public:
@@ -44,8 +57,11 @@ class Catalogue {
         const auto found = median_of_.find({cell.cell_id, phase});
         return found == median_of_.end() ? std::numeric_limits<double>::infinity() : found->second;
     }
-    double total_ns(const results::Cell& cell) const {
-        return median_ns(cell, "build") + median_ns(cell, "query");
+    double total_ns(const results::Cell& cell, const Measure& measure) const {
+        double total = 0;
+        for (const char* phase : measure.phases)
+            total += median_ns(cell, phase);
+        return total;
     }
 
   private:
@@ -59,15 +75,16 @@ class Catalogue {
 using Task = std::tuple<std::uint32_t, std::string, std::uint32_t>; // scene, ask, threads
 using Best = std::map<std::string, const results::Cell*>;           // by library
 
-std::map<Task, Best> best_of(const Results& results, const Catalogue& catalogue) {
+std::map<Task, Best> best_of(const Results& results, const Catalogue& catalogue,
+                             const Measure& measure) {
     std::map<Task, Best> best;
     for (const results::Cell& cell : results.cells) {
-        if (!catalogue.is_right(cell) ||
-            catalogue.total_ns(cell) == std::numeric_limits<double>::infinity())
+        const double total = catalogue.total_ns(cell, measure);
+        if (!catalogue.is_right(cell) || total == std::numeric_limits<double>::infinity())
             continue;
         const results::Cell*& kept =
             best[{cell.scene_id, cell.ask, cell.threads}][catalogue.variant(cell).library];
-        if (!kept || catalogue.total_ns(cell) < catalogue.total_ns(*kept))
+        if (!kept || total < catalogue.total_ns(*kept, measure))
             kept = &cell;
     }
     return best;
@@ -83,26 +100,45 @@ std::string comparison_text(const Results& results, std::uint32_t peer, std::uin
     return "-";
 }
 
-void add_rows(const Results& results, const Catalogue& catalogue, const Best& best,
-              TextTable& table) {
+void add_rows(const Results& results, const Catalogue& catalogue, const Measure& measure,
+              const Best& best, TextTable& table) {
     const auto ours = best.find("boxwood");
     for (const auto& [library, cell] : best) {
         const results::SceneRow& scene = catalogue.scene(*cell);
-        std::vector<std::string> row{
-            scene.name,
-            std::to_string(cell->n_items),
-            cell->ask,
-            std::to_string(cell->threads),
-            catalogue.variant(*cell).name,
-            time_text(catalogue.median_ns(*cell, "build")),
-            time_text(catalogue.median_ns(*cell, "query")),
-        };
+        std::vector<std::string> row{scene.name, std::to_string(cell->n_items), cell->ask,
+                                     std::to_string(cell->threads), catalogue.variant(*cell).name};
+        for (const char* phase : measure.phases)
+            row.push_back(time_text(catalogue.median_ns(*cell, phase)));
         if (ours != best.end() && library != "boxwood")
-            for (const char* phase : {"build+query", "query"})
-                row.push_back(
-                    comparison_text(results, cell->cell_id, ours->second->cell_id, phase));
+            row.push_back(
+                comparison_text(results, cell->cell_id, ours->second->cell_id, measure.name));
         table.add(std::move(row));
     }
+}
+
+/// A query that has no structure is no second measure, nor is a build that queries follow.
+bool is_ranked(const Results& results, const Catalogue& catalogue, const Task& task,
+               const Measure& measure) {
+    const auto timed = [&](const char* phase) {
+        return std::ranges::any_of(results.cells, [&](const results::Cell& cell) {
+            return Task{cell.scene_id, cell.ask, cell.threads} == task &&
+                   catalogue.median_ns(cell, phase) != std::numeric_limits<double>::infinity();
+        });
+    };
+    const std::string_view name = measure.name;
+    return name == "build" ? !timed("query") : name != "build+query" || !timed("update");
+}
+
+std::string table_text(const Results& results, const Catalogue& catalogue, const Measure& measure) {
+    std::vector<std::string> headings{"scene", ">n", "ask", ">threads", "best of its library"};
+    for (const char* phase : measure.phases)
+        headings.push_back(std::string(">") + phase);
+    headings.push_back(std::string(measure.name) + ", peer/ours");
+    TextTable table(headings);
+    for (const auto& [task, best] : best_of(results, catalogue, measure))
+        if (is_ranked(results, catalogue, task, measure))
+            add_rows(results, catalogue, measure, best, table);
+    return table.empty() ? "" : table.text();
 }
 
 std::string witness_of(const Results& results, std::uint32_t cell_id) {
@@ -133,16 +169,14 @@ bool has_crashed(const results::Check& check) {
 
 std::string findings_text(const Results& results) {
     const Catalogue catalogue(results);
-    TextTable table({"scene", ">n", "ask", ">threads", "best of its library", ">build", ">query",
-                     "build+query, peer/ours", "query, peer/ours"});
-    for (const auto& [task, best] : best_of(results, catalogue))
-        add_rows(results, catalogue, best, table);
-
-    std::string text = ladders_text(results);
-    if (!table.empty())
+    std::string text = ladders_text(results), tables;
+    for (const Measure& measure : measures())
+        if (const std::string table = table_text(results, catalogue, measure); !table.empty())
+            tables += (tables.empty() ? "" : "\n") + table;
+    if (!tables.empty())
         text += fmt::format("{}{}\nTimes are medians. peer/ours above 1: ours takes less time; in "
                             "brackets the 95 % interval of the paired ratio.\n",
-                            text.empty() ? "" : "\n", table.text());
+                            text.empty() ? "" : "\n", tables);
     if (const auto floor = noise_floor(results))
         text += fmt::format("Noise floor (one cell timed twice per round): {:.1f} %; no smaller "
                             "difference is claimed.\n",

@@ -68,6 +68,30 @@ TEST_F(Findings, ShowTheBestOfEachLibraryAndItsRatio) {
     EXPECT_FALSE(is_promise_broken(r));
 }
 
+TEST_F(Findings, ChooseTheBestOfEachMeasureByItself) {
+    add("ours_quick_build", "boxwood", 100, 300);
+    add("ours_quick_query", "boxwood", 900, 200);
+    add("peer", "fcl", 700, 600);
+    const std::string text = findings_text(r);
+    EXPECT_THAT(text, HasSubstr("3.25 [3.25, 3.25] faster")); // 1300 / 400, build and query
+    EXPECT_THAT(text, HasSubstr("3.00 [3.00, 3.00] faster")); // 600 / 200, query alone
+}
+
+TEST_F(Findings, RankUpdatesWithTheirQueriesAndBuildsThatNothingFollows) {
+    add("ours", "boxwood", 100, 300);
+    add("peer", "fcl", 700, 500);
+    for (results::Sample& sample : r.samples)
+        if (sample.phase == "build")
+            sample.phase = "update";
+    r.compare = compare_to_peers(r);
+    EXPECT_THAT(findings_text(r), HasSubstr("3.00 [3.00, 3.00] faster")); // 1200 / 400
+    std::erase_if(r.samples, [](const auto& sample) { return sample.phase == "query"; });
+    for (results::Sample& sample : r.samples)
+        sample.phase = "build";
+    r.compare = compare_to_peers(r);
+    EXPECT_THAT(findings_text(r), HasSubstr("7.00 [7.00, 7.00] faster"));
+}
+
 TEST_F(Findings, NeverRankWhatIsWrong) {
     add("ours", "boxwood", 100, 300);
     add("rogue", "fcl", 1, 1, "wrong", "pair 3 4");
