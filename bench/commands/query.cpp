@@ -39,6 +39,10 @@ void add_tree_options(CLI::App& app, TreeChoice& choice) {
 }
 
 BuildFunction chosen_builder(const TreeChoice& choice) {
+    const std::string_view word =
+        std::string_view(choice.builder).substr(0, choice.builder.find('+'));
+    if (!find_builder(word))
+        throw BadInput(unknown_word("builder", word, words(builders())));
     try {
         return make_builder(choice.builder);
     } catch (const std::invalid_argument& error) {

@@ -32,6 +32,7 @@ class Comparison:
 class Finding:
     job: object
     ours: object  # our ranked cell with the least build + query; None if there is none
+    quickest: object  # our ranked cell with the least query
     comparisons: list
     wrong: list  # cells of the job that answered wrongly, ours or theirs
     unchecked: list
@@ -81,23 +82,26 @@ def judge(family, floor):
 
 
 def findings(run):
-    """One Finding per job, in the order of run.jobs. The claims about our cell in one phase are one Holm
-    family, as in `boxwood sweep`."""
+    """One Finding per job, in the order of run.jobs, with our best cell of each phase. The claims about it are
+    one Holm family, as in `boxwood sweep`."""
     found, floor = [], run.noise_floor
     for job in run.jobs:
         cells = run.of(job)
         ranked = [cell for cell in cells if cell.ranked]
-        ours = min((c for c in ranked if c.ours), key=lambda c: c.median(TOTAL), default=None)
+        best = {
+            phase: min((c for c in ranked if c.ours and c.rounds(phase)), key=lambda c: c.median(phase), default=None)
+            for phase in (TOTAL, "query")
+        }
         peers = sorted((c for c in ranked if not c.ours), key=lambda c: c.label)
         comparisons = []
-        for phase in (TOTAL, "query") if ours else ():
-            family = [c for c in (compare(job, ours, peer, phase) for peer in peers) if c]
+        for phase, ours in best.items():
+            family = [c for c in (compare(job, ours, peer, phase) for peer in peers) if c] if ours else []
             judge(family, floor)
             # Where one side has no build, its query holds all the work: only the sum is fair.
             comparisons += [c for c in family if phase == TOTAL or ours.has_build and c.peer.has_build]
         wrong = [c for c in run.cells if c.job == job and c.status == "wrong"]  # timed or not
         unchecked = [c for c in cells if c.status == "unchecked"]
-        found.append(Finding(job, ours, comparisons, wrong, unchecked))
+        found.append(Finding(job, best[TOTAL], best["query"], comparisons, wrong, unchecked))
     return found
 
 
@@ -130,15 +134,21 @@ VERDICT_WORDS = {
 }
 
 
+def phases_text(cell):
+    """'build 1.2 ms, query 3 ms'."""
+    return ", ".join(
+        f"{phase} {time_text(cell.median(phase))}"
+        for phase in ("build", "update", "query")
+        if cell.rounds(phase)
+    )
+
+
 def sentence(finding):
     """A finding in words, for the report."""
     job, ours = finding.job, finding.ours
     if ours is None:
         return f"{job}: no ranked variant of ours."
-    start = (
-        f"{job}: {ours.label} builds in {time_text(ours.median('build'))} and answers in "
-        f"{time_text(ours.median('query'))}"
-    )
+    start = f"{job}: {ours.label}: {phases_text(ours)}"
     totals = [c for c in finding.comparisons if c.phase == TOTAL]
     said = []
     for verdict, lead in (
@@ -152,7 +162,7 @@ def sentence(finding):
             said.append(f"{lead} " + ", ".join(f"{c.peer.label} {c.text}" for c in peers))
     if not said:
         return f"{start}; no ranked peer."
-    return f"{start}. Both together: {'; '.join(said)}."
+    return f"{start}. Together: {'; '.join(said)}."
 
 
 def comparison_rows(found):

@@ -6,6 +6,7 @@ from . import registry
 from .findings import comparison_rows, findings, floor_text, rounds_text, sentence, time_text
 from .kernels import take_home
 from .picture import as_inline_svg, cell_text
+from .run import TOTAL
 from .selection import largest_jobs, wrong_text
 
 STYLE = """
@@ -115,7 +116,7 @@ def cells_html(run):
 
 
 def checks_html(run):
-    timed = [cell for cell in run.cells if cell.rounds("query")]
+    timed = [cell for cell in run.cells if cell.rounds(TOTAL)]
     counts = {}
     for cell in timed:
         key = (cell.library, cell.status)

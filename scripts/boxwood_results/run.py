@@ -13,7 +13,7 @@ RANKED = ("exact", "conservative", "within_bound")
 STATUSES = ("wrong", "unsupported", "within_bound", "conservative", "exact")  # the worst first
 OURS = "boxwood"
 WHOLE_QUERY = "typical"  # a kernel row about a whole query, whose cell stays among the others
-TOTAL = "build+query"  # within a round: what one use of the structure costs
+TOTAL = "build+query"  # within a round: what one use costs; of moving boxes update and query, of trees the build
 # Under both of these a "build" only copies the input: no structure is made (ns per item; part of the query).
 COPY_NS, COPY_PART = 5, 0.05
 
@@ -73,7 +73,7 @@ class Cell:
 
     @property
     def ranked(self):
-        return self.status in RANKED and bool(self.rounds("query"))
+        return self.status in RANKED and bool(self.rounds(TOTAL))
 
     @property
     def has_build(self):
@@ -84,10 +84,11 @@ class Cell:
         """{shard_id: ns}. A contender without a build phase takes 0 ns to build."""
         if phase != TOTAL:
             return self.times.get(phase, {})
-        query, build = self.times.get("query", {}), self.times.get("build")
-        if build is None:
-            return query
-        return {shard: build[shard] + query[shard] for shard in query if shard in build}
+        first = self.times.get("update" if "update" in self.times else "build")
+        query = self.times.get("query")
+        if first is None or query is None:
+            return query or first or {}
+        return {shard: first[shard] + query[shard] for shard in query if shard in first}
 
     def median(self, phase):
         times = self.rounds(phase)
@@ -113,7 +114,7 @@ class Run:
 
     def of(self, job):
         """Timed cells of a job."""
-        return [cell for cell in self.cells if cell.job == job and cell.rounds("query")]
+        return [cell for cell in self.cells if cell.job == job and cell.rounds(TOTAL)]
 
     @property
     def rounds(self):
@@ -201,7 +202,7 @@ def read(path):
     kernels = kernel_points(cells, source)
     ordered = list(cells.values())
     jobs = sorted(
-        {cell.job for cell in ordered if cell.rounds("query")},
+        {cell.job for cell in ordered if cell.rounds(TOTAL)},
         key=lambda job: (job.ask, job.scene, job.n, job.threads, job.seed),
     )
     return Run(source, ordered, jobs, missing, kernels)

@@ -1,6 +1,6 @@
 """The table of main findings, as plain text."""
 
-from .findings import VERDICT_WORDS, findings, floor_text, rounds_text, time_text
+from .findings import VERDICT_WORDS, findings, floor_text, phases_text, rounds_text
 from .kernels import take_home
 from .run import TOTAL
 from .selection import wrong_text
@@ -58,9 +58,14 @@ def summary(run):
             lines.append("  no ranked variant of ours")
         else:
             lines.append(
-                f"  ours: {ours.label}: build {time_text(ours.median('build'))}, query "
-                f"{time_text(ours.median('query'))}{rate_text(ours)}; {ours.status}"
+                f"  ours: {ours.label}: {phases_text(ours)}{rate_text(ours)}; {ours.status}"
             )
+            quickest = finding.quickest
+            if quickest not in (None, ours):
+                lines.append(
+                    f"  ours for queries alone: {quickest.label}: {phases_text(quickest)}{rate_text(quickest)}; "
+                    f"{quickest.status}"
+                )
         lines += table[start:end]
         lines += [f"    {cell.label}: WRONG, not ranked: {wrong_text(cell)}" for cell in finding.wrong]
         lines += [f"    {cell.label}: not checked, not ranked" for cell in finding.unchecked]
@@ -81,7 +86,7 @@ def kernel_lines(run):
 def closing_lines(run):
     lines = []
     for what, statuses in (
-        ("timed cells", [cell.status for cell in run.cells if cell.rounds("query")]),
+        ("timed cells", [cell.status for cell in run.cells if cell.rounds(TOTAL)]),
         ("kernels on hard cases", [p.row["status"] for p in run.kernels]),
     ):
         said = ", ".join(f"{statuses.count(status)} {status}" for status in sorted(set(statuses)))

@@ -32,8 +32,9 @@ def test_findings_know_what_was_put_in(full):
     uniform = found["uniform 100,000 · pairs · 1 thread"]
     assert uniform.ours.label == "median.wide8"  # 62 + 128 ns per item, against 130 + 95
     peer = next(p for p in uniform.peers if p.label == "fcl.dynamic_aabb_tree")
+    assert uniform.quickest.label == "binned_sah.wide8"
     comparison = uniform.against(peer, "query")
-    assert comparison.ratio.lo < 1500 / 128 * 1.02 and comparison.ratio.hi > 1500 / 128 * 0.98
+    assert comparison.ratio.lo < 1500 / 95 * 1.02 and comparison.ratio.hi > 1500 / 95 * 0.98
     assert comparison.verdict == stats.FASTER
     cgal = next(p for p in uniform.peers if p.library == "cgal")
     assert uniform.against(cgal, "query") is None and uniform.against(cgal, run.TOTAL) is not None

@@ -77,7 +77,7 @@ def test_it_says_what_was_found(page):
     text = " ".join(Page(page).text)
     assert "Test CPU & <Core> 9" in text  # escaped, so that it comes back whole
     assert "A/A noise floor ±" in text
-    assert "bars 100,000 · pairs · 1 thread: binned_sah.wide8 builds in" in text
+    assert "bars 100,000 · pairs · 1 thread: binned_sah.wide8: build" in text
     assert "2 missing, 0 extra (pair 3,8)" in text
     assert "FCL's manager runs on one thread" in text
     assert "Peers absent on this machine: bullet" in text

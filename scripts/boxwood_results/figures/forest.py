@@ -79,10 +79,12 @@ def draw_one(run, ask, threads, found, floor):
         ax.set_title("build and one query" if phase == TOTAL else "query alone", fontsize=10, weight="bold")
         for (at, finding, peer), comparison in zip(entries, comparisons):
             if peer is None:
-                if column == 0:
-                    ax.text(-names / panel, at, f"{finding.job.scene} {finding.job.n:,}   ours: {finding.ours.label}",
-                            weight="bold", transform=ax.get_yaxis_transform(), va="center", fontsize=8.5,
-                            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5})
+                said = f"{finding.job.scene} {finding.job.n:,}   ours: {finding.ours.label}"
+                if column == 1:
+                    said = "" if finding.quickest is finding.ours else f"ours: {finding.quickest.label}"
+                ax.text(0.02 if column else -names / panel, at, said, weight="bold",
+                        transform=ax.get_yaxis_transform(), va="center", fontsize=8.5,
+                        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5 if said else 0})
                 continue
             if column == 0:
                 ax.text(-0.03, at, peer.label, transform=ax.get_yaxis_transform(), ha="right", va="center",

@@ -25,7 +25,7 @@ def lines_of(run, ask, scene, seed, threads):
     lines = {}
     for cell in run.cells:
         job = cell.job
-        if (job.ask, job.scene, job.seed, job.threads) == (ask, scene, seed, threads) and cell.rounds("query"):
+        if (job.ask, job.scene, job.seed, job.threads) == (ask, scene, seed, threads) and cell.rounds(TOTAL):
             lines.setdefault((cell.contender, cell.precision, cell.executor), []).append(cell)
     return [sorted(line, key=lambda c: c.job.n) for line in lines.values() if len(line) >= LEAST_SIZES]
 

@@ -86,7 +86,7 @@ def draw_panel(ax, job, lines, rows):
 def draw(run):
     groups = {}
     for cell in run.cells:
-        if cell.rounds("query"):
+        if cell.rounds(TOTAL):
             groups.setdefault((cell.job.ask, cell.job.scene, cell.job.seed), {}).setdefault(cell.job.n, []).append(cell)
     by_ask = {}
     for (ask, _, _), sizes in sorted(groups.items()):
