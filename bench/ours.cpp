@@ -104,7 +104,12 @@ class Rays final : public OurContender {
     void build() override {
         layout_.reset();
         triangles_ = {};
-        layout_ = make_layout(layout_entry_, build_, scene_.boxes, *executor_, tree_);
+        if (build_.build_of_mesh) {
+            tree_ = build_.build_of_mesh(scene_.mesh, *executor_);
+            layout_ = layout_entry_.make(tree_, *executor_);
+        } else {
+            layout_ = make_layout(layout_entry_, build_, scene_.boxes, *executor_, tree_);
+        }
         triangles_ = layout_->triangles(scene_.mesh);
     }
     void query(Answers& answers) override {

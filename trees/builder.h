@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/triangle.h"
 #include "trees/executor.h"
 #include "trees/tree.h"
 
@@ -16,7 +17,8 @@ namespace boxwood {
 /// A builder makes the canonical tree of any number of boxes: the same tree on every executor.
 /// It throws InvalidBox for a box with a NaN, an infinity or min > max. Its settings are documented
 /// data members with defaults, listed by `settings()` so that a sweep file can reach them.
-/// One that finds a good order of the items without a tree may hand it out by `order`.
+/// One that finds a good order of the items without a tree may hand it out by `order`, and one that
+/// makes more of triangles than their boxes may do so by `build_of_mesh`.
 template <class B>
 concept Builder = std::default_initializable<B> &&
     requires(const B builder, Boxes boxes, const Executor& executor) {
@@ -45,6 +47,9 @@ struct BuildFunction {
     /// The items as the leaves of the tree would have them, without the tree; empty if the builder
     /// needs the tree for it. Throws as `build` does.
     std::function<Buffer<std::uint32_t>(Boxes, const Executor&)> order;
+    /// A tree for rays of triangles rather than boxes, split (see Tree) or not; empty if the builder
+    /// sees boxes alone. Throws InvalidBox for a triangle with a NaN or an infinity.
+    std::function<Tree(const TriangleMesh&, const Executor&)> build_of_mesh;
 
     Tree operator()(Boxes boxes, const Executor& executor) const { return build(boxes, executor); }
 };
@@ -127,6 +132,13 @@ template <Builder B> BuilderEntry builder_entry() {
                 if constexpr (requires(Boxes b, const Executor& e) { builder.order(b, e); })
                     made.order = [builder](Boxes boxes, const Executor& executor) {
                         return builder.order(boxes, executor);
+                    };
+                if constexpr (requires(const TriangleMesh& m, const Executor& e) {
+                                  builder.build_of_mesh(m, e);
+                              })
+                    made.build_of_mesh = [builder](const TriangleMesh& mesh,
+                                                   const Executor& executor) {
+                        return builder.build_of_mesh(mesh, executor);
                     };
                 return made;
             }};

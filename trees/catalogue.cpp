@@ -109,13 +109,18 @@ BuildFunction make_builder(std::string_view words, const Settings& settings) {
                                                   &SettingInfo::name) != stage->settings.end();
         (stages_own ? of_stage : of_builder).insert(setting);
     }
-    BuildFunction made;
-    made.build = [build = builder->make(of_builder),
-                  improve = stage->make(of_stage)](Boxes boxes, const Executor& executor) {
-        Tree tree = build(boxes, executor);
-        improve(tree, executor);
-        return tree;
+    const auto improved = [improve = stage->make(of_stage)](const auto& build) {
+        return [build, improve](const auto& of, const Executor& executor) {
+            Tree tree = build(of, executor);
+            improve(tree, executor);
+            return tree;
+        };
     };
+    const BuildFunction before = builder->make(of_builder);
+    BuildFunction made;
+    made.build = improved(before.build);
+    if (before.build_of_mesh)
+        made.build_of_mesh = improved(before.build_of_mesh);
     return made;
 }
 

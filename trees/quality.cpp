@@ -54,13 +54,21 @@ std::size_t golden_step(std::size_t n) {
 /// spent; at least one item, so at most 2n - 1 visits more. Items are taken by the golden step.
 void measure_epo(const Tree& tree, Boxes boxes, const QualityModel& model, Quality& q) {
     const std::size_t n = tree.size();
+    std::vector<Box> parts(tree.is_split ? n : 0);
+    if (tree.is_split)
+        for (const TreeNode& node : tree.nodes)
+            if (node.count == 1)
+                parts[node.first] = node.box;
+    const auto box_of_slot = [&](std::size_t s) {
+        return tree.is_split ? parts[s] : boxes[tree.order[s]];
+    };
     double outside = 0, surface = 0;
     std::uint64_t visits = 0;
     std::vector<std::uint32_t> stack;
     std::size_t slot = 0;
     for (const std::size_t step = golden_step(n); q.epo_items < n && visits < model.epo_visits;
          ++q.epo_items, slot = (slot + step) % n) {
-        const Box& item = boxes[tree.order[slot]];
+        const Box item = box_of_slot(slot);
         surface += 2 * item.half_area();
         stack.assign(1, 0);
         while (!stack.empty()) {
@@ -86,7 +94,7 @@ void measure_epo(const Tree& tree, Boxes boxes, const QualityModel& model, Quali
 
 Quality quality(const Tree& tree, Boxes boxes, const QualityModel& model) {
     const std::size_t n = tree.size();
-    if (boxes.size() != n)
+    if (boxes.size() != n && !tree.is_split)
         throw std::invalid_argument("quality: the tree holds " + std::to_string(n) +
                                     " items, but there are " + std::to_string(boxes.size()) +
                                     " boxes");

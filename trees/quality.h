@@ -45,7 +45,8 @@ struct Quality {
 };
 
 /// Measures a well-formed tree (see `validate`) of these boxes; n = 0 gives zeros. Deterministic.
-/// Throws std::invalid_argument if the number of boxes is not that of the items.
+/// In a split tree each part counts as an item. Throws std::invalid_argument if the number of boxes
+/// is not that of the items.
 Quality quality(const Tree& tree, Boxes boxes, const QualityModel& model = {});
 
 } // namespace boxwood

@@ -25,9 +25,12 @@ static_assert(sizeof(TreeNode) == 32);
 /// n items give 2n - 1 nodes in depth-first order and leaves of one item each, so the shape needs
 /// no pointers: the left child of node i is i + 1, and a subtree of m items fills 2m - 1 nodes and
 /// the slots [first, first + m) of `order`. n = 0 gives no nodes.
+/// In a split tree, which is for rays and the nearest points of a mesh alone, a triangle may stand
+/// in several leaves: their boxes hold parts that together cover it, and n counts the leaves.
 struct Tree {
     Buffer<TreeNode> nodes;
     Buffer<std::uint32_t> order; ///< slot -> item (index of the input box)
+    bool is_split = false;
 
     Tree() = default;
     explicit Tree(std::size_t n) : nodes(n ? 2 * n - 1 : 0), order(n) {}

@@ -12,17 +12,22 @@
 
 namespace boxwood {
 
-/// Puts a layout and the traversals that are overloaded for it behind AnyLayout.
+/// Puts a layout and the traversals that are overloaded for it behind AnyLayout. The layout of a
+/// split tree refuses what it would answer wrongly (std::invalid_argument): all but rays and
+/// closest points.
 template <Layout L> class LayoutModel final : public AnyLayout {
   public:
-    explicit LayoutModel(L layout) : layout_(std::move(layout)) {}
+    explicit LayoutModel(L layout, bool is_split = false)
+        : layout_(std::move(layout)), is_split_(is_split) {}
 
     std::size_t bytes() const override { return layout_.bytes(); }
 
     void self_pairs(const Executor& executor, PairSink& sink) const override {
+        require_whole();
         boxwood::self_pairs(layout_, executor, sink);
     }
     Work self_pairs_counted(PairSink& sink) const override {
+        require_whole();
         return boxwood::self_pairs_counted(layout_, sink);
     }
     void tree_pairs(const AnyLayout& other, const Executor& executor,
@@ -52,18 +57,22 @@ template <Layout L> class LayoutModel final : public AnyLayout {
     }
     void points(std::span<const Vec3<float>> points, const Executor& executor, PairSink& sink,
                 Work* work) const override {
+        require_whole();
         boxwood::points(layout_, points, executor, sink, work);
     }
     void regions(std::span<const Box> regions, const Executor& executor, PairSink& sink,
                  Work* work) const override {
+        require_whole();
         boxwood::regions(layout_, regions, executor, sink, work);
     }
     void regions(std::span<const Sphere<float>> regions, const Executor& executor, PairSink& sink,
                  Work* work) const override {
+        require_whole();
         boxwood::regions(layout_, regions, executor, sink, work);
     }
     void nearest(std::span<const Vec3<float>> points, std::size_t k, const Executor& executor,
                  std::span<Neighbour> out, Work* work) const override {
+        require_whole();
         boxwood::nearest(layout_, points, k, executor, out, work);
     }
     void closest_points(std::span<const Vec3<float>> points, const TriangleMesh& mesh,
@@ -73,21 +82,30 @@ template <Layout L> class LayoutModel final : public AnyLayout {
     }
 
   private:
-    static const L& same(const AnyLayout& other) {
-        if (const auto* model = dynamic_cast<const LayoutModel*>(&other))
+    void require_whole() const {
+        if (is_split_)
+            throw std::invalid_argument("a split tree is for rays and closest points alone; build "
+                                        "one of the boxes for other queries");
+    }
+    const L& same(const AnyLayout& other) const {
+        require_whole();
+        if (const auto* model = dynamic_cast<const LayoutModel*>(&other)) {
+            model->require_whole();
             return model->layout_;
+        }
         throw std::invalid_argument("tree_pairs wants two trees of the layout '" +
                                     std::string(L::name) + "'");
     }
 
     L layout_;
+    bool is_split_;
 };
 
 /// The catalogue row of a Layout type.
 template <Layout L> LayoutEntry layout_entry() {
     LayoutEntry entry{L::name, L::summary,
                       [](const Tree& tree, const Executor& executor) -> std::unique_ptr<AnyLayout> {
-                          return std::make_unique<LayoutModel<L>>(L(tree, executor));
+                          return std::make_unique<LayoutModel<L>>(L(tree, executor), tree.is_split);
                       },
                       nullptr};
     if constexpr (requires(Boxes boxes, std::span<const std::uint32_t> order,
