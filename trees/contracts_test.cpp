@@ -3,7 +3,7 @@
 #include "trees/builders/incremental.h"
 #include "trees/builders/median.h"
 #include "trees/layouts/binary.h"
-#include "trees/layouts/wide8.h"
+#include "trees/layouts/wide.h"
 
 #include <gtest/gtest.h>
 

@@ -19,7 +19,7 @@
 #include "trees/filtered_pairs.h"
 #include "trees/layout.h"
 #include "trees/layouts/binary.h"
-#include "trees/layouts/wide8.h"
+#include "trees/layouts/wide.h"
 #include "trees/pairs.h"
 #include "trees/quality.h"
 #include "trees/refit.h"

@@ -6,8 +6,13 @@
 
 namespace boxwood {
 
-BinaryLayout::BinaryLayout(const Tree& tree, const Executor&) : tree_(tree.size()) {
-    std::ranges::copy(tree.nodes, tree_.nodes.begin());
+template <class Real>
+BinaryLayoutOf<Real>::BinaryLayoutOf(const Tree& tree, const Executor&) : tree_(tree.size()) {
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+        const TreeNode& node = tree.nodes[i];
+        tree_.nodes[i] = {
+            {Vec3<Real>(node.box.min), Vec3<Real>(node.box.max)}, node.first, node.count};
+    }
     std::ranges::copy(tree.order, tree_.order.begin());
     // In depth-first order the open ancestors are a stack of subtree ends.
     std::vector<std::size_t> ends;
@@ -18,6 +23,9 @@ BinaryLayout::BinaryLayout(const Tree& tree, const Executor&) : tree_(tree.size(
         depth_ = std::max(depth_, ends.size());
     }
 }
+
+template class BinaryLayoutOf<float>;
+template class BinaryLayoutOf<double>;
 
 LayoutEntry binary_layout() { return layout_entry<BinaryLayout>(); }
 

@@ -2,25 +2,63 @@
 
 #include "trees/layout.h"
 
+#include <type_traits>
+
 namespace boxwood {
 
-/// The canonical tree as it stands: 32-byte nodes in depth-first order, one item per leaf.
-class BinaryLayout {
+/// A tree of double boxes in the form of `Tree`: nodes of 56 bytes.
+struct TreeOfDoubles {
+    struct Node {
+        Aabb<double> box;
+        std::uint32_t first, count;
+    };
+    Buffer<Node> nodes;
+    Buffer<std::uint32_t> order; ///< slot -> item
+
+    TreeOfDoubles() = default;
+    explicit TreeOfDoubles(std::size_t n) : nodes(n ? 2 * n - 1 : 0), order(n) {}
+
+    std::size_t size() const { return order.size(); }
+    bool empty() const { return order.empty(); }
+    bool is_leaf(std::size_t i) const { return nodes[i].count == 1; }
+    static std::size_t left(std::size_t i) { return i + 1; }
+    std::size_t right(std::size_t i) const { return i + 2 * std::size_t{nodes[i + 1].count}; }
+    std::uint32_t item(std::size_t leaf) const { return order[nodes[leaf].first]; }
+};
+
+/// The canonical tree as it stands: nodes in depth-first order, one item per leaf.
+template <class Real_> class BinaryLayoutOf {
   public:
-    static constexpr std::string_view name = "binary";
+    using Real = Real_;
+    using TreeType = std::conditional_t<std::is_same_v<Real, float>, Tree, TreeOfDoubles>;
+
+    static constexpr std::string_view name = std::is_same_v<Real, float> ? "binary" : "binary_f64";
     static constexpr std::string_view summary =
-        "32-byte nodes in depth-first order, one item per leaf; the plain form";
+        std::is_same_v<Real, float>
+            ? "32-byte nodes in depth-first order, one item per leaf; the plain form"
+            : "56-byte nodes of doubles in depth-first order; pairs of double boxes are exact";
 
-    BinaryLayout(const Tree& tree, const Executor& executor);
+    BinaryLayoutOf(const Tree& tree, const Executor& executor);
 
-    const Tree& tree() const { return tree_; }
+    const TreeType& tree() const { return tree_; }
+    bool empty() const { return tree_.empty(); }
+    /// Number of items.
+    std::size_t size() const { return tree_.size(); }
+    /// Those of all items; the tree must not be empty.
+    const Aabb<Real>& bounds() const { return tree_.nodes[0].box; }
     /// Most nodes on a path from the root to a leaf.
     std::size_t depth() const { return depth_; }
     std::size_t bytes() const { return tree_.nodes.bytes() + tree_.order.bytes(); }
 
   private:
-    Tree tree_;
+    TreeType tree_;
     std::size_t depth_ = 0;
 };
+
+extern template class BinaryLayoutOf<float>;
+extern template class BinaryLayoutOf<double>;
+
+using BinaryLayout = BinaryLayoutOf<float>;
+using BinaryLayoutF64 = BinaryLayoutOf<double>;
 
 } // namespace boxwood

@@ -1,13 +1,11 @@
 #pragma once
 
-#include "trees/layout.h"
+#include "trees/layouts/binary.h"
+#include "trees/layouts/wide.h"
 
 #include <stdexcept>
 
 namespace boxwood {
-
-class BinaryLayout;
-class Wide8Layout;
 
 /// The triangles of the mesh whose triangle boxes the layout was built from, as its walk wants
 /// them.

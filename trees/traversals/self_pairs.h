@@ -1,13 +1,12 @@
 #pragma once
 
 #include "trees/executor.h"
+#include "trees/layouts/binary.h"
+#include "trees/layouts/wide.h"
 #include "trees/pairs.h"
 #include "trees/work.h"
 
 namespace boxwood {
-
-class BinaryLayout;
-class Wide8Layout;
 
 /// Every unordered pair of overlapping items once, the lower item first, in an order that depends
 /// on the tree alone. Two items have one lowest common ancestor, and only there do their branches

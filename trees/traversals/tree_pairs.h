@@ -1,13 +1,12 @@
 #pragma once
 
 #include "trees/executor.h"
+#include "trees/layouts/binary.h"
+#include "trees/layouts/wide.h"
 #include "trees/pairs.h"
 #include "trees/work.h"
 
 namespace boxwood {
-
-class BinaryLayout;
-class Wide8Layout;
 
 /// Every overlapping pair (item of a, item of b) once, in an order that depends on the trees alone.
 /// The trees may be one and the same: then an item also meets itself, and pairs come both ways

@@ -7,7 +7,7 @@
 
 #include "kernels/ray_triangle/moller_trumbore_block-inl.h"
 #include "kernels/ray_triangle/watertight_block-inl.h"
-#include "trees/layouts/wide8.h"
+#include "trees/layouts/wide.h"
 #include "trees/traversals/ray_walk.h"
 #include "trees/traversals/rays.h"
 

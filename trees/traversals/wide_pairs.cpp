@@ -1,11 +1,11 @@
 // Compiled once per instruction set; the best one is chosen at run time.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "trees/traversals/wide8_pairs.cpp"
+#define HWY_TARGET_INCLUDE "trees/traversals/wide_pairs.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.
 #include <hwy/highway.h>
 
-#include "trees/layouts/wide8.h"
+#include "trees/layouts/wide.h"
 #include "trees/traversals/pair_walk.h"
 #include "trees/traversals/self_pairs.h"
 #include "trees/traversals/tree_pairs.h"
