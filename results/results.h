@@ -29,6 +29,7 @@ struct Env {
     std::string embree_version, fcl_version, cgal_version, bullet_version, tbb_version,
         eigen_version, hdf5_version, gbench_version, highway_version;
     double stream_triad_gbs_1 = missing, stream_triad_gbs_all = missing;
+    double core_ghz = missing;
     std::uint64_t seed = 0;
 };
 
@@ -82,6 +83,13 @@ struct Sample {
     double wall_ns = missing, cpu_ns = missing;
     std::uint64_t iterations = 0, nvcsw = 0, nivcsw = 0, minflt = 0;
     std::uint32_t flags = 0;
+};
+
+/// One frame of a moving scene in one round of one cell: means over the passes of the round.
+struct FrameRow {
+    std::uint32_t cell_id = 0, shard_id = 0, round = 0, frame = 0;
+    double update_ns = missing, query_ns = missing;
+    std::uint64_t pairs = 0;
 };
 
 struct Counter {
@@ -156,6 +164,7 @@ struct Results {
     std::vector<Cell> cells;
     std::vector<Shard> shards;
     std::vector<Sample> samples;
+    std::vector<FrameRow> frames;
     std::vector<Counter> counters;
     std::vector<Check> checks;
     std::vector<TreeRow> trees;
