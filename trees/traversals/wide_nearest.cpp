@@ -1,0 +1,152 @@
+// Compiled once per instruction set; the best one is chosen at run time.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "trees/traversals/wide_nearest.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.
+#include <hwy/highway.h>
+
+#include "trees/traversals/distance_lanes-inl.h"
+#include "trees/traversals/points.h"
+
+#include <bit>
+
+HWY_BEFORE_NAMESPACE();
+namespace boxwood::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// The lanes of a block that may be no farther than `bound`, as NearestWalk::waiting of their
+/// references, or of their numbers; the nearest last. Returns how many. Up to a register is
+/// overwritten behind them.
+template <bool Numbers, class Block>
+HWY_INLINE std::size_t AppendNear(const Block& block, Vec3<float> point, float scale, float bound,
+                                  std::uint64_t* to) {
+    const BoundTag<Block> df;
+    const hn::RebindToUnsigned<decltype(df)> du;
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < Block::width; i += hn::Lanes(df)) {
+        const auto bounds = DistanceBounds(block, i, point, scale);
+        const auto near = hn::And(hn::Le(bounds, hn::Set(df, bound)), UsedLanes(block, i));
+        const auto hits = hn::RebindMask(du, near);
+        const auto refs =
+            Numbers ? hn::Iota(du, static_cast<std::uint32_t>(i)) : LoadRefs(block, i);
+        hn::StoreInterleaved2(hn::Compress(refs, hits), hn::Compress(hn::BitCast(du, bounds), hits),
+                              du, reinterpret_cast<std::uint32_t*>(to + n));
+        n += hn::CountTrue(du, hits);
+    }
+    for (std::size_t i = 1; i < n; ++i) {
+        const std::uint64_t x = to[i];
+        std::size_t j = i;
+        for (; j > 0 && to[j - 1] < x; --j)
+            to[j] = to[j - 1];
+        to[j] = x;
+    }
+    return n;
+}
+
+/// The reference of the nearest lane.
+template <class Block>
+HWY_INLINE std::uint32_t NearestLane(const Block& block, Vec3<float> point, float scale) {
+    const BoundTag<Block> df;
+    std::uint32_t lane = 0;
+    float least = std::numeric_limits<float>::infinity();
+    for (std::size_t i = 0; i < Block::width; i += hn::Lanes(df)) {
+        const auto bounds =
+            hn::IfThenElse(UsedLanes(block, i), DistanceBounds(block, i, point, scale),
+                           hn::Set(df, std::numeric_limits<float>::infinity()));
+        const float here = hn::GetLane(hn::MinOfLanes(df, bounds));
+        if (here < least) {
+            least = here;
+            lane = static_cast<std::uint32_t>(
+                std::countr_zero(MaskBits(df, hn::Eq(bounds, hn::Set(df, here)), i)));
+        }
+    }
+    return block.ref[lane];
+}
+
+template <class L> struct Offer {
+    using Leaf = typename L::Leaf;
+
+    static HWY_INLINE void lane(NearestItems& best, Vec3<float> point, const Leaf& leaf,
+                                std::size_t lane) {
+        best.offer({leaf.ref[lane], squared_distance(point, leaf.lane(lane))});
+    }
+    static HWY_INLINE void lane(NearestSurface& best, Vec3<float>, const Leaf& leaf,
+                                std::size_t lane) {
+        best.offer(leaf.ref[lane]);
+    }
+};
+
+/// Down to the nearest leaf first, for a bound; then all that may be as near, nearest first.
+template <bool Counted, class L, class Best>
+HWY_INLINE void Search(const L& tree, Vec3<float> point, Best& best, NearestWalk& walk) {
+    const DistanceScale scaled(point, tree.bounds());
+    const float scale = scaled.scale;
+    float bound = std::numeric_limits<float>::infinity();
+    const auto open_leaf = [&](std::uint32_t ref, std::size_t waiting) HWY_ATTR {
+        const auto& leaf = tree.leaf(ref);
+        alignas(64) std::uint64_t lanes[2 * RegionWalk::spare];
+        const std::size_t n = AppendNear<true>(leaf, point, scale, bound, lanes);
+        walk.template count<Counted>(L::width, waiting);
+        for (std::size_t i = n; i-- > 0 && NearestWalk::bound(lanes[i]) <= bound;) {
+            walk.template count_triangles<Counted && std::is_same_v<Best, NearestSurface>>(1);
+            Offer<L>::lane(best, point, leaf, NearestWalk::ref(lanes[i]));
+            bound = scaled.above(best.worst());
+        }
+    };
+    std::uint32_t first = tree.root();
+    while (!L::is_leaf(first)) {
+        first = NearestLane(tree.block(first), point, scale);
+        walk.template count<Counted>(L::width, 0);
+    }
+    open_leaf(first, 0);
+
+    std::uint64_t* const stack = walk.stack();
+    stack[0] = NearestWalk::waiting(0, tree.root());
+    for (std::size_t top = 1; top != 0;) {
+        const std::uint64_t next = stack[--top];
+        const std::uint32_t ref = NearestWalk::ref(next);
+        if (NearestWalk::bound(next) > bound || ref == first)
+            continue;
+        if (L::is_leaf(ref)) {
+            open_leaf(ref, top);
+        } else {
+            top += AppendNear<false>(tree.block(ref), point, scale, bound, stack + top);
+            walk.template count<Counted>(L::width, top);
+        }
+    }
+}
+
+#define X(L)                                                                                       \
+    void Nearest##L(const L& tree, Vec3<float> point, NearestItems& best, NearestWalk& walk) {     \
+        walk.counted() ? Search<true>(tree, point, best, walk)                                     \
+                       : Search<false>(tree, point, best, walk);                                   \
+    }                                                                                              \
+    void Surface##L(const L& tree, Vec3<float> point, NearestSurface& best, NearestWalk& walk) {   \
+        walk.counted() ? Search<true>(tree, point, best, walk)                                     \
+                       : Search<false>(tree, point, best, walk);                                   \
+    }
+BOXWOOD_LANE_LAYOUTS(X)
+#undef X
+
+} // namespace boxwood::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace boxwood {
+
+#define X(L)                                                                                       \
+    HWY_EXPORT(Nearest##L);                                                                        \
+    void walk_nearest(const L& tree, Vec3<float> point, NearestItems& best, NearestWalk& walk) {   \
+        HWY_DYNAMIC_DISPATCH(Nearest##L)(tree, point, best, walk);                                 \
+    }                                                                                              \
+    HWY_EXPORT(Surface##L);                                                                        \
+    void walk_closest_point(const L& tree, Vec3<float> point, NearestSurface& best,                \
+                            NearestWalk& walk) {                                                   \
+        HWY_DYNAMIC_DISPATCH(Surface##L)(tree, point, best, walk);                                 \
+    }
+BOXWOOD_LANE_LAYOUTS(X)
+#undef X
+
+} // namespace boxwood
+#endif

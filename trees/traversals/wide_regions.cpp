@@ -1,0 +1,192 @@
+// Compiled once per instruction set; the best one is chosen at run time.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "trees/traversals/wide_regions.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.
+#include <hwy/highway.h>
+
+#include "trees/traversals/distance_lanes-inl.h"
+#include "trees/traversals/points.h"
+
+#include <bit>
+
+HWY_BEFORE_NAMESPACE();
+namespace boxwood::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Appends the references of the lanes in a mask; stores whole registers.
+template <class Block>
+HWY_INLINE std::size_t AppendRefs(const Block& block, std::size_t i, hn::Mask<LaneTag<Block>> lanes,
+                                  std::uint32_t* to) {
+    const RefTag<Block> du;
+    const hn::Rebind<std::uint32_t, BoundTag<Block>> same;
+    static_assert(std::is_same_v<decltype(du), decltype(same)>);
+    if constexpr (std::is_same_v<typename Block::Real, double>) {
+        std::size_t n = 0;
+        for (std::uint32_t bits = MaskBits(LaneTag<Block>(), lanes, 0); bits != 0; bits &= bits - 1)
+            to[n++] = block.ref[i + static_cast<std::size_t>(std::countr_zero(bits))];
+        return n;
+    } else {
+        const auto hits = hn::RebindMask(du, lanes);
+        hn::StoreU(hn::Compress(LoadRefs(block, i), hits), du, to);
+        return hn::CountTrue(du, hits);
+    }
+}
+
+/// Of a box, which may be a point: the lanes that overlap it.
+template <class Real> struct BoxRegion {
+    Aabb<Real> box;
+
+    template <class Block>
+    HWY_INLINE std::size_t Append(const Block& block, std::uint32_t* to) const {
+        std::size_t n = 0;
+        for (std::size_t i = 0; i < Block::width; i += hn::Lanes(LaneTag<Block>()))
+            n += AppendRefs(block, i, OverlapMask(block, i, box), to + n);
+        return n;
+    }
+    template <class Block>
+    HWY_INLINE std::size_t AppendItems(const Block& block, std::uint32_t* to) const {
+        return Append(block, to);
+    }
+};
+
+/// Of a ball: inner lanes by floats, those of a leaf that may meet it again in doubles.
+struct Ball {
+    Vec3<float> centre;
+    double squared_radius;
+    float scale, bound; ///< bound: at least the squared radius, scaled
+
+    template <class Real>
+    Ball(const Sphere<float>& ball, const Aabb<Real>& bounds) : centre(ball.centre) {
+        const double radius = static_cast<double>(ball.radius);
+        squared_radius = radius * radius; // exact: 48 bits
+        const DistanceScale scaled(centre, bounds);
+        scale = scaled.scale;
+        bound = scaled.above(squared_radius);
+    }
+
+    template <class Block> HWY_INLINE std::uint32_t Lanes(const Block& block) const {
+        const BoundTag<Block> df;
+        std::uint32_t bits = 0;
+        for (std::size_t i = 0; i < Block::width; i += hn::Lanes(df)) {
+            const auto near = hn::Le(DistanceBounds(block, i, centre, scale), hn::Set(df, bound));
+            bits |= MaskBits(df, near, i);
+        }
+        return bits & ((1u << block.count) - 1);
+    }
+    template <class Block>
+    HWY_INLINE std::size_t Append(const Block& block, std::uint32_t* to) const {
+        std::size_t n = 0;
+        for (std::uint32_t bits = Lanes(block); bits != 0; bits &= bits - 1)
+            to[n++] = block.ref[std::countr_zero(bits)];
+        return n;
+    }
+    template <class Block>
+    HWY_INLINE std::size_t AppendItems(const Block& block, std::uint32_t* to) const {
+        std::size_t n = 0;
+        for (std::uint32_t bits = Lanes(block); bits != 0; bits &= bits - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+            to[n] = block.ref[lane];
+            n += squared_distance(centre, block.lane(lane)) <= squared_radius;
+        }
+        return n;
+    }
+};
+
+/// Sorts the items of one query, all different; there is room for a register behind them. Short
+/// lists by counting for each how many are below it: no branch depends on them.
+HWY_INLINE void SortItems(std::span<std::uint32_t> items) {
+    constexpr std::size_t most = 64;
+    const std::size_t n = items.size();
+    if (n < 2)
+        return;
+    if (n > most) {
+        std::ranges::sort(items);
+        return;
+    }
+    const hn::CappedTag<std::int32_t, 16> di; // items are below 2^31
+    alignas(64) std::int32_t sorted[most];
+    alignas(64) std::int32_t rank[16];
+    const auto* in = reinterpret_cast<const std::int32_t*>(items.data());
+    for (std::size_t i = 0; i < n; i += hn::Lanes(di)) {
+        const auto v = hn::LoadU(di, in + i);
+        auto below = hn::Zero(di);
+        for (std::size_t j = 0; j < n; ++j) // a true lane is -1
+            below = hn::Sub(below, hn::VecFromMask(di, hn::Lt(hn::Set(di, in[j]), v)));
+        hn::Store(below, di, rank);
+        for (std::size_t k = 0; k < std::min(hn::Lanes(di), n - i); ++k)
+            sorted[rank[k]] = in[i + k];
+    }
+    std::copy_n(reinterpret_cast<const std::uint32_t*>(sorted), n, items.data());
+}
+
+/// All items of one region, into the walk.
+template <bool Counted, class L, class Region>
+HWY_INLINE void Collect(const L& tree, const Region& region, RegionWalk& walk) {
+    std::uint32_t* const stack = walk.stack();
+    stack[0] = tree.root();
+    for (std::size_t top = 1; top != 0;) {
+        const std::uint32_t ref = stack[--top];
+        if (L::is_leaf(ref)) {
+            walk.found(region.AppendItems(tree.leaf(ref), walk.items_to()));
+        } else {
+            top += region.Append(tree.block(ref), stack + top);
+        }
+        walk.template count<Counted>(L::width, top);
+    }
+}
+
+template <bool Counted, class L>
+void Answer(const L& tree, const RegionQueries& queries, RegionWalk& walk, std::size_t first,
+            std::size_t last) {
+    using Real = typename L::Real;
+    const auto each = [&](const auto& regions, const auto& collect) HWY_ATTR {
+        for (std::size_t i = first; i < last; ++i) {
+            collect(regions[i]);
+            SortItems(walk.items());
+            if (!walk.answer(static_cast<std::uint32_t>(i)))
+                return;
+        }
+    };
+    const auto box = [&](const auto& region) HWY_ATTR {
+        if (const auto b = finite_region(region))
+            Collect<Counted>(tree, BoxRegion<Real>{{Vec3<Real>(b->min), Vec3<Real>(b->max)}}, walk);
+    };
+    if (!queries.points.empty())
+        each(queries.points, box);
+    else if (!queries.boxes.empty())
+        each(queries.boxes, box);
+    else
+        each(queries.spheres, [&](const Sphere<float>& ball) HWY_ATTR {
+            if (is_region(ball))
+                Collect<Counted>(tree, Ball(ball, tree.bounds()), walk);
+        });
+}
+
+#define X(L)                                                                                       \
+    void Regions##L(const L& tree, const RegionQueries& queries, RegionWalk& walk,                 \
+                    std::size_t first, std::size_t last) {                                         \
+        walk.counted() ? Answer<true>(tree, queries, walk, first, last)                            \
+                       : Answer<false>(tree, queries, walk, first, last);                          \
+    }
+BOXWOOD_LANE_LAYOUTS(X)
+#undef X
+
+} // namespace boxwood::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace boxwood {
+
+#define X(L)                                                                                       \
+    HWY_EXPORT(Regions##L);                                                                        \
+    void walk_regions(const L& tree, const RegionQueries& queries, RegionWalk& walk,               \
+                      std::size_t first, std::size_t last) {                                       \
+        HWY_DYNAMIC_DISPATCH(Regions##L)(tree, queries, walk, first, last);                        \
+    }
+BOXWOOD_LANE_LAYOUTS(X)
+#undef X
+
+} // namespace boxwood
+#endif
