@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -222,30 +223,6 @@ HWY_EXPORT(CoarseCodes);
 
 namespace {
 
-struct FineRecord {
-    std::uint64_t code;
-    std::uint32_t item;
-
-    static constexpr int bits = 63, digit = 11;
-    using Code = std::uint64_t;
-    FineRecord(Code code_, std::uint32_t item_) : code(code_), item(item_) {}
-    FineRecord() = default;
-    Code key() const { return code; }
-    auto operator<=>(const FineRecord&) const = default;
-};
-
-/// Code and item in eight bytes.
-struct CoarseRecord {
-    std::uint64_t both;
-
-    static constexpr int bits = 30, digit = 10;
-    using Code = std::uint32_t;
-    CoarseRecord(Code code, std::uint32_t item_) : both(std::uint64_t{code} << 32 | item_) {}
-    CoarseRecord() = default;
-    Code key() const { return static_cast<Code>(both >> 32); }
-    auto operator<=>(const CoarseRecord&) const = default;
-};
-
 /// The cube around the centres, cut into 2^bits cells along each axis.
 CurveGrid make_grid(Boxes boxes, int bits, const Executor& executor) {
     const std::size_t chunks = chunks_for(boxes.size(), executor);
@@ -275,118 +252,140 @@ CurveGrid make_grid(Boxes boxes, int bits, const Executor& executor) {
     return grid;
 }
 
-void codes_of(Boxes boxes, Curve curve, const CurveGrid& grid, std::uint64_t* codes) {
-    HWY_DYNAMIC_DISPATCH(FineCodes)(boxes, curve, grid, codes);
-}
-void codes_of(Boxes boxes, Curve curve, const CurveGrid& grid, std::uint32_t* codes) {
-    HWY_DYNAMIC_DISPATCH(CoarseCodes)(boxes, curve, grid, codes);
-}
+/// What is sorted, in eight bytes: the leading bits of the code above, the item below.
+using Records = Buffer<std::uint64_t>;
+std::uint32_t item_of(std::uint64_t record) { return static_cast<std::uint32_t>(record); }
 
-template <class Record>
-Buffer<Record> records_of(Boxes boxes, Curve curve, const Executor& executor) {
-    const std::size_t n = boxes.size(), chunks = chunks_for(n, executor);
-    const CurveGrid grid = make_grid(boxes, Record::bits / 3, executor);
-    Buffer<Record> records(n);
+/// Calls f(begin, end) for parts of the items, one part at a time in each thread.
+template <class F> void for_parts(std::size_t n, const Executor& executor, const F& f) {
+    const std::size_t chunks = chunks_for(n, executor);
     executor.for_each(chunks, [&](std::size_t c) {
-        constexpr std::size_t batch = 1024;
-        typename Record::Code codes[batch];
         const ChunkRange range(n, chunks, c);
-        for (std::size_t first = range.begin; first < range.end; first += batch) {
-            const std::size_t some = std::min(batch, range.end - first);
-            codes_of(boxes.subspan(first, some), curve, grid, codes);
-            for (std::size_t i = 0; i < some; ++i)
-                records[first + i] = Record(codes[i], static_cast<std::uint32_t>(first + i));
-        }
+        f(range.begin, range.end);
     });
-    return records;
 }
 
-/// Items in runs of equal digits that may be sorted, or left, one run at a time.
+/// Items with the code of another that may be sorted, or left in their order, run by run.
 std::size_t few(std::size_t n) { return n / 8; }
 
-/// Calls f(begin, end) for each run of two or more records with the same key above `low`, each in
-/// the chunk that it begins in.
-template <class Record, class F>
-void for_runs(const Buffer<Record>& records, int low, ChunkRange range, const F& f) {
-    const std::size_t n = records.size();
-    const auto same = [&](std::size_t i, std::size_t j) {
-        return records[i].key() >> low == records[j].key() >> low;
-    };
-    std::size_t i = range.begin;
-    while (i > 0 && i < range.end && same(i - 1, i))
-        ++i;
-    while (i < range.end) {
-        std::size_t end = i + 1;
-        while (end < n && same(i, end))
-            ++end;
-        if (end > i + 1)
-            f(i, end);
-        i = end;
-    }
-}
-
-/// By key and then by item; the records come with their items ascending. Sorts by as many leading
-/// digits as tell most items apart if they are spread out, then the few runs that still have the
-/// same; if those are many, by all digits. Returns how many items had the same leading digits as
-/// another.
-template <class Record>
-std::size_t sort_records(Buffer<Record>& records, const Executor& executor) {
-    constexpr int digit = Record::digit, all = (Record::bits + digit - 1) / digit;
-    const std::size_t n = records.size(), chunks = chunks_for(n, executor);
-    Buffer<Record> spare(n);
-    const int wanted = static_cast<int>(std::bit_width(n)) + 8;
-    const int passes = std::min(all, (wanted + digit - 1) / digit);
-    const int low = std::max(0, Record::bits - passes * digit);
-    radix_sort<Record, digit>(records, spare, low, Record::bits, executor);
-    using Run = std::pair<std::size_t, std::size_t>;
-    std::vector<std::vector<Run>> runs(chunks);
-    executor.for_each(chunks, [&](std::size_t c) {
-        for_runs(records, low, ChunkRange(n, chunks, c),
-                 [&](std::size_t begin, std::size_t end) { runs[c].emplace_back(begin, end); });
-    });
-    std::size_t in_runs = 0;
-    for (const std::vector<Run>& part : runs)
-        for (const Run& run : part)
-            in_runs += run.second - run.first;
-    if (low == 0)
-        return in_runs; // stable: equal codes still have their items ascending
-    if (in_runs > few(n))
-        radix_sort<Record, digit>(records, spare, 0, Record::bits, executor);
-    else
-        executor.for_each(chunks, [&](std::size_t c) {
-            for (const Run& run : runs[c])
-                std::sort(records.begin() + run.first, records.begin() + run.second);
+/// Runs of two or more records that agree in all bits from `low` up: for each chunk those that
+/// begin in it.
+struct Runs {
+    Runs(const Records& records, int low, const Executor& executor)
+        : parts(chunks_for(records.size(), executor)) {
+        const std::size_t n = records.size();
+        executor.for_each(parts.size(), [&](std::size_t c) {
+            const ChunkRange range(n, parts.size(), c);
+            const auto continues = [&](std::size_t i) {
+                return i > 0 && i < n && (records[i - 1] ^ records[i]) >> low == 0;
+            };
+            std::size_t i = range.begin;
+            while (i < range.end && continues(i))
+                ++i;
+            for (++i; i <= range.end; ++i)
+                if (continues(i)) {
+                    const std::size_t begin = i - 1;
+                    while (continues(i))
+                        ++i;
+                    parts[c].emplace_back(begin, i);
+                }
         });
-    return in_runs;
+        for (const auto& part : parts)
+            for (const auto& run : part)
+                items += run.second - run.first;
+    }
+    template <class Less>
+    void sort(Records& records, const Less& less, const Executor& executor) const {
+        executor.for_each(parts.size(), [&](std::size_t c) {
+            for (const auto& run : parts[c])
+                std::sort(records.begin() + run.first, records.begin() + run.second, less);
+        });
+    }
+    std::vector<std::vector<std::pair<std::size_t, std::size_t>>> parts;
+    std::size_t items = 0;
+};
+
+/// Sorts records that come with their items ascending by their `bits` leading bits (those from 32
+/// up), then by `less`: by as many digits as tell most items apart if they are spread out, then the
+/// few runs that still agree; if those are many, by all bits first. False if even then too many
+/// agree: then runs of equal leading bits still have their items ascending.
+template <class Less>
+bool sort_records(Records& records, int bits, const Less& less, const Executor& executor) {
+    const std::size_t n = records.size();
+    Records spare(n);
+    const int enough = (static_cast<int>(std::bit_width(n)) + 4 + 7) / 8 * 8;
+    for (const int low : {32 + std::max(0, bits - enough), 32}) {
+        radix_sort(records, spare, low, 32 + bits, executor);
+        const Runs runs(records, low, executor);
+        if (runs.items <= few(n)) {
+            runs.sort(records, less, executor);
+            return true;
+        }
+    }
+    return false;
 }
 
 } // namespace
 
 CurveOrder curve_order(Boxes boxes, Curve curve, const Executor& executor) {
-    Buffer<FineRecord> records = records_of<FineRecord>(boxes, curve, executor);
-    sort_records(records, executor);
-    const std::size_t n = boxes.size(), chunks = chunks_for(n, executor);
+    const std::size_t n = boxes.size();
+    const CurveGrid grid = make_grid(boxes, 21, executor);
+    Buffer<std::uint64_t> codes(n);
+    Records records(n);
+    constexpr int upper = 32, lower = 31; // bits of a code, sorted in two rounds if need be
+    for_parts(n, executor, [&](std::size_t begin, std::size_t end) {
+        HWY_DYNAMIC_DISPATCH(FineCodes)
+        (boxes.subspan(begin, end - begin), curve, grid, codes.data() + begin);
+        for (std::size_t i = begin; i < end; ++i)
+            records[i] = codes[i] >> lower << 32 | i;
+    });
+    const auto less = [&](std::uint64_t a, std::uint64_t b) {
+        const std::uint64_t code_a = codes[item_of(a)], code_b = codes[item_of(b)];
+        return code_a < code_b || (code_a == code_b && item_of(a) < item_of(b));
+    };
+    if (!sort_records(records, upper, less, executor)) {
+        Records spare(n);
+        for_parts(n, executor, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                records[i] = codes[i] << 32 | i; // the bit above the lower ones is not sorted by
+        });
+        radix_sort(records, spare, 32, 32 + lower, executor);
+        for_parts(n, executor, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                records[i] = codes[item_of(records[i])] >> lower << 32 | item_of(records[i]);
+        });
+        radix_sort(records, spare, 32, 32 + upper, executor);
+    }
     CurveOrder result{Buffer<std::uint64_t>(n), Buffer<std::uint32_t>(n)};
-    executor.for_each(chunks, [&](std::size_t c) {
-        const ChunkRange range(n, chunks, c);
-        for (std::size_t i = range.begin; i < range.end; ++i) {
-            result.codes[i] = records[i].code;
-            result.order[i] = records[i].item;
+    for_parts(n, executor, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            result.order[i] = item_of(records[i]);
+            result.codes[i] = codes[result.order[i]];
         }
     });
     return result;
 }
 
 Buffer<std::uint32_t> coarse_curve_order(Boxes boxes, Curve curve, const Executor& executor) {
-    Buffer<CoarseRecord> records = records_of<CoarseRecord>(boxes, curve, executor);
-    if (sort_records(records, executor) > few(boxes.size()))
+    const std::size_t n = boxes.size();
+    const CurveGrid grid = make_grid(boxes, 10, executor);
+    Records records(n);
+    for_parts(n, executor, [&](std::size_t begin, std::size_t end) {
+        constexpr std::size_t batch = 1024;
+        std::uint32_t codes[batch];
+        for (std::size_t first = begin; first < end; first += batch) {
+            const std::size_t some = std::min(batch, end - first);
+            HWY_DYNAMIC_DISPATCH(CoarseCodes)(boxes.subspan(first, some), curve, grid, codes);
+            for (std::size_t i = 0; i < some; ++i)
+                records[first + i] = std::uint64_t{codes[i]} << 32 | (first + i);
+        }
+    });
+    if (!sort_records(records, 30, std::less<>(), executor))
         return curve_order(boxes, curve, executor).order;
-    const std::size_t n = boxes.size(), chunks = chunks_for(n, executor);
     Buffer<std::uint32_t> order(n);
-    executor.for_each(chunks, [&](std::size_t c) {
-        const ChunkRange range(n, chunks, c);
-        for (std::size_t i = range.begin; i < range.end; ++i)
-            order[i] = static_cast<std::uint32_t>(records[i].both);
+    for_parts(n, executor, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            order[i] = item_of(records[i]);
     });
     return order;
 }
