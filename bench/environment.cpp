@@ -155,6 +155,7 @@ results::Env environment(bool measure_bandwidth) {
     if (measure_bandwidth) {
         e.stream_triad_gbs_1 = triad_gbs(machine, 1);
         e.stream_triad_gbs_all = triad_gbs(machine, machine.cores);
+        e.core_ghz = core_ghz();
     }
     e.env_hash = hash_of(e);
     return e;

@@ -28,6 +28,8 @@ TEST(Environment, BandwidthIsPlausibleAndNoPartOfTheHash) {
     EXPECT_GT(env.stream_triad_gbs_1, 0.1);
     EXPECT_LT(env.stream_triad_gbs_1, 10'000);
     EXPECT_GT(env.stream_triad_gbs_all, 0.1);
+    EXPECT_GT(env.core_ghz, 0.3);
+    EXPECT_LT(env.core_ghz, 10);
     EXPECT_EQ(env.env_hash, environment(false).env_hash);
 }
 

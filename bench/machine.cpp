@@ -186,4 +186,25 @@ double triad_gbs(const Machine& machine, unsigned threads) {
     return static_cast<double>(3 * bytes) / best_s * 1e-9;
 }
 
+double core_ghz() {
+    // Xorshift (Marsaglia 2003): three shifts and three exclusive ors, each waiting for the last.
+    constexpr int rounds = 1'000'000, cycles_per_round = 6;
+    using Clock = std::chrono::steady_clock;
+    std::uint64_t x = 88172645463325252u;
+    double best_ns = std::numeric_limits<double>::infinity();
+    for (int pass = 0; pass < 10; ++pass) {
+        const auto start = Clock::now();
+        for (int i = 0; i < rounds; ++i) {
+            x ^= x << 13;
+            x ^= x >> 7;
+            x ^= x << 17;
+        }
+        best_ns = std::min(best_ns,
+                           std::chrono::duration<double, std::nano>(Clock::now() - start).count());
+        volatile std::uint64_t keep = x;
+        static_cast<void>(keep);
+    }
+    return rounds * cycles_per_round / best_ns;
+}
+
 } // namespace boxwood::bench

@@ -33,4 +33,8 @@ Machine read_machine(const std::string& lscpu, const std::filesystem::path& root
 /// several passes, about 0.1 s and 0.4 GB of memory.
 double triad_gbs(const Machine& machine, unsigned threads);
 
+/// The clock of this core while it is busy, in GHz: from a chain of operations of one cycle each,
+/// the best of several, about 20 ms.
+double core_ghz();
+
 } // namespace boxwood::bench

@@ -4,6 +4,7 @@
 #include "bench/compare.h"
 #include "bench/contender.h"
 #include "bench/ladders.h"
+#include "bench/limits.h"
 #include "bench/text_table.h"
 
 #include <fmt/format.h>
@@ -42,8 +43,8 @@ std::string machine_text(const results::Env& env, std::size_t rounds) {
                         or_unknown(env.thp), or_unknown(env.virt), or_unknown(env.kernel));
     if (!std::isnan(env.stream_triad_gbs_1))
         text += fmt::format("  memory bandwidth (triad) {:.1f} GB/s with one thread, {:.1f} GB/s "
-                            "with all\n",
-                            env.stream_triad_gbs_1, env.stream_triad_gbs_all);
+                            "with all; clock {:.2f} GHz\n",
+                            env.stream_triad_gbs_1, env.stream_triad_gbs_all, env.core_ghz);
     text += fmt::format("  built by {} {} ({}), commit {}{}, seed {}\n", or_unknown(env.compiler),
                         env.flags, or_unknown(env.build_type), or_unknown(env.git_commit),
                         env.git_dirty ? " with changes" : "", env.seed);
@@ -117,7 +118,9 @@ class Group {
             if (labels_.contains(check.cell_id))
                 checks_[check.cell_id].push_back(&check);
     }
-    std::string text() const { return title() + times() + failures() + work() + verdicts(); }
+    std::string text() const {
+        return title() + times() + failures() + work() + limits() + verdicts();
+    }
 
   private:
     std::string label_of(const Cell& cell) const {
@@ -219,6 +222,28 @@ class Group {
                                   ? std::to_string(values[cell->cell_id][name])
                                   : "-");
             table.add(std::move(row));
+        }
+        return table.empty() ? "" : table.text();
+    }
+
+    /// How many times the least time that the machine could take.
+    std::string limits() const {
+        TextTable table({"  times the machine's limit", ">build", ">update", ">query"});
+        for (const Cell* cell : cells_) {
+            if (variants_.contains(cell->variant_id) && variants_.at(cell->variant_id)->is_peer)
+                continue;
+            std::vector<std::string> row{"  " + labels_.at(cell->cell_id)};
+            bool known = false;
+            for (const char* phase : {"build", "update", "query"}) {
+                const auto timed = stats_.find(cell->cell_id);
+                const double limit = limit_ns(results_, *cell, phase);
+                const bool has =
+                    timed != stats_.end() && timed->second.contains(phase) && !std::isnan(limit);
+                row.push_back(has ? ratio_text(timed->second.at(phase).median_ns / limit) : "-");
+                known |= has;
+            }
+            if (known)
+                table.add(std::move(row));
         }
         return table.empty() ? "" : table.text();
     }
