@@ -1,6 +1,8 @@
 #include "scenes/scene.h"
 
 #include "scenes/catalogue.h"
+#include "scenes/motions.h"
+#include "scenes/queries.h"
 #include "scenes/rays.h"
 
 #include <fmt/format.h>
@@ -70,6 +72,11 @@ std::uint64_t hash_of(const Scene& scene) {
     add(*state, scene.mesh.vertices);
     add(*state, scene.mesh.triangles);
     add(*state, scene.rays);
+    add(*state, scene.points);
+    add(*state, scene.regions);
+    add(*state, scene.spheres);
+    for (const Frame& frame : scene.frames)
+        add(*state, frame.boxes);
     std::visit(CaseHash(*state), scene.cases);
     return XXH3_64bits_digest(state.get());
 }
@@ -101,6 +108,12 @@ HardCaseSpec checked(const HardCaseFamily& family, const SceneSpec& spec) {
     if (!spec.rays.empty())
         throw std::invalid_argument(fmt::format(
             "family {} has no mesh to aim {} rays at; leave rays out", family.name, spec.rays));
+    if (spec.n_points != 0 || !spec.regions.empty())
+        throw std::invalid_argument(
+            fmt::format("family {} takes no points or regions; leave them out", family.name));
+    if (!spec.motion.empty())
+        throw std::invalid_argument(fmt::format("family {} has no motion {}; scenes of boxes have",
+                                                family.name, spec.motion));
     if (spec.n >= no_triangle)
         throw std::invalid_argument(fmt::format(
             "family {}: n = {} is too large; cases are numbered by 32 bits", family.name, spec.n));
@@ -153,10 +166,20 @@ const SceneEntry& checked(const SceneSpec& spec) {
         throw std::invalid_argument(
             fmt::format("scene {} reads no file, but {} is given; use the scene mesh", entry.name,
                         spec.file.string()));
-    if (spec.k || spec.scale != 0)
+    const bool has_points = spec.n_points != 0 && spec.regions.empty();
+    if ((spec.k && !has_points) || spec.scale != 0)
         throw std::invalid_argument(
             fmt::format("scene {} has no parameter {}; hard-case families have", entry.name,
-                        spec.k ? "k" : "scale"));
+                        spec.k && !has_points ? "k" : "scale"));
+    if (spec.k && *spec.k < 1)
+        throw std::invalid_argument(fmt::format(
+            "scene {}: k = {}, but at least one neighbour must be wanted", entry.name, *spec.k));
+    if (!spec.regions.empty()) {
+        check_region_kind(spec.regions);
+        if (spec.n_points == 0)
+            throw std::invalid_argument(
+                fmt::format("scene {}: regions are asked for, but n_points is 0", entry.name));
+    }
     if (spec.n >= no_triangle)
         throw std::invalid_argument(fmt::format(
             "scene {}: n = {} is too large; items are numbered by 32 bits", entry.name, spec.n));
@@ -167,6 +190,14 @@ const SceneEntry& checked(const SceneSpec& spec) {
                 fmt::format("scene {} has no triangles to aim {} rays at; use a mesh scene such as "
                             "sphere_mesh, or leave rays out",
                             entry.name, spec.rays));
+    }
+    if (!spec.motion.empty()) {
+        check_motion(spec.motion);
+        if (entry.has_mesh)
+            throw std::invalid_argument(
+                fmt::format("scene {} has triangles, which the motion {} would leave behind; use a "
+                            "scene of boxes such as uniform",
+                            entry.name, spec.motion));
     }
     return entry;
 }
@@ -186,8 +217,40 @@ std::string scene_name(const SceneSpec& spec) {
         name += "_overlaps" + atom(fixed(spec.overlaps));
     if (!spec.rays.empty())
         name += '_' + spec.rays;
+    if (spec.n_points != 0)
+        name += spec.regions.empty() ? "_points" : '_' + spec.regions;
+    if (spec.k && *spec.k != 1)
+        name += signed_atom("k", *spec.k);
+    if (!spec.motion.empty())
+        name += '_' + spec.motion;
+    if (!spec.motion.empty() && spec.n_frames != default_frames)
+        name += fmt::format("_frames{}", spec.n_frames);
     return name;
 }
+
+namespace {
+
+/// Fills in what is asked of the boxes, and says so among the parameters.
+void lay_queries(Scene& scene, const SceneSpec& spec) {
+    if (spec.n_points == 0)
+        return;
+    std::string params = fmt::format(R"("n_points":{})", spec.n_points);
+    if (spec.regions.empty()) {
+        scene.points = make_points(scene.boxes, spec.n_points, spec.seed);
+        params += fmt::format(R"(,"k":{})", spec.k.value_or(1));
+    } else {
+        if (spec.regions == "boxes")
+            scene.regions = make_box_regions(scene.boxes, spec.n_points, spec.seed);
+        else
+            scene.spheres = make_sphere_regions(scene.boxes, spec.n_points, spec.seed);
+        params += fmt::format(R"(,"regions":"{}")", spec.regions);
+    }
+    std::string& json = scene.params_json;
+    json.pop_back();
+    json += (json.size() > 1 ? "," : "") + params + "}";
+}
+
+} // namespace
 
 Scene make_scene(const SceneSpec& spec) {
     if (const HardCaseFamily* family = find_hard_case_family(spec.generator))
@@ -196,6 +259,9 @@ Scene make_scene(const SceneSpec& spec) {
     if (!spec.rays.empty() && spec.n_rays == 0)
         throw std::invalid_argument(
             fmt::format("scene {}: {} rays are asked for, but n_rays is 0", entry.name, spec.rays));
+    if (!spec.motion.empty() && spec.n_frames == 0)
+        throw std::invalid_argument(fmt::format(
+            "scene {}: the motion {} is asked for, but n_frames is 0", entry.name, spec.motion));
     Scene scene = entry.generate(spec);
     scene.name = scene_name(spec);
     scene.spec = spec;
@@ -203,6 +269,9 @@ Scene make_scene(const SceneSpec& spec) {
         scene.boxes.push_back(scene.mesh.triangle(i).bounds());
     if (!spec.rays.empty())
         scene.rays = make_rays(spec.rays, scene.mesh, spec.n_rays, spec.seed);
+    lay_queries(scene, spec);
+    if (!spec.motion.empty())
+        scene.frames = make_frames(spec.motion, scene.boxes, spec.n_frames, spec.seed);
     scene.content_hash = hash_of(scene);
     return scene;
 }
