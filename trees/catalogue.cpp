@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#define BOXWOOD_BUILDERS(X) X(median) X(binned_sah) X(incremental)
+#define BOXWOOD_BUILDERS(X) X(median) X(binned_sah) X(incremental) X(lbvh)
 #define BOXWOOD_STAGES(X) X(reinsertion)
 #define BOXWOOD_LAYOUTS(X) X(binary) X(wide8)
 #define BOXWOOD_EXECUTORS(X) X(serial) X(openmp) X(tbb)
