@@ -1,0 +1,86 @@
+#pragma once
+
+#include "trees/layouts/packed.h"
+#include "trees/radix_sort.h"
+
+#include <algorithm>
+#include <atomic>
+
+namespace boxwood {
+
+/// A growing list of blocks or slots, uninitialised beyond its end.
+class PackedList {
+  public:
+    std::size_t size() const { return size_; }
+    std::uint32_t operator[](std::size_t i) const { return data_[i]; }
+    void clear() { size_ = 0; }
+    void push(std::uint32_t x) {
+        *reserve(1) = x;
+        ++size_;
+    }
+    void copy(const PackedList& other) {
+        std::copy_n(other.data_.data(), other.size_, reserve(other.size_));
+        size_ += other.size_;
+    }
+    /// Where the next entries go, with room for n.
+    std::uint32_t* reserve(std::size_t n) {
+        if (size_ + n > data_.size()) {
+            Buffer<std::uint32_t> larger(std::max<std::size_t>(2 * (size_ + n), 512));
+            std::copy_n(data_.data(), size_, larger.data());
+            data_ = std::move(larger);
+        }
+        return data_.data() + size_;
+    }
+    void grow(std::size_t n) { size_ += n; }
+
+  private:
+    Buffer<std::uint32_t> data_;
+    std::size_t size_ = 0;
+};
+
+/// What one chunk found: two columns of items, made into pairs and handed over when they are full.
+class PackedPairs {
+  public:
+    PackedPairs(PairSink& sink, std::size_t chunk, std::atomic<bool>& stop, Work* work)
+        : sink_(sink), chunk_(chunk), stop_(stop), work_(work) {}
+
+    std::uint32_t* a() { return a_ + n_; }
+    std::uint32_t* b() { return b_ + n_; }
+    void grow(std::size_t n) { n_ += n; }
+    bool full() const { return n_ >= batch; }
+
+    /// put(a, b, n, pairs) makes n pairs of the columns, in whole registers. False once the sink
+    /// has had enough.
+    template <class Put> bool flush(const Put& put) {
+        if (n_ == 0)
+            return true;
+        put(a_, b_, n_, out_);
+        if (work_)
+            work_->answers += n_;
+        const bool more = !stop_.load(std::memory_order_relaxed) && sink_.take(chunk_, {out_, n_});
+        if (!more)
+            stop_.store(true, std::memory_order_relaxed);
+        n_ = 0;
+        return more;
+    }
+
+  private:
+    /// Columns and pairs fill a third of a 48 KB first-level cache. Between two looks at `full` a
+    /// block meets itself, at most 120 pairs, and a store writes up to 16 entries beyond.
+    static constexpr std::size_t batch = 768, room = batch + 120 + 32;
+    alignas(64) std::uint32_t a_[room], b_[room];
+    alignas(64) Pair out_[room];
+    std::size_t n_ = 0;
+    PairSink& sink_;
+    std::size_t chunk_;
+    std::atomic<bool>& stop_;
+    Work* work_;
+};
+
+/// The nodes [begin, end) of a level of `a`, against all of `b`.
+struct PackedChunk {
+    const PackedLayout &a, &b;
+    std::size_t level, begin, end;
+};
+
+} // namespace boxwood
