@@ -12,6 +12,7 @@
 
 #include <compare>
 #include <concepts>
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <span>
@@ -31,8 +32,15 @@ concept Layout = std::constructible_from<L, const Tree&, const Executor&> &&
     { L::summary } -> std::convertible_to<std::string_view>;
 };
 
-/// The triangles of a mesh where the ray walk of one layout looks for them.
-using TriangleBlocks = Buffer<TriangleBlock<8>>;
+/// What the ray walk of one layout reads: the triangles of a mesh in blocks of four or eight, and
+/// above them a copy of the inner nodes that knows where those are (traversals/ray_tree.h).
+struct TriangleBlocks {
+    Buffer<std::byte> nodes, blocks;
+    std::uint32_t root = 0;
+    Box bounds; ///< of all triangles
+
+    std::size_t bytes() const { return nodes.bytes() + blocks.bytes(); }
+};
 
 enum class RayQuery : std::uint8_t {
     closest, ///< the hit with the least t, ties to the lowest triangle index
@@ -57,7 +65,7 @@ struct SurfacePoint {
 };
 
 /// Where all hits of a ray go: by chunks as PairSink, a ray's hits in one batch, by t and then by
-/// triangle.
+/// triangle; a ray without hits is passed over.
 class HitSink {
   public:
     virtual ~HitSink() = default;
@@ -93,7 +101,7 @@ class AnyLayout {
     virtual Work rays_counted(std::span<const Ray<float>> rays, RayQuery query,
                               std::string_view kernel, const TriangleBlocks& triangles,
                               std::span<RayHit> hits) const = 0;
-    /// Every hit of every ray with t_min <= t <= t_max.
+    /// Every hit of every ray with t_min <= t <= t_max, each triangle once.
     virtual void rays_all(std::span<const Ray<float>> rays, std::string_view kernel,
                           const TriangleBlocks& triangles, const Executor& executor,
                           HitSink& sink) const = 0;
@@ -130,6 +138,11 @@ struct LayoutEntry {
     /// From an order of the items alone; null if the layout needs the tree.
     std::unique_ptr<AnyLayout> (*make_of_order)(Boxes, std::span<const std::uint32_t> order,
                                                 const Executor&);
+    /// Around the exact boxes of the items, which the tree's float boxes contain: its queries then
+    /// answer for these. Null unless `precision` is f64. Throws InvalidBox for the first bad one.
+    std::unique_ptr<AnyLayout> (*make_of_doubles)(const Tree&, std::span<const Aabb<double>> boxes,
+                                                  const Executor&) = nullptr;
+    std::string_view precision = "f32"; ///< of the boxes held; f64 made from a tree: its floats
 };
 
 std::span<const LayoutEntry> layouts();

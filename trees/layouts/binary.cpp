@@ -1,4 +1,5 @@
 #include "trees/layouts/binary.h"
+#include "trees/layouts/exact_boxes.h"
 #include "trees/layouts/model.h"
 
 #include <algorithm>
@@ -7,21 +8,43 @@
 namespace boxwood {
 
 template <class Real>
-BinaryLayoutOf<Real>::BinaryLayoutOf(const Tree& tree, const Executor&) : tree_(tree.size()) {
-    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
-        const TreeNode& node = tree.nodes[i];
-        tree_.nodes[i] = {
-            {Vec3<Real>(node.box.min), Vec3<Real>(node.box.max)}, node.first, node.count};
-    }
+template <class BoxOf>
+void BinaryLayoutOf<Real>::make(const Tree& tree, const Executor& executor, const BoxOf& box) {
+    tree_ = TreeType(tree.size());
+    constexpr std::size_t chunk = 1 << 14;
+    const std::size_t n = tree.nodes.size();
+    executor.for_each((n + chunk - 1) / chunk, [&](std::size_t c) {
+        const std::size_t end = std::min(n, (c + 1) * chunk);
+        for (std::size_t i = c * chunk; i < end; ++i)
+            tree_.nodes[i] = {box(i), tree.nodes[i].first, tree.nodes[i].count};
+    });
     std::ranges::copy(tree.order, tree_.order.begin());
     // In depth-first order the open ancestors are a stack of subtree ends.
     std::vector<std::size_t> ends;
-    for (std::size_t i = 0; i < tree_.nodes.size(); ++i) {
+    for (std::size_t i = 0; i < n; ++i) {
         while (!ends.empty() && ends.back() <= i)
             ends.pop_back();
-        ends.push_back(i + 2 * std::size_t{tree_.nodes[i].count} - 1);
+        ends.push_back(i + 2 * std::size_t{tree.nodes[i].count} - 1);
         depth_ = std::max(depth_, ends.size());
     }
+}
+
+template <class Real>
+BinaryLayoutOf<Real>::BinaryLayoutOf(const Tree& tree, const Executor& executor) {
+    make(tree, executor, [&](std::size_t node) {
+        const Box& box = tree.nodes[node].box;
+        return Aabb<Real>{Vec3<Real>(box.min), Vec3<Real>(box.max)};
+    });
+}
+
+template <class Real>
+BinaryLayoutOf<Real>
+BinaryLayoutOf<Real>::of_doubles(const Tree& tree, std::span<const Aabb<double>> boxes,
+                                 const Executor& executor) requires std::same_as<Real, double> {
+    const Buffer<Aabb<double>> exact = exact_boxes(tree, boxes);
+    BinaryLayoutOf made;
+    made.make(tree, executor, [&](std::size_t node) { return exact[node]; });
+    return made;
 }
 
 template class BinaryLayoutOf<float>;

@@ -2,6 +2,7 @@
 
 #include "trees/layout.h"
 
+#include <concepts>
 #include <type_traits>
 
 namespace boxwood {
@@ -40,6 +41,10 @@ template <class Real_> class BinaryLayoutOf {
 
     BinaryLayoutOf(const Tree& tree, const Executor& executor);
 
+    /// The tree's shape around these exact boxes of its items. Throws as exact_boxes.
+    static BinaryLayoutOf of_doubles(const Tree& tree, std::span<const Aabb<double>> boxes,
+                                     const Executor& executor) requires std::same_as<Real, double>;
+
     const TreeType& tree() const { return tree_; }
     bool empty() const { return tree_.empty(); }
     /// Number of items.
@@ -51,6 +56,9 @@ template <class Real_> class BinaryLayoutOf {
     std::size_t bytes() const { return tree_.nodes.bytes() + tree_.order.bytes(); }
 
   private:
+    BinaryLayoutOf() = default;
+    template <class BoxOf> void make(const Tree& tree, const Executor& executor, const BoxOf& box);
+
     TreeType tree_;
     std::size_t depth_ = 0;
 };

@@ -8,9 +8,12 @@
 
 #include <hwy/highway.h>
 
+#include "trees/layouts/packed.h"
+#include "trees/layouts/quantised8.h"
 #include "trees/layouts/wide.h"
 
 #include <cstdint>
+#include <type_traits>
 
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::HWY_NAMESPACE {
@@ -36,6 +39,74 @@ template <class Real, std::size_t W>
 HWY_INLINE hwy::HWY_NAMESPACE::Vec<RefTag<BoxBlock<Real, W>>>
 LoadRefs(const BoxBlock<Real, W>& block, std::size_t i) {
     return hwy::HWY_NAMESPACE::Load(RefTag<BoxBlock<Real, W>>(), block.ref + i);
+}
+
+/// The lanes from `i` on that are in use.
+template <class D, class Block>
+HWY_INLINE hwy::HWY_NAMESPACE::Mask<D> UsedLanes(D d, const Block& block, std::size_t i) {
+    return hwy::HWY_NAMESPACE::FirstN(d, block.count > i ? block.count - i : 0);
+}
+
+/// `decode` of QuantisedBlock, operation for operation.
+HWY_INLINE hwy::HWY_NAMESPACE::Vec<LaneTag<QuantisedBlock>>
+LoadPlane(const QuantisedBlock& block, std::size_t plane, std::size_t i) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    const LaneTag<QuantisedBlock> d;
+    const hn::Rebind<std::uint8_t, decltype(d)> d8;
+    const hn::Rebind<std::int32_t, decltype(d)> d32;
+    const bool upper = plane >= 3;
+    const std::size_t axis = upper ? plane - 3 : plane;
+    const auto steps = hn::ConvertTo(d, hn::PromoteTo(d32, hn::LoadU(d8, block.plane[plane] + i)));
+    const auto offset = hn::Mul(steps, hn::Set(d, block.scale[axis]));
+    const auto decoded = hn::Add(hn::Set(d, block.bounds.min[static_cast<int>(axis)]), offset);
+    return hn::IfThenElse(UsedLanes(d, block, i), decoded,
+                          hn::Set(d, upper ? -Box::inf : Box::inf));
+}
+HWY_INLINE hwy::HWY_NAMESPACE::Vec<RefTag<QuantisedBlock>> LoadRefs(const QuantisedBlock& block,
+                                                                    std::size_t i) {
+    return hwy::HWY_NAMESPACE::Load(RefTag<QuantisedBlock>(), block.ref + i);
+}
+
+HWY_INLINE hwy::HWY_NAMESPACE::Vec<LaneTag<PackedLeaf>>
+LoadPlane(const PackedLeaf& leaf, std::size_t plane, std::size_t i) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    const LaneTag<PackedLeaf> d;
+    const RefTag<PackedLeaf> du;
+    const auto bits = hn::LoadU(du, leaf.plane + plane * leaf.count + i);
+    return hn::IfThenElse(UsedLanes(d, leaf, i), hn::BitCast(d, bits),
+                          hn::Set(d, plane >= 3 ? -Box::inf : Box::inf));
+}
+HWY_INLINE hwy::HWY_NAMESPACE::Vec<RefTag<PackedLeaf>> LoadRefs(const PackedLeaf& leaf,
+                                                                std::size_t i) {
+    const RefTag<PackedLeaf> du;
+    return hwy::HWY_NAMESPACE::IfThenElseZero(UsedLanes(du, leaf, i),
+                                              hwy::HWY_NAMESPACE::LoadU(du, leaf.ref + i));
+}
+
+/// A mask of lanes as one of their references.
+template <class Block>
+HWY_INLINE hwy::HWY_NAMESPACE::Mask<RefTag<Block>>
+RefMask(hwy::HWY_NAMESPACE::Mask<LaneTag<Block>> mask) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    if constexpr (std::is_same_v<typename Block::Real, float>) {
+        return hn::RebindMask(RefTag<Block>(), mask);
+    } else {
+        std::uint8_t bytes[8] = {};
+        hn::StoreMaskBits(LaneTag<Block>(), mask, bytes);
+        return hn::LoadMaskBits(RefTag<Block>(), bytes);
+    }
+}
+
+HWY_INLINE hwy::HWY_NAMESPACE::Vec<LaneTag<PackedView>>
+LoadPlane(const PackedView& block, std::size_t plane, std::size_t i) {
+    return hwy::HWY_NAMESPACE::Load(LaneTag<PackedView>(), block.planes->plane[plane] + i);
+}
+HWY_INLINE hwy::HWY_NAMESPACE::Vec<RefTag<PackedView>> LoadRefs(const PackedView& block,
+                                                                std::size_t i) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    const RefTag<PackedView> d;
+    return block.ref.items ? hn::Load(d, block.ref.items + i)
+                           : hn::Iota(d, block.ref.first + static_cast<std::uint32_t>(i));
 }
 
 /// The lanes of a mask as bits: those of a part of a block that starts at lane `first`.

@@ -114,6 +114,14 @@ template <Layout L> LayoutEntry layout_entry() {
                                  const Executor& executor) -> std::unique_ptr<AnyLayout> {
             return std::make_unique<LayoutModel<L>>(L::of_order(boxes, order, executor));
         };
+    if constexpr (requires(const Tree& tree, std::span<const Aabb<double>> boxes,
+                           const Executor& executor) { L::of_doubles(tree, boxes, executor); }) {
+        entry.make_of_doubles = [](const Tree& tree, std::span<const Aabb<double>> boxes,
+                                   const Executor& executor) -> std::unique_ptr<AnyLayout> {
+            return std::make_unique<LayoutModel<L>>(L::of_doubles(tree, boxes, executor));
+        };
+        entry.precision = "f64";
+    }
     return entry;
 }
 

@@ -1,49 +1,12 @@
 #include "trees/layouts/wide.h"
+#include "trees/layouts/collapse.h"
+#include "trees/layouts/exact_boxes.h"
 #include "trees/layouts/model.h"
 
 #include <algorithm>
-#include <array>
-#include <vector>
 
 namespace boxwood {
 namespace {
-
-/// The descendants of a node that stand beside each other in one block.
-template <std::uint32_t width> struct Cut {
-    std::array<std::uint32_t, width> nodes;
-    std::uint32_t count;
-};
-
-/// Opens the inner descendant of the largest area until the block is full or only leaf blocks
-/// remain.
-template <std::uint32_t width> Cut<width> cut_below(const Tree& tree, std::uint32_t node) {
-    Cut<width> cut{{node}, 1};
-    std::array<double, width> areas{};
-    const auto openable = [&](std::uint32_t n) {
-        return tree.nodes[n].count > width ? tree.nodes[n].box.half_area() : -1;
-    };
-    areas[0] = 0;
-    while (cut.count < width) {
-        const auto widest = static_cast<std::uint32_t>(
-            std::max_element(areas.begin(), areas.begin() + cut.count) - areas.begin());
-        if (areas[widest] < 0)
-            break;
-        const std::uint32_t opened = cut.nodes[widest];
-        const auto left = static_cast<std::uint32_t>(Tree::left(opened));
-        const auto right = static_cast<std::uint32_t>(tree.right(opened));
-        // The order of the tree is kept: the pair takes the place of its parent.
-        for (std::uint32_t i = cut.count; i > widest + 1; --i) {
-            cut.nodes[i] = cut.nodes[i - 1];
-            areas[i] = areas[i - 1];
-        }
-        cut.nodes[widest] = left;
-        cut.nodes[widest + 1] = right;
-        areas[widest] = openable(left);
-        areas[widest + 1] = openable(right);
-        ++cut.count;
-    }
-    return cut;
-}
 
 template <class Real, std::size_t W>
 void set_lane(BoxBlock<Real, W>& block, std::uint32_t lane, const Aabb<Real>& box,
@@ -55,67 +18,65 @@ void set_lane(BoxBlock<Real, W>& block, std::uint32_t lane, const Aabb<Real>& bo
     block.ref[lane] = ref;
 }
 
-template <class Real> Aabb<Real> box_of(const TreeNode& node) {
-    return {Vec3<Real>(node.box.min), Vec3<Real>(node.box.max)};
-}
-
-template <class Block> void fill_leaf(Block& block, const Tree& tree, std::uint32_t node) {
-    const TreeNode& top = tree.nodes[node];
-    const std::size_t end = node + 2 * std::size_t{top.count} - 1;
+/// box(node): the bounds of a node of the tree.
+template <class Real, std::size_t W, class BoxOf>
+void fill(BoxBlock<Real, W>& block, const CollapsedBlock& from,
+          const Buffer<CollapsedBlock>& blocks, const Tree& tree, const BoxOf& box) {
+    using Layout = WideLayout<Real, W>;
+    const TreeNode& top = tree.nodes[from.node];
+    block.bounds = box(from.node);
+    block.items = top.count;
     std::uint32_t lane = 0;
-    for (std::size_t i = node; i < end; ++i)
-        if (tree.is_leaf(i))
-            set_lane(block, lane++, box_of<typename Block::Real>(tree.nodes[i]), tree.item(i));
+    if (from.count == 0) {
+        const std::size_t end = from.node + 2 * std::size_t{top.count} - 1;
+        for (std::size_t i = from.node; i < end; ++i)
+            if (tree.is_leaf(i))
+                set_lane(block, lane++, box(i), tree.item(i));
+    }
+    for (; lane < from.count; ++lane) {
+        const CollapsedBlock& child = blocks[from.first + lane];
+        set_lane(block, lane, box(child.node),
+                 (from.first + lane) | (child.count == 0 ? Layout::leaf_bit : 0));
+    }
+    block.count = lane;
+    for (; lane < W; ++lane)
+        set_lane(block, lane, Aabb<Real>{}, 0);
 }
 
 } // namespace
 
 template <class Real, std::size_t W>
-WideLayout<Real, W>::WideLayout(const Tree& tree, const Executor&) : size_(tree.size()) {
-    if (tree.empty())
-        return;
-    struct Open {
-        std::uint32_t node, block, depth;
-    };
-    // Leaf blocks are the topmost nodes of at most W items. An inner block has two children or
-    // more, so m leaf blocks have at most m - 1 inner ones above them.
-    std::size_t leaves = 0;
-    for (std::size_t i = 0; i < tree.nodes.size();) {
-        const bool leaf = tree.nodes[i].count <= width;
-        leaves += leaf;
-        i += leaf ? 2 * std::size_t{tree.nodes[i].count} - 1 : 1;
-    }
-    blocks_ = Buffer<Block>(2 * leaves - 1);
+template <class BoxOf>
+void WideLayout<Real, W>::make(const Tree& tree, const Executor& executor, const BoxOf& box) {
+    const Collapsed collapsed = collapse<width>(tree, executor);
+    size_ = tree.size();
+    depth_ = collapsed.depth;
     root_ = tree.size() <= width ? leaf_bit : 0;
+    blocks_ = Buffer<Block>(collapsed.blocks.size());
+    constexpr std::size_t chunk = 512;
+    executor.for_each((blocks_.size() + chunk - 1) / chunk, [&](std::size_t c) {
+        const std::size_t end = std::min(blocks_.size(), (c + 1) * chunk);
+        for (std::size_t i = c * chunk; i < end; ++i)
+            fill(blocks_[i], collapsed.blocks[i], collapsed.blocks, tree, box);
+    });
+}
 
-    std::uint32_t used = 1;
-    std::vector<Open> open{{0, 0, 1}};
-    while (!open.empty()) {
-        const Open top = open.back();
-        open.pop_back();
-        depth_ = std::max<std::size_t>(depth_, top.depth);
-        const TreeNode& node = tree.nodes[top.node];
-        Block& block = blocks_[top.block];
-        block.bounds = box_of<Real>(node);
-        if (node.count <= width) {
-            block.count = node.count;
-            fill_leaf(block, tree, top.node);
-        } else {
-            const Cut<width> cut = cut_below<width>(tree, top.node);
-            block.count = cut.count;
-            for (std::uint32_t i = 0; i < cut.count; ++i) {
-                const TreeNode& child = tree.nodes[cut.nodes[i]];
-                set_lane(block, i, box_of<Real>(child),
-                         (used + i) | (child.count <= width ? leaf_bit : 0));
-            }
-            for (std::uint32_t i = cut.count; i-- > 0;)
-                open.push_back({cut.nodes[i], used + i, top.depth + 1});
-            used += cut.count;
-        }
-        for (std::uint32_t lane = block.count; lane < width; ++lane)
-            set_lane(block, lane, Aabb<Real>{}, 0);
-    }
-    blocks_.shrink(used);
+template <class Real, std::size_t W>
+WideLayout<Real, W>::WideLayout(const Tree& tree, const Executor& executor) {
+    make(tree, executor, [&](std::size_t node) {
+        const Box& box = tree.nodes[node].box;
+        return Aabb<Real>{Vec3<Real>(box.min), Vec3<Real>(box.max)};
+    });
+}
+
+template <class Real, std::size_t W>
+WideLayout<Real, W>
+WideLayout<Real, W>::of_doubles(const Tree& tree, std::span<const Aabb<double>> boxes,
+                                const Executor& executor) requires std::same_as<Real, double> {
+    const Buffer<Aabb<double>> exact = exact_boxes(tree, boxes);
+    WideLayout made;
+    made.make(tree, executor, [&](std::size_t node) { return exact[node]; });
+    return made;
 }
 
 template class WideLayout<float, 4>;

@@ -2,6 +2,7 @@
 
 #include "trees/layout.h"
 
+#include <concepts>
 #include <type_traits>
 
 namespace boxwood {
@@ -19,6 +20,7 @@ template <class Real_, std::size_t W> struct alignas(W == 4 ? 16 : 64) BoxBlock 
     std::uint32_t ref[W]; ///< a child reference, or in a leaf the item
     Aabb<Real> bounds;    ///< bounds of all lanes
     std::uint32_t count;  ///< lanes in use, from lane 0
+    std::uint32_t items;  ///< number of items below
 
     Aabb<Real> lane(std::size_t i) const {
         return {{plane[0][i], plane[1][i], plane[2][i]}, {plane[3][i], plane[4][i], plane[5][i]}};
@@ -63,6 +65,10 @@ template <class Real_, std::size_t W> class WideLayout {
 
     WideLayout(const Tree& tree, const Executor& executor);
 
+    /// The tree's shape around these exact boxes of its items. Throws as exact_boxes.
+    static WideLayout of_doubles(const Tree& tree, std::span<const Aabb<double>> boxes,
+                                 const Executor& executor) requires std::same_as<Real, double>;
+
     bool empty() const { return blocks_.empty(); }
     /// Number of items.
     std::size_t size() const { return size_; }
@@ -79,10 +85,22 @@ template <class Real_, std::size_t W> class WideLayout {
     std::size_t bytes() const { return blocks_.bytes(); }
 
   private:
+    WideLayout() = default;
+    template <class BoxOf> void make(const Tree& tree, const Executor& executor, const BoxOf& box);
+
     Buffer<Block> blocks_;
     std::size_t size_ = 0;
     std::size_t depth_ = 0;
     std::uint32_t root_ = leaf_bit;
+};
+
+/// WideLayout of any kind, and Quantised8Layout.
+template <class L>
+concept WideTree = requires(const L tree, std::uint32_t ref) {
+    typename L::Real;
+    tree.block(ref);
+    tree.leaf(ref);
+    tree.leaf_slots();
 };
 
 extern template class WideLayout<float, 4>;

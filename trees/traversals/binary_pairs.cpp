@@ -10,11 +10,11 @@ namespace {
 /// against themselves and against each other; two nodes give the children of one against the other.
 /// The larger surface is opened, on a tie the one of more items. Calls test(a, b) for boxes to
 /// test.
-template <bool Self, class Test>
-void open_nodes(const Tree& a, const Tree& b, Pair nodes, const Test& test) {
-    const TreeNode& x = a.nodes[nodes.a];
-    const TreeNode& y = b.nodes[nodes.b];
-    const auto left = static_cast<std::uint32_t>(Tree::left(nodes.a));
+template <bool Self, class T, class Test>
+void open_nodes(const T& a, const T& b, Pair nodes, const Test& test) {
+    const auto& x = a.nodes[nodes.a];
+    const auto& y = b.nodes[nodes.b];
+    const auto left = static_cast<std::uint32_t>(T::left(nodes.a));
     if (Self && nodes.a == nodes.b) {
         test(left, static_cast<std::uint32_t>(a.right(nodes.a)));
         return;
@@ -25,18 +25,18 @@ void open_nodes(const Tree& a, const Tree& b, Pair nodes, const Test& test) {
         test(left, nodes.b);
         test(static_cast<std::uint32_t>(a.right(nodes.a)), nodes.b);
     } else {
-        test(nodes.a, static_cast<std::uint32_t>(Tree::left(nodes.b)));
+        test(nodes.a, static_cast<std::uint32_t>(T::left(nodes.b)));
         test(nodes.a, static_cast<std::uint32_t>(b.right(nodes.b)));
     }
 }
 
-template <bool Self, bool Counted> void walk(PairWalk& state, const Tree& a, const Tree& b) {
+template <bool Self, bool Counted, class T> void walk(PairWalk& state, const T& a, const T& b) {
     Pair nodes{};
     while (state.next(nodes)) {
         const bool same = Self && nodes.a == nodes.b;
         if (same) {
             // Leaves first on the stack are taken last; a leaf against itself is nothing.
-            const auto left = static_cast<std::uint32_t>(Tree::left(nodes.a));
+            const auto left = static_cast<std::uint32_t>(T::left(nodes.a));
             const auto right = static_cast<std::uint32_t>(a.right(nodes.a));
             if (a.nodes[right].count > 1)
                 state.push({right, right});
@@ -45,8 +45,8 @@ template <bool Self, bool Counted> void walk(PairWalk& state, const Tree& a, con
         }
         state.count<Counted>(same ? 1 : 2);
         open_nodes<Self>(a, b, nodes, [&](std::uint32_t i, std::uint32_t j) {
-            const TreeNode& x = a.nodes[i];
-            const TreeNode& y = b.nodes[j];
+            const auto& x = a.nodes[i];
+            const auto& y = b.nodes[j];
             if (!overlaps(x.box, y.box))
                 return;
             if (x.count > 1 || y.count > 1) {
@@ -59,8 +59,8 @@ template <bool Self, bool Counted> void walk(PairWalk& state, const Tree& a, con
     }
 }
 
-template <bool Self, bool Counted>
-void pairs(const Tree& a, const Tree& b, const Executor& executor, PairSink& sink, Work* work) {
+template <bool Self, bool Counted, class T>
+void pairs(const T& a, const T& b, const Executor& executor, PairSink& sink, Work* work) {
     std::vector<Pair> tasks;
     const bool can_start =
         Self ? a.size() > 1 : !a.empty() && !b.empty() && overlaps(a.nodes[0].box, b.nodes[0].box);
@@ -75,15 +75,14 @@ void pairs(const Tree& a, const Tree& b, const Executor& executor, PairSink& sin
         return;
     }
     if (can_start) {
-        // A walk of fewer items is not worth sharing out.
-        constexpr std::size_t small = 4096;
         constexpr std::uint32_t least = 64;
-        tasks = share_out(Pair{0, 0}, [&](Pair nodes, std::vector<Pair>& out) {
-            if (a.size() + b.size() < small || a.nodes[nodes.a].count < least ||
-                b.nodes[nodes.b].count < least)
-                return false;
+        const auto weight = [&](Pair nodes) -> std::size_t {
+            const std::uint32_t x = a.nodes[nodes.a].count, y = b.nodes[nodes.b].count;
+            return x < least || y < least ? 0 : std::size_t{x} + y;
+        };
+        tasks = share_out(Pair{0, 0}, weight, [&](Pair nodes, std::vector<Pair>& out) {
             if (Self && nodes.a == nodes.b)
-                for (const std::size_t child : {Tree::left(nodes.a), a.right(nodes.a)})
+                for (const std::size_t child : {T::left(nodes.a), a.right(nodes.a)})
                     out.push_back(
                         {static_cast<std::uint32_t>(child), static_cast<std::uint32_t>(child)});
             if (work)
@@ -94,7 +93,6 @@ void pairs(const Tree& a, const Tree& b, const Executor& executor, PairSink& sin
                 if (overlaps(a.nodes[i].box, b.nodes[j].box))
                     out.push_back({i, j});
             });
-            return true;
         });
     }
     run_tasks(tasks, executor, sink, work,
@@ -103,25 +101,38 @@ void pairs(const Tree& a, const Tree& b, const Executor& executor, PairSink& sin
 
 } // namespace
 
-void self_pairs(const BinaryLayout& tree, const Executor& executor, PairSink& sink) {
+template <class Real>
+void self_pairs(const BinaryLayoutOf<Real>& tree, const Executor& executor, PairSink& sink) {
     pairs<true, false>(tree.tree(), tree.tree(), executor, sink, nullptr);
 }
 
-Work self_pairs_counted(const BinaryLayout& tree, PairSink& sink) {
+template <class Real> Work self_pairs_counted(const BinaryLayoutOf<Real>& tree, PairSink& sink) {
     Work work;
     pairs<true, true>(tree.tree(), tree.tree(), serial(), sink, &work);
     return work;
 }
 
-void tree_pairs(const BinaryLayout& a, const BinaryLayout& b, const Executor& executor,
-                PairSink& sink) {
+template <class Real>
+void tree_pairs(const BinaryLayoutOf<Real>& a, const BinaryLayoutOf<Real>& b,
+                const Executor& executor, PairSink& sink) {
     pairs<false, false>(a.tree(), b.tree(), executor, sink, nullptr);
 }
 
-Work tree_pairs_counted(const BinaryLayout& a, const BinaryLayout& b, PairSink& sink) {
+template <class Real>
+Work tree_pairs_counted(const BinaryLayoutOf<Real>& a, const BinaryLayoutOf<Real>& b,
+                        PairSink& sink) {
     Work work;
     pairs<false, true>(a.tree(), b.tree(), serial(), sink, &work);
     return work;
 }
+
+#define X(Layout)                                                                                  \
+    template void self_pairs(const Layout&, const Executor&, PairSink&);                           \
+    template Work self_pairs_counted(const Layout&, PairSink&);                                    \
+    template void tree_pairs(const Layout&, const Layout&, const Executor&, PairSink&);            \
+    template Work tree_pairs_counted(const Layout&, const Layout&, PairSink&);
+X(BinaryLayout)
+X(BinaryLayoutF64)
+#undef X
 
 } // namespace boxwood

@@ -16,9 +16,9 @@ namespace boxwood {
 /// over.
 class PairWalk {
   public:
-    /// A step opens one pair of nodes and pushes or emits at most this many (8 x 8, or 8 + 28), and
-    /// a SIMD store may touch this many more entries beyond.
-    static constexpr std::size_t step_room = 64 + 16;
+    /// A step opens one pair of nodes and pushes or emits at most this many (16 x 16, or 16 + 120),
+    /// and a SIMD store may touch this many more entries beyond.
+    static constexpr std::size_t step_room = 256 + 16;
 
     PairWalk(PairSink& sink, std::size_t chunk, std::atomic<bool>& stop, Work* work)
         : sink_(sink), chunk_(chunk), stop_(stop), work_(work) {}
@@ -83,21 +83,32 @@ class PairWalk {
     Buffer<Pair> stack_{1024}, out_{4096};
 };
 
-/// Splits a walk that starts at `root` into tasks, by the trees alone: opens every task that can be
-/// opened, level by level, until there are enough to balance threads even if some are heavy.
-/// `open(nodes, tasks)` appends what a step would push and returns true, or returns false if the
-/// step might emit answers.
-template <class Open> std::vector<Pair> share_out(Pair root, const Open& open) {
-    constexpr std::size_t enough = 256;
+/// Splits a walk that starts at `root` into tasks, by the trees alone: opens the heaviest until
+/// there are enough to balance threads even if some are heavier than their items tell, or until all
+/// are light. `weight(nodes)` is the number of items below both, 0 for a pair of nodes whose step
+/// might emit answers. `open(nodes, tasks)` appends what a step would push.
+template <class Weight, class Open>
+std::vector<Pair> share_out(Pair root, const Weight& weight, const Open& open) {
+    constexpr std::size_t small = 4096; // a walk of fewer items is not worth sharing out
+    constexpr std::size_t light = 128, enough = 256, most = 4 * enough;
     std::vector<Pair> tasks{root}, next;
-    for (bool opened = true; opened && tasks.size() < enough; tasks.swap(next)) {
-        opened = false;
+    std::size_t heaviest = weight(root);
+    if (heaviest < small)
+        return tasks;
+    while (tasks.size() < enough && heaviest > light) {
         next.clear();
-        for (const Pair nodes : tasks)
-            if (open(nodes, next))
-                opened = true;
+        std::size_t waiting = tasks.size();
+        for (const Pair nodes : tasks) {
+            if (weight(nodes) > heaviest / 2 && next.size() + waiting < most)
+                open(nodes, next);
             else
                 next.push_back(nodes);
+            --waiting;
+        }
+        tasks.swap(next);
+        heaviest = 0;
+        for (const Pair nodes : tasks)
+            heaviest = std::max(heaviest, weight(nodes));
     }
     return tasks;
 }
