@@ -32,6 +32,7 @@ template <class Keep> class FilteredPairs final : public PairSink {
         return n == 0 || sink_.take(chunk, {kept.data(), n});
     }
 
+    void finish(std::size_t chunk) override { sink_.finish(chunk); }
     void end() override { sink_.end(); }
 
   private:

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <atomic>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <span>
 #include <utility>
 #include <vector>
@@ -25,6 +27,8 @@ class PairSink {
     virtual ~PairSink() = default;
     virtual void begin(std::size_t chunks, bool in_order) = 0;
     virtual bool take(std::size_t chunk, std::span<const Pair> pairs) = 0;
+    /// No more pairs of this chunk will come. A traversal may leave this out.
+    virtual void finish(std::size_t /*chunk*/) {}
     virtual void end() = 0;
 };
 
@@ -52,18 +56,31 @@ class CountPairs final : public PairSink {
 };
 
 /// Appends pairs to a vector in chunk order: the same order for any number of threads.
+/// The first chunk that is not finished goes straight there, those after it wait in parts that are
+/// appended as soon as all before them are: little is left to do at the end.
 /// Reused between queries it keeps its memory.
 class AppendPairs final : public PairSink {
   public:
     explicit AppendPairs(std::vector<Pair>& out) : out_(out) {}
     void begin(std::size_t chunks, bool in_order) override;
     bool take(std::size_t chunk, std::span<const Pair> pairs) override;
+    void finish(std::size_t chunk) override;
     void end() override;
 
   private:
+    struct Part {
+        std::vector<Pair> pairs; ///< empty while the chunk goes straight to out_
+        bool finished;
+    };
+    void append(std::size_t chunk);
+
     std::vector<Pair>& out_;
-    std::vector<std::vector<Pair>> parts_;
-    std::size_t used_ = 0; ///< parts in use; 0 when chunks come in order and go straight to out_
+    bool in_order_ = true; ///< chunks come one after another, and go straight to out_
+    std::vector<Part> parts_;
+    /// out_ is touched by nobody but the thread that has this chunk, and by whoever moves it on.
+    std::atomic<std::size_t> first_ = 0;
+    std::mutex moving_;
+    std::vector<std::vector<Pair>> spare_; ///< memory of parts no more in use
 };
 
 /// Calls `f(pair) -> bool` for each pair until it says false. For one thread, or an `f` that may be

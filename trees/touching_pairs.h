@@ -31,6 +31,7 @@ template <TriangleKernel K> class TouchingPairs final : public PairSink {
         : mesh_(mesh), sink_(sink), tiers_(tiers) {}
 
     void begin(std::size_t chunks, bool in_order) override { sink_.begin(chunks, in_order); }
+    void finish(std::size_t chunk) override { sink_.finish(chunk); }
     void end() override { sink_.end(); }
 
     bool take(std::size_t chunk, std::span<const Pair> pairs) override {

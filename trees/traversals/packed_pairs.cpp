@@ -319,6 +319,7 @@ void run(const PackedLayout& a, const PackedLayout& b, bool self, const Executor
         const ChunkRange range(nodes, chunks, c);
         HWY_DYNAMIC_DISPATCH(PackedChunkPairs)
         ({a, b, level, range.begin, range.end}, pairs, self, work);
+        sink.finish(c);
     });
     sink.end();
 }

@@ -118,14 +118,17 @@ template <class Walk>
 void run_tasks(const std::vector<Pair>& tasks, const Executor& executor, PairSink& sink, Work* work,
                const Walk& walk) {
     std::atomic<bool> stop = false;
+    std::atomic<std::size_t> next = 0; // in order: then a sink can put the pairs in place at once
     sink.begin(tasks.size(), executor.threads() == 1);
-    executor.for_each(tasks.size(), [&](std::size_t chunk) {
+    executor.for_each(tasks.size(), [&](std::size_t) {
+        const std::size_t chunk = next++;
         if (stop.load(std::memory_order_relaxed))
             return;
         PairWalk state(sink, chunk, stop, work);
         state.push(tasks[chunk]);
         walk(state);
         state.flush();
+        sink.finish(chunk);
     });
     sink.end();
 }
