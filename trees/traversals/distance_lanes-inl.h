@@ -54,14 +54,6 @@ DistanceBounds(const Block& block, std::size_t i, Vec3<float> point, float scale
     return hn::Max(smaller, hn::Zero(df));
 }
 
-/// The lanes in use.
-template <class Block>
-HWY_INLINE hwy::HWY_NAMESPACE::Mask<BoundTag<Block>> UsedLanes(const Block& block, std::size_t i) {
-    namespace hn = hwy::HWY_NAMESPACE;
-    const std::size_t first = std::min<std::size_t>(i, block.count);
-    return hn::FirstN(BoundTag<Block>(), block.count - first);
-}
-
 } // namespace boxwood::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

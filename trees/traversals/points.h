@@ -1,6 +1,8 @@
 #pragma once
 
 #include "trees/layouts/binary.h"
+#include "trees/layouts/packed.h"
+#include "trees/layouts/quantised8.h"
 #include "trees/layouts/wide.h"
 #include "trees/traversals/nearest_walk.h"
 #include "trees/traversals/region_walk.h"
@@ -11,21 +13,13 @@
 namespace boxwood {
 
 /// The layouts whose blocks load as SIMD lanes (lanes-inl.h), and the others.
-#define BOXWOOD_LANE_LAYOUTS(X) X(Wide4Layout) X(Wide8Layout) X(Wide16Layout) X(Wide8LayoutF64)
+#define BOXWOOD_LANE_LAYOUTS(X)                                                                    \
+    X(Wide4Layout)                                                                                 \
+    X(Wide8Layout) X(Wide16Layout) X(Wide8LayoutF64) X(Quantised8Layout) X(PackedLayout)
 #define BOXWOOD_BINARY_LAYOUTS(X) X(BinaryLayout) X(BinaryLayoutF64)
 
-/// The walks over a layout that is not empty: answers the queries [first, last) of one chunk.
-template <class L>
-void walk_regions(const L&, const RegionQueries&, RegionWalk&, std::size_t, std::size_t) {
-    throw std::logic_error("regions: not there yet");
-}
-/// One finite point.
-template <class L> void walk_nearest(const L&, Vec3<float>, NearestItems&, NearestWalk&) {
-    throw std::logic_error("nearest: not there yet");
-}
-template <class L> void walk_closest_point(const L&, Vec3<float>, NearestSurface&, NearestWalk&) {
-    throw std::logic_error("closest_points: not there yet");
-}
+/// The walks over a layout that is not empty: walk_regions answers the queries [first, last) of one
+/// chunk, the others one finite point.
 #define X(L)                                                                                       \
     void walk_regions(const L& layout, const RegionQueries& queries, RegionWalk& walk,             \
                       std::size_t first, std::size_t last);                                        \

@@ -26,7 +26,7 @@ HWY_INLINE std::size_t AppendNear(const Block& block, Vec3<float> point, float s
     std::size_t n = 0;
     for (std::size_t i = 0; i < Block::width; i += hn::Lanes(df)) {
         const auto bounds = DistanceBounds(block, i, point, scale);
-        const auto near = hn::And(hn::Le(bounds, hn::Set(df, bound)), UsedLanes(block, i));
+        const auto near = hn::And(hn::Le(bounds, hn::Set(df, bound)), UsedLanes(df, block, i));
         const auto hits = hn::RebindMask(du, near);
         const auto refs =
             Numbers ? hn::Iota(du, static_cast<std::uint32_t>(i)) : LoadRefs(block, i);
@@ -52,7 +52,7 @@ HWY_INLINE std::uint32_t NearestLane(const Block& block, Vec3<float> point, floa
     float least = std::numeric_limits<float>::infinity();
     for (std::size_t i = 0; i < Block::width; i += hn::Lanes(df)) {
         const auto bounds =
-            hn::IfThenElse(UsedLanes(block, i), DistanceBounds(block, i, point, scale),
+            hn::IfThenElse(UsedLanes(df, block, i), DistanceBounds(block, i, point, scale),
                            hn::Set(df, std::numeric_limits<float>::infinity()));
         const float here = hn::GetLane(hn::MinOfLanes(df, bounds));
         if (here < least) {

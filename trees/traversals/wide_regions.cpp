@@ -19,19 +19,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class Block>
 HWY_INLINE std::size_t AppendRefs(const Block& block, std::size_t i, hn::Mask<LaneTag<Block>> lanes,
                                   std::uint32_t* to) {
-    const RefTag<Block> du;
-    const hn::Rebind<std::uint32_t, BoundTag<Block>> same;
-    static_assert(std::is_same_v<decltype(du), decltype(same)>);
-    if constexpr (std::is_same_v<typename Block::Real, double>) {
-        std::size_t n = 0;
-        for (std::uint32_t bits = MaskBits(LaneTag<Block>(), lanes, 0); bits != 0; bits &= bits - 1)
-            to[n++] = block.ref[i + static_cast<std::size_t>(std::countr_zero(bits))];
-        return n;
-    } else {
-        const auto hits = hn::RebindMask(du, lanes);
-        hn::StoreU(hn::Compress(LoadRefs(block, i), hits), du, to);
-        return hn::CountTrue(du, hits);
-    }
+    hn::StoreU(hn::Compress(LoadRefs(block, i), RefMask<Block>(lanes)), RefTag<Block>(), to);
+    return hn::CountTrue(LaneTag<Block>(), lanes);
 }
 
 /// Of a box, which may be a point: the lanes that overlap it.
