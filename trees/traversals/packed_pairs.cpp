@@ -29,34 +29,38 @@ using M = hn::Mask<decltype(df)>;
 
 /// One box in every lane.
 struct OneBox {
-    F plane[6];
+    F min_x, min_y, min_z, max_x, max_y, max_z;
 
     explicit OneBox(const Box& box)
-        : plane{hn::Set(df, box.min.x), hn::Set(df, box.min.y), hn::Set(df, box.min.z),
-                hn::Set(df, box.max.x), hn::Set(df, box.max.y), hn::Set(df, box.max.z)} {}
+        : min_x(hn::Set(df, box.min.x)), min_y(hn::Set(df, box.min.y)),
+          min_z(hn::Set(df, box.min.z)), max_x(hn::Set(df, box.max.x)),
+          max_y(hn::Set(df, box.max.y)), max_z(hn::Set(df, box.max.z)) {}
 };
 
 /// Lanes [i, i + lanes) of a block that overlap the box.
 HWY_INLINE M Overlap(const OneBox& box, const PackedBlock& block, std::size_t i) {
-    const auto below = [&](std::size_t axis) HWY_ATTR {
-        return hn::Ge(box.plane[3 + axis], hn::Load(df, block.plane[axis] + i));
-    };
-    const auto above = [&](std::size_t axis) HWY_ATTR {
-        return hn::Le(box.plane[axis], hn::Load(df, block.plane[3 + axis] + i));
-    };
-    return hn::And(hn::And(hn::And(below(0), above(0)), hn::And(below(1), above(1))),
-                   hn::And(below(2), above(2)));
+    const auto plane = [&](std::size_t p) HWY_ATTR { return hn::Load(df, block.plane[p] + i); };
+    return hn::And(hn::And(hn::And(hn::Ge(box.max_x, plane(0)), hn::Le(box.min_x, plane(3))),
+                           hn::And(hn::Ge(box.max_y, plane(1)), hn::Le(box.min_y, plane(4)))),
+                   hn::And(hn::Ge(box.max_z, plane(2)), hn::Le(box.min_z, plane(5))));
 }
 
-/// A whole block in registers.
+/// A whole block and its items. Where a register holds sixteen floats they stay in registers.
 struct SixteenBoxes {
-    F plane[6][registers];
+    F min_x[registers], min_y[registers], min_z[registers];
+    F max_x[registers], max_y[registers], max_z[registers];
     U item[registers];
 
     SixteenBoxes(const PackedBlock& block, const std::uint32_t* items) {
         for (std::size_t r = 0; r < registers; ++r) {
-            for (std::size_t p = 0; p < 6; ++p)
-                plane[p][r] = hn::Load(df, block.plane[p] + r * lanes);
+            const auto plane = [&](std::size_t p)
+                                   HWY_ATTR { return hn::Load(df, block.plane[p] + r * lanes); };
+            min_x[r] = plane(0);
+            min_y[r] = plane(1);
+            min_z[r] = plane(2);
+            max_x[r] = plane(3);
+            max_y[r] = plane(4);
+            max_z[r] = plane(5);
             item[r] = hn::Load(du, items + r * lanes);
         }
     }
@@ -65,14 +69,10 @@ struct SixteenBoxes {
 /// The lanes of register r that overlap lane `lane` of another block.
 HWY_INLINE M Overlap(const SixteenBoxes& boxes, std::size_t r, const PackedBlock& block,
                      std::size_t lane) {
-    const auto below = [&](std::size_t axis) HWY_ATTR {
-        return hn::Le(boxes.plane[axis][r], hn::Set(df, block.plane[3 + axis][lane]));
-    };
-    const auto above = [&](std::size_t axis) HWY_ATTR {
-        return hn::Ge(boxes.plane[3 + axis][r], hn::Set(df, block.plane[axis][lane]));
-    };
-    return hn::And(hn::And(hn::And(below(0), above(0)), hn::And(below(1), above(1))),
-                   hn::And(below(2), above(2)));
+    const auto one = [&](std::size_t p) HWY_ATTR { return hn::Set(df, block.plane[p][lane]); };
+    return hn::And(hn::And(hn::And(hn::Le(boxes.min_x[r], one(3)), hn::Ge(boxes.max_x[r], one(0))),
+                           hn::And(hn::Le(boxes.min_y[r], one(4)), hn::Ge(boxes.max_y[r], one(1)))),
+                   hn::And(hn::Le(boxes.min_z[r], one(5)), hn::Ge(boxes.max_z[r], one(2))));
 }
 
 /// Appends to `out` the lanes (numbered through the level: 16 block + lane) of the listed blocks
@@ -202,10 +202,15 @@ template <bool Self, bool Counted> class Walk {
         Refine<Counted>(b_.level(0).data(), *blocks, Self ? 1 : 0, box, slots, work_);
         const std::uint32_t* const items = b_.items().data();
         const PackedBlock* const level = b_.level(0).data();
-        for (std::size_t j = 0; j < slots.size(); ++j) {
-            const std::uint32_t slot = slots[j];
-            append<false>(boxes, level[slot / w], slot % w, items[slot]);
-            if (pairs_.full() && !flush())
+        for (std::size_t j = 0; j < slots.size();) {
+            std::size_t n = pairs_.size();
+            const std::size_t some = std::min(slots.size() - j, pairs_.free() / w);
+            for (const std::size_t end = j + some; j < end; ++j) {
+                const std::uint32_t slot = slots[j];
+                n = meet<false>(boxes, level[slot / w], slot % w, items[slot], n);
+            }
+            pairs_.resize(n);
+            if (pairs_.free() < w && !flush())
                 return false;
         }
         if constexpr (Counted) {
@@ -216,22 +221,27 @@ template <bool Self, bool Counted> class Walk {
     }
 
     bool meet_itself(const SixteenBoxes& boxes, std::size_t at) {
+        if (pairs_.free() < w * w && !flush())
+            return false;
         const std::size_t count = std::min(w, a_.size() - at * w);
         const PackedBlock& block = a_.level(0)[at];
+        const std::uint32_t* const items = a_.items().data() + at * w;
+        std::size_t n = pairs_.size();
         for (std::size_t lane = 0; lane + 1 < count; ++lane)
-            append<true>(boxes, block, lane, a_.items()[at * w + lane]);
+            n = meet<true>(boxes, block, lane, items[lane], n);
+        pairs_.resize(n);
         if constexpr (Counted) {
             ++work_->node_visits;
             work_->box_tests += w * (count - 1);
         }
-        return !pairs_.full() || flush();
+        return true;
     }
 
     /// Lane `lane` of a block of `b`, which holds `item`, against all of `boxes`, or, of its own
-    /// block, those after it.
+    /// block, those after it: appends to the n entries of the columns, returns how many there are.
     template <bool After>
-    HWY_INLINE void append(const SixteenBoxes& boxes, const PackedBlock& block, std::size_t lane,
-                           std::uint32_t item) {
+    HWY_INLINE std::size_t meet(const SixteenBoxes& boxes, const PackedBlock& block,
+                                std::size_t lane, std::uint32_t item, std::size_t n) {
         for (std::size_t r = 0; r < registers; ++r) {
             M hits = Overlap(boxes, r, block, lane);
             if constexpr (After)
@@ -240,10 +250,11 @@ template <bool Self, bool Counted> class Walk {
                     hn::RebindMask(df, hn::Gt(hn::Iota(du, static_cast<std::uint32_t>(r * lanes)),
                                               hn::Set(du, static_cast<std::uint32_t>(lane)))));
             const auto mask = hn::RebindMask(du, hits);
-            hn::StoreU(hn::Compress(boxes.item[r], mask), du, pairs_.a());
-            hn::StoreU(hn::Set(du, item), du, pairs_.b());
-            pairs_.grow(hn::CountTrue(du, mask));
+            hn::StoreU(hn::Compress(boxes.item[r], mask), du, pairs_.a() + n);
+            hn::StoreU(hn::Set(du, item), du, pairs_.b() + n);
+            n += hn::CountTrue(du, mask);
         }
+        return n;
     }
 
     /// Makes pairs of the columns.

@@ -44,10 +44,12 @@ class PackedPairs {
     PackedPairs(PairSink& sink, std::size_t chunk, std::atomic<bool>& stop, Work* work)
         : sink_(sink), chunk_(chunk), stop_(stop), work_(work) {}
 
-    std::uint32_t* a() { return a_ + n_; }
-    std::uint32_t* b() { return b_ + n_; }
-    void grow(std::size_t n) { n_ += n; }
-    bool full() const { return n_ >= batch; }
+    std::uint32_t* a() { return a_; }
+    std::uint32_t* b() { return b_; }
+    std::size_t size() const { return n_; }
+    void resize(std::size_t n) { n_ = n; }
+    /// Entries that still fit; a store may write a register beyond.
+    std::size_t free() const { return batch - n_; }
 
     /// put(a, b, n, pairs) makes n pairs of the columns, in whole registers. False once the sink
     /// has had enough.
@@ -65,9 +67,8 @@ class PackedPairs {
     }
 
   private:
-    /// Columns and pairs fill a third of a 48 KB first-level cache. Between two looks at `full` a
-    /// block meets itself, at most 120 pairs, and a store writes up to 16 entries beyond.
-    static constexpr std::size_t batch = 768, room = batch + 120 + 32;
+    /// Columns and pairs fill a third of a 48 KB first-level cache.
+    static constexpr std::size_t batch = 1024, room = batch + PackedBlock::width;
     alignas(64) std::uint32_t a_[room], b_[room];
     alignas(64) Pair out_[room];
     std::size_t n_ = 0;
