@@ -2,27 +2,29 @@
 
 #include <cstddef>
 #include <memory>
-#include <new>
 #include <span>
 #include <type_traits>
 #include <utility>
 
 namespace boxwood {
 
+/// Memory aligned to cache lines, and on huge pages where it fills several. Throws std::bad_alloc.
+void* allocate_lines(std::size_t bytes);
+void free_lines(void* memory);
+
 /// An owned array of trivial elements, aligned to a cache line and left uninitialised: a builder
 /// writes every element once, so clearing them first would double the memory traffic.
 template <class T> class Buffer {
     static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
-    static constexpr std::align_val_t alignment{alignof(T) > 64 ? alignof(T) : 64};
+    static_assert(alignof(T) <= 64);
     struct Free {
-        void operator()(T* p) const { ::operator delete(p, alignment); }
+        void operator()(T* p) const { free_lines(p); }
     };
 
   public:
     Buffer() = default;
     explicit Buffer(std::size_t size)
-        : data_(size ? static_cast<T*>(::operator new(size * sizeof(T), alignment)) : nullptr),
-          size_(size) {}
+        : data_(size ? static_cast<T*>(allocate_lines(size * sizeof(T))) : nullptr), size_(size) {}
     Buffer(Buffer&& other) noexcept
         : data_(std::move(other.data_)), size_(std::exchange(other.size_, 0)) {}
     Buffer& operator=(Buffer&& other) noexcept {

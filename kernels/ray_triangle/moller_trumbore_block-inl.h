@@ -81,9 +81,6 @@ HWY_INLINE std::uint32_t IntersectBlock(std::type_identity<MollerTrumbore<Real>>
             continue;
         const V t_real = hn::Add(hn::Div(Dot(e2, q), det), zero);
         const auto t = to_float(t_real);
-        hn::Store(t, df, hits.t + i);
-        hn::Store(to_float(hn::Add(hn::Div(u, size), zero)), df, hits.u + i);
-        hn::Store(to_float(hn::Add(hn::Div(v, size), zero)), df, hits.v + i);
         const V infinity = hn::Set(dr, std::numeric_limits<Real>::infinity());
         // What rounds to an infinite float; Highway's scalar DemoteTo makes it FLT_MAX.
         const V beyond = std::is_same_v<Real, float> ? infinity : hn::Set(dr, Real(0x1.ffffffp127));
@@ -91,7 +88,13 @@ HWY_INLINE std::uint32_t IntersectBlock(std::type_identity<MollerTrumbore<Real>>
             hn::And(hn::And(inside, hn::Lt(size, infinity)),
                     hn::And(hn::Ge(t_real, hn::Set(dr, Real{ray.t_min})), hn::Lt(t_real, beyond)));
         const auto to_t_max = hn::Le(t, hn::Set(df, t_max));
-        bits |= LaneBits(dr, from_t_min, i) & LaneBits(df, to_t_max, i);
+        const std::uint32_t hit = LaneBits(dr, from_t_min, i) & LaneBits(df, to_t_max, i);
+        if (hit == 0)
+            continue;
+        bits |= hit;
+        hn::Store(t, df, hits.t + i);
+        hn::Store(to_float(hn::Add(hn::Div(u, size), zero)), df, hits.u + i);
+        hn::Store(to_float(hn::Add(hn::Div(v, size), zero)), df, hits.v + i);
     }
     return bits;
 }

@@ -1,5 +1,5 @@
-#include "trees/layouts/binary.h"
-#include "trees/traversals/ray_walk.h"
+#include "kernels/ray_box/slabs.h"
+#include "kernels/rounding.h"
 #include "trees/traversals/rays.h"
 
 namespace boxwood {
@@ -10,13 +10,19 @@ struct Waiting {
     float entry;
 };
 
-template <RayKernel K, bool Any, bool Counted>
-RayHit walk(const BinaryLayout& layout, const Ray<float>& ray, const RayJob& job,
-            Buffer<Waiting>& stack) {
-    const Tree& tree = layout.tree();
-    RayWalk<K, Counted> state(ray, tree.nodes[0].box, job.work);
+const Box& box_of(const TreeNode& node) { return node.box; }
+Box box_of(const TreeOfDoubles::Node& node) { return round_outward(node.box); }
+
+using Block = TriangleBlock<8>;
+
+template <class L, class State>
+void walk(const L& layout, const Block* blocks, const Ray<float>& ray, State& state,
+          Buffer<Waiting>& stack) {
+    const auto& tree = layout.tree();
+    const Box bounds = box_of(tree.nodes[0]);
+    const RaySlabs slabs(ray, ray_margin(ray, bounds));
     const auto entry = [&](std::size_t node) {
-        return clip(state.slabs, tree.nodes[node].box, state.t_min(), state.t_max());
+        return clip(slabs, box_of(tree.nodes[node]), state.t_min(), state.t_max());
     };
     std::size_t top = 0;
     state.count(1, 0);
@@ -28,7 +34,7 @@ RayHit walk(const BinaryLayout& layout, const Ray<float>& ray, const RayJob& job
             continue;
         while (!tree.is_leaf(node)) {
             state.count(2, top);
-            std::size_t near = Tree::left(node), far = tree.right(node);
+            std::size_t near = tree.left(node), far = tree.right(node);
             RaySpan near_span = entry(near), far_span = entry(far);
             if (!near_span.hit() || (far_span.hit() && far_span.entry < near_span.entry)) {
                 std::swap(near, far);
@@ -43,51 +49,46 @@ RayHit walk(const BinaryLayout& layout, const Ray<float>& ray, const RayJob& job
         if (!tree.is_leaf(node))
             continue;
         const std::uint32_t slot = tree.nodes[node].first;
-        state.test(job.triangles[slot / 8], slot % 8);
-        if (Any && state.hit())
-            break;
+        state.test(blocks[slot / 8], slot % 8);
+        if (state.done())
+            return;
     }
-    return state.result();
 }
 
-void walk_all(const BinaryLayout& layout, RayJob job, const Executor& executor) {
-    for_ray_chunks(job, executor, [&](const RayJob& part) {
-        with_kernel<RayKernels>(part.kernel, [&]<class K>(std::type_identity<K>) {
-            Buffer<Waiting> stack(layout.depth() + 1);
-            const bool any = part.query == RayQuery::any;
-            const auto one = part.work ? (any ? walk<K, true, true> : walk<K, false, true>)
-                                       : (any ? walk<K, true, false> : walk<K, false, false>);
-            for (std::size_t i = 0; i < part.rays.size(); ++i)
-                part.hits[i] =
-                    layout.tree().empty() ? RayHit{} : one(layout, part.rays[i], part, stack);
+template <class L> void walk_job(const L& layout, const RayJob& job) {
+    Buffer<Waiting> stack(layout.depth() + 1);
+    const auto* blocks = reinterpret_cast<const Block*>(job.triangles.blocks.data());
+    with_job_types(job, [&]<class K, RayMode mode, bool Counted>(
+                            std::type_identity<K>, std::integral_constant<RayMode, mode>,
+                            std::bool_constant<Counted>) {
+        walk_each<K, mode, Counted>(job, [&](const Ray<float>& ray, auto& state) {
+            walk(layout, blocks, ray, state, stack);
         });
     });
 }
 
-} // namespace
-
-TriangleBlocks triangles_of(const BinaryLayout& tree, const TriangleMesh& mesh) {
-    const Buffer<std::uint32_t>& order = tree.tree().order;
-    TriangleBlocks blocks((order.size() + 7) / 8);
-    for (std::uint32_t slot = 0; slot < 8 * blocks.size(); ++slot) {
+template <class L> TriangleBlocks blocks_in_order(const L& layout, const TriangleMesh& mesh) {
+    const Buffer<std::uint32_t>& order = layout.tree().order;
+    const std::size_t n = (order.size() + 7) / 8;
+    TriangleBlocks made;
+    made.blocks = Buffer<std::byte>(n * sizeof(Block));
+    auto* blocks = reinterpret_cast<Block*>(made.blocks.data());
+    for (std::uint32_t slot = 0; slot < 8 * n; ++slot) {
         const std::uint32_t triangle = order[slot < order.size() ? slot : slot / 8 * 8];
         blocks[slot / 8].set(slot % 8, mesh.triangle(triangle), triangle);
     }
-    return blocks;
+    return made;
 }
 
-void rays(const BinaryLayout& tree, std::span<const Ray<float>> rays, RayQuery query,
-          std::string_view kernel, const TriangleBlocks& triangles, const Executor& executor,
-          std::span<RayHit> hits) {
-    walk_all(tree, {rays, query, kernel, triangles, hits}, executor);
-}
+} // namespace
 
-Work rays_counted(const BinaryLayout& tree, std::span<const Ray<float>> rays, RayQuery query,
-                  std::string_view kernel, const TriangleBlocks& triangles,
-                  std::span<RayHit> hits) {
-    Work work;
-    walk_all(tree, {rays, query, kernel, triangles, hits, &work}, serial());
-    return work;
+void walk_rays(const BinaryLayout& layout, const RayJob& job) { walk_job(layout, job); }
+void walk_rays(const BinaryLayoutF64& layout, const RayJob& job) { walk_job(layout, job); }
+TriangleBlocks triangles_of(const BinaryLayout& layout, const TriangleMesh& mesh) {
+    return blocks_in_order(layout, mesh);
+}
+TriangleBlocks triangles_of(const BinaryLayoutF64& layout, const TriangleMesh& mesh) {
+    return blocks_in_order(layout, mesh);
 }
 
 } // namespace boxwood

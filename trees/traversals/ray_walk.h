@@ -1,35 +1,51 @@
 #pragma once
 
 #include "kernels/catalogue.h"
-#include "kernels/ray_box/slabs.h"
 #include "trees/layout.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
+#include <cmath>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace boxwood {
 
-/// One ray on its way through a tree: the nearest hit so far, and the tests of leaf triangles.
-template <RayKernel K, bool Counted> class RayWalk {
+enum class RayMode : std::uint8_t { closest, any, all };
+
+/// What all rays of one chunk share.
+struct RayJob {
+    std::span<const Ray<float>> rays;
+    RayMode mode;
+    std::string_view kernel;
+    const TriangleBlocks& triangles;
+    std::size_t depth;       ///< of the layout; 0 if it is empty
+    std::span<RayHit> hits;  ///< of closest and any
+    HitSink* sink = nullptr; ///< of all
+    Work* work = nullptr;    ///< null in the timed pass
+    std::size_t chunk = 0, first_ray = 0;
+    std::atomic<bool>* stop = nullptr; ///< set when the sink has enough
+};
+
+/// One ray on its way through a tree: the nearest hit so far, or all of them.
+template <RayKernel K, RayMode mode, bool Counted> class RayWalk {
   public:
-    /// bounds: those of the whole tree.
-    RayWalk(const Ray<float>& ray, const Aabb<float>& bounds, Work* work)
-        : slabs(ray, ray_margin(ray, bounds)), per_ray(K::prepare(ray)), ray_(ray), work_(work) {
+    RayWalk(const Ray<float>& ray, Work* work, std::vector<RayHit>& found)
+        : per_ray(K::prepare(ray)), ray_(ray), work_(work), found_(found) {
         best_.t = ray.t_max;
     }
 
-    const RaySlabs slabs;
     const typename K::PerRay per_ray;
 
     float t_min() const { return ray_.t_min; }
     /// Nothing beyond this t matters any more.
     float t_max() const { return best_.t; }
-    bool hit() const { return best_.hit(); }
+    bool done() const { return mode == RayMode::any && best_.hit(); }
 
     /// One triangle of a block.
-    void test(const TriangleBlock<8>& block, std::uint32_t lane) {
+    template <std::size_t lanes> void test(const TriangleBlock<lanes>& block, std::size_t lane) {
         RayHit hit;
         if constexpr (Counted)
             ++work_->triangle_tests;
@@ -38,9 +54,11 @@ template <RayKernel K, bool Counted> class RayWalk {
     }
 
     /// A whole block, whose test `bits` and `hits` are the answer of.
-    void tested(const TriangleBlock<8>& block, std::uint32_t bits, const BlockHits<8>& hits) {
+    template <std::size_t lanes>
+    void tested(const TriangleBlock<lanes>& block, std::uint32_t bits,
+                const BlockHits<lanes>& hits) {
         if constexpr (Counted)
-            work_->triangle_tests += 8;
+            work_->triangle_tests += lanes;
         for (; bits != 0; bits &= bits - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(bits));
             if (hits.t[i] <= best_.t)
@@ -59,48 +77,102 @@ template <RayKernel K, bool Counted> class RayWalk {
 
     RayHit result() const {
         if constexpr (Counted)
-            work_->answers += hit();
-        return hit() ? best_ : RayHit{};
+            work_->answers += best_.hit();
+        return best_.hit() ? best_ : RayHit{};
     }
 
   private:
     /// A hit with t <= t_max(): the nearer one, or the lower triangle.
     void take(RayHit hit, std::uint32_t triangle) {
         hit.triangle = triangle;
-        if (hit.t < best_.t || hit.triangle < best_.triangle)
+        if constexpr (mode == RayMode::all)
+            found_.push_back(hit);
+        else if (hit.t < best_.t || hit.triangle < best_.triangle)
             best_ = hit;
     }
 
     const Ray<float>& ray_;
     Work* work_;
+    std::vector<RayHit>& found_;
     RayHit best_;
 };
 
-/// What all rays of one call share.
-struct RayJob {
-    std::span<const Ray<float>> rays;
-    RayQuery query;
-    std::string_view kernel;
-    const TriangleBlocks& triangles;
-    std::span<RayHit> hits;
-    Work* work = nullptr; ///< null in the timed pass
-};
+/// Walks every ray of a job by `walk(ray, state)`, which finds its hits. Kernels miss whatever is
+/// not finite, so such rays have no walk.
+template <RayKernel K, RayMode mode, bool Counted, class Walk>
+void walk_each(const RayJob& job, const Walk& walk) {
+    std::vector<RayHit> found;
+    for (std::size_t i = 0; i < job.rays.size(); ++i) {
+        const Ray<float>& ray = job.rays[i];
+        RayWalk<K, mode, Counted> state(ray, job.work, found);
+        if (job.depth != 0 && is_finite(ray.origin) && is_finite(ray.direction))
+            walk(ray, state);
+        if constexpr (mode == RayMode::all) {
+            // A triangle that stands in several leaves was found the same each time.
+            std::ranges::sort(found, [](const RayHit& a, const RayHit& b) {
+                return a.t != b.t ? a.t < b.t : a.triangle < b.triangle;
+            });
+            found.erase(std::ranges::unique(found).begin(), found.end());
+            if (!found.empty() &&
+                !job.sink->take(job.chunk, static_cast<std::uint32_t>(job.first_ray + i), found)) {
+                *job.stop = true;
+                return;
+            }
+            found.clear();
+        } else {
+            job.hits[i] = state.result();
+        }
+    }
+}
 
-/// Calls `f(std::span of rays, std::span of hits)` for chunks of rays.
+/// Calls f(K, mode, Counted), each as a type, for what a job asks.
+template <class F> void with_job_types(const RayJob& job, const F& f) {
+    with_kernel<RayKernels>(job.kernel, [&]<class K>(std::type_identity<K> k) {
+        using enum RayMode;
+        const auto one = [&]<RayMode mode>(std::integral_constant<RayMode, mode> m) {
+            if (mode != all && job.work)
+                f(k, m, std::bool_constant<mode != all>{});
+            else
+                f(k, m, std::false_type{});
+        };
+        switch (job.mode) {
+        case closest:
+            return one(std::integral_constant<RayMode, closest>{});
+        case any:
+            return one(std::integral_constant<RayMode, any>{});
+        case all:
+            return one(std::integral_constant<RayMode, all>{});
+        }
+    });
+}
+
+/// Calls walk(part) for chunks of the job's rays.
 template <class F> void for_ray_chunks(RayJob job, const Executor& executor, const F& walk) {
-    if (job.hits.size() != job.rays.size())
+    if (job.mode != RayMode::all && job.hits.size() != job.rays.size())
         throw std::invalid_argument("rays: one hit per ray is wanted");
     if (!with_kernel<RayKernels>(job.kernel, [](auto) {}))
         throw std::invalid_argument("unknown ray kernel '" + std::string(job.kernel) +
                                     "'; `boxwood list kernels` names them");
     constexpr std::size_t chunk = 512;
-    executor.for_each((job.rays.size() + chunk - 1) / chunk, [&](std::size_t c) {
+    const std::size_t chunks = (job.rays.size() + chunk - 1) / chunk;
+    std::atomic<bool> stop = false;
+    job.stop = &stop;
+    if (job.sink)
+        job.sink->begin(chunks, executor.threads() == 1);
+    executor.for_each(chunks, [&](std::size_t c) {
+        if (stop)
+            return;
         RayJob part = job;
         const std::size_t n = std::min(chunk, job.rays.size() - c * chunk);
         part.rays = job.rays.subspan(c * chunk, n);
-        part.hits = job.hits.subspan(c * chunk, n);
+        if (!job.sink)
+            part.hits = job.hits.subspan(c * chunk, n);
+        part.chunk = c;
+        part.first_ray = c * chunk;
         walk(part);
     });
+    if (job.sink)
+        job.sink->end();
 }
 
 } // namespace boxwood

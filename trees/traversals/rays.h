@@ -1,38 +1,51 @@
 #pragma once
 
 #include "trees/layouts/binary.h"
-#include "trees/layouts/wide.h"
+#include "trees/traversals/ray_tree.h"
+#include "trees/traversals/ray_walk.h"
 
-#include <stdexcept>
-
+/// Rays at a mesh, over any layout; AnyLayout says what each query answers. An unknown kernel
+/// throws std::invalid_argument.
 namespace boxwood {
 
+#define BOXWOOD_RAY_LAYOUTS(X)                                                                     \
+    X(BinaryLayout)                                                                                \
+    X(BinaryLayoutF64)                                                                             \
+    X(Wide4Layout)                                                                                 \
+    X(Wide8Layout) X(Wide16Layout) X(Wide8LayoutF64) X(Quantised8Layout) X(PackedLayout)
+
 /// The triangles of the mesh whose triangle boxes the layout was built from, as its walk wants
-/// them.
-TriangleBlocks triangles_of(const BinaryLayout& tree, const TriangleMesh& mesh);
-TriangleBlocks triangles_of(const Wide8Layout& tree, const TriangleMesh& mesh);
+/// them; and the walk over one chunk of rays.
+#define X(L)                                                                                       \
+    TriangleBlocks triangles_of(const L& layout, const TriangleMesh& mesh);                        \
+    void walk_rays(const L& layout, const RayJob& job);
+BOXWOOD_RAY_LAYOUTS(X)
+#undef X
 
-/// hits[i] answers rays[i]. `kernel` is the word of a ray-triangle kernel; an unknown one throws
-/// std::invalid_argument. `triangles` are `triangles_of` the same layout.
-/// closest: the least t, ties to the lowest triangle; any: some hit if there is one.
-void rays(const BinaryLayout& tree, std::span<const Ray<float>> rays, RayQuery query,
-          std::string_view kernel, const TriangleBlocks& triangles, const Executor& executor,
-          std::span<RayHit> hits);
-void rays(const Wide8Layout& tree, std::span<const Ray<float>> rays, RayQuery query,
-          std::string_view kernel, const TriangleBlocks& triangles, const Executor& executor,
-          std::span<RayHit> hits);
-
-/// Every hit of every ray, see AnyLayout.
 template <class L>
-void rays_all(const L&, std::span<const Ray<float>>, std::string_view, const TriangleBlocks&,
-              const Executor&, HitSink&) {
-    throw std::logic_error("rays_all: not there yet");
+void rays(const L& layout, std::span<const Ray<float>> rays, RayQuery query,
+          std::string_view kernel, const TriangleBlocks& triangles, const Executor& executor,
+          std::span<RayHit> hits, Work* work = nullptr) {
+    const RayMode mode = query == RayQuery::any ? RayMode::any : RayMode::closest;
+    const RayJob job{rays, mode, kernel, triangles, layout.depth(), hits, nullptr, work};
+    for_ray_chunks(job, executor, [&](const RayJob& part) { walk_rays(layout, part); });
 }
 
 /// The same on one thread, with the work counted.
-Work rays_counted(const BinaryLayout& tree, std::span<const Ray<float>> rays, RayQuery query,
-                  std::string_view kernel, const TriangleBlocks& triangles, std::span<RayHit> hits);
-Work rays_counted(const Wide8Layout& tree, std::span<const Ray<float>> rays, RayQuery query,
-                  std::string_view kernel, const TriangleBlocks& triangles, std::span<RayHit> hits);
+template <class L>
+Work rays_counted(const L& layout, std::span<const Ray<float>> rays, RayQuery query,
+                  std::string_view kernel, const TriangleBlocks& triangles,
+                  std::span<RayHit> hits) {
+    Work work;
+    boxwood::rays(layout, rays, query, kernel, triangles, serial(), hits, &work);
+    return work;
+}
+
+template <class L>
+void rays_all(const L& layout, std::span<const Ray<float>> rays, std::string_view kernel,
+              const TriangleBlocks& triangles, const Executor& executor, HitSink& sink) {
+    const RayJob job{rays, RayMode::all, kernel, triangles, layout.depth(), {}, &sink};
+    for_ray_chunks(job, executor, [&](const RayJob& part) { walk_rays(layout, part); });
+}
 
 } // namespace boxwood

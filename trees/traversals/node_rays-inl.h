@@ -1,0 +1,275 @@
+// Once per instruction set: include after <hwy/foreach_target.h>.
+#if defined(BOXWOOD_NODE_RAYS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BOXWOOD_NODE_RAYS_INL_H
+#undef BOXWOOD_NODE_RAYS_INL_H
+#else
+#define BOXWOOD_NODE_RAYS_INL_H
+#endif
+
+#include <hwy/cache_control.h>
+#include <hwy/highway.h>
+
+#include "kernels/ray_box/fused_slabs.h"
+#include "kernels/ray_triangle/moller_trumbore_block-inl.h"
+#include "kernels/ray_triangle/watertight_block-inl.h"
+#include "trees/traversals/ray_tree.h"
+#include "trees/traversals/ray_walk.h"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+HWY_BEFORE_NAMESPACE();
+namespace boxwood::HWY_NAMESPACE {
+
+template <class Node> using NodeTag = hwy::HWY_NAMESPACE::CappedTag<float, Node::width>;
+
+/// Lanes [i, i + Lanes(d)) of a plane of this axis: 0 .. 2 are the mins, 3 .. 5 the maxes.
+template <std::size_t W>
+HWY_INLINE hwy::HWY_NAMESPACE::Vec<NodeTag<RayNode<W>>>
+PlaneOf(const RayNode<W>& node, int /*axis*/, std::size_t plane, std::size_t i) {
+    return hwy::HWY_NAMESPACE::Load(NodeTag<RayNode<W>>(), node.plane[plane] + i);
+}
+/// `decode` of QuantisedBlock, operation for operation.
+HWY_INLINE hwy::HWY_NAMESPACE::Vec<NodeTag<QuantisedBlock>>
+PlaneOf(const QuantisedBlock& node, int axis, std::size_t plane, std::size_t i) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    const NodeTag<QuantisedBlock> d;
+    const hn::Rebind<std::uint8_t, decltype(d)> d8;
+    const hn::Rebind<std::int32_t, decltype(d)> d32;
+    const auto steps = hn::ConvertTo(d, hn::PromoteTo(d32, hn::LoadU(d8, node.plane[plane] + i)));
+    return hn::Add(hn::Set(d, node.bounds.min[axis]), hn::Mul(steps, hn::Set(d, node.scale[axis])));
+}
+
+/// The lanes that a ray hits, without those that are not in use.
+template <std::size_t W, class M> HWY_INLINE M UsedOf(const RayNode<W>&, M hits, std::size_t) {
+    return hits; // the empty box is never hit
+}
+template <class M> HWY_INLINE M UsedOf(const QuantisedBlock& node, M hits, std::size_t i) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    return hn::And(hits,
+                   hn::FirstN(NodeTag<QuantisedBlock>(), node.count > i ? node.count - i : 0));
+}
+
+struct WaitingNode {
+    std::uint32_t ref;
+    float entry;
+};
+static_assert(sizeof(WaitingNode) == 8);
+
+/// FusedSlabs in registers.
+template <class Node> class NodeClip {
+    using D = NodeTag<Node>;
+    using V = hwy::HWY_NAMESPACE::Vec<D>;
+    using M = hwy::HWY_NAMESPACE::Mask<D>;
+
+  public:
+    HWY_INLINE NodeClip(const FusedSlabs& slabs, float t_min)
+        : re0_(Everywhere(slabs.entry_rdir.x)), re1_(Everywhere(slabs.entry_rdir.y)),
+          re2_(Everywhere(slabs.entry_rdir.z)), se0_(Everywhere(slabs.entry_shift.x)),
+          se1_(Everywhere(slabs.entry_shift.y)), se2_(Everywhere(slabs.entry_shift.z)),
+          rx0_(Everywhere(slabs.exit_rdir.x)), rx1_(Everywhere(slabs.exit_rdir.y)),
+          rx2_(Everywhere(slabs.exit_rdir.z)), sx0_(Everywhere(slabs.exit_shift.x)),
+          sx1_(Everywhere(slabs.exit_shift.y)), sx2_(Everywhere(slabs.exit_shift.z)),
+          t_min_(Everywhere(t_min)) {
+        for (int k = 0; k < 3; ++k) {
+            const bool negative = std::signbit(slabs.entry_rdir[k]);
+            near_[k] = static_cast<std::size_t>(negative ? 3 + k : k);
+            far_[k] = static_cast<std::size_t>(negative ? k : 3 + k);
+        }
+    }
+
+    /// `clip` for the lanes from i on: which are hit, and where each is entered.
+    HWY_INLINE M Hits(const Node& node, std::size_t i, float t_max, V& entry) const {
+        namespace hn = hwy::HWY_NAMESPACE;
+        entry = hn::Max(hn::Max(hn::MulSub(PlaneOf(node, 0, near_[0], i), re0_, se0_),
+                                hn::MulSub(PlaneOf(node, 1, near_[1], i), re1_, se1_)),
+                        hn::Max(hn::MulSub(PlaneOf(node, 2, near_[2], i), re2_, se2_), t_min_));
+        const V exit = hn::Min(
+            hn::Min(hn::MulSub(PlaneOf(node, 0, far_[0], i), rx0_, sx0_),
+                    hn::MulSub(PlaneOf(node, 1, far_[1], i), rx1_, sx1_)),
+            hn::Min(hn::MulSub(PlaneOf(node, 2, far_[2], i), rx2_, sx2_), Everywhere(t_max)));
+        return UsedOf(node, hn::Le(entry, exit), i);
+    }
+
+  private:
+    static HWY_INLINE V Everywhere(float x) { return hwy::HWY_NAMESPACE::Set(D(), x); }
+
+    const V re0_, re1_, re2_, se0_, se1_, se2_, rx0_, rx1_, rx2_, sx0_, sx1_, sx2_, t_min_;
+    std::size_t near_[3], far_[3];
+};
+
+/// As LaneBits, for up to 16 lanes.
+template <class D, class M> HWY_INLINE std::uint32_t WideBits(D d, M m, std::size_t first) {
+    std::uint8_t bytes[8] = {};
+    hwy::HWY_NAMESPACE::StoreMaskBits(d, m, bytes);
+    return (bytes[0] | std::uint32_t{bytes[1]} << 8) << first;
+}
+
+/// More than two children are hit: the farthest first on the stack, the nearest on top of it.
+template <class Node>
+HWY_INLINE void PushSorted(const Node& node, std::uint32_t bits, const float* entry,
+                           WaitingNode* stack) {
+    std::size_t top = 0;
+    for (; bits != 0; bits &= bits - 1) {
+        const auto lane = static_cast<std::uint32_t>(std::countr_zero(bits));
+        const WaitingNode other{node.ref[lane], entry[lane]};
+        std::size_t place = top++;
+        for (; place > 0 && stack[place - 1].entry < other.entry; --place)
+            stack[place] = stack[place - 1];
+        stack[place] = other;
+    }
+}
+
+#if HWY_TARGET != HWY_SCALAR && HWY_TARGET <= HWY_AVX2
+/// The same for eight lanes in one register, without a branch: a network of 19 comparisons sorts
+/// the bits of the entries (>= 0), the lane in the lowest three.
+template <class V, class M>
+HWY_INLINE void PushSortedEight(const std::uint32_t* refs, V entry, M hits, WaitingNode* stack) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    const hn::CappedTag<std::uint32_t, 8> du;
+    const auto lanes = hn::Set(du, 7u);
+    auto key = hn::IfThenElseZero(
+        hn::RebindMask(du, hits),
+        hn::Or(hn::AndNot(lanes, hn::BitCast(du, hn::Abs(entry))), hn::Iota(du, 0)));
+    alignas(32) static constexpr std::uint32_t partner[6][8] = {
+        {2, 3, 0, 1, 6, 7, 4, 5}, {4, 5, 6, 7, 0, 1, 2, 3}, {1, 0, 3, 2, 5, 4, 7, 6},
+        {0, 1, 4, 5, 2, 3, 6, 7}, {0, 4, 2, 6, 1, 5, 3, 7}, {0, 2, 1, 4, 3, 6, 5, 7}};
+    static constexpr std::uint8_t takes_less[6] = {0b11001100, 0b11110000, 0b10101010,
+                                                   0b00110000, 0b01010000, 0b01010100};
+    for (int step = 0; step < 6; ++step) {
+        const auto other = hn::TableLookupLanes(key, hn::SetTableIndices(du, partner[step]));
+        key = hn::IfThenElse(hn::LoadMaskBits(du, &takes_less[step]), hn::Min(key, other),
+                             hn::Max(key, other));
+    }
+    const auto sorted =
+        hn::TableLookupLanes(hn::LoadU(du, refs), hn::IndicesFromVec(du, hn::And(key, lanes)));
+    hn::StoreInterleaved2(sorted, hn::AndNot(lanes, key), du,
+                          reinterpret_cast<std::uint32_t*>(stack));
+}
+#endif
+
+template <class Node> HWY_INLINE void Prefetch(const TriangleBlocks& tree, std::uint32_t ref) {
+    const std::size_t at = ray_refs::index(ref);
+    const std::byte* lines = ray_refs::is_leaf(ref)
+                                 ? tree.blocks.data() + at * sizeof(RayBlock<Node>)
+                                 : tree.nodes.data() + at * sizeof(Node);
+    for (std::size_t line = 0; line < 256; line += 64)
+        hwy::Prefetch(lines + line);
+}
+
+template <class Node, RayKernel K, RayMode mode, bool Counted>
+HWY_INLINE void WalkRay(const TriangleBlocks& tree, const Ray<float>& ray,
+                        RayWalk<K, mode, Counted>& state, WaitingNode* stack, std::uint32_t* refs) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    const NodeTag<Node> df;
+    const hn::Rebind<std::uint32_t, decltype(df)> du;
+    const NodeClip<Node> clip(FusedSlabs(ray, tree.bounds), state.t_min());
+    const auto* nodes = reinterpret_cast<const Node*>(tree.nodes.data());
+    const auto* blocks = reinterpret_cast<const RayBlock<Node>*>(tree.blocks.data());
+    BlockHits<ray_lanes<Node>> hits;
+    std::size_t top = 0;
+    WaitingNode at{tree.root, 0};
+    for (;;) {
+        if (ray_refs::is_leaf(at.ref)) {
+            const RayBlock<Node>* block = blocks + ray_refs::index(at.ref);
+            const RayBlock<Node>* last = block + (Node::width > 8 && (at.ref & ray_refs::two));
+            do {
+                const std::uint32_t bits = IntersectBlock(std::type_identity<K>{}, state.per_ray,
+                                                          ray, *block, state.t_max(), hits);
+                state.tested(*block, bits, hits);
+                if (state.done())
+                    return;
+            } while (++block <= last);
+        } else if constexpr (mode != RayMode::closest) {
+            // Every child that is hit waits, in no order.
+            const Node& node = nodes[at.ref];
+            state.count(Node::width, top);
+            for (std::size_t i = 0; i < Node::width; i += hn::Lanes(df)) {
+                hn::Vec<decltype(df)> entry;
+                const auto hit = clip.Hits(node, i, state.t_max(), entry);
+                hn::StoreU(hn::Compress(hn::LoadU(du, node.ref + i), hn::RebindMask(du, hit)), du,
+                           refs + top);
+                top += hn::CountTrue(df, hit);
+            }
+        } else {
+            const Node& node = nodes[at.ref];
+            state.count(Node::width, top);
+            alignas(64) float entries[Node::width];
+            std::uint32_t bits = 0;
+            hn::Vec<decltype(df)> entry;
+            hn::Mask<decltype(df)> hit;
+            for (std::size_t i = 0; i < Node::width; i += hn::Lanes(df)) {
+                hit = clip.Hits(node, i, state.t_max(), entry);
+                hn::Store(entry, df, entries + i);
+                bits |= WideBits(df, hit, i);
+            }
+            if (bits != 0) {
+                const auto first = static_cast<std::uint32_t>(std::countr_zero(bits));
+                const std::uint32_t others = bits & (bits - 1);
+                if (others == 0) {
+                    at.ref = node.ref[first];
+                    continue;
+                }
+                if ((others & (others - 1)) == 0) {
+                    // Which is nearer is a coin's toss: no branch.
+                    const auto second = static_cast<std::uint32_t>(std::countr_zero(others));
+                    const bool swap = entries[second] < entries[first];
+                    const auto a =
+                        std::bit_cast<std::uint64_t>(WaitingNode{node.ref[first], entries[first]});
+                    const auto b = std::bit_cast<std::uint64_t>(
+                        WaitingNode{node.ref[second], entries[second]});
+                    const std::uint64_t near = swap ? b : a, far = swap ? a : b;
+                    stack[top] = std::bit_cast<WaitingNode>(far);
+                    at = std::bit_cast<WaitingNode>(near);
+                    Prefetch<Node>(tree, stack[top].ref);
+                    ++top;
+                    continue;
+                }
+#if HWY_TARGET != HWY_SCALAR && HWY_TARGET <= HWY_AVX2
+                if constexpr (Node::width == 8)
+                    PushSortedEight(node.ref, entry, hit, stack + top);
+                else
+                    PushSorted(node, bits, entries, stack + top);
+#else
+                PushSorted(node, bits, entries, stack + top);
+#endif
+                top += static_cast<std::size_t>(std::popcount(bits)) - 1;
+                at = stack[top];
+                continue;
+            }
+        }
+        if constexpr (mode == RayMode::closest) {
+            do {
+                if (top == 0)
+                    return;
+                at = stack[--top];
+            } while (at.entry > state.t_max());
+        } else {
+            if (top == 0)
+                return;
+            at.ref = refs[--top];
+        }
+    }
+}
+
+template <class Node> void WalkJob(const RayJob& job) {
+    // Each open node on a path leaves all but one of its children waiting; a whole node is stored
+    // beyond them.
+    const std::size_t room = (job.depth + 2) * Node::width;
+    Buffer<WaitingNode> stack(job.mode == RayMode::closest ? room : 0);
+    Buffer<std::uint32_t> refs(job.mode == RayMode::closest ? 0 : room);
+    with_job_types(job, [&]<class K, RayMode mode, bool Counted>(
+                            std::type_identity<K>, std::integral_constant<RayMode, mode>,
+                            std::bool_constant<Counted>) {
+        walk_each<K, mode, Counted>(
+            job, [&](const Ray<float>& ray, RayWalk<K, mode, Counted>& state) HWY_ATTR {
+                WalkRay<Node>(job.triangles, ray, state, stack.data(), refs.data());
+            });
+    });
+}
+
+} // namespace boxwood::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
