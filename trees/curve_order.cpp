@@ -20,13 +20,6 @@
 #define BOXWOOD_CURVE_GRID
 namespace boxwood {
 
-/// The cube around the centres and its cells.
-struct CurveGrid {
-    Vec3<float> low; ///< of the cube, times `power`
-    float power = 1; ///< of two: takes huge and tiny coordinates to where nothing overflows
-    float scale = 0; ///< from there to cells
-};
-
 /// Bounds of the centres of some boxes, and whether all of the boxes are valid.
 struct CentreBounds {
     Box box;
@@ -265,13 +258,16 @@ template <class F> void for_parts(std::size_t n, const Executor& executor, const
     });
 }
 
-/// Items with the code of another that may be sorted, or left in their order, run by run.
+constexpr std::size_t quickly_sorted = 64; ///< the longest run that is no trouble to sort
+
+/// Items in long runs that may be dealt with run by run.
 std::size_t few(std::size_t n) { return n / 8; }
 
 /// Runs of two or more records that agree in all bits from `low` up: for each chunk those that
 /// begin in it.
 struct Runs {
-    Runs(const Records& records, int low, const Executor& executor)
+    /// Runs of more than `longest` count as long.
+    Runs(const Records& records, int low, std::size_t longest, const Executor& executor)
         : parts(chunks_for(records.size(), executor)) {
         const std::size_t n = records.size();
         executor.for_each(parts.size(), [&](std::size_t c) {
@@ -291,8 +287,11 @@ struct Runs {
                 }
         });
         for (const auto& part : parts)
-            for (const auto& run : part)
-                items += run.second - run.first;
+            for (const auto& run : part) {
+                const std::size_t length = run.second - run.first;
+                items += length;
+                in_long += length > longest ? length : 0;
+            }
     }
     template <class Less>
     void sort(Records& records, const Less& less, const Executor& executor) const {
@@ -302,27 +301,34 @@ struct Runs {
         });
     }
     std::vector<std::vector<std::pair<std::size_t, std::size_t>>> parts;
-    std::size_t items = 0;
+    std::size_t items = 0, in_long = 0;
 };
 
 /// Sorts records that come with their items ascending by their `bits` leading bits (those from 32
 /// up), then by `less`: by as many digits as tell most items apart if they are spread out, then the
-/// few runs that still agree; if those are many, by all bits first. False if even then too many
-/// agree: then runs of equal leading bits still have their items ascending.
+/// runs that still agree if they are short; else by all bits first. False if then many items are in
+/// runs of more than `alike` that agree in all bits.
 template <class Less>
-bool sort_records(Records& records, int bits, const Less& less, const Executor& executor) {
+bool sort_records(Records& records, int bits, const Less& less, const Executor& executor,
+                  std::size_t alike = 8) {
     const std::size_t n = records.size();
     Records spare(n);
     const int enough = (static_cast<int>(std::bit_width(n)) + 4 + 7) / 8 * 8;
-    for (const int low : {32 + std::max(0, bits - enough), 32}) {
-        radix_sort(records, spare, low, 32 + bits, executor);
-        const Runs runs(records, low, executor);
-        if (runs.items <= few(n)) {
-            runs.sort(records, less, executor);
+    const int low = 32 + std::max(0, bits - enough);
+    radix_sort(records, spare, low, 32 + bits, executor);
+    const Runs runs(records, low, low == 32 ? alike : quickly_sorted, executor);
+    if (runs.in_long <= few(n)) {
+        runs.sort(records, less, executor);
+        if (low == 32 || runs.items <= few(n))
             return true;
-        }
+    } else {
+        radix_sort(records, spare, 32, 32 + bits, executor);
     }
-    return false;
+    const Runs rest(records, 32, alike, executor);
+    if (rest.in_long > few(n))
+        return false;
+    rest.sort(records, less, executor);
+    return true;
 }
 
 } // namespace
@@ -343,7 +349,7 @@ CurveOrder curve_order(Boxes boxes, Curve curve, const Executor& executor) {
         const std::uint64_t code_a = codes[item_of(a)], code_b = codes[item_of(b)];
         return code_a < code_b || (code_a == code_b && item_of(a) < item_of(b));
     };
-    if (!sort_records(records, upper, less, executor)) {
+    if (!sort_records(records, upper, less, executor, quickly_sorted)) {
         Records spare(n);
         for_parts(n, executor, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
@@ -366,26 +372,39 @@ CurveOrder curve_order(Boxes boxes, Curve curve, const Executor& executor) {
     return result;
 }
 
+KeptOrder kept_curve_order(Boxes boxes, Curve curve, const Executor& executor) {
+    const std::size_t n = boxes.size();
+    KeptOrder kept{make_grid(boxes, 10, executor), Records(n)};
+    for_parts(n, executor, [&](std::size_t begin, std::size_t end) {
+        curve_records(boxes.subspan(begin, end - begin), begin, curve, kept.grid,
+                      kept.records.data() + begin);
+    });
+    if (!sort_records(kept.records, 30, std::less<>(), executor))
+        kept.records = {};
+    return kept;
+}
+
+void curve_records(Boxes boxes, std::size_t first_item, Curve curve, const CurveGrid& grid,
+                   std::uint64_t* records) {
+    constexpr std::size_t batch = 1024;
+    std::uint32_t codes[batch];
+    for (std::size_t first = 0; first < boxes.size(); first += batch) {
+        const std::size_t some = std::min(batch, boxes.size() - first);
+        HWY_DYNAMIC_DISPATCH(CoarseCodes)(boxes.subspan(first, some), curve, grid, codes);
+        for (std::size_t i = 0; i < some; ++i)
+            records[first + i] = std::uint64_t{codes[i]} << 32 | (first_item + first + i);
+    }
+}
+
 Buffer<std::uint32_t> coarse_curve_order(Boxes boxes, Curve curve, const Executor& executor) {
     const std::size_t n = boxes.size();
-    const CurveGrid grid = make_grid(boxes, 10, executor);
-    Records records(n);
-    for_parts(n, executor, [&](std::size_t begin, std::size_t end) {
-        constexpr std::size_t batch = 1024;
-        std::uint32_t codes[batch];
-        for (std::size_t first = begin; first < end; first += batch) {
-            const std::size_t some = std::min(batch, end - first);
-            HWY_DYNAMIC_DISPATCH(CoarseCodes)(boxes.subspan(first, some), curve, grid, codes);
-            for (std::size_t i = 0; i < some; ++i)
-                records[first + i] = std::uint64_t{codes[i]} << 32 | (first + i);
-        }
-    });
-    if (!sort_records(records, 30, std::less<>(), executor))
+    const KeptOrder kept = kept_curve_order(boxes, curve, executor);
+    if (kept.records.size() != n)
         return curve_order(boxes, curve, executor).order;
     Buffer<std::uint32_t> order(n);
     for_parts(n, executor, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
-            order[i] = item_of(records[i]);
+            order[i] = item_of(kept.records[i]);
     });
     return order;
 }
