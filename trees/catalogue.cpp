@@ -5,6 +5,7 @@
 #include "trees/builder.h"
 #include "trees/executor.h"
 #include "trees/layout.h"
+#include "trees/update.h"
 
 #include <algorithm>
 #include <array>
@@ -14,11 +15,17 @@
 
 #define BOXWOOD_BUILDERS(X) X(median) X(binned_sah) X(incremental) X(lbvh)
 #define BOXWOOD_STAGES(X) X(reinsertion)
-#define BOXWOOD_LAYOUTS(X) X(binary) X(wide8)
+#define BOXWOOD_LAYOUTS(X)                                                                         \
+    X(binary) X(wide4) X(wide8) X(wide16) X(quantised8) X(binary_f64) X(wide8_f64)
 #define BOXWOOD_EXECUTORS(X) X(serial) X(openmp) X(tbb)
+
+#define BOXWOOD_UPDATES(X) X(refit) X(reinsert) X(refine) X(rebuild) X(merge)
 
 namespace boxwood {
 
+#define X(word) UpdateEntry word##_update();
+BOXWOOD_UPDATES(X)
+#undef X
 #define X(word) BuilderEntry word##_builder();
 BOXWOOD_BUILDERS(X)
 #undef X
@@ -72,6 +79,13 @@ std::span<const LayoutEntry> layouts() {
 std::span<const ExecutorEntry> executors() {
 #define X(word) word##_executor(),
     static const std::array entries{BOXWOOD_EXECUTORS(X)};
+#undef X
+    return entries;
+}
+
+std::span<const UpdateEntry> updates() {
+#define X(word) word##_update(),
+    static const std::array entries{BOXWOOD_UPDATES(X)};
 #undef X
     return entries;
 }
@@ -135,6 +149,7 @@ std::unique_ptr<AnyLayout> make_layout(const LayoutEntry& layout, const BuildFun
 }
 
 const BuilderEntry* find_builder(std::string_view name) { return find(builders(), name); }
+const UpdateEntry* find_update(std::string_view name) { return find(updates(), name); }
 const LayoutEntry* find_layout(std::string_view name) { return find(layouts(), name); }
 
 std::unique_ptr<Executor> make_executor(std::string_view name, unsigned threads) {

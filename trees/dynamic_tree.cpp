@@ -76,6 +76,22 @@ void DynamicTree::move(std::uint32_t item, Box box) {
     }
 }
 
+void DynamicTree::enlarge(std::uint32_t item, Box box) {
+    Slot s = require(item);
+    require_valid(item, box);
+    if (!box.contains(box_at(s)))
+        throw std::invalid_argument(
+            "item " + std::to_string(item) +
+            ": the box to enlarge it to does not hold the old one; move it");
+    box_at(s) = box;
+    while (s != root) {
+        s = parent_of(s);
+        if (box_at(s).contains(box))
+            break;
+        box_at(s).extend(box);
+    }
+}
+
 void DynamicTree::clear() {
     forks_.resize(1);
     slot_of_.clear();
@@ -253,6 +269,29 @@ void DynamicTree::repair(Slot s) {
         const bool changed = !(box_at(s) == old_box) || height_at(s) != old_height;
         quiet = rotate(s, old_height) || changed ? 0 : quiet + 1;
     }
+}
+
+Buffer<std::uint32_t> DynamicTree::order() const {
+    Buffer<std::uint32_t> items(size_);
+    std::size_t n = 0;
+    std::vector<std::uint32_t> stack;
+    if (!empty())
+        stack.push_back(link_at(root));
+    while (!stack.empty()) {
+        const std::uint32_t link = stack.back();
+        stack.pop_back();
+        if (link & leaf_bit) {
+            items[n++] = link ^ leaf_bit;
+        } else {
+            const Fork& fork = forks_[link];
+            for (const std::uint32_t below : fork.link)
+                if (!(below & leaf_bit))
+                    __builtin_prefetch(&forks_[below]);
+            stack.push_back(fork.link[1]);
+            stack.push_back(fork.link[0]);
+        }
+    }
+    return items;
 }
 
 Tree DynamicTree::freeze() const {

@@ -31,6 +31,11 @@ class DynamicTree {
     /// by insertion anew. Throws as `insert` and `remove` do.
     void move(std::uint32_t item, Box box);
 
+    /// Gives the item a box that holds its old one; the shape stays, bounds above grow. Cheaper
+    /// than `move`. Throws as it, and std::invalid_argument for a box that does not hold the old
+    /// one.
+    void enlarge(std::uint32_t item, Box box);
+
     /// Forgets all items and keeps the memory.
     void clear();
 
@@ -50,6 +55,9 @@ class DynamicTree {
     std::size_t bytes() const {
         return forks_.capacity() * sizeof(Fork) + slot_of_.capacity() * sizeof(std::uint32_t);
     }
+
+    /// The items in the order of the leaves. O(n).
+    Buffer<std::uint32_t> order() const;
 
     /// The canonical tree of the items as they are now; `order` holds their own numbers, so that
     /// `refit` and `validate` take it only if these are 0 .. size() - 1. O(n).

@@ -31,6 +31,8 @@ std::string fault(const DynamicTree& tree, const Model& model) {
     if (tree.size() != model.size() || tree.empty() != model.empty())
         return "size " + std::to_string(tree.size());
     Tree frozen = tree.freeze();
+    if (!std::ranges::equal(tree.order(), frozen.order))
+        return "the order is not that of the frozen tree";
     std::vector<Box> boxes;
     std::map<std::uint32_t, std::uint32_t> rank;
     for (const auto& [item, box] : model) {
@@ -70,11 +72,19 @@ RC_GTEST_PROP(DynamicTree, HoldsWhatAMapHolds, ()) {
     DynamicTree tree;
     Model model;
     const auto steps = *rc::gen::container<std::vector<std::pair<int, std::uint32_t>>>(
-        rc::gen::pair(rc::gen::inRange(0, 8), rc::gen::inRange<std::uint32_t>(0, 24)));
+        rc::gen::pair(rc::gen::inRange(0, 9), rc::gen::inRange<std::uint32_t>(0, 24)));
     for (const auto& [what, item] : steps) {
         const bool known = model.contains(item);
         const Box box = *any_box();
-        if (what < 4) {
+        if (what == 8) {
+            const Box larger = known ? merge(model[item], box) : box;
+            if (known) {
+                tree.enlarge(item, larger);
+                model[item] = larger;
+            } else {
+                RC_ASSERT_THROWS_AS(tree.enlarge(item, larger), std::invalid_argument);
+            }
+        } else if (what < 4) {
             if (known) {
                 RC_ASSERT_THROWS_AS(tree.insert(item, box), std::invalid_argument);
             } else {
@@ -248,6 +258,7 @@ TEST(DynamicTree, BadInputIsNamedAndChangesNothing) {
             EXPECT_EQ(e.index, 4u);
         }
         EXPECT_THROW(tree.move(3, box), InvalidBox);
+        EXPECT_THROW(tree.enlarge(3, box), InvalidBox);
     }
     EXPECT_THROW(tree.insert(4, Box{}), InvalidBox);
     EXPECT_THROW(tree.insert(3, good), std::invalid_argument);
@@ -255,6 +266,8 @@ TEST(DynamicTree, BadInputIsNamedAndChangesNothing) {
     EXPECT_THROW(tree.remove(4), std::invalid_argument);
     EXPECT_THROW(tree.remove(~0u), std::invalid_argument);
     EXPECT_THROW(tree.move(4, good), std::invalid_argument);
+    EXPECT_THROW(tree.enlarge(4, good), std::invalid_argument);
+    EXPECT_THROW(tree.enlarge(3, {{0, 0, 0}, {1, 1, .5f}}), std::invalid_argument);
     EXPECT_THROW(tree.box(4), std::invalid_argument);
     EXPECT_EQ(fault(tree, {{3, good}, {5, good}}), "");
 }

@@ -28,5 +28,6 @@
 #include "trees/traversals/self_pairs.h"
 #include "trees/traversals/tree_pairs.h"
 #include "trees/tree.h"
+#include "trees/update.h"
 #include "trees/validate.h"
 #include "trees/work.h"

@@ -1,0 +1,47 @@
+#include "trees/updates/margins.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace boxwood {
+
+void Margins::start(Boxes boxes, double share) {
+    double sides = 0;
+    for (const Box& box : boxes) {
+        const auto side = static_cast<Vec3<double>>(box.max) - static_cast<Vec3<double>>(box.min);
+        sides += side.x + side.y + side.z;
+    }
+    constexpr double most = std::numeric_limits<float>::max();
+    const double n = boxes.empty() ? 1 : static_cast<double>(boxes.size());
+    margin_ = static_cast<float>(std::min(share * sides / (3 * n), most));
+    fat_.resize(boxes.size());
+    std::ranges::transform(boxes, fat_.begin(), [&](const Box& box) { return around(box); });
+    left_.reserve(boxes.size());
+}
+
+/// Clamped to finite floats, so that it is a valid box.
+Box Margins::around(const Box& box) const {
+    constexpr float most = std::numeric_limits<float>::max();
+    const Vec3<float> m{margin_, margin_, margin_}, limit{most, most, most};
+    return {max(box.min - m, Vec3<float>{} - limit), min(box.max + m, limit)};
+}
+
+std::span<const std::uint32_t> Margins::left(Boxes boxes, std::span<const std::uint32_t> moved) {
+    left_.resize(moved.size());
+    std::size_t n = 0;
+    for (const std::uint32_t item : moved) { // without branches: many may have left
+        left_[n] = item;
+        const Box &fat = fat_[item], &box = boxes[item];
+        n += !((fat.min.x <= box.min.x) & (fat.min.y <= box.min.y) & (fat.min.z <= box.min.z) &
+               (box.max.x <= fat.max.x) & (box.max.y <= fat.max.y) & (box.max.z <= fat.max.z));
+    }
+    left_.resize(n);
+    return left_;
+}
+
+void Margins::follow(Boxes boxes, std::span<const std::uint32_t> items) {
+    for (const std::uint32_t item : items)
+        fat_[item] = around(boxes[item]);
+}
+
+} // namespace boxwood

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "trees/tree.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace boxwood {
+
+/// A fat box around each item: while its box stays inside, the item keeps its place in the tree.
+class Margins {
+  public:
+    /// share: the margin on each side, of the mean side of these boxes.
+    void start(Boxes boxes, double share);
+    /// The items of `moved` whose boxes are not inside their fat boxes; valid until the next call.
+    std::span<const std::uint32_t> left(Boxes boxes, std::span<const std::uint32_t> moved);
+    /// Puts the fat boxes of these items around their boxes anew.
+    void follow(Boxes boxes, std::span<const std::uint32_t> items);
+    const Box& fat(std::uint32_t item) const { return fat_[item]; }
+    std::size_t bytes() const {
+        return fat_.capacity() * sizeof(Box) + left_.capacity() * sizeof(std::uint32_t);
+    }
+
+  private:
+    Box around(const Box& box) const;
+
+    float margin_ = 0;
+    std::vector<Box> fat_;
+    std::vector<std::uint32_t> left_;
+};
+
+} // namespace boxwood

@@ -1,0 +1,147 @@
+#include "trees/updates/moving_tree.h"
+
+#include "trees/radix_sort.h"
+
+#include <algorithm>
+
+namespace boxwood {
+namespace {
+
+std::uint32_t item_of(std::uint64_t record) { return static_cast<std::uint32_t>(record); }
+
+} // namespace
+
+std::size_t MovingTree::bytes() const {
+    return layout_.bytes() + order_.bytes() + slot_of_.bytes() + records_.bytes() + spare_.bytes() +
+           incoming_.bytes() + incoming_spare_.bytes() + taken_out_.capacity() +
+           gathered_.capacity() * sizeof(Box);
+}
+
+void MovingTree::place(Boxes boxes, const Executor& executor) {
+    layout_.take(boxes, order_.span(), executor);
+    slots_known_ = false;
+    tight_ = surface();
+}
+
+void MovingTree::order_anew(Boxes boxes, const Executor& executor) {
+    const std::size_t n = boxes.size();
+    if (order_.size() != n)
+        order_ = Buffer<std::uint32_t>(n);
+    KeptOrder kept = kept_curve_order(boxes, Curve::hilbert, executor);
+    grid_ = kept.grid;
+    records_ = std::move(kept.records);
+    if (records_.size() == n)
+        std::transform(records_.begin(), records_.end(), order_.begin(), item_of);
+    else
+        order_ = curve_order(boxes, Curve::hilbert, executor).order;
+    place(boxes, executor);
+    step = {n, true};
+}
+
+void MovingTree::set_order(Boxes boxes, Buffer<std::uint32_t> order, const Executor& executor) {
+    order_ = std::move(order);
+    records_ = {};
+    place(boxes, executor);
+}
+
+void MovingTree::merge_in(Boxes boxes, std::span<const std::uint32_t> items,
+                          const Executor& executor) {
+    const std::size_t n = boxes.size();
+    if (records_.size() != n)
+        return order_anew(boxes, executor);
+    if (spare_.size() != n) {
+        spare_ = Buffer<std::uint64_t>(n);
+        taken_out_.assign(n, 0);
+    }
+    gathered_.clear();
+    for (const std::uint32_t item : items) {
+        gathered_.push_back(boxes[item]);
+        taken_out_[item] = 1;
+    }
+    incoming_ = Buffer<std::uint64_t>(items.size());
+    incoming_spare_ = Buffer<std::uint64_t>(items.size());
+    curve_records(gathered_, 0, Curve::hilbert, grid_, incoming_.data());
+    // From numbers among the items to items: ascending, too, so that the sort stays by item.
+    for (std::uint64_t& record : incoming_)
+        record = (record >> 32 << 32) | items[item_of(record)];
+    radix_sort(incoming_, incoming_spare_, 32, 62, serial());
+
+    std::size_t next = 0, to = 0;
+    for (const std::uint64_t record : records_) {
+        if (taken_out_[item_of(record)])
+            continue;
+        while (next < incoming_.size() && incoming_[next] < record)
+            spare_[to++] = incoming_[next++];
+        spare_[to++] = record;
+    }
+    while (next < incoming_.size())
+        spare_[to++] = incoming_[next++];
+    for (const std::uint32_t item : items)
+        taken_out_[item] = 0;
+    std::swap(records_, spare_);
+    std::transform(records_.begin(), records_.end(), order_.begin(), item_of);
+    place(boxes, executor);
+    step = {items.size(), false};
+}
+
+void MovingTree::sort_part(Boxes boxes, std::size_t begin, std::size_t end,
+                           const Executor& executor) {
+    gathered_.clear();
+    for (std::size_t slot = begin; slot < end; ++slot)
+        gathered_.push_back(boxes[order_[slot]]);
+    Buffer<std::uint32_t> part = coarse_curve_order(gathered_, Curve::hilbert, executor);
+    for (std::uint32_t& item : part)
+        item = order_[begin + item];
+    std::ranges::copy(part, order_.begin() + begin);
+    records_ = {};
+    place(boxes, executor);
+    step = {end - begin, false};
+}
+
+void MovingTree::note_slots() {
+    if (slots_known_)
+        return;
+    if (slot_of_.size() != order_.size())
+        slot_of_ = Buffer<std::uint32_t>(order_.size());
+    for (std::size_t slot = 0; slot < order_.size(); ++slot)
+        slot_of_[order_[slot]] = static_cast<std::uint32_t>(slot);
+    slots_known_ = true;
+}
+
+void MovingTree::refit(Boxes boxes, const Executor& executor) { layout_.refit(boxes, executor); }
+
+void MovingTree::refit(Boxes boxes, std::span<const std::uint32_t> items) {
+    note_slots();
+    moved_slots_.resize(items.size());
+    std::ranges::transform(items, moved_slots_.begin(),
+                           [&](std::uint32_t item) { return slot_of_[item]; });
+    layout_.refit(boxes, moved_slots_);
+}
+
+void MovingTree::refit(Boxes boxes, std::span<const std::uint32_t> items,
+                       const Executor& executor) {
+    if (items.size() < size() / 16)
+        refit(boxes, items);
+    else
+        refit(boxes, executor);
+}
+
+std::string MovingTree::fault() const {
+    std::vector<std::uint8_t> seen(size());
+    for (std::size_t slot = 0; slot < size(); ++slot) {
+        const std::uint32_t item = order_[slot];
+        if (item >= size() || seen[item]++)
+            return "slot " + std::to_string(slot) + ": item " + std::to_string(item) +
+                   " is none, or there twice";
+        if (layout_.items()[slot] != item)
+            return "slot " + std::to_string(slot) + " of the layout holds another item";
+        if (slots_known_ && slot_of_[item] != slot)
+            return "item " + std::to_string(item) + " is not where it is noted";
+    }
+    for (std::size_t i = 1; i < records_.size(); ++i)
+        if (records_[i - 1] >= records_[i])
+            return "records " + std::to_string(i) + " and the one before it are out of order";
+    return layout_.fault();
+}
+
+} // namespace boxwood

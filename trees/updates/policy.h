@@ -1,0 +1,69 @@
+#pragma once
+
+#include "trees/traversals/self_pairs.h"
+#include "trees/updates/moving_tree.h"
+
+#include <concepts>
+#include <stdexcept>
+#include <string>
+
+namespace boxwood {
+
+/// A policy says how a MovingTree follows its boxes. Its settings are documented data members with
+/// defaults, listed by `settings()`; it may keep a state of its own. It sees valid frames only.
+template <class P>
+concept UpdatePolicy = std::default_initializable<P> &&
+    requires(P policy, MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
+             const Executor& executor) {
+    policy.start(tree, boxes, executor);
+    policy.update(tree, boxes, moved, executor);
+    { policy.bytes() } -> std::convertible_to<std::size_t>;
+    { P::name } -> std::convertible_to<std::string_view>;
+    { P::summary } -> std::convertible_to<std::string_view>;
+};
+
+/// Throws std::invalid_argument or InvalidBox as Updater::update does.
+void require_frame(Boxes boxes, std::span<const std::uint32_t> moved, std::size_t size);
+
+/// Puts a policy behind Updater: bad frames are refused before it sees them.
+template <UpdatePolicy P> class UpdaterOf final : public Updater {
+  public:
+    explicit UpdaterOf(const P& policy) : policy_(policy) {}
+
+    void start(Boxes boxes, const Executor& executor) override {
+        require_valid(boxes);
+        tree_.step = {};
+        policy_.start(tree_, boxes, executor);
+    }
+    void update(Boxes boxes, std::span<const std::uint32_t> moved,
+                const Executor& executor) override {
+        require_frame(boxes, moved, tree_.size());
+        tree_.step = {};
+        if (!moved.empty())
+            policy_.update(tree_, boxes, moved, executor);
+    }
+    void self_pairs(const Executor& executor, PairSink& sink) const override {
+        boxwood::self_pairs(tree_.layout(), executor, sink);
+    }
+    Work self_pairs_counted(PairSink& sink) const override {
+        return boxwood::self_pairs_counted(tree_.layout(), sink);
+    }
+    std::size_t size() const override { return tree_.size(); }
+    std::size_t bytes() const override { return tree_.bytes() + policy_.bytes(); }
+    UpdateStep last_step() const override { return tree_.step; }
+    std::string fault() const override { return tree_.fault(); }
+
+  private:
+    MovingTree tree_;
+    P policy_;
+};
+
+/// The catalogue row of a policy.
+template <UpdatePolicy P> UpdateEntry update_entry() {
+    return {P::name, P::summary, setting_infos<P>(),
+            [](const Settings& values) -> std::unique_ptr<Updater> {
+                return std::make_unique<UpdaterOf<P>>(with_settings<P>(values));
+            }};
+}
+
+} // namespace boxwood

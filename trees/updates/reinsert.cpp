@@ -1,0 +1,55 @@
+#include "trees/dynamic_tree.h"
+#include "trees/updates/margins.h"
+#include "trees/updates/policy.h"
+
+#include <array>
+
+namespace boxwood {
+namespace {
+
+/// A dynamic tree of fat boxes gives the order: an item whose box leaves its fat box is removed and
+/// inserted at the best place, with rotations on the way up.
+struct Reinsert {
+    static constexpr std::string_view name = "reinsert";
+    static constexpr std::string_view summary =
+        "what left its fat box is inserted anew into a dynamic tree, the rest refitted";
+
+    double margin = .5; ///< of the mean side of a box, on each side
+
+    static std::array<Setting<Reinsert>, 1> settings() {
+        return {{{"margin", "how far a box may go before it is inserted anew, in mean sides",
+                  &Reinsert::margin, 0, 1e6}}};
+    }
+
+    void start(MovingTree& tree, Boxes boxes, const Executor& executor) {
+        margins_.start(boxes, margin);
+        items_.clear();
+        items_.reserve(boxes.size());
+        // Along the curve: neighbours in time are neighbours in space, and in the caches.
+        for (const std::uint32_t item : coarse_curve_order(boxes, Curve::hilbert, executor))
+            items_.insert(item, margins_.fat(item));
+        tree.set_order(boxes, items_.order(), executor);
+    }
+    void update(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
+                const Executor& executor) {
+        const auto left = margins_.left(boxes, moved);
+        if (left.empty())
+            return tree.refit(boxes, moved, executor);
+        margins_.follow(boxes, left);
+        for (const std::uint32_t item : left)
+            items_.move(item, margins_.fat(item));
+        tree.set_order(boxes, items_.order(), executor);
+        tree.step = {left.size(), false};
+    }
+    std::size_t bytes() const { return margins_.bytes() + items_.bytes(); }
+
+  private:
+    Margins margins_;
+    DynamicTree items_;
+};
+
+} // namespace
+
+UpdateEntry reinsert_update() { return update_entry<Reinsert>(); }
+
+} // namespace boxwood
