@@ -3,6 +3,7 @@
 #include "trees/builders/incremental.h"
 #include "trees/builders/median.h"
 #include "trees/layouts/binary.h"
+#include "trees/layouts/quantised8.h"
 #include "trees/layouts/wide.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,10 @@ namespace boxwood {
 namespace {
 
 static_assert(Builder<MedianBuilder> && Builder<BinnedSahBuilder> && Builder<IncrementalBuilder>);
-static_assert(Layout<BinaryLayout> && Layout<Wide8Layout>);
+static_assert(Layout<BinaryLayout> && Layout<BinaryLayoutF64>);
+static_assert(Layout<Wide8Layout> && Layout<Wide8LayoutF64> && Layout<Quantised8Layout>);
+static_assert(WideTree<Wide4Layout> && WideTree<Wide16Layout> && WideTree<Quantised8Layout>);
+static_assert(!WideTree<BinaryLayout>);
 
 struct Nameless {
     Tree build(Boxes, const Executor&) const;

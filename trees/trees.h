@@ -2,7 +2,7 @@
 
 /// Trees of axis-aligned boxes.
 ///
-///   boxes --builder--> Tree --layout--> BinaryLayout, Wide8Layout --traversal--> sink
+///   boxes --builder--> Tree --layout--> BinaryLayout, WideLayout ... --traversal--> sink
 ///
 /// A builder makes the canonical binary tree, a layout is a function of that tree alone, and a
 /// traversal walks layouts and hands what it finds to a sink; an executor says on which threads.
@@ -19,6 +19,7 @@
 #include "trees/filtered_pairs.h"
 #include "trees/layout.h"
 #include "trees/layouts/binary.h"
+#include "trees/layouts/quantised8.h"
 #include "trees/layouts/wide.h"
 #include "trees/pairs.h"
 #include "trees/quality.h"

@@ -4,7 +4,7 @@
 /// maps are monotone, and down(x) <= up(x) for every x, so from a.min <= b.max in double follows
 /// down(a.min) <= down(b.max) <= up(b.max): boxes that share a point share one as floats, also
 /// those beyond the range of floats. So the tree misses no pair; what it finds too much, the
-/// comparison of the double boxes drops.
+/// comparison of the double boxes drops. A layout of doubles finds nothing too much.
 
 #include "bench/commands/command.h"
 #include "bench/commands/query.h"
@@ -87,13 +87,22 @@ void run(const PairsQuery& query, std::ostream& out) {
     std::vector<Box> float_boxes(boxes.size());
     std::transform(boxes.begin(), boxes.end(), float_boxes.begin(), to_float);
     Tree tree;
-    const auto layout = make_layout(layout_entry, build, float_boxes, *executor, tree);
-    const auto truly_overlap = [&](Pair p) { return overlaps(boxes[p.a], boxes[p.b]); };
+    const bool doubles = layout_entry.make_of_doubles != nullptr;
+    const auto layout =
+        doubles ? layout_entry.make_of_doubles(build(float_boxes, *executor), boxes, *executor)
+                : make_layout(layout_entry, build, float_boxes, *executor, tree);
+    const auto find_pairs = [&](PairSink& sink) {
+        if (doubles) {
+            layout->self_pairs(*executor, sink);
+            return;
+        }
+        FilteredPairs kept([&](Pair p) { return overlaps(boxes[p.a], boxes[p.b]); }, sink);
+        layout->self_pairs(*executor, kept);
+    };
 
     // Counting first is cheap beside printing, and makes sure that the list will fit.
     CountPairs counter;
-    FilteredPairs counted(truly_overlap, counter);
-    layout->self_pairs(*executor, counted);
+    find_pairs(counter);
     const std::string count = std::to_string(counter.count());
 
     std::vector<Pair> pairs;
@@ -101,8 +110,7 @@ void run(const PairsQuery& query, std::ostream& out) {
         require_memory(counter.count());
         pairs.reserve(counter.count());
         AppendPairs append(pairs);
-        FilteredPairs kept(truly_overlap, append);
-        layout->self_pairs(*executor, kept);
+        find_pairs(append);
         std::sort(pairs.begin(), pairs.end());
     }
 

@@ -51,5 +51,6 @@ template class BinaryLayoutOf<float>;
 template class BinaryLayoutOf<double>;
 
 LayoutEntry binary_layout() { return layout_entry<BinaryLayout>(); }
+LayoutEntry binary_f64_layout() { return layout_entry<BinaryLayoutF64>(); }
 
 } // namespace boxwood

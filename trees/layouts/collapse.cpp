@@ -18,12 +18,19 @@ template <std::uint32_t width> Cut<width> cut_below(const Tree& tree, std::uint3
     Cut<width> cut{{node}, 1};
     std::array<double, width> areas{};
     const auto openable = [&](std::uint32_t n) {
-        return tree.nodes[n].count > width ? tree.nodes[n].box.half_area() : -1;
+        if (tree.nodes[n].count <= width)
+            return -1.0;
+        __builtin_prefetch(&tree.nodes[tree.right(n)]); // far away, and wanted soon
+        return tree.nodes[n].box.half_area();
     };
     while (cut.count < width) {
-        const auto widest = static_cast<std::uint32_t>(
-            std::max_element(areas.begin(), areas.begin() + cut.count) - areas.begin());
-        if (areas[widest] < 0)
+        std::uint32_t widest = 0;
+        double most = areas[0];
+        for (std::uint32_t i = 1; i < cut.count; ++i) {
+            widest = areas[i] > most ? i : widest;
+            most = areas[i] > most ? areas[i] : most;
+        }
+        if (most < 0)
             break;
         const std::uint32_t opened = cut.nodes[widest];
         const auto left = static_cast<std::uint32_t>(Tree::left(opened));

@@ -201,7 +201,7 @@ std::vector<Aabb<double>> close_boxes(std::size_t n) {
     return boxes;
 }
 
-TEST(LayoutsOfDoubles, DISABLED_AnswerPairsOfDoublesExactly) {
+TEST(LayoutsOfDoubles, AnswerPairsOfDoublesExactly) {
     const std::vector<Aabb<double>> boxes = close_boxes(1500);
     std::vector<Box> floats;
     for (const Aabb<double>& box : boxes)

@@ -124,4 +124,6 @@ Quantised8Layout::Quantised8Layout(const Tree& tree, const Executor& executor)
     });
 }
 
+LayoutEntry quantised8_layout() { return layout_entry<Quantised8Layout>(); }
+
 } // namespace boxwood

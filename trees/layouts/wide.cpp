@@ -26,20 +26,24 @@ void fill(BoxBlock<Real, W>& block, const CollapsedBlock& from,
     const TreeNode& top = tree.nodes[from.node];
     block.bounds = box(from.node);
     block.items = top.count;
-    std::uint32_t lane = 0;
+    block.count = from.count > 0 ? from.count : top.count;
     if (from.count == 0) {
-        const std::size_t end = from.node + 2 * std::size_t{top.count} - 1;
-        for (std::size_t i = from.node; i < end; ++i)
-            if (tree.is_leaf(i))
-                set_lane(block, lane++, box(i), tree.item(i));
+        // The last node below is a leaf, so no more than W are written.
+        std::uint32_t leaves[W], found = 0;
+        for (std::uint32_t i = from.node; found < top.count; ++i) {
+            leaves[found] = i;
+            found += tree.nodes[i].count == 1;
+        }
+        for (std::uint32_t lane = 0; lane < top.count; ++lane)
+            set_lane(block, lane, box(leaves[lane]), tree.order[top.first + lane]);
+    } else {
+        for (std::uint32_t lane = 0; lane < from.count; ++lane) {
+            const CollapsedBlock& child = blocks[from.first + lane];
+            set_lane(block, lane, box(child.node),
+                     (from.first + lane) | (child.count == 0 ? Layout::leaf_bit : 0));
+        }
     }
-    for (; lane < from.count; ++lane) {
-        const CollapsedBlock& child = blocks[from.first + lane];
-        set_lane(block, lane, box(child.node),
-                 (from.first + lane) | (child.count == 0 ? Layout::leaf_bit : 0));
-    }
-    block.count = lane;
-    for (; lane < W; ++lane)
+    for (std::uint32_t lane = block.count; lane < W; ++lane)
         set_lane(block, lane, Aabb<Real>{}, 0);
 }
 
@@ -84,6 +88,9 @@ template class WideLayout<float, 8>;
 template class WideLayout<float, 16>;
 template class WideLayout<double, 8>;
 
+LayoutEntry wide4_layout() { return layout_entry<Wide4Layout>(); }
 LayoutEntry wide8_layout() { return layout_entry<Wide8Layout>(); }
+LayoutEntry wide16_layout() { return layout_entry<Wide16Layout>(); }
+LayoutEntry wide8_f64_layout() { return layout_entry<Wide8LayoutF64>(); }
 
 } // namespace boxwood
