@@ -4,9 +4,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace boxwood {
+
+/// Axes x, y, z in lanes 0, 1, 2; lane 3 means nothing.
+using Lanes3 = float __attribute__((vector_size(16)));
+
+/// What FusedSlabs needs of the bounds of all boxes to come, made once for many rays.
+struct SlabBounds {
+    Lanes3 min{}, max{}, widest{}; ///< widest: the larger of |min| and |max|
+    float coordinate = 0;          ///< the largest of `widest`
+
+    explicit SlabBounds(const Aabb<float>& box) {
+        for (int k = 0; k < 3; ++k) {
+            min[k] = box.min[k];
+            max[k] = box.max[k];
+            widest[k] = std::max(std::abs(min[k]), std::abs(max[k]));
+            coordinate = std::max(coordinate, widest[k]);
+        }
+    }
+};
 
 /// The slab test of a ray against many boxes within known bounds, one fused product and difference
 /// per plane: near * entry_rdir - entry_shift. A SIMD version computes `clip` from these numbers,
@@ -27,51 +46,52 @@ namespace boxwood {
 /// `margin` is that of ray_margin (slabs.h) for float triangle kernels: entry is made earlier and
 /// exit later by it; of its 16u reach / largest they need 5u, the roundings of the shifts 4u.
 struct FusedSlabs {
-    Vec3<float> entry_rdir, entry_shift, exit_rdir, exit_shift;
+    Lanes3 entry_rdir, entry_shift, exit_rdir, exit_shift;
 
-    /// bounds: those of all boxes to come.
-    FusedSlabs(const Ray<float>& ray, const Aabb<float>& bounds) {
-        const Vec3<float> low = bounds.min - ray.origin, high = bounds.max - ray.origin;
-        float largest = 0, reach = 0, coordinate = 0;
-        for (int k = 0; k < 3; ++k) {
-            largest = std::max(largest, std::abs(ray.direction[k]));
-            reach = std::max({reach, std::abs(low[k]), std::abs(high[k])});
-            coordinate = std::max({coordinate, std::abs(ray.origin[k]), std::abs(bounds.min[k]),
-                                   std::abs(bounds.max[k])});
-        }
+    [[gnu::always_inline]] FusedSlabs(const Ray<float>& ray, const SlabBounds& bounds) {
+        const Lanes3 origin{ray.origin.x, ray.origin.y, ray.origin.z, 0};
+        const Lanes3 direction{ray.direction.x, ray.direction.y, ray.direction.z, 0};
+        const Lanes3 size = abs(direction);
+        const Lanes3 low = abs(bounds.min - origin), high = abs(bounds.max - origin);
+        const float largest = largest_of(size);
+        const float reach = largest_of(low > high ? low : high);
+        const float coordinate = std::max(largest_of(abs(origin)), bounds.coordinate);
         const float per_largest = 1 / largest, least = 0x1p-22f * largest;
         // Nothing below overflows. Else (or for NaN) no box is missed.
         if (!(coordinate * per_largest < 0x1p100f && largest > 0x1p-100f &&
               coordinate < 0x1p124f)) {
-            give_up(ray);
+            give_up(direction);
             return;
         }
         const float beyond = 2 * reach * per_largest;
         // 2^-146: what underflows in denormal coordinates.
         const float margin = (0x1p-20f * reach + 0x1p-147f) * per_largest + 0x1p-146f;
-        for (int k = 0; k < 3; ++k) {
-            const float size = std::abs(ray.direction[k]);
-            const bool small = !(size >= least);
-            const float r = std::copysign(1 / (small ? least : size), ray.direction[k]);
-            const float widest = std::max(std::abs(bounds.min[k]), std::abs(bounds.max[k]));
-            entry_rdir[k] = r * (1 - 0x1.8p-21f);
-            exit_rdir[k] = r * (1 + 0x1.8p-21f);
-            const float in = ray.origin[k] * entry_rdir[k], out = ray.origin[k] * exit_rdir[k];
-            const float pad = 0x1p-22f * (std::abs(out) + widest * std::abs(exit_rdir[k]));
-            entry_shift[k] = in + pad + (margin + (small ? beyond : 0));
-            exit_shift[k] = out - pad - (margin + (small ? 2 * beyond : 0));
-        }
+        const auto small = size < least;
+        const Lanes3 r = with_sign(1 / (small ? all(least) : size), direction);
+        entry_rdir = r * (1 - 0x1.8p-21f);
+        exit_rdir = r * (1 + 0x1.8p-21f);
+        const Lanes3 in = origin * entry_rdir, out = origin * exit_rdir;
+        const Lanes3 pad = 0x1p-22f * (abs(out) + bounds.widest * abs(exit_rdir));
+        entry_shift = in + pad + (small ? all(margin + beyond) : all(margin));
+        exit_shift = out - pad - (small ? all(margin + 2 * beyond) : all(margin));
     }
 
   private:
+    using Bits = std::int32_t __attribute__((vector_size(16)));
+
+    static Lanes3 all(float x) { return Lanes3{x, x, x, x}; }
+    static Lanes3 abs(Lanes3 x) { return (Lanes3)((Bits)x & 0x7fffffff); }
+    /// x >= 0 with the signs of y.
+    static Lanes3 with_sign(Lanes3 x, Lanes3 y) {
+        return (Lanes3)((Bits)x | ((Bits)y & std::numeric_limits<std::int32_t>::min()));
+    }
+    static float largest_of(Lanes3 x) { return std::max(std::max(x[0], x[1]), x[2]); }
+
     /// Entries below 0 and exits beyond everything, but the empty box (+inf, -inf) stays empty.
-    void give_up(const Ray<float>& ray) {
-        constexpr float least = std::numeric_limits<float>::min();
-        for (int k = 0; k < 3; ++k) {
-            entry_rdir[k] = exit_rdir[k] = std::copysign(least, ray.direction[k]);
-            entry_shift[k] = 8; // |near| entry_rdir < 4
-            exit_shift[k] = -std::numeric_limits<float>::max();
-        }
+    void give_up(Lanes3 direction) {
+        entry_rdir = exit_rdir = with_sign(all(std::numeric_limits<float>::min()), direction);
+        entry_shift = all(8); // |near| entry_rdir < 4
+        exit_shift = all(-std::numeric_limits<float>::max());
     }
 };
 

@@ -24,20 +24,23 @@ namespace boxwood::HWY_NAMESPACE {
 
 template <class Node> using NodeTag = hwy::HWY_NAMESPACE::CappedTag<float, Node::width>;
 
-/// Lanes [i, i + Lanes(d)) of a plane of this axis: 0 .. 2 are the mins, 3 .. 5 the maxes.
+/// Lanes [i, i + Lanes(d)) of the plane of this axis that stands `offset` bytes behind the first.
 template <std::size_t W>
 HWY_INLINE hwy::HWY_NAMESPACE::Vec<NodeTag<RayNode<W>>>
-PlaneOf(const RayNode<W>& node, int /*axis*/, std::size_t plane, std::size_t i) {
-    return hwy::HWY_NAMESPACE::Load(NodeTag<RayNode<W>>(), node.plane[plane] + i);
+PlaneOf(const RayNode<W>& node, int /*axis*/, std::size_t offset, std::size_t i) {
+    const auto* planes = reinterpret_cast<const std::byte*>(node.plane);
+    return hwy::HWY_NAMESPACE::Load(NodeTag<RayNode<W>>(),
+                                    reinterpret_cast<const float*>(planes + offset) + i);
 }
 /// `decode` of QuantisedBlock, operation for operation.
 HWY_INLINE hwy::HWY_NAMESPACE::Vec<NodeTag<QuantisedBlock>>
-PlaneOf(const QuantisedBlock& node, int axis, std::size_t plane, std::size_t i) {
+PlaneOf(const QuantisedBlock& node, int axis, std::size_t offset, std::size_t i) {
     namespace hn = hwy::HWY_NAMESPACE;
     const NodeTag<QuantisedBlock> d;
     const hn::Rebind<std::uint8_t, decltype(d)> d8;
     const hn::Rebind<std::int32_t, decltype(d)> d32;
-    const auto steps = hn::ConvertTo(d, hn::PromoteTo(d32, hn::LoadU(d8, node.plane[plane] + i)));
+    const auto steps =
+        hn::ConvertTo(d, hn::PromoteTo(d32, hn::LoadU(d8, node.plane[0] + offset + i)));
     return hn::Add(hn::Set(d, node.bounds.min[axis]), hn::Mul(steps, hn::Set(d, node.scale[axis])));
 }
 
@@ -65,17 +68,18 @@ template <class Node> class NodeClip {
 
   public:
     HWY_INLINE NodeClip(const FusedSlabs& slabs, float t_min)
-        : re0_(Everywhere(slabs.entry_rdir.x)), re1_(Everywhere(slabs.entry_rdir.y)),
-          re2_(Everywhere(slabs.entry_rdir.z)), se0_(Everywhere(slabs.entry_shift.x)),
-          se1_(Everywhere(slabs.entry_shift.y)), se2_(Everywhere(slabs.entry_shift.z)),
-          rx0_(Everywhere(slabs.exit_rdir.x)), rx1_(Everywhere(slabs.exit_rdir.y)),
-          rx2_(Everywhere(slabs.exit_rdir.z)), sx0_(Everywhere(slabs.exit_shift.x)),
-          sx1_(Everywhere(slabs.exit_shift.y)), sx2_(Everywhere(slabs.exit_shift.z)),
+        : re0_(Everywhere(slabs.entry_rdir[0])), re1_(Everywhere(slabs.entry_rdir[1])),
+          re2_(Everywhere(slabs.entry_rdir[2])), se0_(Everywhere(slabs.entry_shift[0])),
+          se1_(Everywhere(slabs.entry_shift[1])), se2_(Everywhere(slabs.entry_shift[2])),
+          rx0_(Everywhere(slabs.exit_rdir[0])), rx1_(Everywhere(slabs.exit_rdir[1])),
+          rx2_(Everywhere(slabs.exit_rdir[2])), sx0_(Everywhere(slabs.exit_shift[0])),
+          sx1_(Everywhere(slabs.exit_shift[1])), sx2_(Everywhere(slabs.exit_shift[2])),
           t_min_(Everywhere(t_min)) {
+        constexpr std::size_t plane_bytes = sizeof(Node::plane) / 6;
         for (int k = 0; k < 3; ++k) {
             const bool negative = std::signbit(slabs.entry_rdir[k]);
-            near_[k] = static_cast<std::size_t>(negative ? 3 + k : k);
-            far_[k] = static_cast<std::size_t>(negative ? k : 3 + k);
+            near_[k] = plane_bytes * static_cast<std::size_t>(negative ? 3 + k : k);
+            far_[k] = plane_bytes * static_cast<std::size_t>(negative ? k : 3 + k);
         }
     }
 
@@ -159,12 +163,12 @@ template <class Node> HWY_INLINE void Prefetch(const TriangleBlocks& tree, std::
 }
 
 template <class Node, RayKernel K, RayMode mode, bool Counted>
-HWY_INLINE void WalkRay(const TriangleBlocks& tree, const Ray<float>& ray,
+HWY_INLINE void WalkRay(const TriangleBlocks& tree, const SlabBounds& bounds, const Ray<float>& ray,
                         RayWalk<K, mode, Counted>& state, WaitingNode* stack, std::uint32_t* refs) {
     namespace hn = hwy::HWY_NAMESPACE;
     const NodeTag<Node> df;
     const hn::Rebind<std::uint32_t, decltype(df)> du;
-    const NodeClip<Node> clip(FusedSlabs(ray, tree.bounds), state.t_min());
+    const NodeClip<Node> clip(FusedSlabs(ray, bounds), state.t_min());
     const auto* nodes = reinterpret_cast<const Node*>(tree.nodes.data());
     const auto* blocks = reinterpret_cast<const RayBlock<Node>*>(tree.blocks.data());
     BlockHits<ray_lanes<Node>> hits;
@@ -259,12 +263,13 @@ template <class Node> void WalkJob(const RayJob& job) {
     const std::size_t room = (job.depth + 2) * Node::width;
     Buffer<WaitingNode> stack(job.mode == RayMode::closest ? room : 0);
     Buffer<std::uint32_t> refs(job.mode == RayMode::closest ? 0 : room);
+    const SlabBounds bounds(job.triangles.bounds);
     with_job_types(job, [&]<class K, RayMode mode, bool Counted>(
                             std::type_identity<K>, std::integral_constant<RayMode, mode>,
                             std::bool_constant<Counted>) {
         walk_each<K, mode, Counted>(
             job, [&](const Ray<float>& ray, RayWalk<K, mode, Counted>& state) HWY_ATTR {
-                WalkRay<Node>(job.triangles, ray, state, stack.data(), refs.data());
+                WalkRay<Node>(job.triangles, bounds, ray, state, stack.data(), refs.data());
             });
     });
 }

@@ -106,6 +106,46 @@ std::vector<RayHit> brute_force(const TriangleMesh& mesh, std::span<const Ray<fl
     return hits;
 }
 
+/// All hits of all rays, in the order of the chunks.
+class AppendHits final : public HitSink {
+  public:
+    void begin(std::size_t chunks, bool) override { parts_.assign(chunks, {}); }
+    bool take(std::size_t chunk, std::uint32_t ray, std::span<const RayHit> hits) override {
+        for (const RayHit& hit : hits)
+            parts_[chunk].emplace_back(ray, hit);
+        return true;
+    }
+    void end() override {
+        for (const auto& part : parts_)
+            all.insert(all.end(), part.begin(), part.end());
+    }
+    std::vector<std::pair<std::uint32_t, RayHit>> all;
+
+  private:
+    std::vector<std::vector<std::pair<std::uint32_t, RayHit>>> parts_;
+};
+
+template <RayKernel K>
+std::vector<std::pair<std::uint32_t, RayHit>> all_by_brute_force(const TriangleMesh& mesh,
+                                                                 std::span<const Ray<float>> rays) {
+    std::vector<std::pair<std::uint32_t, RayHit>> all;
+    for (std::uint32_t r = 0; r < rays.size(); ++r) {
+        const auto per_ray = K::prepare(rays[r]);
+        std::vector<RayHit> hits;
+        for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+            RayHit hit;
+            if (!K::intersect(per_ray, rays[r], mesh.triangle(i), rays[r].t_max, hit))
+                continue;
+            hit.triangle = i;
+            hits.push_back(hit);
+        }
+        std::ranges::stable_sort(hits, {}, &RayHit::t);
+        for (const RayHit& hit : hits)
+            all.emplace_back(r, hit);
+    }
+    return all;
+}
+
 /// Closest and any hits of one layout, on every instruction set and executor.
 template <RayKernel K>
 void expect_hits(const AnyLayout& layout, const TriangleMesh& mesh,
@@ -165,11 +205,89 @@ TEST(Rays, AgreeWithBruteForceForEveryKernel) {
                 const std::vector<RayHit> expected = brute_force<K>(mesh, rays);
                 for (const LayoutEntry& entry : layouts()) {
                     SCOPED_TRACE(std::string(K::name) + "." + std::string(entry.name));
-                    const auto layout =
-                        entry.make(builders()[0].make({})(triangle_boxes(mesh), serial()), serial());
+                    const auto layout = entry.make(
+                        builders()[0].make({})(triangle_boxes(mesh), serial()), serial());
                     expect_hits<K>(*layout, mesh, rays, expected);
                 }
             });
+}
+
+TEST(Rays, FindEveryHitOnceForEveryWayExecutorAndInstructionSet) {
+    const std::vector<Ray<float>> rays = test_rays();
+    for (const TriangleMesh& mesh : {sphere(40), soup(3000), soup(1), soup(9), TriangleMesh{}}) {
+        const auto expected = all_by_brute_force<Watertight>(mesh, rays);
+        if (mesh.triangles.size() > 1000) {
+            EXPECT_GT(expected.size(), rays.size());
+        }
+        const Tree tree = make_builder("median")(triangle_boxes(mesh), serial());
+        for (const LayoutEntry& entry : layouts()) {
+            SCOPED_TRACE(entry.name);
+            const auto layout = entry.make(tree, serial());
+            const TriangleBlocks triangles = layout->triangles(mesh);
+            for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+                SCOPED_TRACE(hwy::TargetName(target));
+                hwy::SetSupportedTargetsForTest(target);
+                hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+                for (const ExecutorEntry& executor : executors()) {
+                    AppendHits sink;
+                    const auto run = executor.make(executor.name == "serial" ? 1 : 2);
+                    layout->rays_all(rays, "watertight", triangles, *run, sink);
+                    EXPECT_TRUE(sink.all == expected) << executor.name;
+                }
+            }
+            hwy::SetSupportedTargetsForTest(0);
+            hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        }
+    }
+}
+
+TEST(Rays, StopWhenTheSinkHasEnough) {
+    const TriangleMesh mesh = sphere(20);
+    const std::vector<Ray<float>> rays(5000, Ray<float>{{0, 0, 0}, {1, .3f, .2f}});
+    class Three final : public HitSink {
+      public:
+        void begin(std::size_t, bool) override {}
+        bool take(std::size_t, std::uint32_t, std::span<const RayHit>) override {
+            return ++taken < 3;
+        }
+        void end() override {}
+        int taken = 0;
+    };
+    for (const LayoutEntry& entry : layouts()) {
+        const auto layout =
+            entry.make(make_builder("median")(triangle_boxes(mesh), serial()), serial());
+        Three sink;
+        layout->rays_all(rays, "watertight", layout->triangles(mesh), serial(), sink);
+        EXPECT_EQ(sink.taken, 3) << entry.name;
+    }
+}
+
+TEST(Rays, AreRightAtEveryScaleAndFarFromTheOrigin) {
+    // Powers of two: the kernels answer the same, so the boxes must not lose anything either.
+    const TriangleMesh plain = soup(300);
+    for (const float scale : {0x1p-130f, 0x1p-60f, 1.0f, 0x1p60f, 0x1p99f})
+        for (const float offset : {0.0f, 1000.0f}) {
+            TriangleMesh mesh = plain;
+            for (Vec3<float>& v : mesh.vertices)
+                v = (v + Vec3<float>{offset, -offset, offset}) * scale;
+            std::vector<Ray<float>> rays = test_rays();
+            for (Ray<float>& ray : rays) {
+                ray.origin = (ray.origin + Vec3<float>{offset, -offset, offset}) * scale;
+                ray.t_min = 0;
+                ray.t_max = std::numeric_limits<float>::infinity();
+            }
+            rays.push_back({{NAN, 0, 0}, {1, 0, 0}});
+            rays.push_back({{0, 0, 0}, {INFINITY, 0, 0}});
+            rays.push_back({{0x1p127f, 0, 0}, {-1, 0, 0}});
+            const std::vector<RayHit> expected = brute_force<Watertight>(mesh, rays);
+            for (const LayoutEntry& entry : layouts()) {
+                const auto layout =
+                    entry.make(make_builder("median")(triangle_boxes(mesh), serial()), serial());
+                SCOPED_TRACE(std::string(entry.name) + " " + std::to_string(scale) + " " +
+                             std::to_string(offset));
+                expect_hits<Watertight>(*layout, mesh, rays, expected);
+            }
+        }
 }
 
 TEST(Rays, RefuseWrongArguments) {
