@@ -6,21 +6,31 @@
 
 namespace boxwood {
 
-/// Top-down build by the binned surface-area heuristic: centres fall into bins along each axis, and
-/// the cheapest of the planes between bins, counted as items times half area, splits the node.
-/// Nodes whose centres coincide are split at the median. O(n log n).
-/// Source: Wald 2007, "On fast Construction of SAH-based Bounding Volume Hierarchies".
+/// Top-down build by the binned surface-area heuristic: centres fall into bins
+/// along each axis, and the cheapest of the planes between bins, counted as
+/// items times half area, splits the node. Small nodes are joined from the
+/// bottom up, nearest pairs first, which is both quicker and better. Nodes
+/// whose centres coincide are halved. O(n log n), depth at most 3 log2(n) + 33.
+/// Sources: Wald 2007, "On fast Construction of SAH-based Bounding Volume
+/// Hierarchies"; for small nodes Walter et al. 2008, "Fast Agglomerative
+/// Clustering for Rendering".
 struct BinnedSahBuilder {
     static constexpr std::string_view name = "binned_sah";
     static constexpr std::string_view summary =
-        "top-down, cheapest of the planes between bins by surface area (Wald 2007)";
+        "top-down, cheapest of the planes between bins by surface area (Wald "
+        "2007)";
 
-    double bins = 16; ///< most bins per axis; a node of m items uses at most 4 + m / 16
+    double bins = 16;   ///< most bins per axis; a node of m items uses at most 4 + m / 16
+    double joined = 12; ///< nodes of up to this many items are joined from the
+                        ///< bottom up; 1: none
 
-    static constexpr int most_bins = 64;
+    static constexpr int most_bins = 32, most_joined = 16;
     static auto settings() {
         return std::array{Setting<BinnedSahBuilder>{"bins", "most bins per axis",
-                                                    &BinnedSahBuilder::bins, 2, most_bins}};
+                                                    &BinnedSahBuilder::bins, 2, most_bins},
+                          Setting<BinnedSahBuilder>{"joined",
+                                                    "most items of a node that is joined bottom-up",
+                                                    &BinnedSahBuilder::joined, 1, most_joined}};
     }
 
     Tree build(Boxes boxes, const Executor& executor) const;
