@@ -40,7 +40,7 @@ struct DistanceScale {
             reach = std::max({reach, p - static_cast<double>(bounds.min[axis]),
                               static_cast<double>(bounds.max[axis]) - p});
         }
-        if (reach > 0x1p40 || (reach > 0 && reach < 0x1p-40))
+        if (reach > 0x1p10 || (reach > 0 && reach < 0x1p-10))
             scale = std::ldexp(1.0f, std::clamp(-std::ilogb(reach), -120, 120));
     }
 

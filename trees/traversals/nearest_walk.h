@@ -60,6 +60,7 @@ class NearestSurface {
     NearestSurface(Vec3<float> point, const TriangleMesh& mesh) : point_(point), mesh_(mesh) {}
 
     double worst() const { return best_.squared_distance; }
+    Triangle<float> triangle(std::uint32_t i) const { return mesh_.triangle(i); }
     void offer(std::uint32_t triangle) {
         const Triangle<float> t = mesh_.triangle(triangle);
         const auto found = point_triangle::Regions::nearest(

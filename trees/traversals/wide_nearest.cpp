@@ -7,6 +7,7 @@
 
 #include "trees/traversals/distance_lanes-inl.h"
 #include "trees/traversals/points.h"
+#include "trees/traversals/triangle_lanes-inl.h"
 
 #include <bit>
 
@@ -64,35 +65,75 @@ HWY_INLINE std::uint32_t NearestLane(const Block& block, Vec3<float> point, floa
     return block.ref[lane];
 }
 
-template <class L> struct Offer {
-    using Leaf = typename L::Leaf;
-
-    static HWY_INLINE void lane(NearestItems& best, Vec3<float> point, const Leaf& leaf,
-                                std::size_t lane) {
-        best.offer({leaf.ref[lane], squared_distance(point, leaf.lane(lane))});
-    }
-    static HWY_INLINE void lane(NearestSurface& best, Vec3<float>, const Leaf& leaf,
-                                std::size_t lane) {
-        best.offer(leaf.ref[lane]);
-    }
+/// What a search looks for, bounded by what it has found.
+struct Goal {
+    Vec3<float> point;
+    DistanceScale scaled;
+    float bound = std::numeric_limits<float>::infinity();
 };
+
+/// The items of a leaf, nearest first.
+template <bool Counted, class Leaf>
+HWY_INLINE void OfferAll(const Leaf& leaf, Goal& goal, NearestItems& best, NearestWalk&) {
+    alignas(64) std::uint64_t lanes[2 * RegionWalk::spare];
+    const std::size_t n = AppendNear<true>(leaf, goal.point, goal.scaled.scale, goal.bound, lanes);
+    for (std::size_t i = n; i-- > 0 && NearestWalk::bound(lanes[i]) <= goal.bound;) {
+        const std::uint32_t lane = NearestWalk::ref(lanes[i]);
+        best.offer({leaf.ref[lane], squared_distance(goal.point, leaf.lane(lane))});
+        goal.bound = goal.scaled.above(best.worst());
+    }
+}
+
+/// The triangles of a leaf: all that are near by their boxes are bounded together in floats, and
+/// computed in doubles if they may still be nearer than what was found, the nearest first.
+template <bool Counted, class Leaf>
+HWY_INLINE void OfferAll(const Leaf& leaf, Goal& goal, NearestSurface& best, NearestWalk& walk) {
+    const BoundTag<Leaf> df;
+    const float scale = goal.scaled.scale;
+    std::uint32_t near = 0;
+    for (std::size_t i = 0; i < Leaf::width; i += hn::Lanes(df))
+        near |= MaskBits(
+            df,
+            hn::And(hn::Le(DistanceBounds(leaf, i, goal.point, scale), hn::Set(df, goal.bound)),
+                    UsedLanes(df, leaf, i)),
+            i);
+    if (near == 0)
+        return;
+    SeenTriangles seen;
+    std::uint32_t items[SeenTriangles::most];
+    std::size_t n = 0;
+    for (; near != 0; near &= near - 1) {
+        items[n] = leaf.ref[static_cast<std::size_t>(std::countr_zero(near))];
+        seen.Set(n, best.triangle(items[n]), goal.point, scale);
+        ++n;
+    }
+    walk.template count_triangles<Counted>(n);
+    const hn::CappedTag<float, SeenTriangles::most> d;
+    alignas(64) float bounds[SeenTriangles::most];
+    for (std::size_t i = 0; i < n; i += hn::Lanes(d))
+        hn::Store(TriangleBounds(d, seen, i), d, bounds + i);
+    const std::size_t first =
+        static_cast<std::size_t>(std::min_element(bounds, bounds + n) - bounds);
+    const auto offer = [&](std::size_t i) {
+        if (bounds[i] > goal.bound)
+            return;
+        best.offer(items[i]);
+        goal.bound = goal.scaled.above(best.worst());
+    };
+    offer(first);
+    for (std::size_t i = 0; i < n; ++i)
+        if (i != first)
+            offer(i);
+}
 
 /// Down to the nearest leaf first, for a bound; then all that may be as near, nearest first.
 template <bool Counted, class L, class Best>
 HWY_INLINE void Search(const L& tree, Vec3<float> point, Best& best, NearestWalk& walk) {
-    const DistanceScale scaled(point, tree.bounds());
-    const float scale = scaled.scale;
-    float bound = std::numeric_limits<float>::infinity();
+    Goal goal{point, DistanceScale(point, tree.bounds())};
+    const float scale = goal.scaled.scale;
     const auto open_leaf = [&](std::uint32_t ref, std::size_t waiting) HWY_ATTR {
-        const auto& leaf = tree.leaf(ref);
-        alignas(64) std::uint64_t lanes[2 * RegionWalk::spare];
-        const std::size_t n = AppendNear<true>(leaf, point, scale, bound, lanes);
         walk.template count<Counted>(L::width, waiting);
-        for (std::size_t i = n; i-- > 0 && NearestWalk::bound(lanes[i]) <= bound;) {
-            walk.template count_triangles<Counted && std::is_same_v<Best, NearestSurface>>(1);
-            Offer<L>::lane(best, point, leaf, NearestWalk::ref(lanes[i]));
-            bound = scaled.above(best.worst());
-        }
+        OfferAll<Counted>(tree.leaf(ref), goal, best, walk);
     };
     std::uint32_t first = tree.root();
     while (!L::is_leaf(first)) {
@@ -106,12 +147,12 @@ HWY_INLINE void Search(const L& tree, Vec3<float> point, Best& best, NearestWalk
     for (std::size_t top = 1; top != 0;) {
         const std::uint64_t next = stack[--top];
         const std::uint32_t ref = NearestWalk::ref(next);
-        if (NearestWalk::bound(next) > bound || ref == first)
+        if (NearestWalk::bound(next) > goal.bound || ref == first)
             continue;
         if (L::is_leaf(ref)) {
             open_leaf(ref, top);
         } else {
-            top += AppendNear<false>(tree.block(ref), point, scale, bound, stack + top);
+            top += AppendNear<false>(tree.block(ref), point, scale, goal.bound, stack + top);
             walk.template count<Counted>(L::width, top);
         }
     }
