@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#define BOXWOOD_BUILDERS(X) X(median) X(binned_sah) X(sweep_sah) X(incremental) X(lbvh)
+#define BOXWOOD_BUILDERS(X) X(median) X(binned_sah) X(sweep_sah) X(spatial_sah) X(incremental) X(lbvh)
 #define BOXWOOD_STAGES(X) X(reinsertion)
 #define BOXWOOD_LAYOUTS(X)                                                                         \
     X(binary) X(wide4) X(wide8) X(wide16) X(quantised8) X(binary_f64) X(wide8_f64)

@@ -1,5 +1,9 @@
 #include "trees/validate.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
 #include <string_view>
 #include <vector>
 
@@ -72,6 +76,33 @@ std::optional<std::string> fault_in_boxes(const Tree& tree, Boxes boxes, Bounds 
     return {};
 }
 
+/// Whether a point, known to within `error`, lies in one of the boxes.
+bool covered(const Vec3<double>& p, const Vec3<double>& error, std::span<const Box> boxes) {
+    return std::ranges::any_of(boxes, [&](const Box& box) {
+        for (int k = 0; k < 3; ++k)
+            if (p[k] + error[k] < static_cast<double>(box.min[k]) ||
+                p[k] - error[k] > static_cast<double>(box.max[k]))
+                return false;
+        return true;
+    });
+}
+
+/// A point of the triangle that none of the boxes holds, if one is found: where two weights are
+/// multiples of 1/16. The sum of three products is off by at most 2^-51 of the largest coordinate.
+std::optional<Vec3<double>> uncovered_point(const Triangle<float>& t, std::span<const Box> boxes) {
+    const Vec3<double> a(t.a), b(t.b), c(t.c);
+    Vec3<double> error;
+    for (int k = 0; k < 3; ++k)
+        error[k] = 0x1p-51 * std::max({std::abs(a[k]), std::abs(b[k]), std::abs(c[k])});
+    for (int i = 0; i <= 16; ++i)
+        for (int j = 0; i + j <= 16; ++j) {
+            const Vec3<double> p = a * (i / 16.) + b * (j / 16.) + c * ((16 - i - j) / 16.);
+            if (!covered(p, error, boxes))
+                return p;
+        }
+    return {};
+}
+
 } // namespace
 
 std::optional<std::string> validate(const Tree& tree, Boxes boxes, Bounds bounds) {
@@ -86,6 +117,55 @@ std::optional<std::string> validate(const Tree& tree, Boxes boxes, Bounds bounds
     if (auto fault = fault_in_shape(tree))
         return fault;
     return fault_in_boxes(tree, boxes, bounds);
+}
+
+std::optional<std::string> validate_split(const Tree& tree, const TriangleMesh& mesh) {
+    const std::size_t m = tree.size(), n = mesh.triangles.size();
+    if (!tree.is_split)
+        return "the tree is not marked as split";
+    if (const std::size_t nodes = m ? 2 * m - 1 : 0; tree.nodes.size() != nodes)
+        return text(tree.nodes.size()) + " nodes, but " + text(m) + " leaves need " + text(nodes);
+    if (auto fault = fault_in_shape(tree))
+        return fault;
+
+    // The leaf boxes sorted by item.
+    std::vector<std::size_t> starts(n + 1, 0);
+    for (std::size_t slot = 0; slot < m; ++slot) {
+        if (tree.order[slot] >= n)
+            return "slot " + text(slot) + ": item " + text(tree.order[slot]) + " of a mesh of " +
+                   text(n) + " triangles";
+        ++starts[tree.order[slot] + std::size_t{1}];
+    }
+    std::partial_sum(starts.begin(), starts.end(), starts.begin());
+    std::vector<Box> parts(m);
+    std::vector<std::size_t> next(starts.begin(), starts.end() - 1);
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+        const Box& box = tree.nodes[i].box;
+        if (!tree.is_leaf(i)) {
+            const std::size_t left = Tree::left(i), right = tree.right(i);
+            if (!(box == merge(tree.nodes[left].box, tree.nodes[right].box)))
+                return "node " + text(i) +
+                       ": its box is not exactly the union of its children, nodes " + text(left) +
+                       " and " + text(right);
+            continue;
+        }
+        const std::uint32_t item = tree.item(i);
+        if (!box.is_valid() || !mesh.triangle(item).bounds().contains(box))
+            return "node " + text(i) + ": its box is not part of that of its triangle " +
+                   text(item);
+        parts[next[item]++] = box;
+    }
+    for (std::size_t item = 0; item < n; ++item) {
+        const auto of_item =
+            std::span(parts).subspan(starts[item], starts[item + 1] - starts[item]);
+        if (of_item.empty())
+            return "triangle " + text(item) + " is in no slot";
+        if (const auto p = uncovered_point(mesh.triangle(item), of_item))
+            return "triangle " + text(item) + ": none of its " + text(of_item.size()) +
+                   " leaf boxes holds its point (" + std::to_string(p->x) + ", " +
+                   std::to_string(p->y) + ", " + std::to_string(p->z) + ")";
+    }
+    return {};
 }
 
 } // namespace boxwood
