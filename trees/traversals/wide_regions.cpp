@@ -44,7 +44,9 @@ template <class Real> struct BoxRegion {
 struct Ball {
     Vec3<float> centre;
     double squared_radius;
-    float scale, bound; ///< bound: at least the squared radius, scaled
+    /// Squares, scaled: what is bounded from below by more than `bound` is outside; by less than
+    /// `sure_bound`, inside.
+    float scale, bound, sure_bound;
 
     template <class Real>
     Ball(const Sphere<float>& ball, const Aabb<Real>& bounds) : centre(ball.centre) {
@@ -53,31 +55,47 @@ struct Ball {
         const DistanceScale scaled(centre, bounds);
         scale = scaled.scale;
         bound = scaled.above(squared_radius);
+        // A bound b is of a square below (b + least) * (1 + 2 share); least again where it
+        // underflows.
+        sure_bound = scaled.below(squared_radius) * (1 - 4 * DistanceScale::share) -
+                     4 * DistanceScale::least;
     }
 
-    template <class Block> HWY_INLINE std::uint32_t Lanes(const Block& block) const {
-        const BoundTag<Block> df;
-        std::uint32_t bits = 0;
-        for (std::size_t i = 0; i < Block::width; i += hn::Lanes(df)) {
-            const auto near = hn::Le(DistanceBounds(block, i, centre, scale), hn::Set(df, bound));
-            bits |= MaskBits(df, near, i);
-        }
-        return bits & ((1u << block.count) - 1);
-    }
     template <class Block>
     HWY_INLINE std::size_t Append(const Block& block, std::uint32_t* to) const {
+        const BoundTag<Block> df;
+        const RefTag<Block> du;
         std::size_t n = 0;
-        for (std::uint32_t bits = Lanes(block); bits != 0; bits &= bits - 1)
-            to[n++] = block.ref[std::countr_zero(bits)];
+        for (std::size_t i = 0; i < Block::width; i += hn::Lanes(df)) {
+            const auto near =
+                hn::And(hn::Le(DistanceBounds(block, i, centre, scale), hn::Set(df, bound)),
+                        UsedLanes(df, block, i));
+            const auto hits = hn::RebindMask(du, near);
+            hn::StoreU(hn::Compress(LoadRefs(block, i), hits), du, to + n);
+            n += hn::CountTrue(du, hits);
+        }
         return n;
     }
+    /// What is inside by more than rounding is taken as it is, the others are computed.
     template <class Block>
     HWY_INLINE std::size_t AppendItems(const Block& block, std::uint32_t* to) const {
+        const BoundTag<Block> df;
+        const RefTag<Block> du;
         std::size_t n = 0;
-        for (std::uint32_t bits = Lanes(block); bits != 0; bits &= bits - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-            to[n] = block.ref[lane];
-            n += squared_distance(centre, block.lane(lane)) <= squared_radius;
+        for (std::size_t i = 0; i < Block::width; i += hn::Lanes(df)) {
+            const auto bounds = DistanceBounds(block, i, centre, scale);
+            const auto used = UsedLanes(df, block, i);
+            const auto sure = hn::And(hn::Lt(bounds, hn::Set(df, sure_bound)), used);
+            const auto near = hn::And(hn::Le(bounds, hn::Set(df, bound)), used);
+            const auto hits = hn::RebindMask(du, sure);
+            hn::StoreU(hn::Compress(LoadRefs(block, i), hits), du, to + n);
+            n += hn::CountTrue(du, hits);
+            for (std::uint32_t bits = MaskBits(df, hn::AndNot(sure, near), i); bits != 0;
+                 bits &= bits - 1) {
+                const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+                to[n] = block.ref[lane];
+                n += squared_distance(centre, block.lane(lane)) <= squared_radius;
+            }
         }
         return n;
     }
