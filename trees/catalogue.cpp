@@ -13,13 +13,14 @@
 #include <string>
 #include <vector>
 
-#define BOXWOOD_BUILDERS(X) X(median) X(binned_sah) X(sweep_sah) X(spatial_sah) X(incremental) X(lbvh)
+#define BOXWOOD_BUILDERS(X)                                                                        \
+    X(median) X(hilbert) X(binned_sah) X(sweep_sah) X(spatial_sah) X(incremental) X(lbvh)
 #define BOXWOOD_STAGES(X) X(reinsertion)
 #define BOXWOOD_LAYOUTS(X)                                                                         \
-    X(binary) X(wide4) X(wide8) X(wide16) X(quantised8) X(binary_f64) X(wide8_f64)
+    X(binary) X(wide4) X(wide8) X(wide16) X(packed) X(quantised8) X(binary_f64) X(wide8_f64)
 #define BOXWOOD_EXECUTORS(X) X(serial) X(openmp) X(tbb)
 
-#define BOXWOOD_UPDATES(X) X(refit) X(reinsert) X(refine) X(rebuild) X(merge)
+#define BOXWOOD_UPDATES(X) X(refit) X(reinsert) X(refine) X(rebuild) X(merge) X(auto)
 
 namespace boxwood {
 
