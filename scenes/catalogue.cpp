@@ -12,6 +12,7 @@
     X(needles)                                                                                     \
     X(sphere_mesh)                                                                                 \
     X(triangle_soup)                                                                               \
+    X(sliver_mesh)                                                                                 \
     X(four_link)                                                                                   \
     X(mesh)
 

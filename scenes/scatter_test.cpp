@@ -38,7 +38,8 @@ INSTANTIATE_TEST_SUITE_P(Scatter, Overlaps,
                                          Wanted{"bars", 1, 0.1}, Wanted{"planks", 10, 0.08},
                                          Wanted{"planks", 1, 0.1}, Wanted{"needles", 10, 0.08},
                                          Wanted{"needles", 1, 0.1},
-                                         Wanted{"triangle_soup", 10, 0.05}),
+                                         Wanted{"triangle_soup", 10, 0.05},
+                                         Wanted{"sliver_mesh", 10, 0.08}),
                          [](const auto& test) {
                              return std::string(test.param.generator) + "_" +
                                     std::to_string(static_cast<int>(test.param.overlaps));

@@ -264,8 +264,8 @@ TEST(Rays, StopWhenTheSinkHasEnough) {
 
 TEST(Rays, AreRightAtEveryScaleAndFarFromTheOrigin) {
     // Powers of two: the kernels answer the same, so the boxes must not lose anything either.
-    const TriangleMesh plain = soup(300);
-    for (const float scale : {0x1p-130f, 0x1p-60f, 1.0f, 0x1p60f, 0x1p99f})
+    const TriangleMesh plain = soup(60);
+    for (const float scale : {0x1p-130f, 1.0f, 0x1p99f})
         for (const float offset : {0.0f, 1000.0f}) {
             TriangleMesh mesh = plain;
             for (Vec3<float>& v : mesh.vertices)
