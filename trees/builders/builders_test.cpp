@@ -1,5 +1,6 @@
 #include "trees/box_families_for_test.h"
 #include "trees/builder.h"
+#include "trees/builders/top_down.h"
 #include "trees/quality.h"
 #include "trees/validate.h"
 
@@ -34,6 +35,18 @@ TEST(Builders, EveryFiniteSettingMakesValidTrees) {
                 const Tree tree = builder.make(settings)(boxes, serial());
                 EXPECT_FALSE(validate(tree, boxes)) << builder.name << " " << setting.name;
             }
+}
+
+TEST(TopDown, MakesValidTreesBySplitsOfOnesOwn) {
+    for (const BoxFamily& family : box_families()) {
+        // One item goes left each time, but for the depth limit: the worst of splits.
+        const Tree tree =
+            build_top_down(family.boxes, serial(),
+                           [](std::span<Prim>, std::span<Prim>) { return std::size_t{1}; });
+        EXPECT_EQ(validate(tree, family.boxes).value_or(""), "") << family.name;
+        EXPECT_LE(quality(tree, family.boxes).depth_max,
+                  3u * std::bit_width(family.boxes.size()) + 33);
+    }
 }
 
 TEST(MedianBuilder, HasTheLeastDepth) {
@@ -85,10 +98,12 @@ TEST(Builders, MakeTheSameTreeOnEveryExecutorAndInstructionSet) {
         const BuildFunction build = builder.make({});
         const Tree expected = build(boxes, serial());
         for (const ExecutorEntry& executor : executors())
-            for (const unsigned threads : {2u, 4u})
-                if (executor.name != "serial")
-                    EXPECT_TRUE(same(expected, build(boxes, *executor.make(threads))))
-                        << executor.name << " " << threads;
+            for (const unsigned threads : {2u, 4u}) {
+                if (executor.name == "serial")
+                    continue;
+                EXPECT_TRUE(same(expected, build(boxes, *executor.make(threads))))
+                    << executor.name << " " << threads;
+            }
         for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
             hwy::SetSupportedTargetsForTest(target);
             EXPECT_TRUE(same(expected, build(boxes, serial()))) << hwy::TargetName(target);

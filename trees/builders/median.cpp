@@ -1,38 +1,187 @@
+// Compiled once per instruction set; the best one is chosen at run time.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "trees/builders/median.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.
+#include <hwy/highway.h>
+
 #include "trees/builders/median.h"
-#include "trees/builders/top_down.h"
+#include "trees/builders/prim8-inl.h"
+#include "trees/refit.h"
 
+#include <algorithm>
+#include <limits>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+HWY_BEFORE_NAMESPACE();
+namespace boxwood::HWY_NAMESPACE {
+
+/// A subtree to build, whose items are in one of the two arrays.
+struct MedianRange {
+    std::uint32_t node, first, count, array;
+};
+
+class MedianBuild {
+  public:
+    MedianBuild(Boxes boxes, const Executor& executor)
+        : boxes_(boxes), executor_(executor), items_(boxes, executor), other_(boxes.size()),
+          keys_(boxes.size()), tree_(boxes.size()) {}
+
+    Tree Run() {
+        const auto n = static_cast<std::uint32_t>(boxes_.size());
+        if (n == 0)
+            return std::move(tree_);
+        constexpr std::uint32_t small = 2048;
+        constexpr std::size_t enough = 32;
+        std::vector<MedianRange> frontier{{0, 0, n, 0}};
+        while (executor_.threads() > 1 && frontier.size() < enough && frontier[0].count > small) {
+            std::vector<MedianRange> next(2 * frontier.size());
+            executor_.for_each(frontier.size(), [&](std::size_t i) {
+                std::tie(next[2 * i], next[2 * i + 1]) = Halve(frontier[i]);
+            });
+            frontier.swap(next);
+        }
+        executor_.for_each(frontier.size(), [&](std::size_t i) { BuildSubtree(frontier[i]); });
+        if (items_.scale != 1)
+            refit(tree_, boxes_);
+        return std::move(tree_);
+    }
+
+  private:
+    Prim8* Array(std::uint32_t array) { return (array ? other_ : items_.prims).data(); }
+
+    /// The order of the centres, ties by item: bits in the order of the numbers, then the item.
+    static std::int64_t Key(const Prim8& p, int axis) {
+        const auto bits = std::bit_cast<std::int32_t>(p.doubled_centre(axis) + 0.f);
+        return std::int64_t{bits ^ (bits >> 31 & 0x7fffffff)} * (std::int64_t{1} << 32) | p.item();
+    }
+
+    /// The key with half of the at most 64 keys below it: counts for each key those below it, as
+    /// comparisons cost less than mispredicted branches.
+    static std::int64_t PivotOfFew(const Prim8* prims, std::uint32_t n, int axis) {
+        namespace hn = hwy::HWY_NAMESPACE;
+        constexpr hn::CappedTag<std::int64_t, 8> d;
+        alignas(64) std::int64_t keys[64 + 8];
+        for (std::uint32_t i = 0; i < n; ++i)
+            keys[i] = Key(prims[i], axis);
+        for (std::uint32_t i = n; i < n + 8; ++i)
+            keys[i] = std::numeric_limits<std::int64_t>::max();
+        std::int64_t pivot = keys[0];
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const auto key = hn::Set(d, keys[i]);
+            std::size_t below = 0;
+            for (std::size_t from = 0; from < n; from += hn::Lanes(d))
+                below += hn::CountTrue(d, hn::Lt(hn::Load(d, keys + from), key));
+            pivot = below == n / 2 ? keys[i] : pivot;
+        }
+        return pivot;
+    }
+
+    /// The key with half of the keys below it.
+    std::int64_t Pivot(const Prim8* prims, const MedianRange& r, int axis, float low, float high) {
+        if (r.count <= 64)
+            return PivotOfFew(prims, r.count, axis);
+        std::int64_t* keys = keys_.data() + r.first;
+        std::size_t n = 0, left = r.count / 2;
+        // Only the keys of the bin that has the middle need a closer look.
+        constexpr std::size_t bins = 256;
+        const float spread = high - low;
+        const float scale = spread > 0x1p-90f ? float{bins} / spread : 0;
+        const auto bin_of = [&](const Prim8& p) {
+            return std::clamp(static_cast<int>((p.doubled_centre(axis) - low) * scale), 0,
+                              static_cast<int>(bins) - 1);
+        };
+        std::uint32_t count[bins] = {};
+        for (std::uint32_t i = 0; i < r.count; ++i)
+            ++count[bin_of(prims[i])];
+        int bin = 0;
+        for (; left >= count[bin]; ++bin)
+            left -= count[bin];
+        for (std::uint32_t i = 0; i < r.count; ++i) {
+            keys[n] = Key(prims[i], axis);
+            n += bin_of(prims[i]) == bin;
+            if (n == count[bin])
+                break;
+        }
+        std::nth_element(keys, keys + left, keys + n);
+        return keys[left];
+    }
+
+    /// Writes the node and parts its items, each side in its old order, into the other array.
+    std::pair<MedianRange, MedianRange> Halve(const MedianRange& r) {
+        const Prim8* prims = Array(r.array) + r.first;
+        F8 box = SetF8(kLeast), centres = box;
+        for (std::uint32_t i = 0; i < r.count; ++i) {
+            const F8 each = LoadF8(prims[i].v);
+            box = MaxF8(box, each);
+            centres = MaxF8(centres, DoubledCentre(each));
+        }
+        WriteNode(box, r.first, r.count, tree_.nodes[r.node]);
+        float c[8];
+        StoreF8(centres, c);
+        const float x = c[0] + c[4], y = c[1] + c[5], z = c[2] + c[6];
+        const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+        const std::int64_t pivot = Pivot(prims, r, axis, -c[4 + axis], c[axis]);
+
+        Prim8* to = Array(r.array ^ 1) + r.first;
+        const std::uint32_t n_left = r.count / 2;
+        // Without a branch: it would be mispredicted half the time.
+        std::size_t left = 0, right = n_left;
+        for (std::uint32_t i = 0; i < r.count; ++i) {
+            const std::size_t goes_left = Key(prims[i], axis) < pivot;
+            const std::size_t at = right ^ ((left ^ right) & (0 - goes_left));
+            StoreF8(LoadF8(prims[i].v), to[at].v);
+            left += goes_left;
+            right += 1 - goes_left;
+        }
+        return {{r.node + 1, r.first, n_left, r.array ^ 1},
+                {r.node + 2 * n_left, r.first + n_left, r.count - n_left, r.array ^ 1}};
+    }
+
+    void BuildSubtree(const MedianRange& root) {
+        MedianRange waiting[32]; // halves: one for each level
+        std::size_t n_waiting = 0;
+        for (MedianRange r = root;;) {
+            if (r.count > 1) {
+                std::tie(r, waiting[n_waiting]) = Halve(r);
+                ++n_waiting;
+                continue;
+            }
+            const Prim8& p = Array(r.array)[r.first];
+            WriteNode(LoadF8(p.v), r.first, 1, tree_.nodes[r.node]);
+            tree_.order[r.first] = p.item();
+            if (n_waiting == 0)
+                break;
+            r = waiting[--n_waiting];
+        }
+    }
+
+    Boxes boxes_;
+    const Executor& executor_;
+    Prims8 items_;
+    Buffer<Prim8> other_;
+    Buffer<std::int64_t> keys_;
+    Tree tree_;
+};
+
+Tree BuildByMedians(Boxes boxes, const Executor& executor) {
+    return MedianBuild(boxes, executor).Run();
+}
+
+} // namespace boxwood::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace boxwood {
-namespace {
-
-/// The lower half of the centres along an axis goes first; ties by item, so the halves are unique.
-template <int axis> std::size_t halve(std::span<Prim> prims) {
-    const auto middle = static_cast<std::ptrdiff_t>(prims.size() / 2);
-    std::nth_element(prims.begin(), prims.begin() + middle, prims.end(),
-                     [](const Prim& a, const Prim& b) {
-                         const float x = a.centre(axis), y = b.centre(axis);
-                         return x < y || (x == y && a.item < b.item);
-                     });
-    return static_cast<std::size_t>(middle);
-}
-
-} // namespace
-
-std::size_t split_median(std::span<Prim> prims) {
-    Box centres;
-    for (const Prim& p : prims)
-        centres.extend(Vec3<float>{p.centre(0), p.centre(1), p.centre(2)});
-    // Halved: the spread of finite centres can overflow.
-    const Vec3<float> half = centres.max * .5f - centres.min * .5f;
-    const int axis = half.x >= half.y && half.x >= half.z ? 0 : half.y >= half.z ? 1 : 2;
-    return axis == 0 ? halve<0>(prims) : axis == 1 ? halve<1>(prims) : halve<2>(prims);
-}
+HWY_EXPORT(BuildByMedians);
 
 Tree MedianBuilder::build(Boxes boxes, const Executor& executor) const {
-    return build_top_down(boxes, executor, [](std::span<Prim> prims, std::span<Prim>) {
-        return split_median(prims);
-    });
+    return HWY_DYNAMIC_DISPATCH(BuildByMedians)(boxes, executor);
 }
 
 BuilderEntry median_builder() { return builder_entry<MedianBuilder>(); }
 
 } // namespace boxwood
+#endif
