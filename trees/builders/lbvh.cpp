@@ -22,19 +22,32 @@ struct RadixPart {
     std::uint32_t count() const { return end - begin; }
 };
 
-/// What the items of slots are: their boxes by `order`, their codes ascending.
-struct SortedItems {
-    const Box* boxes;
-    const std::uint32_t* order;
-    const std::uint64_t* codes;
+/// Items by slot, sorted by codes and told apart by their numbers where these are equal: a code
+/// above an item in each record.
+struct CoarseItems {
+    const std::uint64_t* records;
 
-    /// How high in the tree the items of slots i - 1 and i part: the first of the bits in which
-    /// their codes differ, or below all of these of their slots. Between two of these keys within
-    /// one subtree the greater has the higher bit, so they are compared as they are.
+    std::uint32_t item(std::size_t i) const { return static_cast<std::uint32_t>(records[i]); }
+    /// The bits in which slots differ: how high in the tree they part, by the first of these.
+    std::uint64_t differing(std::size_t i, std::size_t j) const { return records[i] ^ records[j]; }
+    /// Between two neighbours' keys within one subtree the greater has the higher bit, so they are
+    /// compared as they are.
+    std::uint64_t parting(std::size_t i) const { return differing(i - 1, i); }
+    bool has(std::size_t i, std::uint64_t bit) const { return (records[i] & bit) != 0; }
+};
+
+/// The same with codes that fill a word: below their bits come those of the slots.
+struct FineItems {
+    const std::uint64_t* codes;
+    const std::uint32_t* order;
+
+    std::uint32_t item(std::size_t i) const { return order[i]; }
+    std::uint64_t differing(std::size_t i, std::size_t j) const { return codes[i] ^ codes[j]; }
     std::uint64_t parting(std::size_t i) const {
-        const std::uint64_t differing = codes[i - 1] ^ codes[i];
-        return differing ? differing + (std::uint64_t{1} << 32) : (i - 1) ^ i;
+        const std::uint64_t bits = differing(i - 1, i);
+        return bits ? bits + (std::uint64_t{1} << 32) : (i - 1) ^ i;
     }
+    bool has(std::size_t i, std::uint64_t bit) const { return (codes[i] & bit) != 0; }
 };
 
 } // namespace boxwood
@@ -87,23 +100,41 @@ class NodeLanes {
 /// Writes a subtree from its last node to its first. Depth-first order backwards is: the right
 /// child, the left child, the node. So each item in turn becomes the leftmost of all subtrees that
 /// are complete: those to its right that part from it at a lower bit than the item to its left.
-void WriteRadixPart(const SortedItems& items, const RadixPart& part, TreeNode* nodes) {
+template <class Items>
+void Write(const Items& items, const Box* boxes, const RadixPart& part, Tree& tree) {
     constexpr std::uint32_t ahead = 16;
-    TreeNode* at = nodes + part.node + 2 * std::size_t{part.count()} - 1;
+    constexpr std::uint64_t never = std::numeric_limits<std::uint64_t>::max();
+    // Where complete subtrees part, from right to left. Each lies at a lower bit than the one
+    // before: of 63 of codes and 30 of places at most.
+    std::uint64_t partings[96] = {never};
+    std::uint64_t* nearest = partings;
+    TreeNode* at = tree.nodes.data() + part.node + 2 * std::size_t{part.count()} - 1;
+    std::uint32_t* const order = tree.order.data();
     for (std::uint32_t i = part.end; i-- > part.begin;) {
         if (i >= ahead)
-            __builtin_prefetch(items.boxes + items.order[i - ahead]);
-        NodeLanes node(items.boxes[items.order[i]], i);
+            __builtin_prefetch(boxes + items.item(i - ahead));
+        const std::uint32_t item = items.item(i);
+        order[i] = item;
+        NodeLanes node(boxes[item], i);
         node.Store(*--at);
-        const std::uint64_t left =
-            i > part.begin ? items.parting(i) : std::numeric_limits<std::uint64_t>::max();
-        for (std::uint32_t end = i + 1; end < part.end && items.parting(end) < left;) {
-            const TreeNode& right = at[2 * std::size_t{end - i} - 1];
-            end += right.count;
-            node.Extend(right, i, end - i);
+        const std::uint64_t left = i > part.begin ? items.parting(i) : never;
+        std::uint32_t count = 1;
+        while (*nearest < left) {
+            --nearest;
+            const TreeNode& right = at[2 * std::size_t{count} - 1];
+            count += right.count;
+            node.Extend(right, i, count);
             node.Store(*--at);
         }
+        *++nearest = left;
     }
+}
+
+void WriteCoarse(const CoarseItems& items, const Box* boxes, const RadixPart& part, Tree& tree) {
+    Write(items, boxes, part, tree);
+}
+void WriteFine(const FineItems& items, const Box* boxes, const RadixPart& part, Tree& tree) {
+    Write(items, boxes, part, tree);
 }
 
 } // namespace boxwood::HWY_NAMESPACE
@@ -111,26 +142,29 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace boxwood {
-HWY_EXPORT(WriteRadixPart);
+HWY_EXPORT(WriteCoarse);
+HWY_EXPORT(WriteFine);
 
 namespace {
 
 /// The first slot of the right child of a subtree of two or more items.
-std::uint32_t middle(const SortedItems& items, const RadixPart& part) {
-    const std::uint64_t differing = items.codes[part.begin] ^ items.codes[part.end - 1];
-    if (differing == 0) {
-        const std::uint32_t last = part.end - 1;
+template <class Items> std::uint32_t middle(const Items& items, const RadixPart& part) {
+    const std::uint32_t last = part.end - 1;
+    const std::uint64_t differing = items.differing(part.begin, last);
+    if (differing == 0)
         return last & ~(std::bit_floor(part.begin ^ last) - 1);
-    }
     const std::uint64_t bit = std::bit_floor(differing);
-    return static_cast<std::uint32_t>(
-        std::partition_point(items.codes + part.begin, items.codes + part.end,
-                             [&](std::uint64_t code) { return (code & bit) == 0; }) -
-        items.codes);
+    std::uint32_t lower = part.begin, upper = last;
+    while (upper - lower > 1) {
+        const std::uint32_t between = lower + (upper - lower) / 2;
+        (items.has(between, bit) ? upper : lower) = between;
+    }
+    return upper;
 }
 
 /// Subtrees to share out, and `top`, the subtrees that these are parts of.
-std::vector<RadixPart> cut(const SortedItems& items, std::uint32_t n, std::vector<RadixPart>& top) {
+template <class Items>
+std::vector<RadixPart> cut(const Items& items, std::uint32_t n, std::vector<RadixPart>& top) {
     const std::uint32_t small = std::max(4096u, n / 64);
     std::vector<RadixPart> parts, waiting{{0, 0, n}};
     while (!waiting.empty()) {
@@ -148,20 +182,13 @@ std::vector<RadixPart> cut(const SortedItems& items, std::uint32_t n, std::vecto
     return parts;
 }
 
-} // namespace
-
-Tree LbvhBuilder::build(Boxes boxes, const Executor& executor) const {
-    CurveOrder sorted = curve_order(boxes, curve(), executor);
+template <class Items, class Write>
+Tree radix_tree(const Items& items, Boxes boxes, const Write& write, const Executor& executor) {
     Tree tree(boxes.size());
-    if (tree.empty())
-        return tree;
-    tree.order = std::move(sorted.order);
-    const SortedItems items{boxes.data(), tree.order.data(), sorted.codes.data()};
     std::vector<RadixPart> top;
-    const std::vector<RadixPart> parts = cut(items, static_cast<std::uint32_t>(boxes.size()), top);
-    executor.for_each(parts.size(), [&](std::size_t i) {
-        HWY_DYNAMIC_DISPATCH(WriteRadixPart)(items, parts[i], tree.nodes.data());
-    });
+    const auto parts = cut(items, static_cast<std::uint32_t>(boxes.size()), top);
+    executor.for_each(parts.size(),
+                      [&](std::size_t i) { write(items, boxes.data(), parts[i], tree); });
     std::ranges::sort(top, std::ranges::greater{}, &RadixPart::node);
     for (const RadixPart& part : top) {
         const TreeNode& left = tree.nodes[Tree::left(part.node)];
@@ -169,6 +196,30 @@ Tree LbvhBuilder::build(Boxes boxes, const Executor& executor) const {
         tree.nodes[part.node] = {merge(left.box, right.box), part.begin, part.count()};
     }
     return tree;
+}
+
+} // namespace
+
+Tree LbvhBuilder::build(Boxes boxes, const Executor& executor) const {
+    if (boxes.empty())
+        return {};
+    const KeptOrder coarse = kept_curve_order(boxes, curve(), executor);
+    if (!coarse.records.empty())
+        return radix_tree(
+            CoarseItems{coarse.records.data()}, boxes,
+            [](auto&&... of) {
+                HWY_DYNAMIC_DISPATCH(WriteCoarse)
+                (of...);
+            },
+            executor);
+    const CurveOrder fine = curve_order(boxes, curve(), executor);
+    return radix_tree(
+        FineItems{fine.codes.data(), fine.order.data()}, boxes,
+        [](auto&&... of) {
+            HWY_DYNAMIC_DISPATCH(WriteFine)
+            (of...);
+        },
+        executor);
 }
 
 Buffer<std::uint32_t> LbvhBuilder::order(Boxes boxes, const Executor& executor) const {

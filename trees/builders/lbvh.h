@@ -7,9 +7,10 @@
 
 namespace boxwood {
 
-/// Linear build: the items along a space-filling curve, 63 bits, and over them the binary radix
-/// tree of their codes; equal codes are split by the bits of their place. The fastest way to a
-/// tree, blind to the sizes of boxes. O(n), depth at most 63 + 30.
+/// Linear build: the items along a space-filling curve, and over them the binary radix tree of
+/// their codes; equal codes are split by the bits of item or place. Codes have 63 bits, or 30 where
+/// these tell nearly all items apart, for half the time. Blind to the sizes of boxes. O(n), depth
+/// at most 63 + 30.
 /// Source: Lauterbach et al. 2009, "Fast BVH Construction on GPUs"; one bottom-up pass as in
 /// Apetrei 2014, here from the last item to the first, so that nodes are written in a row.
 struct LbvhBuilder {
@@ -27,7 +28,7 @@ struct LbvhBuilder {
 
     Tree build(Boxes boxes, const Executor& executor) const;
 
-    /// By 10 bits per axis where these tell nearly all items apart, for half the time.
+    /// That of the tree.
     Buffer<std::uint32_t> order(Boxes boxes, const Executor& executor) const;
 };
 

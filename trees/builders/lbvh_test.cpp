@@ -1,0 +1,118 @@
+#include "trees/builders/lbvh.h"
+
+#include "trees/box_families_for_test.h"
+#include "trees/quality.h"
+#include "trees/validate.h"
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace boxwood {
+namespace {
+
+Tree lbvh(Boxes boxes, double hilbert = 1, const Executor& executor = serial()) {
+    LbvhBuilder builder;
+    builder.hilbert = hilbert;
+    return builder.build(boxes, executor);
+}
+
+bool same(const Tree& a, const Tree& b) {
+    return std::ranges::equal(a.order, b.order) &&
+           std::ranges::equal(a.nodes, b.nodes, [](const TreeNode& x, const TreeNode& y) {
+               return x.box == y.box && x.first == y.first && x.count == y.count;
+           });
+}
+
+TEST(LbvhBuilder, SplitsCornersOfACubeByTheFirstBit) {
+    // Morton order: x is the first bit, then y, then z. Items are numbered the other way round.
+    std::vector<Box> boxes;
+    for (int i = 7; i >= 0; --i) {
+        const Vec3<float> p{i & 4 ? 1.f : 0.f, i & 2 ? 1.f : 0.f, i & 1 ? 1.f : 0.f};
+        boxes.push_back({p, p});
+    }
+    const Tree tree = lbvh(boxes, 0);
+    EXPECT_FALSE(validate(tree, boxes));
+    for (std::uint32_t slot = 0; slot < 8; ++slot)
+        EXPECT_EQ(tree.order[slot], 7 - slot);
+    EXPECT_EQ(tree.nodes[Tree::left(0)].box.max.x, 0);
+    EXPECT_EQ(tree.nodes[tree.right(0)].box.min.x, 1);
+    for (const std::size_t half : {Tree::left(0), tree.right(0)}) {
+        EXPECT_EQ(tree.nodes[half].count, 4u);
+        EXPECT_EQ(tree.nodes[Tree::left(half)].box.max.y, 0);
+        EXPECT_EQ(tree.nodes[tree.right(half)].box.min.y, 1);
+    }
+}
+
+TEST(LbvhBuilder, IsTheTreeThatTheCodesSplit) {
+    // Every node of more than one code holds those that share its leading bits, and is split at
+    // the first bit in which they differ.
+    std::vector<Box> boxes = random_boxes(20000, .01f, 3);
+    for (std::size_t i = 0; i < boxes.size(); i += 2)
+        boxes[i] = boxes[i % 64]; // many equal codes: by all of 63 bits
+    for (const Curve curve : {Curve::morton, Curve::hilbert}) {
+        const CurveOrder sorted = curve_order(boxes, curve, serial());
+        const Tree tree = lbvh(boxes, curve == Curve::hilbert);
+        ASSERT_FALSE(validate(tree, boxes));
+        ASSERT_TRUE(std::ranges::equal(tree.order, sorted.order));
+        for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+            if (tree.is_leaf(i))
+                continue;
+            const std::uint32_t first = tree.nodes[i].first,
+                                middle = first + tree.nodes[i + 1].count;
+            const std::uint32_t last = first + tree.nodes[i].count - 1;
+            const auto code = [&](std::uint32_t slot) { return sorted.codes[slot]; };
+            if (code(first) == code(last))
+                continue;
+            const int all = std::countl_zero(code(first) ^ code(last));
+            EXPECT_EQ(std::countl_zero(code(middle - 1) ^ code(middle)), all) << i;
+        }
+    }
+}
+
+TEST(LbvhBuilder, IsTheSameOnEveryExecutorAndInstructionSet) {
+    for (const bool equal_codes : {false, true}) {
+        std::vector<Box> boxes = random_boxes(50000, .02f, 4);
+        if (equal_codes)
+            std::fill(boxes.begin() + 10000, boxes.end(), boxes[0]);
+        const Tree expected = lbvh(boxes);
+        ASSERT_FALSE(validate(expected, boxes));
+        for (const ExecutorEntry& executor : executors())
+            for (const unsigned threads : {1u, 2u, 4u})
+                if (threads == 1 || executor.name != "serial") {
+                    EXPECT_TRUE(same(lbvh(boxes, 1, *executor.make(threads)), expected))
+                        << executor.name << threads;
+                }
+        for (std::int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1) {
+            hwy::SetSupportedTargetsForTest(targets & -targets);
+            EXPECT_TRUE(same(lbvh(boxes), expected)) << hwy::TargetName(targets & -targets);
+        }
+        hwy::SetSupportedTargetsForTest(0);
+    }
+}
+
+TEST(LbvhBuilder, DepthIsBoundedByBits) {
+    std::vector<Box> identical(100000, Box{{0, 0, 0}, {1, 1, 1}}), geometric;
+    for (int i = 0; i < 20000; ++i) {
+        const float x = std::exp2(static_cast<float>(-(i % 125)));
+        geometric.push_back({{x, x, x}, {x, x, x}});
+    }
+    EXPECT_LE(quality(lbvh(identical), identical, {1, 1, 0}).depth_max, 17u);
+    const Tree tree = lbvh(geometric);
+    EXPECT_FALSE(validate(tree, geometric));
+    EXPECT_LE(quality(tree, geometric, {1, 1, 0}).depth_max, 93u);
+}
+
+TEST(LbvhBuilder, HandsOutTheOrderOfTheTree) {
+    for (const BoxFamily& family : box_families())
+        EXPECT_TRUE(std::ranges::equal(LbvhBuilder{}.order(family.boxes, serial()),
+                                       lbvh(family.boxes).order))
+            << family.name;
+    EXPECT_THROW(LbvhBuilder{}.order(std::vector<Box>{Box{}}, serial()), InvalidBox);
+}
+
+} // namespace
+} // namespace boxwood
