@@ -1,0 +1,85 @@
+#include "bench/peers/point_peers.h"
+
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Simple_cartesian.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace boxwood::bench {
+namespace {
+
+using Kernel = CGAL::Simple_cartesian<double>;
+using Triangles = std::vector<Kernel::Triangle_3>;
+using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+
+Kernel::Point_3 point_of(Vec3<float> p) {
+    return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+}
+
+class ClosestPoint final : public Contender {
+  public:
+    explicit ClosestPoint(const Job& job)
+        : scene_(*job.scene), threads_(job.threads), arena_(static_cast<int>(job.threads)) {
+        for (std::size_t i = 0; i < scene_.mesh.triangles.size(); ++i) {
+            const Triangle<float> t = scene_.mesh.triangle(i);
+            triangles_.emplace_back(point_of(t.a), point_of(t.b), point_of(t.c));
+        }
+    }
+
+    void build() override {
+        tree_.clear();
+        tree_.insert(triangles_.cbegin(), triangles_.cend());
+        tree_.build();
+        tree_.accelerate_distance_queries();
+    }
+
+    void query(Answers& answers) override {
+        answers.surface_points.resize(scene_.points.size());
+        const auto answer = [&](std::size_t i) {
+            const Kernel::Point_3 p = point_of(scene_.points[i]);
+            const auto [at, triangle] = tree_.closest_point_and_primitive(p);
+            answers.surface_points[i] = {Vec3<float>(Vec3<double>{at.x(), at.y(), at.z()}),
+                                         static_cast<std::uint32_t>(triangle - triangles_.cbegin()),
+                                         CGAL::squared_distance(p, at)};
+        };
+        if (threads_ == 1)
+            for (std::size_t i = 0; i < scene_.points.size(); ++i)
+                answer(i);
+        else
+            arena_.execute(
+                [&] { tbb::parallel_for(std::size_t{0}, scene_.points.size(), answer); });
+    }
+
+  private:
+    const Scene& scene_;
+    unsigned threads_;
+    tbb::task_arena arena_;
+    Triangles triangles_;
+    Tree tree_;
+};
+
+} // namespace
+
+std::vector<ContenderEntry> cgal_points() {
+    ContenderEntry e;
+    e.name = "cgal.aabb_tree.closest_point";
+    e.library = "cgal";
+    e.summary = "CGAL's AABB_tree asked for the closest point and primitive";
+    e.notes = "Simple_cartesian<double>; build = insert, build and accelerate_distance_queries (a "
+              "search tree of the corners that gives the first bound)";
+    e.precision = "f64";
+    e.unsupported = [](const Job& job) -> Unsupported {
+        if (job.ask != Ask::closest_points)
+            return "answers closest_points only";
+        if (auto why = no_queries(*job.scene, job.ask))
+            return why;
+        return not_tbb(job);
+    };
+    e.make = [](const Job& job) { return std::make_unique<ClosestPoint>(job); };
+    return {e};
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,78 @@
+#pragma once
+
+#include "bench/peers/capability.h"
+#include "bench/points.h"
+
+#include <vector>
+
+/// What the peers offer for points and regions. Each is made in peers/NAME_points.cpp and appended
+/// to the contenders of its peer.
+namespace boxwood::bench {
+
+std::vector<ContenderEntry> fcl_points();
+std::vector<ContenderEntry> cgal_points();
+std::vector<ContenderEntry> embree_points();
+std::vector<ContenderEntry> bullet_points();
+
+/// The square of the distance from a point to a box, in doubles.
+inline double squared_distance_to_box(Vec3<float> point, const Aabb<float>& box) {
+    double sum = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double p = static_cast<double>(point[axis]);
+        const double d = std::max(
+            {0.0, static_cast<double>(box.min[axis]) - p, p - static_cast<double>(box.max[axis])});
+        sum += d * d;
+    }
+    return sum;
+}
+
+inline bool meets(const Sphere<float>& ball, const Aabb<float>& box) {
+    const double radius = static_cast<double>(ball.radius);
+    return squared_distance_to_box(ball.centre, box) <= radius * radius;
+}
+
+/// The box around a ball, rounded outward.
+inline Aabb<float> bounds_of(const Sphere<float>& ball) {
+    Aabb<float> box;
+    for (int axis = 0; axis < 3; ++axis) {
+        box.min[axis] = std::nextafter(ball.centre[axis] - ball.radius, -HUGE_VALF);
+        box.max[axis] = std::nextafter(ball.centre[axis] + ball.radius, HUGE_VALF);
+    }
+    return box;
+}
+
+/// The boxes that contain what is asked of points or regions: flat ones for points.
+inline std::vector<Aabb<float>> query_boxes(const Scene& scene, Ask ask) {
+    std::vector<Aabb<float>> boxes;
+    if (ask != Ask::regions)
+        for (const Vec3<float> p : scene.points)
+            boxes.push_back({p, p});
+    else if (scene.spheres.empty())
+        boxes = scene.regions;
+    else
+        for (const Sphere<float>& ball : scene.spheres)
+            boxes.push_back(bounds_of(ball));
+    return boxes;
+}
+
+/// The nearest items of one point so far: `keep` in ascending order.
+class NearestOfPeer {
+  public:
+    explicit NearestOfPeer(std::span<Neighbour> keep) : keep_(keep) {
+        std::ranges::fill(keep_, Neighbour{});
+    }
+    double worst() const { return keep_.back().squared_distance; }
+    void offer(const Neighbour& near) {
+        if (!(near.squared_distance < worst()))
+            return;
+        std::size_t i = keep_.size() - 1;
+        for (; i > 0 && keep_[i - 1].squared_distance > near.squared_distance; --i)
+            keep_[i] = keep_[i - 1];
+        keep_[i] = near;
+    }
+
+  private:
+    std::span<Neighbour> keep_;
+};
+
+} // namespace boxwood::bench
