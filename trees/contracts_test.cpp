@@ -1,8 +1,10 @@
 #include "trees/builder.h"
 #include "trees/builders/binned_sah.h"
+#include "trees/builders/hilbert.h"
 #include "trees/builders/incremental.h"
 #include "trees/builders/median.h"
 #include "trees/layouts/binary.h"
+#include "trees/layouts/packed.h"
 #include "trees/layouts/quantised8.h"
 #include "trees/layouts/wide.h"
 
@@ -17,6 +19,7 @@ static_assert(Builder<MedianBuilder> && Builder<BinnedSahBuilder> && Builder<Inc
 static_assert(Layout<BinaryLayout> && Layout<BinaryLayoutF64>);
 static_assert(Layout<Wide8Layout> && Layout<Wide8LayoutF64> && Layout<Quantised8Layout>);
 static_assert(WideTree<Wide4Layout> && WideTree<Wide16Layout> && WideTree<Quantised8Layout>);
+static_assert(Builder<HilbertBuilder> && Layout<PackedLayout> && WideTree<PackedLayout>);
 static_assert(!WideTree<BinaryLayout>);
 
 struct Nameless {

@@ -119,4 +119,6 @@ PackedLayout::PackedLayout(const Tree& tree, const Executor& executor)
         n, [&](std::size_t slot) -> const Box& { return tree.nodes[leaves[slot]].box; }, executor);
 }
 
+LayoutEntry packed_layout() { return layout_entry<PackedLayout>(); }
+
 } // namespace boxwood
