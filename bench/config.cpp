@@ -4,9 +4,11 @@
 #include "bench/families.h"
 #include "bench/rungs/rungs.h"
 #include "kernels/catalogue.h"
+#include "scenes/queries.h"
 #include "scenes/scene.h"
 #include "scenes/suggest.h"
 #include "trees/layout.h"
+#include "trees/update.h"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -131,6 +133,26 @@ class Reader {
         return choice;
     }
 
+    /// "refit", or `{name = "rebuild", trigger = 1.3}`.
+    BuilderChoice update(const toml::node& node) const {
+        if (node.is_string())
+            return {word(node, "updates", names_of(boxwood::updates())), {}};
+        const toml::table* table = node.as_table();
+        const toml::node* name = table ? table->get("name") : nullptr;
+        if (!name)
+            fail(node.source(), "an update is a word, or {name = \"WORD\", SETTING = NUMBER, ...}");
+        BuilderChoice choice{word(*name, "updates", names_of(boxwood::updates())), {}};
+        for (const auto& [key, value] : *table)
+            if (key != "name")
+                choice.settings[std::string(key.str())] = number(value, key.str(), -1e300, 1e300);
+        try {
+            find_update(choice.name)->make(choice.settings);
+        } catch (const std::invalid_argument& error) {
+            fail(node.source(), error.what());
+        }
+        return choice;
+    }
+
     /// Replaces `out` by what `read` makes of the value of `key`, or of each element if it is a
     /// list.
     template <class T, class Read>
@@ -165,9 +187,10 @@ Words kernel_words(Ask ask) {
 }
 
 /// Keys that only kernel asks take, and those that only the others do.
-constexpr std::array kernel_keys{"k", "scale"};
-constexpr std::array tree_keys{"overlaps", "rays",      "n_rays", "builders",
-                               "layouts",  "executors", "threads"};
+constexpr std::array kernel_keys{"scale"};
+constexpr std::array tree_keys{"motion", "frames",   "updates", "overlaps",  "rays",
+                               "n_rays", "builders", "layouts", "executors", "threads"};
+constexpr std::array point_keys{"n_points", "regions"};
 
 /// The asks of a block are all kernel asks or none is.
 bool asks_kernels(const Reader& reader, const toml::table& table, const Block& block) {
@@ -180,10 +203,15 @@ bool asks_kernels(const Reader& reader, const toml::table& table, const Block& b
             if (const toml::node* node = table.get(key))
                 reader.fail(node->source(), fmt::format("{} is for the asks of {}", key, whose));
     };
-    if (some)
+    if (some) {
         refuse(tree_keys, "trees");
-    else
+        refuse(point_keys, "trees");
+    } else {
         refuse(kernel_keys, "kernels");
+    }
+    if (const toml::node* k = table.get("k");
+        k && !some && std::ranges::find(block.asks, Ask::nearest) == block.asks.end())
+        reader.fail(k->source(), "k is for the asks of kernels and for nearest");
     return some;
 }
 
@@ -239,6 +267,22 @@ void read_families(const Reader& reader, const toml::table& table, Block& block)
         }
 }
 
+/// The keys of a block for the asks of points and regions.
+void read_queries(const Reader& reader, const toml::table& table, Block& block) {
+    const toml::node* n_points = table.get("n_points");
+    if (n_points && std::ranges::none_of(block.asks, is_point_ask))
+        reader.fail(n_points->source(), "n_points is for the asks of points and regions");
+    if (n_points)
+        block.n_points = reader.whole(*n_points, "n_points", 1, 1'000'000'000);
+    if (const toml::node* regions = table.get("regions");
+        regions && std::ranges::find(block.asks, Ask::regions) == block.asks.end())
+        reader.fail(regions->source(), "regions is for the ask regions");
+    reader.words(table, "regions", block.regions, names_of(region_kinds()));
+    reader.list(table, "k", block.k, [&](const toml::node& node) {
+        return static_cast<int>(reader.whole(node, "k", 1, 1000));
+    });
+}
+
 /// The keys of a block of asks of trees.
 void read_trees(const Reader& reader, const toml::table& table, Block& block) {
     reader.words(table, "scene", block.scenes, names_of(scene_generators()));
@@ -252,6 +296,12 @@ void read_trees(const Reader& reader, const toml::table& table, Block& block) {
     reader.words(table, "rays", block.rays, names_of(ray_kinds()));
     if (const toml::node* n_rays = table.get("n_rays"))
         block.n_rays = reader.whole(*n_rays, "n_rays", 1, 1'000'000'000);
+    read_queries(reader, table, block);
+    reader.words(table, "motion", block.motions, names_of(motions()));
+    if (const toml::node* frames = table.get("frames"))
+        block.n_frames = reader.whole(*frames, "frames", 1, 100'000);
+    reader.list(table, "updates", block.updates,
+                [&](const toml::node& node) { return reader.update(node); });
     reader.list(table, "builders", block.builders,
                 [&](const toml::node& node) { return reader.builder(node); });
     reader.words(table, "layouts", block.layouts, names_of(layouts()));
@@ -262,23 +312,30 @@ void read_trees(const Reader& reader, const toml::table& table, Block& block) {
     if (block.rays.empty() && std::ranges::any_of(block.asks, is_ray_ask))
         reader.fail(table.source(), fmt::format("a ray ask needs rays: one or more of {}",
                                                 fmt::join(names_of(ray_kinds()), ", ")));
+    const bool moves = std::ranges::find(block.asks, Ask::moving_pairs) != block.asks.end();
+    if (moves && block.motions.empty())
+        reader.fail(table.source(), fmt::format("moving_pairs needs a motion: one or more of {}",
+                                                fmt::join(names_of(motions()), ", ")));
+    if (!moves && !block.updates.empty())
+        reader.fail(table.get("updates")->source(), "updates is for the ask moving_pairs");
     for (const SceneEntry& entry : scene_generators())
         if (!entry.has_mesh && std::ranges::find(block.scenes, entry.name) != block.scenes.end())
             for (const Ask ask : block.asks)
-                if (takes_kernel(ask))
+                if (takes_kernel(ask) || ask == Ask::closest_points)
                     reader.fail(table.source(),
                                 fmt::format("the scene \"{}\" has no triangles to {}", entry.name,
                                             is_ray_ask(ask) ? "aim rays at" : "test"));
-    if (block.builders.empty() && block.peers.empty())
-        reader.fail(table.source(), "[[cells]] needs builders, peers, or both");
+    if (block.builders.empty() && block.updates.empty() && block.peers.empty())
+        reader.fail(table.source(), moves ? "[[cells]] needs updates, peers, or both"
+                                          : "[[cells]] needs builders, peers, or both");
 }
 
 Block read_block(const Reader& reader, const toml::table& table,
                  const std::vector<unsigned>& default_threads) {
     reader.require_known_keys(table, "[[cells]]",
-                              {"scene", "n", "overlaps", "rays", "n_rays", "ask", "builders",
-                               "layouts", "kernels", "executors", "threads", "peers", "k",
-                               "scale"});
+                              {"scene", "n", "overlaps", "rays", "n_rays", "motion", "frames",
+                               "updates", "ask", "builders", "layouts", "kernels", "executors",
+                               "threads", "peers", "k", "scale", "n_points", "regions"});
     Block block;
     block.place = reader.place(table.source());
     block.threads = default_threads;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bench/contender.h"
+#include "scenes/motions.h"
 #include "trees/builder.h"
 
 #include <cstdint>
@@ -25,11 +26,17 @@ struct Block {
     std::vector<double> overlaps{10};
     std::vector<std::string> rays; ///< kinds of rays; needed by the ray asks alone
     std::size_t n_rays = 10000;
+    std::size_t n_points = 10000;              ///< points or regions, for their asks
+    std::vector<std::string> regions{"boxes"}; ///< kinds of regions, for the ask regions
     std::vector<Ask> asks;
+    std::vector<std::string> motions; ///< kinds of motion; needed by moving_pairs alone
+    std::size_t n_frames = default_frames;
     std::vector<BuilderChoice> builders;
+    std::vector<BuilderChoice> updates; ///< policies, for moving_pairs
     std::vector<std::string> layouts{"wide8"};
     std::optional<std::vector<std::string>> kernels; ///< else the ask's default; see kernels_of
-    std::vector<int> k, scales;         ///< of hard-case families; empty: their default, 0
+    std::vector<int> k, scales; ///< of hard-case families; empty: their default, 0. For the ask
+                                ///< nearest k is the number of neighbours; empty: 1
     std::vector<std::string> executors; ///< empty: serial for one thread, tbb for more
     std::vector<unsigned> threads;
     std::vector<std::string> peers; ///< "all", libraries, or contenders

@@ -75,6 +75,8 @@ bool answers_at_all(const ContenderEntry& contender, Ask ask) {
         scene.boxes.assign(2, {{0, 0, 0}, {1, 1, 1}});
         scene.mesh = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 1, 2}}};
         scene.rays.push_back({{0, 0, 1}, {0, 0, -1}});
+        scene.points.push_back({0, 0, 1});
+        scene.spheres.push_back({{0, 0, 1}, 1});
         return scene;
     }();
     return !contender.unsupported || !contender.unsupported(Job{&smallest, ask, "serial", 1});

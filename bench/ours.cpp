@@ -1,5 +1,7 @@
 #include "bench/ours.h"
 
+#include "bench/points.h"
+#include "bench/tree_builds.h"
 #include "bench/triangle_pairs.h"
 #include "kernels/catalogue.h"
 #include "scenes/suggest.h"
@@ -22,14 +24,7 @@ class OurContender : public Contender {
           build_(std::move(build)), layout_entry_(layout) {}
 
   protected:
-    AppendPairs& sink(Answers& answers) {
-        answers.pairs.clear();
-        if (sink_target_ != &answers.pairs) {
-            sink_.emplace(answers.pairs);
-            sink_target_ = &answers.pairs;
-        }
-        return *sink_;
-    }
+    AppendPairs& sink(Answers& answers) { return sink_.to(answers.pairs); }
 
     const Scene& scene_;
     std::unique_ptr<Executor> executor_;
@@ -39,8 +34,7 @@ class OurContender : public Contender {
     std::unique_ptr<AnyLayout> layout_;
 
   private:
-    std::optional<AppendPairs> sink_; ///< keeps its memory between queries
-    std::vector<Pair>* sink_target_ = nullptr;
+    PairsInto sink_;
 };
 
 class SelfPairs final : public OurContender {
@@ -131,20 +125,9 @@ class Rays final : public OurContender {
 };
 
 std::string_view traversal_of(Ask ask) {
+    if (is_point_ask(ask))
+        return to_string(ask);
     return is_ray_ask(ask) ? "rays" : ask == Ask::tree_pairs ? "tree_pairs" : "self_pairs";
-}
-
-/// "binned_sah_bins16": words [a-z0-9_], so 1.5 is written 1_5 and a minus m.
-std::string builder_word(const Choice& choice) {
-    std::string word = choice.builder;
-    std::ranges::replace(word, '+', '_');
-    for (const auto& [name, value] : choice.settings) {
-        word += fmt::format("_{}", name);
-        for (const char c : fmt::format("{}", value))
-            if (c != '+')
-                word += c == '.' ? '_' : c == '-' ? 'm' : c;
-    }
-    return word;
 }
 
 template <class Entries>
@@ -158,7 +141,27 @@ template <class Entries>
 
 } // namespace
 
+std::string word_with_settings(std::string word, const Settings& settings) {
+    std::ranges::replace(word, '+', '_');
+    for (const auto& [name, value] : settings) {
+        word += fmt::format("_{}", name);
+        for (const char c : fmt::format("{}", value))
+            if (c != '+')
+                word += c == '.' ? '_' : c == '-' ? 'm' : c;
+    }
+    return word;
+}
+
+std::string settings_json(const Settings& settings) {
+    std::string all;
+    for (const auto& [name, value] : settings)
+        all += fmt::format("{}\"{}\": {}", all.empty() ? "" : ", ", name, value);
+    return "{" + all + "}";
+}
+
 ContenderEntry our_contender(const Choice& choice, Ask ask) {
+    if (ask == Ask::tree)
+        return tree_contender(choice); // whatever the layout
     const std::string_view builder_name =
         std::string_view(choice.builder).substr(0, choice.builder.find('+'));
     const BuilderEntry* builder = find_builder(builder_name);
@@ -176,7 +179,7 @@ ContenderEntry our_contender(const Choice& choice, Ask ask) {
     entry.library = "boxwood";
     entry.is_peer = false;
     entry.precision = "f32";
-    entry.builder = builder_word(choice);
+    entry.builder = word_with_settings(choice.builder, choice.settings);
     entry.layout = choice.layout;
     entry.traversal = traversal_of(ask);
     if (takes_kernel(ask)) {
@@ -189,14 +192,14 @@ ContenderEntry our_contender(const Choice& choice, Ask ask) {
     entry.summary = fmt::format("{}; {}", builder->summary, layout->summary);
     entry.notes = "build: boxes to tree to layout; answers in the same order for any number of "
                   "threads";
-    std::string settings;
-    for (const auto& [name, value] : choice.settings)
-        settings += fmt::format("{}\"{}\": {}", settings.empty() ? "" : ", ", name, value);
-    entry.params_json = "{" + settings + "}";
+    entry.params_json = settings_json(choice.settings);
 
     entry.unsupported = [](const Job& job) -> std::optional<std::string> {
         if (takes_kernel(job.ask) && job.scene->mesh.triangles.empty())
             return "the scene has no triangles";
+        if (is_point_ask(job.ask))
+            if (auto why = no_queries(*job.scene, job.ask))
+                return why;
         if (job.executor == "serial" && job.threads != 1)
             return "the executor serial has one thread";
         return std::nullopt;
@@ -210,6 +213,11 @@ ContenderEntry our_contender(const Choice& choice, Ask ask) {
             return std::make_unique<TreePairs>(job, build, *layout);
         case Ask::triangle_pairs:
             return make_triangle_pairs(job, build, *layout, kernel);
+        case Ask::points:
+        case Ask::regions:
+        case Ask::nearest:
+        case Ask::closest_points:
+            return make_point_queries(job, build, *layout);
         default:
             return std::make_unique<Rays>(job, build, *layout, kernel);
         }

@@ -17,4 +17,27 @@ struct Choice {
 /// Throws std::invalid_argument, with a suggestion, for an unknown word.
 ContenderEntry our_contender(const Choice& choice, Ask ask);
 
+/// "binned_sah_bins16": words [a-z0-9_], so 1.5 is written 1_5, a minus m and a plus _.
+std::string word_with_settings(std::string word, const Settings& settings);
+/// As one JSON object.
+std::string settings_json(const Settings& settings);
+
+/// Appends pairs to one vector after another; the sink keeps its memory between queries.
+class PairsInto {
+  public:
+    /// The cleared vector's sink.
+    AppendPairs& to(std::vector<Pair>& pairs) {
+        pairs.clear();
+        if (target_ != &pairs) {
+            sink_.emplace(pairs);
+            target_ = &pairs;
+        }
+        return *sink_;
+    }
+
+  private:
+    std::optional<AppendPairs> sink_;
+    std::vector<Pair>* target_ = nullptr;
+};
+
 } // namespace boxwood::bench

@@ -4,6 +4,7 @@
 #include "bench/commands/command.h"
 #include "bench/csv.h"
 #include "bench/families.h"
+#include "bench/moving_pairs.h"
 #include "bench/ours.h"
 #include "bench/rungs/rungs.h"
 
@@ -63,6 +64,11 @@ class Expansion {
 
     void add_ours(const Block& block, const SceneSpec& spec, Ask ask, const std::string& executor,
                   unsigned threads) {
+        if (ask == Ask::moving_pairs) {
+            for (const BuilderChoice& update : block.updates)
+                add_cell(block, spec, ask, moving_contender(update), executor, threads);
+            return;
+        }
         const std::vector<std::string> kernels =
             takes_kernel(ask) ? kernels_of(block, ask) : std::vector<std::string>{""};
         for (const BuilderChoice& builder : block.builders)
@@ -85,11 +91,13 @@ class Expansion {
             return;
         }
         const SceneSpec& other = cells_[seen->second].scene;
-        if (other.overlaps != spec.overlaps || other.n_rays != spec.n_rays)
+        if (other.overlaps != spec.overlaps || other.n_rays != spec.n_rays ||
+            other.n_points != spec.n_points)
             throw BadInput(fmt::format("{}: the cell {} stands twice with different scenes "
-                                       "(overlaps {} and {}, n_rays {} and {}); make them equal",
+                                       "(overlaps {} and {}, n_rays {} and {}, n_points {} and "
+                                       "{}); make them equal",
                                        block.place, name, other.overlaps, spec.overlaps,
-                                       other.n_rays, spec.n_rays));
+                                       other.n_rays, spec.n_rays, other.n_points, spec.n_points));
     }
 
     std::vector<PlannedCell>& cells_;
@@ -136,6 +144,23 @@ void expand_families(const Block& block, std::uint64_t seed, Expansion& expansio
                         }
 }
 
+/// The kinds of regions, or the numbers of neighbours, of the asks that have them.
+void add_queries(const Block& block, SceneSpec spec, Ask ask, Expansion& expansion) {
+    for (const std::string& regions :
+         ask == Ask::regions ? block.regions : std::vector<std::string>{""}) {
+        spec.regions = regions;
+        spec.k.reset();
+        if (ask != Ask::nearest || block.k.empty()) {
+            expansion.add(block, spec, ask);
+            continue;
+        }
+        for (const int k : block.k) {
+            spec.k = k;
+            expansion.add(block, spec, ask);
+        }
+    }
+}
+
 void expand(const Block& block, std::uint64_t seed, const std::filesystem::path& mesh,
             Expansion& expansion) {
     if (is_kernel_ask(block.asks.front()))
@@ -148,14 +173,20 @@ void expand(const Block& block, std::uint64_t seed, const std::filesystem::path&
             for (const std::size_t n : block.n)
                 for (const double overlaps : block.overlaps)
                     for (const std::string& rays :
-                         is_ray_ask(ask) ? block.rays : std::vector<std::string>{""}) {
-                        spec.generator = scene;
-                        spec.n = n;
-                        spec.overlaps = overlaps;
-                        spec.rays = rays;
-                        spec.n_rays = rays.empty() ? 0 : block.n_rays;
-                        expansion.add(block, spec, ask);
-                    }
+                         is_ray_ask(ask) ? block.rays : std::vector<std::string>{""})
+                        for (const std::string& motion : ask == Ask::moving_pairs
+                                                             ? block.motions
+                                                             : std::vector<std::string>{""}) {
+                            spec.generator = scene;
+                            spec.n = n;
+                            spec.overlaps = overlaps;
+                            spec.n_points = is_point_ask(ask) ? block.n_points : 0;
+                            spec.rays = rays;
+                            spec.n_rays = rays.empty() ? 0 : block.n_rays;
+                            spec.motion = motion;
+                            spec.n_frames = motion.empty() ? 0 : block.n_frames;
+                            add_queries(block, spec, ask, expansion);
+                        }
 }
 
 void keep_only(const std::string& pattern, std::vector<PlannedCell>& cells) {
@@ -225,8 +256,10 @@ std::string sweep_hash_of(const Plan& plan, std::uint64_t mesh_hash) {
         fmt::format("min_time_ms {} seed {} mesh {:x}\n", plan.min_time_ms, plan.seed, mesh_hash);
     std::vector<std::string> lines;
     for (const PlannedCell& cell : plan.cells)
-        lines.push_back(fmt::format("{} overlaps {} n_rays {}\n", cell.name, cell.scene.overlaps,
-                                    cell.scene.n_rays));
+        lines.push_back(fmt::format(
+            "{} overlaps {} n_rays {}{}\n", cell.name, cell.scene.overlaps, cell.scene.n_rays,
+            cell.scene.n_points == 0 ? std::string()
+                                     : fmt::format(" n_points {}", cell.scene.n_points)));
     std::ranges::sort(lines); // the order of blocks does not matter
     for (const std::string& line : lines)
         canonical += line;

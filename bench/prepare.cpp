@@ -2,7 +2,9 @@
 
 #include "bench/calibration.h"
 #include "bench/judging/judge.h"
+#include "bench/moving_pairs.h"
 #include "bench/record.h"
+#include "bench/tree_builds.h"
 #include "bench/truth.h"
 #include "trees/quality.h"
 
@@ -70,6 +72,7 @@ class Preparation {
     void prepare_scene(const std::vector<const PlannedCell*>& cells) {
         truths_.clear();
         judges_.clear();
+        moving_truth_.reset();
         scene_ = make_scene(cells.front()->scene);
         quality_of_.clear();
 
@@ -96,8 +99,10 @@ class Preparation {
             check.witness = *why;
         } else if (!skip_.contains(cell.name)) {
             try {
-                const Calibration calibration = is_kernel_ask(cell.ask)
-                                                    ? measure_kernel(cell, job, row.cell_id, check)
+                const Calibration calibration =
+                    is_kernel_ask(cell.ask)         ? measure_kernel(cell, job, row.cell_id, check)
+                    : cell.ask == Ask::moving_pairs ? measure_moving(cell, job, row.cell_id, check)
+                    : cell.ask == Ask::tree         ? measure_tree(cell, job, row.cell_id, check)
                                                     : measure(cell, job, row.cell_id, check);
                 row.iterations = calibration.query_iterations;
                 calibrations_.emplace(cell.name, calibration);
@@ -137,6 +142,70 @@ class Preparation {
         return calibration;
     }
 
+    /// A tree of which nothing is asked: all its time is in the build.
+    Calibration measure_tree(const PlannedCell& cell, const Job& job, std::uint32_t cell_id,
+                             results::Check& check) {
+        const KeepFloatingPointMode keep;
+        const std::unique_ptr<Contender> contender = cell.contender.make(job);
+        Calibration calibration;
+        calibration.query_iterations = 0;
+        calibration.build_ns = calibrate_ns(target_ns_, [&] { contender->build(); });
+        calibration.build_iterations = iterations_for(target_ns_, calibration.build_ns);
+        check = check_tree(*contender, scene_);
+        const StructureInfo structure = contender->structure().value();
+        out_.counters.push_back({cell_id, "bytes", structure.bytes});
+        if (check.status == "exact" && !structure.tree->empty())
+            add_tree(cell.contender.is_peer ? cell.contender.name : cell.contender.builder,
+                     *structure.tree, cell_id);
+        return calibration;
+    }
+
+    /// The query of a moving scene is a pass through all of its frames, updates included.
+    Calibration measure_moving(const PlannedCell& cell, const Job& job, std::uint32_t cell_id,
+                               results::Check& check) {
+        if (!moving_truth_)
+            moving_truth_.emplace(scene_, std::max(1u, std::thread::hardware_concurrency()));
+        const KeepFloatingPointMode keep;
+        const std::unique_ptr<Contender> contender = cell.contender.make(job);
+        Answers answers;
+        FramesHash hash;
+        std::vector<FrameTime> times(scene_.frames.size());
+        Calibration calibration;
+        calibration.build_ns = calibrate_ns(target_ns_, [&] { contender->build(); });
+        play(*contender, scene_, answers, times, [&](std::size_t frame) {
+            hash.add(answers.pairs);
+            moving_truth_->check(frame, answers, check);
+        });
+        contender->build();
+        std::ranges::fill(times, FrameTime{});
+        play(*contender, scene_, answers, times, [](std::size_t) {});
+        for (const FrameTime& time : times)
+            calibration.query_ns += time.update_ns + time.query_ns;
+        calibration.build_iterations = iterations_for(target_ns_, calibration.build_ns);
+        calibration.query_iterations = iterations_for(target_ns_, calibration.query_ns);
+
+        check.result_hash = hash.value();
+        const std::uint64_t last = unordered_hash(answers.pairs);
+        const auto add = [&](std::string counter, std::uint64_t value) {
+            out_.counters.push_back({cell_id, std::move(counter), value});
+        };
+        add("pairs", answers.pairs.size());
+        for (const NamedCount& count : contender->more_counts())
+            add(count.name, count.value);
+        if (const auto structure = contender->structure())
+            add("bytes", structure->bytes);
+        if (const std::optional<Work> work = contender->counted_query(answers)) {
+            add("node_visits", work->node_visits);
+            add("box_tests", work->box_tests);
+            add("stack_max", work->stack_max);
+            if (unordered_hash(answers.pairs) != last) {
+                check.status = "wrong";
+                check.witness = "the counted pass answered otherwise than the timed one";
+            }
+        }
+        return calibration;
+    }
+
     /// A kernel has nothing to build: all its time is in the query.
     Calibration measure_kernel(const PlannedCell& cell, const Job& job, std::uint32_t cell_id,
                                results::Check& check) {
@@ -164,19 +233,21 @@ class Preparation {
                results::Check& check) {
         const bool is_rays = is_ray_ask(ask);
         const std::uint64_t found =
-            is_rays ? static_cast<std::uint64_t>(std::ranges::count_if(
-                          answers.hits, [](const RayHit& hit) { return hit.hit(); }))
-                    : answers.pairs.size();
+            is_rays
+                ? static_cast<std::uint64_t>(std::ranges::count_if(
+                      answers.hits, [](const RayHit& hit) { return hit.hit(); }))
+                : answers.pairs.size() + answers.neighbours.size() + answers.surface_points.size();
         const auto add = [&](const char* counter, std::uint64_t value) {
             out_.counters.push_back({cell_id, counter, value});
         };
-        add(is_rays ? "hits" : "pairs", found);
+        const bool is_nearest = ask == Ask::nearest || ask == Ask::closest_points;
+        add(is_rays || is_nearest ? "hits" : "pairs", found);
         const std::optional<Work> work = contender.counted_query(answers);
         if (!work)
             return;
         add("node_visits", work->node_visits);
         add("box_tests", work->box_tests);
-        if (is_rays || ask == Ask::triangle_pairs)
+        if (is_rays || ask == Ask::triangle_pairs || ask == Ask::closest_points)
             add("triangle_tests", work->triangle_tests);
         add("stack_max", work->stack_max);
         if (answer_hash(answers, ask) != check.result_hash) {
@@ -240,6 +311,7 @@ class Preparation {
     Scene scene_;
     std::map<Ask, std::unique_ptr<Truth>> truths_;
     std::map<Ask, std::unique_ptr<Judge>> judges_;
+    std::optional<MovingTruth> moving_truth_;
     std::map<std::string, Quality> quality_of_; ///< by builder
 };
 

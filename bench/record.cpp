@@ -40,6 +40,9 @@ std::uint32_t Record::add_scene(const Scene& scene, std::string asks) {
     row.generator = scene.spec.generator;
     row.n_items = items_of(scene);
     row.n_triangles = scene.mesh.triangles.size();
+    if (!scene.frames.empty())
+        row.n_frames = scene.frames.size();
+    row.effects = scene.spec.motion;
     row.seed = scene.spec.seed;
     row.asks = std::move(asks);
     row.content_hash = scene.content_hash;

@@ -1,6 +1,7 @@
 #include "bench/round.h"
 
 #include "bench/calibration.h"
+#include "bench/moving_pairs.h"
 #include "bench/prepare.h"
 #include "bench/truth.h"
 
@@ -69,6 +70,7 @@ class Round final : public benchmark::BenchmarkReporter {
         : report_(report), timings_(timings), round_(round) {}
 
     std::vector<results::Sample> samples;
+    std::vector<results::FrameRow> frames;
 
     /// One contender at a time is alive: from the start of its build to the end of its query.
     void build(benchmark::State& state, const Timing& timing) {
@@ -76,6 +78,8 @@ class Round final : public benchmark::BenchmarkReporter {
         start_sample(timing, "build");
         contender_->build(); // warms caches and allocator
         time(state, [&] { contender_->build(); });
+        if (timing.cell->ask == Ask::tree)
+            finish(); // nothing is asked of it
     }
 
     /// Kernels have nothing to build, and no sample of it.
@@ -87,23 +91,72 @@ class Round final : public benchmark::BenchmarkReporter {
         start_sample(timing, "query");
         answers_ = {};
         if (timing.cell->ask == Ask::pairs || timing.cell->ask == Ask::tree_pairs ||
-            timing.cell->ask == Ask::triangle_pairs)
+            timing.cell->ask == Ask::triangle_pairs || timing.cell->ask == Ask::points ||
+            timing.cell->ask == Ask::regions)
             answers_.pairs.reserve(timing.answers);
         contender_->query(answers_); // warms caches and the answers' pages
         time(state, [&] { contender_->query(answers_); });
         if (answer_hash(answers_, timing.cell->ask) != timing.checked_hash)
             samples.back().flags |= results::wrong_answer;
-        contender_.reset();
-        std::fesetenv(&floating_point_mode_);
-        ++done_;
+        finish();
+    }
+
+    /// Of moving scenes: passes through all frames, one untimed with every answer looked at, the
+    /// last of the others looked at afterwards. Their times are our own: google-benchmark would
+    /// add up update and query.
+    void play_frames(benchmark::State& state, const Timing& timing) {
+        const Scene& scene = scene_of(timing.cell->scene);
+        answers_ = {};
+        std::vector<FrameTime> times(scene.frames.size());
+        FramesHash hash;
+        std::uint64_t last = 0;
+        play(*contender_, scene, answers_, times, [&](std::size_t) {
+            hash.add(answers_.pairs);
+            last = unordered_hash(answers_.pairs);
+        });
+        std::ranges::fill(times, FrameTime{});
+        for (const char* phase : {"update", "query"})
+            start_sample(timing, phase);
+        const Usage before;
+        for ([[maybe_unused]] auto iteration : state) {
+            contender_->build();
+            play(*contender_, scene, answers_, times, [](std::size_t) {});
+        }
+        const Usage after;
+        results::Sample &update = samples.end()[-2], &query = samples.back();
+        const auto passes = static_cast<double>(state.iterations());
+        update.wall_ns = update.cpu_ns = query.wall_ns = query.cpu_ns = 0;
+        const double all = passes * static_cast<double>(times.size());
+        for (std::size_t f = 0; f < times.size(); ++f) {
+            const FrameTime& time = times[f];
+            update.wall_ns += time.update_ns / all;
+            update.cpu_ns += time.update_cpu_ns / all;
+            query.wall_ns += time.query_ns / all;
+            query.cpu_ns += time.query_cpu_ns / all;
+            if (!timing.is_twin)
+                frames.push_back({timing.cell_id, 0, round_, static_cast<std::uint32_t>(f),
+                                  time.update_ns / passes, time.query_ns / passes, time.pairs});
+        }
+        const bool wrong = hash.value() != timing.checked_hash ||
+                           (!times.empty() && unordered_hash(answers_.pairs) != last);
+        for (results::Sample* sample : {&update, &query}) {
+            sample->iterations = static_cast<std::uint64_t>(all);
+            add_usage(*sample, before, after);
+            if (wrong)
+                sample->flags |= results::wrong_answer;
+        }
+        own_times_ = true;
+        finish();
     }
 
     bool ReportContext(const Context&) override { return true; }
 
-    /// Called once after each of the two functions above.
+    /// Called once after each of the functions above.
     void ReportRuns(const std::vector<Run>& runs) override {
         if (runs.size() != 1 || runs.front().error_occurred)
             throw std::runtime_error("google-benchmark did not report one run per sample");
+        if (std::exchange(own_times_, false))
+            return;
         const Run& run = runs.front();
         results::Sample& sample = samples.back();
         sample.iterations = static_cast<std::uint64_t>(run.iterations);
@@ -118,6 +171,12 @@ class Round final : public benchmark::BenchmarkReporter {
         std::fegetenv(&floating_point_mode_);
         const Scene& scene = scene_of(cell.scene);
         contender_ = cell.contender.make(Job{&scene, cell.ask, cell.executor, cell.threads});
+    }
+
+    void finish() {
+        contender_.reset();
+        std::fesetenv(&floating_point_mode_);
+        ++done_;
     }
 
     void start_sample(const Timing& timing, const char* phase) {
@@ -151,6 +210,7 @@ class Round final : public benchmark::BenchmarkReporter {
     std::unique_ptr<Contender> contender_;
     Answers answers_;
     std::fenv_t floating_point_mode_{};
+    bool own_times_ = false; ///< the samples have their times already
 };
 
 std::vector<Timing> timings_of(const Plan& plan, const results::Results& prepared) {
@@ -237,6 +297,14 @@ results::Results run_round(const Plan& plan, const results::Results& prepared, u
                 [&](benchmark::State& state) { engine.build(state, timing); });
             ++expected;
         }
+        if (timing.cell->ask == Ask::tree)
+            continue;
+        if (timing.cell->ask == Ask::moving_pairs) {
+            add(timing.cell->name + "/frames", timing.calibration.query_iterations,
+                [&](benchmark::State& state) { engine.play_frames(state, timing); });
+            expected += 2;
+            continue;
+        }
         ++expected;
         add(timing.cell->name + "/query", timing.calibration.query_iterations,
             [&](benchmark::State& state) { engine.query(state, timing); });
@@ -250,6 +318,7 @@ results::Results run_round(const Plan& plan, const results::Results& prepared, u
     shard.steal_ticks = steal_ticks() - steal_before;
     out.shards.push_back(shard);
     out.samples = std::move(engine.samples);
+    out.frames = std::move(engine.frames);
     return out;
 }
 

@@ -36,9 +36,10 @@ double round_s(const Calibrations& calibrations) {
     return s;
 }
 
-/// Before anything was measured: a microsecond per item and ray for each phase.
+/// Before anything was measured: a microsecond per item, ray, point and region for each phase.
 double guessed_cell_s(const PlannedCell& cell, double min_time_ms) {
-    const double call = 1e-6 * static_cast<double>(cell.scene.n + cell.scene.n_rays);
+    const double call =
+        1e-6 * static_cast<double>(cell.scene.n + cell.scene.n_rays + cell.scene.n_points);
     return 2 * (call + std::max(call, min_time_ms * 1e-3)) + set_up_ns * 1e-9;
 }
 

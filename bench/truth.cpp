@@ -1,6 +1,7 @@
 #include "bench/truth.h"
 
 #include "bench/peers/brute_force.h"
+#include "bench/point_truth.h"
 #include "bench/ray_truth.h"
 #include "kernels/oracle/oracle.h"
 
@@ -285,7 +286,13 @@ class RaysTruth final : public Truth {
 
 } // namespace
 
+std::vector<Pair> true_pairs(std::span<const Aabb<float>> boxes, unsigned threads) {
+    return swept_pairs(boxes, false, threads);
+}
+
 std::unique_ptr<Truth> make_truth(const Scene& scene, Ask ask, unsigned threads) {
+    if (is_point_ask(ask))
+        return make_point_truth(scene, ask, threads);
     if (!is_ray_ask(ask))
         return std::make_unique<PairTruth>(scene, ask, threads);
     return std::make_unique<RaysTruth>(scene, ask, threads);
@@ -325,6 +332,8 @@ std::uint64_t kernel_answer_hash(const Answers& answers) {
 std::uint64_t answer_hash(const Answers& answers, Ask ask) {
     if (is_kernel_ask(ask))
         return kernel_answer_hash(answers);
+    if (ask == Ask::nearest || ask == Ask::closest_points)
+        return point_answer_hash(answers, ask);
     if (!is_ray_ask(ask)) {
         std::vector<Pair> sorted = answers.pairs;
         std::ranges::sort(sorted);

@@ -20,6 +20,9 @@ class Truth {
 /// `threads` may be used to compute it. The scene must outlive the truth.
 std::unique_ptr<Truth> make_truth(const Scene& scene, Ask ask, unsigned threads);
 
+/// Every unordered pair of overlapping boxes, ascending.
+std::vector<Pair> true_pairs(std::span<const Aabb<float>> boxes, unsigned threads);
+
 /// A hash of an answer that does not depend on the order of its pairs. It tells whether two rounds
 /// of one contender gave the same answer.
 std::uint64_t answer_hash(const Answers& answers, Ask ask);

@@ -1,5 +1,6 @@
 #include "bench/peers/capability.h"
 #include "bench/peers/kernel_peers.h"
+#include "bench/peers/point_peers.h"
 
 #include <BulletCollision/BroadphaseCollision/btDbvt.h>
 #include <fmt/format.h>
@@ -24,35 +25,95 @@ struct Append final : btDbvt::ICollide {
     std::vector<Pair>& out;
 };
 
+/// The same where the leaves hold more than the boxes.
+struct AppendFiltered final : btDbvt::ICollide {
+    AppendFiltered(std::vector<Pair>& pairs, const std::vector<btDbvtVolume>& boxes)
+        : out(pairs), volumes(boxes) {}
+    using ICollide::Process;
+    void Process(const btDbvtNode* a, const btDbvtNode* b) override {
+        if (Intersect(volumes[item(a)], volumes[item(b)]))
+            out.push_back(ordered_pair(item(a), item(b)));
+    }
+    std::vector<Pair>& out;
+    const std::vector<btDbvtVolume>& volumes;
+};
+
+/// How leaves follow their boxes from frame to frame.
+enum class Way {
+    reinsert,            ///< each moved leaf inserted anew
+    top_down,            ///< built from the top anew
+    reinsert_with_margin ///< each leaf inserted anew, with a margin, once its box leaves it
+};
+
+btDbvtVolume volume_of(const Aabb<float>& box) {
+    return btDbvtVolume::FromMM(btVector3(box.min.x, box.min.y, box.min.z),
+                                btVector3(box.max.x, box.max.y, box.max.z));
+}
+
 class DbvtContender final : public Contender {
   public:
-    DbvtContender(const Job& job, bool top_down)
-        : top_down_(top_down), between_halves_(job.ask == Ask::tree_pairs),
+    DbvtContender(const Job& job, Way way)
+        : scene_(*job.scene), way_(way), between_halves_(job.ask == Ask::tree_pairs),
           split_(between_halves_ ? tree_pairs_split(job.scene->boxes.size()) : 0) {
-        volumes_.reserve(job.scene->boxes.size());
-        for (const Aabb<float>& box : job.scene->boxes)
-            volumes_.push_back(btDbvtVolume::FromMM(btVector3(box.min.x, box.min.y, box.min.z),
-                                                    btVector3(box.max.x, box.max.y, box.max.z)));
+        leaves_.resize(scene_.boxes.size());
+        take_boxes();
     }
 
     void build() override {
+        if (std::exchange(moved_, false))
+            take_boxes();
         first_ = make_tree(0, split_);
         rest_ = make_tree(split_, volumes_.size());
+    }
+
+    void update(std::size_t frame) override {
+        moved_ = true;
+        const Frame& now = scene_.frames[frame];
+        for (const std::uint32_t i : now.moved) {
+            volumes_[i] = volume_of(now.boxes[i]);
+            btDbvtVolume volume = volumes_[i]; // changed by the calls below
+            if (way_ == Way::reinsert_with_margin)
+                rest_->update(leaves_[i], volume, margin_);
+            else if (way_ == Way::reinsert)
+                rest_->update(leaves_[i], volume);
+            else
+                leaves_[i]->volume = volume;
+        }
+        if (way_ == Way::top_down)
+            rest_->optimizeTopDown(bottom_up_below);
     }
 
     void query(Answers& answers) override {
         answers.pairs.clear();
         Append append(answers.pairs);
+        AppendFiltered append_filtered(answers.pairs, volumes_);
         const btDbvtNode* const side = between_halves_ ? first_->m_root : rest_->m_root;
-        rest_->collideTTpersistentStack(side, rest_->m_root, append);
+        if (way_ == Way::reinsert_with_margin)
+            rest_->collideTTpersistentStack(side, rest_->m_root, append_filtered);
+        else
+            rest_->collideTTpersistentStack(side, rest_->m_root, append);
     }
 
   private:
-    std::unique_ptr<btDbvt> make_tree(std::size_t begin, std::size_t end) const {
+    /// Margins are a fifth of the mean side.
+    void take_boxes() {
+        volumes_.clear();
+        double sides = 0;
+        for (const Aabb<float>& box : scene_.boxes) {
+            volumes_.push_back(volume_of(box));
+            const Vec3<float> side = box.max - box.min;
+            sides += static_cast<double>(side.x + side.y + side.z);
+        }
+        if (!volumes_.empty())
+            margin_ = static_cast<float>(.2 * sides / (3 * static_cast<double>(volumes_.size())));
+    }
+
+    std::unique_ptr<btDbvt> make_tree(std::size_t begin, std::size_t end) {
         auto tree = std::make_unique<btDbvt>();
         for (std::size_t i = begin; i < end; ++i)
-            tree->insert(volumes_[i], reinterpret_cast<void*>(static_cast<std::uintptr_t>(i)));
-        if (top_down_)
+            leaves_[i] =
+                tree->insert(volumes_[i], reinterpret_cast<void*>(static_cast<std::uintptr_t>(i)));
+        if (way_ == Way::top_down)
             tree->optimizeTopDown(bottom_up_below);
         return tree;
     }
@@ -61,27 +122,34 @@ class DbvtContender final : public Contender {
     /// and query together; Bullet's default of 128 takes seven times as long to build.
     static constexpr int bottom_up_below = 32;
 
-    bool top_down_, between_halves_;
+    const Scene& scene_;
+    Way way_;
+    bool between_halves_;
     std::size_t split_;
-    std::vector<btDbvtVolume> volumes_;
+    std::vector<btDbvtVolume> volumes_; ///< the true ones
+    std::vector<btDbvtNode*> leaves_;   ///< by item
+    btScalar margin_ = 0;
+    bool moved_ = false;                   ///< whether the volumes are those of a frame
     std::unique_ptr<btDbvt> first_, rest_; ///< all boxes in `rest_` for Ask::pairs
 };
 
-ContenderEntry entry(std::string name, std::string summary, std::string build, bool top_down) {
+ContenderEntry entry(std::string name, std::string summary, std::string build, Way way) {
     ContenderEntry e;
     e.name = std::move(name);
     e.library = "bullet";
     e.summary = std::move(summary);
     e.notes = std::move(build) +
-              "; query = collideTT with a virtual callback that appends the pair; no margin; one "
+              "; query = collideTT with a virtual callback that appends the pair; one "
               "thread; a build also frees the tree before it";
     e.precision = "f32";
-    e.unsupported = [](const Job& job) -> Unsupported {
-        if (auto why = not_box_ask(job))
+    e.unsupported = [way](const Job& job) -> Unsupported {
+        if (way == Way::reinsert_with_margin && job.ask != Ask::moving_pairs)
+            return "answers moving_pairs only";
+        if (auto why = not_frame_or_box_ask(job))
             return why;
         return not_serial(job);
     };
-    e.make = [top_down](const Job& job) { return std::make_unique<DbvtContender>(job, top_down); };
+    e.make = [way](const Job& job) { return std::make_unique<DbvtContender>(job, way); };
     return e;
 }
 
@@ -93,11 +161,21 @@ Peer bullet_peer() {
     peer.summary = "Bullet Physics: dynamic bounding volume tree";
     peer.version = fmt::format("{}.{}", BT_BULLET_VERSION / 100, BT_BULLET_VERSION % 100);
     peer.build = "the distribution's package: single precision, box tests without SSE";
-    peer.contenders = {entry("bullet.dbvt", "Bullet's btDbvt, boxes inserted one by one",
-                             "build = insert each box, as Bullet's own broad phase does", false),
-                       entry("bullet.dbvt.top_down",
-                             "Bullet's btDbvt, rebuilt from the top after the insertions",
-                             "build = insert each box + optimizeTopDown(32)", true)};
+    peer.contenders = {
+        entry("bullet.dbvt", "Bullet's btDbvt, boxes inserted one by one",
+              "build = insert each box, as Bullet's own broad phase does; no margin; a frame: "
+              "update each moved leaf",
+              Way::reinsert),
+        entry("bullet.dbvt.top_down", "Bullet's btDbvt, rebuilt from the top after the insertions",
+              "build = insert each box + optimizeTopDown(32); no margin; a frame: volumes of "
+              "the moved leaves + optimizeTopDown(32)",
+              Way::top_down),
+        entry("bullet.dbvt.margin", "Bullet's btDbvt with margins that take up small moves",
+              "build = insert each box; a frame: update each moved leaf with a "
+              "margin of a fifth of the mean side; pairs filtered by the true boxes",
+              Way::reinsert_with_margin)};
+    for (ContenderEntry& e : bullet_points())
+        peer.contenders.push_back(std::move(e));
     for (ContenderEntry& e : bullet_kernels())
         peer.contenders.push_back(std::move(e));
     return peer;

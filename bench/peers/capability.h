@@ -13,6 +13,11 @@ inline Unsupported not_box_ask(const Job& job) {
     return "answers pairs and tree_pairs only";
 }
 
+/// Of those that take new boxes frame after frame, too.
+inline Unsupported not_frame_or_box_ask(const Job& job) {
+    return job.ask == Ask::moving_pairs ? std::nullopt : not_box_ask(job);
+}
+
 inline Unsupported not_serial(const Job& job) {
     if (job.executor == "serial" && job.threads == 1)
         return std::nullopt;

@@ -2,6 +2,7 @@
 #define CGAL_LINKED_WITH_TBB
 #include "bench/peers/capability.h"
 #include "bench/peers/kernel_peers.h"
+#include "bench/peers/point_peers.h"
 
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/version.h>
@@ -122,6 +123,8 @@ Peer cgal_peer() {
               "CGAL's box_self_intersection_d (Zomorodian and Edelsbrunner)"));
     peer.contenders.push_back(entry(Ask::tree_pairs, "cgal.box_intersection_d",
                                     "CGAL's box_intersection_d between two sets of boxes"));
+    for (ContenderEntry& e : cgal_points())
+        peer.contenders.push_back(std::move(e));
     for (ContenderEntry& e : cgal_kernels())
         peer.contenders.push_back(std::move(e));
     return peer;

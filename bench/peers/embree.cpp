@@ -1,6 +1,8 @@
 #include "bench/peers/capability.h"
 #include "bench/peers/embree_handles.h"
 #include "bench/peers/kernel_peers.h"
+#include "bench/peers/point_peers.h"
+#include "bench/peers/tree_peers.h"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
@@ -22,16 +24,32 @@ void bounds_of_box(const RTCBoundsFunctionArguments* args) {
 class Collide final : public Contender {
   public:
     Collide(const Job& job, RTCBuildQuality quality)
-        : boxes_(job.scene->boxes), quality_(quality),
+        : scene_(*job.scene), boxes_(scene_.boxes), quality_(quality),
           split_(job.ask == Ask::tree_pairs ? tree_pairs_split(boxes_.size()) : 0),
           between_halves_(job.ask == Ask::tree_pairs), threads_(job.threads),
           device_(make_device(job.threads)), arena_(static_cast<int>(job.threads)) {}
 
     void build() override {
+        boxes_ = scene_.boxes;
         arena_.execute([&] {
             first_ = make_scene_of(0, split_);
             rest_ = make_scene_of(split_, boxes_.size());
         });
+    }
+
+    /// The same geometry told that its bounds have changed, and committed again: a build anew, or
+    /// where the quality is `refit` new bounds for the nodes that are there.
+    void update(std::size_t frame) override {
+        boxes_ = scene_.frames[frame].boxes;
+        if (!rest_)
+            return;
+        arena_.execute([&] {
+            const RTCGeometry geometry = rtcGetGeometry(rest_.get(), 0);
+            rtcSetGeometryUserData(geometry, const_cast<Aabb<float>*>(boxes_.data()));
+            rtcCommitGeometry(geometry);
+            rtcCommitScene(rest_.get());
+        });
+        throw_if_failed(device_.get(), "updating the scene");
     }
 
     void query(Answers& answers) override {
@@ -57,7 +75,9 @@ class Collide final : public Contender {
         rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(end - begin));
         rtcSetGeometryUserData(geometry.get(), const_cast<Aabb<float>*>(boxes_.data() + begin));
         rtcSetGeometryBoundsFunction(geometry.get(), bounds_of_box, nullptr);
-        return commit(device_.get(), std::move(geometry), quality_, RTC_SCENE_FLAG_NONE);
+        return commit(device_.get(), std::move(geometry), quality_,
+                      quality_ == RTC_BUILD_QUALITY_REFIT ? RTC_SCENE_FLAG_DYNAMIC
+                                                          : RTC_SCENE_FLAG_NONE);
     }
 
     /// Embree hands over candidates from its leaves: those of one scene in both orders, and some
@@ -73,7 +93,8 @@ class Collide final : public Contender {
         }
     }
 
-    const std::vector<Aabb<float>>& boxes_;
+    const Scene& scene_;
+    std::span<const Aabb<float>> boxes_; ///< of the scene, or of its newest frame
     RTCBuildQuality quality_;
     std::size_t split_;
     bool between_halves_;
@@ -170,8 +191,13 @@ ContenderEntry collide(const char* word, RTCBuildQuality quality) {
               "the end; build = one geometry with its bounds callback, attached and committed; "
               "boxes beyond "
               "1.8e18 are dropped by Embree; a build also frees the scene before it");
-    e.unsupported = [](const Job& job) -> Unsupported {
-        if (auto why = not_box_ask(job))
+    const bool refit = quality == RTC_BUILD_QUALITY_REFIT;
+    e.notes += refit ? "; a dynamic scene whose nodes are refitted in each frame"
+                     : "; a frame: the geometry committed anew and the scene built anew";
+    e.unsupported = [refit](const Job& job) -> Unsupported {
+        if (refit && job.ask != Ask::moving_pairs)
+            return "answers moving_pairs only";
+        if (auto why = not_frame_or_box_ask(job))
             return why;
         return not_tbb(job);
     };
@@ -214,10 +240,15 @@ Peer embree_peer() {
     peer.contenders = {collide("low", RTC_BUILD_QUALITY_LOW),
                        collide("medium", RTC_BUILD_QUALITY_MEDIUM),
                        collide("high", RTC_BUILD_QUALITY_HIGH),
+                       collide("refit", RTC_BUILD_QUALITY_REFIT),
                        rays(Ask::rays_closest, false),
                        rays(Ask::rays_closest, true),
                        rays(Ask::rays_any, false),
                        rays(Ask::rays_any, true)};
+    for (ContenderEntry& e : embree_trees())
+        peer.contenders.push_back(std::move(e));
+    for (ContenderEntry& e : embree_points())
+        peer.contenders.push_back(std::move(e));
     for (ContenderEntry& e : embree_kernels())
         peer.contenders.push_back(std::move(e));
     return peer;

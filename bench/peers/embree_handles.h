@@ -61,7 +61,8 @@ inline SceneHandle commit(RTCDevice device, Geometry geometry, RTCBuildQuality q
     rtcSetGeometryBuildQuality(geometry.get(), quality);
     rtcCommitGeometry(geometry.get());
     SceneHandle scene(rtcNewScene(device));
-    rtcSetSceneBuildQuality(scene.get(), quality);
+    rtcSetSceneBuildQuality(
+        scene.get(), quality == RTC_BUILD_QUALITY_REFIT ? RTC_BUILD_QUALITY_MEDIUM : quality);
     rtcSetSceneFlags(scene.get(), flags);
     rtcAttachGeometry(scene.get(), geometry.get());
     rtcCommitScene(scene.get());

@@ -1,5 +1,6 @@
 #include "bench/peers/capability.h"
 #include "bench/peers/kernel_peers.h"
+#include "bench/peers/point_peers.h"
 
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree_array.h>
@@ -16,7 +17,8 @@ using Object = fcl::CollisionObject<double>;
 /// its bounds would come back rounded: other boxes than ours, other pairs at a touch.
 class BoundsOnly final : public fcl::CollisionGeometry<double> {
   public:
-    explicit BoundsOnly(const Aabb<float>& box) {
+    explicit BoundsOnly(const Aabb<float>& box) { take(box); }
+    void take(const Aabb<float>& box) {
         aabb_local.min_ =
             fcl::Vector3<double>(static_cast<double>(box.min.x), static_cast<double>(box.min.y),
                                  static_cast<double>(box.min.z));
@@ -43,12 +45,13 @@ bool append(Object* a, Object* b, void* pairs) {
 /// Manager: DynamicAABBTreeCollisionManager or its array twin.
 template <class Manager> class FclContender final : public Contender {
   public:
-    explicit FclContender(const Job& job) {
-        const std::vector<Aabb<float>>& boxes = job.scene->boxes;
+    FclContender(const Job& job, bool moved_alone) : scene_(*job.scene), moved_alone_(moved_alone) {
+        const std::vector<Aabb<float>>& boxes = scene_.boxes;
         const std::size_t split = job.ask == Ask::tree_pairs ? tree_pairs_split(boxes.size()) : 0;
         between_halves_ = job.ask == Ask::tree_pairs;
         for (std::size_t i = 0; i < boxes.size(); ++i) {
-            auto object = std::make_unique<Object>(std::make_shared<BoundsOnly>(boxes[i]));
+            bounds_.push_back(std::make_shared<BoundsOnly>(boxes[i]));
+            auto object = std::make_unique<Object>(bounds_.back());
             object->setUserData(reinterpret_cast<void*>(static_cast<std::uintptr_t>(i)));
             (i < split ? first_ : rest_).push_back(object.get());
             objects_.push_back(std::move(object));
@@ -56,6 +59,9 @@ template <class Manager> class FclContender final : public Contender {
     }
 
     void build() override {
+        if (std::exchange(moved_, false))
+            for (std::size_t i = 0; i < objects_.size(); ++i)
+                give(i, scene_.boxes[i]);
         first_tree_ = make_tree(first_);
         rest_tree_ = make_tree(rest_);
     }
@@ -68,7 +74,26 @@ template <class Manager> class FclContender final : public Contender {
             rest_tree_->collide(&answers.pairs, append);
     }
 
+    void update(std::size_t frame) override {
+        moved_ = true;
+        const Frame& now = scene_.frames[frame];
+        changed_.clear();
+        for (const std::uint32_t i : now.moved) {
+            give(i, now.boxes[i]);
+            changed_.push_back(objects_[i].get());
+        }
+        if (moved_alone_)
+            rest_tree_->update(changed_);
+        else
+            rest_tree_->update();
+    }
+
   private:
+    void give(std::size_t i, const Aabb<float>& box) {
+        bounds_[i]->take(box);
+        objects_[i]->computeAABB();
+    }
+
     static std::unique_ptr<Manager> make_tree(const std::vector<Object*>& objects) {
         auto tree = std::make_unique<Manager>();
         tree->tree_init_level = 2; // Morton order: a third of the build time of the default, 0
@@ -77,13 +102,18 @@ template <class Manager> class FclContender final : public Contender {
         return tree;
     }
 
-    bool between_halves_;
+    const Scene& scene_;
+    bool moved_alone_, between_halves_;
+    bool moved_ = false; ///< whether the boxes are those of a frame
+    std::vector<std::shared_ptr<BoundsOnly>> bounds_;
     std::vector<std::unique_ptr<Object>> objects_;
+    std::vector<Object*> changed_;
     std::vector<Object*> first_, rest_; ///< all of them in `rest_` for Ask::pairs
     std::unique_ptr<Manager> first_tree_, rest_tree_;
 };
 
-template <class Manager> ContenderEntry entry(std::string name, std::string summary) {
+template <class Manager>
+ContenderEntry entry(std::string name, std::string summary, bool moved_alone = false) {
     ContenderEntry e;
     e.name = std::move(name);
     e.library = "fcl";
@@ -94,12 +124,18 @@ template <class Manager> ContenderEntry entry(std::string name, std::string summ
         "callback that appends the pair; boxes in double, equal to the scene's floats; one "
         "thread; a build also frees the tree before it";
     e.precision = "f64";
-    e.unsupported = [](const Job& job) -> Unsupported {
-        if (auto why = not_box_ask(job))
+    e.notes += moved_alone ? "; a frame: boxes of the moved, update(moved)"
+                           : "; a frame: boxes of the moved, update() of all";
+    e.unsupported = [moved_alone](const Job& job) -> Unsupported {
+        if (moved_alone && job.ask != Ask::moving_pairs)
+            return "answers moving_pairs only";
+        if (auto why = not_frame_or_box_ask(job))
             return why;
         return not_serial(job);
     };
-    e.make = [](const Job& job) { return std::make_unique<FclContender<Manager>>(job); };
+    e.make = [moved_alone](const Job& job) {
+        return std::make_unique<FclContender<Manager>>(job, moved_alone);
+    };
     return e;
 }
 
@@ -117,6 +153,11 @@ Peer fcl_peer() {
         "fcl.dynamic_aabb_tree_array",
         "FCL's DynamicAABBTreeCollisionManager_Array: nodes in one array"));
     peer.contenders.back().notes += "; FCL 0.7 loses the memory of the leaves at each bulk build";
+    peer.contenders.push_back(entry<fcl::DynamicAABBTreeCollisionManager<double>>(
+        "fcl.dynamic_aabb_tree.moved",
+        "FCL's DynamicAABBTreeCollisionManager, told which objects moved", true));
+    for (ContenderEntry& e : fcl_points())
+        peer.contenders.push_back(std::move(e));
     for (ContenderEntry& e : fcl_kernels())
         peer.contenders.push_back(std::move(e));
     return peer;

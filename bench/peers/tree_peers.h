@@ -1,0 +1,12 @@
+#pragma once
+
+#include "bench/contender.h"
+
+#include <vector>
+
+namespace boxwood::bench {
+
+/// Embree's builders of binary trees, for the ask `tree`; made in peers/embree_builder.cpp.
+std::vector<ContenderEntry> embree_trees();
+
+} // namespace boxwood::bench
