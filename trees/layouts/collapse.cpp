@@ -17,6 +17,7 @@ template <std::uint32_t width> struct Cut {
 template <std::uint32_t width> Cut<width> cut_below(const Tree& tree, std::uint32_t node) {
     Cut<width> cut{{node}, 1};
     std::array<double, width> areas{};
+    std::array<std::uint32_t, width> counts{};
     const auto openable = [&](std::uint32_t n) {
         if (tree.nodes[n].count <= width)
             return -1.0;
@@ -24,13 +25,14 @@ template <std::uint32_t width> Cut<width> cut_below(const Tree& tree, std::uint3
         return tree.nodes[n].box.half_area();
     };
     while (cut.count < width) {
+        // On a tie the one of more items, so that flat and identical boxes stay balanced.
         std::uint32_t widest = 0;
-        double most = areas[0];
         for (std::uint32_t i = 1; i < cut.count; ++i) {
-            widest = areas[i] > most ? i : widest;
-            most = areas[i] > most ? areas[i] : most;
+            const bool more = counts[i] > counts[widest];
+            const bool wider = areas[i] > areas[widest] || (areas[i] == areas[widest] && more);
+            widest = wider ? i : widest;
         }
-        if (most < 0)
+        if (areas[widest] < 0)
             break;
         const std::uint32_t opened = cut.nodes[widest];
         const auto left = static_cast<std::uint32_t>(Tree::left(opened));
@@ -39,11 +41,14 @@ template <std::uint32_t width> Cut<width> cut_below(const Tree& tree, std::uint3
         for (std::uint32_t i = cut.count; i > widest + 1; --i) {
             cut.nodes[i] = cut.nodes[i - 1];
             areas[i] = areas[i - 1];
+            counts[i] = counts[i - 1];
         }
         cut.nodes[widest] = left;
         cut.nodes[widest + 1] = right;
         areas[widest] = openable(left);
         areas[widest + 1] = openable(right);
+        counts[widest] = tree.nodes[left].count;
+        counts[widest + 1] = tree.nodes[right].count;
         ++cut.count;
     }
     return cut;

@@ -134,7 +134,7 @@ TEST(QuantisedBlock, ContainsItsChildrenWhateverTheFloats) {
     std::mt19937 random(5);
     const auto bits = [&] { return std::bit_cast<float>(static_cast<std::uint32_t>(random())); };
     const auto near = [&](float x) { // a few ulps away
-        for (std::uint32_t i = random() % 6; i > 0; --i)
+        for (auto i = random() % 6; i > 0; --i)
             x = std::nextafter(x, random() % 2 ? 1e30f : -1e30f);
         return x;
     };

@@ -83,8 +83,9 @@ void pairs(const T& a, const T& b, const Executor& executor, PairSink& sink, Wor
         tasks = share_out(Pair{0, 0}, weight, [&](Pair nodes, std::vector<Pair>& out) {
             if (Self && nodes.a == nodes.b)
                 for (const std::size_t child : {T::left(nodes.a), a.right(nodes.a)})
-                    out.push_back(
-                        {static_cast<std::uint32_t>(child), static_cast<std::uint32_t>(child)});
+                    if (!a.is_leaf(child)) // a leaf against itself is nothing
+                        out.push_back(
+                            {static_cast<std::uint32_t>(child), static_cast<std::uint32_t>(child)});
             if (work)
                 ++work->node_visits;
             open_nodes<Self>(a, b, nodes, [&](std::uint32_t i, std::uint32_t j) {

@@ -90,7 +90,7 @@ class PairWalk {
 template <class Weight, class Open>
 std::vector<Pair> share_out(Pair root, const Weight& weight, const Open& open) {
     constexpr std::size_t small = 4096; // a walk of fewer items is not worth sharing out
-    constexpr std::size_t light = 128, enough = 256, most = 4 * enough;
+    constexpr std::size_t light = 128, enough = 256, most = 8 * enough;
     std::vector<Pair> tasks{root}, next;
     std::size_t heaviest = weight(root);
     if (heaviest < small)

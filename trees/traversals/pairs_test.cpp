@@ -171,6 +171,65 @@ TEST(SelfPairs, WorkOnIdenticalBoxesIsThatOfTheOutput) {
     });
 }
 
+/// Counts the pairs of each chunk.
+class ChunkSizes final : public PairSink {
+  public:
+    void begin(std::size_t chunks, bool) override { sizes.assign(chunks, 0); }
+    bool take(std::size_t chunk, std::span<const Pair> pairs) override {
+        sizes[chunk] += pairs.size();
+        return true;
+    }
+    void end() override {}
+    std::vector<std::size_t> sizes;
+};
+
+TEST(SelfPairs, NoChunkHasMostOfTheWorkOfABadCase) {
+    // A giant cluster far from the few others, and one that is all the same box.
+    std::vector<Box> cluster = random_boxes(12000, .08f, 5);
+    for (Box box : random_boxes(300, .1f, 6)) {
+        for (Vec3<float>* p : {&box.min, &box.max})
+            *p = 1000.0f * *p;
+        cluster.push_back(box);
+    }
+    const std::vector<Box> same(6000, Box{{0, 0, 0}, {1, 1, 1}});
+    for (const std::vector<Box>& boxes : {cluster, same})
+        for (const std::string_view builder : {"median", "binned_sah"}) {
+            const Tree tree = find_builder(builder)->make({})(boxes, serial());
+            for (const LayoutEntry& entry : layouts()) {
+                SCOPED_TRACE(std::string(builder) + "." + std::string(entry.name));
+                ChunkSizes chunks;
+                entry.make(tree, serial())->self_pairs(serial(), chunks);
+                std::size_t all = 0;
+                for (const std::size_t size : chunks.sizes)
+                    all += size;
+                EXPECT_LT(8 * std::ranges::max(chunks.sizes), all);
+            }
+        }
+}
+
+TEST(SelfPairs, WalkATreeThatIsAChain) {
+    constexpr std::uint32_t n = 30000;
+    Tree tree(n);
+    for (std::uint32_t k = 0; k < n; ++k) {
+        const auto x = static_cast<float>(k);
+        tree.order[k] = k;
+        if (k + 1 < n)
+            tree.nodes[2 * k] = {{{x, 0, 0}, {static_cast<float>(n), 1, 1}}, k, n - k};
+        tree.nodes[k + 1 < n ? 2 * k + 1 : 2 * k] = {{{x, 0, 0}, {x + 1, 1, 1}}, k, 1};
+    }
+    for (const LayoutEntry& entry : layouts()) {
+        SCOPED_TRACE(entry.name);
+        const auto layout = entry.make(tree, serial());
+        CountPairs serial_count, count;
+        layout->self_pairs(serial(), serial_count);
+        layout->self_pairs(*make_executor("tbb", 3), count);
+        EXPECT_EQ(serial_count.count(), n - 1);
+        EXPECT_EQ(count.count(), n - 1);
+        layout->tree_pairs(*layout, serial(), count);
+        EXPECT_EQ(count.count(), n + 2 * (n - 1));
+    }
+}
+
 TEST(Builders, RefuseBadBoxesByIndex) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float inf = std::numeric_limits<float>::infinity();
