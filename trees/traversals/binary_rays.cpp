@@ -61,8 +61,10 @@ template <class L> void walk_job(const L& layout, const RayJob& job) {
     with_job_types(job, [&]<class K, RayMode mode, bool Counted>(
                             std::type_identity<K>, std::integral_constant<RayMode, mode>,
                             std::bool_constant<Counted>) {
-        walk_each<K, mode, Counted>(job, [&](const Ray<float>& ray, auto& state) {
+        walk_each<mode>(job, [&](const Ray<float>& ray, std::vector<RayHit>& found) {
+            RayWalk<K, mode, Counted> state(ray, job.work, found);
             walk(layout, blocks, ray, state, stack);
+            return state.result();
         });
     });
 }

@@ -267,10 +267,11 @@ template <class Node> void WalkJob(const RayJob& job) {
     with_job_types(job, [&]<class K, RayMode mode, bool Counted>(
                             std::type_identity<K>, std::integral_constant<RayMode, mode>,
                             std::bool_constant<Counted>) {
-        walk_each<K, mode, Counted>(
-            job, [&](const Ray<float>& ray, RayWalk<K, mode, Counted>& state) HWY_ATTR {
-                WalkRay<Node>(job.triangles, bounds, ray, state, stack.data(), refs.data());
-            });
+        walk_each<mode>(job, [&](const Ray<float>& ray, std::vector<RayHit>& found) HWY_ATTR {
+            RayWalk<K, mode, Counted> state(ray, job.work, found);
+            WalkRay<Node>(job.triangles, bounds, ray, state, stack.data(), refs.data());
+            return state.result();
+        });
     });
 }
 

@@ -97,16 +97,15 @@ template <RayKernel K, RayMode mode, bool Counted> class RayWalk {
     RayHit best_;
 };
 
-/// Walks every ray of a job by `walk(ray, state)`, which finds its hits. Kernels miss whatever is
-/// not finite, so such rays have no walk.
-template <RayKernel K, RayMode mode, bool Counted, class Walk>
-void walk_each(const RayJob& job, const Walk& walk) {
+/// Walks every ray of a job by `walk(ray, found)`, which gives a RayWalk's result. Kernels miss
+/// whatever is not finite, so such rays have no walk.
+template <RayMode mode, class Walk> void walk_each(const RayJob& job, const Walk& walk) {
     std::vector<RayHit> found;
     for (std::size_t i = 0; i < job.rays.size(); ++i) {
         const Ray<float>& ray = job.rays[i];
-        RayWalk<K, mode, Counted> state(ray, job.work, found);
+        RayHit hit;
         if (job.depth != 0 && is_finite(ray.origin) && is_finite(ray.direction))
-            walk(ray, state);
+            hit = walk(ray, found);
         if constexpr (mode == RayMode::all) {
             // A triangle that stands in several leaves was found the same each time.
             std::ranges::sort(found, [](const RayHit& a, const RayHit& b) {
@@ -120,7 +119,7 @@ void walk_each(const RayJob& job, const Walk& walk) {
             }
             found.clear();
         } else {
-            job.hits[i] = state.result();
+            job.hits[i] = hit;
         }
     }
 }
