@@ -18,7 +18,7 @@ struct LbvhBuilder {
     static constexpr std::string_view summary =
         "items along a space-filling curve, split by the bits of their codes; fastest to build";
 
-    double hilbert = 1; ///< 0: Morton curve, 1: Hilbert curve
+    double hilbert = 0; ///< 0: Morton curve, 1: Hilbert curve
 
     static auto settings() {
         return std::array{Setting<LbvhBuilder>{"hilbert", "0: Morton curve, 1: Hilbert curve",
