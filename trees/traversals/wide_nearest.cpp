@@ -99,7 +99,7 @@ HWY_INLINE void OfferAll(const Leaf& leaf, Goal& goal, NearestSurface& best, Nea
             i);
     if (near == 0)
         return;
-    SeenTriangles seen;
+    SeenTriangles seen{}; // denormals in unused lanes would cost ten times the whole search
     std::uint32_t items[SeenTriangles::most];
     std::size_t n = 0;
     for (; near != 0; near &= near - 1) {
