@@ -6,23 +6,19 @@
 
 namespace boxwood {
 
-/// Top-down build by the binned surface-area heuristic: centres fall into bins
-/// along each axis, and the cheapest of the planes between bins, counted as
-/// items times half area, splits the node. Small nodes are joined from the
-/// bottom up, nearest pairs first, which is both quicker and better. Nodes
-/// whose centres coincide are halved. O(n log n), depth at most 3 log2(n) + 33.
-/// Sources: Wald 2007, "On fast Construction of SAH-based Bounding Volume
-/// Hierarchies"; for small nodes Walter et al. 2008, "Fast Agglomerative
-/// Clustering for Rendering".
+/// Top-down build by the binned surface-area heuristic: centres fall into bins along each axis, and
+/// the cheapest of the planes between bins, counted as items times half area, splits the node.
+/// Small nodes are joined from the bottom up, nearest pairs first, which is both quicker and
+/// better. Nodes whose centres coincide are halved. O(n log n), depth at most 3 log2(n) + 33.
+/// Sources: Wald 2007, "On fast Construction of SAH-based Bounding Volume Hierarchies"; for small
+/// nodes Walter et al. 2008, "Fast Agglomerative Clustering for Rendering".
 struct BinnedSahBuilder {
     static constexpr std::string_view name = "binned_sah";
     static constexpr std::string_view summary =
-        "top-down, cheapest of the planes between bins by surface area (Wald "
-        "2007)";
+        "top-down, cheapest of the planes between bins by surface area (Wald 2007)";
 
-    double bins = 16;   ///< most bins per axis; a node of m items uses at most 4 + m / 16
-    double joined = 12; ///< nodes of up to this many items are joined from the
-                        ///< bottom up; 1: none
+    double bins = 32;  ///< most bins per axis; a node of m items uses at most 4 + m / 8
+    double joined = 8; ///< nodes of up to this many items are joined from the bottom up; 1: none
 
     static constexpr int most_bins = 32, most_joined = 16;
     static auto settings() {

@@ -16,8 +16,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::HWY_NAMESPACE {
 
-/// One bin on each axis: 128 bytes, so that 32 of them fill 4 KiB and no two
-/// share their low address bits.
+/// One bin on each axis: 128 bytes, so that 32 of them fill 4 KiB and no two share their low
+/// address bits.
 struct alignas(128) Bin {
     float box[3][8]; ///< (max, -min)
     std::uint32_t count[4];
@@ -25,10 +25,9 @@ struct alignas(128) Bin {
 };
 inline constexpr int kMostBins = 32;
 
-/// Which bin a doubled centre falls in on each axis: (centre - low) * scale + 1
-/// lies in [1, 2), and the five upper bits of its mantissa are the bin. Clamped
-/// even where rounding "cannot" leave the range. Never NaN: no spread, or one
-/// that is next to nothing, has scale 0.
+/// Which bin a doubled centre falls in on each axis: (centre - low) * scale + 1 lies in [1, 2), and
+/// the five upper bits of its mantissa are the bin. Clamped even where rounding "cannot" leave the
+/// range. Never NaN: no spread, or one that is next to nothing, has scale 0.
 struct Binning {
     alignas(16) float low[4], scale[4];
     int n_bins;
@@ -112,8 +111,8 @@ HWY_INLINE void AddItems(const Prim8* prims, std::size_t n, const Binning& binni
 #endif
 }
 
-/// The items whose centre is below bin `bin` of the axis go left. No axis: no
-/// plane parts the items.
+/// The items whose centre is below bin `bin` of the axis go left. No axis: no plane parts the
+/// items.
 struct Plane {
     int axis = -1, bin = 0;
     float cost = std::numeric_limits<float>::infinity();
@@ -123,8 +122,8 @@ struct Plane {
 
 using F4 = hwy::HWY_NAMESPACE::Vec<hwy::HWY_NAMESPACE::FixedTag<float, 4>>;
 
-/// Half areas of three boxes whose edges are lengthened, xy + z (x + y) each; a
-/// fourth lane of no meaning.
+/// Half areas of three boxes whose edges are lengthened, xy + z (x + y) each; a fourth lane of no
+/// meaning.
 HWY_INLINE F4 HalfAreas(F8 a, F8 b, F8 c, F4 edge) {
     namespace hn = hwy::HWY_NAMESPACE;
     constexpr hn::FixedTag<float, 4> d;
@@ -217,10 +216,9 @@ HWY_INLINE Plane CheapestPlane(const Bin* bins, const Binning& binning, std::uin
 
 #endif
 
-/// Copies the items to `to`, those that go left from `left` on and the others
-/// from `right` on, each in their old order, and grows the bounds of the
-/// doubled centres of each side. Without a branch, which would be mispredicted
-/// half the time.
+/// Copies the items to `to`, those that go left from `left` on and the others from `right` on, each
+/// in their old order, and grows the bounds of the doubled centres of each side. Without a branch,
+/// which would be mispredicted half the time.
 HWY_INLINE void Part(const Prim8* prims, std::size_t n, const Binning& binning, Plane plane,
                      Prim8* to, std::size_t left, std::size_t right, float (&left_centres)[8],
                      float (&right_centres)[8]) {

@@ -21,16 +21,15 @@ struct Place {
     std::uint32_t node, first;
 };
 
-/// Clusters of items, each in one of sixteen lanes: max x, y, z and -min x, y,
-/// z. A lane that holds none is far from all others.
+/// Clusters of items, each in one of sixteen lanes: max x, y, z and -min x, y, z. A lane that holds
+/// none is far from all others.
 struct alignas(64) Clusters {
     float plane[6][16];
 };
 inline constexpr float kFar = 0x1p62f;
 
-/// For each lane below `alive`: how far the nearest other cluster is, with the
-/// exclusive or of the two lanes in the last four bits. Two clusters are as far
-/// apart as the half area of their union.
+/// For each lane below `alive`: how far the nearest other cluster is, with the exclusive or of the
+/// two lanes in the last four bits. Two clusters are as far apart as the half area of their union.
 HWY_INLINE void FindNearest(const Clusters& clusters, std::uint32_t alive, std::uint32_t* key) {
     namespace hn = hwy::HWY_NAMESPACE;
     constexpr hn::CappedTag<float, 16> df;
@@ -51,8 +50,7 @@ HWY_INLINE void FindNearest(const Clusters& clusters, std::uint32_t alive, std::
             const auto ez =
                 hn::Add(hn::Max(z, hn::Set(df, plane[2][i])), hn::Max(w, hn::Set(df, plane[5][i])));
             const auto area = hn::Add(hn::Mul(ex, ey), hn::Mul(ez, hn::Add(ex, ey)));
-            // Areas are not negative, so their bits have their order; the last four
-            // give way.
+            // Areas are not negative, so their bits have their order; the last four give way.
             const auto which = hn::Xor(lane, hn::Set(du, i));
             const auto far = hn::Or(hn::AndNot(low_bits, hn::BitCast(du, area)), which);
             best = hn::Min(best, hn::IfThenElse(hn::Eq(which, hn::Zero(du)), none, far));
@@ -68,8 +66,7 @@ HWY_INLINE void FindNearest(const Clusters& clusters, std::uint32_t alive, std::
     }
 }
 
-/// Lane k becomes the union of lanes a[k] and b[k], for k < n; the others are
-/// emptied.
+/// Lane k becomes the union of lanes a[k] and b[k], for k < n; the others are emptied.
 HWY_INLINE void Unite(Clusters& clusters, const std::uint32_t* a, const std::uint32_t* b,
                       std::uint32_t n) {
     namespace hn = hwy::HWY_NAMESPACE;
@@ -94,11 +91,10 @@ HWY_INLINE void Unite(Clusters& clusters, const std::uint32_t* a, const std::uin
 #endif
 }
 
-/// Builds the subtree of 1 to 16 items bottom-up: in each round all pairs that
-/// are each other's nearest become one, which gives the same tree as always
-/// joining the nearest pair of all. Edges are lengthened by `edge` so that
-/// points on a line have an area too. Ties go by the exclusive or of the lanes,
-/// which pairs equal boxes evenly and makes at least one pair per round.
+/// Builds the subtree of 1 to 16 items bottom-up: in each round all pairs that are each other's
+/// nearest become one, which gives the same tree as always joining the nearest pair of all. Edges
+/// are lengthened by `edge` so that points on a line have an area too. Ties go by the exclusive or
+/// of the lanes, which pairs equal boxes evenly and makes at least one pair per round.
 HWY_INLINE void Join(const Prim8* prims, std::uint32_t n, float edge, Place place, Tree& tree) {
     Clusters clusters;
     alignas(32) float box[31][8]; // of the items 0 .. n - 1, and of what is joined in order

@@ -15,8 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::HWY_NAMESPACE {
 
-// One register where there are registers of eight floats, else a plain array:
-// the same numbers.
+// One register where there are registers of eight floats, else a plain array: the same numbers.
 #if HWY_MAX_BYTES >= 32 && !HWY_HAVE_SCALABLE
 using F8Tag = hwy::HWY_NAMESPACE::FixedTag<float, 8>;
 struct F8 {
@@ -70,8 +69,7 @@ HWY_INLINE void WriteNode(const F8& box, std::uint32_t first, std::uint32_t coun
 }
 #endif
 
-/// Less than any coordinate of a Prim8, and small enough that areas of it are
-/// finite.
+/// Less than any coordinate of a Prim8, and small enough that areas of it are finite.
 inline constexpr float kLeast = -0x1p62f;
 
 /// (max, -min) of the doubled centres.
