@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <random>
 
 namespace boxwood {
@@ -109,6 +110,44 @@ TEST(SpatialSah, CoversEachTriangleWithinItsBudget) {
                     EXPECT_GT(static_cast<double>(tree.size()), 1.05 * n) << "nothing was cut";
                 }
             }
+}
+
+TEST(ValidateSplit, NamesWhatIsWrong) {
+    const TriangleMesh mesh = slivers(60, 2, 0, 8);
+    const auto fault = [&](const std::function<void(Tree&)>& spoil) {
+        Tree tree = build(mesh, {{"references", 4}});
+        spoil(tree);
+        return validate_split(tree, mesh).value_or("");
+    };
+    const auto leaf_of = [](const Tree& tree) {
+        std::size_t i = 0;
+        while (!tree.is_leaf(i) || tree.item(i) % 7 == 0 || tree.item(i) % 11 == 0)
+            ++i;
+        return i;
+    };
+    // Boxes of the inner nodes are made good, so that only the part itself is at fault.
+    const auto refit_all = [](Tree& tree) {
+        for (std::size_t i = tree.nodes.size(); i-- > 0;)
+            if (!tree.is_leaf(i))
+                tree.nodes[i].box =
+                    merge(tree.nodes[Tree::left(i)].box, tree.nodes[tree.right(i)].box);
+    };
+    EXPECT_EQ(fault([](Tree&) {}), "");
+    EXPECT_NE(fault([](Tree& t) { t.is_split = false; }).find("not marked"), std::string::npos);
+    EXPECT_NE(fault([](Tree& t) { t.nodes[1].first += 1; }).find("node 1"), std::string::npos);
+    EXPECT_NE(fault([](Tree& t) { t.nodes[0].box.max.x += 1; }).find("union"), std::string::npos);
+    EXPECT_NE(fault([](Tree& t) { t.order[0] = 60; }).find("item 60"), std::string::npos);
+    EXPECT_NE(fault([&](Tree& t) {
+                  t.nodes[leaf_of(t)].box.max.y += 5;
+                  refit_all(t);
+              }).find("not part"),
+              std::string::npos);
+    EXPECT_NE(fault([&](Tree& t) {
+                  Box& box = t.nodes[leaf_of(t)].box;
+                  box.max.z = .5f * (box.min.z + box.max.z);
+                  refit_all(t);
+              }).find("none of its"),
+              std::string::npos);
 }
 
 TEST(SpatialSah, ExtremeAndEqualTrianglesMakeValidTrees) {
