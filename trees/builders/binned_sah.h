@@ -17,8 +17,8 @@ struct BinnedSahBuilder {
     static constexpr std::string_view summary =
         "top-down, cheapest of the planes between bins by surface area (Wald 2007)";
 
-    double bins = 32;  ///< most bins per axis; a node of m items uses at most 4 + m / 8
-    double joined = 8; ///< nodes of up to this many items are joined from the bottom up; 1: none
+    double bins = 32;   ///< most bins per axis; a node of m items uses at most 4 + m / 8
+    double joined = 16; ///< nodes of up to this many items are joined from the bottom up; 1: none
 
     static constexpr int most_bins = 32, most_joined = 16;
     static auto settings() {
