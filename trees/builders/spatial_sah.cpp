@@ -155,6 +155,9 @@ double scale_for(std::span<const Worth> worths, double spare, const Executor& ex
         });
         return static_cast<double>(std::accumulate(sums.begin(), sums.end(), std::size_t{0}));
     };
+    // All that is worth it, if the leaves suffice.
+    if (constexpr double all = std::numeric_limits<double>::max(); spent(all) <= spare)
+        return all;
     // In octaves from where the first triangle is cut, then in fractions of one.
     double scale = 1 / most;
     for (int octave = 0; octave < 64 && spent(2 * scale) <= spare; ++octave)
