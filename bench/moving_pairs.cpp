@@ -21,7 +21,10 @@ class MovingPairs final : public Contender {
         : scene_(*job.scene), executor_(make_executor(job.executor, job.threads)),
           updater_(std::move(updater)) {}
 
-    void build() override { updater_->start(scene_.boxes, *executor_); }
+    void build() override {
+        updater_->start(scene_.boxes, *executor_);
+        placed_ = rebuilds_ = 0;
+    }
     void update(std::size_t frame) override {
         updater_->update(scene_.frames[frame].boxes, scene_.frames[frame].moved, *executor_);
         placed_ += updater_->last_step().placed;
@@ -45,7 +48,7 @@ class MovingPairs final : public Contender {
     std::unique_ptr<Executor> executor_;
     std::unique_ptr<Updater> updater_;
     PairsInto sink_;
-    std::uint64_t placed_ = 0, rebuilds_ = 0; ///< in all frames so far
+    std::uint64_t placed_ = 0, rebuilds_ = 0; ///< in all frames since the build
 };
 
 double ns_of(const timespec& t) {
