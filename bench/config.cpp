@@ -2,6 +2,7 @@
 
 #include "bench/commands/command.h"
 #include "bench/families.h"
+#include "bench/rays.h"
 #include "bench/rungs/rungs.h"
 #include "kernels/catalogue.h"
 #include "scenes/queries.h"
@@ -188,8 +189,8 @@ Words kernel_words(Ask ask) {
 
 /// Keys that only kernel asks take, and those that only the others do.
 constexpr std::array kernel_keys{"scale"};
-constexpr std::array tree_keys{"motion", "frames",   "updates", "overlaps",  "rays",
-                               "n_rays", "builders", "layouts", "executors", "threads"};
+constexpr std::array tree_keys{"motion",    "frames",   "updates", "overlaps",  "rays",   "n_rays",
+                               "ray_order", "builders", "layouts", "executors", "threads"};
 constexpr std::array point_keys{"n_points", "regions"};
 
 /// The asks of a block are all kernel asks or none is.
@@ -296,6 +297,10 @@ void read_trees(const Reader& reader, const toml::table& table, Block& block) {
     reader.words(table, "rays", block.rays, names_of(ray_kinds()));
     if (const toml::node* n_rays = table.get("n_rays"))
         block.n_rays = reader.whole(*n_rays, "n_rays", 1, 1'000'000'000);
+    if (const toml::node* order = table.get("ray_order");
+        order && std::ranges::none_of(block.asks, has_ray_order))
+        reader.fail(order->source(), "ray_order is for the asks rays_closest and rays_any");
+    reader.words(table, "ray_order", block.ray_order, names_of(ray_orders()));
     read_queries(reader, table, block);
     reader.words(table, "motion", block.motions, names_of(motions()));
     if (const toml::node* frames = table.get("frames"))
@@ -333,9 +338,10 @@ void read_trees(const Reader& reader, const toml::table& table, Block& block) {
 Block read_block(const Reader& reader, const toml::table& table,
                  const std::vector<unsigned>& default_threads) {
     reader.require_known_keys(table, "[[cells]]",
-                              {"scene", "n", "overlaps", "rays", "n_rays", "motion", "frames",
-                               "updates", "ask", "builders", "layouts", "kernels", "executors",
-                               "threads", "peers", "k", "scale", "n_points", "regions"});
+                              {"scene",     "n",       "overlaps", "rays",      "n_rays",
+                               "ray_order", "motion",  "frames",   "updates",   "ask",
+                               "builders",  "layouts", "kernels",  "executors", "threads",
+                               "peers",     "k",       "scale",    "n_points",  "regions"});
     Block block;
     block.place = reader.place(table.source());
     block.threads = default_threads;

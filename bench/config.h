@@ -26,6 +26,7 @@ struct Block {
     std::vector<double> overlaps{10};
     std::vector<std::string> rays; ///< kinds of rays; needed by the ray asks alone
     std::size_t n_rays = 10000;
+    std::vector<std::string> ray_order{"given"};
     std::size_t n_points = 10000;              ///< points or regions, for their asks
     std::vector<std::string> regions{"boxes"}; ///< kinds of regions, for the ask regions
     std::vector<Ask> asks;

@@ -1,6 +1,7 @@
 #include "bench/ours.h"
 
 #include "bench/points.h"
+#include "bench/rays.h"
 #include "bench/tree_builds.h"
 #include "bench/triangle_pairs.h"
 #include "kernels/catalogue.h"
@@ -16,7 +17,7 @@
 namespace boxwood::bench {
 namespace {
 
-/// The rays' contenders and those of pairs share all but the query.
+/// The contenders of pairs share all but the query.
 class OurContender : public Contender {
   public:
     OurContender(const Job& job, BuildFunction build, const LayoutEntry& layout)
@@ -89,45 +90,12 @@ class TreePairs final : public OurContender {
     std::unique_ptr<AnyLayout> other_;
 };
 
-class Rays final : public OurContender {
-  public:
-    Rays(const Job& job, BuildFunction build, const LayoutEntry& layout, std::string kernel)
-        : OurContender(job, std::move(build), layout), kernel_(std::move(kernel)),
-          query_(job.ask == Ask::rays_closest ? RayQuery::closest : RayQuery::any) {}
-
-    void build() override {
-        layout_.reset();
-        triangles_ = {};
-        if (build_.build_of_mesh) {
-            tree_ = build_.build_of_mesh(scene_.mesh, *executor_);
-            layout_ = layout_entry_.make(tree_, *executor_);
-        } else {
-            layout_ = make_layout(layout_entry_, build_, scene_.boxes, *executor_, tree_);
-        }
-        triangles_ = layout_->triangles(scene_.mesh);
-    }
-    void query(Answers& answers) override {
-        answers.hits.resize(scene_.rays.size());
-        layout_->rays(scene_.rays, query_, kernel_, triangles_, *executor_, answers.hits);
-    }
-    std::optional<Work> counted_query(Answers& answers) override {
-        answers.hits.resize(scene_.rays.size());
-        return layout_->rays_counted(scene_.rays, query_, kernel_, triangles_, answers.hits);
-    }
-    std::optional<StructureInfo> structure() const override {
-        return StructureInfo{layout_->bytes() + triangles_.bytes(), &tree_};
-    }
-
-  private:
-    std::string kernel_;
-    RayQuery query_;
-    TriangleBlocks triangles_;
-};
-
-std::string_view traversal_of(Ask ask) {
-    if (is_point_ask(ask))
+std::string_view traversal_of(Ask ask, bool sorted) {
+    if (is_point_ask(ask) || ask == Ask::rays_all)
         return to_string(ask);
-    return is_ray_ask(ask) ? "rays" : ask == Ask::tree_pairs ? "tree_pairs" : "self_pairs";
+    return is_ray_ask(ask)          ? (sorted ? "sorted_rays" : "rays")
+           : ask == Ask::tree_pairs ? "tree_pairs"
+                                    : "self_pairs";
 }
 
 template <class Entries>
@@ -174,6 +142,10 @@ ContenderEntry our_contender(const Choice& choice, Ask ask) {
     const auto kernel = std::ranges::find(kernels, choice.kernel, &KernelInfo::name);
     if (takes_kernel(ask) && kernel == kernels.end())
         throw_unknown(is_ray_ask(ask) ? "ray kernel" : "triangle kernel", choice.kernel, kernels);
+    if (std::ranges::find(ray_orders(), choice.ray_order, &RayOrderEntry::name) ==
+        ray_orders().end())
+        throw_unknown("ray order", choice.ray_order, ray_orders());
+    const bool sorted = choice.ray_order == "sorted" && has_ray_order(ask);
 
     ContenderEntry entry;
     entry.library = "boxwood";
@@ -181,7 +153,7 @@ ContenderEntry our_contender(const Choice& choice, Ask ask) {
     entry.precision = "f32";
     entry.builder = word_with_settings(choice.builder, choice.settings);
     entry.layout = choice.layout;
-    entry.traversal = traversal_of(ask);
+    entry.traversal = traversal_of(ask, sorted);
     if (takes_kernel(ask)) {
         entry.kernel = choice.kernel;
         entry.promise = kernel->promise;
@@ -198,14 +170,14 @@ ContenderEntry our_contender(const Choice& choice, Ask ask) {
         if (takes_kernel(job.ask) && job.scene->mesh.triangles.empty())
             return "the scene has no triangles";
         if (is_point_ask(job.ask))
-            if (auto why = no_queries(*job.scene, job.ask))
+            if (auto why = no_queries(job.scene, job.ask))
                 return why;
         if (job.executor == "serial" && job.threads != 1)
             return "the executor serial has one thread";
         return std::nullopt;
     };
     entry.make = [build = make_builder(choice.builder, choice.settings), layout,
-                  kernel = choice.kernel](const Job& job) -> std::unique_ptr<Contender> {
+                  kernel = choice.kernel, sorted](const Job& job) -> std::unique_ptr<Contender> {
         switch (job.ask) {
         case Ask::pairs:
             return std::make_unique<SelfPairs>(job, build, *layout);
@@ -219,7 +191,7 @@ ContenderEntry our_contender(const Choice& choice, Ask ask) {
         case Ask::closest_points:
             return make_point_queries(job, build, *layout);
         default:
-            return std::make_unique<Rays>(job, build, *layout, kernel);
+            return make_rays(job, build, *layout, kernel, sorted);
         }
     };
     return entry;

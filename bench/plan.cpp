@@ -74,9 +74,11 @@ class Expansion {
         for (const BuilderChoice& builder : block.builders)
             for (const std::string& layout : block.layouts)
                 for (const std::string& kernel : kernels)
-                    add_cell(block, spec, ask,
-                             our_contender({builder.name, builder.settings, layout, kernel}, ask),
-                             executor, threads);
+                    for (const std::string& order : block.ray_order)
+                        add_cell(block, spec, ask,
+                                 our_contender(
+                                     {builder.name, builder.settings, layout, kernel, order}, ask),
+                                 executor, threads);
     }
 
     /// Equal cells collapse; two cells of one name that are not equal are an error.

@@ -64,12 +64,14 @@ std::unique_ptr<Contender> make_point_queries(const Job& job, BuildFunction buil
     return std::make_unique<PointQueries>(job, std::move(build), layout);
 }
 
-std::optional<std::string> no_queries(const Scene& scene, Ask ask) {
-    if (ask == Ask::closest_points && scene.mesh.triangles.empty())
+std::optional<std::string> no_queries(const Scene* scene, Ask ask) {
+    if (!scene)
+        return std::nullopt;
+    if (ask == Ask::closest_points && scene->mesh.triangles.empty())
         return "the scene has no triangles";
-    if (ask == Ask::regions && scene.regions.empty() && scene.spheres.empty())
+    if (ask == Ask::regions && scene->regions.empty() && scene->spheres.empty())
         return "the scene has no regions";
-    if (ask != Ask::regions && scene.points.empty())
+    if (ask != Ask::regions && scene->points.empty())
         return "the scene has no points";
     return std::nullopt;
 }

@@ -14,6 +14,6 @@ std::unique_ptr<Contender> make_point_queries(const Job& job, BuildFunction buil
                                               const LayoutEntry& layout);
 
 /// Why a scene has nothing for an ask of points or regions, if so.
-std::optional<std::string> no_queries(const Scene& scene, Ask ask);
+std::optional<std::string> no_queries(const Scene* scene, Ask ask);
 
 } // namespace boxwood::bench

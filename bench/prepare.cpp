@@ -233,7 +233,7 @@ class Preparation {
                results::Check& check) {
         const bool is_rays = is_ray_ask(ask);
         const std::uint64_t found =
-            is_rays
+            is_rays && ask != Ask::rays_all
                 ? static_cast<std::uint64_t>(std::ranges::count_if(
                       answers.hits, [](const RayHit& hit) { return hit.hit(); }))
                 : answers.pairs.size() + answers.neighbours.size() + answers.surface_points.size();

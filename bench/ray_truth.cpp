@@ -134,10 +134,7 @@ RayOracle::RayOracle(const TriangleMesh& mesh) : mesh_(mesh) {
     }
 }
 
-RayTruth RayOracle::truth(const Ray<float>& ray) const {
-    RayTruth truth;
-    std::vector<std::uint32_t> nearby;
-    double reach = 0; ///< farthest corner of an ambiguous triangle
+template <class F> void RayOracle::for_nearby(const Ray<float>& ray, const F& f) const {
     const Vec origin(ray.origin), direction(ray.direction);
     const double dd = dot(direction, direction);
     for (std::uint32_t i = 0; i < balls_.size(); ++i) {
@@ -150,8 +147,16 @@ RayTruth RayOracle::truth(const Ray<float>& ray) const {
         if (dot(off, off) > dd * radius * radius)
             continue;
         const Test test(origin, direction, corners_of(mesh_, i));
-        if (test.outside(near * test.band()))
-            continue;
+        if (!test.outside(near * test.band()))
+            f(test, i);
+    }
+}
+
+RayTruth RayOracle::truth(const Ray<float>& ray) const {
+    RayTruth truth;
+    std::vector<std::uint32_t> nearby;
+    double reach = 0; ///< farthest corner of an ambiguous triangle
+    for_nearby(ray, [&](const Test& test, std::uint32_t i) {
         nearby.push_back(i);
         if (const auto c = candidate(test, i, ray)) {
             truth.candidates.push_back(*c);
@@ -160,13 +165,22 @@ RayTruth RayOracle::truth(const Ray<float>& ray) const {
             else
                 reach = std::max(reach, test.distance);
         }
-    }
+    });
     if (reach > 0)
         truth.t_limit =
             std::min(truth.t_limit, limit_of_ring(mesh_, ray, nearby, ring * rounding * reach));
     std::erase_if(truth.candidates,
                   [&](const RayTruth::Candidate& c) { return c.t_low > truth.t_limit; });
     return truth;
+}
+
+std::vector<RayTruth::Candidate> RayOracle::all(const Ray<float>& ray) const {
+    std::vector<RayTruth::Candidate> found;
+    for_nearby(ray, [&](const Test& test, std::uint32_t i) {
+        if (const auto c = candidate(test, i, ray))
+            found.push_back(*c);
+    });
+    return found;
 }
 
 } // namespace boxwood::bench

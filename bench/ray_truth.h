@@ -37,7 +37,14 @@ class RayOracle {
     /// watertightness.
     RayTruth truth(const Ray<float>& ray) const;
 
+    /// All that the ray meets, for certain or perhaps, by triangle: an answer to rays_all has every
+    /// certain triangle and may have the others.
+    std::vector<RayTruth::Candidate> all(const Ray<float>& ray) const;
+
   private:
+    /// Calls f(Test, triangle) for all triangles that the ray's line may come near.
+    template <class F> void for_nearby(const Ray<float>& ray, const F& f) const;
+
     struct Ball {
         Vec3<double> corner;
         double size; ///< longest edge

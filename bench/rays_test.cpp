@@ -1,8 +1,11 @@
 #include "bench/contender.h"
 #include "bench/ours.h"
 #include "bench/ray_truth.h"
+#include "bench/rays.h"
+#include "bench/truth.h"
 #include "trees/layout.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -131,6 +134,106 @@ TEST(Rays, NoneLeaksThroughTheEdgesAndVerticesOfAClosedMesh) {
             const std::vector<RayHit> hits = hits_of(contender, scene);
             EXPECT_TRUE(std::ranges::all_of(hits, &RayHit::hit)) << contender.name;
         }
+}
+
+SceneSpec small_spec(const char* generator, const char* rays) {
+    SceneSpec spec;
+    spec.generator = generator;
+    spec.n = 3000;
+    spec.rays = rays;
+    spec.n_rays = 1000;
+    return spec;
+}
+
+Answers answers_of(const ContenderEntry& contender, const Job& job) {
+    const auto instance = contender.make(job);
+    Answers answers;
+    instance->build();
+    instance->query(answers); // twice: nothing of the first stays
+    instance->query(answers);
+    return answers;
+}
+
+TEST(RaysAll, AreAllThereOnceWithEveryWayAndEmbree) {
+    for (const char* generator : {"sphere_mesh", "triangle_soup"}) {
+        const Scene scene = make_scene(small_spec(generator, "random"));
+        const auto truth = make_truth(scene, Ask::rays_all, 1);
+        std::vector<ContenderEntry> contenders = ours(Ask::rays_all);
+        std::ranges::copy(peers_that_answer(Ask::rays_all), std::back_inserter(contenders));
+        for (const ContenderEntry& contender : contenders)
+            for (const unsigned threads : {1u, 2u}) {
+                const Job job{&scene, Ask::rays_all, threads == 1 ? "serial" : "tbb", threads};
+                const Answers answers = answers_of(contender, job);
+                const results::Check check = truth->check(answers);
+                EXPECT_TRUE(check.status == "exact" || check.status == "within_bound")
+                    << contender.name << ": " << check.witness;
+                EXPECT_GT(check.n_expected, 1000u);
+                EXPECT_EQ(
+                    answer_hash(answers, Ask::rays_all),
+                    answer_hash(answers_of(contender, {&scene, Ask::rays_all}), Ask::rays_all))
+                    << contender.name;
+            }
+    }
+}
+
+TEST(RaysAll, AreJudgedWrongWhenOneIsMissingExtraOrToldTwice) {
+    const Scene scene = make_scene(small_spec("triangle_soup", "random"));
+    const auto truth = make_truth(scene, Ask::rays_all, 1);
+    const Answers right = answers_of(our_contender({}, Ask::rays_all), {&scene, Ask::rays_all});
+    ASSERT_EQ(truth->check(right).missing + truth->check(right).extra, 0u);
+    const auto wrong = [&](const auto& change) {
+        Answers answers = right;
+        change(answers.pairs);
+        const results::Check check = truth->check(answers);
+        EXPECT_EQ(check.status, "wrong");
+        return check;
+    };
+    const Pair first = right.pairs.front();
+    EXPECT_EQ(wrong([](auto& pairs) { pairs.erase(pairs.begin()); }).missing, 1u);
+    EXPECT_EQ(wrong([&](auto& pairs) { pairs.push_back(first); }).extra, 1u);
+    EXPECT_EQ(wrong([](auto& pairs) { pairs.push_back({5000, 0}); }).extra, 1u);
+    EXPECT_EQ(wrong([](auto& pairs) { pairs.push_back({0, 5000}); }).extra, 1u);
+    // Of all triangles but a few this ray is known to pass beside.
+    const results::Check most = wrong([&](auto& pairs) {
+        for (std::uint32_t i = 0; i < scene.mesh.triangles.size(); ++i)
+            if (std::ranges::find(pairs, Pair{first.a, i}) == pairs.end())
+                pairs.push_back({first.a, i});
+    });
+    EXPECT_GT(most.extra, scene.mesh.triangles.size() - 100);
+    EXPECT_THAT(most.witness, testing::HasSubstr("extra"));
+}
+
+TEST(RaysBatches, SortedAnswerAsGivenForEveryWay) {
+    for (const Ask ask : {Ask::rays_closest, Ask::rays_any}) {
+        const Scene scene = make_scene(small_spec("triangle_soup", "random"));
+        for (const LayoutEntry& layout : layouts()) {
+            Choice choice;
+            choice.layout = std::string(layout.name);
+            const Answers given = answers_of(our_contender(choice, ask), {&scene, ask});
+            choice.ray_order = "sorted";
+            const ContenderEntry sorted = our_contender(choice, ask);
+            EXPECT_EQ(sorted.name, "binned_sah." + choice.layout + ".sorted_rays.watertight");
+            EXPECT_EQ(answers_of(sorted, {&scene, ask}).hits, given.hits) << sorted.name;
+            EXPECT_EQ(answers_of(sorted, {&scene, ask, "tbb", 2}).hits, given.hits);
+        }
+    }
+    EXPECT_THROW(our_contender({"median", {}, "wide8", "watertight", "shuffled"}, Ask::rays_any),
+                 std::invalid_argument);
+}
+
+TEST(RaysBatches, EmbreesPacketsAnswerRight) {
+    for (const Ask ask : {Ask::rays_closest, Ask::rays_any}) {
+        SceneSpec spec = small_spec("sphere_mesh", "random");
+        spec.n_rays = 1003; // packets that are not full
+        const Scene scene = make_scene(spec);
+        const auto truth = make_truth(scene, ask, 1);
+        for (const ContenderEntry& peer : peers_that_answer(ask))
+            for (const unsigned threads : {1u, 2u}) {
+                const Job job{&scene, ask, threads == 1 ? "serial" : "tbb", threads};
+                const results::Check check = truth->check(answers_of(peer, job));
+                EXPECT_NE(check.status, "wrong") << peer.name << ": " << check.witness;
+            }
+    }
 }
 
 } // namespace

@@ -92,7 +92,7 @@ class Round final : public benchmark::BenchmarkReporter {
         answers_ = {};
         if (timing.cell->ask == Ask::pairs || timing.cell->ask == Ask::tree_pairs ||
             timing.cell->ask == Ask::triangle_pairs || timing.cell->ask == Ask::points ||
-            timing.cell->ask == Ask::regions)
+            timing.cell->ask == Ask::regions || timing.cell->ask == Ask::rays_all)
             answers_.pairs.reserve(timing.answers);
         contender_->query(answers_); // warms caches and the answers' pages
         time(state, [&] { contender_->query(answers_); });

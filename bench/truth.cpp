@@ -3,6 +3,7 @@
 #include "bench/peers/brute_force.h"
 #include "bench/point_truth.h"
 #include "bench/ray_truth.h"
+#include "bench/rays_all_truth.h"
 #include "kernels/oracle/oracle.h"
 
 #include <fmt/format.h>
@@ -163,7 +164,7 @@ class RaysTruth final : public Truth {
         : ask_(ask), n_rays_(scene.rays.size()) {
         if (scene.rays.empty())
             return;
-        sample(scene);
+        sample_ = sampled_rays(scene);
         const RayOracle oracle(scene.mesh);
         truths_.resize(sample_.size());
         tbb::task_arena(static_cast<int>(threads)).execute([&] {
@@ -208,18 +209,6 @@ class RaysTruth final : public Truth {
     }
 
   private:
-    /// One ray of each of m equal runs, picked by a hash of the scene's seed.
-    void sample(const Scene& scene) {
-        const std::size_t triangles = std::max<std::size_t>(1, scene.mesh.triangles.size());
-        const std::size_t m =
-            std::min(n_rays_, std::clamp<std::size_t>(20'000'000 / triangles, 64, 1024));
-        for (std::size_t k = 0; k < m; ++k) {
-            const std::size_t first = k * n_rays_ / m, last = (k + 1) * n_rays_ / m;
-            sample_.push_back(first +
-                              XXH3_64bits_withSeed(&k, sizeof k, scene.spec.seed) % (last - first));
-        }
-    }
-
     static std::string judge_any(const RayTruth& truth, const RayHit& hit, results::Check& check,
                                  bool& all_certain) {
         if (hit.hit() ? truth.candidates.empty() && !truth.must_hit() : truth.must_hit()) {
@@ -293,6 +282,8 @@ std::vector<Pair> true_pairs(std::span<const Aabb<float>> boxes, unsigned thread
 std::unique_ptr<Truth> make_truth(const Scene& scene, Ask ask, unsigned threads) {
     if (is_point_ask(ask))
         return make_point_truth(scene, ask, threads);
+    if (ask == Ask::rays_all)
+        return make_all_hits_truth(scene, threads);
     if (!is_ray_ask(ask))
         return std::make_unique<PairTruth>(scene, ask, threads);
     return std::make_unique<RaysTruth>(scene, ask, threads);
@@ -334,7 +325,7 @@ std::uint64_t answer_hash(const Answers& answers, Ask ask) {
         return kernel_answer_hash(answers);
     if (ask == Ask::nearest || ask == Ask::closest_points)
         return point_answer_hash(answers, ask);
-    if (!is_ray_ask(ask)) {
+    if (!is_ray_ask(ask) || ask == Ask::rays_all) {
         std::vector<Pair> sorted = answers.pairs;
         std::ranges::sort(sorted);
         return XXH3_64bits(sorted.data(), sorted.size() * sizeof(Pair));

@@ -92,10 +92,11 @@ std::span<const UpdateEntry> updates() {
 }
 
 std::span<const TraversalEntry> traversals() {
-    static constexpr std::array<TraversalEntry, 7> entries{{
+    static constexpr std::array<TraversalEntry, 8> entries{{
         {"self_pairs", "every unordered pair of overlapping items of one tree, once"},
         {"tree_pairs", "every overlapping pair between the items of two trees, once"},
         {"rays", "for each ray the nearest triangle, or whether there is any, or all of them"},
+        {"sorted_rays", "the same of a batch walked by direction and place, answers put back"},
         {"points", "for each point all items that contain it"},
         {"regions", "for each box or sphere all items that share a point with it"},
         {"nearest", "for each point the k nearest items"},

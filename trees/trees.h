@@ -34,6 +34,7 @@
 #include "trees/touching_pairs.h"
 #include "trees/traversals/rays.h"
 #include "trees/traversals/self_pairs.h"
+#include "trees/traversals/sorted_rays.h"
 #include "trees/traversals/tree_pairs.h"
 #include "trees/tree.h"
 #include "trees/update.h"

@@ -76,7 +76,7 @@ std::vector<ContenderEntry> bullet_points() {
     e.unsupported = [](const Job& job) -> Unsupported {
         if (job.ask != Ask::points && job.ask != Ask::regions)
             return "answers points and regions only";
-        if (auto why = no_queries(*job.scene, job.ask))
+        if (auto why = no_queries(job.scene, job.ask))
             return why;
         return not_serial(job);
     };

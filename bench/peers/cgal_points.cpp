@@ -74,7 +74,7 @@ std::vector<ContenderEntry> cgal_points() {
     e.unsupported = [](const Job& job) -> Unsupported {
         if (job.ask != Ask::closest_points)
             return "answers closest_points only";
-        if (auto why = no_queries(*job.scene, job.ask))
+        if (auto why = no_queries(job.scene, job.ask))
             return why;
         return not_tbb(job);
     };

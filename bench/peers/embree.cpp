@@ -2,6 +2,7 @@
 #include "bench/peers/embree_handles.h"
 #include "bench/peers/kernel_peers.h"
 #include "bench/peers/point_peers.h"
+#include "bench/peers/ray_peers.h"
 #include "bench/peers/tree_peers.h"
 
 #include <fmt/format.h>
@@ -106,70 +107,6 @@ class Collide final : public Contender {
     mutable tbb::enumerable_thread_specific<std::vector<Pair>> parts_;
 };
 
-class Rays final : public Contender {
-  public:
-    Rays(const Job& job, RTCSceneFlags flags)
-        : scene_(*job.scene), flags_(flags), any_(job.ask == Ask::rays_any), threads_(job.threads),
-          vertices_(scene_.mesh.vertices), device_(make_device(job.threads)),
-          arena_(static_cast<int>(job.threads)) {
-        vertices_.emplace_back(); // Embree reads 16 bytes at the last vertex
-    }
-
-    void build() override {
-        arena_.execute([&] {
-            Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-            rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                       vertices_.data(), 0, sizeof(Vec3<float>),
-                                       vertices_.size() - 1);
-            rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                       scene_.mesh.triangles.data(), 0,
-                                       sizeof(scene_.mesh.triangles[0]),
-                                       scene_.mesh.triangles.size());
-            embree_scene_ =
-                commit(device_.get(), std::move(geometry), RTC_BUILD_QUALITY_MEDIUM, flags_);
-        });
-    }
-
-    void query(Answers& answers) override {
-        answers.hits.resize(scene_.rays.size());
-        const auto cast = [&](std::size_t begin, std::size_t end) {
-            const FlushDenormals flush;
-            for (std::size_t i = begin; i < end; ++i)
-                answers.hits[i] =
-                    any_ ? occluded(scene_.rays[i]) : closest(embree_scene_.get(), scene_.rays[i]);
-        };
-        if (threads_ == 1)
-            return cast(0, scene_.rays.size());
-        arena_.execute([&] {
-            tbb::parallel_for(
-                tbb::blocked_range<std::size_t>(0, scene_.rays.size(), 256),
-                [&](const tbb::blocked_range<std::size_t>& r) { cast(r.begin(), r.end()); });
-        });
-    }
-
-  private:
-    /// A hit is told by some triangle number; Embree does not say which triangle it was.
-    RayHit occluded(const Ray<float>& ray) const {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        RTCRay query = converted(ray);
-        rtcOccluded1(embree_scene_.get(), &context, &query);
-        RayHit hit;
-        if (query.tfar < 0) // -inf marks a hit
-            hit.triangle = 0;
-        return hit;
-    }
-
-    const Scene& scene_;
-    RTCSceneFlags flags_;
-    bool any_;
-    unsigned threads_;
-    std::vector<Vec3<float>> vertices_;
-    Device device_;
-    tbb::task_arena arena_;
-    SceneHandle embree_scene_;
-};
-
 ContenderEntry entry(std::string name, std::string summary, std::string notes) {
     ContenderEntry e;
     e.name = "embree." + std::move(name);
@@ -205,30 +142,6 @@ ContenderEntry collide(const char* word, RTCBuildQuality quality) {
     return e;
 }
 
-ContenderEntry rays(Ask ask, bool robust) {
-    ContenderEntry e = entry(
-        fmt::format("{}{}", ask == Ask::rays_any ? "rtc_occluded1" : "rtc_intersect1",
-                    robust ? ".robust" : ""),
-        fmt::format("Embree's {} on triangles, {}",
-                    ask == Ask::rays_any ? "rtcOccluded1" : "rtcIntersect1",
-                    robust ? "ROBUST scene (watertight)" : "default scene (not watertight)"),
-        "single rays, build quality medium; rays are converted to Embree's struct in the query; "
-        "denormals flushed during the query, as Embree asks; vertex and index buffers shared; a "
-        "build "
-        "also frees the scene before it");
-    e.unsupported = [ask](const Job& job) -> Unsupported {
-        if (job.ask != ask)
-            return fmt::format("answers {} only",
-                               ask == Ask::rays_any ? "rays_any" : "rays_closest");
-        if (job.scene && job.scene->mesh.triangles.empty())
-            return "the scene has no triangles";
-        return not_tbb(job);
-    };
-    const RTCSceneFlags flags = robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE;
-    e.make = [flags](const Job& job) { return std::make_unique<Rays>(job, flags); };
-    return e;
-}
-
 } // namespace
 
 Peer embree_peer() {
@@ -237,14 +150,11 @@ Peer embree_peer() {
     peer.summary = "Intel Embree: ray tracing kernels, and collision of user geometry";
     peer.version = RTC_VERSION_STRING;
     peer.build = "the distribution's package: SSE2 to AVX-512 chosen at run time, TBB";
-    peer.contenders = {collide("low", RTC_BUILD_QUALITY_LOW),
-                       collide("medium", RTC_BUILD_QUALITY_MEDIUM),
-                       collide("high", RTC_BUILD_QUALITY_HIGH),
-                       collide("refit", RTC_BUILD_QUALITY_REFIT),
-                       rays(Ask::rays_closest, false),
-                       rays(Ask::rays_closest, true),
-                       rays(Ask::rays_any, false),
-                       rays(Ask::rays_any, true)};
+    peer.contenders = {
+        collide("low", RTC_BUILD_QUALITY_LOW), collide("medium", RTC_BUILD_QUALITY_MEDIUM),
+        collide("high", RTC_BUILD_QUALITY_HIGH), collide("refit", RTC_BUILD_QUALITY_REFIT)};
+    for (ContenderEntry& e : embree_rays())
+        peer.contenders.push_back(std::move(e));
     for (ContenderEntry& e : embree_trees())
         peer.contenders.push_back(std::move(e));
     for (ContenderEntry& e : embree_points())

@@ -180,9 +180,9 @@ std::vector<ContenderEntry> embree_points() {
     e.unsupported = [](const Job& job) -> Unsupported {
         if (!is_point_ask(job.ask))
             return "answers points, regions, nearest and closest_points only";
-        if (job.ask == Ask::regions && !job.scene->regions.empty())
+        if (job.ask == Ask::regions && job.scene && !job.scene->regions.empty())
             return "asks about balls, not boxes";
-        if (auto why = no_queries(*job.scene, job.ask))
+        if (auto why = no_queries(job.scene, job.ask))
             return why;
         return not_tbb(job);
     };

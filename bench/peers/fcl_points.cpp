@@ -121,7 +121,7 @@ std::vector<ContenderEntry> fcl_points() {
     e.unsupported = [](const Job& job) -> Unsupported {
         if (!is_point_ask(job.ask) || job.ask == Ask::closest_points)
             return "answers points, regions and nearest only";
-        if (auto why = no_queries(*job.scene, job.ask))
+        if (auto why = no_queries(job.scene, job.ask))
             return why;
         return not_serial(job);
     };

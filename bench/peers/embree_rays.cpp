@@ -1,0 +1,233 @@
+#include "bench/peers/capability.h"
+#include "bench/peers/embree_handles.h"
+#include "bench/peers/ray_peers.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
+namespace boxwood::bench {
+namespace {
+
+template <int W> struct PacketTypes;
+template <> struct PacketTypes<8> {
+    using Rays = RTCRay8;
+    using RayHits = RTCRayHit8;
+    static constexpr auto intersect = rtcIntersect8;
+    static constexpr auto occluded = rtcOccluded8;
+};
+template <> struct PacketTypes<16> {
+    using Rays = RTCRay16;
+    using RayHits = RTCRayHit16;
+    static constexpr auto intersect = rtcIntersect16;
+    static constexpr auto occluded = rtcOccluded16;
+};
+
+/// A context whose filter collects what the ray meets; the context is the first member, so that the
+/// filter can find the rest.
+struct Collecting {
+    RTCIntersectContext context;
+    std::uint32_t ray;
+    std::vector<Pair>* out;
+};
+static_assert(std::is_standard_layout_v<Collecting>);
+
+/// Takes the hit down and refuses it, so that the ray goes on.
+void collect(const RTCFilterFunctionNArguments* args) {
+    Collecting& c = *reinterpret_cast<Collecting*>(args->context);
+    if (args->valid[0] == -1)
+        c.out->push_back({c.ray, RTCHitN_primID(args->hit, args->N, 0)});
+    args->valid[0] = 0;
+}
+
+/// Rays `width` at a time.
+class Rays final : public Contender {
+  public:
+    Rays(const Job& job, RTCSceneFlags flags, int width)
+        : scene_(*job.scene), flags_(flags), ask_(job.ask), width_(width), threads_(job.threads),
+          vertices_(scene_.mesh.vertices), device_(make_device(job.threads)),
+          arena_(static_cast<int>(job.threads)) {
+        vertices_.emplace_back(); // Embree reads 16 bytes at the last vertex
+    }
+
+    void build() override {
+        arena_.execute([&] {
+            Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+            rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                       vertices_.data(), 0, sizeof(Vec3<float>),
+                                       vertices_.size() - 1);
+            rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                       scene_.mesh.triangles.data(), 0,
+                                       sizeof(scene_.mesh.triangles[0]),
+                                       scene_.mesh.triangles.size());
+            if (ask_ == Ask::rays_all)
+                rtcSetGeometryIntersectFilterFunction(geometry.get(), collect);
+            embree_scene_ =
+                commit(device_.get(), std::move(geometry), RTC_BUILD_QUALITY_MEDIUM, flags_);
+        });
+    }
+
+    void query(Answers& answers) override {
+        if (ask_ == Ask::rays_all) {
+            answers.pairs.clear();
+            for (std::vector<Pair>& part : parts_)
+                part.clear();
+        } else {
+            answers.hits.resize(scene_.rays.size());
+        }
+        const auto cast = [&](std::size_t begin, std::size_t end) {
+            const FlushDenormals flush;
+            if (ask_ == Ask::rays_all)
+                return all(begin, end, threads_ == 1 ? answers.pairs : parts_.local());
+            if (width_ == 8)
+                return packets<8>(begin, end, answers.hits);
+            if (width_ == 16)
+                return packets<16>(begin, end, answers.hits);
+            for (std::size_t i = begin; i < end; ++i)
+                answers.hits[i] = ask_ == Ask::rays_any
+                                      ? occluded(scene_.rays[i])
+                                      : closest(embree_scene_.get(), scene_.rays[i]);
+        };
+        if (threads_ == 1)
+            return cast(0, scene_.rays.size());
+        arena_.execute([&] {
+            tbb::parallel_for(
+                tbb::blocked_range<std::size_t>(0, scene_.rays.size(), 256),
+                [&](const tbb::blocked_range<std::size_t>& r) { cast(r.begin(), r.end()); });
+        });
+        if (ask_ == Ask::rays_all)
+            for (const std::vector<Pair>& part : parts_)
+                answers.pairs.insert(answers.pairs.end(), part.begin(), part.end());
+    }
+
+  private:
+    /// A hit is told by some triangle number; Embree does not say which triangle it was.
+    RayHit occluded(const Ray<float>& ray) const {
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        RTCRay query = converted(ray);
+        rtcOccluded1(embree_scene_.get(), &context, &query);
+        RayHit hit;
+        if (query.tfar < 0) // -inf marks a hit
+            hit.triangle = 0;
+        return hit;
+    }
+
+    void all(std::size_t begin, std::size_t end, std::vector<Pair>& out) const {
+        Collecting collecting{};
+        collecting.out = &out;
+        for (std::size_t i = begin; i < end; ++i) {
+            rtcInitIntersectContext(&collecting.context);
+            collecting.ray = static_cast<std::uint32_t>(i);
+            RTCRayHit query;
+            query.ray = converted(scene_.rays[i]);
+            query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+            rtcIntersect1(embree_scene_.get(), &collecting.context, &query);
+        }
+    }
+
+    template <int W>
+    void packets(std::size_t begin, std::size_t end, std::vector<RayHit>& hits) const {
+        using Types = PacketTypes<W>;
+        for (std::size_t first = begin; first < end; first += W) {
+            alignas(64) int valid[W];
+            alignas(64) typename Types::RayHits packet;
+            for (std::size_t k = 0; k < W; ++k) {
+                valid[k] = first + k < end ? -1 : 0;
+                const Ray<float>& ray = scene_.rays[std::min(first + k, end - 1)];
+                packet.ray.org_x[k] = ray.origin.x;
+                packet.ray.org_y[k] = ray.origin.y;
+                packet.ray.org_z[k] = ray.origin.z;
+                packet.ray.dir_x[k] = ray.direction.x;
+                packet.ray.dir_y[k] = ray.direction.y;
+                packet.ray.dir_z[k] = ray.direction.z;
+                packet.ray.tnear[k] = ray.t_min;
+                packet.ray.tfar[k] = ray.t_max;
+                packet.ray.time[k] = 0;
+                packet.ray.mask[k] = ~0u;
+                packet.ray.id[k] = packet.ray.flags[k] = 0;
+                packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+            }
+            RTCIntersectContext context;
+            rtcInitIntersectContext(&context);
+            const std::size_t n = std::min<std::size_t>(W, end - first);
+            if (ask_ == Ask::rays_any) {
+                Types::occluded(valid, embree_scene_.get(), &context,
+                                reinterpret_cast<typename Types::Rays*>(&packet.ray));
+                for (std::size_t k = 0; k < n; ++k) {
+                    hits[first + k] = {};
+                    if (packet.ray.tfar[k] < 0)
+                        hits[first + k].triangle = 0;
+                }
+                continue;
+            }
+            Types::intersect(valid, embree_scene_.get(), &context, &packet);
+            for (std::size_t k = 0; k < n; ++k)
+                hits[first + k] = packet.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID
+                                      ? RayHit{}
+                                      : RayHit{packet.ray.tfar[k], packet.hit.u[k], packet.hit.v[k],
+                                               packet.hit.primID[k]};
+        }
+    }
+
+    const Scene& scene_;
+    RTCSceneFlags flags_;
+    Ask ask_;
+    int width_;
+    unsigned threads_;
+    std::vector<Vec3<float>> vertices_;
+    Device device_;
+    tbb::task_arena arena_;
+    SceneHandle embree_scene_;
+    tbb::enumerable_thread_specific<std::vector<Pair>> parts_; ///< of rays_all
+};
+
+ContenderEntry rays(Ask ask, int width, bool robust) {
+    const std::string function =
+        fmt::format("{}{}", ask == Ask::rays_any ? "Occluded" : "Intersect", width);
+    ContenderEntry e;
+    e.name = fmt::format("embree.rtc_{}{}{}{}", ask == Ask::rays_any ? "occluded" : "intersect",
+                         width, ask == Ask::rays_all ? ".filter" : "", robust ? ".robust" : "");
+    e.library = "embree";
+    e.precision = "f32";
+    e.summary =
+        fmt::format("Embree's rtc{} on triangles, {}", function,
+                    robust ? "ROBUST scene (watertight)" : "default scene (not watertight)");
+    e.notes = fmt::format(
+        "{}, build quality medium; rays are converted to Embree's struct in the query; denormals "
+        "flushed during the query, as Embree asks; vertex and index buffers shared; a build also "
+        "frees the scene before it",
+        ask == Ask::rays_all ? "single rays, whose intersection filter takes each hit down and "
+                               "refuses it"
+        : width == 1         ? "single rays"
+                             : "packets of rays in the order given, context flag INCOHERENT");
+    e.unsupported = [ask](const Job& job) -> Unsupported {
+        if (job.ask != ask)
+            return fmt::format("answers {} only", to_string(ask));
+        if (job.scene && job.scene->mesh.triangles.empty())
+            return "the scene has no triangles";
+        return not_tbb(job);
+    };
+    const RTCSceneFlags flags = robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE;
+    e.make = [=](const Job& job) { return std::make_unique<Rays>(job, flags, width); };
+    return e;
+}
+
+} // namespace
+
+std::vector<ContenderEntry> embree_rays() {
+    std::vector<ContenderEntry> all;
+    for (const Ask ask : {Ask::rays_closest, Ask::rays_any})
+        for (const int width : {1, 8, 16})
+            for (const bool robust : {false, true})
+                all.push_back(rays(ask, width, robust));
+    for (const bool robust : {false, true})
+        all.push_back(rays(Ask::rays_all, 1, robust));
+    return all;
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "bench/contender.h"
+
+#include <vector>
+
+namespace boxwood::bench {
+
+/// Embree's rays: one at a time, in packets of 8 and 16, and every hit; made in
+/// peers/embree_rays.cpp.
+std::vector<ContenderEntry> embree_rays();
+
+} // namespace boxwood::bench

@@ -1,0 +1,114 @@
+#include "bench/rays.h"
+
+#include "trees/traversals/sorted_rays.h"
+
+#include <algorithm>
+#include <array>
+
+namespace boxwood::bench {
+namespace {
+
+/// Pairs (ray, triangle) of the hits, each chunk by itself: the chunks in order at the end.
+class HitPairs final : public HitSink {
+  public:
+    void begin(std::size_t chunks, bool) override {
+        if (parts_.size() < chunks)
+            parts_.resize(chunks);
+        for (std::vector<Pair>& part : parts_)
+            part.clear();
+    }
+    bool take(std::size_t chunk, std::uint32_t ray, std::span<const RayHit> hits) override {
+        for (const RayHit& hit : hits)
+            parts_[chunk].push_back({ray, hit.triangle});
+        return true;
+    }
+    void end() override {}
+
+    void append_to(std::vector<Pair>& pairs) const {
+        for (const std::vector<Pair>& part : parts_)
+            pairs.insert(pairs.end(), part.begin(), part.end());
+    }
+
+  private:
+    std::vector<std::vector<Pair>> parts_;
+};
+
+class Rays final : public Contender {
+  public:
+    Rays(const Job& job, BuildFunction build, const LayoutEntry& layout, std::string kernel,
+         bool sorted)
+        : scene_(*job.scene), ask_(job.ask), executor_(make_executor(job.executor, job.threads)),
+          build_(std::move(build)), layout_entry_(layout), kernel_(std::move(kernel)),
+          sorted_(sorted) {}
+
+    void build() override {
+        layout_.reset();
+        triangles_ = {};
+        if (build_.build_of_mesh) {
+            tree_ = build_.build_of_mesh(scene_.mesh, *executor_);
+            layout_ = layout_entry_.make(tree_, *executor_);
+        } else {
+            layout_ = make_layout(layout_entry_, build_, scene_.boxes, *executor_, tree_);
+        }
+        triangles_ = layout_->triangles(scene_.mesh);
+    }
+
+    void query(Answers& answers) override {
+        if (ask_ == Ask::rays_all) {
+            answers.pairs.clear();
+            layout_->rays_all(scene_.rays, kernel_, triangles_, *executor_, sink_);
+            return sink_.append_to(answers.pairs);
+        }
+        answers.hits.resize(scene_.rays.size());
+        if (sorted_)
+            sorted_rays(*layout_, scene_.rays, wanted(), kernel_, triangles_, *executor_,
+                        answers.hits);
+        else
+            layout_->rays(scene_.rays, wanted(), kernel_, triangles_, *executor_, answers.hits);
+    }
+
+    /// The order in which rays are walked changes no count; all hits are not counted.
+    std::optional<Work> counted_query(Answers& answers) override {
+        if (ask_ == Ask::rays_all)
+            return std::nullopt;
+        answers.hits.resize(scene_.rays.size());
+        return layout_->rays_counted(scene_.rays, wanted(), kernel_, triangles_, answers.hits);
+    }
+
+    std::optional<StructureInfo> structure() const override {
+        return StructureInfo{layout_->bytes() + triangles_.bytes(),
+                             tree_.empty() ? nullptr : &tree_};
+    }
+
+  private:
+    RayQuery wanted() const {
+        return ask_ == Ask::rays_closest ? RayQuery::closest : RayQuery::any;
+    }
+
+    const Scene& scene_;
+    Ask ask_;
+    std::unique_ptr<Executor> executor_;
+    BuildFunction build_;
+    const LayoutEntry& layout_entry_;
+    std::string kernel_;
+    bool sorted_;
+    Tree tree_;
+    std::unique_ptr<AnyLayout> layout_;
+    TriangleBlocks triangles_;
+    HitPairs sink_;
+};
+
+constexpr std::array orders{
+    RayOrderEntry{"given", "the rays one after another as they come"},
+    RayOrderEntry{"sorted", "by direction and place, answers put back: for incoherent rays"}};
+
+} // namespace
+
+std::unique_ptr<Contender> make_rays(const Job& job, BuildFunction build, const LayoutEntry& layout,
+                                     const std::string& kernel, bool sorted) {
+    return std::make_unique<Rays>(job, std::move(build), layout, kernel, sorted);
+}
+
+std::span<const RayOrderEntry> ray_orders() { return orders; }
+
+} // namespace boxwood::bench
