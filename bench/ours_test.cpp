@@ -39,7 +39,7 @@ TEST(OurContender, IsNamedByItsWords) {
 
 TEST(OurContender, RefusesUnknownWords) {
     EXPECT_THAT(complaint({"medain", {}, "wide8", ""}, Ask::pairs), HasSubstr("'median'"));
-    EXPECT_THAT(complaint({"median", {}, "wide9", ""}, Ask::pairs), HasSubstr("'wide8'"));
+    EXPECT_THAT(complaint({"median", {}, "wyde8", ""}, Ask::pairs), HasSubstr("'wide8'"));
     EXPECT_THAT(complaint({"median", {}, "wide8", "watertigth"}, Ask::rays_any),
                 HasSubstr("'watertight'"));
     EXPECT_THAT(complaint({"binned_sah", {{"bin", 8}}, "wide8", ""}, Ask::pairs),
@@ -56,19 +56,21 @@ std::string exact_triangles() {
 
 SceneSpec spec_of(Ask ask, std::size_t n) {
     SceneSpec spec;
-    spec.generator = takes_kernel(ask) ? "sphere_mesh" : "uniform";
+    spec.generator = takes_kernel(ask) || ask == Ask::closest_points ? "sphere_mesh" : "uniform";
     spec.n = n;
     spec.rays = is_ray_ask(ask) ? "random" : "";
     spec.n_rays = is_ray_ask(ask) ? 200 : 0;
+    spec.n_points = is_point_ask(ask) ? 100 : 0;
+    spec.regions = ask == Ask::regions ? "spheres" : "";
     return spec;
 }
 
 TEST(OurContender, AnswersAsTheTruthAlsoWhenBuiltAndAskedAgain) {
     for (const AskEntry& ask : asks())
         for (const std::size_t n : {1u, 2u, 3u, 700u}) {
-            if (is_kernel_ask(ask.ask) || ask.ask == Ask::tree)
-                continue; // no tree, or no question: see tree_builds_test.cpp
-            if (takes_kernel(ask.ask) && n < 700)
+            if (is_kernel_ask(ask.ask) || ask.ask == Ask::tree || ask.ask == Ask::moving_pairs)
+                continue; // no tree, no question, or many: see tree_builds_ and moving_pairs_test
+            if ((takes_kernel(ask.ask) || ask.ask == Ask::closest_points) && n < 700)
                 continue; // a sphere needs more triangles
             const Scene scene = make_scene(spec_of(ask.ask, n));
             const auto truth = make_truth(scene, ask.ask, 1);
@@ -82,7 +84,11 @@ TEST(OurContender, AnswersAsTheTruthAlsoWhenBuiltAndAskedAgain) {
                              ask.ask == Ask::triangle_pairs ? exact_triangles() : "watertight"},
                             ask.ask);
                         const Job job{&scene, ask.ask, threads == 1 ? "serial" : "tbb", threads};
-                        ASSERT_FALSE(entry.unsupported(job));
+                        if (entry.unsupported(job)) {
+                            EXPECT_TRUE(builder.name == "spatial_sah" && !is_ray_ask(ask.ask))
+                                << entry.name; // it holds parts of triangles
+                            continue;
+                        }
                         const auto contender = entry.make(job);
                         Answers answers, counted;
                         for (int again = 0; again < 2; ++again) {
@@ -93,8 +99,11 @@ TEST(OurContender, AnswersAsTheTruthAlsoWhenBuiltAndAskedAgain) {
                             EXPECT_NE(check.status, "wrong") << entry.name << " n " << n;
                             EXPECT_EQ(check.missing + check.extra, 0u) << entry.name << " n " << n;
                         }
-                        ASSERT_TRUE(contender->counted_query(counted));
-                        EXPECT_EQ(answer_hash(counted, ask.ask), answer_hash(answers, ask.ask));
+                        const auto work = contender->counted_query(counted);
+                        ASSERT_EQ(work.has_value(), ask.ask != Ask::rays_all);
+                        if (work) {
+                            EXPECT_EQ(answer_hash(counted, ask.ask), answer_hash(answers, ask.ask));
+                        }
                         EXPECT_GT(contender->structure()->bytes, 0u);
                     }
         }

@@ -13,7 +13,7 @@ inline std::size_t neighbours_of(const Scene& scene) {
 std::unique_ptr<Contender> make_point_queries(const Job& job, BuildFunction build,
                                               const LayoutEntry& layout);
 
-/// Why a scene has nothing for an ask of points or regions, if so.
+/// Why a scene has nothing for an ask of points or regions, if so; nothing of no scene (null).
 std::optional<std::string> no_queries(const Scene* scene, Ask ask);
 
 } // namespace boxwood::bench

@@ -111,10 +111,10 @@ TEST(PointQueries, SayWhatASceneLacks) {
     Scene scene;
     scene.boxes.assign(2, {{0, 0, 0}, {1, 1, 1}});
     for (const Ask ask : {Ask::points, Ask::regions, Ask::nearest, Ask::closest_points})
-        EXPECT_TRUE(no_queries(scene, ask)) << to_string(ask);
+        EXPECT_TRUE(no_queries(&scene, ask)) << to_string(ask);
     scene.points.push_back({0, 0, 0});
-    EXPECT_FALSE(no_queries(scene, Ask::points));
-    EXPECT_EQ(no_queries(scene, Ask::closest_points), "the scene has no triangles");
+    EXPECT_FALSE(no_queries(&scene, Ask::points));
+    EXPECT_EQ(no_queries(&scene, Ask::closest_points), "the scene has no triangles");
 }
 
 TEST(PointQueries, AreSweptByKindAndNumber) {

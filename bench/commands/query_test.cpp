@@ -137,7 +137,7 @@ TEST_F(QueryPairs, BadWordsGetASuggestion) {
     query.tree.builder = "medain";
     EXPECT_THAT(complaint(query), HasSubstr("'median'"));
     query.tree = {};
-    query.tree.layout = "wide9";
+    query.tree.layout = "wyde8";
     EXPECT_THAT(complaint(query), HasSubstr("'wide8'"));
     query.tree = {};
     query.tree.executor = "tbbb";
