@@ -6,9 +6,11 @@
 #include "bench/rungs/rungs.h"
 #include "kernels/catalogue.h"
 #include "scenes/hard_cases/hard_cases.h"
+#include "scenes/motions.h"
 #include "scenes/suggest.h"
 #include "trees/builder.h"
 #include "trees/layout.h"
+#include "trees/update.h"
 
 #include <algorithm>
 #include <array>
@@ -35,13 +37,14 @@ template <class Entries> Rows plain(const Entries& entries) {
     return rows;
 }
 
-Rows builder_rows() {
-    Rows rows;
-    for (const BuilderEntry& builder : builders()) {
-        Row& row =
-            rows.emplace_back(Row{std::string(builder.name), std::string(builder.summary), {}, {}});
+/// ... and its settings.
+template <class Entries> Rows with_settings(const Entries& entries) {
+    Rows rows = plain(entries);
+    for (Row& row : rows) {
+        const auto entry = std::ranges::find_if(
+            entries, [&row](const auto& candidate) { return candidate.name == row.name; });
         std::string settings;
-        for (const SettingInfo& s : builder.settings) {
+        for (const SettingInfo& s : entry->settings) {
             settings += fmt::format(
                 "{}{{\"name\":{},\"summary\":{},\"default\":{},\"least\":{},\"most\":{}}}",
                 settings.empty() ? "" : ",", json_string(s.name), json_string(s.summary),
@@ -137,13 +140,19 @@ struct Catalogue {
 };
 
 constexpr std::array catalogues{
-    Catalogue{"builders", "make the canonical tree from boxes", builder_rows},
+    Catalogue{"builders", "make the canonical tree from boxes",
+              [] { return with_settings(builders()); }},
+    Catalogue{"stages", "improve a finished tree: BUILDER+STAGE",
+              [] { return with_settings(stages()); }},
     Catalogue{"layouts", "the tree in memory, as a walk likes it", [] { return plain(layouts()); }},
+    Catalogue{"updates", "follow boxes that move", [] { return with_settings(updates()); }},
     Catalogue{"traversals", "walk layouts and hand what they find to a sink",
               [] { return plain(traversals()); }},
     Catalogue{"kernels", "decide about one primitive or pair", kernel_rows},
     Catalogue{"scenes", "make the same input on every machine",
               [] { return plain(scene_generators()); }},
+    Catalogue{"motions", "move a scene's boxes from frame to frame",
+              [] { return plain(motions()); }},
     Catalogue{"effects", "move bodies from frame to frame", [] { return Rows{}; },
               "none yet: every scene is static"},
     Catalogue{"asks", "what is wanted of a scene", [] { return plain(asks()); }},
