@@ -50,7 +50,7 @@ class Rays final : public Contender {
         } else {
             layout_ = make_layout(layout_entry_, build_, scene_.boxes, *executor_, tree_);
         }
-        triangles_ = layout_->triangles(scene_.mesh);
+        triangles_ = layout_->triangles(scene_.mesh, *executor_);
     }
 
     void query(Answers& answers) override {

@@ -90,8 +90,9 @@ class AnyLayout {
                             PairSink& sink) const = 0;
     virtual Work tree_pairs_counted(const AnyLayout& other, PairSink& sink) const = 0;
 
-    /// The triangles whose boxes this is the layout of, for `rays`.
-    virtual TriangleBlocks triangles(const TriangleMesh& mesh) const = 0;
+    /// The triangles whose boxes this is the layout of, for `rays`: the same on every executor.
+    virtual TriangleBlocks triangles(const TriangleMesh& mesh,
+                                     const Executor& executor = serial()) const = 0;
 
     /// hits[i] answers rays[i]; hits.size() == rays.size(). `kernel` is a word of `ray_kernels()`,
     /// `triangles` those of this very layout.

@@ -106,7 +106,7 @@ void run(const RaysQuery& query, std::ostream& out) {
         make_layout(layout_entry, build, boxes, *executor, tree);
     std::vector<RayHit> hits(rays.size());
     layout->rays(rays, query.any ? RayQuery::any : RayQuery::closest, query.kernel,
-                 layout->triangles(mesh), *executor, hits);
+                 layout->triangles(mesh, *executor), *executor, hits);
 
     BlockWriter text(out);
     if (query.format.json)

@@ -37,8 +37,8 @@ template <Layout L> class LayoutModel final : public AnyLayout {
     Work tree_pairs_counted(const AnyLayout& other, PairSink& sink) const override {
         return boxwood::tree_pairs_counted(layout_, same(other), sink);
     }
-    TriangleBlocks triangles(const TriangleMesh& mesh) const override {
-        return boxwood::triangles_of(layout_, mesh);
+    TriangleBlocks triangles(const TriangleMesh& mesh, const Executor& executor) const override {
+        return boxwood::triangles_of(layout_, mesh, executor);
     }
     void rays(std::span<const Ray<float>> rays, RayQuery query, std::string_view kernel,
               const TriangleBlocks& triangles, const Executor& executor,

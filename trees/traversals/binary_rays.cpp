@@ -69,16 +69,25 @@ template <class L> void walk_job(const L& layout, const RayJob& job) {
     });
 }
 
-template <class L> TriangleBlocks blocks_in_order(const L& layout, const TriangleMesh& mesh) {
+template <class L>
+TriangleBlocks blocks_in_order(const L& layout, const TriangleMesh& mesh,
+                               const Executor& executor) {
     const Buffer<std::uint32_t>& order = layout.tree().order;
     const std::size_t n = (order.size() + 7) / 8;
     TriangleBlocks made;
+    if (n == 0)
+        return made;
+    made.bounds = box_of(layout.tree().nodes[0]);
     made.blocks = Buffer<std::byte>(n * sizeof(Block));
     auto* blocks = reinterpret_cast<Block*>(made.blocks.data());
-    for (std::uint32_t slot = 0; slot < 8 * n; ++slot) {
-        const std::uint32_t triangle = order[slot < order.size() ? slot : slot / 8 * 8];
-        blocks[slot / 8].set(slot % 8, mesh.triangle(triangle), triangle);
-    }
+    constexpr std::size_t row = 256;
+    executor.for_each((n + row - 1) / row, [&](std::size_t r) {
+        const std::size_t end = 8 * std::min(n, (r + 1) * row);
+        for (std::size_t slot = 8 * row * r; slot < end; ++slot) {
+            const std::uint32_t triangle = order[slot < order.size() ? slot : slot / 8 * 8];
+            blocks[slot / 8].set(slot % 8, mesh.triangle(triangle), triangle);
+        }
+    });
     return made;
 }
 
@@ -86,11 +95,13 @@ template <class L> TriangleBlocks blocks_in_order(const L& layout, const Triangl
 
 void walk_rays(const BinaryLayout& layout, const RayJob& job) { walk_job(layout, job); }
 void walk_rays(const BinaryLayoutF64& layout, const RayJob& job) { walk_job(layout, job); }
-TriangleBlocks triangles_of(const BinaryLayout& layout, const TriangleMesh& mesh) {
-    return blocks_in_order(layout, mesh);
+TriangleBlocks triangles_of(const BinaryLayout& layout, const TriangleMesh& mesh,
+                            const Executor& executor) {
+    return blocks_in_order(layout, mesh, executor);
 }
-TriangleBlocks triangles_of(const BinaryLayoutF64& layout, const TriangleMesh& mesh) {
-    return blocks_in_order(layout, mesh);
+TriangleBlocks triangles_of(const BinaryLayoutF64& layout, const TriangleMesh& mesh,
+                            const Executor& executor) {
+    return blocks_in_order(layout, mesh, executor);
 }
 
 } // namespace boxwood

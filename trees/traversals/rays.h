@@ -17,7 +17,8 @@ namespace boxwood {
 /// The triangles of the mesh whose triangle boxes the layout was built from, as its walk wants
 /// them; and the walk over one chunk of rays.
 #define X(L)                                                                                       \
-    TriangleBlocks triangles_of(const L& layout, const TriangleMesh& mesh);                        \
+    TriangleBlocks triangles_of(const L& layout, const TriangleMesh& mesh,                         \
+                                const Executor& executor);                                         \
     void walk_rays(const L& layout, const RayJob& job);
 BOXWOOD_RAY_LAYOUTS(X)
 #undef X
