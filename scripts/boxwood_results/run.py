@@ -67,7 +67,7 @@ class Cell:
         """Short, for use within one job: traversals follow from the ask, so they are left out."""
         if not self.ours:
             return self.contender
-        words = [word for word in self.contender.split(".") if word != self.traversal]
+        words = [word for word in self.contender.split(".") if word not in (self.traversal, "tree")]
         text = ".".join(words) + (" f64" if self.precision == "f64" else "")
         return text if self.executor == "serial" else f"{text} {self.executor}"
 

@@ -18,6 +18,11 @@ FAMILIES = {
     "binned_sah": ("#0072B2", "o"),
     "median": ("#009E73", "s"),
     "incremental": ("#56B4E9", "^"),
+    "hilbert": ("#332288", "p"),
+    "lbvh": ("#44AA99", "<"),
+    "ploc": ("#117733", ">"),
+    "sweep_sah": ("#882255", "d"),
+    "spatial_sah": ("#AA4499", "H"),
     "embree": ("#D55E00", "D"),
     "fcl": ("#E69F00", "v"),
     "cgal": ("#CC79A7", "P"),
@@ -50,6 +55,7 @@ plt.rcParams.update(
         "svg.fonttype": "path",
         "savefig.dpi": 150,
         "figure.dpi": 100,
+        "figure.max_open_warning": 0,
     }
 )
 

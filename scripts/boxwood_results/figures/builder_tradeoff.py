@@ -73,6 +73,7 @@ def draw(run):
     by_ask = {}
     for job in largest_jobs(run):
         cells = run.of(job)
+        cells = [cell for cell in cells if cell.rounds("query") and not cell.rounds("update")]
         if sum(cell.has_build for cell in cells) >= 2:
             by_ask.setdefault(job.ask, []).append((job, cells))
     if not by_ask:

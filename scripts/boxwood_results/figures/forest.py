@@ -54,6 +54,9 @@ def ratio_axis(ax, comparisons):
     ax.spines["left"].set_visible(False)
 
 
+TOTALS = {"moving_pairs": "update and one query"}  # what TOTAL is, where not build and query
+
+
 def draw_one(run, ask, threads, found, floor):
     """One picture: a block of rows per scene, a column for build + query and one for the query."""
     entries, y = [], 0.0
@@ -65,10 +68,11 @@ def draw_one(run, ask, threads, found, floor):
             entries.append((y, finding, peer))
     height = -y + 0.12
     names, panel, texts, top, bottom = 2.5, 2.9, 2.35, 0.35, 0.8
-    size = (names + 2 * (panel + texts), height + top + bottom)
+    phases = (TOTAL, "query")
+    size = (names + len(phases) * (panel + texts), height + top + bottom)
     figure = style.plt.figure(figsize=size)
     rows = []
-    for column, phase in enumerate((TOTAL, "query")):
+    for column, phase in enumerate(phases):
         left = names + column * (panel + texts)
         ax = figure.add_axes((left / size[0], bottom / size[1], panel / size[0], height / size[1]))
         comparisons = [finding.against(peer, phase) if peer else None for _, finding, peer in entries]
@@ -76,7 +80,8 @@ def draw_one(run, ask, threads, found, floor):
         ratio_axis(ax, comparisons)
         ax.set_ylim(y - 0.12, 0)
         ax.set_yticks([])
-        ax.set_title("build and one query" if phase == TOTAL else "query alone", fontsize=10, weight="bold")
+        ax.set_title(TOTALS.get(ask, "build and one query") if phase == TOTAL else "query alone", fontsize=10,
+                     weight="bold")
         for (at, finding, peer), comparison in zip(entries, comparisons):
             if peer is None:
                 said = f"{finding.job.scene} {finding.job.n:,}   ours: {finding.ours.label}"
@@ -113,7 +118,7 @@ def draw(run):
     shown = set(largest_jobs(run))
     groups = {}
     for finding in findings(run):
-        if finding.job in shown and finding.comparisons:
+        if finding.job in shown and finding.comparisons and finding.quickest:  # builds alone: see tree_quality
             groups.setdefault((finding.job.ask, finding.job.threads), []).append(finding)
     if not groups:
         raise Skip("no job has both a ranked variant of ours and a ranked peer")

@@ -1,0 +1,65 @@
+"""Builders alone: the time to build against the quality of the tree."""
+
+import math
+
+from .. import labels, style
+from ..findings import time_text
+from ..metrics import METRICS
+from ..picture import Picture, Skip
+from ..selection import largest_jobs, wrong_notes
+
+NAME = "tree_quality"
+TITLE = "How good a tree a build time buys"
+HOW_TO_READ = (
+    "Lower left is better: less time to build a binary tree, and a tree that costs less to walk by the "
+    "surface-area model. The line joins the builders that none beats in both. A "
+    "builder that splits items makes more leaves than items."
+)
+COLUMNS = ("scene", "n", "threads", "builder", "library", "status", "build_ns", "sah_cost")
+
+
+def sah(cell):
+    return float(cell.tree["sah_cost"]) if cell.tree is not None else math.nan
+
+
+def draw_panel(ax, job, cells, rows):
+    best = []
+    for cell in sorted(cells, key=lambda c: (c.median("build"), sah(c))):
+        if cell.ranked and (not best or sah(cell) < sah(best[-1])):
+            best.append(cell)
+    builds, costs = [c.median("build") for c in cells], [sah(c) for c in cells]
+    style.time_axis(ax.xaxis, min(builds), max(builds), room=0.12)
+    style.count_axis(ax.yaxis, min(costs), max(costs), room=0.12)
+    ax.plot([c.median("build") for c in best], [sah(c) for c in best], color=style.FAINT, linewidth=1.2, zorder=1)
+    marks = []
+    for cell in cells:
+        x, y = cell.median("build"), sah(cell)
+        ax.plot([x], [y], **{**style.point_style(cell, 7), "linestyle": ""}, zorder=5)
+        if cell.status == "wrong":
+            style.cross_out(ax, x, y)
+        marks.append((x, y, cell.label, style.text_colour(cell.family)))
+        rows.append((job.scene, job.n, job.threads, cell.label, cell.library, cell.status, x, y))
+    style.title(ax, str(job))
+    ax.set_xlabel(METRICS["build"].axis)
+    ax.set_ylabel(METRICS["sah_cost"].axis)
+    labels.beside_points(ax, marks)
+    return best
+
+
+def draw(run):
+    jobs = []
+    for job in largest_jobs(run):
+        cells = [c for c in run.of(job) if job.ask == "tree" and c.rounds("build") and sah(c) > 0]
+        if len(cells) >= 2:
+            jobs.append((job, cells))
+    if not jobs:
+        raise Skip("no two builders were timed alone (the ask tree)")
+    figure, axes = style.panels(len(jobs), width=5.4, height=3.9)
+    rows, notes, said = [], [], []
+    for ax, (job, cells) in zip(axes, jobs):
+        best = draw_panel(ax, job, cells, rows)
+        notes += wrong_notes(cells)
+        said.append(f"{job}: none beats " + ", ".join(
+            f"{c.label} ({time_text(c.median('build'))}, cost {sah(c):.3g})" for c in best))
+    return [Picture(NAME, figure, TITLE, f"Build time against surface-area cost. {'; '.join(said)}.", COLUMNS, rows,
+                    notes)]
