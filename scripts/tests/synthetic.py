@@ -54,6 +54,11 @@ RAY_CONTENDERS = {
     "embree.rtc_intersect1.default": ("embree", "", 90, 0.8, 0),
     "embree.rtc_intersect1.robust": ("embree", "", 90, 0.9, 0),
 }
+TREE_CONTENDERS = {  # the last: SAH cost / 2.5
+    "binned_sah": ("boxwood", "binned_sah", 200, 0, 50),
+    "lbvh": ("boxwood", "lbvh", 30, 0, 60),
+    "embree.rtc_build_bvh.low": ("embree", "", 100, 0, 61),
+}
 # rung -> (library, promise, ns, wrong share on touching input, share that goes beyond tier 0 there)
 TRIANGLE_RUNGS = {
     "moller_f32": ("boxwood", "no promise", 5.1, 0.3, 0),
@@ -99,8 +104,9 @@ class Maker:
 
     def cell(self, scene, n, ask, contender, spec, threads, factor=1.0, status="exact", twin=False, queries=0, kernel=""):
         library, builder, build, query, tests = spec
-        traversal = {"pairs": "self_pairs", "rays_closest": "rays", "triangle_pairs": "self_pairs"}[ask] if builder else ""
-        name = f"{contender}.{traversal}" if builder else contender
+        traversal = {"pairs": "self_pairs", "rays_closest": "rays", "triangle_pairs": "self_pairs", "tree": ""}[ask]
+        traversal = traversal if builder else ""
+        name = f"{contender}.{traversal or ask}" if builder else contender
         name = f"{name}.{kernel}" if kernel else name
         executor = "serial" if threads == 1 else "tbb"
         scene_id = self.id_of("scenes", (scene, n), name=scene, n_items=n, seed=1)
@@ -111,7 +117,7 @@ class Maker:
                              n_queries=queries, precision="f32", executor=executor, threads=threads)
         gain = threads**0.8
         grow = math.log2(n) / 16
-        phases = [("query", query * (queries or n) * grow * factor / gain)]
+        phases = [("query", query * (queries or n) * grow * factor / gain)] if ask != "tree" else []
         if build is not None:
             phases.append(("build", build * n * grow / gain))
         for phase, ns in phases:
@@ -120,7 +126,9 @@ class Maker:
                                         n_expected=10, n_got=10 - 2 * (status == "wrong"),
                                         missing=2 * (status == "wrong"),
                                         witness="pair 3,8" if status == "wrong" else ""))
-        if builder:
+        if ask == "tree":
+            self.rows["trees"].append(dict(cell_id=cell_id, n_nodes=2 * n - 1, sah_cost=tests * 2.5))
+        elif builder:
             items = queries or n
             for counter, value in (("box_tests", tests * items), ("node_visits", tests * items // 3), ("pairs", 5 * n)):
                 self.rows["counters"].append(dict(cell_id=cell_id, counter=counter, value=value))
@@ -218,6 +226,8 @@ def full(rounds=15, wrong=True):
         for contender, spec in RAY_CONTENDERS.items():
             made.cell("mesh_stanford_bunny_primary", 69451, "rays_closest", contender, (*spec[:3], 1000 * spec[3], spec[4]),
                       threads, queries=100000)
+    for contender, spec in TREE_CONTENDERS.items():
+        made.cell("uniform", 100000, "tree", contender, spec, 1)
     for kernel, factor in (("moller_f32", 1.0), ("guigue_devillers_f64", 1.1), ("guigue_devillers_exact", 1.3)):
         made.cell("triangle_soup", 20000, "triangle_pairs", "median.wide8", PAIR_CONTENDERS["median.wide8"], 1, factor,
                   "wrong" if kernel == "moller_f32" else "exact", kernel=kernel)

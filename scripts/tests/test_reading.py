@@ -12,7 +12,7 @@ from boxwood_results import findings, reader, run, stats
 
 def test_reads_what_was_written(full):
     results = run.read(full)
-    assert results.rounds == 15 and len(results.jobs) == 13
+    assert results.rounds == 15 and len(results.jobs) == 14
     cell = next(c for c in results.cells if c.name == "uniform/n1000-s1/pairs/binned_sah.wide8.self_pairs/f32/tbb-2")
     assert (cell.label, cell.family, cell.ours, cell.job.threads) == ("binned_sah.wide8 tbb", "binned_sah", True, 2)
     assert cell.status == "exact" and cell.counters["box_tests"] == 41000
@@ -40,6 +40,13 @@ def test_findings_know_what_was_put_in(full):
     assert uniform.against(cgal, "query") is None and uniform.against(cgal, run.TOTAL) is not None
     rays = found["mesh_stanford_bunny_primary 69,451 · rays_closest · 1 thread"]
     assert {c.verdict for c in rays.comparisons} == {stats.SLOWER}
+
+
+def test_builders_alone_have_no_query(full):
+    tree = next(f for f in findings.findings(run.read(full)) if f.job.ask == "tree")
+    assert tree.ours.label == "lbvh" and tree.quickest is None
+    assert [c.phase for c in tree.comparisons] == [run.TOTAL]
+    assert abs(tree.comparisons[0].ratio.mid / (100 / 30) - 1) < 0.05
 
 
 def test_a_wrong_cell_is_never_ranked(full):
@@ -72,7 +79,7 @@ def test_nan_samples_are_left_out_and_counted(tmp_path):
     results = run.read(made.write(tmp_path / "a.h5"))
     assert results.missing_samples == 4
     assert all(math.isfinite(t) for c in results.cells for phase in c.times.values() for t in phase.values())
-    assert min(len(c.rounds("query")) for c in results.cells) == 5
+    assert min(len(c.rounds("query")) for c in results.cells if c.job.ask != "tree") == 5
 
 
 def test_one_round_claims_nothing(small):
