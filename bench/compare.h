@@ -34,9 +34,9 @@ enum class Standing { right, wrong, unchecked };
 std::map<std::uint32_t, Standing> standings(const results::Results& results);
 
 /// Each cell of ours (b) against each peer (a) on the same scene, ask and threads, for each phase
-/// that both have and for "build+query" and "update+query". Rounds are paired by number within a machine. The claims
-/// about one cell of ours in one phase are a family. Cells with a wrong answer get the verdict
-/// "wrong" and no ratio; unchecked ones are never ranked either ("cannot_tell").
+/// that both have and for "build+query" and "update+query". Rounds are paired by number within a
+/// machine. The claims about one cell of ours in one phase are a family. Cells with a wrong answer
+/// get the verdict "wrong" and no ratio; unchecked ones are never ranked either ("cannot_tell").
 std::vector<results::Comparison> compare_to_peers(const results::Results& results,
                                                   double delta = default_delta);
 
