@@ -47,8 +47,8 @@ struct BuildFunction {
     /// The items as the leaves of the tree would have them, without the tree; empty if the builder
     /// needs the tree for it. Throws as `build` does.
     std::function<Buffer<std::uint32_t>(Boxes, const Executor&)> order;
-    /// A tree for rays of triangles rather than boxes, split (see Tree) or not; empty if the builder
-    /// sees boxes alone. Throws InvalidBox for a triangle with a NaN or an infinity.
+    /// A tree for rays of triangles rather than boxes, split (see Tree) or not; empty if the
+    /// builder sees boxes alone. Throws InvalidBox for a triangle with a NaN or an infinity.
     std::function<Tree(const TriangleMesh&, const Executor&)> build_of_mesh;
 
     Tree operator()(Boxes boxes, const Executor& executor) const { return build(boxes, executor); }

@@ -311,7 +311,7 @@ struct alignas(64) RoundedPairs {
 
 /// Lanes that the floats leave open: by their doubles, then by the rung above.
 HWY_NOINLINE void Reconsider(const TrianglePairBlock<double>& block, std::uint32_t lanes,
-                           Verdict* verdicts, PassUp up) {
+                             Verdict* verdicts, PassUp up) {
     const hn::CappedTag<double, 8> d;
     Verdict said[8];
     const auto see = [&](std::size_t i) HWY_ATTR { return See(d, block, i); };
