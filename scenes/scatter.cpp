@@ -30,7 +30,7 @@ double expected_overlap(std::span<const PlacementPair> sample, double scale) {
     return sum;
 }
 
-Placement scattered(HalfSize half_size, Draws& draws) { return {.half = half_size(draws)}; }
+Placement scattered(const HalfSize& half_size, Draws& draws) { return {.half = half_size(draws)}; }
 
 } // namespace
 
@@ -73,7 +73,10 @@ Aabb<float> draw_box(const Placement& placement, double scale, Draws& draws) {
     return box;
 }
 
-double scattered_scale(const SceneSpec& spec, std::string_view name, HalfSize half_size) {
+namespace {
+
+/// The factor at which as many overlap as spec.overlaps asks for.
+double scattered_scale(const SceneSpec& spec, std::string_view name, const HalfSize& half_size) {
     // The sizes vary within one and a half decades of volume: 8192 pairs leave about 1 %.
     constexpr std::size_t n_pairs = 8192;
     const double probability = overlap_probability(spec);
@@ -86,7 +89,28 @@ double scattered_scale(const SceneSpec& spec, std::string_view name, HalfSize ha
     return scale_of(sample, probability);
 }
 
-Scene scattered_boxes(const SceneSpec& spec, std::string_view name, HalfSize half_size) {
+std::string scattered_params(const SceneSpec& spec, double scale) {
+    return fmt::format(R"({{"overlaps":{},"scale":{}}})", spec.overlaps, scale);
+}
+
+/// Drawn corners, moved so that their box is centred at 0, and half of its size.
+struct CentredTriangle {
+    Corners corners;
+    Vec3<double> half;
+
+    CentredTriangle(DrawCorners draw, Draws& draws) : corners(draw(draws)), half() {
+        Aabb<double> box;
+        for (const Vec3<double>& p : corners)
+            box.extend(p);
+        for (Vec3<double>& p : corners)
+            p = p - 0.5 * (box.min + box.max);
+        half = 0.5 * (box.max - box.min);
+    }
+};
+
+} // namespace
+
+Scene scattered_boxes(const SceneSpec& spec, std::string_view name, const HalfSize& half_size) {
     const double scale = scattered_scale(spec, name, half_size);
     const Random random(spec.seed, name);
     Scene scene;
@@ -96,7 +120,28 @@ Scene scattered_boxes(const SceneSpec& spec, std::string_view name, HalfSize hal
         const Placement placement = scattered(half_size, draws);
         scene.boxes.push_back(draw_box(placement, scale, draws));
     }
-    scene.params_json = fmt::format(R"({{"overlaps":{},"scale":{}}})", spec.overlaps, scale);
+    scene.params_json = scattered_params(spec, scale);
+    return scene;
+}
+
+Scene scattered_triangles(const SceneSpec& spec, std::string_view name, DrawCorners draw) {
+    const double scale = scattered_scale(
+        spec, name, [draw](Draws& draws) { return CentredTriangle(draw, draws).half; });
+    const Random random(spec.seed, name);
+    Scene scene;
+    TriangleMesh& mesh = scene.mesh;
+    mesh.vertices.reserve(3 * spec.n);
+    mesh.triangles.reserve(spec.n);
+    for (std::size_t i = 0; i < spec.n; ++i) {
+        Draws draws = random.item(i);
+        const CentredTriangle triangle(draw, draws);
+        const Vec3<double> centre = draws.in_cube();
+        const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+        mesh.triangles.push_back({first, first + 1, first + 2});
+        for (const Vec3<double>& p : triangle.corners)
+            mesh.vertices.push_back(static_cast<Vec3<float>>(centre + scale * p));
+    }
+    scene.params_json = scattered_params(spec, scale);
     return scene;
 }
 

@@ -4,7 +4,10 @@
 #include "scenes/random.h"
 #include "scenes/scene.h"
 
+#include <array>
+#include <functional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace boxwood {
@@ -36,13 +39,17 @@ double overlap_probability(const SceneSpec& spec);
 Aabb<float> draw_box(const Placement& placement, double scale, Draws& draws);
 
 /// The half size of a box before scaling, drawn.
-using HalfSize = Vec3<double> (*)(Draws&);
+using HalfSize = std::function<Vec3<double>(Draws&)>;
+
+/// The corners of a triangle before scaling, drawn.
+using Corners = std::array<Vec3<double>, 3>;
+using DrawCorners = Corners (*)(Draws&);
 
 /// spec.n boxes with centres uniform in the unit cube (they may stick out of it), as many to
 /// overlap as spec.overlaps asks for. `name` is the stream of random numbers.
-Scene scattered_boxes(const SceneSpec& spec, std::string_view name, HalfSize half_size);
+Scene scattered_boxes(const SceneSpec& spec, std::string_view name, const HalfSize& half_size);
 
-/// The factor that `scattered_boxes` uses.
-double scattered_scale(const SceneSpec& spec, std::string_view name, HalfSize half_size);
+/// A mesh of spec.n unconnected triangles whose boxes are scattered and overlap likewise.
+Scene scattered_triangles(const SceneSpec& spec, std::string_view name, DrawCorners draw);
 
 } // namespace boxwood
