@@ -176,7 +176,7 @@ def test_bad_boxes_are_named_by_file_and_line(tmp_path, text, said):
         (["query", "pairs", "/"], "Is a directory"),
         (["query", "pairs", "-", "--buidler", "median"], "did you mean '--builder'"),
         (["query", "pairs", "-", "--builder", "medain"], "did you mean 'median'"),
-        (["query", "pairs", "-", "--layout", "wide9"], "did you mean 'wide8'"),
+        (["query", "pairs", "-", "--layout", "wyde8"], "did you mean 'wide8'"),
         (["query", "pairs", "-", "--executor", "tb"], "did you mean 'tbb'"),
         (["query", "pairs", "-", "--executor", "serial", "--threads", "2"], "serial"),
         (["query", "pairs", "-", "--threads", "0"], "--threads"),
@@ -208,7 +208,7 @@ def test_version_says_how_it_was_built():
 def test_list_is_the_same_whole_and_in_parts():
     whole = json.loads(answer("list", "--json"))
     assert list(whole) == (
-        "builders layouts traversals kernels scenes effects asks executors peers families".split()
+        "builders stages layouts updates traversals kernels scenes motions effects asks executors peers families".split()
     )
     for name, rows in whole.items():
         assert json.loads(answer("list", name, "--json")) == rows
