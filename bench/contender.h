@@ -99,7 +99,8 @@ struct Answers {
 /// What a structure is, for the tree table.
 struct StructureInfo {
     std::size_t bytes = 0;
-    const Tree* tree = nullptr; ///< ours alone: valid until the next build
+    const Tree* tree =
+        nullptr; ///< ours alone: valid until the next build; empty if none was needed
 };
 
 /// A work counter beyond those of Work.

@@ -50,7 +50,7 @@ class SelfPairs final : public OurContender {
         return layout_->self_pairs_counted(sink(answers));
     }
     std::optional<StructureInfo> structure() const override {
-        return StructureInfo{layout_->bytes(), tree_.empty() ? nullptr : &tree_};
+        return StructureInfo{layout_->bytes(), &tree_};
     }
 };
 
@@ -130,6 +130,8 @@ std::string settings_json(const Settings& settings) {
 ContenderEntry our_contender(const Choice& choice, Ask ask) {
     if (ask == Ask::tree)
         return tree_contender(choice); // whatever the layout
+    if (ask == Ask::moving_pairs || is_kernel_ask(ask))
+        throw std::invalid_argument(fmt::format("no builder and layout answer {}", to_string(ask)));
     const std::string_view builder_name =
         std::string_view(choice.builder).substr(0, choice.builder.find('+'));
     const BuilderEntry* builder = find_builder(builder_name);
@@ -150,7 +152,7 @@ ContenderEntry our_contender(const Choice& choice, Ask ask) {
     ContenderEntry entry;
     entry.library = "boxwood";
     entry.is_peer = false;
-    entry.precision = "f32";
+    entry.precision = layout->precision;
     entry.builder = word_with_settings(choice.builder, choice.settings);
     entry.layout = choice.layout;
     entry.traversal = traversal_of(ask, sorted);

@@ -15,7 +15,8 @@ struct Choice {
 };
 
 /// The contender "<builder>[_<setting><value>...].<layout>.<traversal>[.<kernel>]" for an ask.
-/// Throws std::invalid_argument, with a suggestion, for an unknown word.
+/// Throws std::invalid_argument, with a suggestion, for an unknown word, and for the asks of update
+/// policies (moving_pairs.h) and kernels (rungs/rungs.h).
 ContenderEntry our_contender(const Choice& choice, Ask ask);
 
 /// "binned_sah_bins16": words [a-z0-9_], so 1.5 is written 1_5, a minus m and a plus _.

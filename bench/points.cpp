@@ -23,7 +23,7 @@ class PointQueries final : public Contender {
         return work;
     }
     std::optional<StructureInfo> structure() const override {
-        return StructureInfo{layout_->bytes(), tree_.empty() ? nullptr : &tree_};
+        return StructureInfo{layout_->bytes(), &tree_};
     }
 
   private:

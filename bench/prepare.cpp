@@ -136,7 +136,7 @@ class Preparation {
         count(cell.ask, *contender, answers, cell_id, check);
         if (const auto structure = contender->structure()) {
             out_.counters.push_back({cell_id, "bytes", structure->bytes});
-            if (structure->tree)
+            if (structure->tree && !structure->tree->empty())
                 add_tree(cell.contender.builder, *structure->tree, cell_id);
         }
         return calibration;

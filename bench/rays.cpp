@@ -76,8 +76,7 @@ class Rays final : public Contender {
     }
 
     std::optional<StructureInfo> structure() const override {
-        return StructureInfo{layout_->bytes() + triangles_.bytes(),
-                             tree_.empty() ? nullptr : &tree_};
+        return StructureInfo{layout_->bytes() + triangles_.bytes(), &tree_};
     }
 
   private:

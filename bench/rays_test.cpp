@@ -97,7 +97,7 @@ TEST(Rays, AgreeWithEmbreeOnAClosedMesh) {
 TEST(Rays, AgreeWithEmbreeOnTheBunny) {
     const std::filesystem::path bunny = "../shared/data/meshes/stanford-bunny.obj";
     if (!std::filesystem::exists(bunny))
-        GTEST_SKIP() << bunny << " is not here";
+        GTEST_SKIP() << bunny << " is not here: the sample meshes are no part of the project";
     for (const char* rays : {"primary", "random", "ambient"}) {
         SceneSpec spec;
         spec.generator = "mesh";

@@ -316,7 +316,7 @@ TEST_F(MeshFile, AppliesNodeTransforms) {
 TEST(SharedMeshes, LoadWithTheCountsTheirFilesTell) {
     const fs::path folder = "../shared/data";
     if (!fs::is_directory(folder))
-        GTEST_SKIP() << folder << " is not here";
+        GTEST_SKIP() << folder << " is not here: the sample meshes are no part of the project";
     const std::map<std::string, std::size_t> counts{
         {"meshes/env.obj", 2180},    {"meshes/rob.obj", 216},
         {"meshes/spot.obj", 5856},   {"meshes/stanford-bunny.obj", 69451},

@@ -115,7 +115,8 @@ TEST(CcdQueries, ErrorsNameFileAndLine) {
 TEST(CcdQueries, ThePublishedTruthIsWhatTheOracleSays) {
     const fs::path folder = "../shared/data/ccd";
     if (!fs::exists(folder))
-        GTEST_SKIP() << fs::absolute(folder).lexically_normal() << " is not there";
+        GTEST_SKIP() << fs::absolute(folder).lexically_normal()
+                     << " is not there: the sample queries are no part of the project";
     const oracle::ExactContinuous exact;
     const MotionCases faces = read("ccd_queries_vertex_face", folder);
     const MotionCases edges = read("ccd_queries_edge_edge", folder);

@@ -62,8 +62,8 @@ def test_a_result_file_opens_with_h5py(swept):
 
 
 def test_a_result_file_opens_with_pandas(swept):
-    pandas = pytest.importorskip("pandas")
-    pytest.importorskip("tables")
+    pandas = pytest.importorskip("pandas", reason="python3-pandas is not installed: scripts/setup does that")
+    pytest.importorskip("tables", reason="python3-tables is not installed: scripts/setup does that")
     frame = pandas.read_hdf(swept, "samples")
     with h5py.File(swept, "r") as file:
         assert len(frame) == len(file["samples"])
