@@ -152,6 +152,24 @@ struct SweepTest : testing::Test {
     }
 };
 
+TEST_F(SweepTest, TellsNothingOfTreesThatWereNotMade) {
+    std::ofstream(config()) << "rounds = 1\nmin_time_ms = 1\n[[cells]]\nscene = \"sphere_mesh\"\n"
+                               "n = 300\nask = \"triangle_pairs\"\nbuilders = "
+                               "\"hilbert\"\nlayouts = [\"packed\", \"wide8_f64\"]\nkernels = "
+                               "\"guigue_devillers_exact\"\n";
+    ASSERT_EQ(sweep(), 0) << text_of(log());
+    const results::Results r = results::read(out());
+    ASSERT_EQ(r.cells.size(), 2u);
+    std::set<std::uint32_t> with_tree, of_doubles;
+    for (const results::TreeRow& tree : r.trees)
+        with_tree.insert(tree.cell_id);
+    for (const results::Cell& cell : r.cells)
+        if (cell.precision == "f64")
+            of_doubles.insert(cell.cell_id);
+    EXPECT_EQ(with_tree.size(), 1u);
+    EXPECT_EQ(with_tree, of_doubles); // packed took the order alone
+}
+
 TEST_F(SweepTest, MeasuresChecksAndCleansUp) {
     ASSERT_EQ(sweep(), 0) << text_of(log());
     const results::Results r = results::read(out());

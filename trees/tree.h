@@ -13,27 +13,24 @@ namespace boxwood {
 using Box = Aabb<float>;
 using Boxes = std::span<const Box>;
 
-/// A node of the canonical tree: 32 bytes.
-struct TreeNode {
-    Box box;             ///< 24 bytes: bounds of all items below
+/// A node of a tree of n items.
+template <class Real> struct TreeNodeOf {
+    Aabb<Real> box;      ///< bounds of all items below
     std::uint32_t first; ///< first slot of the items below
     std::uint32_t count; ///< number of items below; 1 in a leaf
 };
-static_assert(sizeof(TreeNode) == 32);
+using TreeNode = TreeNodeOf<float>;
+static_assert(sizeof(TreeNode) == 32 && sizeof(TreeNodeOf<double>) == 56);
 
-/// The canonical binary tree that every builder makes and every layout starts from.
-/// n items give 2n - 1 nodes in depth-first order and leaves of one item each, so the shape needs
-/// no pointers: the left child of node i is i + 1, and a subtree of m items fills 2m - 1 nodes and
-/// the slots [first, first + m) of `order`. n = 0 gives no nodes.
-/// In a split tree, which is for rays and the nearest points of a mesh alone, a triangle may stand
-/// in several leaves: their boxes hold parts that together cover it, and n counts the leaves.
-struct Tree {
-    Buffer<TreeNode> nodes;
+/// The canonical binary tree's form: n items give 2n - 1 nodes in depth-first order and leaves of
+/// one item each, so the shape needs no pointers: the left child of node i is i + 1, and a subtree
+/// of m items fills 2m - 1 nodes and the slots [first, first + m) of `order`. n = 0 gives no nodes.
+template <class Real> struct TreeOf {
+    Buffer<TreeNodeOf<Real>> nodes;
     Buffer<std::uint32_t> order; ///< slot -> item (index of the input box)
-    bool is_split = false;
 
-    Tree() = default;
-    explicit Tree(std::size_t n) : nodes(n ? 2 * n - 1 : 0), order(n) {}
+    TreeOf() = default;
+    explicit TreeOf(std::size_t n) : nodes(n ? 2 * n - 1 : 0), order(n) {}
 
     std::size_t size() const { return order.size(); }
     bool empty() const { return order.empty(); }
@@ -41,6 +38,14 @@ struct Tree {
     static std::size_t left(std::size_t i) { return i + 1; }
     std::size_t right(std::size_t i) const { return i + 2 * std::size_t{nodes[i + 1].count}; }
     std::uint32_t item(std::size_t leaf) const { return order[nodes[leaf].first]; }
+};
+
+/// What every builder makes and every layout starts from.
+/// In a split tree, which is for rays and the nearest points of a mesh alone, a triangle may stand
+/// in several leaves: their boxes hold parts that together cover it, and n counts the leaves.
+struct Tree : TreeOf<float> {
+    using TreeOf::TreeOf;
+    bool is_split = false;
 };
 
 /// Input that no tree can hold. `index` is the item at fault.

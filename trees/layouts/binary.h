@@ -7,31 +7,11 @@
 
 namespace boxwood {
 
-/// A tree of double boxes in the form of `Tree`: nodes of 56 bytes.
-struct TreeOfDoubles {
-    struct Node {
-        Aabb<double> box;
-        std::uint32_t first, count;
-    };
-    Buffer<Node> nodes;
-    Buffer<std::uint32_t> order; ///< slot -> item
-
-    TreeOfDoubles() = default;
-    explicit TreeOfDoubles(std::size_t n) : nodes(n ? 2 * n - 1 : 0), order(n) {}
-
-    std::size_t size() const { return order.size(); }
-    bool empty() const { return order.empty(); }
-    bool is_leaf(std::size_t i) const { return nodes[i].count == 1; }
-    static std::size_t left(std::size_t i) { return i + 1; }
-    std::size_t right(std::size_t i) const { return i + 2 * std::size_t{nodes[i + 1].count}; }
-    std::uint32_t item(std::size_t leaf) const { return order[nodes[leaf].first]; }
-};
-
 /// The canonical tree as it stands: nodes in depth-first order, one item per leaf.
 template <class Real_> class BinaryLayoutOf {
   public:
     using Real = Real_;
-    using TreeType = std::conditional_t<std::is_same_v<Real, float>, Tree, TreeOfDoubles>;
+    using TreeType = std::conditional_t<std::is_same_v<Real, float>, Tree, TreeOf<Real>>;
 
     static constexpr std::string_view name = std::is_same_v<Real, float> ? "binary" : "binary_f64";
     static constexpr std::string_view summary =

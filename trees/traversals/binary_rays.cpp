@@ -11,7 +11,7 @@ struct Waiting {
 };
 
 const Box& box_of(const TreeNode& node) { return node.box; }
-Box box_of(const TreeOfDoubles::Node& node) { return round_outward(node.box); }
+Box box_of(const TreeNodeOf<double>& node) { return round_outward(node.box); }
 
 using Block = TriangleBlock<8>;
 

@@ -2,6 +2,7 @@
 
 #include "trees/layouts/packed.h"
 #include "trees/radix_sort.h"
+#include "trees/traversals/chunk_sink.h"
 
 #include <algorithm>
 #include <atomic>
@@ -42,7 +43,7 @@ class PackedList {
 class PackedPairs {
   public:
     PackedPairs(PairSink& sink, std::size_t chunk, std::atomic<bool>& stop, Work* work)
-        : sink_(sink), chunk_(chunk), stop_(stop), work_(work) {}
+        : to_(sink, chunk, stop, work) {}
 
     std::uint32_t* a() { return a_; }
     std::uint32_t* b() { return b_; }
@@ -57,11 +58,7 @@ class PackedPairs {
         if (n_ == 0)
             return true;
         put(a_, b_, n_, out_);
-        if (work_)
-            work_->answers += n_;
-        const bool more = !stop_.load(std::memory_order_relaxed) && sink_.take(chunk_, {out_, n_});
-        if (!more)
-            stop_.store(true, std::memory_order_relaxed);
+        const bool more = to_.take({out_, n_});
         n_ = 0;
         return more;
     }
@@ -72,10 +69,7 @@ class PackedPairs {
     alignas(64) std::uint32_t a_[room], b_[room];
     alignas(64) Pair out_[room];
     std::size_t n_ = 0;
-    PairSink& sink_;
-    std::size_t chunk_;
-    std::atomic<bool>& stop_;
-    Work* work_;
+    ChunkSink to_;
 };
 
 /// The nodes [begin, end) of a level of `a`, against all of `b`.

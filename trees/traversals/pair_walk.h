@@ -2,8 +2,7 @@
 
 #include "trees/buffer.h"
 #include "trees/executor.h"
-#include "trees/pairs.h"
-#include "trees/work.h"
+#include "trees/traversals/chunk_sink.h"
 
 #include <algorithm>
 #include <atomic>
@@ -21,7 +20,7 @@ class PairWalk {
     static constexpr std::size_t step_room = 256 + 16;
 
     PairWalk(PairSink& sink, std::size_t chunk, std::atomic<bool>& stop, Work* work)
-        : sink_(sink), chunk_(chunk), stop_(stop), work_(work) {}
+        : to_(sink, chunk, stop, work), work_(work) {}
 
     /// The next pair of nodes, with room made for what its step pushes and emits; false at the
     /// end, or when the sink has had enough.
@@ -49,14 +48,7 @@ class PairWalk {
 
     /// Hands the answers over; false once the sink has had enough.
     bool flush() {
-        if (n_out_ == 0)
-            return true;
-        if (work_)
-            work_->answers += n_out_;
-        const bool more =
-            !stop_.load(std::memory_order_relaxed) && sink_.take(chunk_, {out_.data(), n_out_});
-        if (!more)
-            stop_.store(true, std::memory_order_relaxed);
+        const bool more = to_.take({out_.data(), n_out_});
         n_out_ = 0;
         return more;
     }
@@ -75,9 +67,7 @@ class PairWalk {
         stack_ = std::move(larger);
     }
 
-    PairSink& sink_;
-    std::size_t chunk_;
-    std::atomic<bool>& stop_;
+    ChunkSink to_;
     Work* work_;
     std::size_t top_ = 0, n_out_ = 0;
     Buffer<Pair> stack_{1024}, out_{4096};

@@ -4,8 +4,8 @@
 #include "trees/buffer.h"
 #include "trees/executor.h"
 #include "trees/pairs.h"
+#include "trees/traversals/chunk_sink.h"
 #include "trees/tree.h"
-#include "trees/work.h"
 
 #include <algorithm>
 #include <atomic>
@@ -67,7 +67,7 @@ class RegionWalk {
     /// stack_room: the most references that wait on the stack of one walk.
     RegionWalk(PairSink& sink, std::size_t chunk, std::size_t stack_room, std::atomic<bool>& stop,
                Work* work)
-        : sink_(sink), chunk_(chunk), stop_(stop), work_(work), stack_(stack_room + spare) {}
+        : to_(sink, chunk, stop, work), work_(work), stack_(stack_room + spare) {}
 
     std::uint32_t* stack() { return stack_.data(); }
     /// Room for `spare` more items.
@@ -96,19 +96,12 @@ class RegionWalk {
                 return false;
         }
         n_items_ = 0;
-        return !stop_.load(std::memory_order_relaxed);
+        return !to_.stopped();
     }
 
     /// Hands the answers over; false once the sink has had enough.
     bool flush() {
-        if (n_out_ == 0)
-            return true;
-        if (work_)
-            work_->answers += n_out_;
-        const bool more =
-            !stop_.load(std::memory_order_relaxed) && sink_.take(chunk_, {out_.data(), n_out_});
-        if (!more)
-            stop_.store(true, std::memory_order_relaxed);
+        const bool more = to_.take({out_.data(), n_out_});
         n_out_ = 0;
         return more;
     }
@@ -131,9 +124,7 @@ class RegionWalk {
         items_ = std::move(larger);
     }
 
-    PairSink& sink_;
-    std::size_t chunk_;
-    std::atomic<bool>& stop_;
+    ChunkSink to_;
     Work* work_;
     Buffer<std::uint32_t> stack_, items_{1024};
     Buffer<Pair> out_{4096};
