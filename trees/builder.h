@@ -1,14 +1,13 @@
 #pragma once
 
+#include "kernels/settings.h"
 #include "kernels/triangle.h"
 #include "trees/executor.h"
 #include "trees/tree.h"
 
 #include <concepts>
 #include <functional>
-#include <map>
 #include <memory>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -26,20 +25,6 @@ concept Builder = std::default_initializable<B> &&
     { B::name } -> std::convertible_to<std::string_view>;
     { B::summary } -> std::convertible_to<std::string_view>;
 };
-
-/// One number that a builder lets the user set.
-template <class B> struct Setting {
-    std::string_view name, summary;
-    double B::*value;
-    double least, most;
-};
-
-struct SettingInfo {
-    std::string_view name, summary;
-    double default_value, least, most;
-};
-
-using Settings = std::map<std::string, double, std::less<>>;
 
 /// A builder with its settings, and with the stage after it if one is named.
 struct BuildFunction {
@@ -85,41 +70,6 @@ std::span<const StageEntry> stages();
 /// "ploc", or with a stage after it "ploc+reinsertion"; each setting goes to the one that has it.
 /// Throws std::invalid_argument for an unknown word or setting, with a suggestion.
 BuildFunction make_builder(std::string_view words, const Settings& settings = {});
-
-[[noreturn]] void throw_unknown_setting(std::string_view builder, std::string_view setting,
-                                        std::span<const SettingInfo> known);
-[[noreturn]] void throw_setting_range(std::string_view builder, const SettingInfo& setting,
-                                      double value);
-
-template <class B> std::vector<SettingInfo> setting_infos() {
-    std::vector<SettingInfo> infos;
-    if constexpr (requires { B::settings(); })
-        for (const Setting<B>& s : B::settings())
-            infos.push_back({s.name, s.summary, B{}.*(s.value), s.least, s.most});
-    return infos;
-}
-
-/// A B with these settings. Throws std::invalid_argument for an unknown or out-of-range one.
-template <class B> B with_settings(const Settings& values) {
-    B made;
-    const std::vector<SettingInfo> infos = setting_infos<B>();
-    for (const auto& [name, value] : values) {
-        bool known = false;
-        if constexpr (requires { B::settings(); })
-            for (std::size_t i = 0; const Setting<B>& s : B::settings()) {
-                if (s.name == name) {
-                    if (!(value >= s.least && value <= s.most))
-                        throw_setting_range(B::name, infos[i], value);
-                    made.*(s.value) = value;
-                    known = true;
-                }
-                ++i;
-            }
-        if (!known)
-            throw_unknown_setting(B::name, name, infos);
-    }
-    return made;
-}
 
 /// The catalogue row of a Builder type.
 template <Builder B> BuilderEntry builder_entry() {
