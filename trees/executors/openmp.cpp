@@ -1,4 +1,5 @@
 #include "trees/executor.h"
+#include "trees/executors/fork_join.h"
 
 #include <exception>
 #include <mutex>
@@ -19,8 +20,10 @@ class OpenMp final : public Executor {
         // An exception must not leave an OpenMP region: the first one is carried out by hand.
         std::exception_ptr error;
         std::mutex mutex;
+        ForkJoin fork_join;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(static_cast <int>(threads_))
         for (std::size_t i = 0; i < n; ++i) {
+            const ForkJoin::Task task(fork_join);
             try {
                 body(i);
             } catch (...) {

@@ -1,4 +1,5 @@
 #include "trees/executor.h"
+#include "trees/executors/fork_join.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
@@ -25,10 +26,12 @@ class Tbb final : public Executor {
             serial().for_each(n, body);
             return;
         }
+        ForkJoin fork_join;
         arena_.execute([&] {
             tbb::parallel_for(
                 tbb::blocked_range<std::size_t>(0, n, 1),
                 [&](const tbb::blocked_range<std::size_t>& range) {
+                    const ForkJoin::Task task(fork_join);
                     for (std::size_t i = range.begin(); i < range.end(); ++i)
                         body(i);
                 },
