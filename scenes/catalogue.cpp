@@ -10,10 +10,14 @@
     X(bars)                                                                                        \
     X(planks)                                                                                      \
     X(needles)                                                                                     \
+    X(cubes)                                                                                       \
+    X(assorted)                                                                                    \
     X(sphere_mesh)                                                                                 \
     X(triangle_soup)                                                                               \
     X(sliver_mesh)                                                                                 \
+    X(cloth)                                                                                       \
     X(four_link)                                                                                   \
+    X(chain)                                                                                       \
     X(mesh)
 
 namespace boxwood {

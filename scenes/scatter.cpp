@@ -8,6 +8,17 @@
 namespace boxwood {
 namespace {
 
+/// By Newton's iteration from above, so that every machine gets the same bits; x > 0.
+double cube_root(double x) {
+    double root = x > 1 ? x : 1;
+    for (;;) {
+        const double next = (2 * root + x / (root * root)) / 3;
+        if (next >= root)
+            return root;
+        root = next;
+    }
+}
+
 /// P(|x - y| <= t) for x uniform in [a, a + p] and y uniform in [b, b + q]: the share of the
 /// rectangle p by q that lies within a diagonal band, by second antiderivatives of a step.
 double near_probability(double a, double p, double b, double q, double t) {
@@ -142,6 +153,22 @@ Scene scattered_triangles(const SceneSpec& spec, std::string_view name, DrawCorn
             mesh.vertices.push_back(static_cast<Vec3<float>>(centre + scale * p));
     }
     scene.params_json = scattered_params(spec, scale);
+    return scene;
+}
+
+Scene boxes_at_density(const SceneSpec& spec, std::string_view name, double density,
+                       const HalfSize& sides) {
+    const Random random(spec.seed, name);
+    const double room = cube_root(static_cast<double>(spec.n) / density);
+    Scene scene;
+    scene.boxes.reserve(spec.n);
+    for (std::size_t i = 0; i < spec.n; ++i) {
+        Draws draws = random.item(i);
+        const Vec3<double> centre = room * draws.in_cube(), half = .5 * sides(draws);
+        scene.boxes.push_back(
+            {static_cast<Vec3<float>>(centre - half), static_cast<Vec3<float>>(centre + half)});
+    }
+    scene.params_json = fmt::format(R"({{"density":{},"room":{}}})", density, room);
     return scene;
 }
 

@@ -49,6 +49,11 @@ using DrawCorners = Corners (*)(Draws&);
 /// overlap as spec.overlaps asks for. `name` is the stream of random numbers.
 Scene scattered_boxes(const SceneSpec& spec, std::string_view name, const HalfSize& half_size);
 
+/// spec.n boxes with the sides that `sides` draws and centres uniform in a cube of spec.n / density
+/// units of volume. The same bits on every machine. `name` is the stream of random numbers.
+Scene boxes_at_density(const SceneSpec& spec, std::string_view name, double density,
+                       const HalfSize& sides);
+
 /// A mesh of spec.n unconnected triangles whose boxes are scattered and overlap likewise.
 Scene scattered_triangles(const SceneSpec& spec, std::string_view name, DrawCorners draw);
 

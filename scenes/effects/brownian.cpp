@@ -1,0 +1,32 @@
+#include "scenes/moving/effect.h"
+
+namespace boxwood {
+namespace {
+
+/// A new velocity in every frame.
+struct Brownian {
+    static constexpr std::string_view name = "brownian";
+    static constexpr std::string_view summary =
+        "bodies go another way, at another speed, each frame";
+    static constexpr Changes changes{.velocity = true};
+
+    double speed = .75, of_room = 0;
+    static std::vector<Setting<Brownian>> settings() {
+        return {
+            {"speed", "the highest, mean body sides per second", &Brownian::speed, 0, 1e9},
+            {"of_room", "the same in mean sides of the room, added", &Brownian::of_room, 0, 1e3}};
+    }
+
+    void start(Moment&) const {}
+    void advance(Moment& moment) const {
+        const double fastest = moment.bodies.length_of(speed, of_room);
+        for (const std::uint32_t i : moment.chosen)
+            moment.bodies.velocity[i] = fastest * moment.draws(i).in_ball();
+    }
+};
+
+} // namespace
+
+EffectEntry brownian_effect() { return effect_entry<Brownian>(); }
+
+} // namespace boxwood

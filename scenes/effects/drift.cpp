@@ -1,0 +1,34 @@
+#include "scenes/moving/effect.h"
+
+namespace boxwood {
+namespace {
+
+/// Uniform motion: the velocity is drawn once and turned round at the walls of the room.
+struct Drift {
+    static constexpr std::string_view name = "drift";
+    static constexpr std::string_view summary =
+        "bodies go straight on, each at a speed of its own, and bounce off the room's walls";
+    static constexpr Changes changes{.velocity = true};
+
+    double speed = 3, of_room = 0;
+    static std::vector<Setting<Drift>> settings() {
+        return {{"speed", "of the fastest, mean body sides per second", &Drift::speed, 0, 1e9},
+                {"of_room", "the same in mean sides of the room, added", &Drift::of_room, 0, 1e3}};
+    }
+
+    void start(Moment& moment) const {
+        const double fastest = moment.bodies.length_of(speed, of_room);
+        for (const std::uint32_t i : moment.chosen) {
+            Draws draws = moment.draws(i);
+            const Vec3<double> direction = draws.unit_vector();
+            moment.bodies.velocity[i] = fastest * draws.uniform() * direction;
+        }
+    }
+    void advance(Moment&) const {}
+};
+
+} // namespace
+
+EffectEntry drift_effect() { return effect_entry<Drift>(); }
+
+} // namespace boxwood

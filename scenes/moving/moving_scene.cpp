@@ -1,0 +1,186 @@
+#include "scenes/moving/moving_scene.h"
+
+#include "scenes/scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+namespace boxwood {
+namespace {
+
+Vec3<double> size_of(const Aabb<float>& box) {
+    return static_cast<Vec3<double>>(box.max) - static_cast<Vec3<double>>(box.min);
+}
+
+/// The mesh, each axis scaled so that its bounds become `box`.
+TriangleMesh filling(const TriangleMesh& mesh, const Aabb<float>& bounds, const Aabb<float>& box) {
+    const Vec3<double> from = size_of(bounds), to = size_of(box);
+    TriangleMesh scaled = mesh;
+    for (Vec3<float>& vertex : scaled.vertices)
+        for (int axis = 0; axis < 3; ++axis) {
+            const double share =
+                from[axis] > 0
+                    ? (static_cast<double>(vertex[axis]) - static_cast<double>(bounds.min[axis])) /
+                          from[axis]
+                    : .5;
+            vertex[axis] = std::clamp(
+                static_cast<float>(static_cast<double>(box.min[axis]) + share * to[axis]),
+                box.min[axis], box.max[axis]);
+        }
+    return scaled;
+}
+
+/// To 12 bits: boxes of one size, wherever they stood when they were rounded to floats.
+double rounded(double side) {
+    int exponent = 0;
+    return std::ldexp(std::round(std::ldexp(std::frexp(side, &exponent), 12)), exponent - 12);
+}
+
+/// Gives the bodies from `first` on meshes that fill their boxes; boxes of one size share one.
+void fill_boxes(Bodies& bodies, std::uint32_t first, const TriangleMesh& mesh) {
+    Aabb<float> bounds;
+    for (const Vec3<float>& vertex : mesh.vertices)
+        bounds.extend(vertex);
+    std::map<std::array<double, 3>, std::uint32_t> made;
+    for (std::uint32_t i = first; i < bodies.size(); ++i) {
+        const Vec3<double> size = size_of(bodies.rest[i]);
+        const Vec3<double> half{rounded(size.x) / 2, rounded(size.y) / 2, rounded(size.z) / 2};
+        bodies.rest[i] = {static_cast<Vec3<float>>(-half), static_cast<Vec3<float>>(half)};
+        const auto [at, is_new] = made.try_emplace(
+            {half.x, half.y, half.z}, static_cast<std::uint32_t>(bodies.meshes.size()));
+        if (is_new)
+            bodies.meshes.push_back(filling(mesh, bounds, bodies.rest[i]));
+        bodies.mesh[i] = at->second;
+    }
+}
+
+double mean_side(const Bodies& bodies) {
+    double sum = 0;
+    for (const Aabb<float>& box : bodies.rest) {
+        const Vec3<double> size = size_of(box);
+        sum += size.x + size.y + size.z;
+    }
+    return sum / (3 * static_cast<double>(bodies.size()));
+}
+
+/// The bodies of a group that an effect is laid on, by lot: the same for any n.
+std::vector<std::uint32_t> drawn(const Random& random, double share, std::uint32_t first,
+                                 std::uint32_t last) {
+    std::vector<std::uint32_t> chosen;
+    for (std::uint32_t i = first; i < last; ++i)
+        if (share == 1 || random.item(i).uniform() < share)
+            chosen.push_back(i);
+    return chosen;
+}
+
+} // namespace
+
+MovingScene::MovingScene(SceneFile file, std::optional<std::size_t> n) : file_(std::move(file)) {
+    if (n)
+        file_.n = *n;
+    std::vector<std::uint32_t> firsts;
+    for (std::size_t g = 0; g < file_.groups.size(); ++g) {
+        firsts.push_back(static_cast<std::uint32_t>(bodies_.size()));
+        add_group(file_.groups[g], g);
+    }
+    if (bodies_.size() == 0)
+        throw std::invalid_argument(
+            fmt::format("scene {}: the shares of n = {} leave no body", file_.name, file_.n));
+    bodies_.side = mean_side(bodies_);
+    changed_ = Changed(bodies_.size());
+    firsts.push_back(static_cast<std::uint32_t>(bodies_.size()));
+    for (std::size_t g = 0; g < file_.groups.size(); ++g)
+        lay_effects(file_.groups[g], g, firsts[g], firsts[g + 1]);
+    std::ranges::sort(with_velocity_);
+    const auto twice = std::ranges::unique(with_velocity_);
+    with_velocity_.erase(twice.begin(), twice.end());
+}
+
+void MovingScene::add_group(const BodyGroup& group, std::size_t index) {
+    const auto first = static_cast<std::uint32_t>(bodies_.size());
+    const double share = std::round(group.share * static_cast<double>(file_.n));
+    const std::size_t n = group.n ? group.n : static_cast<std::size_t>(share);
+    if (n == 0)
+        return;
+    // Groups of one generator must not stand on each other.
+    const std::uint64_t seed = file_.seed + 0x9e3779b97f4a7c15u * index;
+    const Scene made = make_scene(
+        {.generator = group.generator, .n = n, .seed = seed, .overlaps = group.overlaps});
+    if (bodies_.size() + made.boxes.size() >= no_mesh)
+        throw std::invalid_argument(
+            fmt::format("scene {}: too many bodies; they are numbered by 32 bits", file_.name));
+    if (!made.mesh.triangles.empty())
+        bodies_.add(made.mesh);
+    else
+        for (const Aabb<float>& box : made.boxes)
+            bodies_.add(box);
+    for (std::uint32_t i = first; i < bodies_.size(); ++i) {
+        Vec3<double>& place = bodies_.pose[i].translation;
+        place = place + group.at;
+        bodies_.room.extend(place);
+    }
+    if (!group.shape.empty() && made.mesh.triangles.empty())
+        fill_boxes(bodies_, first,
+                   make_scene({.generator = group.shape, .n = group.triangles, .seed = seed}).mesh);
+    if (group.neighbours_ignored)
+        for (std::uint32_t i = first; i + 1 < bodies_.size(); ++i)
+            expected_.push_back({i, i + 1});
+}
+
+void MovingScene::lay_effects(const BodyGroup& group, std::size_t index, std::uint32_t first,
+                              std::uint32_t last) {
+    for (std::size_t k = 0; k < group.effects.size(); ++k) {
+        const auto& [name, settings, share] = group.effects[k];
+        const EffectEntry& entry = effect_of(name);
+        const Random random(file_.seed, fmt::format("{}.{}.{}", name, index, k));
+        const Random lot(file_.seed, fmt::format("{}.{}.{}.chosen", name, index, k));
+        effects_.push_back({entry.make(settings), drawn(lot, share, first, last), random});
+        Moment moment = moment_of(effects_.back());
+        effects_.back().effect->start(moment);
+        changes_ = changes_ | entry.changes;
+        if (entry.changes.velocity)
+            with_velocity_.insert(with_velocity_.end(), effects_.back().chosen.begin(),
+                                  effects_.back().chosen.end());
+    }
+}
+
+Moment MovingScene::moment_of(const Laid& laid) {
+    return {bodies_, laid.chosen, changed_, laid.random, frame_, 1 / file_.frames_per_second};
+}
+
+/// Along its velocity; what would leave the room stays at the wall and turns round.
+void MovingScene::move_along(std::uint32_t i) {
+    Vec3<double>& velocity = bodies_.velocity[i];
+    if (velocity == Vec3<double>{})
+        return;
+    Vec3<double>& place = bodies_.pose[i].translation;
+    const Vec3<double> before = place;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double low = bodies_.room.min[axis], high = bodies_.room.max[axis];
+        const double x = place[axis] + velocity[axis] / file_.frames_per_second;
+        if ((x < low && velocity[axis] < 0) || (x > high && velocity[axis] > 0))
+            velocity[axis] *= -bodies_.bounce;
+        place[axis] = std::clamp(x, low, high);
+    }
+    if (!(place == before))
+        changed_.add(i);
+}
+
+std::span<const std::uint32_t> MovingScene::advance() {
+    ++frame_;
+    changed_.clear();
+    for (const Laid& laid : effects_) {
+        Moment moment = moment_of(laid);
+        laid.effect->advance(moment);
+    }
+    for (const std::uint32_t i : with_velocity_)
+        move_along(i);
+    changed_.sort();
+    return changed_.bodies();
+}
+
+} // namespace boxwood

@@ -1,0 +1,156 @@
+#include "scenes/moving/scene_file.h"
+
+#include "scenes/moving/effect.h"
+#include "scenes/scene.h"
+#include "scenes/suggest.h"
+#include "scenes/toml_reader.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+namespace boxwood {
+namespace {
+
+constexpr std::int64_t most_bodies = 100'000'000;
+
+/// "drift", or {name = "drift", share = 0.5, speed = 2}.
+EffectChoice read_effect(const TomlReader& reader, const toml::node& node) {
+    if (node.is_string())
+        return {reader.word(node, "effects", names_of(effects())), {}, 1};
+    const toml::table* table = node.as_table();
+    const toml::node* name = table ? table->get("name") : nullptr;
+    if (!name)
+        reader.fail(node.source(), "an effect is a word, or {name = \"WORD\", share = NUMBER, "
+                                   "SETTING = NUMBER, ...}");
+    EffectChoice choice{reader.word(*name, "effects", names_of(effects())), {}, 1};
+    for (const auto& [key, value] : *table)
+        if (key == "share")
+            choice.share = reader.number(value, "share", 0, 1);
+        else if (key != "name")
+            choice.settings[std::string(key.str())] =
+                reader.number(value, key.str(), std::numeric_limits<double>::lowest(),
+                              std::numeric_limits<double>::max());
+    try {
+        effect_of(choice.name).make(choice.settings);
+    } catch (const std::invalid_argument& error) {
+        reader.fail(node.source(), error.what());
+    }
+    return choice;
+}
+
+TomlReader::Words generators(bool meshes_alone) {
+    TomlReader::Words words;
+    for (const SceneEntry& entry : scene_generators())
+        if (entry.name != "mesh" && (entry.has_mesh || !meshes_alone))
+            words.push_back(entry.name);
+    return words;
+}
+
+BodyGroup read_group(const TomlReader& reader, const toml::table& table) {
+    reader.require_known_keys(table, "[[bodies]]",
+                              {"generator", "n", "share", "overlaps", "shape", "triangles", "at",
+                               "neighbours_ignored", "effects"});
+    BodyGroup group;
+    const toml::node* generator = table.get("generator");
+    if (!generator)
+        reader.fail(table.source(),
+                    "[[bodies]] needs a generator, such as generator = \"uniform\"");
+    group.generator = reader.word(*generator, "generator", generators(false));
+    if (const toml::node* n = table.get("n"))
+        group.n = reader.whole(*n, "n", 1, most_bodies);
+    if (const toml::node* share = table.get("share")) {
+        if (group.n != 0)
+            reader.fail(share->source(),
+                        "[[bodies]] takes n or a share of the scene's n, not both");
+        group.share = reader.number(*share, "share", 0, 1);
+    }
+    if (const toml::node* overlaps = table.get("overlaps"))
+        group.overlaps = reader.number(*overlaps, "overlaps", 0, 1e6);
+    const toml::node* triangles = table.get("triangles");
+    if (const toml::node* shape = table.get("shape")) {
+        group.shape = reader.word(*shape, "shape", generators(true));
+        if (!triangles)
+            reader.fail(shape->source(), "a shape needs triangles, such as triangles = 100");
+        group.triangles = reader.whole(*triangles, "triangles", 1, most_bodies);
+    } else if (triangles) {
+        reader.fail(triangles->source(),
+                    "triangles is for a shape, such as shape = \"sphere_mesh\"");
+    }
+    std::vector<double> at;
+    reader.list(table, "at", at,
+                [&](const toml::node& node) { return reader.number(node, "at", -1e30, 1e30); });
+    if (!at.empty() && at.size() != 3)
+        reader.fail(table.get("at")->source(), "at must be three numbers, such as at = [0, 0, 1]");
+    if (!at.empty())
+        group.at = {at[0], at[1], at[2]};
+    if (const toml::node* ignored = table.get("neighbours_ignored")) {
+        const auto value = ignored->value<bool>();
+        if (!value)
+            reader.fail(ignored->source(), "neighbours_ignored must be true or false");
+        group.neighbours_ignored = *value;
+    }
+    reader.list(table, "effects", group.effects,
+                [&](const toml::node& node) { return read_effect(reader, node); });
+    return group;
+}
+
+} // namespace
+
+SceneFile parse_scene_file(std::string_view text, const std::string& file) {
+    const TomlReader reader(file);
+    const toml::table root = reader.parse(text);
+    reader.require_known_keys(root, "a scene file",
+                              {"summary", "n", "seed", "frames", "frames_per_second", "bodies"});
+    SceneFile scene;
+    scene.name = std::filesystem::path(file).stem().string();
+    if (const toml::node* summary = root.get("summary"))
+        scene.summary = reader.text(*summary, "summary");
+    if (const toml::node* n = root.get("n"))
+        scene.n = reader.whole(*n, "n", 1, most_bodies);
+    if (const toml::node* seed = root.get("seed"))
+        scene.seed = reader.whole(*seed, "seed", 0, std::numeric_limits<std::int64_t>::max());
+    if (const toml::node* frames = root.get("frames"))
+        scene.frames = reader.whole(*frames, "frames", 1, 100'000'000);
+    if (const toml::node* fps = root.get("frames_per_second"))
+        scene.frames_per_second = reader.number(*fps, "frames_per_second", 1e-3, 1e6);
+    const toml::node* bodies = root.get("bodies");
+    const toml::array* groups = bodies ? bodies->as_array() : nullptr;
+    if (!groups || groups->empty())
+        throw std::invalid_argument(file + ": no [[bodies]] block: there is nothing in the scene");
+    for (const toml::node& node : *groups) {
+        if (!node.is_table())
+            reader.fail(node.source(), "bodies must be [[bodies]] blocks");
+        scene.groups.push_back(read_group(reader, *node.as_table()));
+    }
+    return scene;
+}
+
+std::span<const BuiltInScene> built_in_scenes() {
+    static constexpr BuiltInScene scenes[] = {
+#include "built_in_scenes.inc"
+    };
+    return scenes;
+}
+
+SceneFile load_scene(const std::string& name_or_path) {
+    for (const BuiltInScene& scene : built_in_scenes())
+        if (scene.name == name_or_path)
+            return parse_scene_file(scene.text, name_or_path + ".toml");
+    if (!name_or_path.ends_with(".toml"))
+        throw std::invalid_argument(
+            unknown_word("scene", name_or_path, names_of(built_in_scenes())) +
+            "; a scene file of your own ends in .toml");
+    std::ifstream in(name_or_path, std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    if (!in || !text)
+        throw std::runtime_error(
+            fmt::format("{}: cannot read it: does the file exist?", name_or_path));
+    return parse_scene_file(text.str(), name_or_path);
+}
+
+} // namespace boxwood

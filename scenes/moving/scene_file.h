@@ -1,0 +1,59 @@
+#pragma once
+
+#include "kernels/settings.h"
+#include "kernels/vec3.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace boxwood {
+
+/// An effect as a scene file lays it on a group of bodies.
+struct EffectChoice {
+    std::string name; ///< a word of `effects()`
+    Settings settings;
+    double share = 1; ///< of the group's bodies, drawn by lot
+};
+
+/// Bodies that come from one generator and have the same effects.
+struct BodyGroup {
+    std::string generator; ///< a word of `scene_generators()`: a body per box, or one mesh
+    std::size_t n = 0;     ///< of the generator; 0: `share` of the scene's n
+    double share = 1;
+    double overlaps = 10;      ///< as in SceneSpec
+    std::string shape;         ///< mesh generator whose mesh fills each body's box; empty: the box
+    std::size_t triangles = 0; ///< of that mesh
+    Vec3<double> at{};         ///< where the generator's origin is put
+    bool neighbours_ignored = false; ///< pairs of bodies i, i + 1 are expected and left out
+    std::vector<EffectChoice> effects;
+};
+
+/// A scene: what is in it and what happens to it.
+struct SceneFile {
+    std::string name;    ///< of the file, without .toml
+    std::string summary; ///< one line
+    std::size_t n = 1000;
+    std::uint64_t seed = 1;
+    std::size_t frames = 100;
+    double frames_per_second = 30;
+    std::vector<BodyGroup> groups;
+};
+
+/// Throws std::invalid_argument, "file:line: what and how to fix it", for what is no scene.
+SceneFile parse_scene_file(std::string_view text, const std::string& file);
+
+/// The scenes that come with Boxwood: the files of scenes/built_in/, by name.
+struct BuiltInScene {
+    std::string_view name, text;
+};
+std::span<const BuiltInScene> built_in_scenes();
+
+/// A built-in scene by its name, or a file by its path (which ends in .toml). Throws as
+/// parse_scene_file; std::runtime_error if the file cannot be read.
+SceneFile load_scene(const std::string& name_or_path);
+
+} // namespace boxwood

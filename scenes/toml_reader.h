@@ -1,0 +1,65 @@
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace boxwood {
+
+/// Reads typed values out of TOML tables. A bad one throws std::invalid_argument with its place:
+/// "file:line: what is wrong and what is allowed".
+class TomlReader {
+  public:
+    using Words = std::vector<std::string_view>;
+
+    explicit TomlReader(std::string file) : file_(std::move(file)) {}
+
+    const std::string& file() const { return file_; }
+    toml::table parse(std::string_view text) const;
+    std::string place(const toml::source_region& source) const;
+    [[noreturn]] void fail(const toml::source_region& source, const std::string& message) const;
+
+    void require_known_keys(const toml::table& table, std::string_view where,
+                            const Words& known) const;
+    double number(const toml::node& node, std::string_view key, double least, double most) const;
+    std::uint64_t whole(const toml::node& node, std::string_view key, std::int64_t least,
+                        std::int64_t most) const;
+    std::string text(const toml::node& node, std::string_view key) const;
+    /// One of the known words.
+    std::string word(const toml::node& node, std::string_view key, const Words& known) const;
+
+    /// Replaces `out` by what `read` makes of the value of `key`, or of each element if it is a
+    /// list; leaves it as it is if there is no such key.
+    template <class T, class Read>
+    void list(const toml::table& table, std::string_view key, std::vector<T>& out,
+              Read read) const {
+        const toml::node* node = table.get(key);
+        if (!node)
+            return;
+        out.clear();
+        if (const toml::array* array = node->as_array())
+            for (const toml::node& element : *array)
+                out.push_back(read(element));
+        else
+            out.push_back(read(*node));
+    }
+    void words(const toml::table& table, std::string_view key, std::vector<std::string>& out,
+               const Words& known) const;
+
+  private:
+    std::string file_;
+};
+
+/// The names of a catalogue.
+template <class Entries> TomlReader::Words names_of(const Entries& entries) {
+    TomlReader::Words words;
+    for (const auto& entry : entries)
+        words.emplace_back(entry.name);
+    return words;
+}
+
+} // namespace boxwood
