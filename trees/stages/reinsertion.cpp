@@ -1,59 +1,16 @@
 #include "trees/stages/reinsertion.h"
 
+#include "trees/radix_sort.h"
+#include "trees/stages/linked_tree.h"
+
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 namespace boxwood {
 namespace {
-
-/// x, y, z and a lane that holds something else (GCC and Clang vector types).
-using Float4 = float __attribute__((vector_size(16), may_alias));
-using Int4 = std::int32_t __attribute__((vector_size(16)));
-
-/// A node on its way to a better place: 32 bytes, siblings side by side in one cache line. The
-/// children of node i are nodes `below` and `below` + 1; a node of odd index stands right.
-/// Node 0 is the root and node 1 is unused.
-struct alignas(32) Link {
-    float min[3];
-    std::uint32_t below; ///< first child, or leaf_bit and the node of the tree that it came from
-    float max[3];
-    std::uint32_t above; ///< parent
-
-    static constexpr std::uint32_t leaf_bit = 0x80000000u;
-    bool is_leaf() const { return (below & leaf_bit) != 0; }
-};
-static_assert(sizeof(Link) == 32);
-
-Float4 load(const float* p) { return *reinterpret_cast<const Float4*>(p); }
-Float4 min4(Float4 a, Float4 b) { return a < b ? a : b; }
-Float4 max4(Float4 a, Float4 b) { return a > b ? a : b; }
-
-/// Bounds; the fourth lanes hold no coordinates.
-struct Bounds4 {
-    Float4 min, max;
-
-    explicit Bounds4(const Link& link) : min(load(link.min)), max(load(link.max)) {}
-    Bounds4(Float4 low, Float4 high) : min(low), max(high) {}
-    Bounds4 with(const Bounds4& b) const { return {min4(min, b.min), max4(max, b.max)}; }
-    /// Half area: x y + y z + z x. The fourth lane is not touched: it may be slow (denormal).
-    float area() const {
-        const Float4 d = max - min;
-        return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
-    }
-    double exact_area() const {
-        const Float4 d = max - min;
-        const double x = static_cast<double>(d[0]), y = static_cast<double>(d[1]),
-                     z = static_cast<double>(d[2]);
-        return x * y + y * z + z * x;
-    }
-    bool same(const Bounds4& b) const {
-        const Int4 equal = (min == b.min) & (max == b.max);
-        return (equal[0] & equal[1] & equal[2]) != 0;
-    }
-};
 
 struct Move {
     float gain;
@@ -71,68 +28,24 @@ struct Waiting {
 constexpr int climb_limit = 64;
 constexpr int visit_limit = 256;
 
-class Reinsertion {
+class Reinsertion : public LinkedTree {
   public:
-    Reinsertion(const Tree& tree, const Executor& executor);
+    Reinsertion(const Tree& tree, const Executor& executor)
+        : LinkedTree(tree, executor), marks_(2 * tree.size(), 0) {}
     /// Whether any node was moved.
     bool pass(double share);
-    Tree finish() const;
 
   private:
     Move search(std::uint32_t node, std::vector<Waiting>& stack) const;
+    std::vector<std::uint32_t> by_area() const;
     bool apply(std::uint32_t node, std::uint32_t target);
     double gain_of(std::uint32_t node, std::uint32_t target, std::uint32_t& common);
     void put(std::uint32_t to, const Link& content);
     void refit(std::uint32_t from, std::uint32_t end);
 
-    Bounds4 bounds(std::uint32_t i) const { return Bounds4(links_[i]); }
-    void set_bounds(std::uint32_t i, const Bounds4& b) {
-        for (int k = 0; k < 3; ++k) {
-            links_[i].min[k] = b.min[k];
-            links_[i].max[k] = b.max[k];
-        }
-    }
-
-    const Tree& tree_;
-    const Executor& executor_;
-    Buffer<Link> links_;
     std::vector<std::uint32_t> marks_; ///< of gain_of: which call saw the node last
     std::uint32_t mark_ = 0;
 };
-
-/// Coordinates scaled by a power of two so that the widest extent lies near 1: then no area over-
-/// or underflows that matters. They serve to choose; the boxes of the result are the old ones.
-Reinsertion::Reinsertion(const Tree& tree, const Executor& executor)
-    : tree_(tree), executor_(executor), links_(2 * tree.size()), marks_(2 * tree.size(), 0) {
-    double extent = 0;
-    for (int k = 0; k < 3; ++k)
-        extent = std::max(extent, static_cast<double>(tree.nodes[0].box.max[k]) -
-                                      static_cast<double>(tree.nodes[0].box.min[k]));
-    const double scale = extent > 0 ? std::exp2(-std::ilogb(extent)) : 1;
-
-    // The k-th inner node in depth-first order has the pair k + 1 for its children: node i, with s
-    // leaves before it, has i - s inner nodes before it.
-    std::vector<std::uint32_t> place(tree.nodes.size());
-    place[0] = 0;
-    links_[1] = {{0, 0, 0}, Link::leaf_bit, {0, 0, 0}, 0};
-    links_[0].above = 0;
-    for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {
-        const TreeNode& node = tree.nodes[i];
-        Link& link = links_[place[i]];
-        for (int k = 0; k < 3; ++k) {
-            link.min[k] = static_cast<float>(static_cast<double>(node.box.min[k]) * scale);
-            link.max[k] = static_cast<float>(static_cast<double>(node.box.max[k]) * scale);
-        }
-        if (node.count == 1) {
-            link.below = Link::leaf_bit | i;
-            continue;
-        }
-        link.below = 2 * (i - node.first + 1);
-        place[Tree::left(i)] = link.below;
-        place[tree.right(i)] = link.below + 1;
-        links_[link.below].above = links_[link.below + 1].above = place[i];
-    }
-}
 
 /// The best place for a node, by branch and bound: at each level on the way up, what the path has
 /// gained so far without the node, less what the nodes around a new place would grow by.
@@ -298,25 +211,43 @@ bool Reinsertion::apply(std::uint32_t node, std::uint32_t target) {
     return true;
 }
 
-bool Reinsertion::pass(double share) {
-    // Sorted by powers of two of the area, the largest first, and else in the order in which they
-    // lie: neighbours search the same part of the tree.
-    const std::size_t n_nodes = links_.size() - 2;
-    std::vector<std::uint8_t> keys(n_nodes);
-    std::array<std::size_t, 257> starts{};
-    for (std::size_t i = 0; i < n_nodes; ++i) {
-        const float area = bounds(static_cast<std::uint32_t>(i + 2)).area();
-        keys[i] = static_cast<std::uint8_t>(255 - (std::bit_cast<std::uint32_t>(area) >> 23));
-        ++starts[keys[i] + std::size_t{1}];
-    }
-    std::partial_sum(starts.begin(), starts.end(), starts.begin());
-    std::vector<std::uint32_t> nodes(n_nodes);
-    for (std::size_t i = 0; i < n_nodes; ++i)
-        nodes[starts[keys[i]]++] = static_cast<std::uint32_t>(i + 2);
-    const auto n = static_cast<std::size_t>(std::ceil(share * static_cast<double>(n_nodes)));
+/// All but the root, sorted by powers of two of the area, the largest first, and else in the order
+/// in which they lie: neighbours search the same part of the tree.
+std::vector<std::uint32_t> Reinsertion::by_area() const {
+    const std::size_t n = links_.size() - 2, chunks = chunks_for(n, executor_);
+    std::vector<std::uint8_t> keys(n);
+    std::vector<std::array<std::uint32_t, 256>> places(chunks);
+    executor_.for_each(chunks, [&](std::size_t c) {
+        places[c].fill(0);
+        const ChunkRange range(n, chunks, c);
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+            const float area = bounds(static_cast<std::uint32_t>(i + 2)).area();
+            keys[i] = static_cast<std::uint8_t>(255 - (std::bit_cast<std::uint32_t>(area) >> 23));
+            ++places[c][keys[i]];
+        }
+    });
+    std::uint32_t at = 0;
+    for (std::size_t key = 0; key < 256; ++key)
+        for (auto& of_chunk : places)
+            at += std::exchange(of_chunk[key], at);
+    std::vector<std::uint32_t> nodes(n);
+    executor_.for_each(chunks, [&](std::size_t c) {
+        const ChunkRange range(n, chunks, c);
+        for (std::size_t i = range.begin; i < range.end; ++i)
+            nodes[places[c][keys[i]]++] = static_cast<std::uint32_t>(i + 2);
+    });
+    return nodes;
+}
 
-    constexpr std::size_t batch = 1024, chunk = 64;
+bool Reinsertion::pass(double share) {
+    const std::vector<std::uint32_t> nodes = by_area();
+    const auto n = static_cast<std::size_t>(std::ceil(share * static_cast<double>(nodes.size())));
+
+    // Long enough that threads seldom wait for each other: with 1024 two took 10 % longer. The
+    // staler the tree that is searched, the less a move gains: 0.1 % of the cost at 16384.
+    constexpr std::size_t batch = 4096, chunk = 64;
     std::vector<Move> moves(batch);
+    std::vector<std::uint64_t> paying; // the greatest gain first, then the first searched for
     bool moved = false;
     for (std::size_t first = 0; first < n; first += batch) {
         const std::size_t size = std::min(batch, n - first);
@@ -325,52 +256,25 @@ bool Reinsertion::pass(double share) {
             for (std::size_t i = c * chunk; i < std::min(size, (c + 1) * chunk); ++i)
                 moves[i] = search(nodes[first + i], stack);
         });
-        const auto end =
-            std::remove_if(moves.begin(), moves.begin() + static_cast<std::ptrdiff_t>(size),
-                           [](const Move& m) { return !(m.gain > 0); });
-        std::sort(moves.begin(), end, [](const Move& a, const Move& b) {
-            return a.gain != b.gain ? a.gain > b.gain : a.node < b.node;
-        });
-        for (auto it = moves.begin(); it != end; ++it)
-            moved |= apply(it->node, it->target);
-    }
-    return moved;
-}
-
-/// The links in depth-first order, as the canonical tree wants them.
-Tree Reinsertion::finish() const {
-    Tree made(tree_.size());
-    made.is_split = tree_.is_split;
-    std::vector<std::uint32_t> open{0};
-    std::uint32_t slot = 0;
-    for (std::uint32_t i = 0; !open.empty(); ++i) {
-        const Link& link = links_[open.back()];
-        open.pop_back();
-        TreeNode& node = made.nodes[i];
-        node.first = slot;
-        if (link.is_leaf()) {
-            const TreeNode& old = tree_.nodes[link.below & ~Link::leaf_bit];
-            node.box = old.box;
-            node.count = 1;
-            made.order[slot++] = tree_.order[old.first];
-        } else {
-            node.count = 0;
-            open.push_back(link.below + 1);
-            open.push_back(link.below);
+        paying.clear();
+        for (std::size_t i = 0; i < size; ++i)
+            if (moves[i].gain > 0)
+                paying.push_back(std::uint64_t{~std::bit_cast<std::uint32_t>(moves[i].gain)} << 32 |
+                                 i);
+        std::ranges::sort(paying);
+        for (std::size_t i = 0; i < paying.size(); ++i) {
+            constexpr std::size_t ahead = 4;
+            if (i + ahead < paying.size()) {
+                const Move& next = moves[static_cast<std::uint32_t>(paying[i + ahead])];
+                __builtin_prefetch(&links_[next.node]);
+                __builtin_prefetch(&links_[next.target]);
+                __builtin_prefetch(&marks_[next.target]);
+            }
+            const Move& move = moves[static_cast<std::uint32_t>(paying[i])];
+            moved |= apply(move.node, move.target);
         }
     }
-    // Backwards, children first. The right child of an inner node is the root of the subtree that
-    // follows the left one, whose count is known by then.
-    for (std::size_t i = made.nodes.size(); i-- > 0;) {
-        TreeNode& node = made.nodes[i];
-        if (node.count != 0)
-            continue;
-        const TreeNode& left = made.nodes[Tree::left(i)];
-        const TreeNode& right = made.nodes[made.right(i)];
-        node.count = left.count + right.count;
-        node.box = merge(left.box, right.box);
-    }
-    return made;
+    return moved;
 }
 
 } // namespace
@@ -382,7 +286,7 @@ void ReinsertionStage::improve(Tree& tree, const Executor& executor) const {
     for (int i = 0; i < static_cast<int>(passes); ++i)
         if (!work.pass(share))
             break;
-    tree = work.finish();
+    tree = work.canonical();
 }
 
 StageEntry reinsertion_stage() { return stage_entry<ReinsertionStage>(); }
