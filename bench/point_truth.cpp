@@ -3,10 +3,9 @@
 #include "bench/points.h"
 #include "kernels/features/point_triangle.h"
 #include "kernels/oracle/oracle.h"
+#include "trees/executor.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 #include <xxhash.h>
 
 #include <algorithm>
@@ -57,9 +56,8 @@ class PointTruth final : public Truth {
         : scene_(scene), ask_(ask), k_(ask == Ask::nearest ? neighbours_of(scene) : 1) {
         sample();
         answers_.resize(sample_.size());
-        tbb::task_arena(static_cast<int>(threads)).execute([&] {
-            tbb::parallel_for(std::size_t{0}, sample_.size(),
-                              [&](std::size_t s) { answers_[s] = answer_of(sample_[s]); });
+        make_executor("tbb", threads)->for_each(sample_.size(), [&](std::size_t s) {
+            answers_[s] = answer_of(sample_[s]);
         });
     }
 

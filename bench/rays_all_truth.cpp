@@ -1,10 +1,9 @@
 #include "bench/rays_all_truth.h"
 
 #include "bench/ray_truth.h"
+#include "trees/executor.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 #include <xxhash.h>
 
 #include <algorithm>
@@ -18,10 +17,8 @@ class AllHitsTruth final : public Truth {
         : n_rays_(scene.rays.size()), n_triangles_(scene.mesh.triangles.size()),
           sample_(sampled_rays(scene)), truths_(sample_.size()) {
         const RayOracle oracle(scene.mesh);
-        tbb::task_arena(static_cast<int>(threads)).execute([&] {
-            tbb::parallel_for(std::size_t{0}, sample_.size(), [&](std::size_t k) {
-                truths_[k] = oracle.all(scene.rays[sample_[k]]);
-            });
+        make_executor("tbb", threads)->for_each(sample_.size(), [&](std::size_t k) {
+            truths_[k] = oracle.all(scene.rays[sample_[k]]);
         });
     }
 

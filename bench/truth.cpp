@@ -5,10 +5,9 @@
 #include "bench/ray_truth.h"
 #include "bench/rays_all_truth.h"
 #include "kernels/oracle/oracle.h"
+#include "trees/executor.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 #include <xxhash.h>
 
 #include <algorithm>
@@ -26,9 +25,7 @@ constexpr std::size_t most_boxes_for_all_pairs = 200'000;
 /// Calls body(i, part) for each i < n on `threads` threads and joins the parts, sorted.
 template <class Body> std::vector<Pair> gather(std::size_t n, unsigned threads, const Body& body) {
     std::vector<std::vector<Pair>> parts(n);
-    tbb::task_arena(static_cast<int>(threads)).execute([&] {
-        tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) { body(i, parts[i]); });
-    });
+    make_executor("tbb", threads)->for_each(n, [&](std::size_t i) { body(i, parts[i]); });
     std::vector<Pair> all;
     for (std::vector<Pair>& part : parts) {
         all.insert(all.end(), part.begin(), part.end());
@@ -97,11 +94,9 @@ std::vector<Pair> touching(const TriangleMesh& mesh, std::vector<Pair> candidate
         });
     };
     std::vector<std::uint8_t> touch(candidates.size());
-    tbb::task_arena(static_cast<int>(threads)).execute([&] {
-        tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
-            const Pair p = candidates[i];
-            touch[i] = share_a_corner(p) || oracle::intersect(triangle(p.a), triangle(p.b));
-        });
+    make_executor("tbb", threads)->for_each(candidates.size(), [&](std::size_t i) {
+        const Pair p = candidates[i];
+        touch[i] = share_a_corner(p) || oracle::intersect(triangle(p.a), triangle(p.b));
     });
     std::size_t kept = 0;
     for (std::size_t i = 0; i < candidates.size(); ++i)
@@ -167,10 +162,8 @@ class RaysTruth final : public Truth {
         sample_ = sampled_rays(scene);
         const RayOracle oracle(scene.mesh);
         truths_.resize(sample_.size());
-        tbb::task_arena(static_cast<int>(threads)).execute([&] {
-            tbb::parallel_for(std::size_t{0}, sample_.size(), [&](std::size_t k) {
-                truths_[k] = oracle.truth(scene.rays[sample_[k]]);
-            });
+        make_executor("tbb", threads)->for_each(sample_.size(), [&](std::size_t k) {
+            truths_[k] = oracle.truth(scene.rays[sample_[k]]);
         });
     }
 

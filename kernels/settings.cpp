@@ -1,8 +1,19 @@
 #include "kernels/settings.h"
 
+#include <array>
+#include <charconv>
 #include <stdexcept>
 
 namespace boxwood {
+namespace {
+
+/// The shortest text that reads back as x: "32", "0.5", "1e+300".
+std::string text(double x) {
+    std::array<char, 32> digits;
+    return {digits.begin(), std::to_chars(digits.begin(), digits.end(), x).ptr};
+}
+
+} // namespace
 
 void throw_unknown_setting(std::string_view owner, std::string_view setting,
                            std::span<const SettingInfo> known) {
@@ -15,9 +26,8 @@ void throw_unknown_setting(std::string_view owner, std::string_view setting,
 
 void throw_setting_range(std::string_view owner, const SettingInfo& setting, double value) {
     throw std::invalid_argument("setting '" + std::string(setting.name) + "' of '" +
-                                std::string(owner) + "' must lie between " +
-                                std::to_string(setting.least) + " and " +
-                                std::to_string(setting.most) + ", not " + std::to_string(value));
+                                std::string(owner) + "' must lie between " + text(setting.least) +
+                                " and " + text(setting.most) + ", not " + text(value));
 }
 
 } // namespace boxwood

@@ -1,9 +1,7 @@
 #pragma once
 
 #include "scenes/hard_cases/hard_cases.h"
-
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
+#include "trees/executor.h"
 
 #include <functional>
 #include <optional>
@@ -72,9 +70,8 @@ template <class Case, class Truth> class Truths {
 
     template <class Find> List found(const Find& find) const {
         List list(cases_.size());
-        tbb::task_arena(static_cast<int>(threads_)).execute([&] {
-            tbb::parallel_for(std::size_t{0}, list.size(),
-                              [&](std::size_t i) { list[i] = find(i); });
+        make_executor("tbb", threads_)->for_each(list.size(), [&](std::size_t i) {
+            list[i] = find(i);
         });
         return list;
     }
