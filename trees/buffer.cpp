@@ -2,12 +2,12 @@
 
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <mutex>
 #include <new>
 #include <vector>
 
 #if defined(__linux__)
-#include <malloc.h>
 #include <sys/mman.h>
 #endif
 
@@ -16,102 +16,125 @@ namespace {
 
 constexpr std::size_t line = 64, huge_page = std::size_t{1} << 21;
 
-#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
+/// From this size on malloc gives freed memory back to the system each time,
+/// and to have it cleared anew, page by page in the middle of a build, takes as
+/// long as to fill it.
+constexpr std::size_t given_back = std::size_t{24} << 20;
 
-/// Large blocks that were freed, for the next that ask: fresh ones are cleared page by page in the
-/// middle of a build, by one thread while others wait, which took a fifth of the fastest. The
-/// system may take the pages back at any time (MADV_FREE).
+/// Stands just before the memory that is handed out.
+struct Header {
+  void *whole; ///< what malloc gave
+  std::size_t bytes;
+};
+Header header_of(void *memory) {
+  Header header;
+  std::memcpy(&header, static_cast<char *>(memory) - sizeof(Header),
+              sizeof(Header));
+  return header;
+}
+
+/// Large blocks that were freed, for the next that ask. The system may take
+/// their pages back at any time (MADV_FREE).
 class KeptBlocks {
-  public:
-    /// One of at least this size and not much larger, or nullptr.
-    void* take(std::size_t size) {
-        const std::lock_guard lock(mutex_);
-        for (std::size_t i = blocks_.size(); i-- > 0;)
-            if (blocks_[i].size >= size && blocks_[i].size <= size + size / 4) {
-                void* const memory = blocks_[i].memory;
-                forget(i);
-                return memory;
-            }
-        return nullptr;
+public:
+  KeptBlocks() {
+    blocks_.reserve(most_blocks);
+  } // so that to keep one never throws
+
+  /// One of at least this size and not much larger, or nullptr.
+  void *take(std::size_t bytes) {
+    const std::lock_guard lock(mutex_);
+    for (std::size_t i = blocks_.size(); i-- > 0;) {
+      void *const memory = blocks_[i];
+      const std::size_t size = header_of(memory).bytes;
+      if (size >= bytes && size <= bytes + bytes / 4) {
+        forget(i);
+        return memory;
+      }
     }
+    return nullptr;
+  }
 
-    /// False if the block is to be freed.
-    bool keep(void* memory) {
-        if (reinterpret_cast<std::uintptr_t>(memory) % huge_page != 0)
-            return false;
-        const std::size_t size = malloc_usable_size(memory) / huge_page * huge_page;
-        if (size < 2 * huge_page || size > most_bytes)
-            return false;
-        madvise(memory, size, MADV_FREE);
-        const std::lock_guard lock(mutex_);
-        while (blocks_.size() == most_blocks || bytes_ + size > most_bytes) {
-            std::free(blocks_.front().memory); // the oldest
-            forget(0);
-        }
-        blocks_.push_back({memory, size});
-        bytes_ += size;
-        return true;
+  /// False if the block is to be freed.
+  bool keep(void *memory) {
+    const std::size_t bytes = header_of(memory).bytes;
+    if (bytes > most_bytes)
+      return false;
+#if defined(__linux__)
+    madvise(memory, bytes / huge_page * huge_page, MADV_FREE);
+#endif
+    const std::lock_guard lock(mutex_);
+    while (blocks_.size() == most_blocks || bytes_ + bytes > most_bytes) {
+      std::free(header_of(blocks_.front()).whole); // the oldest
+      forget(0);
     }
+    blocks_.push_back(memory);
+    bytes_ += bytes;
+    return true;
+  }
 
-  private:
-    struct Block {
-        void* memory;
-        std::size_t size;
-    };
-    static constexpr std::size_t most_blocks = 16, most_bytes = std::size_t{1} << 28;
+private:
+  static constexpr std::size_t most_blocks = 16,
+                               most_bytes = std::size_t{1} << 28;
 
-    void forget(std::size_t i) {
-        bytes_ -= blocks_[i].size;
-        blocks_.erase(blocks_.begin() + static_cast<std::ptrdiff_t>(i));
-    }
+  void forget(std::size_t i) {
+    bytes_ -= header_of(blocks_[i]).bytes;
+    blocks_.erase(blocks_.begin() + static_cast<std::ptrdiff_t>(i));
+  }
 
-    std::mutex mutex_;
-    std::vector<Block> blocks_ = [] {
-        std::vector<Block> none;
-        none.reserve(most_blocks); // so that nothing throws where memory is freed
-        return none;
-    }();
-    std::size_t bytes_ = 0;
+  std::mutex mutex_;
+  std::vector<void *> blocks_;
+  std::size_t bytes_ = 0;
 };
 
 /// Never destroyed: buffers may outlive any other static.
-KeptBlocks& kept_blocks() {
-    static KeptBlocks& blocks = *new KeptBlocks;
-    return blocks;
+KeptBlocks &kept_blocks() {
+  static KeptBlocks &blocks = *new KeptBlocks;
+  return blocks;
 }
-void* take_kept(std::size_t size) { return kept_blocks().take(size); }
-bool keep(void* memory) { return kept_blocks().keep(memory); }
 
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool keeps =
+    false; // where freed memory is watched it must not be used again
 #else
-// Where the address sanitizer watches, freed memory must not be used again.
-void* take_kept(std::size_t) { return nullptr; }
-bool keep(void*) { return false; }
+constexpr bool keeps = true;
 #endif
 
 } // namespace
 
-void* allocate_lines(std::size_t bytes) {
-    const std::size_t alignment = bytes >= 2 * huge_page ? huge_page : line;
-    const std::size_t size = (bytes + alignment - 1) / alignment * alignment;
-    if (size < bytes)
-        throw std::bad_alloc();
-    if (alignment == huge_page)
-        if (void* const kept = take_kept(size))
-            return kept;
-    void* memory = std::aligned_alloc(alignment, size);
-    if (!memory)
-        throw std::bad_alloc();
+/// Aligned by hand: of what std::aligned_alloc hands out glibc gives all large
+/// blocks back to the system each time, not just those from `given_back` on.
+void *allocate_lines(std::size_t bytes) {
+  if (keeps && bytes >= given_back)
+    if (void *const kept = kept_blocks().take(bytes))
+      return kept;
+  const std::size_t alignment = bytes >= 2 * huge_page ? huge_page : line;
+  const std::size_t size = bytes + sizeof(Header) + alignment - 1;
+  void *const whole = size < bytes ? nullptr : std::malloc(size);
+  if (!whole)
+    throw std::bad_alloc();
+  char *const earliest = static_cast<char *>(whole) + sizeof(Header);
+  char *const memory =
+      earliest +
+      (alignment - reinterpret_cast<std::uintptr_t>(earliest) % alignment) %
+          alignment;
+  const Header header{whole, bytes};
+  std::memcpy(memory - sizeof(Header), &header, sizeof(Header));
 #if defined(__linux__)
-    // Only advice: without it walks through a large tree miss the TLB at every step.
-    if (alignment == huge_page)
-        madvise(memory, size, MADV_HUGEPAGE);
+  // Only advice: without it walks through a large tree miss the TLB at every
+  // step.
+  if (alignment == huge_page)
+    madvise(memory, bytes / huge_page * huge_page, MADV_HUGEPAGE);
 #endif
-    return memory;
+  return memory;
 }
 
-void free_lines(void* memory) {
-    if (!keep(memory))
-        std::free(memory);
+void free_lines(void *memory) {
+  if (!memory)
+    return;
+  const Header header = header_of(memory);
+  if (!(keeps && header.bytes >= given_back && kept_blocks().keep(memory)))
+    std::free(header.whole);
 }
 
 } // namespace boxwood

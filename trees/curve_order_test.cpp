@@ -191,5 +191,28 @@ TEST(CurveOrder, NamesTheFirstBadBox) {
             }
 }
 
+TEST(CurveOrder, PutsGroupsOneAfterAnotherAndIsTheSameOnEveryTargetAndExecutor) {
+    const GroupOfBox by_length = [](const Box& box) -> std::uint32_t {
+        return box.max.x - box.min.x > box.max.y - box.min.y;
+    };
+    for (const BoxFamily& family : box_families()) {
+        SCOPED_TRACE(family.name);
+        const Boxes boxes = family.boxes;
+        const auto order_on = [&](const Executor& executor) {
+            const auto order = block_curve_order(boxes, Curve::hilbert, by_length, executor);
+            return std::vector<std::uint32_t>(order.begin(), order.end());
+        };
+        const std::vector<std::uint32_t> order = order_on(serial());
+        for_all_targets([&] { EXPECT_EQ(order_on(*make_executor("tbb", 2)), order); });
+        std::vector<std::uint32_t> groups, items = order, all(boxes.size());
+        for (const std::uint32_t item : order)
+            groups.push_back(by_length(boxes[item]));
+        EXPECT_TRUE(std::ranges::is_sorted(groups));
+        std::iota(all.begin(), all.end(), 0u);
+        std::ranges::sort(items);
+        EXPECT_EQ(items, all);
+    }
+}
+
 } // namespace
 } // namespace boxwood

@@ -1,6 +1,5 @@
 #include "trees/builders/hilbert.h"
 #include "trees/curve_order.h"
-#include "trees/radix_sort.h"
 
 #include <algorithm>
 #include <array>
@@ -13,41 +12,26 @@ namespace {
 Vec3<float> half_extent(const Box& box) { return .5f * box.max - .5f * box.min; }
 
 /// Whether the boxes are far longer along one axis than along the others: by the mean extents of a
-/// sample of at most 4096.
+/// sample of at most 1024.
 bool are_long(Boxes boxes) {
     constexpr double far = 3; // bars have 20 and planks 1; boxes of random extents have 1.5
-    const std::size_t step = boxes.size() / 4096 + 1;
+    const std::size_t step = boxes.size() / 1024 + 1;
     double middle = 0, longest = 0;
     for (std::size_t i = 0; i < boxes.size(); i += step) {
-        const Vec3<float> half = half_extent(boxes[i]);
-        std::array<float, 3> extent{half.x, half.y, half.z};
-        std::ranges::sort(extent);
-        middle += static_cast<double>(extent[1]);
-        longest += static_cast<double>(extent[2]);
+        const Vec3<float> e = half_extent(boxes[i]);
+        const float low = std::min(e.x, e.y), high = std::max(e.x, e.y);
+        middle += static_cast<double>(std::max(low, std::min(high, e.z)));
+        longest += static_cast<double>(std::max(high, e.z));
     }
     return longest > far * middle;
 }
 
-/// Ties to the first.
-std::size_t longest_axis(const Box& box) {
+/// Ties to the first. Without branches: of boxes in any order they would be mispredicted.
+std::uint32_t longest_axis(const Box& box) {
     const Vec3<float> e = half_extent(box);
-    return e.x >= e.y && e.x >= e.z ? 0 : e.y >= e.z ? 1 : 2;
-}
-
-/// Some of the items along the curve through their own centres.
-Buffer<std::uint32_t> order_of(Boxes boxes, std::span<const std::uint32_t> items,
-                               const Executor& executor) {
-    Buffer<Box> some(items.size());
-    const std::size_t chunks = chunks_for(items.size(), executor);
-    executor.for_each(chunks, [&](std::size_t c) {
-        const ChunkRange range(items.size(), chunks, c);
-        for (std::size_t i = range.begin; i < range.end; ++i)
-            some[i] = boxes[items[i]];
-    });
-    Buffer<std::uint32_t> order = coarse_curve_order(some.span(), Curve::hilbert, executor);
-    for (std::uint32_t& slot : order)
-        slot = items[slot];
-    return order;
+    const std::uint32_t y_longer = e.y > e.x;
+    const std::uint32_t z_longest = e.z > std::max(e.x, e.y);
+    return (y_longer & ~z_longest) | z_longest << 1;
 }
 
 /// A subtree still to build: `count` slots from `first`, its top at `node`.
@@ -78,17 +62,8 @@ Box build_part(Tree& tree, Boxes boxes, Part part) {
 } // namespace
 
 Buffer<std::uint32_t> HilbertBuilder::order(Boxes boxes, const Executor& executor) const {
-    if (!are_long(boxes))
-        return coarse_curve_order(boxes, Curve::hilbert, executor);
-    require_valid(boxes);
-    std::array<std::vector<std::uint32_t>, 3> items;
-    for (std::size_t i = 0; i < boxes.size(); ++i)
-        items[longest_axis(boxes[i])].push_back(static_cast<std::uint32_t>(i));
-    Buffer<std::uint32_t> order(boxes.size());
-    std::uint32_t* to = order.data();
-    for (const std::vector<std::uint32_t>& same : items)
-        to = std::ranges::copy(order_of(boxes, same, executor), to).out;
-    return order;
+    return block_curve_order(boxes, Curve::hilbert, are_long(boxes) ? longest_axis : nullptr,
+                             executor);
 }
 
 Tree HilbertBuilder::build(Boxes boxes, const Executor& executor) const {

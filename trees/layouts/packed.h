@@ -7,6 +7,8 @@
 
 namespace boxwood {
 
+struct PackedSource;
+
 /// Sixteen boxes side by side, 384 bytes: one AVX-512 register per plane.
 struct alignas(64) PackedBlock {
     using Real = float;
@@ -128,7 +130,10 @@ class PackedLayout {
     std::string fault() const;
 
   private:
-    template <class BoxOf> void make(std::size_t n, const BoxOf& box_of, const Executor& executor);
+    void hold(std::size_t n);
+    /// `order` becomes the items; it may be where they are.
+    void make(const PackedSource& boxes, std::span<const std::uint32_t> order,
+              const Executor& executor);
 
     // 16^8 > max_items: there are at most eight levels.
     static constexpr std::size_t most_levels = 8;
