@@ -1,0 +1,87 @@
+#include "trees/box_families_for_test.h"
+#include "trees/builder.h"
+#include "trees/layout.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+/// Work is cut by the input alone, so its balance is a matter of counting: what the heaviest chunk
+/// holds of all answers. self_pairs has its own test beside it (pairs_test.cpp).
+namespace boxwood {
+namespace {
+
+/// Counts the answers of each chunk.
+class ChunkSizes final : public PairSink {
+  public:
+    void begin(std::size_t chunks, bool) override { sizes_.assign(chunks, 0); }
+    bool take(std::size_t chunk, std::span<const Pair> pairs) override {
+        sizes_[chunk] += pairs.size();
+        return true;
+    }
+    void end() override {}
+
+    double heaviest() const {
+        std::size_t all = 0;
+        for (const std::size_t size : sizes_)
+            all += size;
+        return all ? static_cast<double>(std::ranges::max(sizes_)) / static_cast<double>(all) : 1;
+    }
+
+  private:
+    std::vector<std::size_t> sizes_;
+};
+
+/// 12,000 boxes in the unit cube, each on hundreds of others, and 300 in a space a thousand times
+/// as wide.
+std::vector<Box> giant_cluster(std::uint32_t seed) {
+    std::vector<Box> boxes = random_boxes(300, .1f, seed);
+    for (Box& box : boxes)
+        for (Vec3<float>* p : {&box.min, &box.max})
+            *p = 1000.0f * *p;
+    for (const Box& box : random_boxes(12000, .08f, seed + 1))
+        boxes.push_back(box);
+    return boxes;
+}
+
+TEST(Balance, NoChunkOfTwoTreesHasMostOfTheWork) {
+    const std::vector<Box> a = giant_cluster(5), b = giant_cluster(7),
+                           same(3000, Box{{0, 0, 0}, {1, 1, 1}});
+    for (const std::string_view builder : {"median", "binned_sah"}) {
+        const auto tree_of = [&](const std::vector<Box>& boxes) {
+            return find_builder(builder)->make({})(boxes, serial());
+        };
+        const Tree tree_a = tree_of(a), tree_b = tree_of(b), tree_same = tree_of(same);
+        for (const LayoutEntry& entry : layouts()) {
+            SCOPED_TRACE(std::string(builder) + "." + std::string(entry.name));
+            const auto heaviest = [&](const Tree& first, const Tree& second) {
+                ChunkSizes chunks;
+                entry.make(first, serial())
+                    ->tree_pairs(*entry.make(second, serial()), serial(), chunks);
+                return chunks.heaviest();
+            };
+            EXPECT_LT(heaviest(tree_a, tree_b), .125);
+            EXPECT_LT(heaviest(tree_same, tree_same), .125);
+        }
+    }
+}
+
+TEST(Balance, NoChunkOfQueriesHasMostOfTheWork) {
+    const std::vector<Box> items = giant_cluster(9);
+    const std::vector<Box> regions = giant_cluster(11); // most meet the cluster
+    std::vector<Sphere<float>> balls;
+    for (const Box& region : regions)
+        balls.push_back({region.min, .1f});
+    for (const LayoutEntry& entry : layouts()) {
+        SCOPED_TRACE(entry.name);
+        const auto layout = entry.make(find_builder("median")->make({})(items, serial()), serial());
+        ChunkSizes chunks;
+        layout->regions(regions, serial(), chunks);
+        EXPECT_LT(chunks.heaviest(), .125);
+        layout->regions(balls, serial(), chunks);
+        EXPECT_LT(chunks.heaviest(), .125);
+    }
+}
+
+} // namespace
+} // namespace boxwood
