@@ -33,14 +33,16 @@ struct Auto {
     }
     void update(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
                 const Executor& executor) {
-        const std::size_t n = tree.size();
-        const auto far = margins_.left(boxes, moved);
-        if (far.size() > n / 3)
-            return order_anew(tree, boxes, executor);
-        if (far.size() > n / 50) {
-            tree.merge_in(boxes, far, executor);
-            margins_.follow(boxes, far);
-            return;
+        const std::size_t n = tree.size(), many = n / 50;
+        if (moved.size() > many && margins_.about_left(boxes, moved) > many / 2) {
+            const auto far = margins_.left(boxes, moved);
+            if (far.size() > n / 3)
+                return order_anew(tree, boxes, executor);
+            if (far.size() > many) {
+                tree.merge_in(boxes, far, executor);
+                margins_.follow(boxes, far);
+                return;
+            }
         }
         tree.refit(boxes, moved, executor);
         excess_ += tree.looseness() - 1;
