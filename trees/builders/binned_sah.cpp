@@ -31,9 +31,11 @@ HWY_INLINE void ClearCentres(Range& r) { StoreF8(SetF8(kLeast), r.centres); }
 
 class BinnedBuild {
   public:
-    BinnedBuild(Boxes boxes, int most_bins, std::uint32_t joined, const Executor& executor)
+    BinnedBuild(Boxes boxes, int most_bins, std::uint32_t joined, std::uint32_t block,
+                const Executor& executor)
         : boxes_(boxes), executor_(executor), most_bins_(most_bins), joined_(joined),
-          items_(boxes, executor), other_(boxes.size()), tree_(boxes.size()),
+          block_bits_(std::bit_width(block) - 1), items_(boxes, executor), other_(boxes.size()),
+          tree_(boxes.size()),
           depth_limit_(2 * static_cast<std::uint32_t>(std::bit_width(boxes.size())) + 17) {}
 
     Tree Run() {
@@ -105,7 +107,7 @@ class BinnedBuild {
             return Halve(r, true);
         Clear(bins, binning.n_bins);
         AddItems(Items(r), r.count, binning, bins);
-        const Plane plane = CheapestPlane(bins, binning, r.count);
+        const Plane plane = CheapestPlane(bins, binning, r.count, block_bits_);
         if (plane.axis < 0)
             return Halve(r, true);
         WriteBoxOfBins(r, bins, binning.n_bins);
@@ -189,7 +191,7 @@ class BinnedBuild {
                 for (; end < slices.size() && slices[end].range == i; ++end)
                     Add(bins, slices[end].bins, split.binning.n_bins);
                 if (!split.binning.is_flat())
-                    split.plane = CheapestPlane(bins, split.binning, large[i].count);
+                    split.plane = CheapestPlane(bins, split.binning, large[i].count, block_bits_);
                 std::uint32_t n_left = 0;
                 for (; next < end; ++next) {
                     slices[next].n_left = n_left;
@@ -236,14 +238,16 @@ class BinnedBuild {
     const Executor& executor_;
     const int most_bins_;
     const std::uint32_t joined_;
+    const int block_bits_;
     Prims8 items_;
     Buffer<Prim8> other_;
     Tree tree_;
     const std::uint32_t depth_limit_;
 };
 
-Tree BuildBinned(Boxes boxes, int most_bins, std::uint32_t joined, const Executor& executor) {
-    return BinnedBuild(boxes, most_bins, joined, executor).Run();
+Tree BuildBinned(Boxes boxes, int most_bins, std::uint32_t joined, std::uint32_t block,
+                 const Executor& executor) {
+    return BinnedBuild(boxes, most_bins, joined, block, executor).Run();
 }
 
 } // namespace boxwood::HWY_NAMESPACE
@@ -255,7 +259,8 @@ HWY_EXPORT(BuildBinned);
 
 Tree BinnedSahBuilder::build(Boxes boxes, const Executor& executor) const {
     return HWY_DYNAMIC_DISPATCH(BuildBinned)(boxes, static_cast<int>(bins),
-                                             static_cast<std::uint32_t>(joined), executor);
+                                             static_cast<std::uint32_t>(joined),
+                                             static_cast<std::uint32_t>(block), executor);
 }
 
 BuilderEntry binned_sah_builder() { return builder_entry<BinnedSahBuilder>(); }

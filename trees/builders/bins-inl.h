@@ -138,8 +138,9 @@ HWY_INLINE F4 HalfAreas(F8 a, F8 b, F8 c, F4 edge) {
     return hn::Add(hn::Mul(x, y), hn::Mul(z, hn::Add(x, y)));
 }
 
-/// The cheapest plane, by items times half area; the first of equals.
-HWY_INLINE Plane CheapestPlane(const Bin* bins, const Binning& binning, std::uint32_t n) {
+/// The cheapest plane, by blocks of 2^block_bits items times half area; the first of equals.
+HWY_INLINE Plane CheapestPlane(const Bin* bins, const Binning& binning, std::uint32_t n,
+                               int block_bits) {
     namespace hn = hwy::HWY_NAMESPACE;
     constexpr hn::FixedTag<float, 4> d;
     constexpr hn::FixedTag<std::int32_t, 4> di;
@@ -157,6 +158,10 @@ HWY_INLINE Plane CheapestPlane(const Bin* bins, const Binning& binning, std::uin
     }
     x = y = z = SetF8(kLeast);
     const auto all = hn::Set(di, static_cast<std::int32_t>(n));
+    const auto rest = hn::Set(di, (1 << block_bits) - 1);
+    const auto blocks = [&](auto items) HWY_ATTR {
+        return hn::ConvertTo(d, hn::ShiftRightSame(hn::Add(items, rest), block_bits));
+    };
     auto left = hn::Zero(di), best_bin = hn::Zero(di);
     auto best = hn::Set(d, std::numeric_limits<float>::infinity());
     for (int b = 1; b < binning.n_bins; ++b) {
@@ -164,8 +169,8 @@ HWY_INLINE Plane CheapestPlane(const Bin* bins, const Binning& binning, std::uin
         left =
             hn::Add(left, hn::Load(di, reinterpret_cast<const std::int32_t*>(bins[b - 1].count)));
         const auto right = hn::Sub(all, left);
-        const auto cost = hn::Add(hn::Mul(HalfAreas(x, y, z, edge), hn::ConvertTo(d, left)),
-                                  hn::Mul(hn::Load(d, right_area[b]), hn::ConvertTo(d, right)));
+        const auto cost = hn::Add(hn::Mul(HalfAreas(x, y, z, edge), blocks(left)),
+                                  hn::Mul(hn::Load(d, right_area[b]), blocks(right)));
         const auto parts = hn::And(hn::Gt(left, hn::Zero(di)), hn::Gt(right, hn::Zero(di)));
         const auto better = hn::And(hn::Lt(cost, best), hn::RebindMask(d, parts));
         best = hn::IfThenElse(better, cost, best);
@@ -184,7 +189,11 @@ HWY_INLINE Plane CheapestPlane(const Bin* bins, const Binning& binning, std::uin
 
 #else
 
-HWY_INLINE Plane CheapestPlane(const Bin* bins, const Binning& binning, std::uint32_t n) {
+HWY_INLINE Plane CheapestPlane(const Bin* bins, const Binning& binning, std::uint32_t n,
+                               int block_bits) {
+    const auto blocks = [&](std::uint32_t items) {
+        return static_cast<float>((items + (1u << block_bits) - 1) >> block_bits);
+    };
     const float edge = binning.edge;
     const auto half_area = [edge](const F8& box) {
         alignas(32) float v[8];
@@ -205,8 +214,7 @@ HWY_INLINE Plane CheapestPlane(const Bin* bins, const Binning& binning, std::uin
         for (int b = 1; b < binning.n_bins; ++b) {
             side = MaxF8(side, LoadF8(bins[b - 1].box[axis]));
             left += bins[b - 1].count[axis];
-            const float cost = half_area(side) * static_cast<float>(left) +
-                               right_area[b] * static_cast<float>(n - left);
+            const float cost = half_area(side) * blocks(left) + right_area[b] * blocks(n - left);
             if (left > 0 && left < n && cost < plane.cost)
                 plane = {axis, b, cost};
         }

@@ -171,7 +171,9 @@ double scale_for(std::span<const Worth> worths, double spare, const Executor& ex
 } // namespace
 
 Tree SpatialSahBuilder::build(Boxes boxes, const Executor& executor) const {
-    return BinnedSahBuilder{}.build(boxes, executor);
+    BinnedSahBuilder binned;
+    binned.joined = binned.block = 8;
+    return binned.build(boxes, executor);
 }
 
 Tree SpatialSahBuilder::build_of_mesh(const TriangleMesh& mesh, const Executor& executor) const {

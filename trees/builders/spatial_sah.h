@@ -10,10 +10,11 @@ namespace boxwood {
 /// gets a leaf of its own with the box of the part, so that long and slanted ones cost rays less at
 /// the price of more leaves. A triangle is cut the more often the emptier its box, along planes
 /// that halve the cube around the mesh again and again, so that neighbours part alike. None is cut
-/// that fills more than a little of its box or is small among the others. Boxes alone cannot be
-/// cut: `build` gives the tree of binned_sah. O(n log n). Source: Karras and Aila 2013, "Fast
-/// Parallel Construction of High-Quality Bounding Volume Hierarchies", section 4; Ernst and Greiner
-/// 2007, "Early Split Clipping for Bounding Volume Hierarchies".
+/// that fills more than a little of its box or is small among the others. Items count in blocks of
+/// 8. Boxes alone cannot be cut: `build` gives the tree of binned_sah with that. O(n log n).
+/// Source: Karras and Aila 2013, "Fast Parallel Construction of High-Quality Bounding Volume
+/// Hierarchies", section 4; Ernst and Greiner 2007, "Early Split Clipping for Bounding Volume
+/// Hierarchies".
 struct SpatialSahBuilder {
     static constexpr std::string_view name = "spatial_sah";
     static constexpr std::string_view summary =
