@@ -2,54 +2,127 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <vector>
 
 namespace boxwood {
 namespace {
 
+/// least[i]: the least cost of the blocks of a subtree of which at most i + 1 stand side by side in
+/// the block above.
+template <std::uint32_t width> using Least = std::array<float, width>;
+
+/// What every subtree costs at least. The area of each block counts, inner or leaf, in parts of the
+/// root's; and a little for the block itself, so that flat and identical boxes fill their blocks.
+template <std::uint32_t width> class Costs {
+  public:
+    Costs(const Tree& tree, std::size_t part, const Executor& executor)
+        : tree_(tree), least_(tree.size()) {
+        const double area = tree.nodes[0].box.half_area();
+        scale_ = area > 0 ? 1 / area : 0;
+        each_ = area > 0 ? 0x1p-20f : 1;
+        // Subtrees of up to `part` items each on their own, then what is above them.
+        std::vector<std::uint32_t> open{0}, parts, top;
+        while (!open.empty()) {
+            const std::uint32_t node = open.back();
+            open.pop_back();
+            if (tree.nodes[node].count <= part) {
+                parts.push_back(node);
+                continue;
+            }
+            top.push_back(node);
+            open.push_back(static_cast<std::uint32_t>(tree.right(node)));
+            open.push_back(static_cast<std::uint32_t>(Tree::left(node)));
+        }
+        executor.for_each(parts.size(), [&](std::size_t i) {
+            const std::uint32_t first = parts[i];
+            for (std::uint32_t n = first + 2 * tree.nodes[first].count - 1; n-- > first;)
+                if (!tree.is_leaf(n))
+                    add(n);
+        });
+        // Children have higher numbers than their parent.
+        for (std::size_t i = top.size(); i-- > 0;)
+            add(top[i]);
+    }
+
+    Least<width> operator()(std::uint32_t node) const {
+        if (!tree_.is_leaf(node))
+            return least_[place(node)];
+        Least<width> all;
+        all.fill(block(node));
+        return all;
+    }
+
+    /// How many of at most `count` blocks side by side are best left of the node's middle, the
+    /// fewest of equals.
+    std::uint32_t left_of(std::uint32_t node, std::uint32_t count) const {
+        const Least<width> left = (*this)(static_cast<std::uint32_t>(Tree::left(node)));
+        const Least<width> right = (*this)(static_cast<std::uint32_t>(tree_.right(node)));
+        std::uint32_t best = 1;
+        for (std::uint32_t k = 2; k < count; ++k)
+            if (left[k - 1] + right[count - k - 1] < left[best - 1] + right[count - best - 1])
+                best = k;
+        return best;
+    }
+
+  private:
+    /// Inner nodes alone, in their order.
+    std::size_t place(std::uint32_t node) const { return node - tree_.nodes[node].first; }
+    float block(std::uint32_t node) const {
+        return static_cast<float>(tree_.nodes[node].box.half_area() * scale_) + each_;
+    }
+    void add(std::uint32_t node) {
+        const Least<width> left = (*this)(static_cast<std::uint32_t>(Tree::left(node)));
+        const Least<width> right = (*this)(static_cast<std::uint32_t>(tree_.right(node)));
+        Least<width> least;
+        least.fill(std::numeric_limits<float>::infinity());
+        for (std::uint32_t k = 0; k + 1 < width; ++k)
+            for (std::uint32_t j = 0; j + k + 1 < width; ++j)
+                least[k + j + 1] = std::min(least[k + j + 1], left[k] + right[j]);
+        least[0] = block(node) + (tree_.nodes[node].count > width ? least[width - 1] : 0);
+        for (std::uint32_t i = 1; i < width; ++i)
+            least[i] = std::min(least[i], least[i - 1]);
+        least_[place(node)] = least;
+    }
+
+    const Tree& tree_;
+    double scale_;
+    float each_;
+    Buffer<Least<width>> least_;
+};
+
 /// The descendants of a node that stand beside each other in one block.
 template <std::uint32_t width> struct Cut {
     std::array<std::uint32_t, width> nodes;
-    std::uint32_t count;
+    std::uint32_t count = 0;
 };
 
-/// Opens the inner descendant of the largest area until the block is full or only leaves remain.
-template <std::uint32_t width> Cut<width> cut_below(const Tree& tree, std::uint32_t node) {
-    Cut<width> cut{{node}, 1};
-    std::array<double, width> areas{};
-    std::array<std::uint32_t, width> counts{};
-    const auto openable = [&](std::uint32_t n) {
-        if (tree.nodes[n].count <= width)
-            return -1.0;
-        __builtin_prefetch(&tree.nodes[tree.right(n)]); // far away, and wanted soon
-        return tree.nodes[n].box.half_area();
+/// The cheapest cut below a node of more than `width` items, in the order of the tree.
+template <std::uint32_t width>
+Cut<width> cut_below(const Tree& tree, const Costs<width>& costs, std::uint32_t node) {
+    Cut<width> cut;
+    struct Part {
+        std::uint32_t node, blocks;
     };
-    while (cut.count < width) {
-        // On a tie the one of more items, so that flat and identical boxes stay balanced.
-        std::uint32_t widest = 0;
-        for (std::uint32_t i = 1; i < cut.count; ++i) {
-            const bool more = counts[i] > counts[widest];
-            const bool wider = areas[i] > areas[widest] || (areas[i] == areas[widest] && more);
-            widest = wider ? i : widest;
+    std::array<Part, width> open;
+    std::uint32_t n_open = 0;
+    const auto split = [&](Part p) {
+        const std::uint32_t left = costs.left_of(p.node, p.blocks);
+        open[n_open++] = {static_cast<std::uint32_t>(tree.right(p.node)), p.blocks - left};
+        open[n_open++] = {static_cast<std::uint32_t>(Tree::left(p.node)), left};
+    };
+    split({node, width});
+    while (n_open > 0) {
+        Part top = open[--n_open];
+        if (top.blocks > 1) {
+            const Least<width> least = costs(top.node);
+            while (top.blocks > 1 && least[top.blocks - 1] == least[top.blocks - 2])
+                --top.blocks;
         }
-        if (areas[widest] < 0)
-            break;
-        const std::uint32_t opened = cut.nodes[widest];
-        const auto left = static_cast<std::uint32_t>(Tree::left(opened));
-        const auto right = static_cast<std::uint32_t>(tree.right(opened));
-        // The order of the tree is kept: the pair takes the place of its parent.
-        for (std::uint32_t i = cut.count; i > widest + 1; --i) {
-            cut.nodes[i] = cut.nodes[i - 1];
-            areas[i] = areas[i - 1];
-            counts[i] = counts[i - 1];
-        }
-        cut.nodes[widest] = left;
-        cut.nodes[widest + 1] = right;
-        areas[widest] = openable(left);
-        areas[widest + 1] = openable(right);
-        counts[widest] = tree.nodes[left].count;
-        counts[widest + 1] = tree.nodes[right].count;
-        ++cut.count;
+        if (top.blocks > 1)
+            split(top);
+        else
+            cut.nodes[cut.count++] = top.node;
     }
     return cut;
 }
@@ -61,8 +134,9 @@ struct Open {
 /// Collapses below blocks[root] and appends what comes of it, depth-first, except that the blocks
 /// of more than one but at most `left_open` items stay as they are and go to `rest`.
 template <std::uint32_t width>
-std::size_t collapse_below(const Tree& tree, std::vector<CollapsedBlock>& blocks, Open root,
-                           std::size_t left_open, std::vector<Open>& rest) {
+std::size_t collapse_below(const Tree& tree, const Costs<width>& costs,
+                           std::vector<CollapsedBlock>& blocks, Open root, std::size_t left_open,
+                           std::vector<Open>& rest) {
     std::size_t depth = 0;
     std::vector<Open> open{root};
     while (!open.empty()) {
@@ -76,7 +150,7 @@ std::size_t collapse_below(const Tree& tree, std::vector<CollapsedBlock>& blocks
             rest.push_back(top);
             continue;
         }
-        const Cut<width> cut = cut_below<width>(tree, blocks[top.block].node);
+        const Cut<width> cut = cut_below<width>(tree, costs, blocks[top.block].node);
         const auto first = static_cast<std::uint32_t>(blocks.size());
         blocks[top.block].first = first;
         blocks[top.block].count = cut.count;
@@ -96,10 +170,11 @@ template <std::uint32_t width> Collapsed collapse(const Tree& tree, const Execut
         return made;
     // Cut by the tree alone: the top first, then each subtree below it on its own.
     constexpr std::size_t parts = 64, least = 2048;
+    const std::size_t part_size = std::max(least, tree.size() / parts);
+    const Costs<width> costs(tree, part_size, executor);
     std::vector<CollapsedBlock> top{{0, 0, 0}};
-    std::vector<Open> subtrees, none;
-    made.depth =
-        collapse_below<width>(tree, top, {0, 1}, std::max(least, tree.size() / parts), subtrees);
+    std::vector<Open> subtrees;
+    made.depth = collapse_below<width>(tree, costs, top, {0, 1}, part_size, subtrees);
     struct Part {
         std::vector<CollapsedBlock> blocks;
         std::size_t depth, start;
@@ -111,7 +186,8 @@ template <std::uint32_t width> Collapsed collapse(const Tree& tree, const Execut
         part.blocks.reserve(2 * std::size_t{tree.nodes[root.node].count} / width);
         part.blocks.push_back(root);
         std::vector<Open> unused;
-        part.depth = collapse_below<width>(tree, part.blocks, {0, subtrees[i].depth}, 0, unused);
+        part.depth =
+            collapse_below<width>(tree, costs, part.blocks, {0, subtrees[i].depth}, 0, unused);
     });
     std::size_t size = top.size();
     for (Part& part : made_parts) {

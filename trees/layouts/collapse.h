@@ -12,8 +12,9 @@ struct CollapsedBlock {
     std::uint32_t count; ///< children; 0 in a leaf
 };
 
-/// A binary tree collapsed to a wide one: always the child of the largest area is opened, until a
-/// block is full; subtrees of at most `width` items become leaves. Block 0 is the root.
+/// A binary tree collapsed to a wide one whose blocks, inner ones and leaves, have the least area
+/// in all; subtrees of at most `width` items become leaves. Block 0 is the root. Source: Ylitie,
+/// Karras, Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs".
 struct Collapsed {
     Buffer<CollapsedBlock> blocks;
     std::size_t depth = 0; ///< most blocks on a path from the root to a leaf

@@ -31,8 +31,8 @@ using Block8 = BoxBlock<float, 8>;
 static_assert(sizeof(Block8) == 256 && sizeof(BoxBlock<double, 8>) == 512);
 static_assert(sizeof(BoxBlock<float, 4>) == 144 && sizeof(BoxBlock<float, 16>) == 512);
 
-/// W-wide tree: the binary tree collapsed, always opening the child of the largest area; subtrees
-/// of at most W items become leaf blocks. The children of a node lie side by side.
+/// W-wide tree: the binary tree collapsed so that its blocks have the least area in all; subtrees of
+/// at most W items become leaf blocks. The children of a node lie side by side.
 ///
 /// Walks are templates over this interface, which Quantised8Layout has too: Real, width, Block,
 /// Leaf, is_leaf, index, root, block, leaf, bounds, depth.
