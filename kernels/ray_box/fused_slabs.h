@@ -48,6 +48,7 @@ struct SlabBounds {
 struct FusedSlabs {
     Lanes3 entry_rdir, entry_shift, exit_rdir, exit_shift;
 
+    FusedSlabs() = default; ///< of no ray yet
     [[gnu::always_inline]] FusedSlabs(const Ray<float>& ray, const SlabBounds& bounds) {
         const Lanes3 origin{ray.origin.x, ray.origin.y, ray.origin.z, 0};
         const Lanes3 direction{ray.direction.x, ray.direction.y, ray.direction.z, 0};

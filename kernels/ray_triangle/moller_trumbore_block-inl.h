@@ -9,6 +9,7 @@
 #include "kernels/ray_triangle/block-inl.h"
 #include "kernels/ray_triangle/moller_trumbore.h"
 
+#include <cmath>
 #include <limits>
 
 HWY_BEFORE_NAMESPACE();
@@ -58,6 +59,12 @@ HWY_INLINE std::uint32_t IntersectBlock(std::type_identity<MollerTrumbore<Real>>
     };
     const Vector<V> direction = everywhere(per_ray.direction);
     const Vector<V> origin = everywhere(per_ray.origin);
+    // Bounds of t around the exact ones, so that most triangles need no division: 2^-20 is more
+    // than all roundings, FLT_MIN and 2^-120 are more than what underflows.
+    constexpr Real slack = Real(0x1p-20f), least = std::numeric_limits<float>::min();
+    const V far_t = hn::Set(dr, Real{t_max} + std::abs(Real{t_max}) * slack + least);
+    const V near_t = hn::Set(dr, Real{ray.t_min} - std::abs(Real{ray.t_min}) * slack - least);
+    const V underflow = hn::Set(dr, Real(0x1p-120f));
     std::uint32_t bits = 0;
     for (std::size_t i = 0; i < lanes; i += hn::Lanes(dr)) {
         const auto load = [&](int k, int axis) HWY_ATTR {
@@ -75,11 +82,14 @@ HWY_INLINE std::uint32_t IntersectBlock(std::type_identity<MollerTrumbore<Real>>
         const Vector<V> s = origin - a, q = Cross(s, e1);
         const V sign = hn::And(hn::SignBit(dr), det);
         const V u = hn::Xor(sign, Dot(s, p)), v = hn::Xor(sign, Dot(direction, q));
-        const auto inside =
-            hn::And(hn::And(hn::Ge(u, zero), hn::Ge(v, zero)), hn::Le(hn::Add(u, v), size));
+        const V t_det = Dot(e2, q), t_size = hn::Xor(sign, t_det);
+        const auto about = hn::And(hn::Le(t_size, hn::MulAdd(size, far_t, underflow)),
+                                   hn::Ge(t_size, hn::MulSub(size, near_t, underflow)));
+        const auto inside = hn::And(hn::And(hn::And(hn::Ge(u, zero), hn::Ge(v, zero)), about),
+                                    hn::Le(hn::Add(u, v), size));
         if (hn::AllFalse(dr, inside))
             continue;
-        const V t_real = hn::Add(hn::Div(Dot(e2, q), det), zero);
+        const V t_real = hn::Add(hn::Div(t_det, det), zero);
         const auto t = to_float(t_real);
         const V infinity = hn::Set(dr, std::numeric_limits<Real>::infinity());
         // What rounds to an infinite float; Highway's scalar DemoteTo makes it FLT_MAX.

@@ -6,7 +6,6 @@
 #define BOXWOOD_NODE_RAYS_INL_H
 #endif
 
-#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include "kernels/ray_box/fused_slabs.h"
@@ -15,6 +14,8 @@
 #include "trees/traversals/ray_tree.h"
 #include "trees/traversals/ray_walk.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -75,32 +76,34 @@ template <class Node> class NodeClip {
           rx2_(Everywhere(slabs.exit_rdir[2])), sx0_(Everywhere(slabs.exit_shift[0])),
           sx1_(Everywhere(slabs.exit_shift[1])), sx2_(Everywhere(slabs.exit_shift[2])),
           t_min_(Everywhere(t_min)) {
-        constexpr std::size_t plane_bytes = sizeof(Node::plane) / 6;
-        for (int k = 0; k < 3; ++k) {
-            const bool negative = std::signbit(slabs.entry_rdir[k]);
-            near_[k] = plane_bytes * static_cast<std::size_t>(negative ? 3 + k : k);
-            far_[k] = plane_bytes * static_cast<std::size_t>(negative ? k : 3 + k);
-        }
+        near0_ = Near(slabs, 0);
+        near1_ = Near(slabs, 1);
+        near2_ = Near(slabs, 2);
     }
 
     /// `clip` for the lanes from i on: which are hit, and where each is entered.
-    HWY_INLINE M Hits(const Node& node, std::size_t i, float t_max, V& entry) const {
+    HWY_INLINE M Hits(const Node& node, std::size_t i, V t_max, V& entry) const {
         namespace hn = hwy::HWY_NAMESPACE;
-        entry = hn::Max(hn::Max(hn::MulSub(PlaneOf(node, 0, near_[0], i), re0_, se0_),
-                                hn::MulSub(PlaneOf(node, 1, near_[1], i), re1_, se1_)),
-                        hn::Max(hn::MulSub(PlaneOf(node, 2, near_[2], i), re2_, se2_), t_min_));
+        entry = hn::Max(hn::Max(hn::MulSub(PlaneOf(node, 0, near0_, i), re0_, se0_),
+                                hn::MulSub(PlaneOf(node, 1, near1_, i), re1_, se1_)),
+                        hn::Max(hn::MulSub(PlaneOf(node, 2, near2_, i), re2_, se2_), t_min_));
         const V exit = hn::Min(
-            hn::Min(hn::MulSub(PlaneOf(node, 0, far_[0], i), rx0_, sx0_),
-                    hn::MulSub(PlaneOf(node, 1, far_[1], i), rx1_, sx1_)),
-            hn::Min(hn::MulSub(PlaneOf(node, 2, far_[2], i), rx2_, sx2_), Everywhere(t_max)));
+            hn::Min(hn::MulSub(PlaneOf(node, 0, 3 * plane - near0_, i), rx0_, sx0_),
+                    hn::MulSub(PlaneOf(node, 1, 5 * plane - near1_, i), rx1_, sx1_)),
+            hn::Min(hn::MulSub(PlaneOf(node, 2, 7 * plane - near2_, i), rx2_, sx2_), t_max));
         return UsedOf(node, hn::Le(entry, exit), i);
     }
 
   private:
+    static constexpr std::size_t plane = sizeof(Node::plane) / 6; ///< bytes
+
     static HWY_INLINE V Everywhere(float x) { return hwy::HWY_NAMESPACE::Set(D(), x); }
+    static HWY_INLINE std::size_t Near(const FusedSlabs& slabs, std::size_t k) {
+        return plane * (std::signbit(slabs.entry_rdir[k]) ? 3 + k : k);
+    }
 
     const V re0_, re1_, re2_, se0_, se1_, se2_, rx0_, rx1_, rx2_, sx0_, sx1_, sx2_, t_min_;
-    std::size_t near_[3], far_[3];
+    std::size_t near0_, near1_, near2_; ///< of `PlaneOf`; the far planes are the others
 };
 
 /// As LaneBits, for up to 16 lanes.
@@ -126,16 +129,34 @@ HWY_INLINE void PushSorted(const Node& node, std::uint32_t bits, const float* en
 }
 
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET <= HWY_AVX2
-/// The same for eight lanes in one register, without a branch: a network of 19 comparisons sorts
-/// the bits of the entries (>= 0), the lane in the lowest three.
-template <class V, class M>
-HWY_INLINE void PushSortedEight(const std::uint32_t* refs, V entry, M hits, WaitingNode* stack) {
+/// The entries (>= 0) of eight lanes in one register as integers of the same order, the lane in the
+/// lowest three bits.
+template <class V> HWY_INLINE auto KeysOf(V entry) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    const hn::CappedTag<std::uint32_t, 8> du;
+    return hn::Or(hn::AndNot(hn::Set(du, 7u), hn::BitCast(du, hn::Abs(entry))), hn::Iota(du, 0));
+}
+
+/// The lane of the least key among the hits, of which there is one at least.
+template <class U, class M> HWY_INLINE std::uint32_t NearestOf(U keys, M hits) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    const hn::CappedTag<std::uint32_t, 8> du;
+    auto least = hn::IfThenElse(hn::RebindMask(du, hits), keys, hn::Set(du, ~std::uint32_t{0}));
+    least = hn::Min(least, hn::Shuffle2301(least));
+    least = hn::Min(least, hn::Shuffle1032(least));
+    least = hn::Min(least, hn::ConcatLowerUpper(du, least, least));
+    return hn::GetLane(least) & 7;
+}
+
+/// As PushSorted for the lanes of `bits`, without a branch: a network of 19 comparisons.
+template <class U>
+HWY_INLINE void PushSortedEight(const std::uint32_t* refs, U keys, std::uint32_t bits,
+                                WaitingNode* stack) {
     namespace hn = hwy::HWY_NAMESPACE;
     const hn::CappedTag<std::uint32_t, 8> du;
     const auto lanes = hn::Set(du, 7u);
-    auto key = hn::IfThenElseZero(
-        hn::RebindMask(du, hits),
-        hn::Or(hn::AndNot(lanes, hn::BitCast(du, hn::Abs(entry))), hn::Iota(du, 0)));
+    const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits)};
+    auto key = hn::IfThenElseZero(hn::LoadMaskBits(du, bytes), keys);
     alignas(32) static constexpr std::uint32_t partner[6][8] = {
         {2, 3, 0, 1, 6, 7, 4, 5}, {4, 5, 6, 7, 0, 1, 2, 3}, {1, 0, 3, 2, 5, 4, 7, 6},
         {0, 1, 4, 5, 2, 3, 6, 7}, {0, 4, 2, 6, 1, 5, 3, 7}, {0, 2, 1, 4, 3, 6, 5, 7}};
@@ -153,31 +174,64 @@ HWY_INLINE void PushSortedEight(const std::uint32_t* refs, V entry, M hits, Wait
 }
 #endif
 
-template <class Node> HWY_INLINE void Prefetch(const TriangleBlocks& tree, std::uint32_t ref) {
-    const std::size_t at = ray_refs::index(ref);
-    const std::byte* lines = ray_refs::is_leaf(ref)
-                                 ? tree.blocks.data() + at * sizeof(RayBlock<Node>)
-                                 : tree.nodes.data() + at * sizeof(Node);
-    for (std::size_t line = 0; line < 256; line += 64)
-        hwy::Prefetch(lines + line);
+/// `bits` of the children of a node are hit, at least one. Gives the nearest; the others wait.
+template <class Node, class V, class M>
+HWY_INLINE std::uint32_t Nearest(const Node& node, std::uint32_t bits, const float* entries,
+                                 [[maybe_unused]] V entry, [[maybe_unused]] M hits,
+                                 WaitingNode* stack, std::size_t& top) {
+    const auto waits = [&](std::uint32_t lane) {
+        return WaitingNode{node.ref[lane], entries[lane]};
+    };
+    const auto first = static_cast<std::uint32_t>(std::countr_zero(bits));
+#if HWY_TARGET != HWY_SCALAR && HWY_TARGET <= HWY_AVX2
+    if constexpr (Node::width == 8) {
+        // How many are hit is hard to predict: nothing that the next node waits for depends on it.
+        const auto keys = KeysOf(entry);
+        const std::uint32_t near = NearestOf(keys, hits), others = bits & ~(1u << near);
+        if (others != 0) {
+            if ((others & (others - 1)) == 0)
+                stack[top] = waits(static_cast<std::uint32_t>(std::countr_zero(others)));
+            else
+                PushSortedEight(node.ref, keys, others, stack + top);
+            top += static_cast<std::size_t>(std::popcount(others));
+        }
+        return node.ref[near];
+    }
+#endif
+    const std::uint32_t others = bits & (bits - 1);
+    if (others == 0)
+        return node.ref[first];
+    if ((others & (others - 1)) == 0) {
+        // Which is nearer is a coin's toss: no branch.
+        const auto a = std::bit_cast<std::uint64_t>(waits(first));
+        const auto second = static_cast<std::uint32_t>(std::countr_zero(others));
+        const auto b = std::bit_cast<std::uint64_t>(waits(second));
+        const bool swap = entries[second] < entries[first];
+        stack[top++] = std::bit_cast<WaitingNode>(swap ? a : b);
+        return std::bit_cast<WaitingNode>(swap ? b : a).ref;
+    }
+    PushSorted(node, bits, entries, stack + top);
+    top += static_cast<std::size_t>(std::popcount(bits)) - 1;
+    return stack[top].ref;
 }
 
 template <class Node, RayKernel K, RayMode mode, bool Counted>
-HWY_INLINE void WalkRay(const TriangleBlocks& tree, const SlabBounds& bounds, const Ray<float>& ray,
+HWY_INLINE void WalkRay(const TriangleBlocks& tree, const FusedSlabs& slabs, const Ray<float>& ray,
                         RayWalk<K, mode, Counted>& state, WaitingNode* stack, std::uint32_t* refs) {
     namespace hn = hwy::HWY_NAMESPACE;
     const NodeTag<Node> df;
     const hn::Rebind<std::uint32_t, decltype(df)> du;
-    const NodeClip<Node> clip(FusedSlabs(ray, bounds), state.t_min());
+    const NodeClip<Node> clip(slabs, state.t_min());
     const auto* nodes = reinterpret_cast<const Node*>(tree.nodes.data());
     const auto* blocks = reinterpret_cast<const RayBlock<Node>*>(tree.blocks.data());
     BlockHits<ray_lanes<Node>> hits;
+    auto t_max = hn::Set(df, state.t_max());
     std::size_t top = 0;
-    WaitingNode at{tree.root, 0};
+    std::uint32_t at = tree.root;
     for (;;) {
-        if (ray_refs::is_leaf(at.ref)) {
-            const RayBlock<Node>* block = blocks + ray_refs::index(at.ref);
-            const RayBlock<Node>* last = block + (Node::width > 8 && (at.ref & ray_refs::two));
+        if (ray_refs::is_leaf(at)) {
+            const RayBlock<Node>* block = blocks + ray_refs::index(at);
+            const RayBlock<Node>* last = block + (Node::width > 8 && (at & ray_refs::two));
             do {
                 const std::uint32_t bits = IntersectBlock(std::type_identity<K>{}, state.per_ray,
                                                           ray, *block, state.t_max(), hits);
@@ -185,61 +239,33 @@ HWY_INLINE void WalkRay(const TriangleBlocks& tree, const SlabBounds& bounds, co
                 if (state.done())
                     return;
             } while (++block <= last);
-        } else if constexpr (mode != RayMode::closest) {
-            // Every child that is hit waits, in no order.
-            const Node& node = nodes[at.ref];
-            state.count(Node::width, top);
-            for (std::size_t i = 0; i < Node::width; i += hn::Lanes(df)) {
-                hn::Vec<decltype(df)> entry;
-                const auto hit = clip.Hits(node, i, state.t_max(), entry);
-                hn::StoreU(hn::Compress(hn::LoadU(du, node.ref + i), hn::RebindMask(du, hit)), du,
-                           refs + top);
-                top += hn::CountTrue(df, hit);
-            }
+            t_max = hn::Set(df, state.t_max());
         } else {
-            const Node& node = nodes[at.ref];
+            const Node& node = nodes[at];
             state.count(Node::width, top);
             alignas(64) float entries[Node::width];
             std::uint32_t bits = 0;
             hn::Vec<decltype(df)> entry;
             hn::Mask<decltype(df)> hit;
             for (std::size_t i = 0; i < Node::width; i += hn::Lanes(df)) {
-                hit = clip.Hits(node, i, state.t_max(), entry);
-                hn::Store(entry, df, entries + i);
+                hit = clip.Hits(node, i, t_max, entry);
                 bits |= WideBits(df, hit, i);
+                if constexpr (mode == RayMode::closest) {
+                    hn::Store(entry, df, entries + i);
+                } else {
+                    // Every child that is hit waits, in no order.
+                    hn::StoreU(hn::Compress(hn::LoadU(du, node.ref + i), hn::RebindMask(du, hit)),
+                               du, refs + top);
+                    top += hn::CountTrue(df, hit);
+                }
             }
             if (bits != 0) {
-                const auto first = static_cast<std::uint32_t>(std::countr_zero(bits));
-                const std::uint32_t others = bits & (bits - 1);
-                if (others == 0) {
-                    at.ref = node.ref[first];
-                    continue;
+                if constexpr (mode == RayMode::closest) {
+                    at = Nearest(node, bits, entries, entry, hit, stack, top);
+                } else {
+                    --top;
+                    at = node.ref[std::bit_width(bits) - 1]; // what is on top, without waiting
                 }
-                if ((others & (others - 1)) == 0) {
-                    // Which is nearer is a coin's toss: no branch.
-                    const auto second = static_cast<std::uint32_t>(std::countr_zero(others));
-                    const bool swap = entries[second] < entries[first];
-                    const auto a =
-                        std::bit_cast<std::uint64_t>(WaitingNode{node.ref[first], entries[first]});
-                    const auto b = std::bit_cast<std::uint64_t>(
-                        WaitingNode{node.ref[second], entries[second]});
-                    const std::uint64_t near = swap ? b : a, far = swap ? a : b;
-                    stack[top] = std::bit_cast<WaitingNode>(far);
-                    at = std::bit_cast<WaitingNode>(near);
-                    Prefetch<Node>(tree, stack[top].ref);
-                    ++top;
-                    continue;
-                }
-#if HWY_TARGET != HWY_SCALAR && HWY_TARGET <= HWY_AVX2
-                if constexpr (Node::width == 8)
-                    PushSortedEight(node.ref, entry, hit, stack + top);
-                else
-                    PushSorted(node, bits, entries, stack + top);
-#else
-                PushSorted(node, bits, entries, stack + top);
-#endif
-                top += static_cast<std::size_t>(std::popcount(bits)) - 1;
-                at = stack[top];
                 continue;
             }
         }
@@ -247,12 +273,13 @@ HWY_INLINE void WalkRay(const TriangleBlocks& tree, const SlabBounds& bounds, co
             do {
                 if (top == 0)
                     return;
-                at = stack[--top];
-            } while (at.entry > state.t_max());
+                --top;
+            } while (stack[top].entry > state.t_max());
+            at = stack[top].ref;
         } else {
             if (top == 0)
                 return;
-            at.ref = refs[--top];
+            at = refs[--top];
         }
     }
 }
@@ -267,9 +294,19 @@ template <class Node> void WalkJob(const RayJob& job) {
     with_job_types(job, [&]<class K, RayMode mode, bool Counted>(
                             std::type_identity<K>, std::integral_constant<RayMode, mode>,
                             std::bool_constant<Counted>) {
+        // Made for some rays at a time: one alone would wait for its divisions.
+        std::array<FusedSlabs, 8> slabs;
+        std::size_t first = 0, made = 0;
         walk_each<mode>(job, [&](const Ray<float>& ray, std::vector<RayHit>& found) HWY_ATTR {
+            const auto i = static_cast<std::size_t>(&ray - job.rays.data());
+            if (i >= first + made) {
+                first = i;
+                made = std::min(slabs.size(), job.rays.size() - i);
+                for (std::size_t k = 0; k < made; ++k)
+                    slabs[k] = FusedSlabs(job.rays[i + k], bounds);
+            }
             RayWalk<K, mode, Counted> state(ray, job.work, found);
-            WalkRay<Node>(job.triangles, bounds, ray, state, stack.data(), refs.data());
+            WalkRay<Node>(job.triangles, slabs[i - first], ray, state, stack.data(), refs.data());
             return state.result();
         });
     });
