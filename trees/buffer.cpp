@@ -16,9 +16,8 @@ namespace {
 
 constexpr std::size_t line = 64, huge_page = std::size_t{1} << 21;
 
-/// From this size on malloc gives freed memory back to the system each time,
-/// and to have it cleared anew, page by page in the middle of a build, takes as
-/// long as to fill it.
+/// From this size on malloc gives freed memory back to the system each time, and to have it cleared
+/// anew, page by page in the middle of a build, takes as long as to fill it.
 constexpr std::size_t given_back = std::size_t{24} << 20;
 
 /// Stands just before the memory that is handed out.
@@ -32,8 +31,8 @@ Header header_of(void* memory) {
     return header;
 }
 
-/// Large blocks that were freed, for the next that ask. The system may take
-/// their pages back at any time (MADV_FREE).
+/// Large blocks that were freed, for the next that ask. The system may take their pages back at any
+/// time (MADV_FREE).
 class KeptBlocks {
   public:
     KeptBlocks() { blocks_.reserve(most_blocks); } // so that to keep one never throws
@@ -62,8 +61,9 @@ class KeptBlocks {
 #endif
         const std::lock_guard lock(mutex_);
         while (blocks_.size() == most_blocks || bytes_ + bytes > most_bytes) {
-            std::free(header_of(blocks_.front()).whole); // the oldest
+            void* const oldest = header_of(blocks_.front()).whole;
             forget(0);
+            std::free(oldest);
         }
         blocks_.push_back(memory);
         bytes_ += bytes;
