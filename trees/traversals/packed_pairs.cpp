@@ -316,7 +316,7 @@ void run(const PackedLayout& a, const PackedLayout& b, bool self, const Executor
         sink.end();
         return;
     }
-    constexpr std::size_t most = 512;
+    constexpr std::size_t most = 128;
     const std::size_t level = std::min<std::size_t>(1, a.depth() - 1);
     const std::size_t nodes = a.level(level).size(), chunks = std::min(nodes, most);
     std::atomic<bool> stop = false;
