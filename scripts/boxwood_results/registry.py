@@ -10,9 +10,8 @@ from .picture import Skip
 
 # In the order of the report. To add one: a module in figures/ with NAME, TITLE, HOW_TO_READ and
 # draw(run) -> [Picture] that raises Skip where the run lacks the data, and its name here.
-MODULES = (forest, builder_tradeoff, tree_quality, scaling, speedup,
-    tree_quality, work, accuracy, robustness, condition, escalation, price,
-           run_health)
+MODULES = (forest, builder_tradeoff, tree_quality, scaling, speedup, work, accuracy, robustness, condition, escalation,
+           price, run_health)
 
 
 @dataclass(frozen=True)

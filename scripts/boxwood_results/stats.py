@@ -113,3 +113,10 @@ def exponent(times_by_size):
         for r in sorted(rounds)
     ]
     return median_interval(slopes)
+
+
+def off_line(median_by_size):
+    """How far the times are off the straight line through their logarithms: the farthest factor less 1."""
+    log_n = np.log(np.array(sorted(median_by_size), dtype=float))
+    logs = np.log([median_by_size[n] for n in sorted(median_by_size)])
+    return math.expm1(float(np.max(np.abs(logs - np.polyval(np.polyfit(log_n, logs, 1), log_n)))))

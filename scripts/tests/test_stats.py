@@ -92,6 +92,14 @@ def test_exponent_of_a_power_law():
     assert stats.exponent(times).n == 8
 
 
+def test_distance_from_a_power_law():
+    sizes = (1e3, 1e4, 1e5, 1e6)
+    assert stats.off_line({n: 7 * n**1.25 for n in sizes}) == pytest.approx(0, abs=1e-12)
+    # Twice the time at the last size: the residuals of log 2 are 0.2, -0.1, -0.4, 0.3 of it.
+    kinked = {n: n * (2 if n == 1e6 else 1) for n in sizes}
+    assert stats.off_line(kinked) == pytest.approx(2**0.4 - 1)
+
+
 def test_many_rounds():
     lo, hi = stats.interval_ranks(3000)
     assert hi == 3001 - lo and 1400 < lo < 1500

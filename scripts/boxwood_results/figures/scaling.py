@@ -13,11 +13,11 @@ TITLE = "How time grows with n"
 HOW_TO_READ = (
     "Lower is better; both axes are logarithmic, so a straight line is a power of n. Beside each name "
     "is the fitted exponent, with its interval over the rounds where there are enough. The dotted "
-    "guide grows as n log n."
+    "guide grows as n log n. The column off_line says how far the farthest time is from the fit."
 )
 LEAST_SIZES = 3
 COLUMNS = ("ask", "scene", "threads", "phase", "variant", "library", "status", "n", "median_ns", "exponent",
-           "exponent_lo", "exponent_hi")
+           "exponent_lo", "exponent_hi", "off_line")
 
 
 def lines_of(run, ask, scene, seed, threads):
@@ -53,6 +53,7 @@ def draw_panel(ax, lines, phase, rows):
         fit = stats.exponent({cell.job.n: cell.rounds(phase) for cell in line})
         fits.append((line[-1], fit))
         x, y = [cell.job.n for cell in line], [cell.median(phase) for cell in line]
+        off = stats.off_line(dict(zip(x, y)))
         sizes.update(x)
         all_times += y
         cell = line[-1]
@@ -61,7 +62,7 @@ def draw_panel(ax, lines, phase, rows):
             if at.status == "wrong":
                 style.cross_out(ax, size, time)
             rows.append((at.job.ask, at.job.scene, at.job.threads, phase, at.label, at.library, at.status, size,
-                         time, fit.mid, fit.lo, fit.hi))
+                         time, fit.mid, fit.lo, fit.hi, off))
         ends.append((x[-1], y[-1], f"{cell.label}  {exponent_text(fit)}", style.text_colour(cell.family)))
     low, high = min(sizes), max(sizes)
     start = min(all_times) / 1.6
@@ -83,8 +84,9 @@ def draw(run):
     by_ask = {}
     for group in groups:
         lines = lines_of(run, *group)
-        for phase in ("build", TOTAL):
-            usable = [line for line in lines if phase == TOTAL or all(cell.has_build for cell in line)]
+        for phase in ("build", "query", TOTAL):
+            usable = [line for line in lines if all(cell.rounds(phase) for cell in line)
+                      and (phase != "build" or all(cell.has_build for cell in line))]
             if usable:
                 by_ask.setdefault(group[0], []).append((choose_lines(usable, phase), phase))
     if not by_ask:
