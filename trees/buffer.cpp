@@ -97,8 +97,8 @@ constexpr bool keeps = true;
 
 } // namespace
 
-/// Aligned by hand: of what std::aligned_alloc hands out glibc gives all large
-/// blocks back to the system each time, not just those from `given_back` on.
+/// Aligned by hand: of what std::aligned_alloc hands out glibc gives all large blocks back to the
+/// system each time, not just those from `given_back` on.
 void* allocate_lines(std::size_t bytes) {
     if (keeps && bytes >= given_back)
         if (void* const kept = kept_blocks().take(bytes))
@@ -114,8 +114,7 @@ void* allocate_lines(std::size_t bytes) {
     const Header header{whole, bytes};
     std::memcpy(memory - sizeof(Header), &header, sizeof(Header));
 #if defined(__linux__)
-    // Only advice: without it walks through a large tree miss the TLB at every
-    // step.
+    // Only advice: without it walks through a large tree miss the TLB at every step.
     if (alignment == huge_page)
         madvise(memory, bytes / huge_page * huge_page, MADV_HUGEPAGE);
 #endif
