@@ -26,9 +26,7 @@ TEST(Buffer, IsAlignedToLinesAndLargeOnesToHugePages) {
         EXPECT_EQ(address(Buffer<char>(bytes)) % (2 * MiB), 0u) << bytes;
 }
 
-TEST(Buffer, ThrowsForMoreThanThereIs) {
-    EXPECT_THROW(allocate_lines(SIZE_MAX), std::bad_alloc);
-}
+TEST(Buffer, ThrowsForMoreThanThereIs) { EXPECT_THROW(allocate_lines(SIZE_MAX), std::bad_alloc); }
 
 // Whatever was freed before and is handed out again: no byte belongs to two buffers.
 TEST(Buffer, LargeOnesOfManySizesAndThreadsNeverShareMemory) {
