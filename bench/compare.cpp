@@ -16,8 +16,8 @@ using results::Results;
 using results::Sample;
 
 /// In a merged file a machine may have had the same round number several times.
-using RoundKey = std::pair<std::string, std::uint32_t>; ///< machine, round number
-using Rounds = std::map<RoundKey, std::vector<double>>; ///< wall_ns in order of time
+using RoundKey = RoundTimes::RoundKey;
+using Rounds = RoundTimes::Rounds;
 /// The times of each (cell, phase).
 using Times = std::map<std::pair<std::uint32_t, std::string>, Rounds>;
 
@@ -150,6 +150,22 @@ std::vector<CellStats> cell_stats(const Results& results) {
         all.push_back(std::move(stats));
     }
     return all;
+}
+
+RoundTimes::RoundTimes(const Results& results)
+    : phases_(phases_of(times_of(results, machines_of(results), false))) {}
+
+const Rounds* RoundTimes::rounds(std::uint32_t cell, const std::string& phase) const {
+    const auto phases = phases_.find(cell);
+    if (phases == phases_.end())
+        return nullptr;
+    const auto found = phases->second.find(phase);
+    return found == phases->second.end() ? nullptr : &found->second;
+}
+
+PairedRatio RoundTimes::ratio(std::uint32_t a, std::uint32_t b, const std::string& phase) const {
+    const Rounds *left = rounds(a, phase), *right = rounds(b, phase);
+    return left && right ? paired_ratio(log_ratios(*left, *right)) : PairedRatio{};
 }
 
 std::optional<double> noise_floor(const Results& results) {

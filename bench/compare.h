@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// The statistics of the bench, on the rows of a result file: medians over rounds, and paired
@@ -24,6 +25,23 @@ struct CellStats {
 };
 /// Ordered by cell, then phase.
 std::vector<CellStats> cell_stats(const results::Results& results);
+
+/// The times of every cell round by round, the A/A twin left out, with "build+query" and
+/// "update+query" where a cell has both phases.
+class RoundTimes {
+  public:
+    using RoundKey = std::pair<std::string, std::uint32_t>; ///< machine, round number
+    using Rounds = std::map<RoundKey, std::vector<double>>; ///< wall_ns in order of time
+
+    explicit RoundTimes(const results::Results& results);
+    /// Null if the phase of the cell was not timed.
+    const Rounds* rounds(std::uint32_t cell, const std::string& phase) const;
+    /// Time of b over time of a, paired by round; no pairs if either was not timed.
+    PairedRatio ratio(std::uint32_t a, std::uint32_t b, const std::string& phase) const;
+
+  private:
+    std::map<std::uint32_t, std::map<std::string, Rounds>> phases_; ///< by cell and phase
+};
 
 /// The A/A noise floor as a relative difference: the farthest end of the intervals of cells that
 /// were timed twice. Nothing without such cells, or with fewer than 6 rounds.

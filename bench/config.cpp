@@ -1,35 +1,24 @@
 #include "bench/config.h"
 
-#include "bench/commands/command.h"
+#include "bench/config_reader.h"
 #include "bench/families.h"
 #include "bench/rays.h"
 #include "bench/rungs/rungs.h"
 #include "kernels/catalogue.h"
 #include "scenes/queries.h"
 #include "scenes/scene.h"
-#include "scenes/suggest.h"
 #include "trees/layout.h"
-#include "trees/update.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <thread>
 
 namespace boxwood::bench {
 namespace {
 
-using Words = std::vector<std::string_view>;
-
-template <class Entries> Words names_of(const Entries& entries) {
-    Words words;
-    for (const auto& entry : entries)
-        words.emplace_back(entry.name);
-    return words;
-}
+using Reader = ConfigReader;
 
 /// "all", every peer library (found or not), and every contender of those that were found.
 Words peer_words() {
@@ -37,147 +26,13 @@ Words peer_words() {
     for (const Peer& peer : peers()) {
         words.push_back(peer.name);
         for (const ContenderEntry& contender : peer.contenders)
-            words.push_back(contender.name);
+            if (contender.name != peer.name)
+                words.push_back(contender.name);
     }
     for (const std::string_view name : absent_peers())
         words.emplace_back(name);
     return words;
 }
-
-/// Reads typed values out of a table and says where a bad one stands.
-class Reader {
-  public:
-    explicit Reader(std::string file) : file_(std::move(file)) {}
-
-    std::string place(const toml::source_region& source) const {
-        return fmt::format("{}:{}", file_, source.begin.line);
-    }
-
-    [[noreturn]] void fail(const toml::source_region& source, const std::string& message) const {
-        throw BadInput(place(source) + ": " + message);
-    }
-
-    void require_known_keys(const toml::table& table, std::string_view where,
-                            const Words& known) const {
-        for (const auto& [key, value] : table)
-            if (std::ranges::find(known, key.str()) == known.end())
-                fail(key.source(), unknown_word(fmt::format("key of {}", where), key.str(), known));
-    }
-
-    double number(const toml::node& node, std::string_view key, double least, double most) const {
-        const auto value = node.value<double>();
-        if (!value || !node.is_number())
-            fail(node.source(), fmt::format("{} must be a number", key));
-        if (!(*value >= least && *value <= most))
-            fail(node.source(),
-                 fmt::format("{} = {} is out of range: it must lie between {} and {}", key, *value,
-                             least, most));
-        return *value;
-    }
-
-    std::uint64_t whole(const toml::node& node, std::string_view key, std::int64_t least,
-                        std::int64_t most) const {
-        if (!node.is_integer())
-            fail(node.source(), fmt::format("{} must be a whole number", key));
-        const std::int64_t value = *node.value<std::int64_t>();
-        if (value < least || value > most)
-            fail(node.source(),
-                 fmt::format("{} = {} is out of range: it must lie between {} and {}", key, value,
-                             least, most));
-        return static_cast<std::uint64_t>(value);
-    }
-
-    std::string word(const toml::node& node, std::string_view key, const Words& known) const {
-        const auto value = node.value<std::string>();
-        if (!value)
-            fail(node.source(), fmt::format("{} must be a word in quotes", key));
-        if (std::ranges::find(known, *value) == known.end())
-            fail(node.source(), fmt::format("{}: {}", key, unknown_word("word", *value, known)));
-        return *value;
-    }
-
-    unsigned threads(const toml::node& node) const {
-        if (node.is_string()) {
-            word(node, "threads", {"all"});
-            return std::max(1u, std::thread::hardware_concurrency());
-        }
-        return static_cast<unsigned>(whole(node, "threads", 1, 1024));
-    }
-
-    /// "ploc", or with a stage after it "ploc+reinsertion".
-    std::string builder_words(const toml::node& node) const {
-        const std::string words = node.value_or(std::string());
-        const std::size_t plus = words.find('+');
-        if (!node.is_string() || plus == std::string::npos)
-            return word(node, "builders", names_of(builders()));
-        word(toml::value<std::string>(words.substr(0, plus)), "builders", names_of(builders()));
-        word(toml::value<std::string>(words.substr(plus + 1)), "stages", names_of(stages()));
-        return words;
-    }
-
-    BuilderChoice builder(const toml::node& node) const {
-        if (node.is_string())
-            return {builder_words(node), {}};
-        const toml::table* table = node.as_table();
-        const toml::node* name = table ? table->get("name") : nullptr;
-        if (!name)
-            fail(node.source(), "a builder is a word, or {name = \"WORD\", SETTING = NUMBER, ...}");
-        BuilderChoice choice{builder_words(*name), {}};
-        for (const auto& [key, value] : *table)
-            if (key != "name")
-                choice.settings[std::string(key.str())] = number(value, key.str(), -1e300, 1e300);
-        try {
-            make_builder(choice.name, choice.settings);
-        } catch (const std::invalid_argument& error) {
-            fail(node.source(), error.what());
-        }
-        return choice;
-    }
-
-    /// "refit", or `{name = "rebuild", trigger = 1.3}`.
-    BuilderChoice update(const toml::node& node) const {
-        if (node.is_string())
-            return {word(node, "updates", names_of(boxwood::updates())), {}};
-        const toml::table* table = node.as_table();
-        const toml::node* name = table ? table->get("name") : nullptr;
-        if (!name)
-            fail(node.source(), "an update is a word, or {name = \"WORD\", SETTING = NUMBER, ...}");
-        BuilderChoice choice{word(*name, "updates", names_of(boxwood::updates())), {}};
-        for (const auto& [key, value] : *table)
-            if (key != "name")
-                choice.settings[std::string(key.str())] = number(value, key.str(), -1e300, 1e300);
-        try {
-            find_update(choice.name)->make(choice.settings);
-        } catch (const std::invalid_argument& error) {
-            fail(node.source(), error.what());
-        }
-        return choice;
-    }
-
-    /// Replaces `out` by what `read` makes of the value of `key`, or of each element if it is a
-    /// list.
-    template <class T, class Read>
-    void list(const toml::table& table, std::string_view key, std::vector<T>& out,
-              Read read) const {
-        const toml::node* node = table.get(key);
-        if (!node)
-            return;
-        out.clear();
-        if (const toml::array* array = node->as_array())
-            for (const toml::node& element : *array)
-                out.push_back(read(element));
-        else
-            out.push_back(read(*node));
-    }
-
-    void words(const toml::table& table, std::string_view key, std::vector<std::string>& out,
-               const Words& known) const {
-        list(table, key, out, [&](const toml::node& node) { return word(node, key, known); });
-    }
-
-  private:
-    std::string file_;
-};
 
 /// What a `kernels` key may say for an ask; empty if it takes none.
 Words kernel_words(Ask ask) {
@@ -321,8 +176,14 @@ void read_trees(const Reader& reader, const toml::table& table, Block& block) {
     if (moves && block.motions.empty())
         reader.fail(table.source(), fmt::format("moving_pairs needs a motion: one or more of {}",
                                                 fmt::join(names_of(motions()), ", ")));
-    if (!moves && !block.updates.empty())
-        reader.fail(table.get("updates")->source(), "updates is for the ask moving_pairs");
+    const auto only_for = [&](bool asked, const char* whose, const auto& keys) {
+        for (const char* key : keys)
+            if (const toml::node* node = table.get(key); node && !asked)
+                reader.fail(node->source(), fmt::format("{} is for {}", key, whose));
+    };
+    only_for(moves, "the ask moving_pairs", std::array{"motion", "frames", "updates"});
+    only_for(std::ranges::any_of(block.asks, is_ray_ask), "the asks of rays",
+             std::array{"rays", "n_rays"});
     for (const SceneEntry& entry : scene_generators())
         if (!entry.has_mesh && std::ranges::find(block.scenes, entry.name) != block.scenes.end())
             for (const Ask ask : block.asks)
@@ -337,11 +198,11 @@ void read_trees(const Reader& reader, const toml::table& table, Block& block) {
 
 Block read_block(const Reader& reader, const toml::table& table,
                  const std::vector<unsigned>& default_threads) {
-    reader.require_known_keys(table, "[[cells]]",
-                              {"scene",     "n",       "overlaps", "rays",      "n_rays",
-                               "ray_order", "motion",  "frames",   "updates",   "ask",
-                               "builders",  "layouts", "kernels",  "executors", "threads",
-                               "peers",     "k",       "scale",    "n_points",  "regions"});
+    reader.require_known_keys(
+        table, "[[cells]]",
+        {"scene",   "n",       "overlaps", "rays",     "n_rays",   "ray_order", "motion",
+         "frames",  "updates", "ask",      "builders", "layouts",  "kernels",   "executors",
+         "threads", "peers",   "k",        "scale",    "n_points", "regions",   "rounds"});
     Block block;
     block.place = reader.place(table.source());
     block.threads = default_threads;
@@ -357,6 +218,8 @@ Block read_block(const Reader& reader, const toml::table& table,
         return reader.whole(node, "n", 1, 100'000'000);
     });
     reader.words(table, "peers", block.peers, peer_words());
+    if (const toml::node* rounds = table.get("rounds"))
+        block.rounds = static_cast<unsigned>(reader.whole(*rounds, "rounds", 1, 10'000));
     if (asks_kernels(reader, table, block))
         read_families(reader, table, block);
     else

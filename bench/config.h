@@ -41,6 +41,7 @@ struct Block {
     std::vector<std::string> executors; ///< empty: serial for one thread, tbb for more
     std::vector<unsigned> threads;
     std::vector<std::string> peers; ///< "all", libraries, or contenders
+    std::optional<unsigned> rounds; ///< fewer than those of the sweep: the first ones
 };
 
 /// The kernels that a block times for one of its asks: words of the ask's catalogue, "all"

@@ -79,6 +79,7 @@ TEST(Config, SaysWhereAMisspeltWordStandsAndSuggests) {
 }
 
 TEST(Config, RefusesNumbersOutOfRangeAndOfTheWrongKind) {
+    EXPECT_THAT(complaint(block + "builders = \"median\"\nrounds = 0\n"), HasSubstr("rounds = 0"));
     EXPECT_THAT(complaint("rounds = 0\n" + block), HasSubstr("x.toml:1: rounds = 0"));
     EXPECT_THAT(complaint("rounds = 2.5\n" + block), HasSubstr("whole number"));
     EXPECT_THAT(complaint("min_time_ms = nan\n" + block), HasSubstr("out of range"));
@@ -87,6 +88,18 @@ TEST(Config, RefusesNumbersOutOfRangeAndOfTheWrongKind) {
     EXPECT_THAT(complaint(block + "threads = \"al\"\n"), HasSubstr("'all'"));
     EXPECT_THAT(complaint(block + "builders = [{name = \"binned_sah\", bins = 1e9}]\n"),
                 HasSubstr("x.toml:4:"));
+}
+
+TEST(Config, PoliciesTakeTheirSettings) {
+    const std::string moving = "[[cells]]\nscene = \"uniform\"\nask = \"moving_pairs\"\n"
+                               "motion = \"teleport\"\nupdates = ";
+    const Config config = parse_config(
+        moving + "[{name = \"merge\", margin = 2}, {name = \"refine\", share = 0.2}]\n", "x.toml");
+    ASSERT_EQ(config.blocks[0].updates.size(), 2u);
+    EXPECT_EQ(config.blocks[0].updates[0].settings, (Settings{{"margin", 2}}));
+    EXPECT_EQ(config.blocks[0].updates[1].settings, (Settings{{"share", 0.2}}));
+    EXPECT_THAT(complaint(moving + "{name = \"refine\", margin = 2}\n"), HasSubstr("margin"));
+    EXPECT_THAT(complaint(moving + "{margin = 2}\n"), HasSubstr("an update is a word"));
 }
 
 TEST(Config, RefusesBlocksThatMeanNothing) {
@@ -106,6 +119,11 @@ TEST(Config, RefusesBlocksThatMeanNothing) {
                 HasSubstr("no triangles"));
     EXPECT_THAT(complaint("[[cells]]\nscene = \"mesh\"\nn = 5\nask = \"pairs\"\n"),
                 HasSubstr("x.toml:3:"));
+    for (const char* key : {"motion = \"teleport\"", "frames = 3", "updates = \"auto\"",
+                            "rays = \"random\"", "n_rays = 5"})
+        EXPECT_THAT(complaint(block + "builders = \"median\"\n" + key + "\n"),
+                    testing::AllOf(HasSubstr("x.toml:5:"), HasSubstr("is for the ask")))
+            << key;
 }
 
 const std::string kernel_block = "[[cells]]\nask = \"triangle_triangle\"\n";

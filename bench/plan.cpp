@@ -89,9 +89,14 @@ class Expansion {
                               contender.name, contender.precision, executor, threads});
         const auto [seen, is_new] = index_of_.try_emplace(name, cells_.size());
         if (is_new) {
-            cells_.push_back({name, spec, ask, std::move(contender), executor, threads});
+            cells_.push_back(
+                {name, spec, ask, std::move(contender), executor, threads, block.rounds});
             return;
         }
+        if (auto& rounds = cells_[seen->second].rounds; rounds && block.rounds)
+            rounds = std::max(*rounds, *block.rounds);
+        else
+            rounds.reset();
         const SceneSpec& other = cells_[seen->second].scene;
         if (other.overlaps != spec.overlaps || other.n_rays != spec.n_rays ||
             other.n_points != spec.n_points)
@@ -259,9 +264,10 @@ std::string sweep_hash_of(const Plan& plan, std::uint64_t mesh_hash) {
     std::vector<std::string> lines;
     for (const PlannedCell& cell : plan.cells)
         lines.push_back(fmt::format(
-            "{} overlaps {} n_rays {}{}\n", cell.name, cell.scene.overlaps, cell.scene.n_rays,
+            "{} overlaps {} n_rays {}{}{}\n", cell.name, cell.scene.overlaps, cell.scene.n_rays,
             cell.scene.n_points == 0 ? std::string()
-                                     : fmt::format(" n_points {}", cell.scene.n_points)));
+                                     : fmt::format(" n_points {}", cell.scene.n_points),
+            cell.rounds ? fmt::format(" rounds {}", *cell.rounds) : std::string()));
     std::ranges::sort(lines); // the order of blocks does not matter
     for (const std::string& line : lines)
         canonical += line;

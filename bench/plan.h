@@ -28,6 +28,9 @@ struct PlannedCell {
     ContenderEntry contender;
     std::string executor;
     unsigned threads = 1;
+    std::optional<unsigned> rounds; ///< only in the first so many of the sweep's
+
+    bool is_in(unsigned round) const { return !rounds || round < *rounds; }
 };
 
 /// A sweep. Two sweeps with one hash measure the same cells in the same way, so that rounds of one

@@ -127,6 +127,23 @@ TEST(Plan, HashIsOfWhatIsMeasured) {
     EXPECT_NE(sweep_hash_of(plan_of(config), 1), hash);
 }
 
+TEST(Plan, ABlockMayHaveFewerRounds) {
+    const Plan all = plan_of(config), few = plan_of(config + "rounds = 3\n");
+    EXPECT_EQ(names_of(all), names_of(few));
+    EXPECT_NE(all.sweep_hash, few.sweep_hash);
+    EXPECT_EQ(few.rounds, 9u);
+    for (const PlannedCell& cell : few.cells) {
+        EXPECT_TRUE(cell.is_in(2));
+        EXPECT_FALSE(cell.is_in(3));
+    }
+    EXPECT_TRUE(all.cells[0].is_in(100));
+    // A cell of two blocks has the rounds of the one with more.
+    const std::string block = config.substr(config.find("[[cells]]"));
+    const Plan more = plan_of(config + "rounds = 3\n" + block + "rounds = 5\n");
+    EXPECT_EQ(more.cells[0].rounds, 5u);
+    EXPECT_FALSE(plan_of(config + "rounds = 3\n" + block).cells[0].rounds);
+}
+
 TEST(Plan, MeshBlocksNeedAMesh) {
     const std::string mesh =
         "[[cells]]\nscene = \"mesh\"\nask = \"pairs\"\nbuilders = \"median\"\n";

@@ -213,7 +213,7 @@ class Round final : public benchmark::BenchmarkReporter {
     bool own_times_ = false; ///< the samples have their times already
 };
 
-std::vector<Timing> timings_of(const Plan& plan, const results::Results& prepared) {
+std::vector<Timing> timings_of(const Plan& plan, const results::Results& prepared, unsigned round) {
     const Calibrations calibrations = calibrations_of(prepared.texts.at("calibration"));
     std::map<std::string, std::uint32_t, std::less<>> id_of;
     for (const results::Cell& cell : prepared.cells)
@@ -226,7 +226,7 @@ std::vector<Timing> timings_of(const Plan& plan, const results::Results& prepare
     const std::string aa = choose_aa(prepared, calibrations);
     for (const PlannedCell& cell : plan.cells) {
         const auto found = calibrations.find(cell.name);
-        if (found == calibrations.end())
+        if (found == calibrations.end() || !cell.is_in(round))
             continue;
         const std::uint32_t id = id_of.at(cell.name);
         const results::Check& check = *check_of.at(id);
@@ -278,7 +278,7 @@ results::Results run_round(const Plan& plan, const results::Results& prepared, u
         shard.load1 = load;
     const std::uint64_t steal_before = steal_ticks();
 
-    const std::vector<Timing> timings = timings_of(plan, prepared);
+    const std::vector<Timing> timings = timings_of(plan, prepared, round);
     Round engine(report, timings.size(), round);
     initialize_benchmark();
     benchmark::ClearRegisteredBenchmarks();

@@ -268,5 +268,20 @@ TEST_F(RoundTest, KernelsAreJudgedAndHaveAQueryAlone) {
     EXPECT_EQ(phases.count("2 build"), phases.count("2 query"));
 }
 
+TEST_F(RoundTest, ACellWithFewerRoundsIsNotInTheLaterOnes) {
+    add("always", Fault::none);
+    add("once", Fault::none);
+    plan.cells[1].rounds = 1;
+    const results::Results ready = prepared();
+    const auto timed = [&](unsigned round) {
+        std::set<std::uint32_t> cells;
+        for (const results::Sample& sample : run_round(plan, ready, round, report()).samples)
+            cells.insert(sample.cell_id);
+        return cells;
+    };
+    EXPECT_EQ(timed(0), (std::set<std::uint32_t>{0, 1}));
+    EXPECT_EQ(timed(1), std::set<std::uint32_t>{0});
+}
+
 } // namespace
 } // namespace boxwood::bench

@@ -110,6 +110,7 @@ std::set<unsigned> rounds_in(const results::Results& results) {
 results::Results without_rounds(results::Results results) {
     results.shards.clear();
     results.samples.clear();
+    results.frames.clear();
     results.compare.clear();
     return results;
 }

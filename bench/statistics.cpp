@@ -74,20 +74,41 @@ std::size_t rounds_needed(std::size_t family_size) {
     return n;
 }
 
+MedianInterval median_interval(std::vector<double> values) {
+    if (values.empty())
+        return {};
+    std::ranges::sort(values);
+    MedianInterval result{values.size(), median_of_sorted(values)};
+    if (const auto ranks = median_ranks(values.size())) {
+        result.lo = values[ranks->lo - 1];
+        result.hi = values[ranks->hi - 1];
+    }
+    return result;
+}
+
+Line fitted_line(std::span<const double> x, std::span<const double> y) {
+    const auto n = static_cast<double>(x.size());
+    const double mean_x = std::accumulate(x.begin(), x.end(), 0.0) / n;
+    const double mean_y = std::accumulate(y.begin(), y.end(), 0.0) / n;
+    double xx = 0, xy = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        xx += (x[i] - mean_x) * (x[i] - mean_x);
+        xy += (x[i] - mean_x) * (y[i] - mean_y);
+    }
+    return {xy / xx, mean_y - xy / xx * mean_x};
+}
+
 PairedRatio paired_ratio(std::span<const double> log_ratios) {
     PairedRatio result;
     result.n_pairs = log_ratios.size();
     if (log_ratios.empty())
         return result;
-    std::vector<double> sorted(log_ratios.begin(), log_ratios.end());
-    std::ranges::sort(sorted);
-    result.ratio = std::exp(median_of_sorted(sorted));
+    const MedianInterval logs = median_interval({log_ratios.begin(), log_ratios.end()});
+    result.ratio = std::exp(logs.mid);
+    result.ci_lo = std::exp(logs.lo);
+    result.ci_hi = std::exp(logs.hi);
     result.p = sign_test(log_ratios);
-    result.is_identical = sorted.front() == 0 && sorted.back() == 0;
-    if (const auto ranks = median_ranks(sorted.size())) {
-        result.ci_lo = std::exp(sorted[ranks->lo - 1]);
-        result.ci_hi = std::exp(sorted[ranks->hi - 1]);
-    }
+    result.is_identical = std::ranges::all_of(log_ratios, [](double x) { return x == 0; });
     return result;
 }
 

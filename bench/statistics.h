@@ -37,6 +37,19 @@ std::vector<double> holm(std::span<const double> p);
 /// The fewest rounds in which a family of this size can reach any verdict.
 std::size_t rounds_needed(std::size_t family_size);
 
+/// The median of values with its exact interval; NaN for none, the interval for n < 6.
+struct MedianInterval {
+    std::size_t n = 0;
+    double mid = unknown, lo = unknown, hi = unknown;
+};
+MedianInterval median_interval(std::vector<double> values);
+
+/// A straight line by least squares: y = at_0 + slope x. Needs two different x.
+struct Line {
+    double slope, at_0;
+};
+Line fitted_line(std::span<const double> x, std::span<const double> y);
+
 /// Time of b over time of a, from one log-ratio per paired round. The interval is NaN for n < 6.
 struct PairedRatio {
     std::size_t n_pairs = 0;

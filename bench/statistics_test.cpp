@@ -102,5 +102,23 @@ TEST(Verdict, CaseByCase) {
     EXPECT_EQ(verdict({1, 1, unknown, unknown, 1, true}, 1, 0.05, 0), "same");
 }
 
+TEST(Statistics, MedianIntervalAgreesWithItsRanks) {
+    const MedianInterval nine = median_interval({9, 1, 8, 2, 7, 3, 6, 4, 5});
+    EXPECT_EQ(nine.n, 9u);
+    EXPECT_EQ(nine.mid, 5);
+    EXPECT_EQ(nine.lo, 2);
+    EXPECT_EQ(nine.hi, 8);
+    EXPECT_TRUE(std::isnan(median_interval({1, 2, 3}).lo));
+    EXPECT_TRUE(std::isnan(median_interval({}).mid));
+}
+
+TEST(Statistics, TheFittedLineLeavesTheLeastSquares) {
+    const std::vector<double> x{1, 2, 4, 7}, y{3, 1, 4, 10};
+    const Line line = fitted_line(x, y);
+    // By hand: means 3.5 and 4.5; sums of products 28 and of squares 21.
+    EXPECT_DOUBLE_EQ(line.slope, 28.0 / 21);
+    EXPECT_DOUBLE_EQ(line.at_0, 4.5 - 28.0 / 21 * 3.5);
+}
+
 } // namespace
 } // namespace boxwood::bench

@@ -29,13 +29,6 @@ constexpr double set_up_ns = 1e6;
 
 double cell_s(const Calibration& calibration) { return (round_ns(calibration) + set_up_ns) * 1e-9; }
 
-double round_s(const Calibrations& calibrations) {
-    double s = 0;
-    for (const auto& [name, calibration] : calibrations)
-        s += cell_s(calibration);
-    return s;
-}
-
 /// Before anything was measured: a microsecond per item, ray, point and region for each phase.
 double guessed_cell_s(const PlannedCell& cell, double min_time_ms) {
     const double call =
@@ -136,7 +129,13 @@ class Sweep {
                                       done.size(), wanted.size()));
 
         Calibrations calibrations = calibrations_of(prepared_.texts["calibration"]);
-        Eta eta(static_cast<double>(wanted.size()) * round_s(calibrations));
+        double all_s = 0;
+        for (const PlannedCell& cell : plan_.cells)
+            if (const auto found = calibrations.find(cell.name); found != calibrations.end())
+                all_s += cell_s(found->second) *
+                         static_cast<double>(std::ranges::count_if(
+                             wanted, [&](unsigned round) { return cell.is_in(round); }));
+        Eta eta(all_s);
         start_ = std::chrono::steady_clock::now();
         for (auto round = wanted.begin(); round != wanted.end();) {
             std::vector<std::string> arguments = child_arguments(shards_.round_file(*round));
@@ -286,16 +285,17 @@ class Sweep {
 void list_cells(const SweepOptions& options) {
     const Plan plan =
         make_plan(read_text(options.config.string()), options.config.string(), options.overrides);
-    double guess_s = 0;
+    const unsigned rounds = (plan.rounds + options.shards - 1 - options.shard) / options.shards;
+    double guess_s = 0; // the preparation takes about as long as a round
     for (const PlannedCell& cell : plan.cells) {
         fmt::print("{}\n", cell.name);
-        guess_s += guessed_cell_s(cell, plan.min_time_ms);
+        guess_s += guessed_cell_s(cell, plan.min_time_ms) *
+                   (std::min(rounds, cell.rounds.value_or(rounds)) + 1);
     }
-    const unsigned rounds = (plan.rounds + options.shards - 1 - options.shard) / options.shards;
     fmt::print(stderr,
                "{} cells, {} rounds, sweep {}: about {} (a guess; the preparation "
                "measures)\n",
-               plan.cells.size(), rounds, plan.sweep_hash, duration_text(guess_s * (rounds + 1)));
+               plan.cells.size(), rounds, plan.sweep_hash, duration_text(guess_s));
 }
 
 int run_sweep(const SweepOptions& options) { return Sweep(options).run(); }

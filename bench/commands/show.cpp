@@ -5,6 +5,8 @@
 #include "bench/contender.h"
 #include "bench/ladders.h"
 #include "bench/limits.h"
+#include "bench/run_index.h"
+#include "bench/sections.h"
 #include "bench/text_table.h"
 
 #include <fmt/format.h>
@@ -22,6 +24,7 @@ namespace {
 
 using results::Cell;
 using results::Check;
+using results::Comparison;
 using results::Results;
 
 std::string bytes_text(std::uint64_t bytes) {
@@ -105,7 +108,7 @@ std::string scenes_text(const Results& results) {
 class Group {
   public:
     Group(const Results& results, const std::vector<CellStats>& stats,
-          const std::vector<results::Comparison>& comparisons, std::vector<const Cell*> cells)
+          const std::vector<Comparison>& comparisons, std::vector<const Cell*> cells)
         : results_(results), comparisons_(comparisons), cells_(std::move(cells)) {
         for (const auto& variant : results.variants)
             variants_[variant.variant_id] = &variant;
@@ -248,24 +251,52 @@ class Group {
         return table.empty() ? "" : table.text();
     }
 
+    /// One row for each of ours and each peer, with the ratio of every phase.
     std::string verdicts() const {
-        TextTable table({"  ours", "peer", "phase", ">rounds", ">peer/ours", ">95 % interval", ">p",
-                         "ours is"});
-        for (const auto& row : comparisons_)
-            if (labels_.contains(row.cell_a) && labels_.contains(row.cell_b))
-                table.add(
-                    {"  " + labels_.at(row.cell_b), labels_.at(row.cell_a), row.phase,
-                     std::to_string(row.n_pairs), ratio_text(1 / row.ratio),
-                     fmt::format("{} to {}", ratio_text(1 / row.ci_hi), ratio_text(1 / row.ci_lo)),
-                     std::isnan(row.p_adj) ? "-" : fmt::format("{:.2g}", row.p_adj),
-                     row.verdict == "cannot_tell" ? "can't tell"
-                     : row.verdict == "wrong"     ? "not ranked: a wrong answer"
-                                                  : row.verdict});
+        std::vector<std::string> phases;
+        for (const char* phase : {"build", "update", "query", "build+query", "update+query"})
+            if (std::ranges::any_of(comparisons_, [&](const auto& row) {
+                    return row.phase == phase && labels_.contains(row.cell_b);
+                }))
+                phases.push_back(phase);
+        if (std::ranges::count(phases, "update+query") > 0)
+            std::erase(phases, "build+query"); // frames follow the build, not one query
+        std::vector<std::string> headings{"  ours", "peer", ">rounds"};
+        for (const std::string& phase : phases)
+            headings.push_back(phase + ", peer/ours");
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::map<std::string, Comparison>> rows;
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> order;
+        for (const Comparison& row : comparisons_)
+            if (labels_.contains(row.cell_a) && labels_.contains(row.cell_b)) {
+                auto& by_phase = rows[{row.cell_b, row.cell_a}];
+                if (by_phase.empty())
+                    order.emplace_back(row.cell_b, row.cell_a);
+                by_phase[row.phase] = row;
+            }
+        TextTable table(headings);
+        for (const auto& key : order) {
+            auto& by_phase = rows[key];
+            std::size_t rounds = 0;
+            for (const auto& [phase, row] : by_phase)
+                rounds = std::max<std::size_t>(rounds, row.n_pairs);
+            std::vector<std::string> row{"  " + labels_.at(key.first), labels_.at(key.second),
+                                         std::to_string(rounds)};
+            for (const std::string& phase : phases)
+                row.push_back(by_phase.contains(phase) ? comparison_text(by_phase[phase]) : "-");
+            table.add(std::move(row));
+        }
         return table.empty() ? "" : table.text();
     }
 
+    static std::string comparison_text(const Comparison& row) {
+        if (row.verdict == "wrong")
+            return verdict_text(row.verdict);
+        return interval_text(1 / row.ratio, 1 / row.ci_hi, 1 / row.ci_lo) + " " +
+               verdict_text(row.verdict);
+    }
+
     const Results& results_;
-    const std::vector<results::Comparison>& comparisons_;
+    const std::vector<Comparison>& comparisons_;
     std::vector<const Cell*> cells_;
     std::map<std::uint32_t, const results::Variant*> variants_;
     std::map<std::uint32_t, std::string> labels_;
@@ -274,7 +305,7 @@ class Group {
 };
 
 /// Why so many verdicts are open, if they are.
-std::string advice_text(const std::vector<results::Comparison>& comparisons) {
+std::string advice_text(const std::vector<Comparison>& comparisons) {
     std::size_t open = 0, short_of = 0;
     for (const auto& row : comparisons)
         if (row.verdict == "cannot_tell") {
@@ -296,8 +327,13 @@ std::string advice_text(const std::vector<results::Comparison>& comparisons) {
 
 } // namespace
 
-std::string show_text(const Results& results, bool with_kernels) {
-    std::string text = header_text(results) + scenes_text(results);
+std::string show_text(const Results& results, bool with_kernels, bool brief) {
+    std::string text = header_text(results);
+    const auto comparisons = compare_to_peers(results);
+    const auto advice = [&] { return comparisons.empty() ? "" : advice_text(comparisons); };
+    if (brief)
+        return text + sections_text(results, comparisons) + advice();
+    text += scenes_text(results);
     if (!results.kernels.empty())
         text += "\n" + ladders_text(results) + "\n" + promises_text(results);
     using Work = std::tuple<std::uint32_t, std::string, std::uint32_t>;
@@ -316,13 +352,12 @@ std::string show_text(const Results& results, bool with_kernels) {
         groups[work].push_back(&cell);
     }
     const auto stats = cell_stats(results);
-    const auto comparisons = compare_to_peers(results);
     for (const Work& work : order)
         text += Group(results, stats, comparisons, groups[work]).text();
     if (passed_over > 0)
         text += fmt::format("\n{} cells of kernels are summed up above; --kernels prints each.\n",
                             passed_over);
-    return comparisons.empty() ? text : text + advice_text(comparisons);
+    return text + sections_text(results, comparisons) + advice();
 }
 
 void add_show(CLI::App& app, int&) {
@@ -332,10 +367,12 @@ void add_show(CLI::App& app, int&) {
         "show", "what is in a result file: machine, cells, times, checks, verdicts");
     show->add_option("file", *file, "a result file (HDF5)")->required();
     show->add_flag("--kernels", *with_kernels, "each cell of a kernel, not only their sums");
+    auto brief = std::make_shared<bool>(false);
+    show->add_flag("--brief", *brief, "what the cells come to, without the cells");
     show->footer("Example: boxwood show quick.h5");
-    show->callback([file, with_kernels] {
+    show->callback([file, with_kernels, brief] {
         const Results results = results::read(*file);
-        std::cout << *file << ": " << show_text(results, *with_kernels);
+        std::cout << *file << ": " << show_text(results, *with_kernels, *brief);
     });
 }
 

@@ -71,8 +71,20 @@ TEST(Show, SaysWhatIsInTheFile) {
           "unsupported: bullet.dbvt f32 serial: no rays", "no cell was timed twice"})
         EXPECT_THAT(text, HasSubstr(part));
     EXPECT_THAT(text, ::testing::ContainsRegex("binned_sah.wide8 f32 serial +fcl.tree f32 serial "
-                                               "+query +9 +2.00 +1.[0-9]+ to 2.[0-9]+ .*faster"));
+                                               "+9 +2.00 \\[1.[0-9]+, 2.[0-9]+\\] faster"));
     EXPECT_THAT(text, HasSubstr("not ranked: a wrong answer"));
+}
+
+TEST(Show, BriefLeavesTheCellsOut) {
+    const std::string whole = show_text(four_cells()), brief = show_text(four_cells(), false, true);
+    for (const char* part : {"the-run", "The best of each library", "peer/ours above 1"}) {
+        EXPECT_THAT(whole, HasSubstr(part));
+        EXPECT_THAT(brief, HasSubstr(part));
+    }
+    for (const char* part : {"work of one query", "unsupported: bullet.dbvt", "content hash"}) {
+        EXPECT_THAT(whole, HasSubstr(part));
+        EXPECT_THAT(brief, Not(HasSubstr(part)));
+    }
 }
 
 TEST(Show, FewRoundsAreSaid) {

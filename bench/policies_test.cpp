@@ -1,0 +1,47 @@
+#include "bench/policies.h"
+
+#include "bench/run_for_test.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace boxwood::bench {
+namespace {
+
+using testing::ContainsRegex;
+
+/// auto and two fixed policies, by what an update takes; queries take 100.
+std::string text_of(double automatic, double refit, double merge, std::uint32_t rounds = 9) {
+    RunForTest run;
+    run.rounds = rounds;
+    for (const auto& [variant, ns] : {std::pair{"auto.packed", automatic},
+                                      {"refit.packed", refit},
+                                      {"merge_margin2.packed", merge},
+                                      {"auto_margin9.packed", 1.0},
+                                      {"fcl.tree", 1.0}}) {
+        const auto cell = run.cell("uniform_drift", 1000, "moving_pairs", variant);
+        run.time(cell, "update", ns);
+        run.time(cell, "query", 100);
+    }
+    return policies_text(RunIndex(run.results));
+}
+
+TEST(Policies, AutoIsHeldAgainstTheBestFixedOne) {
+    EXPECT_THAT(
+        text_of(100, 300, 90),
+        ContainsRegex("uniform_drift +1000 +1 +200 ns +merge_margin2 +190 ns +1.05 .* yes"));
+    EXPECT_THAT(text_of(100, 50, 90), ContainsRegex("refit +150 ns +1.33 .* no\n"));
+    EXPECT_THAT(text_of(10, 50, 90), ContainsRegex("refit +150 ns +0.733 .* yes"));
+    EXPECT_THAT(text_of(100, 300, 90, 3), ContainsRegex("1.05 +can't tell"));
+}
+
+TEST(Policies, NothingIsSaidWithoutAFixedPolicy) {
+    RunForTest run;
+    const auto cell = run.cell("uniform_drift", 1000, "moving_pairs", "auto.packed");
+    run.time(cell, "update", 5);
+    run.time(cell, "query", 5);
+    EXPECT_EQ(policies_text(RunIndex(run.results)), "");
+}
+
+} // namespace
+} // namespace boxwood::bench

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "bench/run_index.h"
+
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace boxwood::bench {
+
+/// What a ray contender is held against: single rays or batches, and among those the watertight
+/// ones by themselves. Ours in the order given answers for both, ours of any kernel for the looser.
+/// One empty lane for every other ask.
+std::vector<std::string> lanes_of(const results::Cell& cell, const results::Variant& variant);
+
+/// Tables of the best of each library, by build+query, query, update+query and build, of every
+/// scene, ask, lane and number of threads, with the paired ratios to ours and how many times the
+/// machine's limit ours takes. Trees alone are not ranked (see tree_rankings.h). Below the rays
+/// stand their geometric means. Only right answers are ranked.
+std::string rankings_text(const RunIndex& index, std::span<const results::Comparison> comparisons);
+
+/// The cells of ours that stand in those tables.
+std::set<std::uint32_t> ranked_cells(const RunIndex& index);
+
+} // namespace boxwood::bench
