@@ -162,6 +162,7 @@ HWY_INLINE void PushSortedEight(const std::uint32_t* refs, U keys, std::uint32_t
         {0, 1, 4, 5, 2, 3, 6, 7}, {0, 4, 2, 6, 1, 5, 3, 7}, {0, 2, 1, 4, 3, 6, 5, 7}};
     static constexpr std::uint8_t takes_less[6] = {0b11001100, 0b11110000, 0b10101010,
                                                    0b00110000, 0b01010000, 0b01010100};
+#pragma GCC unroll 6
     for (int step = 0; step < 6; ++step) {
         const auto other = hn::TableLookupLanes(key, hn::SetTableIndices(du, partner[step]));
         key = hn::IfThenElse(hn::LoadMaskBits(du, &takes_less[step]), hn::Min(key, other),
@@ -174,30 +175,38 @@ HWY_INLINE void PushSortedEight(const std::uint32_t* refs, U keys, std::uint32_t
 }
 #endif
 
+/// Whether eight entries stay in one register.
+template <class Node>
+inline constexpr bool in_register =
+    HWY_TARGET != HWY_SCALAR&& HWY_TARGET <= HWY_AVX2&& Node::width == 8;
+
 /// `bits` of the children of a node are hit, at least one. Gives the nearest; the others wait.
+/// `entry` and `hits` are those of the last register, `entries` of all lanes unless `in_register`.
 template <class Node, class V, class M>
-HWY_INLINE std::uint32_t Nearest(const Node& node, std::uint32_t bits, const float* entries,
+HWY_INLINE std::uint32_t Nearest(const Node& node, std::uint32_t bits, float* entries,
                                  [[maybe_unused]] V entry, [[maybe_unused]] M hits,
                                  WaitingNode* stack, std::size_t& top) {
     const auto waits = [&](std::uint32_t lane) {
         return WaitingNode{node.ref[lane], entries[lane]};
     };
-    const auto first = static_cast<std::uint32_t>(std::countr_zero(bits));
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET <= HWY_AVX2
-    if constexpr (Node::width == 8) {
+    if constexpr (in_register<Node>) {
         // How many are hit is hard to predict: nothing that the next node waits for depends on it.
         const auto keys = KeysOf(entry);
         const std::uint32_t near = NearestOf(keys, hits), others = bits & ~(1u << near);
         if (others != 0) {
-            if ((others & (others - 1)) == 0)
+            if ((others & (others - 1)) == 0) {
+                hwy::HWY_NAMESPACE::Store(entry, NodeTag<Node>(), entries);
                 stack[top] = waits(static_cast<std::uint32_t>(std::countr_zero(others)));
-            else
+            } else {
                 PushSortedEight(node.ref, keys, others, stack + top);
+            }
             top += static_cast<std::size_t>(std::popcount(others));
         }
         return node.ref[near];
     }
 #endif
+    const auto first = static_cast<std::uint32_t>(std::countr_zero(bits));
     const std::uint32_t others = bits & (bits - 1);
     if (others == 0)
         return node.ref[first];
@@ -235,11 +244,13 @@ HWY_INLINE void WalkRay(const TriangleBlocks& tree, const FusedSlabs& slabs, con
             do {
                 const std::uint32_t bits = IntersectBlock(std::type_identity<K>{}, state.per_ray,
                                                           ray, *block, state.t_max(), hits);
+                if (!Counted && bits == 0)
+                    continue;
                 state.tested(*block, bits, hits);
                 if (state.done())
                     return;
+                t_max = hn::Set(df, state.t_max());
             } while (++block <= last);
-            t_max = hn::Set(df, state.t_max());
         } else {
             const Node& node = nodes[at];
             state.count(Node::width, top);
@@ -251,7 +262,8 @@ HWY_INLINE void WalkRay(const TriangleBlocks& tree, const FusedSlabs& slabs, con
                 hit = clip.Hits(node, i, t_max, entry);
                 bits |= WideBits(df, hit, i);
                 if constexpr (mode == RayMode::closest) {
-                    hn::Store(entry, df, entries + i);
+                    if constexpr (!in_register<Node>)
+                        hn::Store(entry, df, entries + i);
                 } else {
                     // Every child that is hit waits, in no order.
                     hn::StoreU(hn::Compress(hn::LoadU(du, node.ref + i), hn::RebindMask(du, hit)),
