@@ -1,6 +1,7 @@
 """Every figure: drawn in each format with its numbers, readable, or left out with a reason."""
 
 import csv
+import dataclasses
 import itertools
 
 import pytest
@@ -8,6 +9,7 @@ import synthetic
 from matplotlib.text import Annotation, Text
 
 from boxwood_results import labels, picture, registry, run, style
+from boxwood_results.metrics import METRICS
 
 
 @pytest.fixture(scope="module")
@@ -46,6 +48,23 @@ def test_labels_do_not_overlap(results, name):
             for a, b in itertools.combinations(boxes, 2):
                 assert labels.overlap(a, b) < 0.1 * min(a.width * a.height, b.width * b.height), made.name
         style.plt.close(made.figure)
+
+
+def test_frames_grow_by_update_and_query(tmp_path):
+    made = synthetic.Maker(3)
+    for n in (500, 1000, 2000):
+        made.cell("uniform_drift", n, "pairs", "auto.packed", ("boxwood", "auto", 100, 50, 0), 1)
+    results = run.read(made.write(tmp_path / "a.h5"))
+    for cell in results.cells:  # as a run of frames has them
+        cell.job = dataclasses.replace(cell.job, ask="moving_pairs")
+        cell.times["update"] = {shard: 3 * ns for shard, ns in cell.times["query"].items()}
+    results.jobs = sorted({cell.job for cell in results.cells}, key=lambda job: job.n)
+    made = registry.draw("scaling", results).pictures[0]
+    assert {row[3] for row in made.rows} == {"update+query"}
+    assert [ax.get_ylabel() for ax in made.figure.axes if ax.get_ylabel()] == [METRICS["frame"].axis]
+    cell = min(results.cells, key=lambda cell: cell.job.n)
+    assert made.rows[0][8] == pytest.approx(4 * cell.median("query"), rel=0.01)
+    style.plt.close(made.figure)
 
 
 def test_break_even_is_right(results):

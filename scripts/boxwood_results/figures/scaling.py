@@ -16,6 +16,8 @@ HOW_TO_READ = (
     "guide grows as n log n. The column off_line says how far the farthest time is from the fit."
 )
 LEAST_SIZES = 3
+PHASES = {"moving_pairs": (TOTAL,), "tree": ("build",)}  # of the other asks all three
+TOTALS = {"moving_pairs": "update+query"}  # what TOTAL is, where not build and query
 COLUMNS = ("ask", "scene", "threads", "phase", "variant", "library", "status", "n", "median_ns", "exponent",
            "exponent_lo", "exponent_hi", "off_line")
 
@@ -46,6 +48,10 @@ def exponent_text(fit):
     return f"n^{fit.mid:.2f} ({fit.lo:.2f} to {fit.hi:.2f})"
 
 
+def phase_name(ask, phase):
+    return TOTALS.get(ask, phase) if phase == TOTAL else phase
+
+
 def draw_panel(ax, lines, phase, rows):
     ends, all_times, sizes = [], [], set()
     fits = []
@@ -61,7 +67,7 @@ def draw_panel(ax, lines, phase, rows):
         for size, time, at in zip(x, y, line):
             if at.status == "wrong":
                 style.cross_out(ax, size, time)
-            rows.append((at.job.ask, at.job.scene, at.job.threads, phase, at.label, at.library, at.status, size,
+            rows.append((at.job.ask, at.job.scene, at.job.threads, phase_name(at.job.ask, phase), at.label, at.library, at.status, size,
                          time, fit.mid, fit.lo, fit.hi, off))
         ends.append((x[-1], y[-1], f"{cell.label}  {exponent_text(fit)}", style.text_colour(cell.family)))
     low, high = min(sizes), max(sizes)
@@ -73,9 +79,9 @@ def draw_panel(ax, lines, phase, rows):
     style.time_axis(ax.yaxis, min([*all_times, *guide]), max([*all_times, *guide]))
     job = lines[0][-1].job
     threads = "1 thread" if job.threads == 1 else f"{job.threads} threads"
-    style.title(ax, f"{job.scene} · {job.ask} · {threads} · {phase}")
+    style.title(ax, f"{job.scene} · {job.ask} · {threads} · {phase_name(job.ask, phase)}")
     ax.set_xlabel(METRICS["n"].axis)
-    ax.set_ylabel(METRICS[phase].axis)
+    ax.set_ylabel(METRICS["frame" if phase_name(job.ask, phase) == "update+query" else phase].axis)
     return ends, fits
 
 
@@ -84,7 +90,7 @@ def draw(run):
     by_ask = {}
     for group in groups:
         lines = lines_of(run, *group)
-        for phase in ("build", "query", TOTAL):
+        for phase in PHASES.get(group[0], ("build", "query", TOTAL)):
             usable = [line for line in lines if all(cell.rounds(phase) for cell in line)
                       and (phase != "build" or all(cell.has_build for cell in line))]
             if usable:
@@ -98,7 +104,7 @@ def draw(run):
         for ax, (lines, phase) in zip(axes, all_panels):
             ends, fits = draw_panel(ax, lines, phase, rows)
             labels.at_line_ends(ax, ends)
-            said += [f"{cell.label} {phase} on {cell.job.scene} {exponent_text(fit)}" for cell, fit in fits]
+            said += [f"{cell.label} {phase_name(ask, phase)} on {cell.job.scene} {exponent_text(fit)}" for cell, fit in fits]
         cells = [cell for lines, _ in all_panels for line in lines for cell in line]
         pictures.append(
             Picture(f"{NAME}_{ask}", figure, f"{TITLE}: {ask}",
