@@ -20,7 +20,7 @@ METRICS = {
     "build": Metric("time to build", "ns", "lower is better"),
     "query": Metric("time of one query", "ns", "lower is better"),
     TOTAL: Metric("time to build and query once", "ns", "lower is better"),
-    "frame": Metric("time of a frame, update and query", "ns", "lower is better"),
+    "frame": Metric("time of one frame", "ns", "lower is better"),
     "n": Metric("items n", "", ""),
     "ratio": Metric("peer's time / Boxwood's time", "", "right: Boxwood is faster"),
     "speedup": Metric("speed-up over one thread", "", "higher is better"),
