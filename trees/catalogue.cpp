@@ -14,7 +14,8 @@
 #include <vector>
 
 #define BOXWOOD_BUILDERS(X)                                                                        \
-    X(median) X(hilbert) X(binned_sah) X(sweep_sah) X(spatial_sah) X(incremental) X(lbvh) X(ploc)
+    X(median)                                                                                      \
+    X(hilbert) X(binned_sah) X(sweep_sah) X(spatial_sah) X(bonsai) X(incremental) X(lbvh) X(ploc)
 #define BOXWOOD_STAGES(X) X(reinsertion)
 #define BOXWOOD_LAYOUTS(X)                                                                         \
     X(binary) X(wide4) X(wide8) X(wide16) X(packed) X(quantised8) X(binary_f64) X(wide8_f64)

@@ -11,6 +11,7 @@
 #include "trees/allowed_collisions.h"
 #include "trees/builder.h"
 #include "trees/builders/binned_sah.h"
+#include "trees/builders/bonsai.h"
 #include "trees/builders/hilbert.h"
 #include "trees/builders/incremental.h"
 #include "trees/builders/lbvh.h"

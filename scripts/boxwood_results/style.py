@@ -23,6 +23,7 @@ FAMILIES = {
     "ploc": ("#117733", ">"),
     "sweep_sah": ("#882255", "d"),
     "spatial_sah": ("#AA4499", "H"),
+    "bonsai": ("#999933", "8"),
     "embree": ("#D55E00", "D"),
     "fcl": ("#E69F00", "v"),
     "cgal": ("#CC79A7", "P"),
