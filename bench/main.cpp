@@ -122,6 +122,7 @@ int run(int argc, char** argv) {
     add_merge(app, exit_code);
     add_doctor(app, exit_code);
     add_demo(app, exit_code);
+    add_scene(app, exit_code);
     add_query(app, exit_code);
 
     if (argc < 2) {

@@ -7,6 +7,8 @@
 #include "kernels/catalogue.h"
 #include "scenes/hard_cases/hard_cases.h"
 #include "scenes/motions.h"
+#include "scenes/moving/effect.h"
+#include "scenes/moving/scene_file.h"
 #include "scenes/suggest.h"
 #include "trees/builder.h"
 #include "trees/layout.h"
@@ -133,10 +135,19 @@ Rows family_rows() {
     return rows;
 }
 
+Rows moving_scene_rows() {
+    Rows rows;
+    for (const BuiltInScene& scene : built_in_scenes()) {
+        std::string name(scene.name);
+        std::string summary = load_scene(name).summary;
+        rows.push_back({std::move(name), std::move(summary), {}, {}});
+    }
+    return rows;
+}
+
 struct Catalogue {
     std::string_view name, summary;
     Rows (*rows)();
-    std::string_view if_empty = "";
 };
 
 constexpr std::array catalogues{
@@ -153,8 +164,10 @@ constexpr std::array catalogues{
               [] { return plain(scene_generators()); }},
     Catalogue{"motions", "move a scene's boxes from frame to frame",
               [] { return plain(motions()); }},
-    Catalogue{"effects", "move bodies from frame to frame", [] { return Rows{}; },
-              "none yet: every scene is static"},
+    Catalogue{"moving_scenes", "bodies and what happens to them: `boxwood scene`",
+              moving_scene_rows},
+    Catalogue{"effects", "what may happen to the bodies of a moving scene",
+              [] { return with_settings(effects()); }},
     Catalogue{"asks", "what is wanted of a scene", [] { return plain(asks()); }},
     Catalogue{"executors", "where work runs", [] { return plain(executors()); }},
     Catalogue{"peers", "libraries that are timed and checked beside ours", peer_rows},
@@ -163,8 +176,6 @@ constexpr std::array catalogues{
 
 std::string as_text(const Catalogue& catalogue, const std::string& indent) {
     const Rows rows = catalogue.rows();
-    if (rows.empty())
-        return fmt::format("{}({})\n", indent, catalogue.if_empty);
     std::size_t width = 0;
     for (const Row& row : rows)
         width = std::max(width, row.name.size());

@@ -37,11 +37,6 @@ TEST(List, ARungSaysPromiseBoundAndCost) {
     EXPECT_THAT(json, HasSubstr(R"("family":"triangle_triangle","promise":"certified","bound":)"));
 }
 
-TEST(List, EmptyCataloguesSaySo) {
-    EXPECT_EQ(list_catalogues("effects", true), "[]\n");
-    EXPECT_THAT(list_catalogues("effects", false), HasSubstr("none yet"));
-}
-
 TEST(List, AFamilySaysItsPanelAndItsParameters) {
     const std::string text = list_catalogues("families", false);
     EXPECT_THAT(text, HasSubstr("degenerate: triangles of two planes at an angle of 10^-k"));

@@ -108,16 +108,20 @@ void MovingScene::add_group(const BodyGroup& group, std::size_t index) {
         return;
     // Groups of one generator must not stand on each other.
     const std::uint64_t seed = file_.seed + 0x9e3779b97f4a7c15u * index;
-    const Scene made = make_scene(
+    Scene made = make_scene(
         {.generator = group.generator, .n = n, .seed = seed, .overlaps = group.overlaps});
     if (bodies_.size() + made.boxes.size() >= no_mesh)
         throw std::invalid_argument(
             fmt::format("scene {}: too many bodies; they are numbered by 32 bits", file_.name));
-    if (!made.mesh.triangles.empty())
+    const auto scale = static_cast<float>(group.scale);
+    if (!made.mesh.triangles.empty()) {
+        for (Vec3<float>& vertex : made.mesh.vertices)
+            vertex = scale * vertex;
         bodies_.add(made.mesh);
-    else
+    } else {
         for (const Aabb<float>& box : made.boxes)
-            bodies_.add(box);
+            bodies_.add({scale * box.min, scale * box.max});
+    }
     for (std::uint32_t i = first; i < bodies_.size(); ++i) {
         Vec3<double>& place = bodies_.pose[i].translation;
         place = place + group.at;

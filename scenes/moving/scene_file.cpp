@@ -52,8 +52,8 @@ TomlReader::Words generators(bool meshes_alone) {
 
 BodyGroup read_group(const TomlReader& reader, const toml::table& table) {
     reader.require_known_keys(table, "[[bodies]]",
-                              {"generator", "n", "share", "overlaps", "shape", "triangles", "at",
-                               "neighbours_ignored", "effects"});
+                              {"generator", "n", "share", "overlaps", "shape", "triangles", "scale",
+                               "at", "neighbours_ignored", "effects"});
     BodyGroup group;
     const toml::node* generator = table.get("generator");
     if (!generator)
@@ -80,6 +80,8 @@ BodyGroup read_group(const TomlReader& reader, const toml::table& table) {
         reader.fail(triangles->source(),
                     "triangles is for a shape, such as shape = \"sphere_mesh\"");
     }
+    if (const toml::node* scale = table.get("scale"))
+        group.scale = reader.number(*scale, "scale", 1e-6, 1e6);
     std::vector<double> at;
     reader.list(table, "at", at,
                 [&](const toml::node& node) { return reader.number(node, "at", -1e30, 1e30); });
@@ -103,8 +105,9 @@ BodyGroup read_group(const TomlReader& reader, const toml::table& table) {
 SceneFile parse_scene_file(std::string_view text, const std::string& file) {
     const TomlReader reader(file);
     const toml::table root = reader.parse(text);
-    reader.require_known_keys(root, "a scene file",
-                              {"summary", "n", "seed", "frames", "frames_per_second", "bodies"});
+    reader.require_known_keys(
+        root, "a scene file",
+        {"summary", "n", "seed", "frames", "frames_per_second", "view", "bodies"});
     SceneFile scene;
     scene.name = std::filesystem::path(file).stem().string();
     if (const toml::node* summary = root.get("summary"))
@@ -117,6 +120,8 @@ SceneFile parse_scene_file(std::string_view text, const std::string& file) {
         scene.frames = reader.whole(*frames, "frames", 1, 100'000'000);
     if (const toml::node* fps = root.get("frames_per_second"))
         scene.frames_per_second = reader.number(*fps, "frames_per_second", 1e-3, 1e6);
+    if (const toml::node* view = root.get("view"))
+        scene.view = reader.word(*view, "view", {"xy", "xz", "yz"});
     const toml::node* bodies = root.get("bodies");
     const toml::array* groups = bodies ? bodies->as_array() : nullptr;
     if (!groups || groups->empty())

@@ -27,6 +27,7 @@ struct BodyGroup {
     double overlaps = 10;      ///< as in SceneSpec
     std::string shape;         ///< mesh generator whose mesh fills each body's box; empty: the box
     std::size_t triangles = 0; ///< of that mesh
+    double scale = 1;          ///< on what the generator makes
     Vec3<double> at{};         ///< where the generator's origin is put
     bool neighbours_ignored = false; ///< pairs of bodies i, i + 1 are expected and left out
     std::vector<EffectChoice> effects;
@@ -40,6 +41,7 @@ struct SceneFile {
     std::uint64_t seed = 1;
     std::size_t frames = 100;
     double frames_per_second = 30;
+    std::string view = "xy"; ///< the plane in which it is drawn: xy, xz or yz
     std::vector<BodyGroup> groups;
 };
 

@@ -1,0 +1,115 @@
+#include "bench/commands/command.h"
+#include "bench/scene_picture.h"
+#include "scenes/moving/moving_scene.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace boxwood::bench {
+namespace {
+
+constexpr std::size_t most_drawn = 2000; ///< bodies, unless --n asks for more
+
+struct SceneOptions {
+    std::string scene, svg;
+    std::vector<std::uint64_t> frames;
+    std::optional<std::size_t> n;
+    int depth = -1;
+};
+
+std::string effects_text(const BodyGroup& group) {
+    std::vector<std::string> words;
+    for (const auto& [name, settings, share] : group.effects) {
+        std::vector<std::string> notes;
+        if (share != 1)
+            notes.push_back(fmt::format("on {:g} %", 100 * share));
+        for (const auto& [setting, value] : settings)
+            notes.push_back(fmt::format("{} {:g}", setting, value));
+        words.push_back(notes.empty() ? name
+                                      : fmt::format("{} ({})", name, fmt::join(notes, ", ")));
+    }
+    return words.empty() ? "at rest" : fmt::format("{}", fmt::join(words, ", "));
+}
+
+void describe(const MovingScene& scene) {
+    const SceneFile& file = scene.file();
+    fmt::print("{}: {}\n", file.name, file.summary);
+    fmt::print("{} bodies, {} meshes, seed {}, {} frames of 1/{:g} s\n", scene.bodies().size(),
+               scene.bodies().meshes.size(), file.seed, file.frames, file.frames_per_second);
+    for (const BodyGroup& group : file.groups) {
+        const std::string size =
+            group.n ? fmt::format("{}", group.n) : fmt::format("{:g} % of n", 100 * group.share);
+        fmt::print("  {} ({}): {}{}\n", group.generator, size, effects_text(group),
+                   group.neighbours_ignored ? "; neighbours may overlap" : "");
+    }
+}
+
+void show_scene(const SceneOptions& options) {
+    SceneFile file = load_scene(options.scene);
+    const bool is_drawn = !options.svg.empty();
+    std::optional<std::size_t> n = options.n;
+    if (is_drawn && !n && file.n > most_drawn) {
+        n = most_drawn;
+        fmt::print(stderr, "drawing {} instead of {} bodies; --n {} draws them all\n", most_drawn,
+                   file.n, file.n);
+    }
+    MovingScene scene(std::move(file), n);
+    describe(scene);
+    std::vector<std::uint64_t> frames = options.frames;
+    if (frames.empty())
+        frames = {0};
+    std::ranges::sort(frames);
+    ScenePicture picture(scene, options.depth);
+    std::span<const std::uint32_t> changed;
+    for (const std::uint64_t frame : frames) {
+        while (scene.frame() < frame)
+            changed = scene.advance();
+        if (is_drawn) {
+            picture.add(scene, changed);
+            continue;
+        }
+        const BoxedBodies present = boxed(scene.bodies());
+        fmt::print("frame {}: {} present, {} changed, {} pairs\n", frame, present.body.size(),
+                   changed.size(), overlapping_bodies(scene, present).size());
+    }
+    if (!is_drawn)
+        return;
+    std::ofstream out(options.svg, std::ios::binary);
+    out << picture.svg();
+    out.close();
+    if (!out)
+        throw BadInput(fmt::format("{}: cannot write it: does the folder exist, is the disk full?",
+                                   options.svg));
+    fmt::print("{}\n", options.svg);
+}
+
+} // namespace
+
+void add_scene(CLI::App& app, int&) {
+    CLI::App* scene = app.add_subcommand("scene", "what is in a moving scene, frame by frame");
+    const auto options = std::make_shared<SceneOptions>();
+    scene->add_option("scene", options->scene, "a built-in scene, or a scene file (.toml)")
+        ->required();
+    scene->add_option("--frame", options->frames, "frames to show, such as 0,30,60 (default: 0)")
+        ->delimiter(',');
+    scene->add_option("--svg", options->svg, "draw the frames side by side into this file");
+    scene->add_option("--depth", options->depth, "draw the tree's boxes of this depth too")
+        ->check(CLI::Range(0, 64));
+    scene->add_option("--n", options->n, "number of bodies instead of the scene's")
+        ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}));
+    scene->footer("The built-in scenes: `boxwood list scenes`; what may happen in a scene of your "
+                  "own: `boxwood list effects`.\n"
+                  "Example: boxwood scene warehouse --n 500 --frame 0,60 --svg warehouse.svg "
+                  "--depth 3");
+    scene->callback([options] { show_scene(*options); });
+}
+
+} // namespace boxwood::bench
