@@ -75,7 +75,7 @@ void pairs(const T& a, const T& b, const Executor& executor, PairSink& sink, Wor
         return;
     }
     if (can_start) {
-        constexpr std::uint32_t least = 64;
+        constexpr std::uint32_t least = Self ? 64 : 2; // no step of such nodes meets two leaves
         const auto weight = [&](Pair nodes) -> std::size_t {
             const std::uint32_t x = a.nodes[nodes.a].count, y = b.nodes[nodes.b].count;
             return x < least || y < least ? 0 : std::size_t{x} + y;

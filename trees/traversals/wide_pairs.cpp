@@ -38,16 +38,34 @@ namespace {
 BOXWOOD_WIDE_LAYOUTS(X)
 #undef X
 
-/// The first tasks of a walk: pairs of inner blocks are opened.
+/// The first tasks of a walk: pairs of inner blocks are opened, and of two trees also a leaf and an
+/// inner block, so that a tree of few items shares out the other.
 template <bool Self, class L> std::vector<Pair> first_tasks(const L& a, const L& b, Work* work) {
     if (a.empty() || b.empty())
         return {};
     const auto weight = [&](Pair nodes) -> std::size_t {
-        return L::is_leaf(nodes.a) || L::is_leaf(nodes.b)
-                   ? 0
-                   : std::size_t{a.block(nodes.a).items} + b.block(nodes.b).items;
+        const bool leaf_a = L::is_leaf(nodes.a), leaf_b = L::is_leaf(nodes.b);
+        if (Self ? leaf_a || leaf_b : leaf_a && leaf_b)
+            return 0;
+        return std::size_t{leaf_a ? 0 : a.block(nodes.a).items} +
+               (leaf_b ? 0 : b.block(nodes.b).items);
     };
     return share_out({a.root(), b.root()}, weight, [&](Pair nodes, std::vector<Pair>& out) {
+        const auto open_one = [&](const auto& block, const auto& leaf, auto pair_with) {
+            for (std::uint32_t i = 0; i < block.count; ++i)
+                if (overlaps(block.lane(i), leaf))
+                    out.push_back(pair_with(block.ref[i]));
+            if (work)
+                *work += {.node_visits = 1, .box_tests = block.count};
+        };
+        if (L::is_leaf(nodes.a))
+            return open_one(b.block(nodes.b), a.leaf(nodes.a).bounds, [&](std::uint32_t ref) {
+                return Pair{nodes.a, ref};
+            });
+        if (L::is_leaf(nodes.b))
+            return open_one(a.block(nodes.a), b.leaf(nodes.b).bounds, [&](std::uint32_t ref) {
+                return Pair{ref, nodes.b};
+            });
         const auto& x = a.block(nodes.a);
         const auto& y = b.block(nodes.b);
         const bool same = Self && nodes.a == nodes.b;
