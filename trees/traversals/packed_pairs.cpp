@@ -66,6 +66,24 @@ struct SixteenBoxes {
     }
 };
 
+/// A block and its items twice in a row: sixteen lanes from lane k on are the block turned by k.
+struct TwiceSixteen {
+    alignas(64) float plane[6][2 * PackedBlock::width];
+    alignas(64) std::uint32_t item[2 * PackedBlock::width];
+
+    void hold(const SixteenBoxes& boxes) {
+        for (std::size_t r = 0; r < registers; ++r) {
+            const F planes[] = {boxes.min_x[r], boxes.min_y[r], boxes.min_z[r],
+                                boxes.max_x[r], boxes.max_y[r], boxes.max_z[r]};
+            for (const std::size_t at : {r * lanes, r * lanes + PackedBlock::width}) {
+                for (std::size_t p = 0; p < 6; ++p)
+                    hn::Store(planes[p], df, plane[p] + at);
+                hn::Store(boxes.item[r], du, item + at);
+            }
+        }
+    }
+};
+
 /// The lanes of register r that overlap lane `lane` of another block.
 HWY_INLINE M Overlap(const SixteenBoxes& boxes, std::size_t r, const PackedBlock& block,
                      std::size_t lane) {
@@ -73,6 +91,16 @@ HWY_INLINE M Overlap(const SixteenBoxes& boxes, std::size_t r, const PackedBlock
     return hn::And(hn::And(hn::And(hn::Le(boxes.min_x[r], one(3)), hn::Ge(boxes.max_x[r], one(0))),
                            hn::And(hn::Le(boxes.min_y[r], one(4)), hn::Ge(boxes.max_y[r], one(1)))),
                    hn::And(hn::Le(boxes.min_z[r], one(5)), hn::Ge(boxes.max_z[r], one(2))));
+}
+/// The lanes i of register r that overlap lane i + k of their own block.
+HWY_INLINE M Overlap(const SixteenBoxes& boxes, std::size_t r, const TwiceSixteen& twice,
+                     std::size_t k) {
+    const auto turned = [&](std::size_t p)
+                            HWY_ATTR { return hn::LoadU(df, twice.plane[p] + r * lanes + k); };
+    return hn::And(
+        hn::And(hn::And(hn::Le(boxes.min_x[r], turned(3)), hn::Ge(boxes.max_x[r], turned(0))),
+                hn::And(hn::Le(boxes.min_y[r], turned(4)), hn::Ge(boxes.max_y[r], turned(1)))),
+        hn::And(hn::Le(boxes.min_z[r], turned(5)), hn::Ge(boxes.max_z[r], turned(2))));
 }
 
 /// Appends to `out` the lanes (numbered through the level: 16 block + lane) of the listed blocks
@@ -195,21 +223,16 @@ template <bool Self, bool Counted> class Walk {
         }
         const SixteenBoxes boxes(block, a_.items().data() + at * w);
         if constexpr (Self)
-            if (!meet_itself(boxes, at))
-                return false;
+            twice_.hold(boxes);
         PackedList& slots = lists_[5];
         slots.clear();
         Refine<Counted>(b_.level(0).data(), *blocks, Self ? 1 : 0, box, slots, work_);
         const std::uint32_t* const items = b_.items().data();
         const PackedBlock* const level = b_.level(0).data();
-        for (std::size_t j = 0; j < slots.size();) {
-            std::size_t n = pairs_.size();
-            const std::size_t some = std::min(slots.size() - j, pairs_.free() / w);
-            for (const std::size_t end = j + some; j < end; ++j) {
-                const std::uint32_t slot = slots[j];
-                n = meet<false>(boxes, level[slot / w], slot % w, items[slot], n);
-            }
-            pairs_.resize(n);
+        for (const std::uint32_t *slot = slots.data(), *last = slot + slots.size(); slot < last;) {
+            const auto some = std::min(static_cast<std::size_t>(last - slot), pairs_.free() / w);
+            meet(boxes, level, items, slot, slot + some);
+            slot += some;
             if (pairs_.free() < w && !flush())
                 return false;
         }
@@ -217,44 +240,57 @@ template <bool Self, bool Counted> class Walk {
             work_->node_visits += slots.size();
             work_->box_tests += w * slots.size();
         }
+        if constexpr (Self)
+            return meet_itself(boxes);
         return true;
     }
 
-    bool meet_itself(const SixteenBoxes& boxes, std::size_t at) {
-        if (pairs_.free() < w * w && !flush())
+    /// The block against itself turned by one to eight lanes, which meets any two lanes once, those
+    /// eight apart twice. After all else of a leaf: what `twice_` holds is in the cache by now.
+    bool meet_itself(const SixteenBoxes& boxes) {
+        if (pairs_.free() < w * w / 2 && !flush())
             return false;
-        const std::size_t count = std::min(w, a_.size() - at * w);
-        const PackedBlock& block = a_.level(0)[at];
-        const std::uint32_t* const items = a_.items().data() + at * w;
+        std::uint32_t *const a = pairs_.a(), *const b = pairs_.b();
         std::size_t n = pairs_.size();
-        for (std::size_t lane = 0; lane + 1 < count; ++lane)
-            n = meet<true>(boxes, block, lane, items[lane], n);
+        for (std::size_t k = 1; k <= w / 2; ++k)
+            for (std::size_t r = 0; r < registers; ++r) {
+                if (k == w / 2 && r * lanes >= w / 2)
+                    break;
+                M hits = Overlap(boxes, r, twice_, k);
+                if (k == w / 2)
+                    hits = hn::And(hits, hn::FirstN(df, w / 2));
+                const auto mask = hn::RebindMask(du, hits);
+                hn::StoreU(hn::Compress(boxes.item[r], mask), du, a + n);
+                hn::StoreU(hn::Compress(hn::LoadU(du, twice_.item + r * lanes + k), mask), du,
+                           b + n);
+                n += hn::CountTrue(du, mask);
+            }
         pairs_.resize(n);
         if constexpr (Counted) {
             ++work_->node_visits;
-            work_->box_tests += w * (count - 1);
+            work_->box_tests += w * w / 2;
         }
         return true;
     }
 
-    /// Lane `lane` of a block of `b`, which holds `item`, against all of `boxes`, or, of its own
-    /// block, those after it: appends to the n entries of the columns, returns how many there are.
-    template <bool After>
-    HWY_INLINE std::size_t meet(const SixteenBoxes& boxes, const PackedBlock& block,
-                                std::size_t lane, std::uint32_t item, std::size_t n) {
-        for (std::size_t r = 0; r < registers; ++r) {
-            M hits = Overlap(boxes, r, block, lane);
-            if constexpr (After)
-                hits = hn::And(
-                    hits,
-                    hn::RebindMask(df, hn::Gt(hn::Iota(du, static_cast<std::uint32_t>(r * lanes)),
-                                              hn::Set(du, static_cast<std::uint32_t>(lane)))));
-            const auto mask = hn::RebindMask(du, hits);
-            hn::StoreU(hn::Compress(boxes.item[r], mask), du, pairs_.a() + n);
-            hn::StoreU(hn::Set(du, item), du, pairs_.b() + n);
-            n += hn::CountTrue(du, mask);
+    /// The slots [slot, end) of `b` against all of `boxes`: appends to the columns, which have
+    /// room.
+    HWY_INLINE void meet(const SixteenBoxes& boxes, const PackedBlock* level,
+                         const std::uint32_t* items, const std::uint32_t* slot,
+                         const std::uint32_t* end) {
+        std::uint32_t *const a = pairs_.a(), *const b = pairs_.b();
+        std::size_t n = pairs_.size();
+        for (; slot < end; ++slot) {
+            const auto item = hn::Set(du, items[*slot]);
+            const PackedBlock& block = level[*slot / w];
+            for (std::size_t r = 0; r < registers; ++r) {
+                const auto hits = hn::RebindMask(du, Overlap(boxes, r, block, *slot % w));
+                hn::StoreU(hn::Compress(boxes.item[r], hits), du, a + n);
+                hn::StoreU(item, du, b + n);
+                n += hn::CountTrue(du, hits);
+            }
         }
-        return n;
+        pairs_.resize(n);
     }
 
     /// Makes pairs of the columns.
@@ -279,6 +315,7 @@ template <bool Self, bool Counted> class Walk {
     const PackedLayout& b_;
     Work* work_;
     std::array<PackedList, 6> lists_;
+    TwiceSixteen twice_;
 };
 
 template <bool Self, bool Counted>
@@ -345,13 +382,51 @@ Work self_pairs_counted(const PackedLayout& tree, PairSink& sink) {
     run(tree, tree, true, serial(), sink, &work);
     return work;
 }
+namespace {
+
+/// Hands on each pair the other way round.
+class Swapped final : public PairSink {
+  public:
+    explicit Swapped(PairSink& sink) : sink_(sink) {}
+
+    void begin(std::size_t chunks, bool in_order) override { sink_.begin(chunks, in_order); }
+    bool take(std::size_t chunk, std::span<const Pair> pairs) override {
+        std::array<Pair, 256> swapped; // 2 KiB of stack
+        for (std::size_t done = 0; done < pairs.size();) {
+            const std::size_t n = std::min(swapped.size(), pairs.size() - done);
+            for (std::size_t i = 0; i < n; ++i)
+                swapped[i] = {pairs[done + i].b, pairs[done + i].a};
+            if (!sink_.take(chunk, {swapped.data(), n}))
+                return false;
+            done += n;
+        }
+        return true;
+    }
+    void finish(std::size_t chunk) override { sink_.finish(chunk); }
+    void end() override { sink_.end(); }
+
+  private:
+    PairSink& sink_;
+};
+
+/// Chunks are cut from the first tree: where it is much the smaller, from the other.
+void run_two(const PackedLayout& a, const PackedLayout& b, const Executor& executor, PairSink& sink,
+             Work* work) {
+    if (16 * a.size() >= b.size())
+        return run(a, b, false, executor, sink, work);
+    Swapped swapped(sink);
+    run(b, a, false, executor, swapped, work);
+}
+
+} // namespace
+
 void tree_pairs(const PackedLayout& a, const PackedLayout& b, const Executor& executor,
                 PairSink& sink) {
-    run(a, b, false, executor, sink, nullptr);
+    run_two(a, b, executor, sink, nullptr);
 }
 Work tree_pairs_counted(const PackedLayout& a, const PackedLayout& b, PairSink& sink) {
     Work work;
-    run(a, b, false, serial(), sink, &work);
+    run_two(a, b, serial(), sink, &work);
     return work;
 }
 

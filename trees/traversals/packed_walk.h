@@ -9,10 +9,16 @@
 
 namespace boxwood {
 
-/// A growing list of blocks or slots, uninitialised beyond its end.
+/// A growing list of blocks or slots, uninitialised beyond its end. Most stay where the list itself
+/// is, and take no memory from the heap.
 class PackedList {
   public:
+    PackedList() = default;
+    PackedList(const PackedList&) = delete;
+    PackedList& operator=(const PackedList&) = delete;
+
     std::size_t size() const { return size_; }
+    const std::uint32_t* data() const { return data_; }
     std::uint32_t operator[](std::size_t i) const { return data_[i]; }
     void clear() { size_ = 0; }
     void push(std::uint32_t x) {
@@ -20,23 +26,27 @@ class PackedList {
         ++size_;
     }
     void copy(const PackedList& other) {
-        std::copy_n(other.data_.data(), other.size_, reserve(other.size_));
+        std::copy_n(other.data_, other.size_, reserve(other.size_));
         size_ += other.size_;
     }
     /// Where the next entries go, with room for n.
     std::uint32_t* reserve(std::size_t n) {
-        if (size_ + n > data_.size()) {
-            Buffer<std::uint32_t> larger(std::max<std::size_t>(2 * (size_ + n), 512));
-            std::copy_n(data_.data(), size_, larger.data());
-            data_ = std::move(larger);
+        if (size_ + n > room_) {
+            Buffer<std::uint32_t> larger(2 * (size_ + n));
+            std::copy_n(data_, size_, larger.data());
+            grown_ = std::move(larger);
+            data_ = grown_.data();
+            room_ = grown_.size();
         }
-        return data_.data() + size_;
+        return data_ + size_;
     }
     void grow(std::size_t n) { size_ += n; }
 
   private:
-    Buffer<std::uint32_t> data_;
-    std::size_t size_ = 0;
+    std::size_t size_ = 0, room_ = 768;
+    alignas(64) std::uint32_t own_[768];
+    std::uint32_t* data_ = own_;
+    Buffer<std::uint32_t> grown_;
 };
 
 /// What one chunk found: two columns of items, made into pairs and handed over when they are full.
