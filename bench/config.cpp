@@ -1,5 +1,6 @@
 #include "bench/config.h"
 
+#include "bench/commands/command.h"
 #include "bench/config_reader.h"
 #include "bench/families.h"
 #include "bench/rays.h"
@@ -241,14 +242,10 @@ std::vector<std::string> kernels_of(const Block& block, Ask ask) {
                                                                             : *block.kernels;
 }
 
-Config parse_config(std::string_view text, const std::string& file) {
-    const Reader reader(file);
-    toml::table root;
-    try {
-        root = toml::parse(text);
-    } catch (const toml::parse_error& error) {
-        reader.fail(error.source(), fmt::format("not TOML: {}", error.description()));
-    }
+namespace {
+
+Config read_config(const Reader& reader, std::string_view text) {
+    const toml::table root = reader.parse(text);
     reader.require_known_keys(root, "a sweep file",
                               {"rounds", "min_time_ms", "delta", "seed", "threads", "cells"});
     Config config;
@@ -267,13 +264,23 @@ Config parse_config(std::string_view text, const std::string& file) {
     const toml::node* cells = root.get("cells");
     const toml::array* blocks = cells ? cells->as_array() : nullptr;
     if (!blocks || blocks->empty())
-        throw BadInput(file + ": no [[cells]] block: there is nothing to measure");
+        throw BadInput(reader.file() + ": no [[cells]] block: there is nothing to measure");
     for (const toml::node& node : *blocks) {
         if (!node.is_table())
             reader.fail(node.source(), "cells must be [[cells]] blocks");
         config.blocks.push_back(read_block(reader, *node.as_table(), threads));
     }
     return config;
+}
+
+} // namespace
+
+Config parse_config(std::string_view text, const std::string& file) {
+    try {
+        return read_config(Reader(file), text);
+    } catch (const std::invalid_argument& error) {
+        throw BadInput(error.what());
+    }
 }
 
 } // namespace boxwood::bench

@@ -12,9 +12,10 @@
 #include "scenes/four_link.h" // the demo's robot: forward kinematics and its boxes
 #include "scenes/mesh_file.h" // the user's mesh through assimp, with what is wrong in it said
 #include "scenes/motions.h"   // boxes that drift and jump from frame to frame
-#include "scenes/queries.h"   // points and regions laid into a scene
-#include "scenes/random.h"    // Philox: item i is independent of n and of order
-#include "scenes/rays.h"      // camera, random, ambient and occlusion rays at a mesh
-#include "scenes/scatter.h"   // boxes that overlap as often as wanted
-#include "scenes/scene.h"     // the contract: SceneSpec, Scene, make_scene, the catalogues
-#include "scenes/suggest.h"   // "did you mean ...?"
+#include "scenes/moving/moving_scene.h" // bodies and what happens to them, played frame by frame
+#include "scenes/queries.h"             // points and regions laid into a scene
+#include "scenes/random.h"              // Philox: item i is independent of n and of order
+#include "scenes/rays.h"                // camera, random, ambient and occlusion rays at a mesh
+#include "scenes/scatter.h"             // boxes that overlap as often as wanted
+#include "scenes/scene.h"   // the contract: SceneSpec, Scene, make_scene, the catalogues
+#include "scenes/suggest.h" // "did you mean ...?"

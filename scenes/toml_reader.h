@@ -1,8 +1,12 @@
 #pragma once
 
+#include "kernels/settings.h"
+
 #include <toml++/toml.h>
 
 #include <cstdint>
+#include <limits>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -31,6 +35,34 @@ class TomlReader {
     std::string text(const toml::node& node, std::string_view key) const;
     /// One of the known words.
     std::string word(const toml::node& node, std::string_view key, const Words& known) const;
+
+    /// "WORD", or {name = "WORD", SETTING = NUMBER, ...}. read: the name's node to the name;
+    /// try_out(name, settings) throws std::invalid_argument for a bad setting; is_taken(key,
+    /// value): whether a key is no setting but something of the caller's.
+    template <class Read, class TryOut, class IsTaken>
+    std::pair<std::string, Settings> with_settings(const toml::node& node, std::string_view what,
+                                                   Read read, TryOut try_out,
+                                                   IsTaken is_taken) const {
+        if (node.is_string())
+            return {read(node), {}};
+        const toml::table* table = node.as_table();
+        const toml::node* name = table ? table->get("name") : nullptr;
+        if (!name)
+            fail(node.source(),
+                 std::string(what) + " is a word, or {name = \"WORD\", SETTING = NUMBER, ...}");
+        using Limits = std::numeric_limits<double>;
+        std::pair<std::string, Settings> made{read(*name), {}};
+        for (const auto& [key, value] : *table)
+            if (key != "name" && !is_taken(key.str(), value))
+                made.second[std::string(key.str())] =
+                    number(value, key.str(), Limits::lowest(), Limits::max());
+        try {
+            try_out(made.first, made.second);
+        } catch (const std::invalid_argument& error) {
+            fail(node.source(), error.what());
+        }
+        return made;
+    }
 
     /// Replaces `out` by what `read` makes of the value of `key`, or of each element if it is a
     /// list; leaves it as it is if there is no such key.

@@ -11,6 +11,7 @@
 #include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <tuple>
 
 namespace boxwood {
 namespace {
@@ -19,26 +20,17 @@ constexpr std::int64_t most_bodies = 100'000'000;
 
 /// "drift", or {name = "drift", share = 0.5, speed = 2}.
 EffectChoice read_effect(const TomlReader& reader, const toml::node& node) {
-    if (node.is_string())
-        return {reader.word(node, "effects", names_of(effects())), {}, 1};
-    const toml::table* table = node.as_table();
-    const toml::node* name = table ? table->get("name") : nullptr;
-    if (!name)
-        reader.fail(node.source(), "an effect is a word, or {name = \"WORD\", share = NUMBER, "
-                                   "SETTING = NUMBER, ...}");
-    EffectChoice choice{reader.word(*name, "effects", names_of(effects())), {}, 1};
-    for (const auto& [key, value] : *table)
-        if (key == "share")
+    EffectChoice choice;
+    std::tie(choice.name, choice.settings) = reader.with_settings(
+        node, "an effect",
+        [&](const toml::node& name) { return reader.word(name, "effects", names_of(effects())); },
+        [](const std::string& name, const Settings& settings) { effect_of(name).make(settings); },
+        [&](std::string_view key, const toml::node& value) {
+            if (key != "share")
+                return false;
             choice.share = reader.number(value, "share", 0, 1);
-        else if (key != "name")
-            choice.settings[std::string(key.str())] =
-                reader.number(value, key.str(), std::numeric_limits<double>::lowest(),
-                              std::numeric_limits<double>::max());
-    try {
-        effect_of(choice.name).make(choice.settings);
-    } catch (const std::invalid_argument& error) {
-        reader.fail(node.source(), error.what());
-    }
+            return true;
+        });
     return choice;
 }
 
