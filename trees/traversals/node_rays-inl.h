@@ -8,319 +8,63 @@
 
 #include <hwy/highway.h>
 
-#include "kernels/ray_box/fused_slabs.h"
-#include "kernels/ray_triangle/moller_trumbore_block-inl.h"
-#include "kernels/ray_triangle/watertight_block-inl.h"
-#include "trees/traversals/ray_tree.h"
-#include "trees/traversals/ray_walk.h"
-
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cmath>
-#include <cstring>
+#include "trees/traversals/ray_wave-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::HWY_NAMESPACE {
 
-template <class Node> using NodeTag = hwy::HWY_NAMESPACE::CappedTag<float, Node::width>;
-
-/// Lanes [i, i + Lanes(d)) of the plane of this axis that stands `offset` bytes behind the first.
-template <std::size_t W>
-HWY_INLINE hwy::HWY_NAMESPACE::Vec<NodeTag<RayNode<W>>>
-PlaneOf(const RayNode<W>& node, int /*axis*/, std::size_t offset, std::size_t i) {
-    const auto* planes = reinterpret_cast<const std::byte*>(node.plane);
-    return hwy::HWY_NAMESPACE::Load(NodeTag<RayNode<W>>(),
-                                    reinterpret_cast<const float*>(planes + offset) + i);
-}
-/// `decode` of QuantisedBlock, operation for operation.
-HWY_INLINE hwy::HWY_NAMESPACE::Vec<NodeTag<QuantisedBlock>>
-PlaneOf(const QuantisedBlock& node, int axis, std::size_t offset, std::size_t i) {
-    namespace hn = hwy::HWY_NAMESPACE;
-    const NodeTag<QuantisedBlock> d;
-    const hn::Rebind<std::uint8_t, decltype(d)> d8;
-    const hn::Rebind<std::int32_t, decltype(d)> d32;
-    const auto steps =
-        hn::ConvertTo(d, hn::PromoteTo(d32, hn::LoadU(d8, node.plane[0] + offset + i)));
-    return hn::Add(hn::Set(d, node.bounds.min[axis]), hn::Mul(steps, hn::Set(d, node.scale[axis])));
-}
-
-/// The lanes that a ray hits, without those that are not in use.
-template <std::size_t W, class M> HWY_INLINE M UsedOf(const RayNode<W>&, M hits, std::size_t) {
-    return hits; // the empty box is never hit
-}
-template <class M> HWY_INLINE M UsedOf(const QuantisedBlock& node, M hits, std::size_t i) {
-    namespace hn = hwy::HWY_NAMESPACE;
-    return hn::And(hits,
-                   hn::FirstN(NodeTag<QuantisedBlock>(), node.count > i ? node.count - i : 0));
-}
-
-struct WaitingNode {
-    std::uint32_t ref;
-    float entry;
-};
-static_assert(sizeof(WaitingNode) == 8);
-
-/// FusedSlabs in registers.
-template <class Node> class NodeClip {
-    using D = NodeTag<Node>;
-    using V = hwy::HWY_NAMESPACE::Vec<D>;
-    using M = hwy::HWY_NAMESPACE::Mask<D>;
-
-  public:
-    HWY_INLINE NodeClip(const FusedSlabs& slabs, float t_min)
-        : re0_(Everywhere(slabs.entry_rdir[0])), re1_(Everywhere(slabs.entry_rdir[1])),
-          re2_(Everywhere(slabs.entry_rdir[2])), se0_(Everywhere(slabs.entry_shift[0])),
-          se1_(Everywhere(slabs.entry_shift[1])), se2_(Everywhere(slabs.entry_shift[2])),
-          rx0_(Everywhere(slabs.exit_rdir[0])), rx1_(Everywhere(slabs.exit_rdir[1])),
-          rx2_(Everywhere(slabs.exit_rdir[2])), sx0_(Everywhere(slabs.exit_shift[0])),
-          sx1_(Everywhere(slabs.exit_shift[1])), sx2_(Everywhere(slabs.exit_shift[2])),
-          t_min_(Everywhere(t_min)) {
-        near0_ = Near(slabs, 0);
-        near1_ = Near(slabs, 1);
-        near2_ = Near(slabs, 2);
-    }
-
-    /// `clip` for the lanes from i on: which are hit, and where each is entered.
-    HWY_INLINE M Hits(const Node& node, std::size_t i, V t_max, V& entry) const {
-        namespace hn = hwy::HWY_NAMESPACE;
-        entry = hn::Max(hn::Max(hn::MulSub(PlaneOf(node, 0, near0_, i), re0_, se0_),
-                                hn::MulSub(PlaneOf(node, 1, near1_, i), re1_, se1_)),
-                        hn::Max(hn::MulSub(PlaneOf(node, 2, near2_, i), re2_, se2_), t_min_));
-        const V exit = hn::Min(
-            hn::Min(hn::MulSub(PlaneOf(node, 0, 3 * plane - near0_, i), rx0_, sx0_),
-                    hn::MulSub(PlaneOf(node, 1, 5 * plane - near1_, i), rx1_, sx1_)),
-            hn::Min(hn::MulSub(PlaneOf(node, 2, 7 * plane - near2_, i), rx2_, sx2_), t_max));
-        return UsedOf(node, hn::Le(entry, exit), i);
-    }
-
-  private:
-    static constexpr std::size_t plane = sizeof(Node::plane) / 6; ///< bytes
-
-    static HWY_INLINE V Everywhere(float x) { return hwy::HWY_NAMESPACE::Set(D(), x); }
-    static HWY_INLINE std::size_t Near(const FusedSlabs& slabs, std::size_t k) {
-        return plane * (std::signbit(slabs.entry_rdir[k]) ? 3 + k : k);
-    }
-
-    const V re0_, re1_, re2_, se0_, se1_, se2_, rx0_, rx1_, rx2_, sx0_, sx1_, sx2_, t_min_;
-    std::size_t near0_, near1_, near2_; ///< of `PlaneOf`; the far planes are the others
-};
-
-/// As LaneBits, for up to 16 lanes.
-template <class D, class M> HWY_INLINE std::uint32_t WideBits(D d, M m, std::size_t first) {
-    std::uint8_t bytes[8] = {};
-    hwy::HWY_NAMESPACE::StoreMaskBits(d, m, bytes);
-    return (bytes[0] | std::uint32_t{bytes[1]} << 8) << first;
-}
-
-/// More than two children are hit: the farthest first on the stack, the nearest on top of it.
-template <class Node>
-HWY_INLINE void PushSorted(const Node& node, std::uint32_t bits, const float* entry,
-                           WaitingNode* stack) {
-    std::size_t top = 0;
-    for (; bits != 0; bits &= bits - 1) {
-        const auto lane = static_cast<std::uint32_t>(std::countr_zero(bits));
-        const WaitingNode other{node.ref[lane], entry[lane]};
-        std::size_t place = top++;
-        for (; place > 0 && stack[place - 1].entry < other.entry; --place)
-            stack[place] = stack[place - 1];
-        stack[place] = other;
-    }
-}
-
-#if HWY_TARGET != HWY_SCALAR && HWY_TARGET <= HWY_AVX2
-/// The entries (>= 0) of eight lanes in one register as integers of the same order, the lane in the
-/// lowest three bits.
-template <class V> HWY_INLINE auto KeysOf(V entry) {
-    namespace hn = hwy::HWY_NAMESPACE;
-    const hn::CappedTag<std::uint32_t, 8> du;
-    return hn::Or(hn::AndNot(hn::Set(du, 7u), hn::BitCast(du, hn::Abs(entry))), hn::Iota(du, 0));
-}
-
-/// The lane of the least key among the hits, of which there is one at least.
-template <class U, class M> HWY_INLINE std::uint32_t NearestOf(U keys, M hits) {
-    namespace hn = hwy::HWY_NAMESPACE;
-    const hn::CappedTag<std::uint32_t, 8> du;
-    auto least = hn::IfThenElse(hn::RebindMask(du, hits), keys, hn::Set(du, ~std::uint32_t{0}));
-    least = hn::Min(least, hn::Shuffle2301(least));
-    least = hn::Min(least, hn::Shuffle1032(least));
-    least = hn::Min(least, hn::ConcatLowerUpper(du, least, least));
-    return hn::GetLane(least) & 7;
-}
-
-/// As PushSorted for the lanes of `bits`, without a branch: a network of 19 comparisons.
-template <class U>
-HWY_INLINE void PushSortedEight(const std::uint32_t* refs, U keys, std::uint32_t bits,
-                                WaitingNode* stack) {
-    namespace hn = hwy::HWY_NAMESPACE;
-    const hn::CappedTag<std::uint32_t, 8> du;
-    const auto lanes = hn::Set(du, 7u);
-    const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits)};
-    auto key = hn::IfThenElseZero(hn::LoadMaskBits(du, bytes), keys);
-    alignas(32) static constexpr std::uint32_t partner[6][8] = {
-        {2, 3, 0, 1, 6, 7, 4, 5}, {4, 5, 6, 7, 0, 1, 2, 3}, {1, 0, 3, 2, 5, 4, 7, 6},
-        {0, 1, 4, 5, 2, 3, 6, 7}, {0, 4, 2, 6, 1, 5, 3, 7}, {0, 2, 1, 4, 3, 6, 5, 7}};
-    static constexpr std::uint8_t takes_less[6] = {0b11001100, 0b11110000, 0b10101010,
-                                                   0b00110000, 0b01010000, 0b01010100};
-#pragma GCC unroll 6
-    for (int step = 0; step < 6; ++step) {
-        const auto other = hn::TableLookupLanes(key, hn::SetTableIndices(du, partner[step]));
-        key = hn::IfThenElse(hn::LoadMaskBits(du, &takes_less[step]), hn::Min(key, other),
-                             hn::Max(key, other));
-    }
-    const auto sorted =
-        hn::TableLookupLanes(hn::LoadU(du, refs), hn::IndicesFromVec(du, hn::And(key, lanes)));
-    hn::StoreInterleaved2(sorted, hn::AndNot(lanes, key), du,
-                          reinterpret_cast<std::uint32_t*>(stack));
-}
-#endif
-
-/// Whether eight entries stay in one register.
-template <class Node>
-inline constexpr bool in_register =
-    HWY_TARGET != HWY_SCALAR&& HWY_TARGET <= HWY_AVX2&& Node::width == 8;
-
-/// `bits` of the children of a node are hit, at least one. Gives the nearest; the others wait.
-/// `entry` and `hits` are those of the last register, `entries` of all lanes unless `in_register`.
-template <class Node, class V, class M>
-HWY_INLINE std::uint32_t Nearest(const Node& node, std::uint32_t bits, float* entries,
-                                 [[maybe_unused]] V entry, [[maybe_unused]] M hits,
-                                 WaitingNode* stack, std::size_t& top) {
-    const auto waits = [&](std::uint32_t lane) {
-        return WaitingNode{node.ref[lane], entries[lane]};
-    };
-#if HWY_TARGET != HWY_SCALAR && HWY_TARGET <= HWY_AVX2
-    if constexpr (in_register<Node>) {
-        // How many are hit is hard to predict: nothing that the next node waits for depends on it.
-        const auto keys = KeysOf(entry);
-        const std::uint32_t near = NearestOf(keys, hits), others = bits & ~(1u << near);
-        if (others != 0) {
-            if ((others & (others - 1)) == 0) {
-                hwy::HWY_NAMESPACE::Store(entry, NodeTag<Node>(), entries);
-                stack[top] = waits(static_cast<std::uint32_t>(std::countr_zero(others)));
-            } else {
-                PushSortedEight(node.ref, keys, others, stack + top);
-            }
-            top += static_cast<std::size_t>(std::popcount(others));
-        }
-        return node.ref[near];
-    }
-#endif
-    const auto first = static_cast<std::uint32_t>(std::countr_zero(bits));
-    const std::uint32_t others = bits & (bits - 1);
-    if (others == 0)
-        return node.ref[first];
-    if ((others & (others - 1)) == 0) {
-        // Which is nearer is a coin's toss: no branch.
-        const auto a = std::bit_cast<std::uint64_t>(waits(first));
-        const auto second = static_cast<std::uint32_t>(std::countr_zero(others));
-        const auto b = std::bit_cast<std::uint64_t>(waits(second));
-        const bool swap = entries[second] < entries[first];
-        stack[top++] = std::bit_cast<WaitingNode>(swap ? a : b);
-        return std::bit_cast<WaitingNode>(swap ? b : a).ref;
-    }
-    PushSorted(node, bits, entries, stack + top);
-    top += static_cast<std::size_t>(std::popcount(bits)) - 1;
-    return stack[top].ref;
-}
-
-template <class Node, RayKernel K, RayMode mode, bool Counted>
-HWY_INLINE void WalkRay(const TriangleBlocks& tree, const FusedSlabs& slabs, const Ray<float>& ray,
-                        RayWalk<K, mode, Counted>& state, WaitingNode* stack, std::uint32_t* refs) {
+/// All hits of one ray; nodes in no order.
+template <class Node, RayKernel K>
+HWY_INLINE void WalkAll(const TriangleBlocks& tree, const FusedSlabs& slabs, const Ray<float>& ray,
+                        RayWalk<K, RayMode::all, false>& state, std::uint32_t* waiting) {
     namespace hn = hwy::HWY_NAMESPACE;
     const NodeTag<Node> df;
     const hn::Rebind<std::uint32_t, decltype(df)> du;
     const NodeClip<Node> clip(slabs, state.t_min());
     const auto* nodes = reinterpret_cast<const Node*>(tree.nodes.data());
     const auto* blocks = reinterpret_cast<const RayBlock<Node>*>(tree.blocks.data());
+    const auto t_max = hn::Set(df, state.t_max());
     BlockHits<ray_lanes<Node>> hits;
-    auto t_max = hn::Set(df, state.t_max());
-    std::size_t top = 0;
-    std::uint32_t at = tree.root;
-    for (;;) {
+    waiting[0] = tree.root;
+    std::size_t top = 1;
+    while (top != 0) {
+        const std::uint32_t at = waiting[--top];
         if (ray_refs::is_leaf(at)) {
             const RayBlock<Node>* block = blocks + ray_refs::index(at);
             const RayBlock<Node>* last = block + (Node::width > 8 && (at & ray_refs::two));
-            do {
-                const std::uint32_t bits = IntersectBlock(std::type_identity<K>{}, state.per_ray,
-                                                          ray, *block, state.t_max(), hits);
-                if (!Counted && bits == 0)
-                    continue;
-                state.tested(*block, bits, hits);
-                if (state.done())
-                    return;
-                t_max = hn::Set(df, state.t_max());
-            } while (++block <= last);
+            do
+                state.tested(*block,
+                             IntersectBlock(std::type_identity<K>{}, state.per_ray, ray, *block,
+                                            state.t_max(), hits),
+                             hits);
+            while (++block <= last);
         } else {
             const Node& node = nodes[at];
-            state.count(Node::width, top);
-            alignas(64) float entries[Node::width];
-            std::uint32_t bits = 0;
-            hn::Vec<decltype(df)> entry;
-            hn::Mask<decltype(df)> hit;
             for (std::size_t i = 0; i < Node::width; i += hn::Lanes(df)) {
-                hit = clip.Hits(node, i, t_max, entry);
-                bits |= WideBits(df, hit, i);
-                if constexpr (mode == RayMode::closest) {
-                    if constexpr (!in_register<Node>)
-                        hn::Store(entry, df, entries + i);
-                } else {
-                    // Every child that is hit waits, in no order.
-                    hn::StoreU(hn::Compress(hn::LoadU(du, node.ref + i), hn::RebindMask(du, hit)),
-                               du, refs + top);
-                    top += hn::CountTrue(df, hit);
-                }
+                hn::Vec<decltype(df)> entry;
+                const auto hit = hn::RebindMask(du, clip.Hits(node, i, t_max, entry));
+                hn::StoreU(hn::Compress(hn::LoadU(du, node.ref + i), hit), du, waiting + top);
+                top += hn::CountTrue(du, hit);
             }
-            if (bits != 0) {
-                if constexpr (mode == RayMode::closest) {
-                    at = Nearest(node, bits, entries, entry, hit, stack, top);
-                } else {
-                    --top;
-                    at = node.ref[std::bit_width(bits) - 1]; // what is on top, without waiting
-                }
-                continue;
-            }
-        }
-        if constexpr (mode == RayMode::closest) {
-            do {
-                if (top == 0)
-                    return;
-                --top;
-            } while (stack[top].entry > state.t_max());
-            at = stack[top].ref;
-        } else {
-            if (top == 0)
-                return;
-            at = refs[--top];
         }
     }
 }
 
 template <class Node> void WalkJob(const RayJob& job) {
-    // Each open node on a path leaves all but one of its children waiting; a whole node is stored
-    // beyond them.
-    const std::size_t room = (job.depth + 2) * Node::width;
-    Buffer<WaitingNode> stack(job.mode == RayMode::closest ? room : 0);
-    Buffer<std::uint32_t> refs(job.mode == RayMode::closest ? 0 : room);
     const SlabBounds bounds(job.triangles.bounds);
     with_job_types(job, [&]<class K, RayMode mode, bool Counted>(
                             std::type_identity<K>, std::integral_constant<RayMode, mode>,
-                            std::bool_constant<Counted>) {
-        // Made for some rays at a time: one alone would wait for its divisions.
-        std::array<FusedSlabs, 8> slabs;
-        std::size_t first = 0, made = 0;
-        walk_each<mode>(job, [&](const Ray<float>& ray, std::vector<RayHit>& found) HWY_ATTR {
-            const auto i = static_cast<std::size_t>(&ray - job.rays.data());
-            if (i >= first + made) {
-                first = i;
-                made = std::min(slabs.size(), job.rays.size() - i);
-                for (std::size_t k = 0; k < made; ++k)
-                    slabs[k] = FusedSlabs(job.rays[i + k], bounds);
-            }
-            RayWalk<K, mode, Counted> state(ray, job.work, found);
-            WalkRay<Node>(job.triangles, slabs[i - first], ray, state, stack.data(), refs.data());
-            return state.result();
-        });
+                            std::bool_constant<Counted>) HWY_ATTR {
+        if constexpr (mode == RayMode::all) {
+            Buffer<std::uint32_t> waiting(room_for<Node>(job.depth));
+            walk_each<mode>(job, [&](const Ray<float>& ray, std::vector<RayHit>& found) HWY_ATTR {
+                RayWalk<K, mode, false> state(ray, nullptr, found);
+                WalkAll<Node>(job.triangles, FusedSlabs(ray, bounds), ray, state, waiting.data());
+                return state.result();
+            });
+        } else {
+            RayWave<Node, K, mode, Counted>(job, bounds).walk();
+        }
     });
 }
 

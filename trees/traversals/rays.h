@@ -4,8 +4,9 @@
 #include "trees/traversals/ray_tree.h"
 #include "trees/traversals/ray_walk.h"
 
-/// Rays at a mesh, over any layout; AnyLayout says what each query answers. An unknown kernel
-/// throws std::invalid_argument.
+/// Rays at a mesh, over any layout; AnyLayout says what each query answers. Those of a batch take
+/// turns (ray_wave-inl.h), at best many in one call. An unknown kernel throws
+/// std::invalid_argument.
 namespace boxwood {
 
 #define BOXWOOD_RAY_LAYOUTS(X)                                                                     \
