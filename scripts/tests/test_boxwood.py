@@ -194,10 +194,23 @@ def test_no_command_shows_the_help_and_fails():
 
 
 def test_every_help_has_an_example():
-    commands = ["list", "sweep", "show", "compare", "merge", "doctor", "demo", "query"]
+    commands = ["list", "sweep", "show", "compare", "merge", "doctor", "demo", "scene", "query"]
     for command in [*([c] for c in commands), ["demo", "four-link"], ["query", "pairs"], ["query", "rays"]]:
         assert "xample" in answer(*command, "--help"), command
     assert all(command in answer("--help") for command in commands)
+
+
+def test_scene_describes_and_draws(tmp_path):
+    said = answer("scene", "warehouse", "--n", "1000", "--frame", "0,5")
+    assert "1000 bodies" in said and "frame 5: 1000 present, " in said
+    own = tmp_path / "own.toml"
+    own.write_text('[[bodies]]\ngenerator = "cubes"\neffects = ["drift", "spin"]\n')
+    svg = tmp_path / "own.svg"
+    answer("scene", str(own), "--n", "20", "--frame", "3", "--svg", str(svg), "--depth", "1")
+    assert "frame 3: 20 bodies, 20 changed" in svg.read_text()
+    own.write_text('[[bodies]]\ngenerator = "cubes"\neffects = "drfit"\n')
+    done = boxwood("scene", str(own))
+    assert done.returncode == 2 and f"{own}:3: " in done.stderr and "did you mean 'drift'?" in done.stderr
 
 
 def test_version_says_how_it_was_built():
@@ -208,7 +221,7 @@ def test_version_says_how_it_was_built():
 def test_list_is_the_same_whole_and_in_parts():
     whole = json.loads(answer("list", "--json"))
     assert list(whole) == (
-        "builders stages layouts updates traversals kernels scenes motions effects asks executors peers families".split()
+        "builders stages layouts updates traversals kernels scenes motions moving_scenes effects asks executors peers families".split()
     )
     for name, rows in whole.items():
         assert json.loads(answer("list", name, "--json")) == rows
