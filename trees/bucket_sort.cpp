@@ -88,12 +88,12 @@ struct Parts {
     Parts(std::size_t n, std::span<const std::array<std::uint32_t, cells>> counts) {
         // Streams of about a cache line each that the second level of cache and the TLB can hold.
         const std::size_t goal = std::max<std::size_t>(n / 512, 256);
-        std::size_t in_part = goal, at = 0;
+        std::size_t in_part = 0, at = 0;
         for (std::size_t cell = 0; cell < cells; ++cell) {
             std::size_t in_cell = 0;
             for (const auto& of_chunk : counts)
                 in_cell += of_chunk[cell];
-            if (in_part + in_cell > goal) {
+            if (first.empty() || in_part + in_cell > goal) {
                 first_cell.push_back(cell);
                 first.push_back(at);
                 in_part = 0;
