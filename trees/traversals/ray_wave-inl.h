@@ -50,7 +50,8 @@ template <class Node, RayKernel K, RayMode mode, bool Counted> class RayWave {
 
     void walk() {
         const std::size_t room = room_for<Node>(job_.depth);
-        const std::size_t rays = std::clamp<std::size_t>(most_waiting / room, 1, width);
+        const std::size_t rays =
+            std::min({width, job_.rays.size(), std::max<std::size_t>(most_waiting / room, 1)});
         Buffer<Waiting> stacks(room * rays);
         for (std::size_t i = 0; i < rays; ++i) {
             Walker& walker = walkers_[i];
