@@ -5,6 +5,8 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
+#include "trees/swapped_pairs.h"
+#include "trees/traversals/packed_overlap-inl.h"
 #include "trees/traversals/packed_walk.h"
 #include "trees/traversals/self_pairs.h"
 #include "trees/traversals/tree_pairs.h"
@@ -12,122 +14,12 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <utility>
 
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-constexpr hn::CappedTag<float, PackedBlock::width> df;
-constexpr hn::RebindToUnsigned<decltype(df)> du;
-constexpr std::size_t lanes = hn::MaxLanes(df);
-constexpr std::size_t registers = PackedBlock::width / lanes; ///< of a plane
-
-using F = hn::Vec<decltype(df)>;
-using U = hn::Vec<decltype(du)>;
-using M = hn::Mask<decltype(df)>;
-
-/// One box in every lane.
-struct OneBox {
-    F min_x, min_y, min_z, max_x, max_y, max_z;
-
-    explicit OneBox(const Box& box)
-        : min_x(hn::Set(df, box.min.x)), min_y(hn::Set(df, box.min.y)),
-          min_z(hn::Set(df, box.min.z)), max_x(hn::Set(df, box.max.x)),
-          max_y(hn::Set(df, box.max.y)), max_z(hn::Set(df, box.max.z)) {}
-};
-
-/// Lanes [i, i + lanes) of a block that overlap the box.
-HWY_INLINE M Overlap(const OneBox& box, const PackedBlock& block, std::size_t i) {
-    const auto plane = [&](std::size_t p) HWY_ATTR { return hn::Load(df, block.plane[p] + i); };
-    return hn::And(hn::And(hn::And(hn::Ge(box.max_x, plane(0)), hn::Le(box.min_x, plane(3))),
-                           hn::And(hn::Ge(box.max_y, plane(1)), hn::Le(box.min_y, plane(4)))),
-                   hn::And(hn::Ge(box.max_z, plane(2)), hn::Le(box.min_z, plane(5))));
-}
-
-/// A whole block and its items. Where a register holds sixteen floats they stay in registers.
-struct SixteenBoxes {
-    F min_x[registers], min_y[registers], min_z[registers];
-    F max_x[registers], max_y[registers], max_z[registers];
-    U item[registers];
-
-    SixteenBoxes(const PackedBlock& block, const std::uint32_t* items) {
-        for (std::size_t r = 0; r < registers; ++r) {
-            const auto plane = [&](std::size_t p)
-                                   HWY_ATTR { return hn::Load(df, block.plane[p] + r * lanes); };
-            min_x[r] = plane(0);
-            min_y[r] = plane(1);
-            min_z[r] = plane(2);
-            max_x[r] = plane(3);
-            max_y[r] = plane(4);
-            max_z[r] = plane(5);
-            item[r] = hn::Load(du, items + r * lanes);
-        }
-    }
-};
-
-/// A block and its items twice in a row: sixteen lanes from lane k on are the block turned by k.
-struct TwiceSixteen {
-    alignas(64) float plane[6][2 * PackedBlock::width];
-    alignas(64) std::uint32_t item[2 * PackedBlock::width];
-
-    void hold(const SixteenBoxes& boxes) {
-        for (std::size_t r = 0; r < registers; ++r) {
-            const F planes[] = {boxes.min_x[r], boxes.min_y[r], boxes.min_z[r],
-                                boxes.max_x[r], boxes.max_y[r], boxes.max_z[r]};
-            for (const std::size_t at : {r * lanes, r * lanes + PackedBlock::width}) {
-                for (std::size_t p = 0; p < 6; ++p)
-                    hn::Store(planes[p], df, plane[p] + at);
-                hn::Store(boxes.item[r], du, item + at);
-            }
-        }
-    }
-};
-
-/// The lanes of register r that overlap lane `lane` of another block.
-HWY_INLINE M Overlap(const SixteenBoxes& boxes, std::size_t r, const PackedBlock& block,
-                     std::size_t lane) {
-    const auto one = [&](std::size_t p) HWY_ATTR { return hn::Set(df, block.plane[p][lane]); };
-    return hn::And(hn::And(hn::And(hn::Le(boxes.min_x[r], one(3)), hn::Ge(boxes.max_x[r], one(0))),
-                           hn::And(hn::Le(boxes.min_y[r], one(4)), hn::Ge(boxes.max_y[r], one(1)))),
-                   hn::And(hn::Le(boxes.min_z[r], one(5)), hn::Ge(boxes.max_z[r], one(2))));
-}
-/// The lanes i of register r that overlap lane i + k of their own block.
-HWY_INLINE M Overlap(const SixteenBoxes& boxes, std::size_t r, const TwiceSixteen& twice,
-                     std::size_t k) {
-    const auto turned = [&](std::size_t p)
-                            HWY_ATTR { return hn::LoadU(df, twice.plane[p] + r * lanes + k); };
-    return hn::And(
-        hn::And(hn::And(hn::Le(boxes.min_x[r], turned(3)), hn::Ge(boxes.max_x[r], turned(0))),
-                hn::And(hn::Le(boxes.min_y[r], turned(4)), hn::Ge(boxes.max_y[r], turned(1)))),
-        hn::And(hn::Le(boxes.min_z[r], turned(5)), hn::Ge(boxes.max_z[r], turned(2))));
-}
-
-/// Appends to `out` the lanes (numbered through the level: 16 block + lane) of the listed blocks
-/// that overlap the box.
-template <bool Counted>
-HWY_INLINE void Refine(const PackedBlock* level, const PackedList& list, std::size_t first,
-                       const OneBox& box, PackedList& out, Work* work) {
-    constexpr std::size_t w = PackedBlock::width;
-    std::uint32_t* to = out.reserve((list.size() - first) * w + w);
-    const std::uint32_t* const begin = to;
-    const auto iota = hn::Iota(du, 0u);
-    for (std::size_t j = first; j < list.size(); ++j) {
-        const std::uint32_t b = list[j];
-        for (std::size_t i = 0; i < w; i += lanes) {
-            const auto hits = hn::RebindMask(du, Overlap(box, level[b], i));
-            const auto number = hn::Add(iota, hn::Set(du, static_cast<std::uint32_t>(b * w + i)));
-            hn::StoreU(hn::Compress(number, hits), du, to);
-            to += hn::CountTrue(du, hits);
-        }
-    }
-    out.grow(static_cast<std::size_t>(to - begin));
-    if constexpr (Counted) {
-        work->node_visits += list.size() - first;
-        work->box_tests += w * (list.size() - first);
-        work->stack_max = std::max<std::uint64_t>(work->stack_max, out.size());
-    }
-}
 
 template <bool Self, bool Counted> class Walk {
   public:
@@ -189,108 +81,182 @@ template <bool Self, bool Counted> class Walk {
         std::uint32_t bits = 0;
         for (std::size_t i = 0; i < w; i += lanes) {
             std::uint8_t bytes[8] = {};
-            hn::StoreMaskBits(df, Overlap(box, block, i), bytes);
+            hn::StoreMaskBits(df, Overlap(block, i, box), bytes);
             bits |= (std::uint32_t{bytes[0]} | std::uint32_t{bytes[1]} << 8) << i;
         }
         return bits;
     }
 
-    /// Opens a node on level 1, or the only block if there is but one level.
+    /// Opens a node on level 1, or the only block if there is but one level: all its leaves side by
+    /// side, in stages: of long loops the processor guesses the end wrong less often.
     bool open(std::size_t level, std::size_t node, const PackedList& list, std::size_t level_b) {
-        if (level == 0)
-            return leaf(node, list, level_b);
-        const std::size_t end = std::min(a_.level(0).size(), (node + 1) * w);
-        PackedList& leaves = lists_[2];
-        for (std::size_t at = node * w; at < end; ++at) {
-            std::size_t deeper = level_b;
-            step(0, at, list, deeper, leaves);
-            if (!leaf(at, leaves, deeper))
-                return false;
-        }
-        return true;
-    }
-
-    bool leaf(std::size_t at, const PackedList& list, std::size_t level_b) {
-        const PackedBlock& block = a_.level(0)[at];
-        const OneBox box(a_.depth() == 1 ? a_.bounds() : a_.level(1)[at / w].lane(at % w));
-        const PackedList* blocks = &list;
-        PackedList *next = &lists_[3], *spare = &lists_[4];
-        for (; level_b > 0; --level_b) { // b is the deeper tree
+        const bool alone = level == 0;
+        const Box box =
+            level + 1 == a_.depth() ? a_.bounds() : a_.level(level + 1)[node / w].lane(node % w);
+        const PackedList* candidates = &list;
+        PackedList *next = &lists_[2], *spare = &lists_[3];
+        for (; level_b > level; --level_b) { // b is the deeper tree
             next->clear();
-            Refine<Counted>(b_.level(level_b).data(), *blocks, 0, box, *next, work_);
-            blocks = next;
+            Refine<Counted>(b_.level(level_b).data(), *candidates, 0, OneBox(box), *next, work_);
+            candidates = next;
             std::swap(next, spare);
         }
-        const SixteenBoxes boxes(block, a_.items().data() + at * w);
-        if constexpr (Self)
-            twice_.hold(boxes);
-        PackedList& slots = lists_[5];
-        slots.clear();
-        Refine<Counted>(b_.level(0).data(), *blocks, Self ? 1 : 0, box, slots, work_);
-        const std::uint32_t* const items = b_.items().data();
-        const PackedBlock* const level = b_.level(0).data();
-        for (const std::uint32_t *slot = slots.data(), *last = slot + slots.size(); slot < last;) {
-            const auto some = std::min(static_cast<std::size_t>(last - slot), pairs_.free() / w);
-            meet(boxes, level, items, slot, slot + some);
-            slot += some;
-            if (pairs_.free() < w && !flush())
+        first_ = alone ? node : node * w;
+        const std::size_t count = alone ? 1 : std::min(w, a_.level(0).size() - first_);
+        if (alone)
+            for (int axis = 0; axis < 3; ++axis) {
+                alone_.plane[axis][0] = box.min[axis];
+                alone_.plane[3 + axis][0] = box.max[axis];
+            }
+        above_ = alone ? &alone_ : &a_.level(1)[node];
+        near_.n = 0;
+        for (std::size_t j = Self && alone ? 1 : 0; j < candidates->size(); ++j) {
+            if (near_.n + w * w > near_.most && !meet_near())
                 return false;
+            const std::uint32_t c = (*candidates)[j];
+            if (level_b == 0)
+                for (std::uint32_t i = 0; i < count; ++i)
+                    near_.push(c, i);
+            else
+                list_near(c, Self && c == node, count);
         }
-        if constexpr (Counted) {
-            work_->node_visits += slots.size();
-            work_->box_tests += w * slots.size();
+        if (!meet_near())
+            return false;
+        if constexpr (Self) {
+            const auto hold = [&](std::size_t i) {
+                twice_[i % 2].hold(a_.level(0)[first_ + i], a_.items().data() + (first_ + i) * w);
+            };
+            hold(0);
+            for (std::size_t i = 0; i < count; ++i) {
+                if (i + 1 < count)
+                    hold(i + 1); // in the cache by the time it is read
+                if (!meet_itself(twice_[i % 2]))
+                    return false;
+            }
         }
-        if constexpr (Self)
-            return meet_itself(boxes);
         return true;
     }
 
-    /// The block against itself turned by one to eight lanes, which meets any two lanes once, those
-    /// eight apart twice. After all else of a leaf: what `twice_` holds is in the cache by now.
-    bool meet_itself(const SixteenBoxes& boxes) {
+    /// Leaves of `b` that lie below node c of level 1 and overlap one of the leaves at hand; below
+    /// the node itself those after it.
+    void list_near(std::uint32_t c, bool itself, std::size_t count) {
+        const PackedBlock& block = b_.level(1)[c];
+        std::size_t n = near_.n;
+        for (std::uint32_t at = 0; at < count; ++at)
+            for (std::size_t i = 0; i < w; i += lanes) {
+                const auto lane = hn::Iota(du, static_cast<std::uint32_t>(i));
+                M hits = Overlap(block, i, *above_, at);
+                if (Self && itself)
+                    hits = hn::And(hits, hn::RebindMask(df, hn::Gt(lane, hn::Set(du, at))));
+                const auto number = hn::Add(lane, hn::Set(du, static_cast<std::uint32_t>(c * w)));
+                n += Put(hits, number, &at, near_.a + n, near_.b + n);
+            }
+        near_.n = n;
+        if constexpr (Counted)
+            count_work(count, near_.n);
+    }
+
+    /// What `near_` lists, in parts whose slots have room: of two leaves the slots of `b` that
+    /// overlap the other's bounds; or, if they are many, those of `a` if they are fewer.
+    bool meet_near() {
+        // Of uniform boxes few leaves list so many, so that the branch is nearly always foreseen.
+        constexpr std::size_t part = PackedColumns::most / w, many = 11;
+        const PackedBlock* const level_a = a_.level(0).data() + first_;
+        const PackedBlock* const level_b = b_.level(0).data();
+        for (std::size_t j = 0; j < near_.n;) {
+            const std::size_t begin = j, end = std::min(near_.n, j + part);
+            theirs_.n = ours_.n = 0;
+            for (; j < end; ++j) {
+                const std::uint32_t c = near_.a[j], at = near_.b[j];
+                const std::size_t n = list_slots(level_b[c], c, *above_, at,
+                                                 static_cast<std::uint32_t>(first_ + at), theirs_);
+                if (n <= many || b_.depth() == 1)
+                    continue;
+                const std::size_t fewer =
+                    list_slots(level_a[at], static_cast<std::uint32_t>(first_ + at),
+                               b_.level(1)[c / w], c % w, c, ours_);
+                (fewer < n ? theirs_.n : ours_.n) -= fewer < n ? n : fewer;
+                if constexpr (Counted)
+                    count_work(1, 0);
+            }
+            if constexpr (Counted)
+                count_work(end - begin, theirs_.n + ours_.n);
+            if (!meet_slots(theirs_, b_, pairs_.b(), a_, pairs_.a()) ||
+                !meet_slots(ours_, a_, pairs_.a(), b_, pairs_.b()))
+                return false;
+        }
+        near_.n = 0;
+        return true;
+    }
+
+    /// Lists the slots of leaf `number`, which is `block`, that overlap lane `lane` of `above`: the
+    /// bounds of leaf `other`. Returns how many there are.
+    static HWY_INLINE std::size_t list_slots(const PackedBlock& block, std::uint32_t number,
+                                             const PackedBlock& above, std::size_t lane,
+                                             std::uint32_t other, PackedColumns& list) {
+        std::size_t n = list.n;
+        for (std::size_t i = 0; i < w; i += lanes) {
+            const auto slot = hn::Add(hn::Iota(du, static_cast<std::uint32_t>(i)),
+                                      hn::Set(du, static_cast<std::uint32_t>(number * w)));
+            n += Put(Overlap(block, i, above, lane), slot, &other, list.a + n, list.b + n);
+        }
+        return n - std::exchange(list.n, n);
+    }
+
+    /// Each slot listed, of `one`, against all of the leaf of `many` listed with it.
+    bool meet_slots(const PackedColumns& list, const PackedLayout& one, std::uint32_t* one_to,
+                    const PackedLayout& many, std::uint32_t* many_to) {
+        const std::uint32_t* const items_one = one.items().data();
+        const std::uint32_t* const items_many = many.items().data();
+        const PackedBlock* const level_one = one.level(0).data();
+        const PackedBlock* const level_many = many.level(0).data();
+        for (std::size_t j = 0; j < list.n;) {
+            if (pairs_.free() < w && !flush())
+                return false;
+            std::size_t n = pairs_.size();
+            for (const std::size_t end = std::min(list.n, j + pairs_.free() / w); j < end; ++j) {
+                const std::size_t slot = list.a[j], leaf = list.b[j];
+                for (std::size_t i = 0; i < w; i += lanes)
+                    n += Put(Overlap(level_many[leaf], i, level_one[slot / w], slot % w),
+                             hn::Load(du, items_many + leaf * w + i), items_one + slot, many_to + n,
+                             one_to + n);
+            }
+            pairs_.resize(n);
+        }
+        if constexpr (Counted)
+            count_work(list.n, 0);
+        return true;
+    }
+
+    /// A block against itself turned by one to eight lanes, which meets any two lanes once, but
+    /// those eight apart twice.
+    bool meet_itself(const TwiceSixteen& twice) {
         if (pairs_.free() < w * w / 2 && !flush())
             return false;
         std::uint32_t *const a = pairs_.a(), *const b = pairs_.b();
         std::size_t n = pairs_.size();
         for (std::size_t k = 1; k <= w / 2; ++k)
-            for (std::size_t r = 0; r < registers; ++r) {
-                if (k == w / 2 && r * lanes >= w / 2)
+            for (std::size_t i = 0; i < w; i += lanes) {
+                if (k == w / 2 && i >= w / 2)
                     break;
-                M hits = Overlap(boxes, r, twice_, k);
+                M hits = twice.overlap(i, k);
                 if (k == w / 2)
                     hits = hn::And(hits, hn::FirstN(df, w / 2));
                 const auto mask = hn::RebindMask(du, hits);
-                hn::StoreU(hn::Compress(boxes.item[r], mask), du, a + n);
-                hn::StoreU(hn::Compress(hn::LoadU(du, twice_.item + r * lanes + k), mask), du,
-                           b + n);
+                hn::StoreU(hn::Compress(hn::Load(du, twice.item + i), mask), du, a + n);
+                hn::StoreU(hn::Compress(hn::LoadU(du, twice.item + i + k), mask), du, b + n);
                 n += hn::CountTrue(du, mask);
             }
         pairs_.resize(n);
-        if constexpr (Counted) {
-            ++work_->node_visits;
-            work_->box_tests += w * w / 2;
-        }
+        if constexpr (Counted)
+            count_work(w / 2, 0);
         return true;
     }
 
-    /// The slots [slot, end) of `b` against all of `boxes`: appends to the columns, which have
-    /// room.
-    HWY_INLINE void meet(const SixteenBoxes& boxes, const PackedBlock* level,
-                         const std::uint32_t* items, const std::uint32_t* slot,
-                         const std::uint32_t* end) {
-        std::uint32_t *const a = pairs_.a(), *const b = pairs_.b();
-        std::size_t n = pairs_.size();
-        for (; slot < end; ++slot) {
-            const auto item = hn::Set(du, items[*slot]);
-            const PackedBlock& block = level[*slot / w];
-            for (std::size_t r = 0; r < registers; ++r) {
-                const auto hits = hn::RebindMask(du, Overlap(boxes, r, block, *slot % w));
-                hn::StoreU(hn::Compress(boxes.item[r], hits), du, a + n);
-                hn::StoreU(item, du, b + n);
-                n += hn::CountTrue(du, hits);
-            }
-        }
-        pairs_.resize(n);
+    void count_work(std::size_t blocks, std::size_t listed) {
+        work_->node_visits += blocks;
+        work_->box_tests += w * blocks;
+        work_->stack_max = std::max<std::uint64_t>(work_->stack_max, listed);
     }
 
     /// Makes pairs of the columns.
@@ -314,8 +280,15 @@ template <bool Self, bool Counted> class Walk {
     const PackedLayout& a_;
     const PackedLayout& b_;
     Work* work_;
-    std::array<PackedList, 6> lists_;
-    TwiceSixteen twice_;
+    std::array<PackedList, 4> lists_;
+    // Of the leaves at hand, from first_ on, whose bounds are the lanes of *above_:
+    std::size_t first_ = 0;
+    const PackedBlock* above_ = nullptr;
+    PackedBlock alone_{};
+    PackedColumns near_;   ///< leaves of `b`, and which of ours each is near to, from first_ on
+    PackedColumns theirs_; ///< slots of `b`, and leaves of `a` they might overlap
+    PackedColumns ours_;   ///< slots of `a`, and leaves of `b`
+    std::array<TwiceSixteen, 2> twice_;
 };
 
 template <bool Self, bool Counted>
@@ -384,37 +357,12 @@ Work self_pairs_counted(const PackedLayout& tree, PairSink& sink) {
 }
 namespace {
 
-/// Hands on each pair the other way round.
-class Swapped final : public PairSink {
-  public:
-    explicit Swapped(PairSink& sink) : sink_(sink) {}
-
-    void begin(std::size_t chunks, bool in_order) override { sink_.begin(chunks, in_order); }
-    bool take(std::size_t chunk, std::span<const Pair> pairs) override {
-        std::array<Pair, 256> swapped; // 2 KiB of stack
-        for (std::size_t done = 0; done < pairs.size();) {
-            const std::size_t n = std::min(swapped.size(), pairs.size() - done);
-            for (std::size_t i = 0; i < n; ++i)
-                swapped[i] = {pairs[done + i].b, pairs[done + i].a};
-            if (!sink_.take(chunk, {swapped.data(), n}))
-                return false;
-            done += n;
-        }
-        return true;
-    }
-    void finish(std::size_t chunk) override { sink_.finish(chunk); }
-    void end() override { sink_.end(); }
-
-  private:
-    PairSink& sink_;
-};
-
 /// Chunks are cut from the first tree: where it is much the smaller, from the other.
 void run_two(const PackedLayout& a, const PackedLayout& b, const Executor& executor, PairSink& sink,
              Work* work) {
     if (16 * a.size() >= b.size())
         return run(a, b, false, executor, sink, work);
-    Swapped swapped(sink);
+    SwappedPairs swapped(sink);
     run(b, a, false, executor, swapped, work);
 }
 

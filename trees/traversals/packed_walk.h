@@ -49,6 +49,18 @@ class PackedList {
     Buffer<std::uint32_t> grown_;
 };
 
+/// Two columns of a list of pairs; a store may write a register beyond.
+struct PackedColumns {
+    static constexpr std::size_t most = 512;
+    alignas(64) std::uint32_t a[most + PackedBlock::width], b[most + PackedBlock::width];
+    std::size_t n = 0;
+
+    void push(std::uint32_t x, std::uint32_t y) {
+        a[n] = x;
+        b[n++] = y;
+    }
+};
+
 /// What one chunk found: two columns of items, made into pairs and handed over when they are full.
 class PackedPairs {
   public:
