@@ -46,12 +46,14 @@ std::vector<Box> giant_cluster(std::uint32_t seed) {
 
 TEST(Balance, NoChunkOfTwoTreesHasMostOfTheWork) {
     const std::vector<Box> a = giant_cluster(5), b = giant_cluster(7),
-                           same(3000, Box{{0, 0, 0}, {1, 1, 1}});
+                           same(3000, Box{{0, 0, 0}, {1, 1, 1}}), few(3, same[0]),
+                           many(5000, same[0]);
     for (const std::string_view builder : {"median", "binned_sah"}) {
         const auto tree_of = [&](const std::vector<Box>& boxes) {
             return find_builder(builder)->make({})(boxes, serial());
         };
-        const Tree tree_a = tree_of(a), tree_b = tree_of(b), tree_same = tree_of(same);
+        const Tree tree_a = tree_of(a), tree_b = tree_of(b), tree_same = tree_of(same),
+                   tree_few = tree_of(few), tree_many = tree_of(many);
         for (const LayoutEntry& entry : layouts()) {
             SCOPED_TRACE(std::string(builder) + "." + std::string(entry.name));
             const auto heaviest = [&](const Tree& first, const Tree& second) {
@@ -60,8 +62,10 @@ TEST(Balance, NoChunkOfTwoTreesHasMostOfTheWork) {
                     ->tree_pairs(*entry.make(second, serial()), serial(), chunks);
                 return chunks.heaviest();
             };
-            EXPECT_LT(heaviest(tree_a, tree_b), .125);
+            EXPECT_LT(heaviest(tree_a, tree_b), .15);
             EXPECT_LT(heaviest(tree_same, tree_same), .125);
+            EXPECT_LT(heaviest(tree_few, tree_many), .125);
+            EXPECT_LT(heaviest(tree_many, tree_few), .125);
         }
     }
 }
