@@ -6,6 +6,7 @@
 #include "trees/traversals/sorted_rays.h"
 #include "trees/update.h"
 #include "trees/validate.h"
+#include "trees/ways_to_build_for_test.h"
 
 #include <gtest/gtest.h>
 
@@ -225,16 +226,6 @@ std::uint64_t number_of(const Answers& answers) {
            found(answers.neighbours, [](const auto& x) { return x.item != Neighbour::none; }) +
            found(answers.surface_points,
                  [](const auto& x) { return x.triangle != Neighbour::none; });
-}
-
-std::vector<std::string> ways_to_build() {
-    std::vector<std::string> ways;
-    for (const BuilderEntry& builder : builders()) {
-        ways.emplace_back(builder.name);
-        for (const StageEntry& stage : stages())
-            ways.push_back(std::string(builder.name) + "+" + std::string(stage.name));
-    }
-    return ways;
 }
 
 /// Executors of more than one thread.

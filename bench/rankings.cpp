@@ -55,15 +55,15 @@ Phases phases_of(const RunIndex& index) {
     return phases;
 }
 
-/// A build that queries follow is no measure of its own, nor is one query where frames are. Batches
-/// of rays are held against each other by their rays.
+/// A build that queries follow is no measure of its own, nor is one query where frames are. Packets
+/// have the trees of single rays: they are held against ours by their rays alone.
 bool is_ranked(const std::set<std::string>& timed, const Measure& measure, std::string_view lane) {
     const std::string_view name = measure.name;
     if (name == "build")
         return !timed.contains("query");
     if (name == "update+query")
         return true;
-    return !timed.contains("update") && (name == "query" || !lane.starts_with("batches"));
+    return !timed.contains("update") && (name == "query" || !lane.starts_with("against packets"));
 }
 
 std::map<Task, Best> best_of(const RunIndex& index, const Measure& measure) {
@@ -124,7 +124,7 @@ int decade_of(const Cell& cell) {
 }
 
 std::string means_text(const std::map<LaneKey, Lane>& lanes) {
-    TextTable table({"rays", ">n about", ">threads", "library", ">scenes",
+    TextTable table({"rays, ours in one call", ">n about", ">threads", "library", ">scenes",
                      ">geometric mean, peer/ours", ">least", "at"});
     for (const auto& [key, lane] : lanes) {
         if (lane.ratios.size() < 2)
@@ -193,14 +193,14 @@ std::vector<std::string> lanes_of(const Cell& cell, const results::Variant& vari
         const auto says = [&](const char* part) {
             return variant.name.find(part) != std::string::npos;
         };
-        const bool batches =
+        const bool packets =
             says("sect8") || says("sect16") || says("occluded8") || says("occluded16");
-        return {std::string(batches ? "batches" : "one by one") +
+        return {std::string(packets ? "against packets" : "against single rays") +
                 (says(".robust") ? ", watertight" : "")};
     }
-    std::vector<std::string> lanes{"batches"};
+    std::vector<std::string> lanes{"against packets"};
     if (variant.traversal != "sorted_rays")
-        lanes.push_back("one by one");
+        lanes.push_back("against single rays");
     if (variant.kernel == "watertight")
         for (const std::string& lane : std::vector(lanes))
             lanes.push_back(lane + ", watertight");

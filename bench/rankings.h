@@ -9,9 +9,9 @@
 
 namespace boxwood::bench {
 
-/// What a ray contender is held against: single rays or batches, and among those the watertight
-/// ones by themselves. Ours in the order given answers for both, ours of any kernel for the looser.
-/// One empty lane for every other ask.
+/// What a ray contender is ranked among: the peer takes single rays or packets, and the watertight
+/// ones stand by themselves. Ours takes all rays in one call; in the order given it answers for
+/// both, of any kernel for the looser. One empty lane for every other ask.
 std::vector<std::string> lanes_of(const results::Cell& cell, const results::Variant& variant);
 
 /// Tables of the best of each library, by build+query, query, update+query and build, of every

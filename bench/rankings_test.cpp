@@ -24,19 +24,22 @@ std::vector<std::string> lanes(const std::string& ask, const std::string& varian
 }
 
 TEST(Rankings, RaysAreHeldAgainstTheirLike) {
-    EXPECT_THAT(lanes("rays_closest", "embree.rtc_intersect1"), UnorderedElementsAre("one by one"));
+    EXPECT_THAT(lanes("rays_closest", "embree.rtc_intersect1"),
+                UnorderedElementsAre("against single rays"));
     EXPECT_THAT(lanes("rays_closest", "embree.rtc_intersect1.robust"),
-                UnorderedElementsAre("one by one, watertight"));
-    EXPECT_THAT(lanes("rays_any", "embree.rtc_occluded16"), UnorderedElementsAre("batches"));
+                UnorderedElementsAre("against single rays, watertight"));
+    EXPECT_THAT(lanes("rays_any", "embree.rtc_occluded16"),
+                UnorderedElementsAre("against packets"));
     EXPECT_THAT(lanes("rays_any", "embree.rtc_occluded8.robust"),
-                UnorderedElementsAre("batches, watertight"));
+                UnorderedElementsAre("against packets, watertight"));
     EXPECT_THAT(lanes("rays_any", "median.wide8.sorted_rays.moller_trumbore_f32"),
-                UnorderedElementsAre("batches"));
+                UnorderedElementsAre("against packets"));
     EXPECT_THAT(lanes("rays_any", "median.wide8.rays.moller_trumbore_f32"),
-                UnorderedElementsAre("batches", "one by one"));
+                UnorderedElementsAre("against packets", "against single rays"));
     EXPECT_THAT(lanes("rays_any", "median.wide8.rays.watertight"),
-                UnorderedElementsAre("batches", "one by one", "batches, watertight",
-                                     "one by one, watertight"));
+                UnorderedElementsAre("against packets", "against single rays",
+                                     "against packets, watertight",
+                                     "against single rays, watertight"));
     EXPECT_THAT(lanes("pairs", "fcl.tree"), UnorderedElementsAre(""));
 }
 
@@ -54,14 +57,16 @@ TEST(Rankings, AWatertightPeerIsNoRivalOfALooserKernel) {
         ask(scene, "embree.rtc_intersect1.robust", 300);
     }
     const std::string text = text_of(run);
-    EXPECT_THAT(text, ContainsRegex("rays_closest, one by one +1 +embree.rtc_intersect1 "
+    EXPECT_THAT(text, ContainsRegex("rays_closest, against single rays +1 +embree.rtc_intersect1 "
                                     ".*1.00 \\[1.00, 1.00\\]"));
-    EXPECT_THAT(text, ContainsRegex("rays_closest, one by one, watertight +1 "
+    EXPECT_THAT(text, ContainsRegex("rays_closest, against single rays, watertight +1 "
                                     "+embree.rtc_intersect1.robust .*1.50 \\[1.50, 1.50\\]"));
     // Geometric means of 1 and 4, of 1.5 and 1.5.
-    EXPECT_THAT(text, ContainsRegex("one by one +10.3 +1 +embree +2 +2.00 +1.00 +sphere_random"));
-    EXPECT_THAT(text, ContainsRegex("one by one, watertight +10.3 +1 +embree +2 +1.50 +1.50"));
-    EXPECT_THAT(text, Not(HasSubstr("batches"))); // no peer walks them here
+    EXPECT_THAT(
+        text, ContainsRegex("against single rays +10.3 +1 +embree +2 +2.00 +1.00 +sphere_random"));
+    EXPECT_THAT(text,
+                ContainsRegex("against single rays, watertight +10.3 +1 +embree +2 +1.50 +1.50"));
+    EXPECT_THAT(text, Not(HasSubstr("against packets"))); // no peer walks them here
 }
 
 TEST(Rankings, FramesAreRankedByUpdateAndQueryTogether) {

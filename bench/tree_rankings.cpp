@@ -88,7 +88,7 @@ std::string ray_builds_text(const RunIndex& index) {
     for (const Cell& peer : index.results().cells) {
         const results::Variant& theirs = index.variant(peer);
         const std::string lane = lanes_of(peer, theirs).front();
-        if (!theirs.is_peer || !lane.starts_with("one by one") || !is_timed(index, peer))
+        if (!theirs.is_peer || !lane.starts_with("against single rays") || !is_timed(index, peer))
             continue;
         for (const Cell& cell : index.results().cells) {
             const results::Variant& ours = index.variant(cell);

@@ -264,7 +264,7 @@ TEST_F(ResultFile, AFlippedBitIsAnErrorOrHarmless) {
 
 TEST_F(ResultFile, PythonReadsIt) {
     if (std::system("/usr/bin/python3 -c 'import h5py' 2>/dev/null") != 0)
-        GTEST_SKIP() << "python3-h5py is not installed";
+        GTEST_SKIP() << "python3-h5py is not installed: scripts/setup does that";
     write(file_, filled_example());
     const std::string script =
         "import sys, json, h5py\n"

@@ -9,6 +9,8 @@
 namespace boxwood {
 
 /// Memory aligned to cache lines, and on huge pages where it fills several. Throws std::bad_alloc.
+/// Up to 256 MiB of large blocks that were freed are kept for the next; the system may take their
+/// pages back.
 void* allocate_lines(std::size_t bytes);
 void free_lines(void* memory);
 

@@ -2,6 +2,7 @@
 #include "trees/layout.h"
 #include "trees/pairs.h"
 #include "trees/validate.h"
+#include "trees/ways_to_build_for_test.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -34,17 +35,6 @@ rc::Gen<std::vector<Box>> any_boxes() {
     return rc::gen::withSize([box](int size) {
         return rc::gen::resize(3 * size, rc::gen::container<std::vector<Box>>(box));
     });
-}
-
-/// Each builder, alone and with each stage after it.
-std::vector<std::string> ways_to_build() {
-    std::vector<std::string> ways;
-    for (const BuilderEntry& builder : builders()) {
-        ways.emplace_back(builder.name);
-        for (const StageEntry& stage : stages())
-            ways.push_back(std::string(builder.name) + "+" + std::string(stage.name));
-    }
-    return ways;
 }
 
 /// Each executor with 1, 2 and 4 threads, kept from case to case.

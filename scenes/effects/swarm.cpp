@@ -1,7 +1,5 @@
 #include "scenes/moving/effect.h"
 
-#include <algorithm>
-
 namespace boxwood {
 namespace {
 

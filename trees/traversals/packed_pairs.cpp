@@ -43,6 +43,8 @@ template <bool Self, bool Counted> class Walk {
         }
         return open(level, node, *list, level_b);
     }
+    /// Hands over what is left; false once the sink has had enough.
+    bool finish() { return flush(); }
 
   private:
     static constexpr std::size_t w = PackedBlock::width;
@@ -272,10 +274,6 @@ template <bool Self, bool Counted> class Walk {
         return pairs_.flush(put);
     }
 
-  public:
-    bool finish() { return flush(); }
-
-  private:
     PackedPairs& pairs_;
     const PackedLayout& a_;
     const PackedLayout& b_;
@@ -355,6 +353,7 @@ Work self_pairs_counted(const PackedLayout& tree, PairSink& sink) {
     run(tree, tree, true, serial(), sink, &work);
     return work;
 }
+
 namespace {
 
 /// Chunks are cut from the first tree: where it is much the smaller, from the other.
