@@ -1,0 +1,35 @@
+#pragma once
+
+#include "scenes/moving/moving_scene.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace boxwood::bench {
+
+/// How much of what could be done for a scene is done. The answers are the same.
+enum class Extent : std::uint8_t {
+    called_for, ///< what the scene calls for, for the bodies that it calls for
+    everything  ///< every stage that its asks could need, for every body in every frame
+};
+
+/// One stage of the plan of a scene.
+struct PlannedStage {
+    std::string name;
+    bool is_called_for = false; ///< by the scene, whatever the extent
+    bool runs = false;          ///< in this extent; what does not run is not made and has no memory
+    std::string why;            ///< called for, or not: one clause of plain English
+};
+
+/// All stages there are, in the order in which they run: advance_<effect> of each word of
+/// `effects()`, move, fit, tree, update, box_tree, pairs, filter, transform, mesh_trees,
+/// triangle_pairs, surface, aim, rays, points, regions, nearest.
+std::vector<PlannedStage> plan_stages(const MovingScene& scene, Extent extent);
+
+/// The stage of this name; there must be one.
+const PlannedStage& stage_of(std::span<const PlannedStage> plan, std::string_view name);
+
+} // namespace boxwood::bench
