@@ -183,6 +183,12 @@ void Merger::add_samples(const Results& part) {
         if (new_shards_.contains(id))
             all_.frames.push_back(row);
     }
+    for (EffectRow row : part.effects) {
+        const auto id = std::exchange(row.shard_id, shard_ids_(row.shard_id));
+        row.cell_id = cell_ids_(row.cell_id);
+        if (new_shards_.contains(id))
+            all_.effects.push_back(row);
+    }
 }
 
 void Merger::add_facts(const Results& part) {

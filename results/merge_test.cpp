@@ -52,6 +52,20 @@ Results part(const std::string& machine, std::uint32_t round, std::uint32_t firs
         sample.phase = "query";
         sample.wall_ns = 100.0 * (i + 1) + round;
         p.samples.push_back(sample);
+        FrameRow frame;
+        frame.cell_id = cell.cell_id;
+        frame.shard_id = first_id + 2;
+        frame.round = round;
+        p.frames.push_back(frame);
+        for (const char* stage : {"update", "pairs"}) {
+            EffectRow effect;
+            effect.cell_id = cell.cell_id;
+            effect.shard_id = first_id + 2;
+            effect.round = round;
+            effect.stage = stage;
+            effect.total_ns = 10.0 * (i + 1) + round;
+            p.effects.push_back(effect);
+        }
         Counter counter;
         counter.cell_id = cell.cell_id;
         counter.counter = "pairs";
@@ -99,6 +113,13 @@ TEST(Merge, RoundsAddUpWhateverTheIds) {
         const double base = all.cells.at(sample.cell_id).name == "soup/ours" ? 100 : 200;
         EXPECT_EQ(sample.wall_ns, base + sample.round);
         EXPECT_EQ(all.shards.at(sample.shard_id).round, sample.round);
+    }
+    EXPECT_EQ(all.frames.size(), 6u);
+    ASSERT_EQ(all.effects.size(), 12u);
+    for (const EffectRow& effect : all.effects) {
+        const double base = all.cells.at(effect.cell_id).name == "soup/ours" ? 10 : 20;
+        EXPECT_EQ(effect.total_ns, base + effect.round);
+        EXPECT_EQ(all.shards.at(effect.shard_id).round, effect.round);
     }
     EXPECT_EQ(all.cells.at(all.compare[0].cell_a).name, "soup/peer");
 }

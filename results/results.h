@@ -92,6 +92,18 @@ struct FrameRow {
     std::uint64_t pairs = 0;
 };
 
+/// One stage of the plan of a moving scene in one round of one cell: sums over the frames of one
+/// pass through the scene (means over the passes, where the round makes several). A stage that is
+/// not called for has a row of zeros, so that what was left out can be seen.
+struct EffectRow {
+    std::uint32_t cell_id = 0, shard_id = 0, round = 0;
+    std::string stage; ///< advance_<effect> | move | fit | update | pairs | filter | ...
+    std::uint32_t called_for = 0;
+    std::uint64_t calls = 0, items = 0;
+    double total_ns = missing;
+    std::uint64_t bytes = 0; ///< memory that the stage alone holds, at its most
+};
+
 struct Counter {
     std::uint32_t cell_id = 0;
     std::string counter; ///< node_visits box_tests triangle_tests pairs hits stack_max bytes ...
@@ -165,6 +177,7 @@ struct Results {
     std::vector<Shard> shards;
     std::vector<Sample> samples;
     std::vector<FrameRow> frames;
+    std::vector<EffectRow> effects;
     std::vector<Counter> counters;
     std::vector<Check> checks;
     std::vector<TreeRow> trees;

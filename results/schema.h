@@ -14,7 +14,7 @@
 namespace boxwood::results {
 
 inline constexpr std::string_view format_name = "boxwood-results";
-inline constexpr std::uint32_t schema_major = 1, schema_minor = 2;
+inline constexpr std::uint32_t schema_major = 1, schema_minor = 3;
 
 /// One column of a table of `Row`s.
 template <class Row> struct Column {
@@ -32,9 +32,10 @@ template <class Row> struct Table {
     std::vector<Column<Row>> columns;
 };
 
-using Tables = std::tuple<Table<Env>, Table<SceneRow>, Table<Variant>, Table<Cell>, Table<Shard>,
-                          Table<Sample>, Table<FrameRow>, Table<Counter>, Table<Check>,
-                          Table<TreeRow>, Table<KernelRow>, Table<ConditionRow>, Table<Comparison>>;
+using Tables =
+    std::tuple<Table<Env>, Table<SceneRow>, Table<Variant>, Table<Cell>, Table<Shard>,
+               Table<Sample>, Table<FrameRow>, Table<EffectRow>, Table<Counter>, Table<Check>,
+               Table<TreeRow>, Table<KernelRow>, Table<ConditionRow>, Table<Comparison>>;
 const Tables& tables();
 
 /// Calls visit(table) for every table, in the order of results.h.
