@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from . import stats
-from .run import TOTAL
+from . import lanes, stats
+from .run import SCENE_ASKS, TOTAL
 
 
 @dataclass
@@ -18,6 +18,7 @@ class Comparison:
     ratio: stats.Interval
     p: float
     verdict: str = stats.CANNOT_TELL
+    lane: str = lanes.EVERY
 
     @property
     def text(self):
@@ -34,8 +35,13 @@ class Finding:
     ours: object  # our ranked cell with the least build + query; None if there is none
     quickest: object  # our ranked cell with the least query
     comparisons: list
-    wrong: list  # cells of the job that answered wrongly, ours or theirs
+    wrong: list  # cells of the job that answered wrongly, ours or theirs; of its first lane
     unchecked: list
+    lane: str = lanes.EVERY  # of rays: whom they are held against
+
+    @property
+    def title(self):
+        return f"{self.job}{self.lane and ' · '}{self.lane}"
 
     def against(self, peer, phase):
         for comparison in self.comparisons:
@@ -82,27 +88,37 @@ def judge(family, floor):
 
 
 def findings(run):
-    """One Finding per job, in the order of run.jobs, with our best cell of each phase. The claims about it are
-    one Holm family, as in `boxwood sweep`."""
+    """One Finding per job and lane, in the order of run.jobs, with our best cell of each phase. The claims about it
+    are one Holm family, as in `boxwood sweep`."""
     found, floor = [], run.noise_floor
     for job in run.jobs:
+        if job.ask == SCENE_ASKS:
+            continue
         cells = run.of(job)
-        ranked = [cell for cell in cells if cell.ranked]
-        best = {
-            phase: min((c for c in ranked if c.ours and c.rounds(phase)), key=lambda c: c.median(phase), default=None)
-            for phase in (TOTAL, "query")
-        }
-        peers = sorted((c for c in ranked if not c.ours), key=lambda c: c.label)
-        comparisons = []
-        for phase, ours in best.items():
-            family = [c for c in (compare(job, ours, peer, phase) for peer in peers) if c] if ours else []
-            judge(family, floor)
-            # Where one side has no build, its query holds all the work: only the sum is fair.
-            comparisons += [c for c in family if phase == TOTAL or ours.has_build and c.peer.has_build]
         wrong = [c for c in run.cells if c.job == job and c.status == "wrong"]  # timed or not
         unchecked = [c for c in cells if c.status == "unchecked"]
-        found.append(Finding(job, best[TOTAL], best["query"], comparisons, wrong, unchecked))
+        for lane, ranked in lanes.split([cell for cell in cells if cell.ranked]).items():
+            found.append(in_lane(job, lane, ranked, floor))
+            found[-1].wrong, found[-1].unchecked = wrong, unchecked
+            wrong, unchecked = [], []
     return found
+
+
+def in_lane(job, lane, ranked, floor):
+    best = {
+        phase: min((c for c in ranked if c.ours and c.rounds(phase)), key=lambda c: c.median(phase), default=None)
+        for phase in (TOTAL, "query")
+    }
+    peers = sorted((c for c in ranked if not c.ours), key=lambda c: c.label)
+    comparisons = []
+    for phase, ours in best.items():
+        family = [c for c in (compare(job, ours, peer, phase) for peer in peers) if c] if ours else []
+        judge(family, floor)
+        for claim in family:
+            claim.lane = lane
+        # Where one side has no build, its query holds all the work: only the sum is fair.
+        comparisons += [c for c in family if phase == TOTAL or ours.has_build and c.peer.has_build]
+    return Finding(job, best[TOTAL], best["query"], comparisons, [], [], lane)
 
 
 def floor_text(run):
@@ -145,10 +161,10 @@ def phases_text(cell):
 
 def sentence(finding):
     """A finding in words, for the report."""
-    job, ours = finding.job, finding.ours
+    ours = finding.ours
     if ours is None:
-        return f"{job}: no ranked variant of ours."
-    start = f"{job}: {ours.label}: {phases_text(ours)}"
+        return f"{finding.title}: no ranked variant of ours."
+    start = f"{finding.title}: {ours.label}: {phases_text(ours)}"
     totals = [c for c in finding.comparisons if c.phase == TOTAL]
     said = []
     for verdict, lead in (
@@ -167,9 +183,9 @@ def sentence(finding):
 
 def comparison_rows(found):
     """Columns and rows of every comparison, for a table."""
-    columns = ("job", "ours", "peer", "phase", "rounds", "ratio", "low", "high", "p adjusted", "verdict")
+    columns = ("job", "lane", "ours", "peer", "phase", "rounds", "ratio", "low", "high", "p adjusted", "verdict")
     rows = [
-        (str(c.job), c.ours.label, c.peer.label, c.phase, c.ratio.n, c.ratio.mid, c.ratio.lo, c.ratio.hi, c.p,
+        (str(c.job), c.lane, c.ours.label, c.peer.label, c.phase, c.ratio.n, c.ratio.mid, c.ratio.lo, c.ratio.hi, c.p,
          c.verdict)
         for finding in found
         for c in finding.comparisons

@@ -1,8 +1,9 @@
 """The report: one HTML file that needs no network and no script."""
 
+import base64
 from html import escape
 
-from . import registry
+from . import moving, registry
 from .findings import comparison_rows, findings, floor_text, rounds_text, sentence, time_text
 from .kernels import take_home
 from .picture import as_inline_svg, cell_text
@@ -15,7 +16,7 @@ body { font: 15px/1.5 system-ui, "DejaVu Sans", sans-serif; color: #222; backgro
 h1 { font-size: 1.7rem; margin-bottom: .2rem; } h2 { font-size: 1.25rem; margin-top: 2.4rem; }
 h3 { font-size: 1.05rem; margin: 1.6rem 0 .3rem; }
 .lead { color: #555; margin-top: 0; }
-figure { margin: .6rem 0 1.2rem; } figure svg { max-width: 100%; height: auto; }
+figure { margin: .6rem 0 1.2rem; } figure svg, figure img { max-width: 100%; height: auto; }
 figcaption, .note { color: #555; font-size: .88rem; }
 table { border-collapse: collapse; font-size: .82rem; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; padding: .18rem .7rem .18rem 0; border-bottom: 1px solid #e4e4e4; vertical-align: top; }
@@ -95,6 +96,22 @@ def kernels_html(run):
             + folded(f"All {len(rows):,} kernels on hard cases", table(columns, rows)))
 
 
+STRIP = "strip_"  # texts that hold frames of a scene side by side, as SVG
+
+
+def scenes_html(run):
+    """What moving scenes come to in words, and their frames. A picture from a file cannot run scripts as an image."""
+    lines = "".join(f"<li>{escape(line)}.</li>" for line in moving.take_home(run))
+    parts = [f"<ul>{lines}</ul>"] if lines else []
+    for name, svg in sorted(run.source.texts.items()):
+        if name.startswith(STRIP):
+            scene = name.removeprefix(STRIP)
+            data = base64.b64encode(svg.encode()).decode()
+            parts.append(f"<h3>{escape(scene)}</h3><figure><img alt=\"Frames of the moving scene {escape(scene)}, side by "
+                         f"side, drawn with few bodies\" src=\"data:image/svg+xml;base64,{data}\"></figure>")
+    return f"<h2>Scenes that move</h2>{''.join(parts)}" if parts else ""
+
+
 def quantile(times, part):
     """The value that `part` of the samples do not exceed."""
     return times[min(int(part * len(times)), len(times) - 1)]
@@ -157,7 +174,8 @@ def machine_html(run):
     # As text: one column of values of all kinds reads best from the left.
     rows = [(name, *(shown(as_plain(row[name]))[0] for row in env)) for name in env.dtype.names]
     columns = ("", *(f"machine state {row['env_id']}" for row in env))
-    texts = "".join(folded(name, f"<pre>{escape(text)}</pre>") for name, text in sorted(run.source.texts.items()) if text)
+    texts = "".join(folded(name, f"<pre>{escape(text)}</pre>") for name, text in sorted(run.source.texts.items())
+                    if text and not name.startswith(STRIP))
     return table(columns, rows) + texts
 
 
@@ -186,6 +204,7 @@ def report(run):
             "paired within rounds: above 1 Boxwood is the faster. Ours is the variant with the least build and "
             f"query together, chosen from this same run.</p><ul>{sentences}</ul>",
             folded(f"All {len(rows):,} comparisons, smaller sizes too", table(columns, rows)),
+            scenes_html(run),
             kernels_html(run),
             figures_html(run),
             "<h2>Is it right</h2>", checks_html(run),

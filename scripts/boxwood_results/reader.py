@@ -30,6 +30,8 @@ OPTIONAL = {
         "false_neg", "maybe", "max_ulp", "max_rel_err", "bound_violations", "tier_0", "tier_1", "tier_2",
         "tier_3", "status", "witness",
     ),
+    "frames": ("cell_id", "shard_id", "frame", "update_ns", "query_ns"),
+    "effects": ("cell_id", "shard_id", "stage", "called_for", "calls", "items", "total_ns", "bytes"),
     "conditions": ("cell_id", "log10_condition", "n", "max_rel_err", "bound"),
 }
 

@@ -12,8 +12,10 @@ AA_TWIN, WRONG_ANSWER, DISTURBED = 4, 8, 1 | 2
 RANKED = ("exact", "conservative", "within_bound")
 STATUSES = ("wrong", "unsupported", "within_bound", "conservative", "exact")  # the worst first
 OURS = "boxwood"
+SCENE_ASKS = "scene_asks"  # frames of a moving scene with all that it asks: ways to play it, not rivals
 WHOLE_QUERY = "typical"  # a kernel row about a whole query, whose cell stays among the others
 TOTAL = "build+query"  # within a round: what one use costs; of moving boxes update and query, of trees the build
+TOTAL_WORDS = {"moving_pairs": "update and one query", "tree": "build", SCENE_ASKS: "update and queries of a frame"}
 # Under both of these a "build" only copies the input: no structure is made (ns per item; part of the query).
 COPY_NS, COPY_PART = 5, 0.05
 
@@ -31,6 +33,21 @@ class Job:
     def __str__(self):
         threads = "1 thread" if self.threads == 1 else f"{self.threads} threads"
         return f"{self.scene} {self.n:,} · {self.ask} · {threads}"
+
+
+@dataclass
+class Stage:
+    """One stage of a cell's plan: sums over the frames of one pass, times by round."""
+
+    called_for: bool
+    calls: int
+    items: int
+    bytes: int
+    times: list = field(default_factory=list)
+
+    @property
+    def ns(self):
+        return median(self.times)
 
 
 @dataclass
@@ -52,6 +69,10 @@ class Cell:
     twin: dict = field(default_factory=dict)  # the same of the A/A twin
     counters: dict = field(default_factory=dict)
     tree: object = None
+    n_frames: int = 1
+    scene_json: str = ""  # parameters of the scene
+    frames: dict = field(default_factory=dict)  # number -> [(ns to update, ns to query)] of the rounds
+    stages: dict = field(default_factory=dict)  # name -> Stage, in the order of the plan
 
     @property
     def ours(self):
@@ -59,7 +80,9 @@ class Cell:
 
     @property
     def family(self):
-        """What colour stands for: our builder, or the peer's library."""
+        """What colour stands for: our builder or policy, how a scene is played, or the peer's library."""
+        if self.job.ask == SCENE_ASKS and self.ours:
+            return self.contender
         return self.builder if self.ours and self.builder else self.library
 
     @property
@@ -147,9 +170,15 @@ def read_cells(source):
         cells[row["cell_id"]] = Cell(
             int(row["cell_id"]), row["name"], job, variant["name"], variant["library"],
             variant["builder"], variant["traversal"], variant["kernel"], row["precision"], row["executor"],
-            int(row["n_queries"]),
+            int(row["n_queries"]), n_frames=max(1, int(column(scene, "n_frames", 1))),
+            scene_json=column(scene, "params_json", ""),
         )
     return cells
+
+
+def column(row, name, default):
+    """Of a column that the figures can do without."""
+    return row[name] if name in row.dtype.names else default
 
 
 def add_samples(cells, samples):
@@ -172,6 +201,21 @@ def add_checks(cells, checks):
         status = row["status"] if row["status"] in STATUSES else "wrong"
         if cell.status == "unchecked" or worst(status, cell.status) == status:
             cell.status, cell.check = status, row
+
+
+def add_frames(cells, table):
+    names = ("cell_id", "frame", "update_ns", "query_ns")
+    for cell_id, frame, update, query in zip(*(table[name].tolist() for name in names)):
+        if update + query >= 0:
+            cells[cell_id].frames.setdefault(frame, []).append((update, query))
+
+
+def add_stages(cells, table):
+    for row in table:
+        stages = cells[row["cell_id"]].stages
+        stage = stages.setdefault(row["stage"], Stage(
+            bool(row["called_for"]), int(row["calls"]), int(row["items"]), int(row["bytes"])))
+        stage.times.append(float(row["total_ns"]))
 
 
 def kernel_points(cells, source):
@@ -199,6 +243,10 @@ def read(path):
         cells[row["cell_id"]].counters[row["counter"]] = int(row["value"])
     for row in source["trees"] if source["trees"] is not None else ():
         cells[row["cell_id"]].tree = row
+    if source["frames"] is not None:
+        add_frames(cells, source["frames"])
+    if source["effects"] is not None:
+        add_stages(cells, source["effects"])
     kernels = kernel_points(cells, source)
     ordered = list(cells.values())
     jobs = sorted(

@@ -30,6 +30,18 @@ FAMILIES = {
     "bullet": ("#000000", "h"),
     "brute_force": ("#7F7F7F", "*"),
 }
+# Ways to play moving scenes; they stand beside peers, never beside builders. Settings follow the word.
+POLICIES = {
+    "auto": ("#0072B2", "o"),
+    "keep": ("#009E73", "s"),
+    "merge": ("#56B4E9", "^"),
+    "rebuild": ("#332288", "p"),
+    "refit": ("#882255", "d"),
+    "refine": ("#AA4499", "H"),
+    "reinsert": ("#999933", "8"),
+    "called_for": ("#44AA99", "<"),
+    "everything": ("#117733", ">"),
+}
 # For families that come later: Tol's muted colours, chosen by name so that they never change.
 OTHER_COLOURS = ("#332288", "#117733", "#882255", "#999933", "#AA4499", "#44AA99")
 OTHER_MARKERS = ("<", ">", "p", "h", "d", "H", "8")
@@ -65,6 +77,9 @@ def look(family):
     """(colour, marker) of a family; the same in every figure and every run."""
     if family in FAMILIES:
         return FAMILIES[family]
+    for policy in POLICIES:
+        if family == policy or family.startswith(policy + "_"):
+            return POLICIES[policy]
     number = zlib.crc32(family.encode())
     return OTHER_COLOURS[number % len(OTHER_COLOURS)], OTHER_MARKERS[number // 7 % len(OTHER_MARKERS)]
 

@@ -1,6 +1,7 @@
 """The table of main findings, as plain text."""
 
 from .findings import VERDICT_WORDS, findings, floor_text, phases_text, rounds_text
+from . import moving
 from .kernels import take_home
 from .run import TOTAL
 from .selection import wrong_text
@@ -52,7 +53,7 @@ def summary(run):
         lines.append(table[0])
     for place, (start, finding) in enumerate(places):
         end = places[place + 1][0] if place + 1 < len(places) else len(rows)
-        lines += ["", str(finding.job)]
+        lines += ["", finding.title]
         ours = finding.ours
         if ours is None:
             lines.append("  no ranked variant of ours")
@@ -69,6 +70,9 @@ def summary(run):
         lines += table[start:end]
         lines += [f"    {cell.label}: WRONG, not ranked: {wrong_text(cell)}" for cell in finding.wrong]
         lines += [f"    {cell.label}: not checked, not ranked" for cell in finding.unchecked]
+    scenes = moving.take_home(run)
+    if scenes:
+        lines += ["", "Scenes that move, with what they ask:", *(f"  {line}" for line in scenes)]
     if run.kernels:
         lines += ["", *kernel_lines(run)]
     return lines + ["", *closing_lines(run)]

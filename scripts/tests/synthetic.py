@@ -1,5 +1,6 @@
 """Result files that look like real ones, made by formula: what the figures and errors are tested on."""
 
+import json
 import math
 import random
 
@@ -13,7 +14,7 @@ COLUMNS = {
             ("compiler", NAME), ("git_commit", WORD), ("embree_version", WORD), ("fcl_version", WORD),
             ("cgal_version", WORD), ("bullet_version", WORD), ("stream_triad_gbs_1", F8), ("seed", U8)],
     "scenes": [("scene_id", U4), ("name", NAME), ("generator", WORD), ("n_items", U8), ("seed", U8),
-               ("content_hash", U8)],
+               ("n_frames", U8), ("content_hash", U8), ("params_json", TEXT)],
     "variants": [("variant_id", U4), ("name", NAME), ("library", WORD), ("builder", WORD), ("layout", WORD),
                  ("traversal", WORD), ("kernel", WORD), ("is_peer", U4), ("notes", TEXT)],
     "cells": [("cell_id", U4), ("name", "S320"), ("scene_id", U4), ("variant_id", U4), ("ask", WORD),
@@ -23,6 +24,10 @@ COLUMNS = {
                ("load1", F8), ("steal_ticks", U8)],
     "samples": [("cell_id", U4), ("shard_id", U4), ("round", U4), ("position", U4), ("phase", WORD), ("wall_ns", F8),
                 ("cpu_ns", F8), ("iterations", U8), ("nvcsw", U8), ("nivcsw", U8), ("minflt", U8), ("flags", U4)],
+    "frames": [("cell_id", U4), ("shard_id", U4), ("round", U4), ("frame", U4), ("update_ns", F8), ("query_ns", F8),
+               ("pairs", U8)],
+    "effects": [("cell_id", U4), ("shard_id", U4), ("round", U4), ("stage", WORD), ("called_for", U4), ("calls", U8),
+                ("items", U8), ("total_ns", F8), ("bytes", U8)],
     "counters": [("cell_id", U4), ("counter", WORD), ("value", U8)],
     "checks": [("cell_id", U4), ("oracle", WORD), ("status", WORD), ("n_checked", U8), ("n_expected", U8),
                ("n_got", U8), ("missing", U8), ("extra", U8), ("max_ulp", F8), ("witness", TEXT)],
@@ -59,6 +64,28 @@ TREE_CONTENDERS = {  # the last: SAH cost / 2.5
     "lbvh": ("boxwood", "lbvh", 30, 0, 60),
     "embree.rtc_build_bvh.low": ("embree", "", 100, 0, 61),
 }
+# contender -> (builder, ns of an update per box moved and per box at rest, ns of a query per box, growth per frame)
+POLICIES = {
+    "auto": ("auto", 25, 1, 60, 0.001),
+    "keep": ("keep", 18, 3, 9, 0.0),
+    "merge": ("merge", 24, 4, 62, 0.0),
+    "rebuild.trigger0": ("rebuild_trigger0", 50, 50, 58, 0.0),
+    "reinsert": ("reinsert", 210, 1, 60, 0.012),
+    "fcl.dynamic_aabb_tree.moved": ("", 400, 5, 700, 0.01),
+    "bullet.dbvt.margin": ("", 260, 4, 480, 0.02),
+    "embree.rtc_collide.low": ("", 60, 60, 390, 0.0),
+}
+SHARES = (0.01, 0.1, 1.0)
+# stage -> (ns of a frame where it is called for, ns with everything on, MiB)
+STAGES = {
+    "warehouse": {"advance_drift": (40e3, 40e3, 1), "advance_teleport": (3e3, 3e3, 0), "move": (0, 90e3, 0),
+                  "fit": (12e3, 310e3, 1), "update": (90e3, 260e3, 4), "pairs": (210e3, 400e3, 2), "filter": (4e3, 45e3, 0),
+                  "transform": (0, 600e3, 24), "mesh_trees": (0, 210e3, 30), "triangle_pairs": (0, 0, 0), "surface": (0, 0, 0),
+                  "rays": (0, 0, 0), "points": (0, 0, 0), "regions": (0, 0, 0), "nearest": (0, 0, 0)},
+    "arm_in_clutter": {"advance_joint_motion": (1e3, 1e3, 0), "fit": (2e3, 30e3, 0), "update": (3e3, 20e3, 1),
+                       "pairs": (6e3, 25e3, 1), "filter": (1e3, 1e3, 0), "transform": (30e3, 60e3, 2),
+                       "mesh_trees": (0, 0, 3), "triangle_pairs": (80e3, 80e3, 1), "rays": (0, 0, 0)},
+}
 # rung -> (library, promise, ns, wrong share on touching input, share that goes beyond tier 0 there)
 TRIANGLE_RUNGS = {
     "moller_f32": ("boxwood", "no promise", 5.1, 0.3, 0),
@@ -88,6 +115,7 @@ class Maker:
         self.random = random.Random(seed)
         self.rows = {name: [] for name in COLUMNS}
         self.ids = {}
+        self.texts = {}
         self.rows["env"].append(dict(env_id=0, host="testhost", cpu="Test CPU & <Core> 9", ncpu=2, l1d_bytes=2**64 - 1,
                                      compiler="gcc 12.2.0", git_commit="abc", embree_version="3.13.5",
                                      fcl_version="0.7.0", cgal_version="5.5.1", stream_triad_gbs_1=12.5, seed=1))
@@ -135,6 +163,54 @@ class Maker:
             self.rows["trees"].append(dict(cell_id=cell_id, n_nodes=2 * n - 1, depth_max=20, bytes=64 * n,
                                            sah_cost=tests * 2.5, epo=0.1))
         return cell_id
+
+    def moving_cell(self, scene, n, ask, contender, builder, update, query, growth=0.0, frames=20, params="", status="exact"):
+        """A cell of frames: update and query take so many ns in frame 0, and the query grows."""
+        library = "boxwood" if builder else contender.split(".")[0]
+        scene_id = self.id_of("scenes", (scene, n), name=scene, n_items=n, seed=1, n_frames=frames, params_json=params)
+        variant_id = self.id_of("variants", contender, name=contender, library=library, is_peer=library != "boxwood",
+                                builder="" if ask == "scene_asks" else builder)
+        full = f"{scene}/n{n}-s1/{ask}/{contender}/f32/serial-1"
+        cell_id = self.id_of("cells", full, name=full, scene_id=scene_id, variant_id=variant_id, ask=ask, n_items=n,
+                             precision="f32", executor="serial", threads=1)
+        middle = 1 + growth * (frames - 1) / 2
+        for phase, ns in (("build", 80.0 * n), ("update", update), ("query", query * middle)):
+            self.samples(cell_id, phase, ns)
+        for round_ in range(self.rounds):
+            for frame in range(frames):
+                slow = 1 + 0.05 * self.random.random() + 2.0 * (frame % 10 == 7 and contender == "auto")
+                self.rows["frames"].append(dict(
+                    cell_id=cell_id, shard_id=round_, round=round_, frame=frame, update_ns=update * slow * self.speed[round_],
+                    query_ns=query * (1 + growth * frame) * self.speed[round_], pairs=7))
+        self.rows["checks"].append(dict(cell_id=cell_id, oracle="sweep", status=status, n_checked=n, n_expected=n, n_got=n))
+        return cell_id
+
+    def moving(self, n=10000):
+        """Every policy on one scene with several shares that move, and two scenes with what they ask."""
+        for share in SHARES:
+            name = "uniform_drift" + ("" if share == 1 else f"_share{share:g}".replace(".", "_"))
+            params = json.dumps({"frames_per_second": 30, "groups": [
+                {"generator": "uniform", "effects": [{"name": "drift", "share": share, "speed": 1}]}]})
+            for contender, (builder, moved, rest, query, growth) in POLICIES.items():
+                update = n * (share * moved + (1 - share) * rest)
+                self.moving_cell(name, n, "moving_pairs", contender, builder, update, n * query, growth, params=params)
+        for scene, stages in STAGES.items():
+            effects = [stage.removeprefix("advance_") for stage in stages if stage.startswith("advance_")]
+            for contender in ("called_for", "everything", *(f"called_for.without_{effect}" for effect in effects)):
+                everything = contender == "everything"
+                took = {stage: ns[everything] for stage, ns in stages.items()}
+                if "without" in contender:
+                    took["advance_" + contender.split("without_")[1]] = 0
+                    took["update"] *= 0.6
+                query = sum(took[stage] for stage in ("pairs", "filter", "triangle_pairs") if stage in took)
+                cell_id = self.moving_cell(scene, n, "scene_asks", contender, "ours", sum(took.values()) - query, query)
+                for round_ in range(self.rounds):
+                    self.rows["effects"] += [
+                        dict(cell_id=cell_id, shard_id=round_, round=round_, stage=stage, called_for=ns[0] > 0,
+                             calls=20 * (took[stage] > 0), items=20 * n * (took[stage] > 0),
+                             total_ns=20 * took[stage] * self.speed[round_],
+                             bytes=(ns[2] << 20) if took[stage] else 0)
+                        for stage, ns in stages.items()]
 
     def samples(self, cell_id, phase, ns, twin=False):
         for round_ in range(self.rounds):
@@ -203,6 +279,8 @@ class Maker:
                 file.create_dataset(name, data=data, chunks=(max(1, min(len(data), 4096)),), maxshape=(None,),
                                     shuffle=True, compression="gzip", compression_opts=1, fletcher32=True)
             file["text/argv"] = "boxwood sweep --config x.toml"
+            for text, value in self.texts.items():
+                file["text/" + text] = value
             for key, value in {"format": "boxwood-results", "schema_major": np.uint32(1), "schema_minor": np.uint32(0),
                                "run_uuid": "u", "created_utc": "2025-01-01T00:00:00Z", "sweep_hash": "h",
                                "complete": np.uint32(1), **dict(attrs)}.items():
@@ -224,8 +302,10 @@ def full(rounds=15, wrong=True):
                     made.cell(scene, n, "pairs", contender, spec, threads, hard, "wrong" if bad else "exact", twin)
     for threads in (1, 2):
         for contender, spec in RAY_CONTENDERS.items():
-            made.cell("mesh_stanford_bunny_primary", 69451, "rays_closest", contender, (*spec[:3], 1000 * spec[3], spec[4]),
-                      threads, queries=100000)
+            for kernel, factor in (("moller_trumbore_f32", 1.0), ("watertight", 1.1)) if spec[1] else (("", 1.0),):
+                made.cell("mesh_stanford_bunny_primary", 69451, "rays_closest", contender,
+                          (*spec[:3], 1000 * spec[3], spec[4]), threads, factor, queries=100000, kernel=kernel)
+    made.moving()
     for contender, spec in TREE_CONTENDERS.items():
         made.cell("uniform", 100000, "tree", contender, spec, 1)
     for kernel, factor in (("moller_f32", 1.0), ("guigue_devillers_f64", 1.1), ("guigue_devillers_exact", 1.3)):

@@ -221,7 +221,7 @@ def test_version_says_how_it_was_built():
 def test_list_is_the_same_whole_and_in_parts():
     whole = json.loads(answer("list", "--json"))
     assert list(whole) == (
-        "builders stages layouts updates traversals kernels scenes motions moving_scenes effects asks executors peers families".split()
+        "builders stages layouts updates traversals kernels scenes moving_scenes effects asks executors peers families".split()
     )
     for name, rows in whole.items():
         assert json.loads(answer("list", name, "--json")) == rows

@@ -38,7 +38,8 @@ def text_box(annotation, renderer):
     return Text.get_window_extent(annotation, renderer)
 
 
-@pytest.mark.parametrize("name", ["builder_tradeoff", "scaling", "speedup", "work", "accuracy", "condition"])
+@pytest.mark.parametrize("name", ["builder_tradeoff", "scaling", "speedup", "work", "accuracy", "condition",
+                                  "moved_share", "tree_quality_over_time"])
 def test_labels_do_not_overlap(results, name):
     for made in registry.draw(name, results).pictures:
         renderer = made.figure.canvas.get_renderer()
@@ -84,7 +85,7 @@ def test_wrong_cells_are_marked_and_listed(results):
     crosses = [line for ax in made.figure.axes for line in ax.lines if line.get_marker() == "x"]
     assert len(crosses) == 1
     forest = registry.draw("forest", results).pictures[0]
-    assert not any(row[1] == "bars" and "bullet" in row[5] for row in forest.rows)
+    assert not any(row[2] == "bars" and "bullet" in row[6] for row in forest.rows)
 
 
 @pytest.mark.parametrize("name", ["scaling", "speedup", "run_health"])
@@ -158,6 +159,90 @@ def test_robustness_shows_each_kernel_and_family(results):
 
 
 def test_price_is_relative_to_the_fastest_kernel(results):
-    rows = {r["kernel"]: r for r in rows_of("price", results)}
+    rows = {r["kernel"]: r for r in rows_of("price", results, 1)}
     assert rows["guigue_devillers_exact"]["times_the_fastest"] == pytest.approx(1.3, rel=0.05)
     assert rows["moller_f32"]["status"] == "wrong"
+
+
+def visible_texts(ax):
+    return [text for text in [*ax.texts, ax.title, ax._left_title] if text.get_text().strip()]
+
+
+@pytest.mark.parametrize("name", ["ledger", "effect_price", "frame_times"])
+def test_texts_beside_bars_do_not_overlap(results, name):
+    for made in registry.draw(name, results).pictures:
+        renderer = made.figure.canvas.get_renderer()
+        boxes = [(text.get_text(), text_box(text, renderer) if isinstance(text, Annotation) else text.get_window_extent(renderer))
+                 for ax in made.figure.axes for text in visible_texts(ax)]
+        assert len(boxes) > 5
+        for (one, a), (other, b) in itertools.combinations(boxes, 2):
+            assert labels.overlap(a, b) < 0.1 * min(a.width * a.height, b.width * b.height), (one, other)
+        style.plt.close(made.figure)
+
+
+def test_the_ledger_has_every_stage_called_for_or_not(results):
+    rows = [row for row in rows_of("ledger", results) if row["scene"] == "warehouse"]
+    ours = {row["stage"]: row for row in rows if row["played"] == "called_for"}
+    everything = {row["stage"]: row for row in rows if row["played"] == "everything_on"}
+    assert set(ours) == set(everything) == set(synthetic.STAGES["warehouse"])
+    assert ours["pairs"]["ns_a_frame"] == pytest.approx(210e3, rel=0.05) and ours["pairs"]["called_for"] == 1
+    assert ours["transform"]["ns_a_frame"] == ours["transform"]["calls"] == ours["transform"]["bytes"] == 0
+    assert everything["transform"]["ns_a_frame"] == pytest.approx(600e3, rel=0.05)
+    assert sum(row["share"] for row in ours.values()) == pytest.approx(1)
+
+
+def test_the_ledger_names_what_nobody_calls_for(results):
+    made = registry.draw("ledger", results).pictures[0]
+    texts = " ".join(text.get_text() for ax in made.figure.axes for text in ax.texts)
+    assert "not called for (0): triangle_pairs, surface, rays, points, regions, nearest" in texts
+    assert "not called for (0): mesh_trees, rays" in texts
+    style.plt.close(made.figure)
+
+
+def test_effect_prices_are_paired_ratios(results):
+    rows = {(row["scene"], row["what"]): row for row in rows_of("effect_price", results)}
+    costs = synthetic.STAGES["warehouse"]
+    total = sum(ours for ours, *_ in costs.values())
+    without = total - costs["advance_drift"][0] - 0.4 * costs["update"][0]
+    assert rows["warehouse", "drift"]["ratio"] == pytest.approx(total / without, rel=0.02)
+    everything = sum(all_ for _, all_, _ in costs.values())
+    assert rows["warehouse", "everything on"]["ratio"] == pytest.approx(everything / total, rel=0.02)
+
+
+def test_frame_times_are_percentiles_of_the_frames_and_not_of_the_rounds(results):
+    rows = {row["contender"]: row for row in rows_of("frame_times", results) if row["scene"] == "uniform_drift"}
+    auto = rows["auto"]  # two of 20 frames take thrice the update
+    assert auto["frames"] == 20
+    assert auto["worst_ns"] - auto["p50_ns"] == pytest.approx(2 * 25 * 10000, rel=0.15)
+    assert auto["p50_ns"] < auto["p95_ns"] <= auto["p99_ns"] <= auto["worst_ns"]
+    assert rows["bullet.dbvt.margin"]["over_1_ms"] == 1
+
+
+def test_a_structure_that_ages_climbs(results):
+    rows = rows_of("tree_quality_over_time", results)
+    last = {row["contender"]: row["over_a_fresh_one"] for row in rows
+            if row["scene"] == "uniform_drift" and row["frame"] == 19}
+    assert last["bullet.dbvt.margin"] / (480 / 58) == pytest.approx(1.38, rel=0.03)
+    assert last["merge"] == pytest.approx(62 / 58, rel=0.03)
+
+
+def test_the_moved_share_comes_from_the_scene(results):
+    rows = [row for row in rows_of("moved_share", results) if row["contender"] == "merge"]
+    assert [row["moved_share"] for row in rows] == list(synthetic.SHARES)
+    assert rows[0]["scene"] == "uniform, drift speed 1"
+    assert rows[0]["frame_ns"] == pytest.approx(10000 * (0.01 * 24 + 0.99 * 4 + 62), rel=0.05)
+
+
+def test_ways_to_play_a_scene_are_no_rivals(results):
+    made = [picture for name in ("forest", "speedup", "scaling") for picture in registry.draw(name, results).pictures]
+    assert made and not any("without" in str(row) or "called_for" in str(row) for p in made for row in p.rows)
+
+
+def test_watertight_peers_are_held_against_watertight_kernels(results):
+    for made in registry.draw("forest", results).pictures:
+        rows = [dict(zip(made.columns, row)) for row in made.rows if row[0] == "rays_closest"]
+        for row in rows:
+            assert ("robust" in row["peer"]) == ("watertight" in row["lane"]), row
+            assert "robust" not in row["peer"] or "watertight" in row["ours"]
+        assert not rows or {row["lane"] for row in rows} == {"against single rays", "against single rays, watertight"}
+        style.plt.close(made.figure)

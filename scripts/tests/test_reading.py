@@ -12,7 +12,7 @@ from boxwood_results import findings, reader, run, stats
 
 def test_reads_what_was_written(full):
     results = run.read(full)
-    assert results.rounds == 15 and len(results.jobs) == 14
+    assert results.rounds == 15 and len(results.jobs) == 19
     cell = next(c for c in results.cells if c.name == "uniform/n1000-s1/pairs/binned_sah.wide8.self_pairs/f32/tbb-2")
     assert (cell.label, cell.family, cell.ours, cell.job.threads) == ("binned_sah.wide8 tbb", "binned_sah", True, 2)
     assert cell.status == "exact" and cell.counters["box_tests"] == 41000
@@ -90,7 +90,7 @@ def test_one_round_claims_nothing(small):
 
 
 def test_no_optional_tables(tmp_path):
-    results = run.read(synthetic.small().write(tmp_path / "a.h5", drop=("counters", "trees")))
+    results = run.read(synthetic.small().write(tmp_path / "a.h5", drop=("counters", "trees", "frames", "effects")))
     assert results.cells[0].tree is None and results.cells[0].counters == {}
 
 

@@ -1,5 +1,6 @@
 """The report is one offline page; the summary says the findings; both survive odd files."""
 
+import base64
 from html.parser import HTMLParser
 
 import pytest
@@ -106,7 +107,8 @@ def test_summary(full, script):
     said = done.stdout
     assert "A/A noise floor ±" in said and "15 rounds" in said
     assert "bullet.dbvt: WRONG, not ranked: 2 missing, 0 extra (pair 3,8)" in said
-    assert "M rays/s" in said and "112 exact, 2 wrong" in said
+    assert "M rays/s" in said and "147 exact, 2 wrong" in said
+    assert "with everything on" in said and "with an effect over without it: drift" in said
     assert max(map(len, said.splitlines())) < 150
 
 
@@ -147,3 +149,19 @@ def test_help_has_an_example(script, command):
 def test_bad_usage(script, arguments):
     done = script(*arguments)
     assert done.returncode == 2 and "usage:" in done.stderr
+
+
+def test_scenes_are_told_and_shown_without_running_anything(tmp_path, script):
+    made = synthetic.small()
+    made.moving(1000)
+    svg = '<svg xmlns="http://www.w3.org/2000/svg"><script>alert(1)</script></svg>'
+    made.texts["strip_warehouse"] = svg
+    out = tmp_path / "r.html"
+    assert script("report", made.write(tmp_path / "a.h5"), "--out", out).returncode == 0
+    parsed = Page(out.read_text())
+    images = parsed.named("img")
+    assert len(images) == 1 and "warehouse" in images[0]["alt"]
+    kind, data = images[0]["src"].split(",")
+    assert kind == "data:image/svg+xml;base64" and base64.b64decode(data).decode() == svg
+    assert not parsed.named("script") and "alert(1)" not in " ".join(parsed.text)
+    assert "warehouse 1,000 · scene_asks · 1 thread: a frame of what the scene calls for takes" in " ".join(parsed.text)

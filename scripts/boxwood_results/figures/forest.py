@@ -6,7 +6,7 @@ from .. import stats, style
 from ..findings import VERDICT_WORDS, findings, floor_text, ratio_text, rounds_text
 from ..metrics import METRICS
 from ..picture import Picture, Skip
-from ..run import TOTAL
+from ..run import TOTAL, TOTAL_WORDS
 from ..selection import largest_jobs, wrong_notes
 
 NAME = "forest"
@@ -16,7 +16,7 @@ HOW_TO_READ = (
     "the line Boxwood is faster, left of it the peer. Bars are intervals of at least 95 %. The "
     "shaded band is the A/A noise floor, within which nothing is claimed; marks without a verdict are pale."
 )
-COLUMNS = ("ask", "scene", "n", "threads", "ours", "peer", "peer_library", "phase", "rounds", "ratio", "ratio_lo",
+COLUMNS = ("ask", "lane", "scene", "n", "threads", "ours", "peer", "peer_library", "phase", "rounds", "ratio", "ratio_lo",
            "ratio_hi", "verdict")
 ROW, GAP = 0.23, 0.34  # inches
 
@@ -54,9 +54,6 @@ def ratio_axis(ax, comparisons):
     ax.spines["left"].set_visible(False)
 
 
-TOTALS = {"moving_pairs": "update and one query"}  # what TOTAL is, where not build and query
-
-
 def draw_one(run, ask, threads, found, floor):
     """One picture: a block of rows per scene, a column for build + query and one for the query."""
     entries, y = [], 0.0
@@ -80,11 +77,11 @@ def draw_one(run, ask, threads, found, floor):
         ratio_axis(ax, comparisons)
         ax.set_ylim(y - 0.12, 0)
         ax.set_yticks([])
-        ax.set_title(TOTALS.get(ask, "build and one query") if phase == TOTAL else "query alone", fontsize=10,
+        ax.set_title(TOTAL_WORDS.get(ask, "build and one query") if phase == TOTAL else "query alone", fontsize=10,
                      weight="bold")
         for (at, finding, peer), comparison in zip(entries, comparisons):
             if peer is None:
-                said = f"{finding.job.scene} {finding.job.n:,}   ours: {finding.ours.label}"
+                said = f"{finding.job.scene} {finding.job.n:,}{finding.lane and ', '}{finding.lane}   ours: {finding.ours.label}"
                 if column == 1:
                     said = "" if finding.quickest is finding.ours else f"ours: {finding.quickest.label}"
                 ax.text(0.02 if column else -names / panel, at, said, weight="bold",
@@ -101,11 +98,11 @@ def draw_one(run, ask, threads, found, floor):
                 continue
             said = f"{comparison.text}  {said_of(comparison.verdict)}"
             ax.text(1.03, at, said, transform=ax.get_yaxis_transform(), va="center", fontsize=7.5)
-            rows.append((ask, finding.job.scene, finding.job.n, threads, comparison.ours.label, peer.label,
+            rows.append((ask, finding.lane, finding.job.scene, finding.job.n, threads, comparison.ours.label, peer.label,
                          peer.library, phase, comparison.ratio.n, comparison.ratio.mid, comparison.ratio.lo,
                          comparison.ratio.hi, comparison.verdict))
     said = "; ".join(
-        f"{row[1]}, {row[5]}, {row[7]}: {ratio_text(row[9])} {VERDICT_WORDS[row[12]]}" for row in rows
+        f"{row[2]}, {row[6]}, {row[8]}: {ratio_text(row[10])} {VERDICT_WORDS[row[13]]}" for row in rows
     )
     figure.text(0.02 / size[0], 0.06 / size[1], f"{rounds_text(run)}. {floor_text(run)}.", fontsize=7.5, color="#666666")
     notes = [note for finding in found for note in wrong_notes(finding.wrong)]

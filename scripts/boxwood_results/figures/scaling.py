@@ -5,7 +5,8 @@ import math
 from .. import labels, stats, style
 from ..metrics import METRICS
 from ..picture import Picture, Skip
-from ..run import TOTAL
+from ..moving import WITHOUT
+from ..run import SCENE_ASKS, TOTAL
 from ..selection import MOST_LINES, wrong_notes
 
 NAME = "scaling"
@@ -16,8 +17,8 @@ HOW_TO_READ = (
     "guide grows as n log n. The column off_line says how far the farthest time is from the fit."
 )
 LEAST_SIZES = 3
-PHASES = {"moving_pairs": (TOTAL,), "tree": ("build",)}  # of the other asks all three
-TOTALS = {"moving_pairs": "update+query"}  # what TOTAL is, where not build and query
+PHASES = {"moving_pairs": (TOTAL,), SCENE_ASKS: (TOTAL,), "tree": ("build",)}  # of the other asks all three
+TOTALS = {"moving_pairs": "update+query", SCENE_ASKS: "update+query"}  # what TOTAL is, where not build and query
 COLUMNS = ("ask", "scene", "threads", "phase", "variant", "library", "status", "n", "median_ns", "exponent",
            "exponent_lo", "exponent_hi", "off_line")
 
@@ -27,7 +28,8 @@ def lines_of(run, ask, scene, seed, threads):
     lines = {}
     for cell in run.cells:
         job = cell.job
-        if (job.ask, job.scene, job.seed, job.threads) == (ask, scene, seed, threads) and cell.rounds(TOTAL):
+        if (job.ask, job.scene, job.seed, job.threads) == (ask, scene, seed, threads) and cell.rounds(TOTAL) \
+                and not cell.contender.startswith(WITHOUT):
             lines.setdefault((cell.contender, cell.precision, cell.executor), []).append(cell)
     return [sorted(line, key=lambda c: c.job.n) for line in lines.values() if len(line) >= LEAST_SIZES]
 

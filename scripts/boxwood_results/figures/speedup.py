@@ -5,7 +5,8 @@ import math
 from .. import labels, stats, style
 from ..metrics import METRICS
 from ..picture import Picture, Skip
-from ..run import TOTAL
+from ..moving import WITHOUT
+from ..run import TOTAL, TOTAL_WORDS
 from ..selection import MOST_LINES, wrong_notes
 
 NAME = "speedup"
@@ -77,7 +78,7 @@ def draw_panel(ax, job, lines, rows):
     ax.set_xlim(1 - 0.04 * most, most * 1.03)
     ax.set_ylim(min(0.9, *(end[1] * 0.95 for end in ends)), max(highest, most) * 1.05)
     ax.set_xticks(sorted({1, *(cell.job.threads for _, line in lines for cell in line)}))
-    style.title(ax, f"{job.scene} {job.n:,} · {job.ask} · build and one query")
+    style.title(ax, f"{job.scene} {job.n:,} · {job.ask} · {TOTAL_WORDS.get(job.ask, 'build and one query')}")
     ax.set_xlabel(METRICS["threads"].axis)
     ax.set_ylabel(METRICS["speedup"].axis)
     return ends
@@ -86,7 +87,7 @@ def draw_panel(ax, job, lines, rows):
 def draw(run):
     groups = {}
     for cell in run.cells:
-        if cell.rounds(TOTAL):
+        if cell.rounds(TOTAL) and not cell.contender.startswith(WITHOUT):
             groups.setdefault((cell.job.ask, cell.job.scene, cell.job.seed), {}).setdefault(cell.job.n, []).append(cell)
     by_ask = {}
     for (ask, _, _), sizes in sorted(groups.items()):

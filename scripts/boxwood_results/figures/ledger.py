@@ -1,0 +1,120 @@
+"""The effects ledger: where a frame's time goes, stage by stage, beside the same with everything on."""
+
+from .. import labels, style
+from ..findings import time_text
+from ..moving import frame_ns, interval_text, played_scenes
+from ..picture import Picture, Skip
+
+NAME = "ledger"
+TITLE = "Only what the scene calls for"
+HOW_TO_READ = (
+    "Shorter is better. Each pair of bars is one scene: the stages that it calls for, and the same answers with every "
+    "stage on. A piece is the time of one stage in a mean frame; pieces too narrow for their name stand below "
+    "the bar. What neither calls for is named: it has no call, no time and no memory."
+)
+COLUMNS = ("scene", "n", "threads", "played", "stage", "called_for", "calls", "items", "ns_a_frame", "share", "bytes")
+COLOURS = {
+    "advance": "#999933", "move": "#DDCC77", "fit": "#44AA99", "tree": "#88CCEE", "update": "#0072B2",
+    "box_tree": "#6699CC", "pairs": "#56B4E9", "filter": "#332288", "aim": "#AA4499", "transform": "#882255", "mesh_trees": "#CC79A7", "triangle_pairs": "#D55E00",
+    "surface": "#E69F00", "rays": "#117733", "points": "#009E73", "regions": "#7F7F7F", "nearest": "#000000",
+}
+WIDTH, LEFT, PANEL = 10.5, 1.15, 7.6  # inches
+BAR, STEP, HEAD, FOOT = 0.27, 0.52, 0.3, 0.62
+
+
+def colour_of(stage):
+    word = "advance" if stage.startswith("advance_") else stage
+    return COLOURS.get(word) or style.look(word)[0]
+
+
+def is_dark(colour):
+    red, green, blue = style.colors.to_rgb(colour)
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue < 0.5
+
+
+def costs(cell):
+    """[(stage, ns a frame)] of the stages that ran."""
+    return [(name, stage.ns / cell.n_frames) for name, stage in cell.stages.items() if stage.calls]
+
+
+def wrapped(words, lead, width):
+    """The words behind `lead`, joined by commas, in lines of at most `width` letters."""
+    lines, line = [], lead
+    for place, word in enumerate(words):
+        word += "," if place + 1 < len(words) else ""
+        if len(line) + len(word) > width and line != lead:
+            lines.append(line)
+            line = "   "
+        line += " " + word
+    return [*lines, line]
+
+
+def draw_bar(ax, cell, y, limit):
+    """One stacked bar; gives the stages that are too narrow to be named inside."""
+    left, narrow = 0.0, []
+    pixels = ax.get_window_extent().width / limit
+    for name, ns in costs(cell):
+        colour = colour_of(name)
+        ax.barh(y, ns, left=left, height=BAR, color=colour, edgecolor="white", linewidth=0.8)
+        if labels.text_size(ax.figure, name)[0] + 8 < ns * pixels:
+            ax.text(left + ns / 2, y, name, ha="center", va="center", fontsize=labels.SIZE,
+                    color="white" if is_dark(colour) else style.INK)
+        else:
+            narrow.append((name, ns))
+        left += ns
+    ax.text(left, y, f" {time_text(left)} a frame", va="center", fontsize=8, weight="bold")
+    return narrow
+
+
+def draw_scene(ax, scene, rows):
+    sides = [("called for", scene.called_for), ("everything on", scene.everything)]
+    sides = [(words, cell) for words, cell in sides if cell and cell.stages]
+    limit = 1.14 * max(sum(ns for _, ns in costs(cell)) for _, cell in sides)
+    ax.set_xlim(0, limit)
+    ax.set_ylim(len(sides) * STEP, -0.02)
+    for place, (words, cell) in enumerate(sides):
+        y = place * STEP + BAR / 2 + 0.02
+        total = sum(ns for _, ns in costs(cell))
+        narrow = draw_bar(ax, cell, y, limit)
+        ax.text(-0.012, y, words, transform=ax.get_yaxis_transform(), ha="right", va="center", fontsize=8.5)
+        if narrow:
+            said = ", ".join(f"{name} {time_text(ns)}" for name, ns in narrow)
+            ax.text(0, y + BAR / 2 + 0.02, said, va="top", fontsize=6.8, color="#555555")
+        rows += [(scene.job.scene, scene.job.n, scene.job.threads, words.replace(" ", "_"), name,
+                  int(stage.called_for), stage.calls, stage.items, stage.ns / cell.n_frames if stage.calls else 0.0,
+                  stage.ns / cell.n_frames / total if stage.calls and total else 0.0, stage.bytes)
+                 for name, stage in cell.stages.items()]
+    ratio = f": everything on takes {interval_text(scene.ratio(scene.everything))} as long" if scene.everything else ""
+    ax.set_title(f"{scene.job}".replace(f" · {scene.job.ask}", "") + ratio, fontsize=9.5)
+    ax.set_yticks([])
+    ax.spines["left"].set_visible(False)
+    ax.grid(axis="y", visible=False)
+    ax.xaxis.set_major_locator(style.MaxNLocator(6))
+    ax.xaxis.set_major_formatter(lambda value, _: time_text(value) if value else "0")
+    ax.tick_params(axis="x", labelsize=7.5)
+    idle = [name for name, stage in scene.called_for.stages.items()
+            if not stage.calls and not (scene.everything and scene.everything.stages.get(name, stage).calls)]
+    if idle:
+        for place, line in enumerate(wrapped(idle, "not called for (0):", 130)):
+            ax.annotate(line, (0, 0), xycoords="axes fraction", xytext=(0, -22 - 9 * place), textcoords="offset points",
+                        fontsize=6.8, color="#777777", va="top")
+
+
+def draw(run):
+    scenes = [scene for scene in played_scenes(run) if scene.called_for.stages]
+    if not scenes:
+        raise Skip("no scene was played with what it asks (bench/configs/effects.toml does)")
+    heights = [HEAD + FOOT + STEP * (1 + bool(s.everything and s.everything.stages)) for s in scenes]
+    figure = style.plt.figure(figsize=(WIDTH, sum(heights)))
+    rows, top = [], sum(heights)
+    for scene, height in zip(scenes, heights):
+        ax = figure.add_axes((LEFT / WIDTH, (top - height + FOOT) / sum(heights), PANEL / WIDTH,
+                              (height - HEAD - FOOT) / sum(heights)))
+        draw_scene(ax, scene, rows)
+        top -= height
+    said = "; ".join(
+        f"{s.job}: {time_text(frame_ns(s.called_for))} a frame for what is called for"
+        + (f", everything on {interval_text(s.ratio(s.everything))} as long" if s.everything else "")
+        for s in scenes
+    )
+    return [Picture(NAME, figure, TITLE, f"Time of a frame by stage. {said}.", COLUMNS, rows)]

@@ -1,0 +1,68 @@
+"""How structures age: the query of each frame against one by a structure made anew for the frame."""
+
+from .. import labels, style
+from ..moving import WITHOUT, frame_medians
+from ..picture import Picture, Skip
+from ..selection import choose, largest_jobs, left_out_note, wrong_notes
+
+NAME = "tree_quality_over_time"
+TITLE = "How trees age"
+HOW_TO_READ = (
+    "Lower is better. Each line is the query of each frame by one way to keep the structure, over the query of the same "
+    "frame by our structure that is built anew for every frame (where there is none, over its own first frame). A "
+    "structure that ages climbs; one that keeps the pairs that it found may stay below 1."
+)
+COLUMNS = ("scene", "n", "threads", "contender", "library", "status", "frame", "query_ns", "over_a_fresh_one")
+LEAST_FRAMES = 10
+FRESH = "rebuild_trigger0"
+
+
+def queries(cell):
+    return frame_medians(cell, of=lambda times: times[1])
+
+
+def draw_panel(ax, job, cells, fresh, rows):
+    ends, all_ratios = [], [1.0]
+    for cell in cells:
+        times = queries(cell)
+        base = queries(fresh) if fresh else [times[0]] * len(times)
+        frames = sorted(cell.frames)
+        ratios = [time / other for time, other in zip(times, base)]
+        if cell is not fresh:
+            style_of = {**style.point_style(cell, 4), "markevery": max(1, len(frames) // 10)}
+            ax.plot(frames[:len(ratios)], ratios, **style_of, linewidth=1.3)
+            ends.append((frames[len(ratios) - 1], ratios[-1], f"{cell.label}  {ratios[-1]:.2f}x",
+                         style.text_colour(cell.family)))
+            all_ratios += ratios
+        rows += [(job.scene, job.n, job.threads, cell.label, cell.library, cell.status, frame, time, ratio)
+                 for frame, time, ratio in zip(frames, times, ratios)]
+    ax.axhline(1, color="#555555", linewidth=1, zorder=1)
+    last = max(max(cell.frames) for cell in cells)
+    ends.append((last, 1.0, "built anew: 1" if fresh else "its first frame: 1", "#555555"))
+    style.log_axis(ax.yaxis, min(all_ratios), max(all_ratios), lambda value: f"{value:g}x")
+    ax.set_xlim(0, last)
+    ax.xaxis.set_major_locator(style.MaxNLocator(6, integer=True))
+    style.title(ax, f"{job.scene} {job.n:,} · {job.threads} thread{'s' * (job.threads > 1)}")
+    ax.set_xlabel("frame")
+    ax.set_ylabel("query over one of a fresh tree")
+    return ends
+
+
+def draw(run):
+    panels = []
+    for job in largest_jobs(run):
+        cells = [c for c in run.of(job) if len(c.frames) >= LEAST_FRAMES and not c.contender.startswith(WITHOUT)]
+        if job.ask == "moving_pairs" and len(cells) >= 2 and job.threads == 1:
+            fresh = next((c for c in cells if c.builder == FRESH and c.status != "wrong"), None)
+            shown, left_out = choose(cells, keep=[fresh] if fresh else (), limit=9)
+            panels.append((job, shown, fresh, left_out_note(left_out, f"ways to play {job}") + wrong_notes(cells)))
+    if not panels:
+        raise Skip(f"no scene of {LEAST_FRAMES} or more frames was played in two ways")
+    figure, axes = style.panels(len(panels), width=4.3, labels_right=2.5)
+    rows, notes = [], []
+    for ax, (job, cells, fresh, said) in zip(axes, panels):
+        labels.at_line_ends(ax, draw_panel(ax, job, cells, fresh, rows))
+        notes += said
+    last = {(row[0], row[3]): row[8] for row in rows}
+    said = "; ".join(f"{name} on {scene} {ratio:.2f}x at the last frame" for (scene, name), ratio in last.items())
+    return [Picture(NAME, figure, TITLE, f"Query of each frame over that of a fresh tree. {said}.", COLUMNS, rows, notes)]
