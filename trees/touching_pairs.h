@@ -23,12 +23,15 @@ struct TierCounts {
 
 /// Hands on to another sink the pairs whose triangles share a point by the kernel K, in the same
 /// order and chunks. A `maybe` is handed on as well: the policy of never-miss. Items are triangles
-/// of `mesh`. Batch kernels are given whole blocks; the verdicts are the same as one by one.
-/// `tiers`, if given, is added to, and then all must happen on one thread.
-template <TriangleKernel K> class TouchingPairs final : public PairSink {
+/// of `mesh`, or those of a pair of `a` and of `b`, which have triangle(i) as a TriangleMesh does.
+/// Batch kernels are given whole blocks; the verdicts are the same as one by one. `tiers`, if
+/// given, is added to, and then all must happen on one thread.
+template <TriangleKernel K, class Mesh = TriangleMesh> class TouchingPairs final : public PairSink {
   public:
-    TouchingPairs(const TriangleMesh& mesh, PairSink& sink, TierCounts* tiers = nullptr)
-        : mesh_(mesh), sink_(sink), tiers_(tiers) {}
+    TouchingPairs(const Mesh& mesh, PairSink& sink, TierCounts* tiers = nullptr)
+        : TouchingPairs(mesh, mesh, sink, tiers) {}
+    TouchingPairs(const Mesh& a, const Mesh& b, PairSink& sink, TierCounts* tiers = nullptr)
+        : a_(a), b_(b), sink_(sink), tiers_(tiers) {}
 
     void begin(std::size_t chunks, bool in_order) override { sink_.begin(chunks, in_order); }
     void finish(std::size_t chunk) override { sink_.finish(chunk); }
@@ -48,8 +51,8 @@ template <TriangleKernel K> class TouchingPairs final : public PairSink {
     using Real = typename K::Real;
     static constexpr std::size_t piece_size = 64;
 
-    Triangle<Real> triangle(std::uint32_t item) const {
-        const Triangle<float> t = mesh_.triangle(item);
+    static Triangle<Real> triangle(const Mesh& mesh, std::uint32_t item) {
+        const Triangle<float> t = mesh.triangle(item);
         return {Vec3<Real>(t.a), Vec3<Real>(t.b), Vec3<Real>(t.c)};
     }
 
@@ -74,16 +77,18 @@ template <TriangleKernel K> class TouchingPairs final : public PairSink {
             const std::size_t n_blocks = (pairs.size() + Block::lanes - 1) / Block::lanes;
             for (std::size_t i = 0; i < n_blocks * Block::lanes; ++i) {
                 const Pair p = pairs[std::min(i, pairs.size() - 1)]; // the last one fills the block
-                blocks[i / Block::lanes].set(i % Block::lanes, triangle(p.a), triangle(p.b));
+                blocks[i / Block::lanes].set(i % Block::lanes, triangle(a_, p.a),
+                                             triangle(b_, p.b));
             }
             K::intersect(std::span<const Block>(blocks.data(), n_blocks), verdicts);
         } else {
             for (std::size_t i = 0; i < pairs.size(); ++i)
-                verdicts[i] = K::intersect(triangle(pairs[i].a), triangle(pairs[i].b));
+                verdicts[i] = K::intersect(triangle(a_, pairs[i].a), triangle(b_, pairs[i].b));
         }
     }
 
-    const TriangleMesh& mesh_;
+    const Mesh& a_;
+    const Mesh& b_;
     PairSink& sink_;
     TierCounts* tiers_;
 };

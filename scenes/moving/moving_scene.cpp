@@ -1,5 +1,6 @@
 #include "scenes/moving/moving_scene.h"
 
+#include "kernels/rounding.h"
 #include "scenes/scene.h"
 
 #include <fmt/format.h>
@@ -79,7 +80,8 @@ std::vector<std::uint32_t> drawn(const Random& random, double share, std::uint32
 
 } // namespace
 
-MovingScene::MovingScene(SceneFile file, std::optional<std::size_t> n) : file_(std::move(file)) {
+MovingScene::MovingScene(SceneFile file, std::optional<std::size_t> n, bool can_rewind)
+    : file_(std::move(file)) {
     if (n)
         file_.n = *n;
     std::vector<std::uint32_t> firsts;
@@ -98,6 +100,9 @@ MovingScene::MovingScene(SceneFile file, std::optional<std::size_t> n) : file_(s
     std::ranges::sort(with_velocity_);
     const auto twice = std::ranges::unique(with_velocity_);
     with_velocity_.erase(twice.begin(), twice.end());
+    if (can_rewind)
+        unmoved_ = std::make_unique<const Bodies>(bodies_);
+    start_effects();
 }
 
 void MovingScene::add_group(const BodyGroup& group, std::size_t index) {
@@ -130,9 +135,29 @@ void MovingScene::add_group(const BodyGroup& group, std::size_t index) {
     if (!group.shape.empty() && made.mesh.triangles.empty())
         fill_boxes(bodies_, first,
                    make_scene({.generator = group.shape, .n = group.triangles, .seed = seed}).mesh);
-    if (group.neighbours_ignored)
-        for (std::uint32_t i = first; i + 1 < bodies_.size(); ++i)
-            expected_.push_back({i, i + 1});
+    const auto last = static_cast<std::uint32_t>(bodies_.size());
+    if (group.neighbours_ignored || group.group_ignored)
+        ignored_.push_back({first, last, group.group_ignored});
+    if (group.margin > 0)
+        margins_.push_back({first, last, group.margin});
+}
+
+/// Gives each of these bodies a mesh that no other has.
+void MovingScene::own_meshes(std::span<const std::uint32_t> bodies) {
+    std::vector<std::uint32_t> users(bodies_.meshes.size());
+    for (const std::uint32_t mesh : bodies_.mesh)
+        if (mesh != no_mesh)
+            ++users[mesh];
+    for (const std::uint32_t i : bodies) {
+        std::uint32_t& mesh = bodies_.mesh[i];
+        if (mesh == no_mesh || users[mesh] == 1)
+            continue;
+        --users[mesh];
+        TriangleMesh own = bodies_.meshes[mesh];
+        mesh = static_cast<std::uint32_t>(bodies_.meshes.size());
+        bodies_.meshes.push_back(std::move(own));
+        users.push_back(1);
+    }
 }
 
 void MovingScene::lay_effects(const BodyGroup& group, std::size_t index, std::uint32_t first,
@@ -140,16 +165,35 @@ void MovingScene::lay_effects(const BodyGroup& group, std::size_t index, std::ui
     for (std::size_t k = 0; k < group.effects.size(); ++k) {
         const auto& [name, settings, share] = group.effects[k];
         const EffectEntry& entry = effect_of(name);
-        const Random random(file_.seed, fmt::format("{}.{}.{}", name, index, k));
         const Random lot(file_.seed, fmt::format("{}.{}.{}.chosen", name, index, k));
-        effects_.push_back({entry.make(settings), drawn(lot, share, first, last), random});
-        Moment moment = moment_of(effects_.back());
-        effects_.back().effect->start(moment);
+        std::vector<std::uint32_t> chosen = drawn(lot, share, first, last);
+        if (entry.changes == Changes{.shape = true})
+            std::erase_if(chosen, [&](std::uint32_t i) { return bodies_.mesh[i] == no_mesh; });
+        if (chosen.empty())
+            continue;
+        if (entry.changes.shape)
+            own_meshes(chosen);
         changes_ = changes_ | entry.changes;
         if (entry.changes.velocity)
-            with_velocity_.insert(with_velocity_.end(), effects_.back().chosen.begin(),
-                                  effects_.back().chosen.end());
+            with_velocity_.insert(with_velocity_.end(), chosen.begin(), chosen.end());
+        const Random random(file_.seed, fmt::format("{}.{}.{}", name, index, k));
+        effects_.push_back({&entry, std::move(chosen), entry.make(settings), random});
     }
+}
+
+void MovingScene::start_effects() {
+    for (const Laid& laid : effects_) {
+        Moment moment = moment_of(laid);
+        laid.effect->start(moment);
+    }
+}
+
+void MovingScene::rewind() {
+    if (!unmoved_)
+        throw std::logic_error("a moving scene rewinds only if it was made to");
+    bodies_ = *unmoved_;
+    frame_ = 0;
+    start_effects();
 }
 
 Moment MovingScene::moment_of(const Laid& laid) {
@@ -174,17 +218,43 @@ void MovingScene::move_along(std::uint32_t i) {
         changed_.add(i);
 }
 
-std::span<const std::uint32_t> MovingScene::advance() {
+void MovingScene::begin_frame() {
     ++frame_;
     changed_.clear();
-    for (const Laid& laid : effects_) {
-        Moment moment = moment_of(laid);
-        laid.effect->advance(moment);
-    }
-    for (const std::uint32_t i : with_velocity_)
+}
+
+void MovingScene::advance_effect(std::size_t i) {
+    Moment moment = moment_of(effects_[i]);
+    effects_[i].effect->advance(moment);
+}
+
+void MovingScene::move(std::span<const std::uint32_t> bodies) {
+    for (const std::uint32_t i : bodies)
         move_along(i);
+}
+
+std::span<const std::uint32_t> MovingScene::end_frame() {
     changed_.sort();
     return changed_.bodies();
+}
+
+std::span<const std::uint32_t> MovingScene::advance() {
+    begin_frame();
+    for (std::size_t i = 0; i < effects_.size(); ++i)
+        advance_effect(i);
+    move(with_velocity_);
+    return end_frame();
+}
+
+Aabb<float> pair_box(const MovingScene& scene, std::uint32_t i) {
+    const Aabb<float> box = fitted_box(scene.bodies(), i);
+    for (const Margin& margin : scene.margins())
+        if (margin.first <= i && i < margin.last && !box.is_empty()) {
+            const Vec3<double> by{margin.margin, margin.margin, margin.margin};
+            return round_outward(
+                {static_cast<Vec3<double>>(box.min) - by, static_cast<Vec3<double>>(box.max) + by});
+        }
+    return box;
 }
 
 } // namespace boxwood

@@ -34,7 +34,7 @@ MovingScene scene_of(const std::string& bodies, std::size_t n = 500) {
 // A change of an effect or of a scene on purpose prints its new hash here.
 TEST(MovingScene, SameBitsOnEveryMachine) {
     const std::map<std::string, std::uint64_t> golden{
-        {"arm_in_clutter", 12808140184092340576u},
+        {"arm_in_clutter", 4188994245710974322u},
         {"broadmark_brownian", 14370348206002602028u},
         {"broadmark_brownian_assorted", 15492296474262005164u},
         {"broadmark_free_fall", 7877404418472026855u},
@@ -45,9 +45,12 @@ TEST(MovingScene, SameBitsOnEveryMachine) {
         {"cloth_on_sphere", 7194247173963055679u},
         {"crowd", 9108712809485576929u},
         {"drone_swarm", 16672872951863974898u},
+        {"fly_through", 2285026484788174835u},
         {"four_link_arm", 11566619400684287410u},
         {"popcorn", 7979897268764288550u},
         {"rubble", 868987502972552907u},
+        {"still_life", 2285026484788174835u},
+        {"tumbling_rocks", 2850073478162432003u},
         {"warehouse", 16480614128109678713u},
     };
     std::map<std::string, std::uint64_t> made;
@@ -165,7 +168,10 @@ TEST(MovingScene, OrbitKeepsItsDistance) {
 
 TEST(MovingScene, JointsHoldTheirLinks) {
     MovingScene played(load_scene("arm_in_clutter"), 10);
-    EXPECT_EQ(played.expected_pairs().size(), 31u);
+    ASSERT_EQ(played.ignored().size(), 1u);
+    EXPECT_TRUE(played.is_ignored(30, 31));
+    EXPECT_FALSE(played.is_ignored(29, 31)); // no neighbours
+    EXPECT_FALSE(played.is_ignored(31, 32)); // one of the clutter
     for (int frame = 0; frame < 200; ++frame) {
         played.advance();
         const Bodies& bodies = played.bodies();

@@ -1,37 +1,69 @@
 #include "scenes/moving/scene_file.h"
 
-#include "scenes/moving/effect.h"
+#include "scenes/moving/read_effect.h"
 #include "scenes/scene.h"
 #include "scenes/suggest.h"
 #include "scenes/toml_reader.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
-#include <tuple>
 
 namespace boxwood {
 namespace {
 
 constexpr std::int64_t most_bodies = 100'000'000;
+constexpr std::int64_t most_queries = 10'000'000;
 
-/// "drift", or {name = "drift", share = 0.5, speed = 2}.
-EffectChoice read_effect(const TomlReader& reader, const toml::node& node) {
-    EffectChoice choice;
-    std::tie(choice.name, choice.settings) = reader.with_settings(
-        node, "an effect",
-        [&](const toml::node& name) { return reader.word(name, "effects", names_of(effects())); },
-        [](const std::string& name, const Settings& settings) { effect_of(name).make(settings); },
-        [&](std::string_view key, const toml::node& value) {
-            if (key != "share")
-                return false;
-            choice.share = reader.number(value, "share", 0, 1);
-            return true;
-        });
-    return choice;
+/// "pairs", or {name = "regions", n = 100, kind = "flying"}.
+SceneAsk read_ask(const TomlReader& reader, const toml::node& node) {
+    const toml::table* table = node.as_table();
+    const toml::node* name = table ? table->get("name") : &node;
+    if (!name || (!table && !node.is_string()))
+        reader.fail(node.source(), "an ask is a word, or {name = \"WORD\", n = NUMBER, ...}");
+    const std::string word = reader.word(*name, "asks", names_of(scene_asks()));
+    const SceneAskEntry& entry = *std::ranges::find(scene_asks(), word, &SceneAskEntry::name);
+    SceneAsk ask = entry.defaults;
+    ask.name = word;
+    if (!table)
+        return ask;
+    TomlReader::Words known = entry.keys;
+    known.push_back("name");
+    reader.require_known_keys(*table, "the ask " + word, known);
+    if (const toml::node* kind = table->get("kind"))
+        ask.kind = reader.word(*kind, "kind", names_of(query_kinds()));
+    if (const toml::node* n = table->get("n"))
+        ask.n = reader.whole(*n, "n", 1, most_queries);
+    if (const toml::node* k = table->get("k"))
+        ask.k = reader.whole(*k, "k", 1, 1000);
+    if (const toml::node* size = table->get("size"))
+        ask.size = reader.number(*size, "size", 0, 1e6);
+    return ask;
+}
+
+void read_asks(const TomlReader& reader, const toml::table& root, std::vector<SceneAsk>& asks) {
+    reader.list(root, "asks", asks, [&](const toml::node& node) {
+        SceneAsk ask = read_ask(reader, node);
+        if (std::ranges::find(asks, ask.name, &SceneAsk::name) != asks.end())
+            reader.fail(node.source(), fmt::format("'{}' is asked twice", ask.name));
+        return ask;
+    });
+    if (asks.empty())
+        reader.fail(root.get("asks")->source(), "asks must name something, such as \"pairs\"");
+}
+
+bool read_flag(const TomlReader& reader, const toml::table& table, std::string_view key) {
+    const toml::node* node = table.get(key);
+    if (!node)
+        return false;
+    const auto value = node->value<bool>();
+    if (!value || !node->is_boolean())
+        reader.fail(node->source(), fmt::format("{} must be true or false", key));
+    return *value;
 }
 
 TomlReader::Words generators(bool meshes_alone) {
@@ -45,7 +77,7 @@ TomlReader::Words generators(bool meshes_alone) {
 BodyGroup read_group(const TomlReader& reader, const toml::table& table) {
     reader.require_known_keys(table, "[[bodies]]",
                               {"generator", "n", "share", "overlaps", "shape", "triangles", "scale",
-                               "at", "neighbours_ignored", "effects"});
+                               "at", "margin", "neighbours_ignored", "group_ignored", "effects"});
     BodyGroup group;
     const toml::node* generator = table.get("generator");
     if (!generator)
@@ -81,12 +113,10 @@ BodyGroup read_group(const TomlReader& reader, const toml::table& table) {
         reader.fail(table.get("at")->source(), "at must be three numbers, such as at = [0, 0, 1]");
     if (!at.empty())
         group.at = {at[0], at[1], at[2]};
-    if (const toml::node* ignored = table.get("neighbours_ignored")) {
-        const auto value = ignored->value<bool>();
-        if (!value)
-            reader.fail(ignored->source(), "neighbours_ignored must be true or false");
-        group.neighbours_ignored = *value;
-    }
+    if (const toml::node* margin = table.get("margin"))
+        group.margin = reader.number(*margin, "margin", 0, 1e30);
+    group.neighbours_ignored = read_flag(reader, table, "neighbours_ignored");
+    group.group_ignored = read_flag(reader, table, "group_ignored");
     reader.list(table, "effects", group.effects,
                 [&](const toml::node& node) { return read_effect(reader, node); });
     return group;
@@ -99,7 +129,7 @@ SceneFile parse_scene_file(std::string_view text, const std::string& file) {
     const toml::table root = reader.parse(text);
     reader.require_known_keys(
         root, "a scene file",
-        {"summary", "n", "seed", "frames", "frames_per_second", "view", "bodies"});
+        {"summary", "n", "seed", "frames", "frames_per_second", "view", "asks", "bodies"});
     SceneFile scene;
     scene.name = std::filesystem::path(file).stem().string();
     if (const toml::node* summary = root.get("summary"))
@@ -114,6 +144,7 @@ SceneFile parse_scene_file(std::string_view text, const std::string& file) {
         scene.frames_per_second = reader.number(*fps, "frames_per_second", 1e-3, 1e6);
     if (const toml::node* view = root.get("view"))
         scene.view = reader.word(*view, "view", {"xy", "xz", "yz"});
+    read_asks(reader, root, scene.asks);
     const toml::node* bodies = root.get("bodies");
     const toml::array* groups = bodies ? bodies->as_array() : nullptr;
     if (!groups || groups->empty())
@@ -124,6 +155,11 @@ SceneFile parse_scene_file(std::string_view text, const std::string& file) {
         scene.groups.push_back(read_group(reader, *node.as_table()));
     }
     return scene;
+}
+
+const SceneAsk* ask_of(const SceneFile& file, std::string_view word) {
+    const auto found = std::ranges::find(file.asks, word, &SceneAsk::name);
+    return found == file.asks.end() ? nullptr : &*found;
 }
 
 std::span<const BuiltInScene> built_in_scenes() {

@@ -2,6 +2,7 @@
 
 #include "kernels/settings.h"
 #include "kernels/vec3.h"
+#include "scenes/moving/ask.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -29,11 +30,13 @@ struct BodyGroup {
     std::size_t triangles = 0; ///< of that mesh
     double scale = 1;          ///< on what the generator makes
     Vec3<double> at{};         ///< where the generator's origin is put
+    double margin = 0;         ///< scene units, by which its boxes are widened for pairs
     bool neighbours_ignored = false; ///< pairs of bodies i, i + 1 are expected and left out
+    bool group_ignored = false;      ///< all pairs within the group are
     std::vector<EffectChoice> effects;
 };
 
-/// A scene: what is in it and what happens to it.
+/// A scene: what is in it, what happens to it, and what is asked of each frame.
 struct SceneFile {
     std::string name;    ///< of the file, without .toml
     std::string summary; ///< one line
@@ -43,7 +46,11 @@ struct SceneFile {
     double frames_per_second = 30;
     std::string view = "xy"; ///< the plane in which it is drawn: xy, xz or yz
     std::vector<BodyGroup> groups;
+    std::vector<SceneAsk> asks{{.name = "pairs"}}; ///< each word once
 };
+
+/// The ask of this word, or nullptr.
+const SceneAsk* ask_of(const SceneFile& file, std::string_view word);
 
 /// Throws std::invalid_argument, "file:line: what and how to fix it", for what is no scene.
 SceneFile parse_scene_file(std::string_view text, const std::string& file);
