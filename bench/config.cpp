@@ -6,6 +6,7 @@
 #include "bench/rays.h"
 #include "bench/rungs/rungs.h"
 #include "kernels/catalogue.h"
+#include "scenes/moving/effect.h"
 #include "scenes/queries.h"
 #include "scenes/scene.h"
 #include "trees/layout.h"
@@ -45,8 +46,9 @@ Words kernel_words(Ask ask) {
 
 /// Keys that only kernel asks take, and those that only the others do.
 constexpr std::array kernel_keys{"scale"};
-constexpr std::array tree_keys{"motion",    "frames",   "updates", "overlaps",  "rays",   "n_rays",
-                               "ray_order", "builders", "layouts", "executors", "threads"};
+constexpr std::array tree_keys{"effects", "frames",    "updates",  "overlaps", "rays",
+                               "n_rays",  "ray_order", "builders", "layouts",  "executors",
+                               "threads", "stages",    "without"};
 constexpr std::array point_keys{"n_points", "regions"};
 
 /// The asks of a block are all kernel asks or none is.
@@ -140,9 +142,72 @@ void read_queries(const Reader& reader, const toml::table& table, Block& block) 
     });
 }
 
+bool has(const std::vector<Ask>& asks, Ask ask) {
+    return std::ranges::find(asks, ask) != asks.end();
+}
+
+/// What only some asks take is not there for the others.
+template <std::size_t N>
+void only_for(const Reader& reader, const toml::table& table, bool asked, const char* whose,
+              const std::array<const char*, N>& keys) {
+    for (const char* key : keys)
+        if (const toml::node* node = table.get(key); node && !asked)
+            reader.fail(node->source(), fmt::format("{} is for {}", key, whose));
+}
+
+/// The keys of a block of asks of moving scenes.
+void read_moving(const Reader& reader, const toml::table& table, Block& block) {
+    if (!std::ranges::all_of(block.asks, is_moving_ask))
+        reader.fail(table.source(), "moving_pairs and scene_asks need [[cells]] blocks of their "
+                                    "own");
+    reader.list(table, "scene", block.scenes,
+                [&](const toml::node& node) { return reader.moving_scene(node); });
+    reader.list(table, "effects", block.effects,
+                [&](const toml::node& node) { return reader.effects(node); });
+    if (const toml::node* frames = table.get("frames"))
+        block.n_frames = reader.whole(*frames, "frames", 1, 100'000'000);
+    if (!table.get("n"))
+        block.n.clear();
+
+    const Words generators = names_of(scene_generators());
+    const auto is_generator = [&](const std::string& scene) {
+        return std::ranges::find(generators, scene) != generators.end();
+    };
+    for (const std::string& scene : block.scenes) {
+        if (is_generator(scene) && block.effects.empty())
+            reader.fail(table.source(),
+                        fmt::format("{} stands still: it needs effects, such as effects = "
+                                    "\"drift\" (`boxwood list effects`), or name a moving scene",
+                                    scene));
+        if (!is_generator(scene))
+            for (const char* key : {"effects", "overlaps"})
+                if (const toml::node* node = table.get(key))
+                    reader.fail(node->source(),
+                                fmt::format("{} is for generators; the moving scene {} has its "
+                                            "own",
+                                            key, scene));
+    }
+    const bool asks_scene = has(block.asks, Ask::scene_asks);
+    only_for(reader, table, has(block.asks, Ask::moving_pairs), "the ask moving_pairs",
+             std::array{"updates", "peers"});
+    only_for(reader, table, asks_scene, "the ask scene_asks", std::array{"stages", "without"});
+    only_for(reader, table, false, "the asks of trees that stand still",
+             std::array{"builders", "layouts", "rays", "n_rays"});
+    reader.words(table, "stages", block.stages, {"called_for", "everything"});
+    Words effect_words = names_of(effects());
+    effect_words.insert(effect_words.begin(), "each");
+    reader.words(table, "without", block.without, effect_words);
+    if (asks_scene && block.stages.empty() && block.without.empty())
+        reader.fail(table.source(), "scene_asks needs stages: called_for, everything, or both");
+    if (has(block.asks, Ask::moving_pairs) && block.updates.empty() && block.peers.empty())
+        reader.fail(table.source(), "[[cells]] needs updates, peers, or both");
+}
+
 /// The keys of a block of asks of trees.
 void read_trees(const Reader& reader, const toml::table& table, Block& block) {
-    reader.words(table, "scene", block.scenes, names_of(scene_generators()));
+    const bool moves = std::ranges::any_of(block.asks, is_moving_ask);
+    if (!moves)
+        reader.words(table, "scene", block.scenes, names_of(scene_generators()));
     const bool has_mesh = std::ranges::find(block.scenes, "mesh") != block.scenes.end();
     if (has_mesh && block.scenes.size() > 1)
         reader.fail(table.source(), "the scene \"mesh\" needs a [[cells]] block of its own");
@@ -158,9 +223,6 @@ void read_trees(const Reader& reader, const toml::table& table, Block& block) {
         reader.fail(order->source(), "ray_order is for the asks rays_closest and rays_any");
     reader.words(table, "ray_order", block.ray_order, names_of(ray_orders()));
     read_queries(reader, table, block);
-    reader.words(table, "motion", block.motions, names_of(motions()));
-    if (const toml::node* frames = table.get("frames"))
-        block.n_frames = reader.whole(*frames, "frames", 1, 100'000);
     reader.list(table, "updates", block.updates,
                 [&](const toml::node& node) { return reader.update(node); });
     reader.list(table, "builders", block.builders,
@@ -173,17 +235,11 @@ void read_trees(const Reader& reader, const toml::table& table, Block& block) {
     if (block.rays.empty() && std::ranges::any_of(block.asks, is_ray_ask))
         reader.fail(table.source(), fmt::format("a ray ask needs rays: one or more of {}",
                                                 fmt::join(names_of(ray_kinds()), ", ")));
-    const bool moves = std::ranges::find(block.asks, Ask::moving_pairs) != block.asks.end();
-    if (moves && block.motions.empty())
-        reader.fail(table.source(), fmt::format("moving_pairs needs a motion: one or more of {}",
-                                                fmt::join(names_of(motions()), ", ")));
-    const auto only_for = [&](bool asked, const char* whose, const auto& keys) {
-        for (const char* key : keys)
-            if (const toml::node* node = table.get(key); node && !asked)
-                reader.fail(node->source(), fmt::format("{} is for {}", key, whose));
-    };
-    only_for(moves, "the ask moving_pairs", std::array{"motion", "frames", "updates"});
-    only_for(std::ranges::any_of(block.asks, is_ray_ask), "the asks of rays",
+    if (moves)
+        return read_moving(reader, table, block);
+    only_for(reader, table, false, "the asks of moving scenes",
+             std::array{"effects", "frames", "updates", "stages", "without"});
+    only_for(reader, table, std::ranges::any_of(block.asks, is_ray_ask), "the asks of rays",
              std::array{"rays", "n_rays"});
     for (const SceneEntry& entry : scene_generators())
         if (!entry.has_mesh && std::ranges::find(block.scenes, entry.name) != block.scenes.end())
@@ -192,18 +248,17 @@ void read_trees(const Reader& reader, const toml::table& table, Block& block) {
                     reader.fail(table.source(),
                                 fmt::format("the scene \"{}\" has no triangles to {}", entry.name,
                                             is_ray_ask(ask) ? "aim rays at" : "test"));
-    if (block.builders.empty() && block.updates.empty() && block.peers.empty())
-        reader.fail(table.source(), moves ? "[[cells]] needs updates, peers, or both"
-                                          : "[[cells]] needs builders, peers, or both");
+    if (block.builders.empty() && block.peers.empty())
+        reader.fail(table.source(), "[[cells]] needs builders, peers, or both");
 }
 
 Block read_block(const Reader& reader, const toml::table& table,
                  const std::vector<unsigned>& default_threads) {
     reader.require_known_keys(
         table, "[[cells]]",
-        {"scene",   "n",       "overlaps", "rays",     "n_rays",   "ray_order", "motion",
-         "frames",  "updates", "ask",      "builders", "layouts",  "kernels",   "executors",
-         "threads", "peers",   "k",        "scale",    "n_points", "regions",   "rounds"});
+        {"scene",   "n",      "overlaps", "rays",  "n_rays",   "ray_order", "effects", "frames",
+         "updates", "stages", "without",  "ask",   "builders", "layouts",   "kernels", "executors",
+         "threads", "peers",  "k",        "scale", "n_points", "regions",   "rounds"});
     Block block;
     block.place = reader.place(table.source());
     block.threads = default_threads;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bench/contender.h"
-#include "scenes/motions.h"
+#include "scenes/moving/scene_file.h"
 #include "trees/builder.h"
 
 #include <cstdint>
@@ -20,9 +20,11 @@ struct BuilderChoice {
 
 /// One `[[cells]]` block: the cross product of its lists.
 struct Block {
-    std::string place;               ///< "FILE:LINE", for messages
-    std::vector<std::string> scenes; ///< of kernel asks: families, panels, or "all"
-    std::vector<std::size_t> n{1000};
+    std::string place; ///< "FILE:LINE", for messages
+    /// Generators; of moving asks moving scenes, too: built in, or paths of files; of kernel asks
+    /// families, panels, or "all"
+    std::vector<std::string> scenes;
+    std::vector<std::size_t> n{1000}; ///< empty: each moving scene's own
     std::vector<double> overlaps{10};
     std::vector<std::string> rays; ///< kinds of rays; needed by the ray asks alone
     std::size_t n_rays = 10000;
@@ -30,8 +32,12 @@ struct Block {
     std::size_t n_points = 10000;              ///< points or regions, for their asks
     std::vector<std::string> regions{"boxes"}; ///< kinds of regions, for the ask regions
     std::vector<Ask> asks;
-    std::vector<std::string> motions; ///< kinds of motion; needed by moving_pairs alone
-    std::size_t n_frames = default_frames;
+    /// Of moving asks of generators: each element makes a scene by the effects that it lays on all
+    /// boxes.
+    std::vector<std::vector<EffectChoice>> effects;
+    std::optional<std::size_t> n_frames; ///< else the scene's own
+    std::vector<std::string> stages;     ///< of scene_asks: called_for, everything
+    std::vector<std::string> without;    ///< of scene_asks: effects, or "each"
     std::vector<BuilderChoice> builders;
     std::vector<BuilderChoice> updates; ///< policies, for moving_pairs
     std::vector<std::string> layouts{"wide8"};

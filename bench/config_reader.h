@@ -1,7 +1,8 @@
 #pragma once
 
 #include "bench/config.h"
-#include "scenes/toml_reader.h"
+#include "scenes/moving/read_effect.h"
+#include "scenes/scene.h"
 #include "trees/update.h"
 
 #include <algorithm>
@@ -46,6 +47,29 @@ class ConfigReader : public TomlReader {
             [](const std::string& name, const Settings& settings) {
                 find_update(name)->make(settings);
             });
+    }
+
+    /// Effects that are laid together: one, or a list of them.
+    std::vector<EffectChoice> effects(const toml::node& node) const {
+        if (const toml::array* together = node.as_array()) {
+            std::vector<EffectChoice> all;
+            for (const toml::node& effect : *together)
+                all.push_back(read_effect(*this, effect));
+            return all;
+        }
+        return {read_effect(*this, node)};
+    }
+
+    /// A generator, a built-in moving scene, or the path of a scene file.
+    std::string moving_scene(const toml::node& node) const {
+        const std::string name = node.value_or(std::string());
+        if (node.is_string() && name.ends_with(".toml"))
+            return name;
+        Words known = names_of(built_in_scenes());
+        for (const std::string_view generator : names_of(scene_generators()))
+            if (generator != "mesh")
+                known.push_back(generator);
+        return word(node, "scene", known);
     }
 
   private:

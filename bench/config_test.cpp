@@ -92,7 +92,7 @@ TEST(Config, RefusesNumbersOutOfRangeAndOfTheWrongKind) {
 
 TEST(Config, PoliciesTakeTheirSettings) {
     const std::string moving = "[[cells]]\nscene = \"uniform\"\nask = \"moving_pairs\"\n"
-                               "motion = \"teleport\"\nupdates = ";
+                               "effects = \"teleport\"\nupdates = ";
     const Config config = parse_config(
         moving + "[{name = \"merge\", margin = 2}, {name = \"refine\", share = 0.2}]\n", "x.toml");
     ASSERT_EQ(config.blocks[0].updates.size(), 2u);
@@ -119,8 +119,8 @@ TEST(Config, RefusesBlocksThatMeanNothing) {
                 HasSubstr("no triangles"));
     EXPECT_THAT(complaint("[[cells]]\nscene = \"mesh\"\nn = 5\nask = \"pairs\"\n"),
                 HasSubstr("x.toml:3:"));
-    for (const char* key : {"motion = \"teleport\"", "frames = 3", "updates = \"auto\"",
-                            "rays = \"random\"", "n_rays = 5"})
+    for (const char* key : {"effects = \"teleport\"", "frames = 3", "updates = \"auto\"",
+                            "stages = \"everything\"", "rays = \"random\"", "n_rays = 5"})
         EXPECT_THAT(complaint(block + "builders = \"median\"\n" + key + "\n"),
                     testing::AllOf(HasSubstr("x.toml:5:"), HasSubstr("is for the ask")))
             << key;

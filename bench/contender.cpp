@@ -29,6 +29,8 @@ constexpr std::array ask_entries{
     AskEntry{Ask::regions, "regions", "for each box or sphere every box that it meets"},
     AskEntry{Ask::nearest, "nearest", "for each point the nearest boxes"},
     AskEntry{Ask::closest_points, "closest_points", "for each point the nearest point of the mesh"},
+    AskEntry{Ask::scene_asks, "scene_asks",
+             "frame after frame of a moving scene: all that its file asks for"},
     AskEntry{Ask::triangle_triangle, "triangle_triangle",
              "of each case: do two triangles share a point"},
     AskEntry{Ask::triangle_distance, "triangle_distance",

@@ -17,6 +17,10 @@
 #include <string_view>
 #include <vector>
 
+namespace boxwood {
+struct Frame; // scenes/moving/frames.h
+}
+
 namespace boxwood::bench {
 
 /// What is wanted of a scene.
@@ -33,6 +37,7 @@ enum class Ask : std::uint8_t {
     regions,        ///< for each region every box that shares a point with it
     nearest,        ///< for each point the nearest boxes
     closest_points, ///< for each point the nearest point of the mesh
+    scene_asks,     ///< frame after frame of a moving scene: all that its file asks for
 
     // Of the cases of a hard-case family, one answer each: the families of kernels.
     triangle_triangle, ///< do two triangles share a point
@@ -54,6 +59,8 @@ struct AskEntry {
 std::span<const AskEntry> asks();
 std::string_view to_string(Ask ask);
 std::optional<Ask> ask_of(std::string_view name);
+/// Whether it is asked frame after frame of a moving scene.
+inline bool is_moving_ask(Ask ask) { return ask == Ask::moving_pairs || ask == Ask::scene_asks; }
 /// Whether it is asked of the scene's cases (`Scene::cases`), not of its boxes or mesh.
 inline bool is_kernel_ask(Ask ask) { return ask >= Ask::triangle_triangle; }
 /// Whether a whole query decides about triangles by a kernel that can be chosen.
@@ -118,9 +125,10 @@ class Contender {
     virtual void build() = 0;
     /// Timed: answers the job into `answers`, which is cleared. Needs a build before it.
     virtual void query(Answers& answers) = 0;
-    /// Timed, of moving_pairs: takes the boxes of scene.frames[frame]; a query then answers for
-    /// them. After a build frames come in order from 0.
-    virtual void update(std::size_t /*frame*/) {}
+    /// Timed, of moving asks: takes the next frame; a query then answers for it. The frame lives
+    /// until the next update or build; after a build they come from frame 1. Of scene_asks the
+    /// contender plays its own scene, and the frame given is empty.
+    virtual void update(const Frame& /*frame*/) {}
     /// Untimed: the same query with its work counted, where that can be told.
     virtual std::optional<Work> counted_query(Answers&) { return std::nullopt; }
     /// Further counters of the last counted query.

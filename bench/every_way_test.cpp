@@ -1,10 +1,8 @@
-#include "bench/moving_pairs.h"
 #include "bench/truth.h"
 #include "scenes/scenes.h"
 #include "trees/builder.h"
 #include "trees/layout.h"
 #include "trees/traversals/sorted_rays.h"
-#include "trees/update.h"
 #include "trees/validate.h"
 #include "trees/ways_to_build_for_test.h"
 
@@ -346,35 +344,6 @@ TEST(EveryWay, HandsPairsToEverySinkAndStopsWhenOneHasEnough) {
             }
         }
     }
-}
-
-TEST(EveryWay, EveryPolicyFollowsEveryMotionOfEveryScene) {
-    const auto parallel = parallel_executors();
-    std::size_t turn = 0;
-    for (const std::size_t n : {1u, 2u, 100u})
-        for (Scene scene : every_scene(n))
-            for (const MotionEntry& motion : motions()) {
-                scene.frames = make_frames(motion.name, scene.boxes, 4, 7);
-                std::vector<std::vector<Pair>> expected;
-                for (const Frame& frame : scene.frames)
-                    expected.push_back(true_pairs(frame.boxes, 1));
-                for (const UpdateEntry& entry : updates()) {
-                    const Executor& executor = *parallel[turn++ % parallel.size()];
-                    const auto updater = entry.make({});
-                    updater->start(scene.boxes, executor);
-                    for (std::size_t f = 0; f < scene.frames.size(); ++f) {
-                        updater->update(scene.frames[f].boxes, scene.frames[f].moved, executor);
-                        std::vector<Pair> pairs;
-                        AppendPairs sink(pairs);
-                        updater->self_pairs(executor, sink);
-                        std::ranges::sort(pairs);
-                        ASSERT_EQ(updater->fault(), "") << entry.name << " " << scene.name;
-                        ASSERT_EQ(pairs, expected[f])
-                            << entry.name << ", " << motion.name << " of " << scene.name << " n "
-                            << n << ", frame " << f;
-                    }
-                }
-            }
 }
 
 } // namespace

@@ -1,13 +1,12 @@
 #include "bench/moving_pairs.h"
 
+#include "bench/column_sweep.h"
 #include "bench/ours.h"
-#include "bench/truth.h"
 #include "scenes/suggest.h"
 #include "trees/update.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <stdexcept>
@@ -25,8 +24,8 @@ class MovingPairs final : public Contender {
         updater_->start(scene_.boxes, *executor_);
         placed_ = rebuilds_ = 0;
     }
-    void update(std::size_t frame) override {
-        updater_->update(scene_.frames[frame].boxes, scene_.frames[frame].moved, *executor_);
+    void update(const Frame& frame) override {
+        updater_->update(frame.boxes, frame.moved, *executor_);
         placed_ += updater_->last_step().placed;
         rebuilds_ += updater_->last_step().rebuilt;
     }
@@ -70,6 +69,19 @@ struct Moment {
 
 } // namespace
 
+void play_frame(Contender& contender, const Frame& frame, Answers& answers, FrameTime& time) {
+    const Moment start;
+    contender.update(frame);
+    const Moment updated;
+    contender.query(answers);
+    const Moment end;
+    time.update_ns += updated.wall_since(start);
+    time.query_ns += end.wall_since(updated);
+    time.update_cpu_ns += updated.cpu_ns - start.cpu_ns;
+    time.query_cpu_ns += end.cpu_ns - updated.cpu_ns;
+    time.pairs = answers.pairs.size();
+}
+
 ContenderEntry moving_contender(const BuilderChoice& policy) {
     const UpdateEntry* update = find_update(policy.name);
     if (!update) {
@@ -105,64 +117,46 @@ ContenderEntry moving_contender(const BuilderChoice& policy) {
     return entry;
 }
 
-void play(Contender& contender, const Scene& scene, Answers& answers, std::span<FrameTime> times,
-          FunctionRef<void(std::size_t frame)> after_frame) {
-    for (std::size_t frame = 0; frame < scene.frames.size(); ++frame) {
-        const Moment start;
-        contender.update(frame);
-        const Moment updated;
-        contender.query(answers);
-        const Moment end;
-        FrameTime& time = times[frame];
-        time.update_ns += updated.wall_since(start);
-        time.query_ns += end.wall_since(updated);
-        time.update_cpu_ns += updated.cpu_ns - start.cpu_ns;
-        time.query_cpu_ns += end.cpu_ns - updated.cpu_ns;
-        time.pairs = answers.pairs.size();
-        after_frame(frame);
+void play(Contender& contender, Frames& frames, Answers& answers, std::span<FrameTime> times,
+          FunctionRef<void(std::size_t index, const Frame& frame)> after_frame) {
+    frames.rewind();
+    for (std::size_t index = 0; const Frame* const frame = frames.next(); ++index) {
+        play_frame(contender, *frame, answers, times[index]);
+        after_frame(index, *frame);
     }
 }
 
-std::uint64_t unordered_hash(std::span<const Pair> pairs) {
-    std::uint64_t sum = pairs.size();
-    for (const Pair p : pairs) {
-        std::uint64_t x = (std::uint64_t{p.a} << 32 | p.b) + 0x9e3779b97f4a7c15u;
-        x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u; // splitmix64
-        x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-        sum += x ^ x >> 31;
+MovingTruth::MovingTruth(Frames& frames, unsigned threads, std::function<bool(Pair)> is_left_out)
+    : threads_(threads), is_left_out_(std::move(is_left_out)) {
+    frames.rewind();
+    while (const Frame* const frame = frames.next()) {
+        const ColumnSweep sweep(frame->boxes, threads_);
+        expected_.push_back(is_left_out_ ? sweep.digest(is_left_out_) : sweep.digest());
     }
-    return sum;
+    frames.rewind();
 }
 
-MovingTruth::MovingTruth(const Scene& scene, unsigned threads) {
-    for (const Frame& frame : scene.frames)
-        expected_.push_back(true_pairs(frame.boxes, threads));
-}
-
-void MovingTruth::check(std::size_t frame, const Answers& answers, results::Check& check) const {
-    const std::vector<Pair>& expected = expected_[frame];
-    std::vector<Pair> got = answers.pairs;
-    std::ranges::sort(got);
-    std::vector<Pair> missing, extra; // a pair told twice is extra once
-    std::ranges::set_difference(expected, got, std::back_inserter(missing));
-    std::ranges::set_difference(got, expected, std::back_inserter(extra));
-    if (frame == 0) {
+void MovingTruth::check(std::size_t index, const Frame& frame, const Answers& answers,
+                        results::Check& check) const {
+    const PairsDigest& expected = expected_[index];
+    if (index == 0) {
         check.status = "exact";
         check.oracle = "sweep";
     }
-    check.n_checked += got.size();
-    check.n_got += got.size();
-    check.n_expected += expected.size();
-    check.missing += missing.size();
-    check.extra += extra.size();
-    if (missing.empty() && extra.empty())
+    check.n_checked += answers.pairs.size();
+    check.n_got += answers.pairs.size();
+    check.n_expected += expected.count;
+    if (digest_of(answers.pairs) == expected)
         return;
+    std::vector<Pair> right = ColumnSweep(frame.boxes, threads_).pairs();
+    if (is_left_out_)
+        std::erase_if(right, is_left_out_);
+    const PairsDifference wrong = difference(right, answers.pairs);
+    check.missing += wrong.missing;
+    check.extra += wrong.extra;
     check.status = "wrong";
-    if (check.witness.empty()) {
-        const Pair p = missing.empty() ? extra[0] : missing[0];
-        check.witness = fmt::format("frame {}: {} ({},{})", frame,
-                                    missing.empty() ? "extra" : "missing", p.a, p.b);
-    }
+    if (check.witness.empty())
+        check.witness = fmt::format("frame {}: {}", index, wrong.witness);
 }
 
 } // namespace boxwood::bench

@@ -2,10 +2,12 @@
 
 #include "bench/config.h"
 #include "bench/contender.h"
-#include "results/results.h"
+#include "bench/truth.h"
+#include "scenes/moving/frames.h"
 #include "trees/function_ref.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -21,19 +23,21 @@ struct FrameTime {
     std::uint64_t pairs = 0; ///< of the last pass
 };
 
-/// Takes a contender that was just built through all frames of the scene: update and query of each
-/// are added to its time. `after_frame` is called after each, untimed.
-void play(Contender& contender, const Scene& scene, Answers& answers, std::span<FrameTime> times,
-          FunctionRef<void(std::size_t frame)> after_frame);
+/// Takes the contender through one frame: update and query are added to its time.
+void play_frame(Contender& contender, const Frame& frame, Answers& answers, FrameTime& time);
 
-/// A hash of pairs in any order, cheap beside finding them.
-std::uint64_t unordered_hash(std::span<const Pair> pairs);
+/// Takes a contender that was just built through all frames: update and query of each are added to
+/// its time. `after_frame` is called after each, from 0, untimed. Frames that must be made first
+/// are made untimed.
+void play(Contender& contender, Frames& frames, Answers& answers, std::span<FrameTime> times,
+          FunctionRef<void(std::size_t index, const Frame& frame)> after_frame);
 
 /// One hash of the answers to all frames, whatever the order within a frame.
 class FramesHash {
   public:
-    void add(std::span<const Pair> pairs) {
-        value_ = (value_ ^ unordered_hash(pairs)) * 0x9e3779b97f4a7c15u;
+    void add(std::span<const Pair> pairs) { add(digest_of(pairs).hash); }
+    void add(std::uint64_t hash) {
+        value_ = (value_ ^ hash) * 0x9e3779b97f4a7c15u;
         value_ ^= value_ >> 32;
     }
     std::uint64_t value() const { return value_; }
@@ -42,19 +46,23 @@ class FramesHash {
     std::uint64_t value_ = 1;
 };
 
-/// The pairs of every frame by an oracle that uses no tree: a sweep along x, or brute force where
-/// that is quick.
+/// The pairs of every frame by an oracle that uses no tree (`ColumnSweep`). Of each frame it holds
+/// number and hash alone; which pairs they are is found again where an answer differs.
 class MovingTruth {
   public:
-    /// `threads` may be used to compute it.
-    MovingTruth(const Scene& scene, unsigned threads);
+    /// `threads` may be used. The frames then stand at the start. is_left_out: pairs that are no
+    /// answers, given lower body first.
+    MovingTruth(Frames& frames, unsigned threads, std::function<bool(Pair)> is_left_out = {});
 
-    /// Adds what is wrong with the answers to one frame to the check; the first wrong pair is its
-    /// witness. Of frame 0 it sets status and oracle, too.
-    void check(std::size_t frame, const Answers& answers, results::Check& check) const;
+    /// Adds what is wrong with the answers to frame `index` (from 0) to the check; the first wrong
+    /// pair is its witness. Of frame 0 it sets status and oracle, too.
+    void check(std::size_t index, const Frame& frame, const Answers& answers,
+               results::Check& check) const;
 
   private:
-    std::vector<std::vector<Pair>> expected_; ///< by frame, ascending
+    unsigned threads_;
+    std::function<bool(Pair)> is_left_out_;
+    std::vector<PairsDigest> expected_; ///< by frame
 };
 
 } // namespace boxwood::bench

@@ -7,6 +7,8 @@
 #include "bench/moving_pairs.h"
 #include "bench/ours.h"
 #include "bench/rungs/rungs.h"
+#include "bench/scene_asks.h"
+#include "scenes/moving/effect_scene.h"
 
 #include <fmt/format.h>
 #include <xxhash.h>
@@ -69,6 +71,12 @@ class Expansion {
                 add_cell(block, spec, ask, moving_contender(update), executor, threads);
             return;
         }
+        if (ask == Ask::scene_asks) {
+            for (const ContenderEntry& contender :
+                 scene_contenders(block.stages, block.without, *spec.moving))
+                add_cell(block, spec, ask, contender, executor, threads);
+            return;
+        }
         const std::vector<std::string> kernels =
             takes_kernel(ask) ? kernels_of(block, ask) : std::vector<std::string>{""};
         for (const BuilderChoice& builder : block.builders)
@@ -99,12 +107,13 @@ class Expansion {
             rounds.reset();
         const SceneSpec& other = cells_[seen->second].scene;
         if (other.overlaps != spec.overlaps || other.n_rays != spec.n_rays ||
-            other.n_points != spec.n_points)
+            other.n_points != spec.n_points || other.file != spec.file)
             throw BadInput(fmt::format("{}: the cell {} stands twice with different scenes "
                                        "(overlaps {} and {}, n_rays {} and {}, n_points {} and "
-                                       "{}); make them equal",
+                                       "{}, file \"{}\" and \"{}\"); make them equal",
                                        block.place, name, other.overlaps, spec.overlaps,
-                                       other.n_rays, spec.n_rays, other.n_points, spec.n_points));
+                                       other.n_rays, spec.n_rays, other.n_points, spec.n_points,
+                                       other.file.string(), spec.file.string()));
     }
 
     std::vector<PlannedCell>& cells_;
@@ -168,10 +177,56 @@ void add_queries(const Block& block, SceneSpec spec, Ask ask, Expansion& expansi
     }
 }
 
+bool is_generator(std::string_view word) {
+    return std::ranges::any_of(scene_generators(),
+                               [&](const SceneEntry& entry) { return entry.name == word; });
+}
+
+void add_moving(const Block& block, SceneSpec spec, SceneFile file, Expansion& expansion) {
+    file.n = spec.n;
+    file.seed = spec.seed;
+    if (block.n_frames && *block.n_frames != file.frames) {
+        file.frames = *block.n_frames;
+        file.name += fmt::format("_frames{}", file.frames);
+    }
+    spec.moving = std::make_shared<const SceneFile>(std::move(file));
+    for (const Ask ask : block.asks)
+        expansion.add(block, spec, ask);
+}
+
+/// Every moving scene that is named, and every generator with each of the effects.
+void expand_moving(const Block& block, std::uint64_t seed, Expansion& expansion) {
+    SceneSpec spec;
+    spec.seed = seed;
+    for (const std::string& scene : block.scenes) {
+        spec.generator = scene;
+        if (is_generator(scene)) {
+            for (const std::size_t n : block.n.empty() ? std::vector{SceneSpec{}.n} : block.n)
+                for (const double overlaps : block.overlaps)
+                    for (const std::vector<EffectChoice>& effects : block.effects) {
+                        spec.n = n;
+                        spec.overlaps = overlaps;
+                        add_moving(block, spec, effect_scene(spec, effects), expansion);
+                    }
+            continue;
+        }
+        const SceneFile file = load_scene(scene);
+        spec.overlaps = SceneSpec{}.overlaps;
+        spec.file = scene.ends_with(".toml") ? scene : "";
+        for (const std::size_t n : block.n.empty() ? std::vector{file.n} : block.n) {
+            spec.n = n;
+            add_moving(block, spec, file, expansion);
+        }
+        spec.file.clear();
+    }
+}
+
 void expand(const Block& block, std::uint64_t seed, const std::filesystem::path& mesh,
             Expansion& expansion) {
     if (is_kernel_ask(block.asks.front()))
         return expand_families(block, seed, expansion);
+    if (is_moving_ask(block.asks.front()))
+        return expand_moving(block, seed, expansion);
     SceneSpec spec;
     spec.seed = seed;
     spec.file = is_mesh(block) ? mesh : "";
@@ -180,20 +235,15 @@ void expand(const Block& block, std::uint64_t seed, const std::filesystem::path&
             for (const std::size_t n : block.n)
                 for (const double overlaps : block.overlaps)
                     for (const std::string& rays :
-                         is_ray_ask(ask) ? block.rays : std::vector<std::string>{""})
-                        for (const std::string& motion : ask == Ask::moving_pairs
-                                                             ? block.motions
-                                                             : std::vector<std::string>{""}) {
-                            spec.generator = scene;
-                            spec.n = n;
-                            spec.overlaps = overlaps;
-                            spec.n_points = is_point_ask(ask) ? block.n_points : 0;
-                            spec.rays = rays;
-                            spec.n_rays = rays.empty() ? 0 : block.n_rays;
-                            spec.motion = motion;
-                            spec.n_frames = motion.empty() ? 0 : block.n_frames;
-                            add_queries(block, spec, ask, expansion);
-                        }
+                         is_ray_ask(ask) ? block.rays : std::vector<std::string>{""}) {
+                        spec.generator = scene;
+                        spec.n = n;
+                        spec.overlaps = overlaps;
+                        spec.n_points = is_point_ask(ask) ? block.n_points : 0;
+                        spec.rays = rays;
+                        spec.n_rays = rays.empty() ? 0 : block.n_rays;
+                        add_queries(block, spec, ask, expansion);
+                    }
 }
 
 void keep_only(const std::string& pattern, std::vector<PlannedCell>& cells) {
@@ -240,7 +290,9 @@ Plan make_plan(const std::string& config_text, const std::string& config_file,
             block.threads = overrides.threads;
         try {
             expand(block, plan.seed, overrides.mesh, expansion);
-        } catch (const std::invalid_argument& error) {
+        } catch (const BadInput&) {
+            throw;
+        } catch (const std::exception& error) { // a scene file that cannot be read, too
             throw BadInput(fmt::format("{}: {}", block.place, error.what()));
         }
     }
@@ -258,15 +310,28 @@ Plan make_plan(const std::string& config_text, const std::string& config_file,
     return plan;
 }
 
+namespace {
+
+/// The content of the user's own scene file, as a hash.
+std::string scene_file_text(const SceneSpec& spec) {
+    if (!spec.moving || spec.file.empty())
+        return {};
+    const std::string text = read_text(spec.file.string());
+    return fmt::format(" file {:x}", XXH3_64bits(text.data(), text.size()));
+}
+
+} // namespace
+
 std::string sweep_hash_of(const Plan& plan, std::uint64_t mesh_hash) {
     std::string canonical =
         fmt::format("min_time_ms {} seed {} mesh {:x}\n", plan.min_time_ms, plan.seed, mesh_hash);
     std::vector<std::string> lines;
     for (const PlannedCell& cell : plan.cells)
         lines.push_back(fmt::format(
-            "{} overlaps {} n_rays {}{}{}\n", cell.name, cell.scene.overlaps, cell.scene.n_rays,
+            "{} overlaps {} n_rays {}{}{}{}\n", cell.name, cell.scene.overlaps, cell.scene.n_rays,
             cell.scene.n_points == 0 ? std::string()
                                      : fmt::format(" n_points {}", cell.scene.n_points),
+            scene_file_text(cell.scene),
             cell.rounds ? fmt::format(" rounds {}", *cell.rounds) : std::string()));
     std::ranges::sort(lines); // the order of blocks does not matter
     for (const std::string& line : lines)

@@ -2,8 +2,8 @@
 
 #include "bench/calibration.h"
 #include "bench/judging/judge.h"
-#include "bench/moving_pairs.h"
 #include "bench/record.h"
+#include "bench/scene_asks.h"
 #include "bench/tree_builds.h"
 #include "bench/truth.h"
 #include "trees/quality.h"
@@ -73,7 +73,13 @@ class Preparation {
         truths_.clear();
         judges_.clear();
         moving_truth_.reset();
+        scene_truth_.reset();
+        frames_.reset();
         scene_ = make_scene(cells.front()->scene);
+        if (scene_.spec.moving) {
+            frames_.emplace(scene_.spec.moving);
+            scene_.content_hash = content_hash(*frames_);
+        }
         quality_of_.clear();
 
         std::set<std::string_view> asked;
@@ -102,6 +108,7 @@ class Preparation {
                 const Calibration calibration =
                     is_kernel_ask(cell.ask)         ? measure_kernel(cell, job, row.cell_id, check)
                     : cell.ask == Ask::moving_pairs ? measure_moving(cell, job, row.cell_id, check)
+                    : cell.ask == Ask::scene_asks   ? measure_scene(cell, job, row.cell_id, check)
                     : cell.ask == Ask::tree         ? measure_tree(cell, job, row.cell_id, check)
                                                     : measure(cell, job, row.cell_id, check);
                 row.iterations = calibration.query_iterations;
@@ -164,28 +171,28 @@ class Preparation {
     Calibration measure_moving(const PlannedCell& cell, const Job& job, std::uint32_t cell_id,
                                results::Check& check) {
         if (!moving_truth_)
-            moving_truth_.emplace(scene_, std::max(1u, std::thread::hardware_concurrency()));
+            moving_truth_.emplace(*frames_, std::max(1u, std::thread::hardware_concurrency()));
         const KeepFloatingPointMode keep;
         const std::unique_ptr<Contender> contender = cell.contender.make(job);
         Answers answers;
         FramesHash hash;
-        std::vector<FrameTime> times(scene_.frames.size());
+        std::vector<FrameTime> times(frames_->size());
         Calibration calibration;
         calibration.build_ns = calibrate_ns(target_ns_, [&] { contender->build(); });
-        play(*contender, scene_, answers, times, [&](std::size_t frame) {
+        play(*contender, *frames_, answers, times, [&](std::size_t index, const Frame& frame) {
             hash.add(answers.pairs);
-            moving_truth_->check(frame, answers, check);
+            moving_truth_->check(index, frame, answers, check);
         });
         contender->build();
         std::ranges::fill(times, FrameTime{});
-        play(*contender, scene_, answers, times, [](std::size_t) {});
+        play(*contender, *frames_, answers, times, [](std::size_t, const Frame&) {});
         for (const FrameTime& time : times)
             calibration.query_ns += time.update_ns + time.query_ns;
         calibration.build_iterations = iterations_for(target_ns_, calibration.build_ns);
         calibration.query_iterations = iterations_for(target_ns_, calibration.query_ns);
 
         check.result_hash = hash.value();
-        const std::uint64_t last = unordered_hash(answers.pairs);
+        const PairsDigest last = digest_of(answers.pairs);
         const auto add = [&](std::string counter, std::uint64_t value) {
             out_.counters.push_back({cell_id, std::move(counter), value});
         };
@@ -198,11 +205,35 @@ class Preparation {
             add("node_visits", work->node_visits);
             add("box_tests", work->box_tests);
             add("stack_max", work->stack_max);
-            if (unordered_hash(answers.pairs) != last) {
+            if (digest_of(answers.pairs) != last) {
                 check.status = "wrong";
                 check.witness = "the counted pass answered otherwise than the timed one";
             }
         }
+        return calibration;
+    }
+
+    /// The same of all that a scene asks.
+    Calibration measure_scene(const PlannedCell& cell, const Job& job, std::uint32_t cell_id,
+                              results::Check& check) {
+        if (!scene_truth_)
+            scene_truth_.emplace(scene_.spec.moving,
+                                 std::max(1u, std::thread::hardware_concurrency()));
+        const KeepFloatingPointMode keep;
+        const std::unique_ptr<Contender> contender = cell.contender.make(job);
+        auto& stages = dynamic_cast<StagesContender&>(*contender);
+        std::vector<FrameTime> times(frames_->size());
+        Calibration calibration;
+        calibration.build_ns = calibrate_ns(target_ns_, [&] { contender->build(); });
+        check.result_hash = scene_truth_->check(stages, cell.contender.name, times, check);
+        contender->build();
+        std::ranges::fill(times, FrameTime{});
+        play_scene(stages, times.size(), times, [](std::size_t, const FrameAnswers&) {});
+        for (const FrameTime& time : times)
+            calibration.query_ns += time.update_ns + time.query_ns;
+        calibration.build_iterations = iterations_for(target_ns_, calibration.build_ns);
+        calibration.query_iterations = iterations_for(target_ns_, calibration.query_ns);
+        out_.counters.push_back({cell_id, "pairs", stages.frame_answers().pairs.size()});
         return calibration;
     }
 
@@ -311,7 +342,9 @@ class Preparation {
     Scene scene_;
     std::map<Ask, std::unique_ptr<Truth>> truths_;
     std::map<Ask, std::unique_ptr<Judge>> judges_;
+    std::optional<Frames> frames_; ///< of a scene that moves
     std::optional<MovingTruth> moving_truth_;
+    std::optional<SceneTruth> scene_truth_;
     std::map<std::string, Quality> quality_of_; ///< by builder
 };
 

@@ -1,5 +1,7 @@
 #include "bench/record.h"
 
+#include "scenes/moving/frames.h"
+
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
@@ -40,11 +42,14 @@ std::uint32_t Record::add_scene(const Scene& scene, std::string asks) {
     row.generator = scene.spec.generator;
     row.n_items = items_of(scene);
     row.n_triangles = scene.mesh.triangles.size();
-    if (!scene.frames.empty())
-        row.n_frames = scene.frames.size();
-    row.effects = scene.spec.motion;
+    if (scene.spec.moving) {
+        row.n_frames = scene.spec.moving->frames;
+        row.effects = effect_words(*scene.spec.moving);
+    }
     row.seed = scene.spec.seed;
     row.asks = std::move(asks);
+    if (scene.spec.moving)
+        row.asks += ',' + ask_words(*scene.spec.moving);
     row.content_hash = scene.content_hash;
     row.params_json = scene.params_json;
     out.scenes.push_back(row);

@@ -1,8 +1,8 @@
 #include "bench/round.h"
 
 #include "bench/calibration.h"
-#include "bench/moving_pairs.h"
 #include "bench/prepare.h"
+#include "bench/scene_asks.h"
 #include "bench/truth.h"
 
 #include <benchmark/benchmark.h>
@@ -71,6 +71,7 @@ class Round final : public benchmark::BenchmarkReporter {
 
     std::vector<results::Sample> samples;
     std::vector<results::FrameRow> frames;
+    std::vector<results::EffectRow> effects;
 
     /// One contender at a time is alive: from the start of its build to the end of its query.
     void build(benchmark::State& state, const Timing& timing) {
@@ -105,47 +106,50 @@ class Round final : public benchmark::BenchmarkReporter {
     /// last of the others looked at afterwards. Their times are our own: google-benchmark would
     /// add up update and query.
     void play_frames(benchmark::State& state, const Timing& timing) {
-        const Scene& scene = scene_of(timing.cell->scene);
+        Frames& all = frames_of(timing.cell->scene);
         answers_ = {};
-        std::vector<FrameTime> times(scene.frames.size());
+        std::vector<FrameTime> times(all.size());
+        FramesHash hash;
+        PairsDigest last;
+        play(*contender_, all, answers_, times, [&](std::size_t, const Frame&) {
+            last = digest_of(answers_.pairs);
+            hash.add(last.hash);
+        });
+        time_passes(state, timing, times, [&] {
+            play(*contender_, all, answers_, times, [](std::size_t, const Frame&) {});
+        });
+        if (hash.value() != timing.checked_hash ||
+            (!times.empty() && digest_of(answers_.pairs) != last))
+            flag_wrong();
+        finish();
+    }
+
+    /// The same of all that a scene asks, and its ledger.
+    void play_stages(benchmark::State& state, const Timing& timing) {
+        auto& stages = dynamic_cast<StagesContender&>(*contender_);
+        const std::size_t n_frames = timing.cell->scene.moving->frames;
+        std::vector<FrameTime> times(n_frames);
         FramesHash hash;
         std::uint64_t last = 0;
-        play(*contender_, scene, answers_, times, [&](std::size_t) {
-            hash.add(answers_.pairs);
-            last = unordered_hash(answers_.pairs);
+        play_scene(stages, n_frames, times, [&](std::size_t, const FrameAnswers& answers) {
+            last = answers_hash(answers);
+            hash.add(last);
         });
-        std::ranges::fill(times, FrameTime{});
-        for (const char* phase : {"update", "query"})
-            start_sample(timing, phase);
-        const Usage before;
-        for ([[maybe_unused]] auto iteration : state) {
-            contender_->build();
-            play(*contender_, scene, answers_, times, [](std::size_t) {});
+        std::vector<results::EffectRow> ledger;
+        time_passes(state, timing, times, [&] {
+            play_scene(stages, n_frames, times, [](std::size_t, const FrameAnswers&) {});
+            add_ledger(ledger, stages.ledger());
+        });
+        if (hash.value() != timing.checked_hash || answers_hash(stages.frame_answers()) != last)
+            flag_wrong();
+        for (results::EffectRow& row : ledger) {
+            if (timing.is_twin)
+                break;
+            row.cell_id = timing.cell_id;
+            row.round = round_;
+            row.total_ns /= static_cast<double>(state.iterations());
+            effects.push_back(std::move(row));
         }
-        const Usage after;
-        results::Sample &update = samples.end()[-2], &query = samples.back();
-        const auto passes = static_cast<double>(state.iterations());
-        update.wall_ns = update.cpu_ns = query.wall_ns = query.cpu_ns = 0;
-        const double all = passes * static_cast<double>(times.size());
-        for (std::size_t f = 0; f < times.size(); ++f) {
-            const FrameTime& time = times[f];
-            update.wall_ns += time.update_ns / all;
-            update.cpu_ns += time.update_cpu_ns / all;
-            query.wall_ns += time.query_ns / all;
-            query.cpu_ns += time.query_cpu_ns / all;
-            if (!timing.is_twin)
-                frames.push_back({timing.cell_id, 0, round_, static_cast<std::uint32_t>(f),
-                                  time.update_ns / passes, time.query_ns / passes, time.pairs});
-        }
-        const bool wrong = hash.value() != timing.checked_hash ||
-                           (!times.empty() && unordered_hash(answers_.pairs) != last);
-        for (results::Sample* sample : {&update, &query}) {
-            sample->iterations = static_cast<std::uint64_t>(all);
-            add_usage(*sample, before, after);
-            if (wrong)
-                sample->flags |= results::wrong_answer;
-        }
-        own_times_ = true;
         finish();
     }
 
@@ -165,6 +169,47 @@ class Round final : public benchmark::BenchmarkReporter {
     }
 
   private:
+    /// One pass per iteration, each after a build that is not timed here: the samples of update and
+    /// query, and the rows of the frames.
+    template <class Pass>
+    void time_passes(benchmark::State& state, const Timing& timing, std::span<FrameTime> times,
+                     Pass pass) {
+        std::ranges::fill(times, FrameTime{});
+        for (const char* phase : {"update", "query"})
+            start_sample(timing, phase);
+        const Usage before;
+        for ([[maybe_unused]] auto iteration : state) {
+            contender_->build();
+            pass();
+        }
+        const Usage after;
+        results::Sample &update = samples.end()[-2], &query = samples.back();
+        const auto passes = static_cast<double>(state.iterations());
+        update.wall_ns = update.cpu_ns = query.wall_ns = query.cpu_ns = 0;
+        const double played = passes * static_cast<double>(times.size());
+        for (std::size_t f = 0; f < times.size(); ++f) {
+            const FrameTime& time = times[f];
+            update.wall_ns += time.update_ns / played;
+            update.cpu_ns += time.update_cpu_ns / played;
+            query.wall_ns += time.query_ns / played;
+            query.cpu_ns += time.query_cpu_ns / played;
+            if (!timing.is_twin)
+                frames.push_back({timing.cell_id, 0, round_, static_cast<std::uint32_t>(f),
+                                  time.update_ns / passes, time.query_ns / passes, time.pairs});
+        }
+        for (results::Sample* sample : {&update, &query}) {
+            sample->iterations = static_cast<std::uint64_t>(played);
+            add_usage(*sample, before, after);
+        }
+        own_times_ = true;
+    }
+
+    /// Of the samples of the frames.
+    void flag_wrong() {
+        for (results::Sample* sample : {&samples.end()[-2], &samples.back()})
+            sample->flags |= results::wrong_answer;
+    }
+
     void make(const Timing& timing) {
         report_(done_, timings_, timing.cell->name);
         const PlannedCell& cell = *timing.cell;
@@ -203,10 +248,27 @@ class Round final : public benchmark::BenchmarkReporter {
         return found->second;
     }
 
+    /// Those of several scenes are kept while they fit.
+    Frames& frames_of(const SceneSpec& spec) {
+        const std::string key = scene_key(spec);
+        if (!frames_.contains(key)) {
+            std::size_t bytes = 0;
+            for (const auto& [other, held] : frames_)
+                bytes += held.bytes();
+            if (bytes + Frames::most_baked > most_frame_bytes)
+                frames_.clear();
+            frames_.emplace(key, Frames(spec.moving));
+        }
+        return frames_.at(key);
+    }
+
+    static constexpr std::size_t most_frame_bytes = std::size_t{2} << 30;
+
     const Report& report_;
     std::size_t timings_, done_ = 0;
     unsigned round_;
     std::map<std::string, Scene> scenes_;
+    std::map<std::string, Frames> frames_;
     std::unique_ptr<Contender> contender_;
     Answers answers_;
     std::fenv_t floating_point_mode_{};
@@ -299,9 +361,14 @@ results::Results run_round(const Plan& plan, const results::Results& prepared, u
         }
         if (timing.cell->ask == Ask::tree)
             continue;
-        if (timing.cell->ask == Ask::moving_pairs) {
+        if (is_moving_ask(timing.cell->ask)) {
             add(timing.cell->name + "/frames", timing.calibration.query_iterations,
-                [&](benchmark::State& state) { engine.play_frames(state, timing); });
+                [&](benchmark::State& state) {
+                    if (timing.cell->ask == Ask::scene_asks)
+                        engine.play_stages(state, timing);
+                    else
+                        engine.play_frames(state, timing);
+                });
             expected += 2;
             continue;
         }
@@ -319,6 +386,7 @@ results::Results run_round(const Plan& plan, const results::Results& prepared, u
     out.shards.push_back(shard);
     out.samples = std::move(engine.samples);
     out.frames = std::move(engine.frames);
+    out.effects = std::move(engine.effects);
     return out;
 }
 

@@ -1,5 +1,6 @@
 #include "bench/truth.h"
 
+#include "bench/column_sweep.h"
 #include "bench/peers/brute_force.h"
 #include "bench/point_truth.h"
 #include "bench/ray_truth.h"
@@ -13,14 +14,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
 
 namespace boxwood::bench {
 namespace {
 
-/// Up to here every pair is tested; it takes some ten seconds. Beyond, only those that overlap in
-/// x.
-constexpr std::size_t most_boxes_for_all_pairs = 200'000;
+/// Up to here every pair is tested, in some tenth of a second. Beyond, those of one column.
+constexpr std::size_t most_boxes_for_all_pairs = 20'000;
 
 /// Calls body(i, part) for each i < n on `threads` threads and joins the parts, sorted.
 template <class Body> std::vector<Pair> gather(std::size_t n, unsigned threads, const Body& body) {
@@ -50,36 +49,6 @@ std::vector<Pair> all_pairs(std::span<const Aabb<float>> boxes, std::size_t begi
     });
 }
 
-/// The same by a sweep: boxes sorted by their least x, each against those that begin before it
-/// ends.
-std::vector<Pair> swept_pairs(std::span<const Aabb<float>> boxes, bool between_halves,
-                              unsigned threads) {
-    const std::size_t n = boxes.size();
-    std::vector<std::uint32_t> order(n);
-    std::iota(order.begin(), order.end(), 0u);
-    std::ranges::sort(order, {}, [&](std::uint32_t i) { return boxes[i].min.x; });
-    std::vector<Aabb<float>> sorted;
-    sorted.reserve(n);
-    for (const std::uint32_t i : order)
-        sorted.push_back(boxes[i]);
-    const BruteForce columns(sorted);
-    const std::size_t split = between_halves ? tree_pairs_split(n) : 0;
-    return gather(parts_of(n), threads, [&](std::size_t part, std::vector<Pair>& out) {
-        const std::size_t last = std::min(n, (part + 1) * rows_per_part);
-        for (std::size_t row = part * rows_per_part; row < last; ++row) {
-            const auto end = std::ranges::upper_bound(
-                sorted, sorted[row].max.x, {}, [](const Aabb<float>& box) { return box.min.x; });
-            columns.append_row(row, row + 1, static_cast<std::size_t>(end - sorted.begin()), out);
-        }
-        for (Pair& p : out) {
-            const auto [a, b] = std::minmax(order[p.a], order[p.b]);
-            p = {a, b};
-        }
-        if (between_halves)
-            std::erase_if(out, [&](Pair p) { return p.a >= split || p.b < split; });
-    });
-}
-
 /// Of the pairs whose boxes overlap, those whose triangles share a point: a corner of the mesh by
 /// number, else by the rational oracle.
 std::vector<Pair> touching(const TriangleMesh& mesh, std::vector<Pair> candidates,
@@ -106,51 +75,67 @@ std::vector<Pair> touching(const TriangleMesh& mesh, std::vector<Pair> candidate
     return candidates;
 }
 
+/// Holds number and hash of the pairs; which they are is found again where an answer differs.
 class PairTruth final : public Truth {
   public:
-    PairTruth(const Scene& scene, Ask ask, unsigned threads) : ask_(ask) {
-        const std::span<const Aabb<float>> boxes = scene.boxes;
-        const bool between_halves = ask == Ask::tree_pairs;
-        if (boxes.size() > most_boxes_for_all_pairs) {
-            oracle_ = "sweep";
-            expected_ = swept_pairs(boxes, between_halves, threads);
-        } else {
-            oracle_ = "brute_force";
-            const std::size_t split = tree_pairs_split(boxes.size());
-            expected_ = all_pairs(boxes, between_halves ? split : 0,
-                                  between_halves ? split : boxes.size(), threads);
-        }
+    PairTruth(const Scene& scene, Ask ask, unsigned threads)
+        : scene_(scene), ask_(ask), threads_(threads),
+          is_small_(scene.boxes.size() <= most_boxes_for_all_pairs) {
+        oracle_ = ask == Ask::triangle_pairs ? "rational" : is_small_ ? "brute_force" : "sweep";
         if (ask == Ask::triangle_pairs) {
-            oracle_ = "rational";
-            expected_ = touching(scene.mesh, std::move(expected_), threads);
+            touching_ = touching(scene.mesh, overlapping(), threads);
+            expected_ = digest_of(touching_);
+        } else {
+            expected_ = is_small_ ? digest_of(overlapping())
+                                  : ColumnSweep(scene.boxes, threads).digest(left_out());
         }
     }
 
     results::Check check(const Answers& answers) const override {
-        std::vector<Pair> got = answers.pairs;
-        std::ranges::sort(got);
-        std::vector<Pair> missing, extra; // a pair told twice is extra once
-        std::ranges::set_difference(expected_, got, std::back_inserter(missing));
-        std::ranges::set_difference(got, expected_, std::back_inserter(extra));
         results::Check check;
         check.oracle = oracle_;
-        check.n_checked = check.n_got = got.size();
-        check.n_expected = expected_.size();
-        check.missing = missing.size();
-        check.extra = extra.size();
-        check.status = missing.empty() && extra.empty() ? "exact" : "wrong";
+        check.n_checked = check.n_got = answers.pairs.size();
+        check.n_expected = expected_.count;
+        check.status = "exact";
         check.result_hash = answer_hash(answers, ask_);
-        if (!missing.empty())
-            check.witness = fmt::format("missing ({},{})", missing[0].a, missing[0].b);
-        else if (!extra.empty())
-            check.witness = fmt::format("extra ({},{})", extra[0].a, extra[0].b);
+        if (digest_of(answers.pairs) == expected_)
+            return check;
+        const PairsDifference wrong =
+            difference(ask_ == Ask::triangle_pairs ? touching_ : overlapping(), answers.pairs);
+        check.status = "wrong";
+        check.missing = wrong.missing;
+        check.extra = wrong.extra;
+        check.witness = wrong.witness;
         return check;
     }
 
   private:
+    /// Pairs of boxes of one side.
+    std::function<bool(Pair)> left_out() const {
+        if (ask_ != Ask::tree_pairs)
+            return {};
+        return [split = tree_pairs_split(scene_.boxes.size())](Pair p) {
+            return p.a >= split || p.b < split;
+        };
+    }
+    std::vector<Pair> overlapping() const {
+        const std::size_t n = scene_.boxes.size(), split = tree_pairs_split(n);
+        if (is_small_)
+            return ask_ == Ask::tree_pairs ? all_pairs(scene_.boxes, split, split, threads_)
+                                           : all_pairs(scene_.boxes, 0, n, threads_);
+        std::vector<Pair> pairs = ColumnSweep(scene_.boxes, threads_).pairs();
+        if (ask_ == Ask::tree_pairs)
+            std::erase_if(pairs, left_out());
+        return pairs;
+    }
+
+    const Scene& scene_;
     Ask ask_;
+    unsigned threads_;
+    bool is_small_;
     std::string oracle_;
-    std::vector<Pair> expected_;
+    std::vector<Pair> touching_; ///< of triangle_pairs, ascending
+    PairsDigest expected_;
 };
 
 class RaysTruth final : public Truth {
@@ -268,10 +253,6 @@ class RaysTruth final : public Truth {
 
 } // namespace
 
-std::vector<Pair> true_pairs(std::span<const Aabb<float>> boxes, unsigned threads) {
-    return swept_pairs(boxes, false, threads);
-}
-
 std::unique_ptr<Truth> make_truth(const Scene& scene, Ask ask, unsigned threads) {
     if (is_point_ask(ask))
         return make_point_truth(scene, ask, threads);
@@ -318,11 +299,8 @@ std::uint64_t answer_hash(const Answers& answers, Ask ask) {
         return kernel_answer_hash(answers);
     if (ask == Ask::nearest || ask == Ask::closest_points)
         return point_answer_hash(answers, ask);
-    if (!is_ray_ask(ask) || ask == Ask::rays_all) {
-        std::vector<Pair> sorted = answers.pairs;
-        std::ranges::sort(sorted);
-        return XXH3_64bits(sorted.data(), sorted.size() * sizeof(Pair));
-    }
+    if (!is_ray_ask(ask) || ask == Ask::rays_all)
+        return digest_of(answers.pairs).hash;
     std::vector<std::uint32_t> words;
     words.reserve(2 * answers.hits.size());
     for (const RayHit& hit : answers.hits) {

@@ -1,15 +1,17 @@
 #pragma once
 
 #include "bench/contender.h"
+#include "bench/pairs_digest.h"
 #include "results/results.h"
 
 #include <memory>
 
 namespace boxwood::bench {
 
-/// The right answer to (scene, ask), by an oracle that uses no tree: brute force for pairs, with
-/// rational arithmetic for those of triangles, brute force in double for a seeded sample of rays.
-/// Computed once, shared by all contenders. The kernel asks have `judging/judge.h` instead.
+/// The right answer to (scene, ask), by an oracle that uses no tree: brute force for pairs, or a
+/// sweep by columns beyond 20,000 boxes, with rational arithmetic for those of triangles; brute
+/// force in double for a seeded sample of rays. Computed once, shared by all contenders. The kernel
+/// asks have `judging/judge.h` instead.
 class Truth {
   public:
     virtual ~Truth() = default;
@@ -19,9 +21,6 @@ class Truth {
 
 /// `threads` may be used to compute it. The scene must outlive the truth.
 std::unique_ptr<Truth> make_truth(const Scene& scene, Ask ask, unsigned threads);
-
-/// Every unordered pair of overlapping boxes, ascending.
-std::vector<Pair> true_pairs(std::span<const Aabb<float>> boxes, unsigned threads);
 
 /// A hash of an answer that does not depend on the order of its pairs. It tells whether two rounds
 /// of one contender gave the same answer.

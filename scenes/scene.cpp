@@ -1,7 +1,8 @@
 #include "scenes/scene.h"
 
+#include "scenes/atom.h"
 #include "scenes/catalogue.h"
-#include "scenes/motions.h"
+#include "scenes/moving/frames.h"
 #include "scenes/queries.h"
 #include "scenes/rays.h"
 
@@ -10,7 +11,6 @@
 
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cstdlib>
 #include <memory>
 #include <stdexcept>
@@ -75,32 +75,8 @@ std::uint64_t hash_of(const Scene& scene) {
     add(*state, scene.points);
     add(*state, scene.regions);
     add(*state, scene.spheres);
-    for (const Frame& frame : scene.frames)
-        add(*state, frame.boxes);
     std::visit(CaseHash(*state), scene.cases);
     return XXH3_64bits_digest(state.get());
-}
-
-/// Lower-case letters and digits, every run of other characters one underscore, none at the ends.
-std::string atom(std::string_view text) {
-    std::string result;
-    for (const char c : text) {
-        const bool upper = c >= 'A' && c <= 'Z';
-        if (upper || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'))
-            result += upper ? static_cast<char>(c - 'A' + 'a') : c;
-        else if (!result.empty() && result.back() != '_')
-            result += '_';
-    }
-    if (!result.empty() && result.back() == '_')
-        result.pop_back();
-    return result.empty() ? "file" : result;
-}
-
-/// The shortest decimal that reads back as x, without exponent: "0.5", "10".
-std::string fixed(double x) {
-    std::array<char, 400> digits; // a double has at most 309 before and 324 + 17 behind the point
-    const auto end = std::to_chars(digits.begin(), digits.end(), x, std::chars_format::fixed).ptr;
-    return {digits.begin(), end};
 }
 
 /// What the spec's family is asked for. Throws std::invalid_argument for what does not go together.
@@ -111,9 +87,6 @@ HardCaseSpec checked(const HardCaseFamily& family, const SceneSpec& spec) {
     if (spec.n_points != 0 || !spec.regions.empty())
         throw std::invalid_argument(
             fmt::format("family {} takes no points or regions; leave them out", family.name));
-    if (!spec.motion.empty())
-        throw std::invalid_argument(fmt::format("family {} has no motion {}; scenes of boxes have",
-                                                family.name, spec.motion));
     if (spec.n >= no_triangle)
         throw std::invalid_argument(fmt::format(
             "family {}: n = {} is too large; cases are numbered by 32 bits", family.name, spec.n));
@@ -191,20 +164,14 @@ const SceneEntry& checked(const SceneSpec& spec) {
                             "sphere_mesh, or leave rays out",
                             entry.name, spec.rays));
     }
-    if (!spec.motion.empty()) {
-        check_motion(spec.motion);
-        if (entry.has_mesh)
-            throw std::invalid_argument(
-                fmt::format("scene {} has triangles, which the motion {} would leave behind; use a "
-                            "scene of boxes such as uniform",
-                            entry.name, spec.motion));
-    }
     return entry;
 }
 
 } // namespace
 
 std::string scene_name(const SceneSpec& spec) {
+    if (spec.moving)
+        return atom(spec.moving->name);
     if (const HardCaseFamily* family = find_hard_case_family(spec.generator)) {
         checked(*family, spec);
         return family_scene_name(*family, spec);
@@ -214,17 +181,13 @@ std::string scene_name(const SceneSpec& spec) {
     if (!spec.file.empty())
         name += '_' + atom(spec.file.stem().string());
     if (entry.uses_overlaps && spec.overlaps != SceneSpec{}.overlaps)
-        name += "_overlaps" + atom(fixed(spec.overlaps));
+        name += "_overlaps" + atom(spec.overlaps);
     if (!spec.rays.empty())
         name += '_' + spec.rays;
     if (spec.n_points != 0)
         name += spec.regions.empty() ? "_points" : '_' + spec.regions;
     if (spec.k && *spec.k != 1)
         name += signed_atom("k", *spec.k);
-    if (!spec.motion.empty())
-        name += '_' + spec.motion;
-    if (!spec.motion.empty() && spec.n_frames != default_frames)
-        name += fmt::format("_frames{}", spec.n_frames);
     return name;
 }
 
@@ -250,18 +213,27 @@ void lay_queries(Scene& scene, const SceneSpec& spec) {
     json += (json.size() > 1 ? "," : "") + params + "}";
 }
 
+Scene start_of(const SceneSpec& spec) {
+    Scene scene;
+    scene.name = scene_name(spec);
+    scene.spec = spec;
+    scene.boxes = boxes_of(MovingScene(*spec.moving));
+    scene.params_json = params_json(*spec.moving);
+    scene.content_hash = hash_of(scene);
+    return scene;
+}
+
 } // namespace
 
 Scene make_scene(const SceneSpec& spec) {
+    if (spec.moving)
+        return start_of(spec);
     if (const HardCaseFamily* family = find_hard_case_family(spec.generator))
         return family_scene(*family, spec);
     const SceneEntry& entry = checked(spec);
     if (!spec.rays.empty() && spec.n_rays == 0)
         throw std::invalid_argument(
             fmt::format("scene {}: {} rays are asked for, but n_rays is 0", entry.name, spec.rays));
-    if (!spec.motion.empty() && spec.n_frames == 0)
-        throw std::invalid_argument(fmt::format(
-            "scene {}: the motion {} is asked for, but n_frames is 0", entry.name, spec.motion));
     Scene scene = entry.generate(spec);
     scene.name = scene_name(spec);
     scene.spec = spec;
@@ -270,8 +242,6 @@ Scene make_scene(const SceneSpec& spec) {
     if (!spec.rays.empty())
         scene.rays = make_rays(spec.rays, scene.mesh, spec.n_rays, spec.seed);
     lay_queries(scene, spec);
-    if (!spec.motion.empty())
-        scene.frames = make_frames(spec.motion, scene.boxes, spec.n_frames, spec.seed);
     scene.content_hash = hash_of(scene);
     return scene;
 }

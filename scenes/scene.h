@@ -9,12 +9,16 @@
 #include <concepts>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace boxwood {
+
+struct SceneFile; // scenes/moving/scene_file.h
 
 /// What a generator is asked for. The same spec gives the same bits on every machine.
 struct SceneSpec {
@@ -27,31 +31,27 @@ struct SceneSpec {
     std::filesystem::path file{}; ///< mesh file (`mesh` alone), or a family's cases
     std::size_t n_points = 0;     ///< number of points or regions
     std::string regions{};        ///< a word of `region_kinds()`, or empty for no regions
-    std::string motion{};         ///< a word of `motions()`, or empty for boxes at rest
-    std::size_t n_frames = 0;     ///< number of frames of the motion
-    std::optional<int> k{};       ///< of a hard-case family: its parameter
-    int scale = 0;                ///< of a hard-case family: power of two on every coordinate
-};
-
-/// The boxes of a moving scene at one moment, all of them, and which are not what they were.
-struct Frame {
-    std::vector<Aabb<float>> boxes;
-    std::vector<std::uint32_t> moved; ///< ascending
+    /// A scene that moves, instead of a generator's: its n and seed are those of the spec, and
+    /// what is made is its frame 0.
+    std::shared_ptr<const SceneFile> moving{};
+    std::optional<int> k{}; ///< of a hard-case family: its parameter
+    int scale = 0;          ///< of a hard-case family: power of two on every coordinate
 };
 
 /// One frame of things to test: boxes always; a mesh when they are boxes of its triangles.
 struct Scene {
     std::string name; ///< words: generator or family, what differs from its defaults, rays
     SceneSpec spec;
-    std::vector<Aabb<float>> boxes; ///< scene units; box i bounds triangle i when there is a mesh
-    TriangleMesh mesh;              ///< empty in box scenes
+    /// Scene units; box i bounds triangle i when there is a mesh. In a moving scene box i is that
+    /// of body i in frame 0, empty if the body is not present.
+    std::vector<Aabb<float>> boxes;
+    TriangleMesh mesh; ///< empty in box scenes
     std::vector<Ray<float>> rays;
     std::vector<Vec3<float>> points;
     std::vector<Aabb<float>> regions; ///< boxes or spheres, not both
     std::vector<Sphere<float>> spheres;
-    std::vector<Frame> frames; ///< what follows `boxes` if they move
-    Cases cases;               ///< of a hard-case family, else none
-    std::string params_json;   ///< the generator's parameters as one JSON object
+    Cases cases;             ///< of a hard-case family, else none
+    std::string params_json; ///< the generator's parameters as one JSON object
     /// XXH3 of boxes, vertices, indices and rays, then of each case number by number, little-endian
     std::uint64_t content_hash = 0;
 };
@@ -83,7 +83,8 @@ struct RayKindEntry {
 };
 std::span<const RayKindEntry> ray_kinds();
 
-/// Makes the scene: of a generator, or the cases of a family (the boxes are a scene's boxes then).
+/// Makes the scene: of a generator, the cases of a family (the boxes are a scene's boxes then), or
+/// frame 0 of a moving scene.
 /// Throws std::invalid_argument for a bad spec and std::runtime_error, naming file and place, for a
 /// mesh file that is missing, empty, or holds NaN or indices out of range, or a bad query file.
 Scene make_scene(const SceneSpec& spec);

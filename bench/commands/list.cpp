@@ -6,7 +6,6 @@
 #include "bench/rungs/rungs.h"
 #include "kernels/catalogue.h"
 #include "scenes/hard_cases/hard_cases.h"
-#include "scenes/motions.h"
 #include "scenes/moving/effect.h"
 #include "scenes/moving/scene_file.h"
 #include "scenes/suggest.h"
@@ -162,12 +161,14 @@ constexpr std::array catalogues{
     Catalogue{"kernels", "decide about one primitive or pair", kernel_rows},
     Catalogue{"scenes", "make the same input on every machine",
               [] { return plain(scene_generators()); }},
-    Catalogue{"motions", "move a scene's boxes from frame to frame",
-              [] { return plain(motions()); }},
     Catalogue{"moving_scenes", "bodies and what happens to them: `boxwood scene`",
               moving_scene_rows},
     Catalogue{"effects", "what may happen to the bodies of a moving scene",
               [] { return with_settings(effects()); }},
+    Catalogue{"scene_asks", "what a moving scene may ask of each frame",
+              [] { return plain(scene_asks()); }},
+    Catalogue{"query_kinds", "how the queries of a moving scene go through it",
+              [] { return plain(query_kinds()); }},
     Catalogue{"asks", "what is wanted of a scene", [] { return plain(asks()); }},
     Catalogue{"executors", "where work runs", [] { return plain(executors()); }},
     Catalogue{"peers", "libraries that are timed and checked beside ours", peer_rows},

@@ -1,6 +1,7 @@
 #include "bench/peers/capability.h"
 #include "bench/peers/kernel_peers.h"
 #include "bench/peers/point_peers.h"
+#include "scenes/moving/frames.h"
 
 #include <BulletCollision/BroadphaseCollision/btDbvt.h>
 #include <fmt/format.h>
@@ -66,13 +67,19 @@ class DbvtContender final : public Contender {
         rest_ = make_tree(split_, volumes_.size());
     }
 
-    void update(std::size_t frame) override {
+    void update(const Frame& now) override {
         moved_ = true;
-        const Frame& now = scene_.frames[frame];
         for (const std::uint32_t i : now.moved) {
+            if (now.boxes[i].is_empty()) {
+                rest_->remove(leaves_[i]);
+                leaves_[i] = nullptr;
+                continue;
+            }
             volumes_[i] = volume_of(now.boxes[i]);
             btDbvtVolume volume = volumes_[i]; // changed by the calls below
-            if (way_ == Way::reinsert_with_margin)
+            if (!leaves_[i])
+                leaves_[i] = insert(*rest_, i);
+            else if (way_ == Way::reinsert_with_margin)
                 rest_->update(leaves_[i], volume, margin_);
             else if (way_ == Way::reinsert)
                 rest_->update(leaves_[i], volume);
@@ -98,21 +105,27 @@ class DbvtContender final : public Contender {
     /// Margins are a fifth of the mean side.
     void take_boxes() {
         volumes_.clear();
-        double sides = 0;
+        double sides = 0, present = 0;
         for (const Aabb<float>& box : scene_.boxes) {
             volumes_.push_back(volume_of(box));
+            if (box.is_empty())
+                continue;
             const Vec3<float> side = box.max - box.min;
             sides += static_cast<double>(side.x + side.y + side.z);
+            ++present;
         }
-        if (!volumes_.empty())
-            margin_ = static_cast<float>(.2 * sides / (3 * static_cast<double>(volumes_.size())));
+        if (present > 0)
+            margin_ = static_cast<float>(.2 * sides / (3 * present));
+    }
+
+    btDbvtNode* insert(btDbvt& tree, std::size_t i) const {
+        return tree.insert(volumes_[i], reinterpret_cast<void*>(static_cast<std::uintptr_t>(i)));
     }
 
     std::unique_ptr<btDbvt> make_tree(std::size_t begin, std::size_t end) {
         auto tree = std::make_unique<btDbvt>();
         for (std::size_t i = begin; i < end; ++i)
-            leaves_[i] =
-                tree->insert(volumes_[i], reinterpret_cast<void*>(static_cast<std::uintptr_t>(i)));
+            leaves_[i] = scene_.boxes[i].is_empty() ? nullptr : insert(*tree, i);
         if (way_ == Way::top_down)
             tree->optimizeTopDown(bottom_up_below);
         return tree;
@@ -127,7 +140,7 @@ class DbvtContender final : public Contender {
     bool between_halves_;
     std::size_t split_;
     std::vector<btDbvtVolume> volumes_; ///< the true ones
-    std::vector<btDbvtNode*> leaves_;   ///< by item
+    std::vector<btDbvtNode*> leaves_;   ///< by item; null if it is not present
     btScalar margin_ = 0;
     bool moved_ = false;                   ///< whether the volumes are those of a frame
     std::unique_ptr<btDbvt> first_, rest_; ///< all boxes in `rest_` for Ask::pairs
@@ -138,9 +151,9 @@ ContenderEntry entry(std::string name, std::string summary, std::string build, W
     e.name = std::move(name);
     e.library = "bullet";
     e.summary = std::move(summary);
-    e.notes = std::move(build) +
-              "; query = collideTT with a virtual callback that appends the pair; one "
-              "thread; a build also frees the tree before it";
+    e.notes = std::move(build) + "; bodies that come and go: insert, remove; query = collideTT "
+                                 "with a virtual callback that appends the pair; one "
+                                 "thread; a build also frees the tree before it";
     e.precision = "f32";
     e.unsupported = [way](const Job& job) -> Unsupported {
         if (way == Way::reinsert_with_margin && job.ask != Ask::moving_pairs)

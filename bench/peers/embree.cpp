@@ -4,6 +4,8 @@
 #include "bench/peers/point_peers.h"
 #include "bench/peers/ray_peers.h"
 #include "bench/peers/tree_peers.h"
+#include "scenes/moving/effect.h"
+#include "scenes/moving/frames.h"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
@@ -17,6 +19,18 @@
 namespace boxwood::bench {
 namespace {
 
+/// Whether bodies of the scene come and go.
+bool has_comers(const Job& job) {
+    if (!job.scene || !job.scene->spec.moving)
+        return false;
+    for (const BodyGroup& group : job.scene->spec.moving->groups)
+        for (const EffectChoice& effect : group.effects)
+            if (effect_of(effect.name).changes.presence)
+                return true;
+    return false;
+}
+
+/// Embree leaves out what has no valid bounds: bodies that are not present have empty boxes.
 void bounds_of_box(const RTCBoundsFunctionArguments* args) {
     const Aabb<float>& box = static_cast<const Aabb<float>*>(args->geometryUserPtr)[args->primID];
     *args->bounds_o = {box.min.x, box.min.y, box.min.z, 0, box.max.x, box.max.y, box.max.z, 0};
@@ -40,8 +54,8 @@ class Collide final : public Contender {
 
     /// The same geometry told that its bounds have changed, and committed again: a build anew, or
     /// where the quality is `refit` new bounds for the nodes that are there.
-    void update(std::size_t frame) override {
-        boxes_ = scene_.frames[frame].boxes;
+    void update(const Frame& frame) override {
+        boxes_ = frame.boxes;
         if (!rest_)
             return;
         arena_.execute([&] {
@@ -134,6 +148,8 @@ ContenderEntry collide(const char* word, RTCBuildQuality quality) {
     e.unsupported = [refit](const Job& job) -> Unsupported {
         if (refit && job.ask != Ask::moving_pairs)
             return "answers moving_pairs only";
+        if (refit && has_comers(job))
+            return "a refit cannot take in bodies that were not there when the scene was built";
         if (auto why = not_frame_or_box_ask(job))
             return why;
         return not_tbb(job);

@@ -1,6 +1,7 @@
 #include "bench/peers/capability.h"
 #include "bench/peers/kernel_peers.h"
 #include "bench/peers/point_peers.h"
+#include "scenes/moving/frames.h"
 
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree_array.h>
@@ -49,6 +50,7 @@ template <class Manager> class FclContender final : public Contender {
         const std::vector<Aabb<float>>& boxes = scene_.boxes;
         const std::size_t split = job.ask == Ask::tree_pairs ? tree_pairs_split(boxes.size()) : 0;
         between_halves_ = job.ask == Ask::tree_pairs;
+        is_present_.resize(boxes.size());
         for (std::size_t i = 0; i < boxes.size(); ++i) {
             bounds_.push_back(std::make_shared<BoundsOnly>(boxes[i]));
             auto object = std::make_unique<Object>(bounds_.back());
@@ -62,6 +64,8 @@ template <class Manager> class FclContender final : public Contender {
         if (std::exchange(moved_, false))
             for (std::size_t i = 0; i < objects_.size(); ++i)
                 give(i, scene_.boxes[i]);
+        for (std::size_t i = 0; i < objects_.size(); ++i)
+            is_present_[i] = !scene_.boxes[i].is_empty();
         first_tree_ = make_tree(first_);
         rest_tree_ = make_tree(rest_);
     }
@@ -74,13 +78,21 @@ template <class Manager> class FclContender final : public Contender {
             rest_tree_->collide(&answers.pairs, append);
     }
 
-    void update(std::size_t frame) override {
+    void update(const Frame& now) override {
         moved_ = true;
-        const Frame& now = scene_.frames[frame];
         changed_.clear();
         for (const std::uint32_t i : now.moved) {
+            Object* const object = objects_[i].get();
+            const bool was_present = std::exchange(is_present_[i], !now.boxes[i].is_empty());
+            if (!is_present_[i]) {
+                rest_tree_->unregisterObject(object);
+                continue;
+            }
             give(i, now.boxes[i]);
-            changed_.push_back(objects_[i].get());
+            if (was_present)
+                changed_.push_back(object);
+            else
+                rest_tree_->registerObject(object);
         }
         if (moved_alone_)
             rest_tree_->update(changed_);
@@ -90,21 +102,28 @@ template <class Manager> class FclContender final : public Contender {
 
   private:
     void give(std::size_t i, const Aabb<float>& box) {
+        if (box.is_empty())
+            return;
         bounds_[i]->take(box);
         objects_[i]->computeAABB();
     }
 
-    static std::unique_ptr<Manager> make_tree(const std::vector<Object*>& objects) {
+    std::unique_ptr<Manager> make_tree(const std::vector<Object*>& objects) {
         auto tree = std::make_unique<Manager>();
         tree->tree_init_level = 2; // Morton order: a third of the build time of the default, 0
-        tree->registerObjects(objects);
+        changed_.clear();
+        for (Object* const object : objects)
+            if (is_present_[item(object)])
+                changed_.push_back(object);
+        tree->registerObjects(changed_);
         tree->setup();
         return tree;
     }
 
     const Scene& scene_;
     bool moved_alone_, between_halves_;
-    bool moved_ = false; ///< whether the boxes are those of a frame
+    bool moved_ = false;           ///< whether the boxes are those of a frame
+    std::vector<char> is_present_; ///< by item
     std::vector<std::shared_ptr<BoundsOnly>> bounds_;
     std::vector<std::unique_ptr<Object>> objects_;
     std::vector<Object*> changed_;
@@ -126,6 +145,7 @@ ContenderEntry entry(std::string name, std::string summary, bool moved_alone = f
     e.precision = "f64";
     e.notes += moved_alone ? "; a frame: boxes of the moved, update(moved)"
                            : "; a frame: boxes of the moved, update() of all";
+    e.notes += "; bodies that come and go: registerObject, unregisterObject";
     e.unsupported = [moved_alone](const Job& job) -> Unsupported {
         if (moved_alone && job.ask != Ask::moving_pairs)
             return "answers moving_pairs only";
