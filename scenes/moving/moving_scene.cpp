@@ -38,7 +38,8 @@ TriangleMesh filling(const TriangleMesh& mesh, const Aabb<float>& bounds, const 
 /// To 12 bits: boxes of one size, wherever they stood when they were rounded to floats.
 double rounded(double side) {
     int exponent = 0;
-    return std::ldexp(std::round(std::ldexp(std::frexp(side, &exponent), 12)), exponent - 12);
+    const double mantissa = std::frexp(side, &exponent);
+    return std::ldexp(std::round(std::ldexp(mantissa, 12)), exponent - 12);
 }
 
 /// Gives the bodies from `first` on meshes that fill their boxes; boxes of one size share one.
