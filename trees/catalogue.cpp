@@ -21,7 +21,7 @@
     X(binary) X(wide4) X(wide8) X(wide16) X(packed) X(quantised8) X(binary_f64) X(wide8_f64)
 #define BOXWOOD_EXECUTORS(X) X(serial) X(openmp) X(tbb)
 
-#define BOXWOOD_UPDATES(X) X(refit) X(reinsert) X(refine) X(rebuild) X(merge) X(auto)
+#define BOXWOOD_UPDATES(X) X(refit) X(reinsert) X(refine) X(rebuild) X(merge) X(keep) X(auto)
 
 namespace boxwood {
 
@@ -93,11 +93,12 @@ std::span<const UpdateEntry> updates() {
 }
 
 std::span<const TraversalEntry> traversals() {
-    static constexpr std::array<TraversalEntry, 8> entries{{
+    static constexpr std::array<TraversalEntry, 9> entries{{
         {"self_pairs", "every unordered pair of overlapping items of one tree, once"},
         {"tree_pairs", "every overlapping pair between the items of two trees, once"},
         {"rays", "for each ray the nearest triangle, or whether there is any, or all of them"},
         {"sorted_rays", "the same of a batch walked by direction and place, answers put back"},
+        {"single_rays", "the same of one ray in a call, as fast alone as it can be"},
         {"points", "for each point all items that contain it"},
         {"regions", "for each box or sphere all items that share a point with it"},
         {"nearest", "for each point the k nearest items"},

@@ -23,6 +23,7 @@
 #include "trees/dynamic_tree.h"
 #include "trees/executor.h"
 #include "trees/filtered_pairs.h"
+#include "trees/kept_pairs.h"
 #include "trees/layout.h"
 #include "trees/layouts/binary.h"
 #include "trees/layouts/packed.h"

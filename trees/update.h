@@ -19,24 +19,31 @@ namespace boxwood {
 struct UpdateStep {
     std::size_t placed = 0; ///< items that were given a new place in the order of the tree
     bool rebuilt = false;   ///< whether the whole order was made anew
+
+    // Of kept pairs (kept_pairs.h):
+    bool renewed = false;     ///< whether all of them were found anew
+    std::size_t examined = 0; ///< pairs looked at again
+    std::size_t restless = 0; ///< items whose pairs are not kept but found in every frame
 };
 
 /// A tree over boxes that move from frame to frame, by one policy. The memory is used again, the
 /// answers are those of the newest frame exactly, and they, their order and the tree are the same
 /// on every executor.
+/// An item is absent while its box is the empty one, `Box{}`: it overlaps nothing, and may come and
+/// go between frames.
 class Updater {
   public:
     virtual ~Updater() = default;
 
-    /// Forgets what was and starts from these boxes. Throws as `require_valid`; it then holds what
-    /// it held before.
+    /// Forgets what was and starts from these boxes, present or absent. Throws InvalidBox for any
+    /// other and std::length_error as `require_valid`; it then holds what it held before.
     virtual void start(Boxes boxes, const Executor& executor) = 0;
 
     /// Takes the next frame: as many boxes as at the start, those that differ from the last frame
     /// listed in `moved`, ascending (it may list more; of all others the box is not looked at).
-    /// Throws InvalidBox for a moved box that is no box, and std::invalid_argument for a number of
-    /// boxes that is not that of the items or an item that is none of them; it then holds the last
-    /// frame.
+    /// Throws InvalidBox for a moved box that is neither valid nor absent, and
+    /// std::invalid_argument for a number of boxes that is not that of the items or an item that is
+    /// none of them; it then holds the last frame.
     virtual void update(Boxes boxes, std::span<const std::uint32_t> moved,
                         const Executor& executor) = 0;
 

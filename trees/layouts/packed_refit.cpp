@@ -77,7 +77,8 @@ std::string PackedLayout::fault() const {
             Box bounds;
             for (std::size_t lane = 0; lane < width; ++lane) {
                 const bool used = b * width + lane < lanes;
-                if (used != block.lane(lane).is_valid() || (!used && !(block.lane(lane) == Box{})))
+                const Box& box = block.lane(lane);
+                if (!(box == Box{}) && (!used || !box.is_valid())) // an item may be absent
                     return "level " + std::to_string(l) + ", block " + std::to_string(b) +
                            ": lane " + std::to_string(lane) + (used ? " is no box" : " is in use");
                 bounds.extend(block.lane(lane));

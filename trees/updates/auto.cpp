@@ -1,20 +1,26 @@
+#include "trees/kept_pairs.h"
 #include "trees/updates/margins.h"
 #include "trees/updates/policy.h"
+#include "trees/updates/step_sample.h"
 
+#include <algorithm>
 #include <array>
 
 namespace boxwood {
 namespace {
 
 /// Picks by what moved, never by the clock, so that the answers and their order are the same
-/// everywhere. Items that went far in many are merged in at their new places; if they are most of
-/// them, all are ordered anew. Else bounds are refitted, and the excess surface of the blocks is
-/// added up from frame to frame: once it has cost queries about as much as a new order takes, that
-/// is made. So no more than twice the time of the best moment for it is spent.
+/// everywhere. While the steps that a sample of the items takes foretell that it pays, pairs are
+/// kept; as long as what that did in fact bears it out. Otherwise the tree answers: items that went
+/// far in many are merged in at their new places; if they are most of them, all are ordered anew.
+/// Else bounds are refitted, and the excess surface of the blocks is added up from frame to frame:
+/// once it has cost queries about as much as a new order takes, that is made. So no more than twice
+/// the time of the best moment for it is spent.
 struct Auto {
     static constexpr std::string_view name = "auto";
     static constexpr std::string_view summary =
-        "refit, merge or a new order, by how many moved, how far, and what that came to";
+        "kept pairs, refit, merge or a new order, by how many moved, how far, and what that came "
+        "to";
 
     double margin = 2;    ///< of the mean side: what goes beyond has gone far
     double patience = .4; ///< excess of the blocks' surface, summed over frames, for a new order
@@ -27,11 +33,41 @@ struct Auto {
     }
 
     void start(MovingTree& tree, Boxes boxes, const Executor& executor) {
-        tree.order_anew(boxes, executor);
-        margins_.start(boxes, margin);
-        excess_ = 0;
+        order_anew(tree, boxes, executor);
+        kept_.drop();
+        kept_.start(boxes, 0);
+        sample_.start(boxes);
+        wait_ = 0;
+        pause_ = 8;
     }
     void update(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
+                const Executor& executor) {
+        if (kept_.holds())
+            return keep(tree, boxes, moved, executor);
+        if (moved.empty())
+            return;
+        const auto steps = sample_.follow(boxes, moved);
+        wait_ -= wait_ > 0;
+        if (wait_ == 0 && pays(kept_.forecast({steps.begin(), steps.end()}, sample_.items_each())))
+            return begin_to_keep(tree, boxes, executor);
+        follow(tree, boxes, moved, executor);
+    }
+    void self_pairs(const MovingTree& tree, const Executor& executor, PairSink& sink) const {
+        if (kept_.holds())
+            kept_.self_pairs(executor, sink);
+        else
+            boxwood::self_pairs(tree.layout(), executor, sink);
+    }
+    Work self_pairs_counted(const MovingTree& tree, PairSink& sink) const {
+        return kept_.holds() ? kept_.self_pairs_counted(tree, sink)
+                             : boxwood::self_pairs_counted(tree.layout(), sink);
+    }
+    std::size_t bytes() const { return margins_.bytes() + kept_.bytes() + sample_.bytes(); }
+    std::string fault(const MovingTree&) const { return kept_.fault(); }
+
+  private:
+    /// Without kept pairs.
+    void follow(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
                 const Executor& executor) {
         const std::size_t n = tree.size(), many = n / 50;
         if (moved.size() > many && margins_.about_left(boxes, moved) > many / 2) {
@@ -49,17 +85,49 @@ struct Auto {
         if (excess_ > patience)
             order_anew(tree, boxes, executor);
     }
-    std::size_t bytes() const { return margins_.bytes(); }
-
-  private:
     void order_anew(MovingTree& tree, Boxes boxes, const Executor& executor) {
         tree.order_anew(boxes, executor);
         margins_.start(boxes, margin);
         excess_ = 0;
     }
 
+    bool pays(double nanoseconds) const { return nanoseconds < .75 * kept_.spent_anew(); }
+
+    void begin_to_keep(MovingTree& tree, Boxes boxes, const Executor& executor) {
+        kept_.start(boxes, kept_.pace() / kept_.side());
+        lost_ = 0;
+        if (!kept_.renew(tree, boxes, executor))
+            cease(tree, boxes, executor);
+    }
+    void keep(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
+              const Executor& executor) {
+        bool held = kept_.follow(tree, boxes, moved, executor);
+        if (!held && pays(kept_.forecast()))
+            held = kept_.renew(tree, boxes, executor);
+        lost_ = std::max(0., lost_ + kept_.spent() - kept_.spent_anew());
+        constexpr double most_frames = 8;
+        if (!held || lost_ > most_frames * kept_.spent_anew())
+            cease(tree, boxes, executor);
+        else if (lost_ == 0)
+            pause_ = 8;
+    }
+    /// It did not pay: each time longer until it is tried again.
+    void cease(MovingTree& tree, Boxes boxes, const Executor& executor) {
+        kept_.drop();
+        tree.exchange(boxes, executor);
+        margins_.start(boxes, margin);
+        excess_ = 0;
+        sample_.start(boxes);
+        wait_ = pause_;
+        pause_ = std::min<std::size_t>(2 * pause_, 1024);
+    }
+
     Margins margins_;
     double excess_ = 0; ///< since the last new order
+    KeptPairs kept_;
+    StepSample sample_;                ///< followed while no pairs are kept
+    double lost_ = 0;                  ///< by keeping pairs, of late
+    std::size_t wait_ = 0, pause_ = 8; ///< frames until keeping may be tried again
 };
 
 } // namespace

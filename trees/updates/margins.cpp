@@ -7,19 +7,23 @@ namespace boxwood {
 
 void Margins::start(Boxes boxes, double share) {
     double sides = 0;
+    std::size_t present = 0;
     for (const Box& box : boxes) {
+        if (box.is_empty())
+            continue;
+        ++present;
         const auto side = static_cast<Vec3<double>>(box.max) - static_cast<Vec3<double>>(box.min);
         sides += side.x + side.y + side.z;
     }
     constexpr double most = std::numeric_limits<float>::max();
-    const double n = boxes.empty() ? 1 : static_cast<double>(boxes.size());
+    const double n = present == 0 ? 1 : static_cast<double>(present);
     margin_ = static_cast<float>(std::min(share * sides / (3 * n), most));
     fat_.resize(boxes.size());
     std::ranges::transform(boxes, fat_.begin(), [&](const Box& box) { return around(box); });
     left_.reserve(boxes.size());
 }
 
-/// Clamped to finite floats, so that it is a valid box.
+/// Clamped to finite floats, so that it is a valid box; around an absent box it is absent.
 Box Margins::around(const Box& box) const {
     constexpr float most = std::numeric_limits<float>::max();
     const Vec3<float> m{margin_, margin_, margin_}, limit{most, most, most};

@@ -8,10 +8,11 @@
 
 namespace boxwood {
 
-/// A fat box around each item: while its box stays inside, the item keeps its place in the tree.
+/// A fat box around each item: while its box stays inside, the item keeps its place in the tree. An
+/// absent box is inside any, and around it no other is: who comes back to his place still has it.
 class Margins {
   public:
-    /// share: the margin on each side, of the mean side of these boxes.
+    /// share: the margin on each side, of the mean side of those present.
     void start(Boxes boxes, double share);
     /// The items of `moved` whose boxes are not inside their fat boxes; valid until the next call.
     std::span<const std::uint32_t> left(Boxes boxes, std::span<const std::uint32_t> moved);

@@ -1,20 +1,78 @@
 #include "trees/updates/moving_tree.h"
 
 #include "trees/radix_sort.h"
+#include "trees/updates/box_steps.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace boxwood {
 namespace {
 
 std::uint32_t item_of(std::uint64_t record) { return static_cast<std::uint32_t>(record); }
 
+bool are_some_absent(Boxes boxes) { return std::ranges::any_of(boxes, is_absent); }
+
+/// Sorts the present boxes to the front, each in their order, and the items with them; returns how
+/// many they are.
+std::size_t gather_present(Boxes boxes, std::vector<Box>& present,
+                           std::vector<std::uint32_t>& items) {
+    present.clear();
+    items.clear();
+    for (const bool absent : {false, true})
+        for (std::uint32_t i = 0; i < boxes.size(); ++i)
+            if (is_absent(boxes[i]) == absent) {
+                items.push_back(i);
+                if (!absent)
+                    present.push_back(boxes[i]);
+            }
+    return present.size();
+}
+
 } // namespace
+
+Buffer<std::uint32_t> present_curve_order(Boxes boxes, const Executor& executor) {
+    if (!are_some_absent(boxes))
+        return coarse_curve_order(boxes, Curve::hilbert, executor);
+    std::vector<Box> present;
+    std::vector<std::uint32_t> items;
+    const std::size_t n = gather_present(boxes, present, items);
+    Buffer<std::uint32_t> order(boxes.size());
+    std::ranges::transform(coarse_curve_order(present, Curve::hilbert, executor), order.begin(),
+                           [&](std::uint32_t i) { return items[i]; });
+    std::copy(items.begin() + static_cast<std::ptrdiff_t>(n), items.end(), order.begin() + n);
+    return order;
+}
 
 std::size_t MovingTree::bytes() const {
     return layout_.bytes() + order_.bytes() + slot_of_.bytes() + records_.bytes() + spare_.bytes() +
            incoming_.bytes() + incoming_spare_.bytes() + taken_out_.capacity() +
-           gathered_.capacity() * sizeof(Box);
+           gathered_.capacity() * sizeof(Box) + gathered_items_.capacity() * sizeof(std::uint32_t);
+}
+
+double MovingTree::looseness() const {
+    const double now = surface();
+    if (tight_ > 0)
+        return now / tight_;
+    return now > 0 ? std::numeric_limits<double>::infinity() : 1; // what was not there came
+}
+
+/// kept_curve_order; the records of absent items come last.
+KeptOrder MovingTree::kept_order(Boxes boxes, const Executor& executor) {
+    if (!are_some_absent(boxes))
+        return kept_curve_order(boxes, Curve::hilbert, executor);
+    const std::size_t n = gather_present(boxes, gathered_, gathered_items_);
+    const KeptOrder present = kept_curve_order(gathered_, Curve::hilbert, executor);
+    KeptOrder all{present.grid, {}};
+    if (present.records.size() == n) {
+        all.records = Buffer<std::uint64_t>(boxes.size());
+        constexpr std::uint64_t beyond = ~std::uint64_t{0} << 32; // codes have 30 bits
+        for (std::size_t i = 0; i < boxes.size(); ++i)
+            all.records[i] =
+                i < n ? (present.records[i] & beyond) | gathered_items_[item_of(present.records[i])]
+                      : beyond | gathered_items_[i];
+    }
+    return all;
 }
 
 void MovingTree::place(Boxes boxes, const Executor& executor) {
@@ -27,13 +85,14 @@ void MovingTree::order_anew(Boxes boxes, const Executor& executor) {
     const std::size_t n = boxes.size();
     if (order_.size() != n)
         order_ = Buffer<std::uint32_t>(n);
-    KeptOrder kept = kept_curve_order(boxes, Curve::hilbert, executor);
+    KeptOrder kept = kept_order(boxes, executor);
     grid_ = kept.grid;
     records_ = std::move(kept.records);
     if (records_.size() == n)
         std::transform(records_.begin(), records_.end(), order_.begin(), item_of);
     else
-        order_ = curve_order(boxes, Curve::hilbert, executor).order;
+        order_ = are_some_absent(boxes) ? present_curve_order(boxes, executor)
+                                        : curve_order(boxes, Curve::hilbert, executor).order;
     place(boxes, executor);
     step = {n, true};
 }
@@ -89,7 +148,7 @@ void MovingTree::sort_part(Boxes boxes, std::size_t begin, std::size_t end,
     gathered_.clear();
     for (std::size_t slot = begin; slot < end; ++slot)
         gathered_.push_back(boxes[order_[slot]]);
-    Buffer<std::uint32_t> part = coarse_curve_order(gathered_, Curve::hilbert, executor);
+    Buffer<std::uint32_t> part = present_curve_order(gathered_, executor);
     for (std::uint32_t& item : part)
         item = order_[begin + item];
     std::ranges::copy(part, order_.begin() + begin);
@@ -124,6 +183,12 @@ void MovingTree::refit(Boxes boxes, std::span<const std::uint32_t> items,
         refit(boxes, items);
     else
         refit(boxes, executor);
+}
+
+void MovingTree::exchange(Boxes boxes, const Executor& executor) {
+    const double loose = looseness();
+    refit(boxes, executor);
+    tight_ = loose > 0 ? surface() / loose : surface();
 }
 
 std::string MovingTree::fault() const {

@@ -10,9 +10,13 @@
 
 namespace boxwood {
 
+/// The items along a curve through their boxes, after them the absent ones.
+Buffer<std::uint32_t> present_curve_order(Boxes boxes, const Executor& executor);
+
 /// What all update policies work on: moving boxes in an order, cut into a packed tree over that
-/// order. The boxes given to every call are those of the newest frame, all valid. What a policy
-/// chooses is when the order changes and how; the boxes in the tree are always the true ones.
+/// order. The boxes given to every call are those of the newest frame, or around them; each is
+/// valid, or absent, which has no place on the curve and comes after all others in a new order.
+/// What a policy chooses is when the order changes and how.
 class MovingTree {
   public:
     std::size_t size() const { return order_.size(); }
@@ -26,7 +30,7 @@ class MovingTree {
     /// This order of all items.
     void set_order(Boxes boxes, Buffer<std::uint32_t> order, const Executor& executor);
     /// Takes these items out of the order and puts them in where the curve passes them now. Needs
-    /// the order of the last order_anew, merged since or not. Items ascending.
+    /// the order of the last order_anew, merged since or not. Items ascending, all present.
     void merge_in(Boxes boxes, std::span<const std::uint32_t> items, const Executor& executor);
     /// Sorts the slots [begin, end) along the curve anew.
     void sort_part(Boxes boxes, std::size_t begin, std::size_t end, const Executor& executor);
@@ -37,15 +41,18 @@ class MovingTree {
     void refit(Boxes boxes, std::span<const std::uint32_t> items);
     /// Whichever of the two is quicker.
     void refit(Boxes boxes, std::span<const std::uint32_t> items, const Executor& executor);
+    /// To boxes of another kind, such as wider ones: the looseness stays.
+    void exchange(Boxes boxes, const Executor& executor);
 
     /// Sum of the surface areas of all blocks over that of the root: what a walk has to pass.
     double surface() const { return layout_.surface(); }
     /// That over what it was when the order was last made or changed.
-    double looseness() const { return tight_ > 0 ? surface() / tight_ : 1; }
+    double looseness() const;
 
     UpdateStep step; ///< of the newest frame
 
   private:
+    KeptOrder kept_order(Boxes boxes, const Executor& executor);
     void place(Boxes boxes, const Executor& executor);
     void note_slots();
 
@@ -60,6 +67,7 @@ class MovingTree {
     Buffer<std::uint64_t> records_, spare_, incoming_, incoming_spare_;
     std::vector<std::uint8_t> taken_out_; ///< by item, 0 between calls
     std::vector<Box> gathered_;
+    std::vector<std::uint32_t> gathered_items_;
     std::vector<std::uint32_t> moved_slots_;
 };
 

@@ -1,4 +1,5 @@
 #include "trees/updates/policy.h"
+#include "trees/updates/box_steps.h"
 
 namespace boxwood {
 
@@ -8,11 +9,11 @@ void require_frame(Boxes boxes, std::span<const std::uint32_t> moved, std::size_
                                     " items, but there are " + std::to_string(boxes.size()) +
                                     " boxes; give one per item, or start anew");
     if (moved.size() == size) { // in one pass, if they are all of them
-        bool all = true;
+        std::uint32_t differ = 0;
         for (std::size_t i = 0; i < size; ++i)
-            all &= moved[i] == i;
-        if (all)
-            return require_valid(boxes);
+            differ |= moved[i] ^ static_cast<std::uint32_t>(i);
+        if (differ == 0)
+            return require_present_or_absent(boxes);
     }
     std::size_t next = 0; // least item that may follow
     for (const std::uint32_t item : moved) {
@@ -22,9 +23,7 @@ void require_frame(Boxes boxes, std::span<const std::uint32_t> moved, std::size_
                 (item < size ? "out of order; list them ascending, each once"
                              : "none of the " + std::to_string(size) + " items"));
         next = std::size_t{item} + 1;
-        if (!boxes[item].is_valid())
-            throw InvalidBox(item, "a NaN, an infinity or min > max; give finite corners, min <= "
-                                   "max");
+        require_present_or_absent(item, boxes[item]);
     }
 }
 

@@ -1,16 +1,20 @@
 #pragma once
 
 #include "trees/traversals/self_pairs.h"
+#include "trees/updates/box_steps.h"
 #include "trees/updates/moving_tree.h"
 
 #include <concepts>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace boxwood {
 
 /// A policy says how a MovingTree follows its boxes. Its settings are documented data members with
-/// defaults, listed by `settings()`; it may keep a state of its own. It sees valid frames only.
+/// defaults, listed by `settings()`; it may keep a state of its own. It sees good frames only. One
+/// that need not ask the tree has `self_pairs(tree, executor, sink)`, `self_pairs_counted(tree,
+/// sink)` and `fault(tree)` of its own.
 template <class P>
 concept UpdatePolicy = std::default_initializable<P> &&
     requires(P policy, MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
@@ -28,10 +32,10 @@ void require_frame(Boxes boxes, std::span<const std::uint32_t> moved, std::size_
 /// Puts a policy behind Updater: bad frames are refused before it sees them.
 template <UpdatePolicy P> class UpdaterOf final : public Updater {
   public:
-    explicit UpdaterOf(const P& policy) : policy_(policy) {}
+    explicit UpdaterOf(P policy) : policy_(std::move(policy)) {}
 
     void start(Boxes boxes, const Executor& executor) override {
-        require_valid(boxes);
+        require_present_or_absent(boxes);
         tree_.step = {};
         policy_.start(tree_, boxes, executor);
     }
@@ -39,21 +43,38 @@ template <UpdatePolicy P> class UpdaterOf final : public Updater {
                 const Executor& executor) override {
         require_frame(boxes, moved, tree_.size());
         tree_.step = {};
-        if (!moved.empty())
+        if (answers || !moved.empty())
             policy_.update(tree_, boxes, moved, executor);
     }
     void self_pairs(const Executor& executor, PairSink& sink) const override {
-        boxwood::self_pairs(tree_.layout(), executor, sink);
+        if constexpr (answers)
+            policy_.self_pairs(tree_, executor, sink);
+        else
+            boxwood::self_pairs(tree_.layout(), executor, sink);
     }
     Work self_pairs_counted(PairSink& sink) const override {
-        return boxwood::self_pairs_counted(tree_.layout(), sink);
+        if constexpr (answers)
+            return policy_.self_pairs_counted(tree_, sink);
+        else
+            return boxwood::self_pairs_counted(tree_.layout(), sink);
     }
     std::size_t size() const override { return tree_.size(); }
     std::size_t bytes() const override { return tree_.bytes() + policy_.bytes(); }
     UpdateStep last_step() const override { return tree_.step; }
-    std::string fault() const override { return tree_.fault(); }
+    std::string fault() const override {
+        std::string found = tree_.fault();
+        if constexpr (answers)
+            if (found.empty())
+                found = policy_.fault(tree_);
+        return found;
+    }
 
   private:
+    static constexpr bool answers =
+        requires(const P& policy, const MovingTree& tree, PairSink& sink) {
+        policy.self_pairs_counted(tree, sink);
+    };
+
     MovingTree tree_;
     P policy_;
 };

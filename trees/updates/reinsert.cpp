@@ -1,7 +1,9 @@
 #include "trees/dynamic_tree.h"
+#include "trees/updates/box_steps.h"
 #include "trees/updates/margins.h"
 #include "trees/updates/policy.h"
 
+#include <algorithm>
 #include <array>
 
 namespace boxwood {
@@ -26,9 +28,10 @@ struct Reinsert {
         items_.clear();
         items_.reserve(boxes.size());
         // Along the curve: neighbours in time are neighbours in space, and in the caches.
-        for (const std::uint32_t item : coarse_curve_order(boxes, Curve::hilbert, executor))
-            items_.insert(item, margins_.fat(item));
-        tree.set_order(boxes, items_.order(), executor);
+        for (const std::uint32_t item : present_curve_order(boxes, executor))
+            if (!is_absent(boxes[item]))
+                items_.insert(item, margins_.fat(item));
+        tree.set_order(boxes, order(boxes.size()), executor);
     }
     void update(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
                 const Executor& executor) {
@@ -37,13 +40,29 @@ struct Reinsert {
             return tree.refit(boxes, moved, executor);
         margins_.follow(boxes, left);
         for (const std::uint32_t item : left)
-            items_.move(item, margins_.fat(item));
-        tree.set_order(boxes, items_.order(), executor);
+            if (items_.contains(item))
+                items_.move(item, margins_.fat(item));
+            else
+                items_.insert(item, margins_.fat(item));
+        tree.set_order(boxes, order(boxes.size()), executor);
         tree.step = {left.size(), false};
     }
     std::size_t bytes() const { return margins_.bytes() + items_.bytes(); }
 
   private:
+    /// That of the tree; after it the items that never were present.
+    Buffer<std::uint32_t> order(std::size_t n) const {
+        Buffer<std::uint32_t> known = items_.order();
+        if (known.size() == n)
+            return known;
+        Buffer<std::uint32_t> all(n);
+        std::uint32_t* to = std::ranges::copy(known, all.begin()).out;
+        for (std::uint32_t item = 0; item < n; ++item)
+            if (!items_.contains(item))
+                *to++ = item;
+        return all;
+    }
+
     Margins margins_;
     DynamicTree items_;
 };

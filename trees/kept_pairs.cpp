@@ -1,0 +1,416 @@
+#include "trees/kept_pairs.h"
+
+#include "trees/radix_sort.h"
+#include "trees/traversals/chunk_sink.h"
+#include "trees/traversals/self_pairs.h"
+#include "trees/traversals/tree_pairs.h"
+#include "trees/updates/box_steps.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cfloat>
+#include <cmath>
+#include <limits>
+
+namespace boxwood {
+namespace {
+
+// Nanoseconds, on one thread: what the choices go by.
+constexpr double per_moved = 3, per_examined = 8, per_restless = 180, per_item_of_tree = .4,
+                 per_left_out = 1.5, per_found = 10, per_item_renewed = 8, per_item_anew = 13,
+                 per_pair_anew = 1.8;
+
+/// The median of a sample's sides, each the mean of three; where it is 0, of the least size that
+/// is safe to divide by.
+double median_side(Boxes boxes) {
+    constexpr std::size_t most = 1023;
+    std::vector<double> sides;
+    const std::size_t step = boxes.size() / most + 1;
+    for (std::size_t i = 0; i < boxes.size(); i += step)
+        if (!is_absent(boxes[i])) {
+            const auto side = Vec3<double>(boxes[i].max) - Vec3<double>(boxes[i].min);
+            sides.push_back((side.x + side.y + side.z) / 3);
+        }
+    if (sides.empty())
+        return 1;
+    const auto middle = sides.begin() + static_cast<std::ptrdiff_t>(sides.size() / 2);
+    std::ranges::nth_element(sides, middle);
+    return std::max(*middle, double{FLT_MIN});
+}
+
+bool is_empty(const Box& box) { return !(box.min.x <= box.max.x); }
+
+} // namespace
+
+/// What the renewal's walk finds, by chunk, up to a limit.
+class KeptPairs::Candidates final : public PairSink {
+  public:
+    Candidates(std::vector<std::vector<Pair>>& chunks, std::size_t limit)
+        : chunks_(chunks), limit_(limit) {}
+    void begin(std::size_t chunks, bool) override {
+        for (auto& chunk : chunks_)
+            chunk.clear();
+        chunks_.resize(chunks);
+    }
+    bool take(std::size_t chunk, std::span<const Pair> pairs) override {
+        chunks_[chunk].insert(chunks_[chunk].end(), pairs.begin(), pairs.end());
+        return (total_ += pairs.size()) <= limit_;
+    }
+    void end() override {}
+    bool too_many() const { return total_ > limit_; }
+
+  private:
+    std::vector<std::vector<Pair>>& chunks_;
+    std::atomic<std::size_t> total_ = 0;
+    std::size_t limit_;
+};
+
+/// Of (number of a restless item, item whose widened box it meets) those that overlap now.
+class KeptPairs::AgainstKept final : public PairSink {
+  public:
+    AgainstKept(const KeptPairs& kept, PairSink& sink) : kept_(kept), sink_(sink) {}
+    void begin(std::size_t chunks, bool in_order) override { sink_.begin(chunks, in_order); }
+    bool take(std::size_t chunk, std::span<const Pair> pairs) override {
+        std::vector<Pair> passed;
+        for (const Pair pair : pairs)
+            if (overlaps(kept_.restless_[pair.a], kept_.kept_[pair.b])) {
+                const std::uint32_t item = kept_.restless_items_[pair.a];
+                passed.push_back({std::min(item, pair.b), std::max(item, pair.b)});
+            }
+        return passed.empty() || sink_.take(chunk, passed);
+    }
+    void finish(std::size_t chunk) override { sink_.finish(chunk); }
+    void end() override { sink_.end(); }
+
+  private:
+    const KeptPairs& kept_;
+    PairSink& sink_;
+};
+
+void KeptPairs::start(Boxes boxes, double expected_step) {
+    holds_ = widened_before_ = false;
+    side_ = median_side(boxes);
+    pace_ = static_cast<float>(std::min(expected_step * side_, double{FLT_MAX} / 8));
+    kept_.resize(boxes.size());
+    pairs_ = 5 * n(); // a guess
+    steps_.clear();
+    out_.clear();
+    n_parts_ = 0;
+}
+
+std::size_t KeptPairs::count_pairs() const {
+    std::size_t sum = restless_pairs_.size();
+    for (std::size_t p = 0; p < n_parts_; ++p)
+        sum += parts_[p].sure().size() + parts_[p].now().size();
+    return sum;
+}
+
+double KeptPairs::spent_anew() const { return n() * per_item_anew + pairs_ * per_pair_anew; }
+
+/// A third more pairs than overlap are found.
+double KeptPairs::renewal_cost() const {
+    return n() * (per_item_renewed + per_item_anew) + pairs_ * 1.3 * (per_found + per_pair_anew);
+}
+
+/// Renewals cost as step / margin, pairs unsure as the margin; both little between these bounds.
+double KeptPairs::margin_for(double step) const {
+    constexpr double most = double{FLT_MAX} / 8;
+    return std::min(margin > 0 ? margin * side_ : std::clamp(48 * step, .03 * side_, .12 * side_),
+                    most);
+}
+
+/// Widened by a margin, for calm items; the other boxes are empty.
+bool KeptPairs::renew(MovingTree& tree, Boxes boxes, const Executor& executor) {
+    const std::size_t size = boxes.size();
+    most_ = static_cast<float>(std::max(1.25 * double{pace_}, 1e-3 * side_));
+    const double reach = 2 * margin_for(double{pace_});
+    reach_.per_used = ExpiringPairs::n_buckets / reach;
+    used_ = waste_ = 0;
+    holds_ = false;
+
+    kept_.assign(boxes.begin(), boxes.end());
+    std::erase_if(out_, [&](const Out& out) { return !(out.step > most_) || is_absent(out.box); });
+    for (const Out& out : out_)
+        kept_[out.item] = Box{};
+    for (std::uint32_t i = 0; i < size; ++i)
+        if (is_absent(boxes[i]))
+            out_.push_back({i, 0, Box{}});
+    std::ranges::sort(out_, {}, &Out::item);
+
+    widened_.resize(size);
+    const std::size_t chunks = chunks_for(size, executor);
+    const float m = static_cast<float>(reach / 2 * (1 + 0x1p-18)) + 16 * FLT_MIN;
+    executor.for_each(chunks, [&](std::size_t c) {
+        const ChunkRange range(size, chunks, c);
+        constexpr float limit = FLT_MAX;
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+            widened_[i] = kept_[i];
+            if (is_empty(kept_[i]))
+                continue;
+            for (int axis = 0; axis < 3; ++axis) {
+                const float low = kept_[i].min[axis], high = kept_[i].max[axis];
+                widened_[i].min[axis] = std::max(low - (m + std::abs(low) * 0x1p-22f), -limit);
+                widened_[i].max[axis] = std::min(high + (m + std::abs(high) * 0x1p-22f), limit);
+            }
+        }
+    });
+    constexpr double too_loose = 1.15;
+    if (widened_before_)
+        tree.refit(widened_, executor);
+    else
+        tree.exchange(widened_, executor);
+    widened_before_ = true;
+    if (tree.looseness() > too_loose)
+        tree.order_anew(widened_, executor);
+
+    Candidates candidates(found_, 64 * size + 65536);
+    boxwood::self_pairs(tree.layout(), executor, candidates);
+    if (candidates.too_many())
+        return false;
+    n_parts_ = std::clamp<std::size_t>(found_.size() / 8, 1, 16);
+    if (parts_.size() < n_parts_)
+        parts_.resize(n_parts_);
+    executor.for_each(n_parts_, [&](std::size_t p) {
+        const ChunkRange range(found_.size(), n_parts_, p);
+        parts_[p].start(std::span(found_).subspan(range.begin, range.end - range.begin),
+                        kept_.data(), reach_);
+    });
+    examined_ = 0;
+    find_restless(tree, executor);
+    pairs_ = static_cast<double>(count_pairs());
+    tree.step.renewed = holds_ = true;
+    spent_ = renewal_cost() + (tree.step.rebuilt ? 40 * n() : 0);
+    return true;
+}
+
+double KeptPairs::forecast(std::vector<float> steps, double items) {
+    const std::size_t most =
+        std::min(static_cast<std::size_t>(std::max(1., n() / 8 / items)), steps.size());
+    std::ranges::partial_sort(steps, steps.begin() + static_cast<std::ptrdiff_t>(most),
+                              std::greater<>());
+    pace_ = most == 0 ? 0 : std::min(steps[most - 1], FLT_MAX / 8);
+    double least = most == 0 ? 0 : std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < most; k = k == 0 ? 1 : 2 * k) {
+        const double step = double{steps[k]}, restless = static_cast<double>(k) * items;
+        constexpr double per_pair = 50; // examined in a step of a side, by the logarithm
+        const double cost = step / side_ * (pairs_ + n()) * per_pair * per_examined +
+                            (step > 0 ? step / margin_for(step) * renewal_cost() : 0) +
+                            restless * per_restless + (k > 0 ? n() * per_item_of_tree : 0);
+        if (cost < least) {
+            least = cost;
+            pace_ = steps[k];
+        }
+    }
+    return forecast_ = least + n() * per_moved;
+}
+
+/// Of sixteen calm items the fastest is known.
+void KeptPairs::forecast_by_frame() {
+    std::vector<float> steps = steps_;
+    for (const Out& out : out_)
+        steps.push_back(out.step);
+    forecast(std::move(steps), 1);
+}
+
+/// All boxes are looked at, sixteen at a time. Returns the largest step of the calm.
+float KeptPairs::follow_all(Boxes boxes, const Executor& executor) {
+    const std::size_t blocks = (boxes.size() + follow_block - 1) / follow_block;
+    steps_.resize(blocks);
+    far_.resize(blocks);
+    const std::size_t chunks = chunks_for(boxes.size(), executor);
+    std::vector<std::size_t> n_far(chunks);
+    executor.for_each(chunks, [&](std::size_t c) {
+        const ChunkRange range(blocks, chunks, c);
+        n_far[c] = follow_blocks(boxes, kept_.data(), range.begin, range.end, most_, steps_.data(),
+                                 far_.data() + range.begin);
+    });
+    for (std::size_t c = 0; c < chunks; ++c) {
+        const ChunkRange range(blocks, chunks, c);
+        for (std::size_t j = range.begin; j < range.begin + n_far[c]; ++j) {
+            const std::uint32_t b = far_[j];
+            const std::size_t first = b * follow_block;
+            steps_[b] = 0;
+            for (std::size_t i = first; i < std::min(first + follow_block, boxes.size()); ++i) {
+                if (is_empty(kept_[i]))
+                    continue;
+                const float step = box_step(boxes[i], kept_[i]);
+                if (step > most_) {
+                    fresh_.push_back({static_cast<std::uint32_t>(i), step, boxes[i]});
+                    continue;
+                }
+                kept_[i] = boxes[i];
+                steps_[b] = std::max(steps_[b], step);
+            }
+        }
+    }
+    return steps_.empty() ? 0 : *std::ranges::max_element(steps_);
+}
+
+float KeptPairs::follow_some(Boxes boxes, std::span<const std::uint32_t> moved) {
+    steps_.assign((moved.size() + follow_block - 1) / follow_block, 0);
+    for (std::size_t j = 0; j < moved.size(); ++j) {
+        const std::uint32_t item = moved[j];
+        Box& kept = kept_[item];
+        if (is_empty(kept))
+            continue;
+        const float step = box_step(boxes[item], kept);
+        if (step > most_) {
+            fresh_.push_back({item, step, boxes[item]});
+            continue;
+        }
+        kept = boxes[item];
+        steps_[j / follow_block] = std::max(steps_[j / follow_block], step);
+    }
+    return steps_.empty() ? 0 : *std::ranges::max_element(steps_);
+}
+
+void KeptPairs::follow_out(Boxes boxes, std::span<const std::uint32_t> moved) {
+    auto next = moved.begin();
+    for (Out& out : out_) {
+        next = moved.size() == boxes.size() ? moved.begin() + out.item
+                                            : std::lower_bound(next, moved.end(), out.item);
+        const bool has_moved = next != moved.end() && *next == out.item;
+        out.step = has_moved ? box_step(boxes[out.item], out.box) : 0;
+        if (has_moved)
+            out.box = boxes[out.item];
+    }
+}
+
+/// Makes those who went far restless, or absent.
+void KeptPairs::leave_out(const Executor& executor) {
+    for (const Out& out : fresh_)
+        kept_[out.item] = Box{};
+    executor.for_each(n_parts_, [&](std::size_t p) { parts_[p].leave_out_empty(kept_.data()); });
+    spent_ += pairs_ * per_left_out;
+}
+
+bool KeptPairs::follow(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
+                       const Executor& executor) {
+    spent_ = 0;
+    examined_ = 0;
+    searched_ = false;
+    tree.step.restless = restless_.size();
+    if (moved.empty())
+        return true;
+    holds_ = false;
+    spent_ = static_cast<double>(moved.size()) * per_moved;
+    fresh_.clear();
+    follow_out(boxes, moved);
+    const float step =
+        moved.size() == boxes.size() ? follow_all(boxes, executor) : follow_some(boxes, moved);
+    const auto middle = static_cast<std::ptrdiff_t>(out_.size());
+    out_.insert(out_.end(), fresh_.begin(), fresh_.end());
+    std::inplace_merge(out_.begin(), out_.begin() + middle, out_.end(),
+                       [](const Out& a, const Out& b) { return a.item < b.item; });
+    std::size_t restless = 0;
+    for (const Out& out : out_) {
+        restless += !is_absent(out.box);
+        waste_ += !is_absent(out.box) && out.step <= most_ ? per_restless : 0;
+    }
+    if (step > 0)
+        used_ = std::nextafter(used_ + 2 * (double{step} * (1 + 0x1p-20) + 2 * double{FLT_MIN}),
+                               HUGE_VAL);
+    if (restless > kept_.size() / 8 + 16 || reach_.used_up(used_) || waste_ > renewal_cost()) {
+        forecast_by_frame();
+        return false;
+    }
+    if (!fresh_.empty())
+        leave_out(executor);
+    if (step > 0) {
+        std::vector<std::size_t> examined(n_parts_);
+        executor.for_each(
+            n_parts_, [&](std::size_t p) { examined[p] = parts_[p].examine(kept_.data(), used_); });
+        for (const std::size_t some : examined)
+            examined_ += some;
+    }
+    find_restless(tree, executor);
+    holds_ = true;
+    pairs_ = static_cast<double>(count_pairs());
+    tree.step.examined = examined_;
+    spent_ += static_cast<double>(examined_) * per_examined;
+    return true;
+}
+
+void KeptPairs::find_restless(MovingTree& tree, const Executor& executor) {
+    restless_.clear();
+    restless_pairs_.clear();
+    for (const Out& out : out_)
+        if (!is_absent(out.box))
+            restless_.push_back(out.box);
+    tree.step.restless = restless_.size();
+    if (restless_.empty())
+        return;
+    searched_ = true;
+    restless_items_.clear();
+    for (const Out& out : out_)
+        if (!is_absent(out.box))
+            restless_items_.push_back(out.item);
+    restless_tree_.take(restless_, coarse_curve_order(restless_, Curve::hilbert, executor),
+                        executor);
+    AppendPairs sink(restless_pairs_);
+    boxwood::self_pairs(restless_tree_, executor, sink);
+    for (Pair& pair : restless_pairs_) // ascending, as they are listed
+        pair = {restless_items_[pair.a], restless_items_[pair.b]};
+    AgainstKept against(*this, sink);
+    boxwood::tree_pairs(restless_tree_, tree.layout(), executor, against);
+    spent_ += static_cast<double>(restless_.size()) * per_restless + n() * per_item_of_tree;
+}
+
+/// Parts in order, then the pairs of the restless.
+void KeptPairs::self_pairs(const Executor& executor, PairSink& sink) const {
+    const std::size_t chunks = n_parts_ + 1;
+    sink.begin(chunks, executor.threads() == 1);
+    std::atomic<std::size_t> next = 0; // in order: then a sink can put the pairs in place at once
+    std::atomic<bool> stop = false;
+    executor.for_each(chunks, [&](std::size_t) {
+        const std::size_t c = next++;
+        const ChunkSink to(sink, c, stop, nullptr);
+        if (to.stopped())
+            return;
+        if (c == n_parts_)
+            to.take(restless_pairs_);
+        else if (to.take(parts_[c].sure()))
+            to.take(parts_[c].now());
+        sink.finish(c);
+    });
+    sink.end();
+}
+
+Work KeptPairs::self_pairs_counted(const MovingTree& tree, PairSink& sink) const {
+    Work work;
+    if (searched_) {
+        CountPairs ignored;
+        work += boxwood::self_pairs_counted(restless_tree_, ignored);
+        work += boxwood::tree_pairs_counted(restless_tree_, tree.layout(), ignored);
+    }
+    work.box_tests += examined_;
+    work.answers = count_pairs();
+    self_pairs(serial(), sink);
+    return work;
+}
+
+std::size_t KeptPairs::bytes() const {
+    std::size_t sum = (kept_.capacity() + widened_.capacity() + restless_.capacity()) * sizeof(Box);
+    sum += (steps_.capacity() + far_.capacity() + restless_items_.capacity()) * sizeof(float);
+    sum += (out_.capacity() + fresh_.capacity()) * sizeof(Out) + restless_tree_.bytes();
+    sum += restless_pairs_.capacity() * sizeof(Pair);
+    for (const auto& chunk : found_)
+        sum += chunk.capacity() * sizeof(Pair);
+    for (const ExpiringPairs& part : parts_)
+        sum += part.bytes();
+    return sum;
+}
+
+std::string KeptPairs::fault() const {
+    if (!holds_)
+        return "";
+    for (std::size_t p = 0; p < n_parts_; ++p)
+        if (std::string found = parts_[p].fault(kept_.data()); !found.empty())
+            return found;
+    for (const Out& out : out_)
+        if (!is_empty(kept_[out.item]))
+            return "item " + std::to_string(out.item) + " is both restless and kept";
+    return "";
+}
+
+} // namespace boxwood

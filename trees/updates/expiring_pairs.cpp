@@ -1,0 +1,177 @@
+#include "trees/updates/expiring_pairs.h"
+
+namespace boxwood {
+namespace {
+
+/// With room for n, what it held lost.
+template <class T> void make_room(Buffer<T>& buffer, std::size_t n) {
+    if (buffer.size() < n)
+        buffer = Buffer<T>(n + n / 8);
+}
+
+} // namespace
+
+void ExpiringPairs::start(std::span<const std::vector<Pair>> parts, const Box* boxes, Reach reach) {
+    reach_ = reach;
+    bucket_now_ = 0;
+    std::size_t n = 0;
+    for (const auto& part : parts)
+        n += part.size();
+    make_room(sure_, n);
+    make_room(place_, n);
+    make_room(on_, n);
+    make_room(on_id_, n);
+    Buffer<Unsure> unsures(n);
+    Buffer<std::uint8_t> bucket(n);
+    static_assert(n_buckets <= 256);
+    std::array<std::uint32_t, n_buckets> counts{};
+
+    // Without branches: a pair is written wherever it might belong.
+    std::size_t n_sure = 0, n_unsure = 0, n_on = 0;
+    for (const auto& part : parts)
+        for (const Pair pair : part) {
+            const Gap gap = gap_between(boxes[pair.a], boxes[pair.b]);
+            const bool unsure = !reach.used_up(gap.allowance);
+            const std::size_t at = reach.bucket(unsure ? gap.allowance : 0);
+            const auto id = static_cast<std::uint32_t>(n_unsure);
+            sure_[n_sure] = pair;
+            n_sure += !unsure & gap.overlap;
+            unsures[id] = {pair, id | (gap.overlap ? on_bit : 0)};
+            place_[id] = gap.overlap ? static_cast<std::uint32_t>(n_on) : off;
+            bucket[id] = static_cast<std::uint8_t>(at);
+            on_[n_on] = pair;
+            on_id_[n_on] = id;
+            n_on += unsure & gap.overlap;
+            n_unsure += unsure;
+            counts[at] += unsure;
+        }
+    n_sure_ = n_sure;
+    n_unsure_ = n_unsure;
+    n_on_ = n_on;
+
+    std::array<Unsure*, n_buckets> to;
+    for (std::size_t k = 0; k < n_buckets; ++k) {
+        std::vector<Unsure>& list = k == 0 ? hot_ : waiting_[k];
+        list.resize(counts[k]);
+        to[k] = list.data();
+    }
+    for (std::size_t id = 0; id < n_unsure; ++id)
+        *to[bucket[id]]++ = unsures[id];
+}
+
+void ExpiringPairs::turn_on(Unsure& unsure) {
+    const std::uint32_t id = unsure.id_and_state;
+    unsure.id_and_state |= on_bit;
+    place_[id] = static_cast<std::uint32_t>(n_on_);
+    on_[n_on_] = unsure.pair;
+    on_id_[n_on_++] = id;
+}
+
+/// The last one takes its place, unless it was left out before.
+void ExpiringPairs::turn_off(Unsure& unsure) {
+    unsure.id_and_state ^= on_bit;
+    const std::uint32_t id = unsure.id_and_state, place = place_[id];
+    if (place == off)
+        return;
+    --n_on_;
+    on_[place] = on_[n_on_];
+    on_id_[place] = on_id_[n_on_];
+    place_[on_id_[place]] = place;
+    place_[id] = off;
+}
+
+std::size_t ExpiringPairs::examine(const Box* boxes, double used) {
+    const std::size_t bucket_now = reach_.bucket(used);
+    todo_.clear();
+    todo_.swap(hot_);
+    for (std::size_t k = bucket_now_ + 1; k <= bucket_now; ++k) {
+        todo_.insert(todo_.end(), waiting_[k].begin(), waiting_[k].end());
+        waiting_[k].clear();
+    }
+    bucket_now_ = bucket_now;
+    constexpr std::size_t ahead = 12; // boxes lie anywhere, perhaps in two cache lines
+    const std::size_t n = todo_.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const Pair next = todo_[std::min(i + ahead, n - 1)].pair;
+        for (const std::uint32_t item : {next.a, next.b}) {
+            __builtin_prefetch(&boxes[item].min.x);
+            __builtin_prefetch(&boxes[item].max.z);
+        }
+        Unsure unsure = todo_[i];
+        const Gap gap = gap_between(boxes[unsure.pair.a], boxes[unsure.pair.b]);
+        if (gap.overlap != ((unsure.id_and_state & on_bit) != 0))
+            gap.overlap ? turn_on(unsure) : turn_off(unsure);
+        const double expiry = used + gap.allowance;
+        if (reach_.used_up(expiry))
+            continue;
+        const std::size_t bucket = reach_.bucket(expiry);
+        (bucket <= bucket_now ? hot_ : waiting_[bucket]).push_back(unsure);
+    }
+    return n;
+}
+
+void ExpiringPairs::leave_out_empty(const Box* boxes) {
+    const auto stays = [&](Pair pair) {
+        return (boxes[pair.a].min.x <= boxes[pair.a].max.x) &
+               (boxes[pair.b].min.x <= boxes[pair.b].max.x);
+    };
+    std::size_t to = 0;
+    for (std::size_t i = 0; i < n_sure_; ++i) {
+        const Pair pair = sure_[i];
+        sure_[to] = pair;
+        to += stays(pair);
+    }
+    n_sure_ = to;
+    to = 0;
+    for (std::size_t i = 0; i < n_on_; ++i) {
+        const Pair pair = on_[i];
+        const std::uint32_t id = on_id_[i];
+        const bool stay = stays(pair);
+        on_[to] = pair;
+        on_id_[to] = id;
+        place_[id] = stay ? static_cast<std::uint32_t>(to) : off;
+        to += stay;
+    }
+    n_on_ = to;
+}
+
+std::size_t ExpiringPairs::bytes() const {
+    std::size_t sum = sure_.bytes() + place_.bytes() + on_.bytes() + on_id_.bytes() +
+                      (hot_.capacity() + todo_.capacity()) * sizeof(Unsure);
+    for (const auto& list : waiting_)
+        sum += list.capacity() * sizeof(Unsure);
+    return sum;
+}
+
+std::string ExpiringPairs::fault(const Box* boxes) const {
+    const auto name = [](Pair p) {
+        return "kept pair (" + std::to_string(p.a) + ", " + std::to_string(p.b) + ") ";
+    };
+    for (const auto list : {sure(), now()})
+        for (const Pair pair : list)
+            if (!overlaps(boxes[pair.a], boxes[pair.b]))
+                return name(pair) + "is listed, but does not overlap";
+    const auto fault_of = [&](const Unsure& unsure) -> std::string {
+        const Pair pair = unsure.pair;
+        const std::uint32_t place = place_[unsure.id_and_state & ~on_bit];
+        if ((place != off) != overlaps(boxes[pair.a], boxes[pair.b]))
+            return name(pair) + "is on the wrong list";
+        if (place != off &&
+            (place >= n_on_ || on_[place] != pair || !(unsure.id_and_state & on_bit)))
+            return name(pair) + "is not where it is noted";
+        return "";
+    };
+    for (std::size_t k = 0; k < n_buckets; ++k) {
+        if (k <= bucket_now_ && !waiting_[k].empty())
+            return "a pair waits for motion that is over";
+        for (const Unsure& unsure : k == 0 ? hot_ : waiting_[k])
+            if (std::string found = fault_of(unsure); !found.empty())
+                return found;
+    }
+    for (std::size_t place = 0; place < n_on_; ++place)
+        if (on_id_[place] >= n_unsure_ || place_[on_id_[place]] != place)
+            return name(on_[place]) + "is listed twice";
+    return "";
+}
+
+} // namespace boxwood
