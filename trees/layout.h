@@ -47,6 +47,14 @@ enum class RayQuery : std::uint8_t {
     any      ///< whether there is a hit at all: some hit, not always the same between layouts
 };
 
+struct SingleRayTree;
+
+/// How one ray is walked through a layout by a kernel, on this machine (traversals/single_rays.h).
+struct SingleRayWalks {
+    RayHit (*closest)(const SingleRayTree& tree, const Ray<float>& ray) = nullptr;
+    bool (*any)(const SingleRayTree& tree, const Ray<float>& ray) = nullptr;
+};
+
 /// An item near a point, and the square of the distance from the point to its box (0 inside).
 struct Neighbour {
     std::uint32_t item = none;
@@ -102,6 +110,8 @@ class AnyLayout {
     virtual Work rays_counted(std::span<const Ray<float>> rays, RayQuery query,
                               std::string_view kernel, const TriangleBlocks& triangles,
                               std::span<RayHit> hits) const = 0;
+    /// For SingleRays; null where a batch of one has to do.
+    virtual SingleRayWalks single_ray_walks(std::string_view kernel) const = 0;
     /// Every hit of every ray with t_min <= t <= t_max, each triangle once.
     virtual void rays_all(std::span<const Ray<float>> rays, std::string_view kernel,
                           const TriangleBlocks& triangles, const Executor& executor,

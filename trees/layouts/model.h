@@ -50,6 +50,9 @@ template <Layout L> class LayoutModel final : public AnyLayout {
         return boxwood::rays_counted(layout_, rays, query, kernel, triangles, hits);
     }
 
+    SingleRayWalks single_ray_walks(std::string_view kernel) const override {
+        return boxwood::single_ray_walks(layout_, kernel);
+    }
     void rays_all(std::span<const Ray<float>> rays, std::string_view kernel,
                   const TriangleBlocks& triangles, const Executor& executor,
                   HitSink& sink) const override {

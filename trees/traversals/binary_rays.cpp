@@ -95,6 +95,8 @@ TriangleBlocks blocks_in_order(const L& layout, const TriangleMesh& mesh,
 
 void walk_rays(const BinaryLayout& layout, const RayJob& job) { walk_job(layout, job); }
 void walk_rays(const BinaryLayoutF64& layout, const RayJob& job) { walk_job(layout, job); }
+SingleRayWalks single_ray_walks(const BinaryLayout&, std::string_view) { return {}; }
+SingleRayWalks single_ray_walks(const BinaryLayoutF64&, std::string_view) { return {}; }
 TriangleBlocks triangles_of(const BinaryLayout& layout, const TriangleMesh& mesh,
                             const Executor& executor) {
     return blocks_in_order(layout, mesh, executor);

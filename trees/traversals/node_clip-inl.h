@@ -126,6 +126,21 @@ HWY_INLINE void PushSorted(const Node& node, std::uint32_t bits, const float* en
 }
 
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET <= HWY_AVX2
+/// The lane of the least entry (>= 0) among the lanes of `bits`, of which there is one at least;
+/// entries count as PushSortedEight rounds them.
+template <class V> HWY_INLINE std::uint32_t NearestOf(V entry, std::uint32_t bits) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    const hn::CappedTag<std::uint32_t, 8> du;
+    const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits)};
+    const auto key =
+        hn::Or(hn::AndNot(hn::Set(du, 7u), hn::BitCast(du, hn::Abs(entry))), hn::Iota(du, 0));
+    auto least = hn::IfThenElse(hn::LoadMaskBits(du, bytes), key, hn::Set(du, ~std::uint32_t{0}));
+    least = hn::Min(least, hn::ConcatLowerUpper(du, least, least));
+    least = hn::Min(least, hn::Shuffle1032(least));
+    least = hn::Min(least, hn::Shuffle2301(least));
+    return hn::GetLane(least) & 7;
+}
+
 /// As PushSorted for the entries (>= 0) of eight lanes in one register, without a branch: a network
 /// of 19 comparisons. Entries are rounded down to multiples of eight ulp, which hold the lane;
 /// eight are written whatever `bits`.

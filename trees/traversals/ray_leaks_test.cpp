@@ -1,6 +1,7 @@
 #include "kernels/ray_triangle/closed_meshes_for_test.h"
 #include "trees/builder.h"
 #include "trees/layout.h"
+#include "trees/traversals/single_rays.h"
 
 #include <gtest/gtest.h>
 
@@ -27,7 +28,7 @@ std::unique_ptr<AnyLayout> layout_of(const TriangleMesh& mesh, const LayoutEntry
     return entry.make(make_builder("binned_sah")(boxes, serial()), serial());
 }
 
-/// Rays from within a mesh that hit nothing, closest and any together.
+/// Rays from within a mesh that hit nothing, closest and any together, in a batch and alone.
 std::size_t leaks(const AnyLayout& layout, const TriangleMesh& mesh, std::string_view kernel,
                   std::span<const Ray<float>> rays) {
     const TriangleBlocks triangles = layout.triangles(mesh);
@@ -37,6 +38,9 @@ std::size_t leaks(const AnyLayout& layout, const TriangleMesh& mesh, std::string
         layout.rays(rays, query, kernel, triangles, serial(), hits);
         n += hits.size() - static_cast<std::size_t>(std::ranges::count_if(hits, &RayHit::hit));
     }
+    const SingleRays single(layout, kernel, triangles);
+    for (const Ray<float>& ray : rays)
+        n += std::size_t{!single.closest(ray).hit()} + std::size_t{!single.any(ray)};
     return n;
 }
 

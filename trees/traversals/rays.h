@@ -16,11 +16,12 @@ namespace boxwood {
     X(Wide8Layout) X(Wide16Layout) X(Wide8LayoutF64) X(Quantised8Layout) X(PackedLayout)
 
 /// The triangles of the mesh whose triangle boxes the layout was built from, as its walk wants
-/// them; and the walk over one chunk of rays.
+/// them; the walk over one chunk of rays; and those of one ray, if there are any.
 #define X(L)                                                                                       \
     TriangleBlocks triangles_of(const L& layout, const TriangleMesh& mesh,                         \
                                 const Executor& executor);                                         \
-    void walk_rays(const L& layout, const RayJob& job);
+    void walk_rays(const L& layout, const RayJob& job);                                            \
+    SingleRayWalks single_ray_walks(const L& layout, std::string_view kernel);
 BOXWOOD_RAY_LAYOUTS(X)
 #undef X
 

@@ -1,0 +1,21 @@
+#include "trees/traversals/single_rays.h"
+
+namespace boxwood {
+
+SingleRays::SingleRays(const AnyLayout& layout, std::string_view kernel,
+                       const TriangleBlocks& triangles)
+    : tree_{triangles.nodes.data(), triangles.blocks.data(), triangles.root,
+            SlabBounds(triangles.bounds)},
+      walks_(layout.single_ray_walks(kernel)), layout_(layout), triangles_(triangles),
+      kernel_(kernel) {
+    layout.rays({}, RayQuery::closest, kernel, triangles, serial(),
+                {}); // refuses an unknown kernel
+}
+
+RayHit SingleRays::in_a_batch(const Ray<float>& ray, RayQuery query) const {
+    RayHit hit;
+    layout_.rays({&ray, 1}, query, kernel_, triangles_, serial(), {&hit, 1});
+    return hit;
+}
+
+} // namespace boxwood
