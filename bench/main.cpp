@@ -123,6 +123,7 @@ int run(int argc, char** argv) {
     add_doctor(app, exit_code);
     add_demo(app, exit_code);
     add_scene(app, exit_code);
+    add_plan(app, exit_code);
     add_query(app, exit_code);
 
     if (argc < 2) {

@@ -58,7 +58,7 @@ std::vector<Pair> overlapping_bodies(const MovingScene& scene, const BoxedBodies
     std::vector<Pair> pairs;
     for (const Pair p : found) {
         const auto [a, b] = std::minmax(boxed.body[p.a], boxed.body[p.b]);
-        if (!std::ranges::binary_search(scene.expected_pairs(), std::array{a, b}))
+        if (!scene.is_ignored(a, b))
             pairs.push_back({a, b});
     }
     std::ranges::sort(pairs);
@@ -98,6 +98,44 @@ void ScenePicture::add_outline(const Bodies& bodies, std::uint32_t i,
     to.push_back(hull(std::move(corners)));
 }
 
+/// At most `most_queries` of each kind: boxes, points as small squares, and rays as far as a third
+/// of the room.
+void ScenePicture::add_queries(const MovingScene& scene, Frame& frame) const {
+    const Bodies& bodies = scene.bodies();
+    const auto some = [](auto& queries) {
+        constexpr std::size_t most_queries = 60;
+        const std::size_t step = (queries.size() + most_queries - 1) / most_queries;
+        for (std::size_t i = 0; i * step < queries.size(); ++i)
+            queries[i] = queries[i * step];
+        queries.resize(std::min(queries.size(), most_queries));
+    };
+    for (const SceneAsk& ask : scene.file().asks) {
+        std::vector<Box> regions;
+        std::vector<Ray<float>> rays;
+        std::vector<Vec3<float>> points;
+        if (ask.name == "regions")
+            regions_of_frame(scene, ask, regions);
+        else if (ask.name == "rays")
+            rays_of_frame(scene, ask, rays);
+        else if (ask.name == "points" || ask.name == "nearest")
+            points_of_frame(scene, ask, points);
+        some(regions);
+        some(rays);
+        some(points);
+        const auto dot = static_cast<float>(.1 * bodies.side);
+        for (const Vec3<float>& p : points)
+            regions.push_back({p - Vec3<float>{dot, dot, dot}, p + Vec3<float>{dot, dot, dot}});
+        for (const Box& region : regions)
+            frame.queries.push_back(rectangle(region));
+        for (const Ray<float>& ray : rays) {
+            const auto from = static_cast<Vec3<double>>(ray.origin);
+            const auto along = static_cast<Vec3<double>>(ray.direction);
+            const double far = bodies.length_of(0, 1. / 3) / length(along);
+            frame.queries.push_back({seen(from), seen(from + far * along)});
+        }
+    }
+}
+
 void ScenePicture::add(const MovingScene& scene, std::span<const std::uint32_t> changed) {
     const Bodies& bodies = scene.bodies();
     const BoxedBodies present = boxed(bodies);
@@ -126,7 +164,9 @@ void ScenePicture::add(const MovingScene& scene, std::span<const std::uint32_t> 
             stack.emplace_back(present.tree.right(node), depth + 1);
         }
     }
-    for (const auto* polygons : {&frame.resting, &frame.changed, &frame.meeting, &frame.nodes})
+    add_queries(scene, frame);
+    for (const auto* polygons :
+         {&frame.resting, &frame.changed, &frame.meeting, &frame.nodes, &frame.queries})
         for (const Polygon& polygon : *polygons)
             for (const Point p : polygon)
                 drawn_.extend(Vec3<double>{p.x, p.y, 0});
@@ -177,14 +217,18 @@ std::string ScenePicture::svg() const {
         "fill=\"none\" stroke=\"#d55e00\" stroke-opacity=\".4\" stroke-width=\".7\"";
     const std::string_view node =
         "fill=\"none\" stroke=\"#009e73\" stroke-width=\"1\" stroke-dasharray=\"5 3\"";
+    const std::string_view asked =
+        "fill=\"none\" stroke=\"#cc79a7\" stroke-opacity=\".8\" stroke-width=\"1\"";
+    bool has_queries = false;
     double x = margin;
     for (const Frame& frame : frames_) {
+        has_queries |= !frame.queries.empty();
         out += fmt::format("<text x=\"{0:.0f}\" y=\"36\" fill=\"#444\">{1}</text>\n"
                            "<g transform=\"translate({0:.0f} {2:.0f})\">\n",
                            x, frame.title, head);
         out += path(frame.resting, scale, resting) + path(frame.changed, scale, changing) +
                path(frame.meeting, scale, meeting) + path(frame.lines, scale, line) +
-               path(frame.nodes, scale, node) + "</g>\n";
+               path(frame.nodes, scale, node) + path(frame.queries, scale, asked) + "</g>\n";
         x += width + margin;
     }
     const double y = head + height + margin + 8;
@@ -200,6 +244,8 @@ std::string ScenePicture::svg() const {
     key(meeting, "box overlaps another's");
     if (depth_ >= 0)
         key(node, fmt::format("tree, depth {}", depth_));
+    if (has_queries)
+        key(asked, "some of what is asked");
     return out + "</svg>\n";
 }
 

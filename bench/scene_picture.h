@@ -41,11 +41,13 @@ class ScenePicture {
         std::vector<Polygon> resting, changed, meeting; ///< bodies; the last are in a pair
         std::vector<Polygon> lines;                     ///< from middle to middle of each pair
         std::vector<Polygon> nodes;                     ///< boxes of the tree at the wanted depth
+        std::vector<Polygon> queries;                   ///< some of what is asked there
     };
 
     Point seen(Vec3<double> p) const { return {p[across_], p[up_]}; }
     void add_outline(const Bodies& bodies, std::uint32_t i, std::vector<Polygon>& to) const;
     Polygon rectangle(const Box& box) const;
+    void add_queries(const MovingScene& scene, Frame& frame) const;
     std::string path(const std::vector<Polygon>& polygons, double scale,
                      std::string_view style) const;
 

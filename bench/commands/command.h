@@ -28,6 +28,7 @@ void add_merge(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
 void add_demo(CLI::App& app, int& exit_code);
 void add_scene(CLI::App& app, int& exit_code);
+void add_plan(CLI::App& app, int& exit_code);
 void add_query(CLI::App& app, int& exit_code);
 
 } // namespace boxwood::bench

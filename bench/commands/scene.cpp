@@ -17,11 +17,13 @@ namespace boxwood::bench {
 namespace {
 
 constexpr std::size_t most_drawn = 2000; ///< bodies, unless --n asks for more
+constexpr std::uint64_t in_strip = 4;    ///< frames, unless --frame names them
 
 struct SceneOptions {
-    std::string scene, svg;
+    std::string scene, svg, strip;
     std::vector<std::uint64_t> frames;
     std::optional<std::size_t> n;
+    std::optional<std::uint64_t> seed;
     int depth = -1;
 };
 
@@ -39,6 +41,26 @@ std::string effects_text(const BodyGroup& group) {
     return words.empty() ? "at rest" : fmt::format("{}", fmt::join(words, ", "));
 }
 
+std::string asks_text(const SceneFile& file) {
+    std::vector<std::string> words;
+    for (const SceneAsk& ask : file.asks)
+        words.push_back(ask.n == 0 ? ask.name
+                                   : fmt::format("{} ({} {}{})", ask.name, ask.n, ask.kind,
+                                                 ask.k ? fmt::format(", k {}", ask.k) : ""));
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
+std::string group_notes(const BodyGroup& group) {
+    std::string text;
+    if (group.margin > 0)
+        text += fmt::format("; margin {:g}", group.margin);
+    if (group.group_ignored)
+        text += "; its bodies may overlap each other";
+    else if (group.neighbours_ignored)
+        text += "; neighbours may overlap";
+    return text;
+}
+
 void describe(const MovingScene& scene) {
     const SceneFile& file = scene.file();
     fmt::print("{}: {}\n", file.name, file.summary);
@@ -48,13 +70,17 @@ void describe(const MovingScene& scene) {
         const std::string size =
             group.n ? fmt::format("{}", group.n) : fmt::format("{:g} % of n", 100 * group.share);
         fmt::print("  {} ({}): {}{}\n", group.generator, size, effects_text(group),
-                   group.neighbours_ignored ? "; neighbours may overlap" : "");
+                   group_notes(group));
     }
+    fmt::print("  asks: {}\n", asks_text(file));
 }
 
 void show_scene(const SceneOptions& options) {
     SceneFile file = load_scene(options.scene);
-    const bool is_drawn = !options.svg.empty();
+    if (options.seed)
+        file.seed = *options.seed;
+    const std::string& svg = options.svg.empty() ? options.strip : options.svg;
+    const bool is_drawn = !svg.empty();
     std::optional<std::size_t> n = options.n;
     if (is_drawn && !n && file.n > most_drawn) {
         n = most_drawn;
@@ -64,6 +90,9 @@ void show_scene(const SceneOptions& options) {
     MovingScene scene(std::move(file), n);
     describe(scene);
     std::vector<std::uint64_t> frames = options.frames;
+    if (frames.empty() && !options.strip.empty())
+        for (std::uint64_t i = 0; i < in_strip; ++i)
+            frames.push_back(i * scene.file().frames / (in_strip - 1));
     if (frames.empty())
         frames = {0};
     std::ranges::sort(frames);
@@ -82,13 +111,13 @@ void show_scene(const SceneOptions& options) {
     }
     if (!is_drawn)
         return;
-    std::ofstream out(options.svg, std::ios::binary);
+    std::ofstream out(svg, std::ios::binary);
     out << picture.svg();
     out.close();
     if (!out)
-        throw BadInput(fmt::format("{}: cannot write it: does the folder exist, is the disk full?",
-                                   options.svg));
-    fmt::print("{}\n", options.svg);
+        throw BadInput(
+            fmt::format("{}: cannot write it: does the folder exist, is the disk full?", svg));
+    fmt::print("{}\n", svg);
 }
 
 } // namespace
@@ -100,15 +129,22 @@ void add_scene(CLI::App& app, int&) {
         ->required();
     scene->add_option("--frame", options->frames, "frames to show, such as 0,30,60 (default: 0)")
         ->delimiter(',');
-    scene->add_option("--svg", options->svg, "draw the frames side by side into this file");
+    CLI::Option* svg =
+        scene->add_option("--svg", options->svg, "draw the frames side by side into this file");
+    scene
+        ->add_option("--strip", options->strip,
+                     "the same; without --frame, four frames spread over the scene's")
+        ->excludes(svg);
     scene->add_option("--depth", options->depth, "draw the tree's boxes of this depth too")
         ->check(CLI::Range(0, 64));
     scene->add_option("--n", options->n, "number of bodies instead of the scene's")
         ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}));
-    scene->footer("The built-in scenes: `boxwood list scenes`; what may happen in a scene of your "
-                  "own: `boxwood list effects`.\n"
-                  "Example: boxwood scene warehouse --n 500 --frame 0,60 --svg warehouse.svg "
-                  "--depth 3");
+    scene->add_option("--seed", options->seed, "instead of the scene's");
+    scene->footer(
+        "The built-in scenes: `boxwood list moving_scenes`; what may happen in a scene of your "
+        "own: `boxwood list effects`.\n"
+        "Example: boxwood scene warehouse --n 500 --frame 0,60 --svg warehouse.svg "
+        "--depth 3");
     scene->callback([options] { show_scene(*options); });
 }
 

@@ -17,7 +17,7 @@ struct Playing;
 
 /// Plays a scene by its plan: a stage that does not run is not made. One virtual call per stage and
 /// frame. The answers and their order are the same on every executor.
-/// start, ask, then advance and ask for each further frame; an ask may be left out.
+/// start, ask, then advance and ask for each further frame; an ask that is left out is made up for.
 class ScenePlayer {
   public:
     /// The scene stands at frame 0, the executor outlives this.
@@ -33,6 +33,8 @@ class ScenePlayer {
     void advance();
     /// What the scene asks of the present frame; good until the next advance or start.
     const FrameAnswers& ask();
+    /// What the last ask gave.
+    const FrameAnswers& answers() const;
     /// The work of the walk for pairs in the present frame; zero if no pairs are wanted.
     Work counted_pairs() const;
 
@@ -42,17 +44,21 @@ class ScenePlayer {
     const Ledger& ledger();
 
   private:
-    struct Step {
+    struct Made {
         std::size_t row; ///< of the ledger
         std::unique_ptr<SceneStage> stage;
     };
-    void add_step(std::vector<Step>& to, std::string_view name, std::unique_ptr<SceneStage> stage);
-    void run(std::vector<Step>& steps);
+    enum class Runs { at_the_start, from_the_start, advancing, asking };
+
+    void add(std::string_view name, std::unique_ptr<SceneStage> stage, Runs when);
+    template <class Run> void timed(Made& made, const Run& run);
 
     std::unique_ptr<Playing> playing_;
     std::vector<PlannedStage> plan_;
     Ledger ledger_;
-    std::vector<Step> starting_, advancing_, asking_;
+    std::vector<Made> stages_;
+    std::vector<std::size_t> starting_, advancing_, asking_; ///< of stages_
+    bool is_asked_ = false;                                  ///< the present frame
 };
 
 } // namespace boxwood::bench

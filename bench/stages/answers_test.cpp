@@ -1,0 +1,289 @@
+/// What a scene asks, answered by its plan, against everything on and against brute force.
+
+#include "bench/ray_truth.h"
+#include "bench/stages/scene_player.h"
+#include "bench/stages/surface.h"
+#include "kernels/oracle/oracle.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace boxwood::bench {
+namespace {
+
+FrameAnswers sorted(FrameAnswers answers) {
+    std::ranges::sort(answers.pairs);
+    std::ranges::sort(answers.triangle_pairs);
+    std::ranges::sort(answers.points);
+    std::ranges::sort(answers.regions);
+    return answers;
+}
+
+void expect_same(const FrameAnswers& a, const FrameAnswers& b) {
+    EXPECT_EQ(a.pairs, b.pairs);
+    EXPECT_EQ(a.triangle_pairs, b.triangle_pairs);
+    EXPECT_EQ(a.rays, b.rays);
+    EXPECT_EQ(a.points, b.points);
+    EXPECT_EQ(a.regions, b.regions);
+    EXPECT_EQ(a.nearest, b.nearest);
+}
+
+SceneFile built_in(std::string_view name, std::size_t n) {
+    SceneFile file = load_scene(std::string(name));
+    file.n = n;
+    return file;
+}
+
+/// Asks all there is to ask.
+SceneFile asking_all(SceneFile file) {
+    file.asks.clear();
+    for (const SceneAskEntry& entry : scene_asks()) {
+        file.asks.push_back(entry.defaults);
+        file.asks.back().name = entry.name;
+        file.asks.back().n = std::min<std::size_t>(entry.defaults.n, 60);
+        if (entry.name == "points")
+            file.asks.back().kind = "scattered";
+    }
+    return file;
+}
+
+TEST(Answers, EverythingOnGivesTheSameFrameByFrame) {
+    for (const BuiltInScene& entry : built_in_scenes())
+        for (const bool all : {false, true}) {
+            SCOPED_TRACE(std::string(entry.name) + (all ? ", all asked" : ""));
+            SceneFile file = built_in(entry.name, 150);
+            if (all)
+                file = asking_all(file);
+            ScenePlayer some(MovingScene(file), Extent::called_for, serial());
+            ScenePlayer everything(MovingScene(file), Extent::everything, serial());
+            some.start();
+            everything.start();
+            for (int frame = 0; frame < 20; ++frame) {
+                const FrameAnswers &a = some.ask(), &b = everything.ask();
+                EXPECT_EQ(answers_hash(a), answers_hash(b));
+                expect_same(sorted(a), sorted(b));
+                if (testing::Test::HasFailure())
+                    return;
+                some.advance();
+                everything.advance();
+            }
+        }
+}
+
+TEST(Answers, AndTheirOrderAreTheSameOnEveryExecutor) {
+    for (const char* name : {"tumbling_rocks", "crowd", "fly_through", "cloth_on_sphere"}) {
+        SCOPED_TRACE(name);
+        const SceneFile file = asking_all(built_in(name, 600));
+        ScenePlayer one(MovingScene(file), Extent::called_for, serial());
+        one.start();
+        std::vector<FrameAnswers> expected;
+        for (int frame = 0; frame < 5; ++frame) {
+            expected.push_back(one.ask());
+            one.advance();
+        }
+        for (const auto& [word, threads] : {std::pair{"tbb", 2u}, {"tbb", 4u}, {"openmp", 2u}}) {
+            const auto executor = make_executor(word, threads);
+            ScenePlayer other(MovingScene(file), Extent::called_for, *executor);
+            other.start();
+            for (const FrameAnswers& answers : expected) {
+                expect_same(other.ask(), answers);
+                other.advance();
+            }
+        }
+    }
+}
+
+/// Every pair of present bodies whose widened boxes overlap.
+std::vector<Pair> true_body_pairs(const MovingScene& scene) {
+    std::vector<Pair> pairs;
+    const auto n = static_cast<std::uint32_t>(scene.bodies().size());
+    std::vector<Box> boxes;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        double margin = 0;
+        std::uint32_t first = 0;
+        for (const BodyGroup& group : scene.file().groups) {
+            const auto in_group = static_cast<std::uint32_t>(
+                group.n ? group.n : std::lround(group.share * static_cast<double>(scene.file().n)));
+            if (first <= i && i < first + in_group)
+                margin = group.margin;
+            first += in_group;
+        }
+        Box box = fitted_box(scene.bodies(), i);
+        if (margin > 0 && !box.is_empty())
+            for (int axis = 0; axis < 3; ++axis) {
+                box.min[axis] = static_cast<float>(static_cast<double>(box.min[axis]) - margin);
+                box.max[axis] = static_cast<float>(static_cast<double>(box.max[axis]) + margin);
+            }
+        boxes.push_back(box);
+    }
+    for (std::uint32_t a = 0; a < n; ++a)
+        for (std::uint32_t b = a + 1; b < n; ++b)
+            if (overlaps(boxes[a], boxes[b]) && !scene.is_ignored(a, b))
+                pairs.push_back({a, b});
+    return pairs;
+}
+
+std::vector<Vec3<float>> posed(const Bodies& bodies, std::uint32_t i) {
+    std::vector<Vec3<float>> vertices;
+    for (const Vec3<float>& v : bodies.meshes[bodies.mesh[i]].vertices)
+        vertices.push_back(static_cast<Vec3<float>>(bodies.pose[i](static_cast<Vec3<double>>(v))));
+    return vertices;
+}
+
+Triangle<double> exact(const std::vector<Vec3<float>>& vertices,
+                       const std::array<std::uint32_t, 3>& t) {
+    return {static_cast<Vec3<double>>(vertices[t[0]]), static_cast<Vec3<double>>(vertices[t[1]]),
+            static_cast<Vec3<double>>(vertices[t[2]])};
+}
+
+/// Of all bodies with meshes, by rational numbers; the boxes of triangles may say no.
+std::vector<TouchingTriangles> true_triangle_pairs(const MovingScene& scene) {
+    const Bodies& bodies = scene.bodies();
+    std::vector<TouchingTriangles> touching;
+    for (std::uint32_t a = 0; a < bodies.size(); ++a)
+        for (std::uint32_t b = a + 1; b < bodies.size(); ++b) {
+            if (bodies.mesh[a] == no_mesh || bodies.mesh[b] == no_mesh || !bodies.present[a] ||
+                !bodies.present[b] || scene.is_ignored(a, b) ||
+                !overlaps(pair_box(scene, a), pair_box(scene, b)))
+                continue;
+            const auto va = posed(bodies, a), vb = posed(bodies, b);
+            const auto& ta = bodies.meshes[bodies.mesh[a]].triangles;
+            const auto& tb = bodies.meshes[bodies.mesh[b]].triangles;
+            for (std::uint32_t i = 0; i < ta.size(); ++i)
+                for (std::uint32_t j = 0; j < tb.size(); ++j) {
+                    const auto s = exact(va, ta[i]), t = exact(vb, tb[j]);
+                    if (overlaps(s.bounds(), t.bounds()) && oracle::intersect(s, t))
+                        touching.push_back({a, b, i, j});
+                }
+        }
+    return touching;
+}
+
+template <class Query, class Meets>
+std::vector<Pair> true_meetings(const MovingScene& scene, const std::vector<Query>& queries,
+                                const Meets& meets) {
+    std::vector<Pair> found;
+    for (std::uint32_t q = 0; q < queries.size(); ++q)
+        for (std::uint32_t i = 0; i < scene.bodies().size(); ++i)
+            if (const Box box = fitted_box(scene.bodies(), i);
+                !box.is_empty() && meets(queries[q], box))
+                found.push_back({q, i});
+    return found;
+}
+
+std::vector<Neighbour> true_nearest(const MovingScene& scene,
+                                    const std::vector<Vec3<float>>& points, std::size_t k) {
+    std::vector<Neighbour> nearest;
+    for (const Vec3<float>& p : points) {
+        std::vector<Neighbour> all;
+        for (std::uint32_t i = 0; i < scene.bodies().size(); ++i) {
+            const Box box = fitted_box(scene.bodies(), i);
+            if (box.is_empty())
+                continue;
+            double squared = 0;
+            for (int axis = 0; axis < 3; ++axis) {
+                const auto x = static_cast<double>(p[axis]);
+                const double d = std::max({0., static_cast<double>(box.min[axis]) - x,
+                                           x - static_cast<double>(box.max[axis])});
+                squared += d * d;
+            }
+            all.push_back({i, squared});
+        }
+        std::ranges::sort(all, [](const Neighbour& a, const Neighbour& b) {
+            return std::pair(a.squared_distance, a.item) < std::pair(b.squared_distance, b.item);
+        });
+        all.resize(k);
+        nearest.insert(nearest.end(), all.begin(), all.end());
+    }
+    return nearest;
+}
+
+void expect_true_rays(const MovingScene& scene, const std::vector<Ray<float>>& rays,
+                      const std::vector<SurfaceHit>& hits) {
+    std::vector<std::uint32_t> first;
+    const TriangleMesh mesh = surface_mesh(scene.bodies(), first);
+    const RayOracle oracle(mesh);
+    ASSERT_EQ(hits.size(), rays.size());
+    for (std::size_t r = 0; r < rays.size(); ++r) {
+        const RayTruth truth = oracle.truth(rays[r]);
+        if (hits[r].body == SurfaceHit::none) {
+            EXPECT_FALSE(truth.must_hit()) << "ray " << r;
+            continue;
+        }
+        const auto t = static_cast<double>(hits[r].t);
+        EXPECT_TRUE(std::ranges::any_of(truth.candidates,
+                                        [&](const auto& candidate) {
+                                            return candidate.triangle ==
+                                                       first[hits[r].body] + hits[r].triangle &&
+                                                   candidate.t_low <= t && t <= candidate.t_high &&
+                                                   t <= truth.t_limit;
+                                        }))
+            << "ray " << r;
+    }
+}
+
+TEST(Answers, AreThoseOfBruteForce) {
+    std::size_t pairs = 0, triangles = 0, hits = 0;
+    for (const BuiltInScene& entry : built_in_scenes()) {
+        SCOPED_TRACE(entry.name);
+        const SceneFile file = asking_all(built_in(entry.name, 120));
+        ScenePlayer player(MovingScene(file), Extent::called_for, serial());
+        player.start();
+        for (int frame = 0; frame < 12; ++frame) {
+            const FrameAnswers found = sorted(player.ask());
+            const MovingScene& scene = player.scene();
+            EXPECT_EQ(found.pairs, true_body_pairs(scene));
+            if (frame % 4 == 0) {
+                EXPECT_EQ(found.triangle_pairs, true_triangle_pairs(scene));
+                std::vector<Ray<float>> rays;
+                rays_of_frame(scene, *ask_of(file, "rays"), rays);
+                expect_true_rays(scene, rays, found.rays);
+            }
+            std::vector<Vec3<float>> points;
+            points_of_frame(scene, *ask_of(file, "points"), points);
+            EXPECT_EQ(found.points, true_meetings(scene, points, [](Vec3<float> p, const Box& box) {
+                          return box.contains(p);
+                      }));
+            std::vector<Box> regions;
+            regions_of_frame(scene, *ask_of(file, "regions"), regions);
+            EXPECT_EQ(found.regions,
+                      true_meetings(scene, regions, [](const Box& region, const Box& box) {
+                          return overlaps(region, box);
+                      }));
+            points_of_frame(scene, *ask_of(file, "nearest"), points);
+            EXPECT_EQ(found.nearest, true_nearest(scene, points, ask_of(file, "nearest")->k));
+            if (testing::Test::HasFailure())
+                return;
+            pairs += found.pairs.size();
+            triangles += found.triangle_pairs.size();
+            hits += static_cast<std::size_t>(std::ranges::count_if(
+                found.rays, [](const SurfaceHit& hit) { return hit.body != SurfaceHit::none; }));
+            player.advance();
+        }
+    }
+    EXPECT_GT(pairs, 1000u);
+    EXPECT_GT(triangles, 100u);
+    EXPECT_GT(hits, 1000u);
+}
+
+TEST(Answers, ABoxHasTwelveTrianglesThatCloseIt) {
+    Bodies bodies;
+    bodies.add({{-1, -2, -3}, {1, 2, 3}});
+    std::vector<std::uint32_t> first;
+    const TriangleMesh mesh = surface_mesh(bodies, first);
+    EXPECT_EQ(first, (std::vector<std::uint32_t>{0, 12}));
+    double area = 0, volume = 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const Triangle<float> t = mesh.triangle(i);
+        const auto a = static_cast<Vec3<double>>(t.a), b = static_cast<Vec3<double>>(t.b),
+                   c = static_cast<Vec3<double>>(t.c);
+        area += length(cross(b - a, c - a)) / 2;
+        volume += dot(a, cross(b, c)) / 6; // of the divergence theorem: all face the same way
+    }
+    EXPECT_NEAR(area, 2 * (2 * 4 + 4 * 6 + 2 * 6), 1e-4);
+    EXPECT_NEAR(std::abs(volume), 2 * 4 * 6, 1e-4);
+}
+
+} // namespace
+} // namespace boxwood::bench

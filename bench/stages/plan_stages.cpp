@@ -1,0 +1,161 @@
+#include "bench/stages/plan_stages.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace boxwood::bench {
+namespace {
+
+/// What the plan is made from.
+struct Wants {
+    explicit Wants(const MovingScene& scene) {
+        const Bodies& bodies = scene.bodies();
+        n = bodies.size();
+        meshed = static_cast<std::size_t>(
+            std::ranges::count_if(bodies.mesh, [](std::uint32_t m) { return m != no_mesh; }));
+        for (const SceneAsk& ask : scene.file().asks) {
+            asked.push_back(ask.name);
+            if (ask.name == "points" || ask.name == "regions" || ask.name == "nearest")
+                box_asks.push_back(ask.name);
+        }
+        moves = !scene.effects().empty();
+        pairs = asks("pairs") || (asks("triangle_pairs") && meshed >= 2);
+        triangles = asks("triangle_pairs") && meshed >= 2;
+        filters = scene.ignored().size();
+    }
+    bool asks(std::string_view word) const { return std::ranges::find(asked, word) != asked.end(); }
+
+    std::size_t n = 0, meshed = 0, filters = 0;
+    std::vector<std::string_view> asked, box_asks;
+    bool moves = false, pairs = false, triangles = false;
+};
+
+std::string counted(std::size_t n, std::string_view one, std::string_view many) {
+    return n == 1 ? fmt::format("1 {}", one) : fmt::format("{} {}", n, many);
+}
+
+class Plan {
+  public:
+    Plan(const MovingScene& scene, Extent extent)
+        : scene_(scene), wants_(scene), everything_(extent == Extent::everything) {}
+
+    std::vector<PlannedStage> stages() {
+        changing();
+        boxes_and_trees();
+        meetings();
+        queries();
+        return std::move(stages_);
+    }
+
+  private:
+    /// A stage that everything on runs all the same.
+    void add(std::string_view name, bool called_for, std::string why) {
+        stages_.push_back(
+            {std::string(name), called_for, called_for || everything_, std::move(why)});
+    }
+    /// One that cannot run unless it is called for.
+    void add_only(std::string_view name, bool called_for, std::string why) {
+        stages_.push_back({std::string(name), called_for, called_for, std::move(why)});
+    }
+
+    void changing() {
+        for (const EffectEntry& effect : boxwood::effects()) {
+            std::size_t chosen = 0;
+            for (const MovingScene::Laid& laid : scene_.effects())
+                if (laid.entry->name == effect.name)
+                    chosen += laid.chosen.size();
+            add_only(fmt::format("advance_{}", effect.name), chosen > 0,
+                     chosen > 0 ? fmt::format("laid on {} of {} bodies", chosen, wants_.n)
+                                : "no body has this effect");
+        }
+        const std::size_t fast = scene_.with_velocity().size();
+        add("move", fast > 0,
+            fast > 0 ? fmt::format("effects give {} a velocity", counted(fast, "body", "bodies"))
+                     : "no effect gives a body a velocity");
+    }
+
+    void boxes_and_trees() {
+        const bool boxes = wants_.pairs || !wants_.box_asks.empty();
+        std::string fit = "nothing is asked of boxes";
+        if (boxes)
+            fit = wants_.moves ? "all at the start, then the bodies that have changed"
+                               : "once at the start: nothing moves";
+        if (boxes && !scene_.margins().empty() && wants_.pairs)
+            fit += "; widened by margins for pairs";
+        add("fit", boxes, fit);
+        add("tree", wants_.pairs,
+            wants_.pairs ? "made once at the start, to find pairs with" : "no pairs are asked");
+        add("update", wants_.pairs && wants_.moves,
+            !wants_.pairs  ? "no pairs are asked"
+            : wants_.moves ? fmt::format("{}: told of the bodies that have changed",
+                                         counted(scene_.effects().size(), "effect changes bodies",
+                                                 "effects change bodies"))
+                           : "nothing moves");
+        const bool box_tree = !wants_.box_asks.empty();
+        add_only("box_tree", box_tree,
+                 box_tree ? fmt::format("{} of boxes{}", fmt::join(wants_.box_asks, ", "),
+                                        wants_.moves ? "" : "; made once, as nothing moves")
+                          : "no points, regions or nearest are asked");
+    }
+
+    void meetings() {
+        std::string why = "not asked";
+        if (wants_.pairs)
+            why = wants_.asks("pairs") ? "asked" : "the candidates of triangle_pairs";
+        if (wants_.pairs && !wants_.moves)
+            why += "; found once and given again, as nothing moves";
+        add("pairs", wants_.pairs, why);
+        const bool filter = wants_.pairs && wants_.filters > 0;
+        add("filter", filter,
+            filter               ? fmt::format("pairs within {} are ignored",
+                                               counted(wants_.filters, "group", "groups"))
+            : wants_.filters > 0 ? "no pairs are asked"
+                                 : "no pairs are ignored");
+        const std::string no_triangles = wants_.asks("triangle_pairs")
+                                             ? "fewer than two bodies have meshes"
+                                             : "no triangle_pairs are asked";
+        add("transform", wants_.triangles,
+            wants_.triangles ? fmt::format("vertices of those of {} bodies with meshes that are in "
+                                           "a pair, if they have changed",
+                                           wants_.meshed)
+                             : no_triangles);
+        add("mesh_trees", wants_.triangles,
+            wants_.triangles ? "made when a mesh is first in a pair, refitted when it has changed"
+                             : no_triangles);
+        add_only("triangle_pairs", wants_.triangles,
+                 wants_.triangles ? "asked; those of two bodies at rest are kept" : no_triangles);
+    }
+
+    void queries() {
+        const bool rays = wants_.asks("rays"), aim = rays || !wants_.box_asks.empty();
+        add_only("surface", rays,
+                 !rays          ? "no rays are asked"
+                 : wants_.moves ? "rays meet it; made anew when a body has changed"
+                                : "rays meet it; made once, as nothing moves");
+        add_only("aim", aim, aim ? "queries go with the frame" : "no queries are asked");
+        for (const std::string_view word : {"rays", "points", "regions", "nearest"}) {
+            const SceneAsk* ask = ask_of(scene_.file(), word);
+            add_only(word, ask != nullptr,
+                     ask ? fmt::format("{} {} asked", ask->n, ask->kind) : "not asked");
+        }
+    }
+
+    const MovingScene& scene_;
+    Wants wants_;
+    bool everything_;
+    std::vector<PlannedStage> stages_;
+};
+
+} // namespace
+
+std::vector<PlannedStage> plan_stages(const MovingScene& scene, Extent extent) {
+    return Plan(scene, extent).stages();
+}
+
+const PlannedStage& stage_of(std::span<const PlannedStage> plan, std::string_view name) {
+    return *std::ranges::find(plan, name, &PlannedStage::name);
+}
+
+} // namespace boxwood::bench

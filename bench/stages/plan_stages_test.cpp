@@ -1,0 +1,130 @@
+#include "bench/stages/plan_stages.h"
+
+#include "bench/commands/plan.h"
+#include "bench/stages/playing.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace boxwood::bench {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsSupersetOf;
+
+MovingScene scene_of(const std::string& text, std::size_t n = 20) {
+    return MovingScene(parse_scene_file(text, "mine.toml"), n);
+}
+
+std::vector<std::string> called_for(const MovingScene& scene) {
+    std::vector<std::string> names;
+    for (const PlannedStage& stage : plan_stages(scene, Extent::called_for)) {
+        EXPECT_FALSE(stage.why.empty()) << stage.name;
+        EXPECT_EQ(stage.runs, stage.is_called_for) << stage.name;
+        if (stage.runs)
+            names.push_back(stage.name);
+    }
+    return names;
+}
+
+const std::string uniform = "[[bodies]]\ngenerator = \"uniform\"\n";
+const std::string meshes = uniform + "shape = \"sphere_mesh\"\ntriangles = 20\n";
+
+TEST(PlanStages, AStaticSceneThatAsksForPairsNeedsThreeStages) {
+    EXPECT_THAT(called_for(MovingScene(load_scene("still_life"), 100)),
+                ElementsAre("fit", "tree", "pairs"));
+}
+
+TEST(PlanStages, EachEffectBringsItsOwnStageAndNoOther) {
+    for (const EffectEntry& effect : effects()) {
+        SCOPED_TRACE(effect.name);
+        const std::string word(effect.name);
+        const auto stages = called_for(scene_of(meshes + "effects = \"" + word + "\"\n"));
+        std::vector<std::string> expected{"advance_" + word};
+        if (effect.changes.velocity)
+            expected.push_back("move");
+        for (const char* name : {"fit", "tree", "update", "pairs"})
+            expected.push_back(name);
+        EXPECT_EQ(stages, expected);
+    }
+}
+
+TEST(PlanStages, AnEffectOnNobodyIsNotThere) {
+    for (const EffectEntry& effect : effects())
+        EXPECT_THAT(called_for(scene_of(meshes + "effects = {name = \"" + std::string(effect.name) +
+                                        "\", share = 0}\n")),
+                    ElementsAre("fit", "tree", "pairs"));
+    // and what has no vertices is not deformed
+    EXPECT_THAT(called_for(scene_of(uniform + "effects = \"deform\"\n")),
+                ElementsAre("fit", "tree", "pairs"));
+}
+
+TEST(PlanStages, EachAskBringsWhatItNeeds) {
+    const auto of = [](const std::string& ask, const std::string& bodies = meshes) {
+        return called_for(scene_of("asks = \"" + ask + "\"\n" + bodies));
+    };
+    EXPECT_THAT(of("triangle_pairs"),
+                ElementsAre("fit", "tree", "pairs", "transform", "mesh_trees", "triangle_pairs"));
+    EXPECT_THAT(of("triangle_pairs", uniform), ElementsAre()); // nobody has a mesh
+    EXPECT_THAT(of("rays"), ElementsAre("surface", "aim", "rays"));
+    for (const char* ask : {"points", "regions", "nearest"})
+        EXPECT_THAT(of(ask), ElementsAre("fit", "box_tree", "aim", ask));
+    EXPECT_THAT(of("pairs", uniform + "neighbours_ignored = true\n"), Contains("filter"));
+    EXPECT_THAT(of("pairs", uniform + "group_ignored = true\n"), Contains("filter"));
+    EXPECT_THAT(of("rays", uniform + "group_ignored = true\n"), testing::Not(Contains("filter")));
+}
+
+TEST(PlanStages, EveryAskHasAStageOfItsWord) {
+    const auto plan = plan_stages(scene_of(uniform), Extent::called_for);
+    for (const SceneAskEntry& ask : scene_asks()) {
+        EXPECT_NE(ask_stage(ask.name), nullptr);
+        EXPECT_THAT(plan, Contains(testing::Field(&PlannedStage::name, std::string(ask.name))));
+    }
+}
+
+TEST(PlanStages, EverythingOnIsCalledForAlike) {
+    for (const BuiltInScene& entry : built_in_scenes()) {
+        SCOPED_TRACE(entry.name);
+        const MovingScene scene(load_scene(std::string(entry.name)), 100);
+        const auto some = plan_stages(scene, Extent::called_for);
+        const auto all = plan_stages(scene, Extent::everything);
+        ASSERT_EQ(some.size(), all.size());
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            EXPECT_EQ(all[i].name, some[i].name);
+            EXPECT_EQ(all[i].is_called_for, some[i].is_called_for);
+            EXPECT_TRUE(all[i].runs || !some[i].runs);
+        }
+        for (const char* name :
+             {"move", "fit", "tree", "update", "pairs", "filter", "transform", "mesh_trees"})
+            EXPECT_TRUE(stage_of(all, name).runs) << name;
+    }
+}
+
+TEST(Plan, IsToldAsATableAndAsJson) {
+    const MovingScene scene(load_scene("warehouse"), 1000);
+    const std::string text = plan_text(scene, Extent::called_for, false);
+    EXPECT_THAT(text, HasSubstr("warehouse: 10 of 27 stages are called for"));
+    EXPECT_THAT(text, HasSubstr("2 effects change bodies"));
+    EXPECT_THAT(text, HasSubstr("no body has this effect"));
+    EXPECT_THAT(plan_text(scene, Extent::everything, false), HasSubstr("everything on 13 run"));
+    const std::string json = plan_text(scene, Extent::called_for, true);
+    EXPECT_THAT(json, testing::StartsWith("{\"scene\":\"warehouse\",\"bodies\":1000,"));
+    EXPECT_THAT(json, HasSubstr("{\"stage\":\"filter\",\"called_for\":false,\"runs\":false,"
+                                "\"why\":\"no pairs are ignored\"}"));
+}
+
+TEST(Plan, PlayingSaysWhatEachStageDid) {
+    SceneFile file = load_scene("warehouse");
+    file.n = 500;
+    const std::string text = played_text(file, 3, serial());
+    EXPECT_THAT(text, HasSubstr("500 bodies, 3 frames and the start: the same answers"));
+    EXPECT_THAT(text, HasSubstr("advance_drift"));
+    EXPECT_THAT(text, testing::Not(HasSubstr("advance_gravity")));
+}
+
+} // namespace
+} // namespace boxwood::bench

@@ -1,0 +1,125 @@
+#include "bench/stages/scene_player.h"
+
+#include "bench/stages/playing.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace boxwood::bench {
+
+ScenePlayer::ScenePlayer(MovingScene scene, Extent extent, const Executor& executor)
+    : playing_(std::make_unique<Playing>(Playing{std::move(scene), executor, extent})),
+      plan_(plan_stages(playing_->scene, extent)), ledger_(plan_) {
+    const auto runs = [&](std::string_view name) { return stage_of(plan_, name).runs; };
+    const MovingScene& played = playing_->scene;
+    const bool everything = extent == Extent::everything;
+    const bool moves = everything || !played.effects().empty();
+
+    for (std::size_t i = 0; i < played.effects().size(); ++i)
+        add("advance_" + std::string(played.effects()[i].entry->name),
+            advance_stage(i, !runs("move") && i + 1 == played.effects().size()), Runs::advancing);
+    if (runs("move"))
+        add("move", move_stage(), Runs::advancing);
+    if (runs("fit")) {
+        const bool wide = runs("tree") && !played.margins().empty();
+        add("fit", fit_stage(runs("box_tree") || !wide, wide),
+            moves ? Runs::from_the_start : Runs::at_the_start);
+    }
+    if (runs("tree"))
+        add("tree", tree_stage(), Runs::at_the_start);
+    if (runs("update"))
+        add("update", update_stage(), Runs::advancing);
+    if (runs("box_tree"))
+        add("box_tree", box_tree_stage(), moves ? Runs::from_the_start : Runs::at_the_start);
+
+    if (runs("pairs"))
+        add("pairs", ask_stage("pairs"), Runs::asking);
+    if (runs("filter"))
+        add("filter", filter_stage(), Runs::asking);
+    if (runs("transform"))
+        add("transform", transform_stage(), Runs::asking);
+    if (runs("mesh_trees"))
+        add("mesh_trees", mesh_trees_stage(), Runs::asking);
+    if (runs("triangle_pairs"))
+        add("triangle_pairs", ask_stage("triangle_pairs"), Runs::asking);
+    if (runs("surface"))
+        add("surface", surface_stage(), Runs::asking);
+    if (runs("aim"))
+        add("aim", aim_stage(), Runs::asking);
+    for (const std::string_view word : {"rays", "points", "regions", "nearest"})
+        if (runs(word))
+            add(word, ask_stage(word), Runs::asking);
+}
+
+ScenePlayer::~ScenePlayer() = default;
+
+void ScenePlayer::add(std::string_view name, std::unique_ptr<SceneStage> stage, Runs when) {
+    Made made{ledger_.index_of(name), std::move(stage)};
+    const auto at = stages_.size();
+    if (when == Runs::at_the_start || when == Runs::from_the_start)
+        starting_.push_back(at);
+    if (when == Runs::advancing || when == Runs::from_the_start)
+        advancing_.push_back(at);
+    if (when == Runs::asking)
+        asking_.push_back(at);
+    stages_.push_back(std::move(made));
+}
+
+template <class Run> void ScenePlayer::timed(Made& made, const Run& run) {
+    const auto before = std::chrono::steady_clock::now();
+    const std::size_t items = run(*made.stage);
+    const auto after = std::chrono::steady_clock::now();
+    ledger_.add(made.row, items, std::chrono::duration<double, std::nano>(after - before).count());
+}
+
+void ScenePlayer::start() {
+    if (playing_->scene.frame() > 0)
+        playing_->scene.rewind();
+    playing_->changed = {};
+    playing_->last_change = 0;
+    ledger_.clear();
+    for (std::size_t i = 0; i < stages_.size(); ++i)
+        if (std::ranges::find(starting_, i) != starting_.end())
+            timed(stages_[i], [&](SceneStage& stage) { return stage.start(*playing_); });
+        else
+            stages_[i].stage->start(*playing_);
+    is_asked_ = false;
+}
+
+void ScenePlayer::advance() {
+    if (!is_asked_)
+        ask();
+    playing_->scene.begin_frame();
+    for (const std::size_t i : advancing_)
+        timed(stages_[i], [&](SceneStage& stage) { return stage.run(*playing_); });
+    is_asked_ = false;
+}
+
+const FrameAnswers& ScenePlayer::ask() {
+    for (const std::size_t i : asking_)
+        timed(stages_[i], [&](SceneStage& stage) { return stage.run(*playing_); });
+    is_asked_ = true;
+    return playing_->answers;
+}
+
+const FrameAnswers& ScenePlayer::answers() const { return playing_->answers; }
+
+Work ScenePlayer::counted_pairs() const {
+    CountPairs sink;
+    return playing_->tree ? playing_->tree->self_pairs_counted(sink) : Work{};
+}
+
+const MovingScene& ScenePlayer::scene() const { return playing_->scene; }
+
+const Ledger& ScenePlayer::ledger() {
+    for (const LedgerRow& row : ledger_.rows()) {
+        std::size_t bytes = 0;
+        for (const Made& made : stages_)
+            if (&ledger_.rows()[made.row] == &row)
+                bytes += made.stage->bytes(*playing_);
+        ledger_.set_bytes(static_cast<std::size_t>(&row - ledger_.rows().data()), bytes);
+    }
+    return ledger_;
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,206 @@
+#include "bench/stages/scene_player.h"
+
+#include "kernels/aabb.h"
+#include "trees/executor.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+namespace boxwood::bench {
+namespace {
+
+const std::string uniform = "[[bodies]]\ngenerator = \"uniform\"\n";
+
+SceneFile file_of(const std::string& text, std::size_t n) {
+    SceneFile file = parse_scene_file(text, "mine.toml");
+    file.n = n;
+    return file;
+}
+
+/// Played from the start through so many further frames.
+std::unique_ptr<ScenePlayer> played(const SceneFile& file, int frames,
+                                    Extent extent = Extent::called_for) {
+    auto player = std::make_unique<ScenePlayer>(MovingScene(file), extent, serial());
+    player->start();
+    player->ask();
+    for (int frame = 0; frame < frames; ++frame) {
+        player->advance();
+        player->ask();
+    }
+    return player;
+}
+
+void expect_untouched(const LedgerRow& row) {
+    EXPECT_EQ(row.calls, 0u) << row.stage;
+    EXPECT_EQ(row.items, 0u) << row.stage;
+    EXPECT_EQ(row.ns, 0) << row.stage;
+    EXPECT_EQ(row.bytes, 0u) << row.stage;
+}
+
+TEST(ScenePlayer, AStaticSceneNeverUpdates) {
+    SceneFile file = load_scene("still_life");
+    file.n = 500;
+    const auto player = played(file, 10);
+    const Ledger& ledger = player->ledger();
+    for (const LedgerRow& row : ledger.rows())
+        if (row.stage != "fit" && row.stage != "tree" && row.stage != "pairs")
+            expect_untouched(row);
+    EXPECT_EQ(ledger.row("fit").calls, 1u);
+    EXPECT_EQ(ledger.row("fit").items, 500u);
+    EXPECT_EQ(ledger.row("tree").calls, 1u);
+    EXPECT_EQ(ledger.row("pairs").items, player->ask().pairs.size()); // found once
+    EXPECT_GT(player->ask().pairs.size(), 100u);
+}
+
+// Every effect is compiled in and may be named; on nobody, it costs nothing.
+TEST(ScenePlayer, EffectsThatAreNotUsedCostNothing) {
+    std::string every = "effects = [";
+    for (const EffectEntry& effect : effects())
+        every += (every.back() == '[' ? "" : ", ") + std::string("{name = \"") +
+                 std::string(effect.name) + "\", share = 0}";
+    const auto one = played(file_of(uniform, 500), 10);
+    const auto other = played(file_of(uniform + every + "]\n", 500), 10);
+    const auto &a = one->ledger().rows(), &b = other->ledger().rows();
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        EXPECT_EQ(a[i].is_called_for, b[i].is_called_for) << a[i].stage;
+        EXPECT_EQ(a[i].calls, b[i].calls) << a[i].stage;
+        EXPECT_EQ(a[i].items, b[i].items) << a[i].stage;
+        EXPECT_EQ(a[i].bytes, b[i].bytes) << a[i].stage;
+    }
+    const Work x = one->counted_pairs(), y = other->counted_pairs();
+    EXPECT_GT(x.box_tests, 0u);
+    EXPECT_EQ(x.node_visits, y.node_visits);
+    EXPECT_EQ(x.box_tests, y.box_tests);
+    EXPECT_EQ(x.answers, y.answers);
+    EXPECT_EQ(x.stack_max, y.stack_max);
+    EXPECT_EQ(one->ask().pairs, other->ask().pairs);
+}
+
+TEST(ScenePlayer, PairsAloneNeverTouchATriangle) {
+    SceneFile file = load_scene("tumbling_rocks");
+    file.n = 200;
+    file.asks = {{.name = "pairs"}};
+    const auto player = played(file, 10);
+    EXPECT_GT(player->ask().pairs.size(), 0u);
+    for (const char* stage : {"transform", "mesh_trees", "triangle_pairs", "surface", "box_tree"})
+        expect_untouched(player->ledger().row(stage));
+}
+
+TEST(ScenePlayer, MeshesThatNeverMeetBuildNoTree) {
+    const std::string rock = "[[bodies]]\ngenerator = \"cubes\"\nn = 1\nshape = \"sphere_mesh\"\n"
+                             "triangles = 20\neffects = \"spin\"\n";
+    const auto player =
+        played(file_of("asks = \"triangle_pairs\"\n" + rock + rock + "at = [9, 9, 9]\n", 1), 20);
+    EXPECT_EQ(player->ledger().row("transform").items, 0u);
+    EXPECT_EQ(player->ledger().row("mesh_trees").items, 0u);
+    EXPECT_EQ(player->ledger().row("triangle_pairs").items, 0u);
+    EXPECT_TRUE(player->ask().pairs.empty()); // nobody asked for them
+}
+
+// What must be done follows from which bodies changed and who met whom, counted here by itself.
+TEST(ScenePlayer, BodiesAtRestAreNotTransformedFittedOrRefitted) {
+    SceneFile file = load_scene("tumbling_rocks");
+    file.n = 300;
+    file.asks = {{.name = "pairs"}, {.name = "triangle_pairs"}};
+    const int frames = 15;
+    ScenePlayer player(MovingScene(file), Extent::called_for, serial());
+    MovingScene scene(file);
+    std::size_t fitted = scene.bodies().size(), updated = 0, vertices = 0, triangles = 0;
+    std::map<std::uint32_t, int> changed_in, made_for;
+    player.start();
+    for (int frame = 0; frame <= frames; ++frame) {
+        if (frame > 0) {
+            const auto changed = scene.advance();
+            EXPECT_LT(changed.size(), 60u);
+            fitted += changed.size();
+            updated += changed.size();
+            for (const std::uint32_t i : changed)
+                changed_in[i] = frame;
+            player.advance();
+        }
+        for (const Pair p : player.ask().pairs)
+            for (const std::uint32_t i : {p.a, p.b}) {
+                const auto [made, is_new] = made_for.try_emplace(i, -1);
+                if (made->second == changed_in[i])
+                    continue;
+                made->second = changed_in[i];
+                const TriangleMesh& mesh = scene.bodies().meshes[scene.bodies().mesh[i]];
+                vertices += mesh.vertices.size();
+                triangles += mesh.triangles.size();
+            }
+    }
+    EXPECT_GT(vertices, 0u);
+    const Ledger& ledger = player.ledger();
+    EXPECT_EQ(ledger.row("fit").items, fitted);
+    EXPECT_EQ(ledger.row("update").items, updated);
+    EXPECT_EQ(ledger.row("transform").items, vertices);
+    EXPECT_EQ(ledger.row("mesh_trees").items, triangles);
+}
+
+TEST(ScenePlayer, NoFilterNamedNoFilterLookedUp) {
+    SceneFile file = load_scene("warehouse");
+    file.n = 300;
+    expect_untouched(played(file, 5)->ledger().row("filter"));
+    file.groups[0].neighbours_ignored = true;
+    EXPECT_GT(played(file, 5)->ledger().row("filter").items, 0u);
+    EXPECT_GT(played(load_scene("four_link_arm"), 5)->ledger().row("filter").items, 0u);
+}
+
+TEST(ScenePlayer, NothingDeformsNoVertexIsTouched) {
+    const SceneFile file = file_of(uniform + "effects = [\"deform\", \"drift\"]\n", 100);
+    const auto player = played(file, 5);
+    expect_untouched(player->ledger().row("advance_deform"));
+    expect_untouched(player->ledger().row("transform"));
+    EXPECT_EQ(player->ledger().row("advance_drift").items, 500u);
+}
+
+TEST(ScenePlayer, RestedFramesFindNothingAnew) {
+    SceneFile file = file_of(uniform + "effects = \"gravity\"\n", 100);
+    const auto player = played(file, 1500); // all of it lies on the floor
+    const std::uint64_t found = player->ledger().row("pairs").items;
+    const std::vector<Pair> pairs = player->ask().pairs;
+    player->advance();
+    EXPECT_EQ(player->ask().pairs, pairs);
+    EXPECT_EQ(player->ledger().row("pairs").items, found);
+    EXPECT_FALSE(pairs.empty());
+}
+
+TEST(ScenePlayer, StartsAgain) {
+    SceneFile file = load_scene("tumbling_rocks");
+    file.n = 200;
+    ScenePlayer player(MovingScene(file, {}, true), Extent::called_for, serial());
+    const auto play = [&] {
+        std::vector<std::uint64_t> hashes;
+        player.start();
+        for (int frame = 0; frame < 10; ++frame) {
+            hashes.push_back(answers_hash(player.ask()));
+            player.advance();
+        }
+        return hashes;
+    };
+    const auto first = play();
+    const LedgerRow pairs = player.ledger().row("pairs");
+    EXPECT_EQ(play(), first);
+    EXPECT_EQ(player.ledger().row("pairs").calls, pairs.calls);
+    EXPECT_EQ(player.ledger().row("pairs").items, pairs.items);
+    ScenePlayer once(MovingScene(file), Extent::called_for, serial());
+    once.start();
+    once.advance();
+    EXPECT_THROW(once.start(), std::logic_error);
+}
+
+TEST(ScenePlayer, AnAskThatIsLeftOutIsMadeUpFor) {
+    SceneFile file = load_scene("tumbling_rocks");
+    file.n = 200;
+    ScenePlayer player(MovingScene(file), Extent::called_for, serial());
+    player.start();
+    for (int frame = 0; frame < 7; ++frame)
+        player.advance();
+    EXPECT_EQ(answers_hash(player.ask()), answers_hash(played(file, 7)->ask()));
+}
+
+} // namespace
+} // namespace boxwood::bench

@@ -1,0 +1,96 @@
+#include "bench/stages/stages_contender.h"
+
+#include "bench/stages/scene_player.h"
+#include "trees/executor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace boxwood::bench {
+namespace {
+
+bool has_effect(const SceneFile& file, std::string_view word) {
+    return std::ranges::any_of(file.groups, [&](const BodyGroup& group) {
+        return std::ranges::find(group.effects, word, &EffectChoice::name) != group.effects.end();
+    });
+}
+
+/// As the job names it, less one effect.
+SceneFile file_of(const Job& job, std::string_view without) {
+    SceneFile file = *job.scene->spec.moving;
+    file.n = job.scene->spec.n;
+    file.seed = job.scene->spec.seed;
+    for (BodyGroup& group : file.groups)
+        std::erase_if(group.effects,
+                      [&](const EffectChoice& effect) { return effect.name == without; });
+    return file;
+}
+
+class Played final : public StagesContender {
+  public:
+    Played(const Job& job, Extent extent, std::string_view without)
+        : executor_(make_executor(job.executor, job.threads)),
+          player_(MovingScene(file_of(job, without), {}, true), extent, *executor_) {}
+
+    void build() override { player_.start(); }
+    void update(const Frame&) override { player_.advance(); }
+    void query(Answers&) override { answers_ = &player_.ask(); }
+    std::optional<Work> counted_query(Answers&) override {
+        answers_ = &player_.ask();
+        return player_.counted_pairs();
+    }
+    std::optional<StructureInfo> structure() const override {
+        StructureInfo info;
+        for (const LedgerRow& row : player_.ledger().rows())
+            info.bytes += row.bytes;
+        return info;
+    }
+    const FrameAnswers& frame_answers() const override { return *answers_; }
+    const Ledger& ledger() override { return player_.ledger(); }
+
+  private:
+    std::unique_ptr<Executor> executor_;
+    mutable ScenePlayer player_;
+    const FrameAnswers* answers_ = nullptr;
+};
+
+} // namespace
+
+ContenderEntry stages_contender(Extent extent, std::string_view without_effect) {
+    if (!without_effect.empty())
+        effect_of(without_effect); // throws for an unknown one
+    ContenderEntry entry;
+    entry.library = "boxwood";
+    entry.is_peer = false;
+    entry.precision = "f32";
+    entry.layout = "packed";
+    entry.name = extent == Extent::everything ? "everything" : "called_for";
+    entry.summary = extent == Extent::everything
+                        ? "every stage, for every body in every frame"
+                        : "the stages that the scene calls for, for the bodies that it calls for";
+    if (!without_effect.empty()) {
+        entry.name += fmt::format(".without_{}", without_effect);
+        entry.summary += fmt::format("; the scene without {}", without_effect);
+    }
+    entry.notes = "build makes what frame 0 needs; update advances the scene itself, so that the "
+                  "price of its effects is in it";
+    entry.unsupported =
+        [without = std::string(without_effect)](const Job& job) -> std::optional<std::string> {
+        if (job.ask != Ask::scene_asks)
+            return "answers scene_asks only";
+        if (job.executor == "serial" && job.threads != 1)
+            return "the executor serial has one thread";
+        if (!job.scene->spec.moving)
+            return "plays moving scenes only";
+        if (!without.empty() && !has_effect(*job.scene->spec.moving, without))
+            return fmt::format("the scene has no {}", without);
+        return std::nullopt;
+    };
+    entry.make = [extent, without = std::string(without_effect)](const Job& job) {
+        return std::make_unique<Played>(job, extent, without);
+    };
+    return entry;
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,33 @@
+/// The tree that pairs are found with: made at the start, then told of what has changed.
+
+#include "bench/stages/playing.h"
+
+namespace boxwood::bench {
+namespace {
+
+class MakeTree final : public SceneStage {
+  public:
+    std::size_t start(Playing& playing) override {
+        if (!playing.tree)
+            playing.tree = find_update(playing.is_everything() ? "merge" : "auto")->make({});
+        playing.tree->start(playing.pair_boxes(), playing.executor);
+        return playing.tree->size();
+    }
+    std::size_t bytes(const Playing& playing) const override { return playing.tree->bytes(); }
+};
+
+class Update final : public SceneStage {
+  public:
+    std::size_t run(Playing& playing) override {
+        if (!playing.changed.empty())
+            playing.tree->update(playing.pair_boxes(), playing.changed, playing.executor);
+        return playing.changed.size();
+    }
+};
+
+} // namespace
+
+std::unique_ptr<SceneStage> tree_stage() { return std::make_unique<MakeTree>(); }
+std::unique_ptr<SceneStage> update_stage() { return std::make_unique<Update>(); }
+
+} // namespace boxwood::bench
