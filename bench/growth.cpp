@@ -78,7 +78,7 @@ std::string growth_text(const RunIndex& index) {
         lines[key][static_cast<double>(cell.n_items)] = &cell;
     }
     std::vector<std::string> phases;
-    for (const char* phase : {"build", "update", "query"})
+    for (const char* phase : {"build", "update", "query", "update+query"})
         if (std::ranges::any_of(index.results().cells, [&](const Cell& cell) {
                 return index.times().rounds(cell.cell_id, phase) != nullptr;
             }))

@@ -18,7 +18,7 @@ struct Growth {
 };
 Growth growth_of(const std::map<double, const RoundTimes::Rounds*>& times_by_n);
 
-/// The exponents of build and query, and of update where there is one, of all that was timed at
+/// The exponents of build and query, and of update and a frame where there are, of all timed at
 /// `least_sizes` sizes of one scene. Empty if nothing was.
 std::string growth_text(const RunIndex& index);
 

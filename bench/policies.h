@@ -9,8 +9,8 @@ namespace boxwood::bench {
 /// How much longer than the best fixed policy `auto` may take on a scene.
 inline constexpr double auto_may_lose = 0.10;
 
-/// The policy `auto` against the best fixed one of each moving scene, by update and query of a
-/// frame together. Empty if no scene has both.
+/// The policies `auto` and `keep` against the best other fixed one of each moving scene, by update
+/// and query of a frame together. Empty if no scene has two policies.
 std::string policies_text(const RunIndex& index);
 
 } // namespace boxwood::bench

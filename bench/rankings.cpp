@@ -1,6 +1,7 @@
 #include "bench/rankings.h"
 
 #include "bench/contender.h"
+#include "bench/ledgers.h"
 #include "bench/limits.h"
 #include "bench/text_table.h"
 
@@ -55,15 +56,16 @@ Phases phases_of(const RunIndex& index) {
     return phases;
 }
 
-/// A build that queries follow is no measure of its own, nor is one query where frames are. Packets
-/// have the trees of single rays: they are held against ours by their rays alone.
+/// A build that queries follow is no measure of its own, nor is one query where frames are. Batches
+/// have the trees of single rays: they are held against each other by their rays alone.
 bool is_ranked(const std::set<std::string>& timed, const Measure& measure, std::string_view lane) {
     const std::string_view name = measure.name;
     if (name == "build")
         return !timed.contains("query");
     if (name == "update+query")
         return true;
-    return !timed.contains("update") && (name == "query" || !lane.starts_with("against packets"));
+    return !timed.contains("update") &&
+           (name == "query" || lane == "" || lane.starts_with("against single rays"));
 }
 
 std::map<Task, Best> best_of(const RunIndex& index, const Measure& measure) {
@@ -71,7 +73,8 @@ std::map<Task, Best> best_of(const RunIndex& index, const Measure& measure) {
     const Phases phases = phases_of(index);
     for (const Cell& cell : index.results().cells) {
         const double total = total_ns(index, cell, measure);
-        if (cell.ask == to_string(Ask::tree) || !index.is_right(cell) || std::isinf(total) ||
+        if (cell.ask == to_string(Ask::tree) || cell.ask == scene_asks_word ||
+            !index.is_right(cell) || std::isinf(total) ||
             !phases.contains({cell.scene_id, cell.ask, cell.threads}))
             continue;
         const auto& timed = phases.at({cell.scene_id, cell.ask, cell.threads});
@@ -124,7 +127,7 @@ int decade_of(const Cell& cell) {
 }
 
 std::string means_text(const std::map<LaneKey, Lane>& lanes) {
-    TextTable table({"rays, ours in one call", ">n about", ">threads", "library", ">scenes",
+    TextTable table({"rays", ">n about", ">threads", "library", ">scenes",
                      ">geometric mean, peer/ours", ">least", "at"});
     for (const auto& [key, lane] : lanes) {
         if (lane.ratios.size() < 2)
@@ -189,18 +192,26 @@ std::vector<std::string> lanes_of(const Cell& cell, const results::Variant& vari
     const auto ask = ask_of(cell.ask);
     if (!ask || !is_ray_ask(*ask))
         return {""};
+    std::vector<std::string> lanes;
     if (variant.is_peer) {
         const auto says = [&](const char* part) {
             return variant.name.find(part) != std::string::npos;
         };
-        const bool packets =
-            says("sect8") || says("sect16") || says("occluded8") || says("occluded16");
-        return {std::string(packets ? "against packets" : "against single rays") +
-                (says(".robust") ? ", watertight" : "")};
+        if (says("sect8") || says("sect16") || says("occluded8") || says("occluded16"))
+            lanes = {"against packets"};
+        else
+            lanes = {"against single rays", "batches against single rays"};
+        if (says(".robust"))
+            for (std::string& lane : lanes)
+                lane += ", watertight";
+        return lanes;
     }
-    std::vector<std::string> lanes{"against packets"};
-    if (variant.traversal != "sorted_rays")
-        lanes.push_back("against single rays");
+    if (variant.traversal == "single_rays")
+        lanes = {"against single rays"};
+    else if (variant.traversal == "sorted_rays")
+        lanes = {"against packets"};
+    else
+        lanes = {"against packets", "batches against single rays"};
     if (variant.kernel == "watertight")
         for (const std::string& lane : std::vector(lanes))
             lanes.push_back(lane + ", watertight");

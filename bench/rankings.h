@@ -16,8 +16,8 @@ std::vector<std::string> lanes_of(const results::Cell& cell, const results::Vari
 
 /// Tables of the best of each library, by build+query, query, update+query and build, of every
 /// scene, ask, lane and number of threads, with the paired ratios to ours and how many times the
-/// machine's limit ours takes. Trees alone are not ranked (see tree_rankings.h). Below the rays
-/// stand their geometric means. Only right answers are ranked.
+/// machine's limit ours takes. Trees alone and whole scenes stand elsewhere (tree_rankings.h,
+/// effect_prices.h). Below the rays stand their geometric means. Only right answers are ranked.
 std::string rankings_text(const RunIndex& index, std::span<const results::Comparison> comparisons);
 
 /// The cells of ours that stand in those tables.

@@ -25,9 +25,10 @@ std::vector<std::string> lanes(const std::string& ask, const std::string& varian
 
 TEST(Rankings, RaysAreHeldAgainstTheirLike) {
     EXPECT_THAT(lanes("rays_closest", "embree.rtc_intersect1"),
-                UnorderedElementsAre("against single rays"));
+                UnorderedElementsAre("against single rays", "batches against single rays"));
     EXPECT_THAT(lanes("rays_closest", "embree.rtc_intersect1.robust"),
-                UnorderedElementsAre("against single rays, watertight"));
+                UnorderedElementsAre("against single rays, watertight",
+                                     "batches against single rays, watertight"));
     EXPECT_THAT(lanes("rays_any", "embree.rtc_occluded16"),
                 UnorderedElementsAre("against packets"));
     EXPECT_THAT(lanes("rays_any", "embree.rtc_occluded8.robust"),
@@ -35,11 +36,15 @@ TEST(Rankings, RaysAreHeldAgainstTheirLike) {
     EXPECT_THAT(lanes("rays_any", "median.wide8.sorted_rays.moller_trumbore_f32"),
                 UnorderedElementsAre("against packets"));
     EXPECT_THAT(lanes("rays_any", "median.wide8.rays.moller_trumbore_f32"),
-                UnorderedElementsAre("against packets", "against single rays"));
+                UnorderedElementsAre("against packets", "batches against single rays"));
+    EXPECT_THAT(lanes("rays_any", "median.wide8.single_rays.moller_trumbore_f32"),
+                UnorderedElementsAre("against single rays"));
+    EXPECT_THAT(lanes("rays_any", "median.wide8.single_rays.watertight"),
+                UnorderedElementsAre("against single rays", "against single rays, watertight"));
     EXPECT_THAT(lanes("rays_any", "median.wide8.rays.watertight"),
-                UnorderedElementsAre("against packets", "against single rays",
+                UnorderedElementsAre("against packets", "batches against single rays",
                                      "against packets, watertight",
-                                     "against single rays, watertight"));
+                                     "batches against single rays, watertight"));
     EXPECT_THAT(lanes("pairs", "fcl.tree"), UnorderedElementsAre(""));
 }
 
@@ -51,8 +56,8 @@ TEST(Rankings, AWatertightPeerIsNoRivalOfALooserKernel) {
         run.time(cell, "query", ns);
     };
     for (const char* scene : {"sphere_random", "soup_random"}) {
-        ask(scene, "median.wide8.rays.moller_trumbore_f32", 100);
-        ask(scene, "median.wide8.rays.watertight", 200);
+        ask(scene, "median.wide8.single_rays.moller_trumbore_f32", 100);
+        ask(scene, "median.wide8.single_rays.watertight", 200);
         ask(scene, "embree.rtc_intersect1", scene[1] == 'p' ? 100 : 400);
         ask(scene, "embree.rtc_intersect1.robust", 300);
     }

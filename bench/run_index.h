@@ -11,6 +11,9 @@
 
 namespace boxwood::bench {
 
+/// Update and query of a frame together, as a phase of RoundTimes.
+inline const std::string frame_phase = "update+query";
+
 /// The rows of a result file that its cells refer to, and their times. Refers to the results.
 class RunIndex {
   public:
@@ -33,6 +36,10 @@ class RunIndex {
     /// Infinite if the phase was not timed; of several phases their sum.
     double median_ns(const results::Cell& cell, const std::string& phase) const;
     double median_ns(const results::Cell& cell, std::initializer_list<const char*> phases) const;
+    /// Update and query of a frame of a moving scene.
+    double frame_ns(const results::Cell& cell) const {
+        return median_ns(cell, {"update", "query"});
+    }
 
   private:
     const results::Results& results_;

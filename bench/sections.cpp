@@ -1,6 +1,9 @@
 #include "bench/sections.h"
 
+#include "bench/effect_prices.h"
+#include "bench/frame_times.h"
 #include "bench/growth.h"
+#include "bench/ledgers.h"
 #include "bench/policies.h"
 #include "bench/rankings.h"
 #include "bench/speed_ups.h"
@@ -11,7 +14,7 @@
 namespace boxwood::bench {
 
 std::string sections_text(const results::Results& results,
-                          std::span<const results::Comparison> comparisons) {
+                          std::span<const results::Comparison> comparisons, bool brief) {
     const RunIndex index(results);
     const std::pair<std::string, std::string> sections[] = {
         {"The best of each library; brackets hold the 95 % interval of the paired ratio",
@@ -22,8 +25,18 @@ std::string sections_text(const results::Results& results,
          ray_builds_text(index)},
         {"More threads against one, ours: the time on one over the time on all",
          speed_ups_text(index)},
-        {"The policy auto against the best fixed one: update and query of a frame",
+        {"Moving scenes, update and query of a frame: ours against the best peer",
+         frame_peers_text(index)},
+        {"Frame by frame, each frame by its median over the rounds",
+         frame_times_text(index, brief)},
+        {"The policies auto and keep against the best of the other fixed ones: update and query of "
+         "a frame",
          policies_text(index)},
+        {"Everything on against only what the scene calls for: update and query of a frame",
+         everything_text(index)},
+        {"What an effect adds to a frame", effect_prices_text(index)},
+        {"The effects ledger: what a scene calls for, stage by stage, and what it leaves out",
+         ledgers_text(index)},
         {"Growth with n: the fitted exponent, and how far the times are off that line",
          growth_text(index)},
     };

@@ -42,10 +42,10 @@ TEST(TreeRankings, BuildsForRaysShowTheWorstOfTheirRays) {
         run.time(cell, "build", build);
         run.time(cell, "query", query);
     };
-    add("sphere_random", "rays_closest", "median.wide8.rays.moller_trumbore_f32", 100, 100);
+    add("sphere_random", "rays_closest", "median.wide8.single_rays.moller_trumbore_f32", 100, 100);
     add("sphere_random", "rays_closest", "embree.rtc_intersect1", 400, 90);
     add("sphere_random", "rays_closest", "embree.rtc_intersect8", 400, 1);
-    add("sphere_ambient", "rays_any", "median.wide8.rays.moller_trumbore_f32", 100, 100);
+    add("sphere_ambient", "rays_any", "median.wide8.single_rays.moller_trumbore_f32", 100, 100);
     add("sphere_ambient", "rays_any", "embree.rtc_occluded1", 100, 150);
     add("sphere_ambient", "rays_any", "embree.rtc_occluded1.robust", 100, 150);
     const std::string text = ray_builds_text(RunIndex(run.results));

@@ -332,7 +332,7 @@ std::string show_text(const Results& results, bool with_kernels, bool brief) {
     const auto comparisons = compare_to_peers(results);
     const auto advice = [&] { return comparisons.empty() ? "" : advice_text(comparisons); };
     if (brief)
-        return text + sections_text(results, comparisons) + advice();
+        return text + sections_text(results, comparisons, brief) + advice();
     text += scenes_text(results);
     if (!results.kernels.empty())
         text += "\n" + ladders_text(results) + "\n" + promises_text(results);
@@ -357,7 +357,7 @@ std::string show_text(const Results& results, bool with_kernels, bool brief) {
     if (passed_over > 0)
         text += fmt::format("\n{} cells of kernels are summed up above; --kernels prints each.\n",
                             passed_over);
-    return text + sections_text(results, comparisons) + advice();
+    return text + sections_text(results, comparisons, brief) + advice();
 }
 
 void add_show(CLI::App& app, int&) {
