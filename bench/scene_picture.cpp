@@ -103,7 +103,7 @@ void ScenePicture::add_outline(const Bodies& bodies, std::uint32_t i,
 void ScenePicture::add_queries(const MovingScene& scene, Frame& frame) const {
     const Bodies& bodies = scene.bodies();
     const auto some = [](auto& queries) {
-        constexpr std::size_t most_queries = 60;
+        constexpr std::size_t most_queries = 24;
         const std::size_t step = (queries.size() + most_queries - 1) / most_queries;
         for (std::size_t i = 0; i * step < queries.size(); ++i)
             queries[i] = queries[i * step];

@@ -31,13 +31,10 @@ class BoxTree final : public SceneStage {
         } else {
             layout_.refit(playing.boxes, playing.executor);
         }
-        const double surface = layout_.surface();
-        if (tight_ > 0)
-            excess_ += surface / tight_ - 1;
-        else if (surface > 0) // all were absent, or in one block
-            excess_ = patience;
-        if (!(excess_ < patience))
-            order_anew(playing);
+        moved_ += changed.size();
+        ++frames_;
+        if (moved_ >= layout_.size() / 16)
+            look_at_surface(playing);
         return changed.size();
     }
     std::size_t bytes(const Playing&) const override {
@@ -64,6 +61,20 @@ class BoxTree final : public SceneStage {
         slot_of_.clear();
         tight_ = layout_.surface();
         excess_ = 0;
+        moved_ = 0;
+        frames_ = 0;
+    }
+    /// All blocks are looked at, hence not in every frame if few bodies move.
+    void look_at_surface(Playing& playing) {
+        const double surface = layout_.surface();
+        if (tight_ > 0)
+            excess_ += frames_ * (surface / tight_ - 1);
+        else if (surface > 0) // all were absent, or in one block
+            excess_ = patience;
+        moved_ = 0;
+        frames_ = 0;
+        if (!(excess_ < patience))
+            order_anew(playing);
     }
     void note_slots() {
         if (!slot_of_.empty())
@@ -77,6 +88,8 @@ class BoxTree final : public SceneStage {
     std::vector<std::uint32_t> slot_of_; ///< by body, if it is known
     std::vector<std::uint32_t> slots_;
     double tight_ = 0, excess_ = 0;
+    std::size_t moved_ = 0; ///< since the surface was last looked at
+    double frames_ = 0;     ///< the same
 };
 
 } // namespace

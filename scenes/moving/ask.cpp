@@ -13,8 +13,8 @@ namespace {
 
 using Vec = Vec3<double>;
 
-/// The eye of the camera crosses the room every four seconds or so along x, and at other rates
-/// along y and z; it looks to where it will be.
+/// The eye of the camera goes to and fro, along x from one end of the room to the other in about
+/// three seconds, along y and z at other rates; it looks to where it will be.
 struct Camera {
     explicit Camera(const MovingScene& scene) : room(scene.bodies().room) {
         const double time = static_cast<double>(scene.frame()) / scene.file().frames_per_second;
@@ -29,9 +29,9 @@ struct Camera {
     }
     Vec place(double time) const {
         const Vec half = .45 * (room.max - room.min);
-        return .5 * (room.min + room.max) + Vec{half.x * wave(.25 * time - 1),
-                                                half.y * wave(.17 * time),
-                                                half.z * wave(.11 * time)};
+        return .5 * (room.min + room.max) + Vec{half.x * wave(.6 * time - 1),
+                                                half.y * wave(.41 * time),
+                                                half.z * wave(.27 * time)};
     }
 
     Aabb<double> room;

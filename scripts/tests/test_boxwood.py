@@ -194,7 +194,7 @@ def test_no_command_shows_the_help_and_fails():
 
 
 def test_every_help_has_an_example():
-    commands = ["list", "sweep", "show", "compare", "merge", "doctor", "demo", "scene", "query"]
+    commands = ["list", "sweep", "show", "compare", "merge", "doctor", "demo", "scene", "plan", "query"]
     for command in [*([c] for c in commands), ["demo", "four-link"], ["query", "pairs"], ["query", "rays"]]:
         assert "xample" in answer(*command, "--help"), command
     assert all(command in answer("--help") for command in commands)
@@ -213,6 +213,27 @@ def test_scene_describes_and_draws(tmp_path):
     assert done.returncode == 2 and f"{own}:3: " in done.stderr and "did you mean 'drift'?" in done.stderr
 
 
+def test_scene_draws_a_strip(tmp_path):
+    svg = tmp_path / "strip.svg"
+    assert "asks: rays (4096 flying), " in answer("scene", "fly_through", "--n", "50", "--strip", str(svg))
+    assert [f"frame {k}: 50 bodies" in svg.read_text() for k in (0, 33, 66, 100)] == [True] * 4
+    own = tmp_path / "own.toml"
+    own.write_text('asks = {name = "rays", kind = "flyng"}\n[[bodies]]\ngenerator = "cubes"\n')
+    done = boxwood("scene", str(own))
+    assert done.returncode == 2 and f"{own}:1: " in done.stderr and "did you mean 'flying'?" in done.stderr
+
+
+def test_plan_says_what_is_called_for():
+    plan = json.loads(answer("plan", "still_life", "--json"))
+    assert [row["stage"] for row in plan["stages"] if row["called_for"]] == ["fit", "tree", "pairs"]
+    assert all(row["why"] and row["runs"] == row["called_for"] for row in plan["stages"])
+    everything = json.loads(answer("plan", "still_life", "--everything", "--json"))
+    assert "filter" in [row["stage"] for row in everything["stages"] if row["runs"]]
+    assert "the same answers" in answer("plan", "tumbling_rocks", "--n", "100", "--play", "5", "--threads", "2")
+    done = boxwood("plan", "warehose")
+    assert done.returncode == 2 and "did you mean 'warehouse'?" in done.stderr
+
+
 def test_version_says_how_it_was_built():
     text = answer("--version")
     assert text.startswith("boxwood ") and all(w in text for w in ("commit", "compiler", "packages", "hdf5"))
@@ -221,7 +242,7 @@ def test_version_says_how_it_was_built():
 def test_list_is_the_same_whole_and_in_parts():
     whole = json.loads(answer("list", "--json"))
     assert list(whole) == (
-        "builders stages layouts updates traversals kernels scenes moving_scenes effects asks executors peers families".split()
+        "builders stages layouts updates traversals kernels scenes moving_scenes effects scene_asks query_kinds asks executors peers families".split()
     )
     for name, rows in whole.items():
         assert json.loads(answer("list", name, "--json")) == rows
