@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <vector>
 
 namespace boxwood {
@@ -45,19 +44,21 @@ template <std::uint32_t width> class Costs {
             add(top[i]);
     }
 
-    Least<width> operator()(std::uint32_t node) const {
+    /// Those of a leaf are made in `own`. Not by value: what was stored number by number just now
+    /// is not yet to be had in one piece.
+    const Least<width>& of(std::uint32_t node, Least<width>& own) const {
         if (!tree_.is_leaf(node))
             return least_[place(node)];
-        Least<width> all;
-        all.fill(block(node));
-        return all;
+        own.fill(block(node));
+        return own;
     }
 
     /// How many of at most `count` blocks side by side are best left of the node's middle, the
     /// fewest of equals.
     std::uint32_t left_of(std::uint32_t node, std::uint32_t count) const {
-        const Least<width> left = (*this)(static_cast<std::uint32_t>(Tree::left(node)));
-        const Least<width> right = (*this)(static_cast<std::uint32_t>(tree_.right(node)));
+        Least<width> own_left, own_right;
+        const auto& left = of(static_cast<std::uint32_t>(Tree::left(node)), own_left);
+        const auto& right = of(static_cast<std::uint32_t>(tree_.right(node)), own_right);
         std::uint32_t best = 1;
         for (std::uint32_t k = 2; k < count; ++k)
             if (left[k - 1] + right[count - k - 1] < left[best - 1] + right[count - best - 1])
@@ -72,17 +73,30 @@ template <std::uint32_t width> class Costs {
         return static_cast<float>(tree_.nodes[node].box.half_area() * scale_) + each_;
     }
     void add(std::uint32_t node) {
-        const Least<width> left = (*this)(static_cast<std::uint32_t>(Tree::left(node)));
-        const Least<width> right = (*this)(static_cast<std::uint32_t>(tree_.right(node)));
-        Least<width> least;
-        least.fill(std::numeric_limits<float>::infinity());
-        for (std::uint32_t k = 0; k + 1 < width; ++k)
-            for (std::uint32_t j = 0; j + k + 1 < width; ++j)
-                least[k + j + 1] = std::min(least[k + j + 1], left[k] + right[j]);
+        Least<width>& least = least_[place(node)];
+        if (tree_.nodes[node].count == 2) { // every third node and more
+            const auto left = static_cast<std::uint32_t>(Tree::left(node));
+            least.fill(std::min(block(node), block(left) + block(left + 1)));
+            least[0] = block(node);
+            return;
+        }
+        Least<width> own_left, own_right;
+        const auto& left = of(static_cast<std::uint32_t>(Tree::left(node)), own_left);
+        const auto& right = of(static_cast<std::uint32_t>(tree_.right(node)), own_right);
+        // All ways to a sum one after the other, in a register.
+#pragma GCC unroll 16
+        for (std::uint32_t i = 1; i < width; ++i) {
+            float best = left[0] + right[i - 1];
+#pragma GCC unroll 16
+            for (std::uint32_t k = 1; k < i; ++k)
+                best = std::min(best, left[k] + right[i - 1 - k]);
+            least[i] = best;
+        }
+        // The sums of more blocks are no larger, as those below are not; but one block may be less.
         least[0] = block(node) + (tree_.nodes[node].count > width ? least[width - 1] : 0);
+#pragma GCC unroll 16
         for (std::uint32_t i = 1; i < width; ++i)
-            least[i] = std::min(least[i], least[i - 1]);
-        least_[place(node)] = least;
+            least[i] = std::min(least[i], least[0]);
     }
 
     const Tree& tree_;
@@ -115,7 +129,8 @@ Cut<width> cut_below(const Tree& tree, const Costs<width>& costs, std::uint32_t 
     while (n_open > 0) {
         Part top = open[--n_open];
         if (top.blocks > 1) {
-            const Least<width> least = costs(top.node);
+            Least<width> own;
+            const Least<width>& least = costs.of(top.node, own);
             while (top.blocks > 1 && least[top.blocks - 1] == least[top.blocks - 2])
                 --top.blocks;
         }
