@@ -115,7 +115,7 @@ double KeptPairs::renewal_cost() const {
 /// Renewals cost as step / margin, pairs unsure as the margin; both little between these bounds.
 double KeptPairs::margin_for(double step) const {
     constexpr double most = double{FLT_MAX} / 8;
-    return std::min(margin > 0 ? margin * side_ : std::clamp(48 * step, .03 * side_, .12 * side_),
+    return std::min(margin > 0 ? margin * side_ : std::clamp(80 * step, .03 * side_, .08 * side_),
                     most);
 }
 
@@ -165,7 +165,7 @@ bool KeptPairs::renew(MovingTree& tree, Boxes boxes, const Executor& executor) {
 
     Candidates candidates(found_, 64 * size + 65536);
     boxwood::self_pairs(tree.layout(), executor, candidates);
-    if (candidates.too_many())
+    if (candidates.too_many() || size > max_gap_items)
         return false;
     n_parts_ = std::clamp<std::size_t>(found_.size() / 8, 1, 16);
     if (parts_.size() < n_parts_)

@@ -254,20 +254,48 @@ TEST(KeptPairs, SameAnswersInTheSameOrderOnEveryExecutor) {
     }
 }
 
-TEST(Gap, IsOfTheAxisThatHoldsThemApart) {
+TEST(GapCodes, AreOfTheAxisThatHoldsThemApart) {
     const Box box{{0, 0, 0}, {4, 4, 4}};
-    const auto near = [](double allowance, double expected) {
-        return allowance <= expected && allowance > expected * (1 - 1e-5);
-    };
-    EXPECT_TRUE(!gap_between(box, shifted(box, {5, 7, 0})).overlap);
-    EXPECT_TRUE(near(gap_between(box, shifted(box, {5, 7, 0})).allowance, 3));
-    EXPECT_TRUE(gap_between(box, shifted(box, {1, 3, 2})).overlap);
-    EXPECT_TRUE(near(gap_between(box, shifted(box, {1, 3, 2})).allowance, 1));
-    EXPECT_TRUE(gap_between(box, shifted(box, {4, 0, 0})).overlap);
-    EXPECT_EQ(gap_between(box, shifted(box, {4, 0, 0})).allowance, 0);
-    for (const Box& other : {box, Box{}}) {
-        EXPECT_FALSE(gap_between(Box{}, other).overlap);
-        EXPECT_EQ(gap_between(Box{}, other).allowance, HUGE_VAL);
+    const auto scale = GapScale::from(10, 10);
+    constexpr auto overlap = GapScale::overlap, last = GapScale::last;
+    EXPECT_EQ(scale.code(box, shifted(box, {5, 7.01f, 0})), 40u);
+    EXPECT_EQ(scale.code(box, shifted(box, {5, 7.21f, 0})), 42u);
+    EXPECT_EQ(scale.code(box, shifted(box, {1, 3, 2})), 19u | overlap); // safely below 20
+    EXPECT_EQ(scale.code(box, shifted(box, {4, 0, 0})), 9u | overlap);
+    EXPECT_EQ(scale.code(box, shifted(box, {1e30f, 0, 0})), last);
+    EXPECT_EQ(scale.code({{-3e38f, 0, 0}, {3e38f, 4, 4}}, box), 49u | overlap);
+    EXPECT_EQ(scale.code(Box{}, box), last);
+    EXPECT_EQ(scale.code(Box{}, Box{}), last);
+}
+
+TEST(GapCodes, OfManyAreThoseOfEach) {
+    for (const BoxFamily& family : box_families()) {
+        const std::size_t n = std::min<std::size_t>(family.boxes.size(), 50);
+        struct Strided {
+            Pair pair;
+            std::uint32_t between;
+        };
+        std::vector<Pair> pairs;
+        std::vector<Strided> strided;
+        for (std::uint32_t a = 0; a < n; ++a)
+            for (std::uint32_t b = 0; b < n; b += 3) {
+                pairs.push_back({a, b});
+                strided.push_back({{a, b}, 7});
+            }
+        if (pairs.empty())
+            continue;
+        for (const double per_gap : {1e-3, 7., 1e3, 1e300}) {
+            const auto scale = GapScale::from(3.5, per_gap);
+            std::vector<std::uint32_t> codes(pairs.size()), apart(pairs.size());
+            gap_codes(pairs.data(), 2, pairs.size(), family.boxes.data(), scale, codes.data());
+            gap_codes(&strided[0].pair, 3, pairs.size(), family.boxes.data(), scale, apart.data());
+            EXPECT_EQ(codes, apart);
+            for (std::size_t i = 0; i < pairs.size(); ++i) {
+                const Box &a = family.boxes[pairs[i].a], &b = family.boxes[pairs[i].b];
+                ASSERT_EQ(codes[i], scale.code(a, b)) << family.name;
+                ASSERT_EQ((codes[i] & GapScale::overlap) != 0, overlaps(a, b)) << family.name;
+            }
+        }
     }
 }
 

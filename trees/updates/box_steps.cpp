@@ -52,6 +52,20 @@ bool AllValid(Boxes boxes) {
     return valid;
 }
 
+bool AreAll(std::span<const std::uint32_t> items) {
+    constexpr hn::RebindToUnsigned<decltype(df)> du;
+    auto differ = hn::Zero(du), number = hn::Iota(du, 0u);
+    std::size_t i = 0;
+    for (; i + lanes <= items.size(); i += lanes) {
+        differ = hn::Or(differ, hn::Xor(hn::LoadU(du, items.data() + i), number));
+        number = hn::Add(number, hn::Set(du, static_cast<std::uint32_t>(lanes)));
+    }
+    bool all = hn::AllTrue(du, hn::Eq(differ, hn::Zero(du)));
+    for (; i < items.size(); ++i)
+        all = all && items[i] == i;
+    return all;
+}
+
 std::size_t FollowBlocks(Boxes now, Box* HWY_RESTRICT kept, std::size_t begin, std::size_t end,
                          float most, float* HWY_RESTRICT steps, std::uint32_t* HWY_RESTRICT far) {
     std::size_t n_far = 0;
@@ -96,6 +110,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace boxwood {
 HWY_EXPORT(AllValid);
+HWY_EXPORT(AreAll);
 HWY_EXPORT(FollowBlocks);
 
 void require_present_or_absent(std::uint32_t item, const Box& box) {
@@ -112,6 +127,8 @@ void require_present_or_absent(Boxes boxes) {
     for (std::size_t i = 0; i < boxes.size(); ++i)
         require_present_or_absent(static_cast<std::uint32_t>(i), boxes[i]);
 }
+
+bool are_all(std::span<const std::uint32_t> items) { return HWY_DYNAMIC_DISPATCH(AreAll)(items); }
 
 float box_step(const Box& now, const Box& before) {
     float step = 0;

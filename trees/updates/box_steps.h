@@ -17,6 +17,9 @@ void require_present_or_absent(Boxes boxes);
 /// Throws the same for one item.
 void require_present_or_absent(std::uint32_t item, const Box& box);
 
+/// Whether these are the items 0, 1, 2 ...
+bool are_all(std::span<const std::uint32_t> items);
+
 /// The most that a face of the box moved: 0 only if the boxes are the same, +inf if one of them is
 /// absent and the other is not. Rounded: at most 2^-23 of it, and FLT_MIN, too small.
 float box_step(const Box& now, const Box& before);

@@ -45,6 +45,20 @@ TEST(BoxSteps, EveryBadCoordinateIsFoundWhereverItIs) {
         EXPECT_NO_THROW(require_present_or_absent(family.boxes)) << family.name;
 }
 
+TEST(BoxSteps, AllItemsOrNot) {
+    for (const std::size_t n : {0u, 1u, 15u, 16u, 50u}) {
+        std::vector<std::uint32_t> items(n);
+        for (std::uint32_t i = 0; i < n; ++i)
+            items[i] = i;
+        EXPECT_TRUE(are_all(items));
+        for (std::uint32_t& item : items) {
+            item ^= 1u << 20;
+            EXPECT_FALSE(are_all(items));
+            item ^= 1u << 20;
+        }
+    }
+}
+
 TEST(BoxSteps, OfOneBox) {
     const Box box{{0, 0, 0}, {1, 1, 1}};
     EXPECT_EQ(box_step(box, box), 0);

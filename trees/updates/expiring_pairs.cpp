@@ -23,28 +23,32 @@ void ExpiringPairs::start(std::span<const std::vector<Pair>> parts, const Box* b
     make_room(on_id_, n);
     Buffer<Unsure> unsures(n);
     Buffer<std::uint8_t> bucket(n);
-    static_assert(n_buckets <= 256);
-    std::array<std::uint32_t, n_buckets> counts{};
+    static_assert(n_buckets < 256);
+    std::array<std::uint32_t, n_buckets + 1> counts{};
 
     // Without branches: a pair is written wherever it might belong.
     std::size_t n_sure = 0, n_unsure = 0, n_on = 0;
-    for (const auto& part : parts)
-        for (const Pair pair : part) {
-            const Gap gap = gap_between(boxes[pair.a], boxes[pair.b]);
-            const bool unsure = !reach.used_up(gap.allowance);
-            const std::size_t at = reach.bucket(unsure ? gap.allowance : 0);
+    for (const auto& part : parts) {
+        codes_.resize(part.size());
+        gap_codes(part.data(), 2, part.size(), boxes, GapScale::from(0, reach.per_used),
+                  codes_.data());
+        for (std::size_t i = 0; i < part.size(); ++i) {
+            const Pair pair = part[i];
+            const std::uint32_t overlap = codes_[i] >> 31, at = codes_[i] & 255u,
+                                unsure = at < n_buckets;
             const auto id = static_cast<std::uint32_t>(n_unsure);
             sure_[n_sure] = pair;
-            n_sure += !unsure & gap.overlap;
-            unsures[id] = {pair, id | (gap.overlap ? on_bit : 0)};
-            place_[id] = gap.overlap ? static_cast<std::uint32_t>(n_on) : off;
+            n_sure += overlap & (unsure ^ 1);
+            unsures[id] = {pair, id | overlap << 31};
+            place_[id] = static_cast<std::uint32_t>(n_on) | (overlap - 1); // or off
             bucket[id] = static_cast<std::uint8_t>(at);
             on_[n_on] = pair;
             on_id_[n_on] = id;
-            n_on += unsure & gap.overlap;
+            n_on += overlap & unsure;
             n_unsure += unsure;
-            counts[at] += unsure;
+            ++counts[at];
         }
+    }
     n_sure_ = n_sure;
     n_unsure_ = n_unsure;
     n_on_ = n_on;
@@ -89,22 +93,19 @@ std::size_t ExpiringPairs::examine(const Box* boxes, double used) {
         waiting_[k].clear();
     }
     bucket_now_ = bucket_now;
-    constexpr std::size_t ahead = 12; // boxes lie anywhere, perhaps in two cache lines
     const std::size_t n = todo_.size();
+    codes_.resize(n);
+    static_assert(sizeof(Unsure) == 12);
+    if (n > 0)
+        gap_codes(&todo_[0].pair, 3, n, boxes,
+                  GapScale::from(used * reach_.per_used, reach_.per_used), codes_.data());
     for (std::size_t i = 0; i < n; ++i) {
-        const Pair next = todo_[std::min(i + ahead, n - 1)].pair;
-        for (const std::uint32_t item : {next.a, next.b}) {
-            __builtin_prefetch(&boxes[item].min.x);
-            __builtin_prefetch(&boxes[item].max.z);
-        }
-        Unsure unsure = todo_[i];
-        const Gap gap = gap_between(boxes[unsure.pair.a], boxes[unsure.pair.b]);
-        if (gap.overlap != ((unsure.id_and_state & on_bit) != 0))
-            gap.overlap ? turn_on(unsure) : turn_off(unsure);
-        const double expiry = used + gap.allowance;
-        if (reach_.used_up(expiry))
+        Unsure& unsure = todo_[i];
+        if ((codes_[i] ^ unsure.id_and_state) & on_bit)
+            codes_[i] & on_bit ? turn_on(unsure) : turn_off(unsure);
+        const std::size_t bucket = codes_[i] & ~on_bit;
+        if (bucket == n_buckets)
             continue;
-        const std::size_t bucket = reach_.bucket(expiry);
         (bucket <= bucket_now ? hot_ : waiting_[bucket]).push_back(unsure);
     }
     return n;
@@ -137,7 +138,8 @@ void ExpiringPairs::leave_out_empty(const Box* boxes) {
 
 std::size_t ExpiringPairs::bytes() const {
     std::size_t sum = sure_.bytes() + place_.bytes() + on_.bytes() + on_id_.bytes() +
-                      (hot_.capacity() + todo_.capacity()) * sizeof(Unsure);
+                      (hot_.capacity() + todo_.capacity()) * sizeof(Unsure) +
+                      codes_.capacity() * sizeof(std::uint32_t);
     for (const auto& list : waiting_)
         sum += list.capacity() * sizeof(Unsure);
     return sum;

@@ -2,36 +2,16 @@
 
 #include "trees/pairs.h"
 #include "trees/tree.h"
+#include "trees/updates/gap_codes.h"
 
 #include <algorithm>
 #include <array>
-#include <cfloat>
-#include <cmath>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace boxwood {
-
-/// How far apart two boxes are, or how deep they overlap: on the axis on which they are farthest
-/// apart or nearest to that.
-struct Gap {
-    bool overlap; ///< as `overlaps`
-    /// Whatever the two move in sum, each face of each, up to this leaves `overlap` as it is; +inf
-    /// if one of them is the empty box.
-    double allowance;
-};
-
-/// The differences are of floats, so each is rounded by at most 2^-24 of it (and by FLT_MIN where
-/// denormal numbers are flushed); one that overflows is larger than any motion that is waited for.
-inline Gap gap_between(const Box& a, const Box& b) {
-    const Vec3<float> low = max(a.min, b.min), high = min(a.max, b.max), apart = low - high;
-    const float gap = std::max(std::max(apart.x, apart.y), apart.z);
-    const bool overlap = (low.x <= high.x) & (low.y <= high.y) & (low.z <= high.z);
-    constexpr double rounded = 1 - 0x1p-20, flushed = 4 * double{FLT_MIN};
-    return {overlap, std::max(0., double{std::abs(gap)} * rounded - flushed)};
-}
 
 /// Candidate pairs, each looked at again no sooner than motion can have changed whether they
 /// overlap. Motion is counted in `used`: twice the most that any face can have moved since `start`.
@@ -40,16 +20,17 @@ inline Gap gap_between(const Box& a, const Box& b) {
 /// that it need not be looked at any more.
 class ExpiringPairs {
   public:
-    static constexpr std::size_t n_buckets = 128;
+    static constexpr std::size_t n_buckets = GapScale::last;
 
     /// How much motion is waited for; the state is as it was, and all is kept, while
     /// !used_up(used).
     struct Reach {
         double per_used = 0; ///< buckets in a unit of motion
-        bool used_up(double used) const { return used * per_used >= double{n_buckets}; }
-        /// Rounded the same way for expiry and motion used: the first is not below the second
-        /// unless its bucket is not.
-        std::size_t bucket(double used) const { return static_cast<std::size_t>(used * per_used); }
+        /// n_buckets for all beyond.
+        std::uint32_t bucket(double used) const {
+            return static_cast<std::uint32_t>(std::min(used * per_used, double{n_buckets}));
+        }
+        bool used_up(double used) const { return bucket(used) == n_buckets; }
     };
 
     /// Forgets what was. The pairs come in several parts.
@@ -89,6 +70,7 @@ class ExpiringPairs {
     Buffer<std::uint32_t> place_; ///< id -> place in on_, or off
     std::size_t n_unsure_ = 0;
     std::array<std::vector<Unsure>, n_buckets> waiting_;
+    std::vector<std::uint32_t> codes_;
     std::vector<Unsure> hot_, todo_; ///< hot: to be looked at whenever anything moves
 };
 

@@ -8,13 +8,8 @@ void require_frame(Boxes boxes, std::span<const std::uint32_t> moved, std::size_
         throw std::invalid_argument("update: the tree holds " + std::to_string(size) +
                                     " items, but there are " + std::to_string(boxes.size()) +
                                     " boxes; give one per item, or start anew");
-    if (moved.size() == size) { // in one pass, if they are all of them
-        std::uint32_t differ = 0;
-        for (std::size_t i = 0; i < size; ++i)
-            differ |= moved[i] ^ static_cast<std::uint32_t>(i);
-        if (differ == 0)
-            return require_present_or_absent(boxes);
-    }
+    if (moved.size() == size && are_all(moved))
+        return require_present_or_absent(boxes);
     std::size_t next = 0; // least item that may follow
     for (const std::uint32_t item : moved) {
         if (item < next || item >= size)
