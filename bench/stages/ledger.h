@@ -29,8 +29,8 @@ class Ledger {
     const LedgerRow& row(std::string_view stage) const;
     double total_ns() const;
 
-    void add(std::size_t row, std::size_t items, double ns) {
-        ++rows_[row].calls;
+    void add(std::size_t row, std::size_t calls, std::size_t items, double ns) {
+        rows_[row].calls += calls;
         rows_[row].items += items;
         rows_[row].ns += ns;
     }

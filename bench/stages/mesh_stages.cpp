@@ -14,8 +14,10 @@ class Transform final : public SceneStage {
         playing.meshes = meshes_.get();
         return 0;
     }
-    std::size_t run(Playing& playing) override {
+    void note_changes(const Playing& playing) override {
         meshes_->note(playing.changed, playing.scene.frame());
+    }
+    std::size_t run(Playing& playing) override {
         if (!playing.pairs_are_new)
             return 0;
         meshes_->want(*playing.pairs, playing.is_everything());

@@ -55,6 +55,9 @@ class SceneStage {
     virtual ~SceneStage() = default;
     virtual std::size_t start(Playing&) { return 0; }
     virtual std::size_t run(Playing&) { return 0; }
+    /// For a stage that runs when something is asked, and must know what frames before have
+    /// changed.
+    virtual void note_changes(const Playing&) {}
     /// Memory that the stage holds; what it answers does not count.
     virtual std::size_t bytes(const Playing&) const { return 0; }
 };

@@ -36,8 +36,11 @@ ScenePlayer::ScenePlayer(MovingScene scene, Extent extent, const Executor& execu
         add("pairs", ask_stage("pairs"), Runs::asking);
     if (runs("filter"))
         add("filter", filter_stage(), Runs::asking);
-    if (runs("transform"))
+    if (runs("transform")) {
         add("transform", transform_stage(), Runs::asking);
+        if (moves)
+            noting_.push_back(stages_.size() - 1);
+    }
     if (runs("mesh_trees"))
         add("mesh_trees", mesh_trees_stage(), Runs::asking);
     if (runs("triangle_pairs"))
@@ -65,11 +68,12 @@ void ScenePlayer::add(std::string_view name, std::unique_ptr<SceneStage> stage, 
     stages_.push_back(std::move(made));
 }
 
-template <class Run> void ScenePlayer::timed(Made& made, const Run& run) {
+template <class Run> void ScenePlayer::timed(Made& made, std::size_t calls, const Run& run) {
     const auto before = std::chrono::steady_clock::now();
     const std::size_t items = run(*made.stage);
     const auto after = std::chrono::steady_clock::now();
-    ledger_.add(made.row, items, std::chrono::duration<double, std::nano>(after - before).count());
+    ledger_.add(made.row, calls, items,
+                std::chrono::duration<double, std::nano>(after - before).count());
 }
 
 void ScenePlayer::start() {
@@ -80,25 +84,25 @@ void ScenePlayer::start() {
     ledger_.clear();
     for (std::size_t i = 0; i < stages_.size(); ++i)
         if (std::ranges::find(starting_, i) != starting_.end())
-            timed(stages_[i], [&](SceneStage& stage) { return stage.start(*playing_); });
+            timed(stages_[i], 1, [&](SceneStage& stage) { return stage.start(*playing_); });
         else
             stages_[i].stage->start(*playing_);
-    is_asked_ = false;
 }
 
 void ScenePlayer::advance() {
-    if (!is_asked_)
-        ask();
     playing_->scene.begin_frame();
     for (const std::size_t i : advancing_)
-        timed(stages_[i], [&](SceneStage& stage) { return stage.run(*playing_); });
-    is_asked_ = false;
+        timed(stages_[i], 1, [&](SceneStage& stage) { return stage.run(*playing_); });
+    for (const std::size_t i : noting_)
+        timed(stages_[i], 0, [&](SceneStage& stage) {
+            stage.note_changes(*playing_);
+            return std::size_t{0};
+        });
 }
 
 const FrameAnswers& ScenePlayer::ask() {
     for (const std::size_t i : asking_)
-        timed(stages_[i], [&](SceneStage& stage) { return stage.run(*playing_); });
-    is_asked_ = true;
+        timed(stages_[i], 1, [&](SceneStage& stage) { return stage.run(*playing_); });
     return playing_->answers;
 }
 

@@ -17,7 +17,7 @@ struct Playing;
 
 /// Plays a scene by its plan: a stage that does not run is not made. One virtual call per stage and
 /// frame. The answers and their order are the same on every executor.
-/// start, ask, then advance and ask for each further frame; an ask that is left out is made up for.
+/// start, ask, then advance and ask for each further frame; a frame may go unasked.
 class ScenePlayer {
   public:
     /// The scene stands at frame 0, the executor outlives this.
@@ -51,14 +51,13 @@ class ScenePlayer {
     enum class Runs { at_the_start, from_the_start, advancing, asking };
 
     void add(std::string_view name, std::unique_ptr<SceneStage> stage, Runs when);
-    template <class Run> void timed(Made& made, const Run& run);
+    template <class Run> void timed(Made& made, std::size_t calls, const Run& run);
 
     std::unique_ptr<Playing> playing_;
     std::vector<PlannedStage> plan_;
     Ledger ledger_;
     std::vector<Made> stages_;
-    std::vector<std::size_t> starting_, advancing_, asking_; ///< of stages_
-    bool is_asked_ = false;                                  ///< the present frame
+    std::vector<std::size_t> starting_, advancing_, noting_, asking_; ///< of stages_
 };
 
 } // namespace boxwood::bench

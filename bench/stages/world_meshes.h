@@ -31,9 +31,9 @@ class WorldMeshes {
 
     /// Notes which bodies the frame has changed.
     void note(std::span<const std::uint32_t> changed, std::uint64_t frame);
-    /// Whether neither of these bodies, which have meshes, changed in that frame.
+    /// Whether neither of these bodies, which have meshes, has changed since that frame.
     bool rests(Pair bodies, std::uint64_t frame) const {
-        return changed_in_[index_[bodies.a]] != frame && changed_in_[index_[bodies.b]] != frame;
+        return changed_in_[index_[bodies.a]] <= frame && changed_in_[index_[bodies.b]] <= frame;
     }
     /// The meshes of the bodies in a pair of which both have a mesh, each once; of all if
     /// `everything`. They stay listed until the next call.

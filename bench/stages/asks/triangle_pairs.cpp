@@ -24,7 +24,7 @@ struct PosedMesh {
 };
 
 /// The triangles of two meshes that share a point, of each candidate pair of bodies with meshes.
-/// Where neither of the two has changed since the frame before, they are those of that frame.
+/// Where neither of the two has changed since triangles were last asked, they are the same.
 class TrianglePairs final : public SceneStage {
   public:
     std::size_t start(Playing&) override {
@@ -37,6 +37,7 @@ class TrianglePairs final : public SceneStage {
             return 0;
         std::vector<TouchingTriangles>& out = playing.answers.triangle_pairs;
         list_meetings(playing);
+        found_in_ = playing.scene.frame();
         find(playing);
 
         next_.clear();
@@ -75,17 +76,16 @@ class TrianglePairs final : public SceneStage {
     };
     static std::ptrdiff_t at(std::size_t i) { return static_cast<std::ptrdiff_t>(i); }
 
-    /// The meetings of this frame, with the answers of the last where they still hold.
+    /// The meetings of this frame, with the answers of those before where they still hold.
     void list_meetings(const Playing& playing) {
         const WorldMeshes& meshes = *playing.meshes;
-        const std::uint64_t frame = playing.scene.frame();
         std::unordered_map<std::uint64_t, std::size_t> before;
         const bool may_keep =
             !playing.is_everything() && playing.changed.size() < playing.scene.bodies().size();
         const auto key = [](Pair p) { return std::uint64_t{p.a} << 32 | p.b; };
         if (may_keep)
             for (std::size_t i = 0; i < meetings_.size(); ++i)
-                if (meshes.rests(meetings_[i].bodies, frame))
+                if (meshes.rests(meetings_[i].bodies, found_in_))
                     before.emplace(key(meetings_[i].bodies), i);
         std::vector<Meeting> now;
         std::size_t to_find = 0;
@@ -134,6 +134,7 @@ class TrianglePairs final : public SceneStage {
     }
 
     std::vector<Meeting> meetings_;
+    std::uint64_t found_in_ = 0;           ///< the frame of the meetings
     std::vector<Pair> wanted_;             ///< bodies whose triangles are to be found
     std::vector<std::vector<Pair>> found_; ///< triangles, of each of those
     std::vector<TouchingTriangles> next_;
