@@ -18,6 +18,16 @@ std::optional<double> counter(const Results& results, const Cell& cell, std::str
     return std::nullopt;
 }
 
+/// In a frame, where that was counted, else all.
+double items_moved(const Results& results, const Cell& cell) {
+    const auto moved = counter(results, cell, "items_moved");
+    const auto scene =
+        std::ranges::find(results.scenes, cell.scene_id, &results::SceneRow::scene_id);
+    if (!moved || scene == results.scenes.end() || scene->n_frames == 0)
+        return static_cast<double>(cell.n_items);
+    return *moved / static_cast<double>(scene->n_frames);
+}
+
 } // namespace
 
 double limit_ns(const Results& results, const Cell& cell, std::string_view phase) {
@@ -27,8 +37,12 @@ double limit_ns(const Results& results, const Cell& cell, std::string_view phase
     const results::Env& env = results.env.front();
     const double n = static_cast<double>(cell.n_items);
     const double gbs = cell.threads == 1 ? env.stream_triad_gbs_1 : env.stream_triad_gbs_all;
-    if (phase == "build" || phase == "update")
+    if (phase == "build")
         return n * (box + nodes) / gbs;
+    if (phase == "update") {
+        const double moved = items_moved(results, cell);
+        return moved > 0 ? moved * (box + nodes) / gbs : missing; // nothing moves: no bound
+    }
     const auto tests = counter(results, cell, "box_tests"), pairs = counter(results, cell, "pairs");
     if (phase != "query" || !tests || !pairs)
         return missing;

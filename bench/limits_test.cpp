@@ -33,5 +33,21 @@ TEST(Limits, AreTheBytesOrTheCyclesThatCannotBeAvoided) {
     EXPECT_TRUE(std::isnan(limit_ns(r, cell, "build")));
 }
 
+TEST(Limits, OfAnUpdateCountTheItemsThatMoved) {
+    results::Results r;
+    r.env.push_back({});
+    r.env[0].stream_triad_gbs_1 = r.env[0].stream_triad_gbs_all = 10;
+    r.scenes.resize(1);
+    r.scenes[0].n_frames = 20;
+    results::Cell cell;
+    cell.n_items = 1000;
+    EXPECT_DOUBLE_EQ(limit_ns(r, cell, "update"), 8800); // not counted: all of them
+    r.counters = {{0, "items_moved", 200}};
+    EXPECT_DOUBLE_EQ(limit_ns(r, cell, "update"), 88);
+    EXPECT_DOUBLE_EQ(limit_ns(r, cell, "build"), 8800);
+    r.counters[0].value = 0;
+    EXPECT_TRUE(std::isnan(limit_ns(r, cell, "update")));
+}
+
 } // namespace
 } // namespace boxwood::bench

@@ -4,6 +4,7 @@
 #include "bench/judging/judge.h"
 #include "bench/record.h"
 #include "bench/scene_asks.h"
+#include "bench/scene_strip.h"
 #include "bench/tree_builds.h"
 #include "bench/truth.h"
 #include "trees/quality.h"
@@ -87,6 +88,8 @@ class Preparation {
             asked.insert(to_string(cell->ask));
         const std::uint32_t scene_id =
             record_.add_scene(scene_, fmt::format("{}", fmt::join(asked, ",")));
+        if (asked.contains(to_string(Ask::scene_asks)))
+            out_.texts.try_emplace("strip_" + scene_.name, scene_strip(*scene_.spec.moving));
         for (const PlannedCell* cell : cells) {
             report_(out_.cells.size(), plan_.cells.size(), cell->name);
             prepare_cell(*cell, scene_id);
@@ -179,7 +182,9 @@ class Preparation {
         std::vector<FrameTime> times(frames_->size());
         Calibration calibration;
         calibration.build_ns = calibrate_ns(target_ns_, [&] { contender->build(); });
+        std::uint64_t moved = 0;
         play(*contender, *frames_, answers, times, [&](std::size_t index, const Frame& frame) {
+            moved += frame.moved.size();
             hash.add(answers.pairs);
             moving_truth_->check(index, frame, answers, check);
         });
@@ -197,6 +202,7 @@ class Preparation {
             out_.counters.push_back({cell_id, std::move(counter), value});
         };
         add("pairs", answers.pairs.size());
+        add("items_moved", moved); // in all frames
         for (const NamedCount& count : contender->more_counts())
             add(count.name, count.value);
         if (const auto structure = contender->structure())
