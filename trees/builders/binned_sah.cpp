@@ -32,10 +32,10 @@ HWY_INLINE void ClearCentres(Range& r) { StoreF8(SetF8(kLeast), r.centres); }
 class BinnedBuild {
   public:
     BinnedBuild(Boxes boxes, int most_bins, std::uint32_t joined, std::uint32_t block,
-                const Executor& executor)
-        : boxes_(boxes), executor_(executor), most_bins_(most_bins), joined_(joined),
-          block_bits_(std::bit_width(block) - 1), items_(boxes, executor), other_(boxes.size()),
-          tree_(boxes.size()),
+                std::uint32_t whole, const Executor& executor)
+        : boxes_(boxes), executor_(executor), most_bins_(most_bins),
+          unsplit_(std::max(joined, whole)), whole_(whole), block_bits_(std::bit_width(block) - 1),
+          items_(boxes, executor), other_(boxes.size()), tree_(boxes.size()),
           depth_limit_(2 * static_cast<std::uint32_t>(std::bit_width(boxes.size())) + 17) {}
 
     Tree Run() {
@@ -129,14 +129,18 @@ class BinnedBuild {
         std::size_t n_waiting = 0;
         Range r = root;
         for (;;) {
-            if (r.count > 1 && (r.count > joined_ || r.depth > depth_limit_)) {
+            if (r.count > 1 && (r.count > unsplit_ || r.depth > depth_limit_)) {
                 Halves h = Split(r);
                 const bool left_first = h.left.count <= h.right.count;
                 waiting[n_waiting++] = left_first ? h.right : h.left;
                 r = left_first ? h.left : h.right;
                 continue;
             }
-            Join(Items(r), r.count, Binning(r.centres, r.count, 2).edge, {r.node, r.first}, tree_);
+            if (r.count <= whole_)
+                HalveAsTheyLie(Items(r), r.count, {r.node, r.first}, tree_);
+            else
+                Join(Items(r), r.count, Binning(r.centres, r.count, 2).edge, {r.node, r.first},
+                     tree_);
             if (n_waiting == 0)
                 break;
             r = waiting[--n_waiting];
@@ -237,7 +241,7 @@ class BinnedBuild {
     Boxes boxes_;
     const Executor& executor_;
     const int most_bins_;
-    const std::uint32_t joined_;
+    const std::uint32_t unsplit_, whole_;
     const int block_bits_;
     Prims8 items_;
     Buffer<Prim8> other_;
@@ -246,8 +250,8 @@ class BinnedBuild {
 };
 
 Tree BuildBinned(Boxes boxes, int most_bins, std::uint32_t joined, std::uint32_t block,
-                 const Executor& executor) {
-    return BinnedBuild(boxes, most_bins, joined, block, executor).Run();
+                 std::uint32_t whole, const Executor& executor) {
+    return BinnedBuild(boxes, most_bins, joined, block, whole, executor).Run();
 }
 
 } // namespace boxwood::HWY_NAMESPACE
@@ -258,9 +262,9 @@ namespace boxwood {
 HWY_EXPORT(BuildBinned);
 
 Tree BinnedSahBuilder::build(Boxes boxes, const Executor& executor) const {
-    return HWY_DYNAMIC_DISPATCH(BuildBinned)(boxes, static_cast<int>(bins),
-                                             static_cast<std::uint32_t>(joined),
-                                             static_cast<std::uint32_t>(block), executor);
+    return HWY_DYNAMIC_DISPATCH(BuildBinned)(
+        boxes, static_cast<int>(bins), static_cast<std::uint32_t>(joined),
+        static_cast<std::uint32_t>(block), static_cast<std::uint32_t>(whole), executor);
 }
 
 BuilderEntry binned_sah_builder() { return builder_entry<BinnedSahBuilder>(); }

@@ -22,16 +22,21 @@ struct BinnedSahBuilder {
     /// Items count in whole blocks of this many, a power of two or else the next lower: what a leaf
     /// costs that is tested so many at a time. Rays like 8 with `joined` 8; more area for boxes.
     double block = 1;
+    /// Nodes of up to this many items are neither split nor joined but halved as they lie, which is
+    /// quicker: for a layout whose leaves take as many.
+    double whole = 1;
 
-    static constexpr int most_bins = 32, most_joined = 16, most_block = 16;
+    static constexpr int most_bins = 32, most_joined = 16, most_block = 16, most_whole = 16;
     static auto settings() {
-        return std::array{Setting<BinnedSahBuilder>{"bins", "most bins per axis",
-                                                    &BinnedSahBuilder::bins, 2, most_bins},
-                          Setting<BinnedSahBuilder>{"joined",
-                                                    "most items of a node that is joined bottom-up",
-                                                    &BinnedSahBuilder::joined, 1, most_joined},
-                          Setting<BinnedSahBuilder>{"block", "items that cost as much as one",
-                                                    &BinnedSahBuilder::block, 1, most_block}};
+        return std::array{
+            Setting<BinnedSahBuilder>{"bins", "most bins per axis", &BinnedSahBuilder::bins, 2,
+                                      most_bins},
+            Setting<BinnedSahBuilder>{"joined", "most items of a node that is joined bottom-up",
+                                      &BinnedSahBuilder::joined, 1, most_joined},
+            Setting<BinnedSahBuilder>{"block", "items that cost as much as one",
+                                      &BinnedSahBuilder::block, 1, most_block},
+            Setting<BinnedSahBuilder>{"whole", "most items of a node left as they lie",
+                                      &BinnedSahBuilder::whole, 1, most_whole}};
     }
 
     Tree build(Boxes boxes, const Executor& executor) const;

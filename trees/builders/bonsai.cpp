@@ -1,6 +1,5 @@
 #include "trees/builders/bonsai.h"
 
-#include "trees/builders/binned_sah.h"
 #include "trees/builders/sweep_sah.h"
 #include "trees/curve_order.h"
 
@@ -130,7 +129,7 @@ Tree BonsaiBuilder::build(Boxes boxes, const Executor& executor) const {
     const auto cells = cells_of(curved.keys(), static_cast<std::uint32_t>(group));
 
     // More bins cost 3 % of the time and gain nothing in cells this small.
-    const BinnedSahBuilder binned{.bins = 16};
+    const BinnedSahBuilder binned{.bins = 16, .joined = joined, .block = block, .whole = whole};
     std::vector<Tree> minis(cells.size());
     executor.for_each(cells.size(), [&](std::size_t i) {
         Buffer<Box> own(cells[i].count());

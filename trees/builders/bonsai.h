@@ -1,6 +1,7 @@
 #pragma once
 
 #include "trees/builder.h"
+#include "trees/builders/binned_sah.h"
 
 #include <array>
 
@@ -20,14 +21,21 @@ struct BonsaiBuilder {
 
     double group = 256; ///< most items of a mini-tree
     double prune = 1;   ///< largest root that stays, by the mean area of all roots; 0: all opened
+    double joined = 16, block = 1, whole = 1; ///< of the mini-trees, as BinnedSahBuilder's
 
     static constexpr int most_group = 1 << 20;
     static auto settings() {
-        return std::array{Setting<BonsaiBuilder>{"group", "most items of a mini-tree",
-                                                 &BonsaiBuilder::group, 16, most_group},
-                          Setting<BonsaiBuilder>{"prune",
-                                                 "largest root of a mini-tree, by their mean area",
-                                                 &BonsaiBuilder::prune, 0, 1e6}};
+        return std::array{
+            Setting<BonsaiBuilder>{"group", "most items of a mini-tree", &BonsaiBuilder::group, 16,
+                                   most_group},
+            Setting<BonsaiBuilder>{"prune", "largest root of a mini-tree, by their mean area",
+                                   &BonsaiBuilder::prune, 0, 1e6},
+            Setting<BonsaiBuilder>{"joined", "most items of a node that is joined bottom-up",
+                                   &BonsaiBuilder::joined, 1, BinnedSahBuilder::most_joined},
+            Setting<BonsaiBuilder>{"block", "items that cost as much as one", &BonsaiBuilder::block,
+                                   1, BinnedSahBuilder::most_block},
+            Setting<BonsaiBuilder>{"whole", "most items of a node left as they lie",
+                                   &BonsaiBuilder::whole, 1, BinnedSahBuilder::most_whole}};
     }
 
     Tree build(Boxes boxes, const Executor& executor) const;

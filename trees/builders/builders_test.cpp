@@ -68,6 +68,36 @@ TEST(BinnedSahBuilder, CostsNoMoreThanMedianOnBoxesOfManySizes) {
     EXPECT_LT(sah, .8 * median);
 }
 
+TEST(BinnedSahBuilder, LeavesWholeNodesAsTheyLieAndSplitsTheOthersAlike) {
+    const std::vector<Box> boxes = random_boxes(5000, .03f, 7);
+    for (const double whole : {2., 8., 16.}) {
+        const Settings joined{{"block", 8}, {"joined", whole}};
+        Settings halved = joined;
+        halved["whole"] = whole;
+        const Tree a = make_builder("binned_sah", joined)(boxes, serial());
+        const Tree b = make_builder("binned_sah", halved)(boxes, serial());
+        EXPECT_FALSE(validate(b, boxes)) << whole;
+        std::size_t larger = 0, inner = 0;
+        for (std::size_t i = 0; i < b.nodes.size(); ++i) {
+            const TreeNode& node = b.nodes[i];
+            larger += node.count > whole;
+            if (node.count <= whole && node.count > 1) {
+                ++inner;
+                ASSERT_EQ(b.nodes[Tree::left(i)].count, node.count / 2) << i;
+            }
+        }
+        // Numbered by their items, so those above stand in the same places with the same boxes.
+        ASSERT_GT(larger, 300u);
+        ASSERT_GT(inner, 1000u);
+        for (std::size_t i = 0; i < a.nodes.size(); ++i)
+            if (a.nodes[i].count > whole || b.nodes[i].count > whole) {
+                ASSERT_EQ(a.nodes[i].count, b.nodes[i].count) << i;
+                ASSERT_EQ(a.nodes[i].first, b.nodes[i].first) << i;
+                ASSERT_EQ(a.nodes[i].box, b.nodes[i].box) << i;
+            }
+    }
+}
+
 TEST(BinnedSahBuilder, DepthIsBoundedOnGeometricSpacing) {
     // Each bin plane can cut off but a few of these boxes: without the limit the
     // depth is linear.

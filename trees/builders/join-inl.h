@@ -156,6 +156,46 @@ HWY_INLINE void Join(const Prim8* prims, std::uint32_t n, float edge, Place plac
     }
 }
 
+/// The nodes of a subtree of n items that are halved again and again, in the order of the tree.
+struct Halving {
+    std::uint8_t first[31], count[31];
+
+    constexpr explicit Halving(unsigned n) : first{}, count{} {
+        count[0] = static_cast<std::uint8_t>(n);
+        for (unsigned i = 0; i + 1 < 2 * n; ++i) {
+            if (count[i] < 2)
+                continue;
+            const unsigned left = count[i] / 2u, right = i + 2 * left;
+            count[i + 1] = static_cast<std::uint8_t>(left);
+            count[right] = static_cast<std::uint8_t>(count[i] - left);
+            first[i + 1] = first[i];
+            first[right] = static_cast<std::uint8_t>(first[i] + left);
+        }
+    }
+};
+
+/// Builds the subtree of 1 to 16 items without a look at where they are.
+HWY_INLINE void HalveAsTheyLie(const Prim8* prims, std::uint32_t n, Place place, Tree& tree) {
+    static constexpr Halving halvings[] = {
+        Halving(1),  Halving(1),  Halving(2),  Halving(3),  Halving(4),  Halving(5),
+        Halving(6),  Halving(7),  Halving(8),  Halving(9),  Halving(10), Halving(11),
+        Halving(12), Halving(13), Halving(14), Halving(15), Halving(16)};
+    const Halving& halving = halvings[n];
+    alignas(32) float box[31][8];
+    for (std::uint32_t i = 2 * n - 1; i-- > 0;) {
+        const std::uint32_t first = halving.first[i], count = halving.count[i];
+        F8 whole;
+        if (count == 1) {
+            whole = LoadF8(prims[first].v);
+            tree.order[place.first + first] = prims[first].item();
+        } else {
+            whole = MaxF8(LoadF8(box[i + 1]), LoadF8(box[i + count / 2 * 2]));
+        }
+        StoreF8(whole, box[i]);
+        WriteNode(whole, place.first + first, count, tree.nodes[place.node + i]);
+    }
+}
+
 } // namespace boxwood::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
