@@ -90,12 +90,10 @@ class TreePairs final : public OurContender {
     std::unique_ptr<AnyLayout> other_;
 };
 
-std::string_view traversal_of(Ask ask, bool sorted) {
+std::string_view traversal_of(Ask ask, const RayOrderEntry& order) {
     if (is_point_ask(ask) || ask == Ask::rays_all)
         return to_string(ask);
-    return is_ray_ask(ask)          ? (sorted ? "sorted_rays" : "rays")
-           : ask == Ask::tree_pairs ? "tree_pairs"
-                                    : "self_pairs";
+    return is_ray_ask(ask) ? order.traversal : ask == Ask::tree_pairs ? "tree_pairs" : "self_pairs";
 }
 
 template <class Entries>
@@ -144,10 +142,9 @@ ContenderEntry our_contender(const Choice& choice, Ask ask) {
     const auto kernel = std::ranges::find(kernels, choice.kernel, &KernelInfo::name);
     if (takes_kernel(ask) && kernel == kernels.end())
         throw_unknown(is_ray_ask(ask) ? "ray kernel" : "triangle kernel", choice.kernel, kernels);
-    if (std::ranges::find(ray_orders(), choice.ray_order, &RayOrderEntry::name) ==
-        ray_orders().end())
+    const auto order = std::ranges::find(ray_orders(), choice.ray_order, &RayOrderEntry::name);
+    if (order == ray_orders().end())
         throw_unknown("ray order", choice.ray_order, ray_orders());
-    const bool sorted = choice.ray_order == "sorted" && has_ray_order(ask);
 
     ContenderEntry entry;
     entry.library = "boxwood";
@@ -155,7 +152,7 @@ ContenderEntry our_contender(const Choice& choice, Ask ask) {
     entry.precision = layout->precision;
     entry.builder = word_with_settings(choice.builder, choice.settings);
     entry.layout = choice.layout;
-    entry.traversal = traversal_of(ask, sorted);
+    entry.traversal = traversal_of(ask, *order);
     if (takes_kernel(ask)) {
         entry.kernel = choice.kernel;
         entry.promise = kernel->promise;
@@ -179,7 +176,8 @@ ContenderEntry our_contender(const Choice& choice, Ask ask) {
         return std::nullopt;
     };
     entry.make = [build = make_builder(choice.builder, choice.settings), layout,
-                  kernel = choice.kernel, sorted](const Job& job) -> std::unique_ptr<Contender> {
+                  kernel = choice.kernel,
+                  order = *order](const Job& job) -> std::unique_ptr<Contender> {
         switch (job.ask) {
         case Ask::pairs:
             return std::make_unique<SelfPairs>(job, build, *layout);
@@ -193,7 +191,7 @@ ContenderEntry our_contender(const Choice& choice, Ask ask) {
         case Ask::closest_points:
             return make_point_queries(job, build, *layout);
         default:
-            return make_rays(job, build, *layout, kernel, sorted);
+            return make_rays(job, build, *layout, kernel, order);
         }
     };
     return entry;

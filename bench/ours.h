@@ -11,7 +11,7 @@ struct Choice {
     Settings settings;                  ///< of the builder and the stage
     std::string layout = "wide8";
     std::string kernel = "watertight"; ///< a ray or triangle kernel, where the ask takes one
-    std::string ray_order = "given";   ///< or "sorted", of rays_closest and rays_any
+    std::string ray_order = "given";   ///< or "sorted", "single"; of rays_closest and rays_any
 };
 
 /// The contender "<builder>[_<setting><value>...].<layout>.<traversal>[.<kernel>]" for an ask.

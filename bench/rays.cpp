@@ -1,9 +1,11 @@
 #include "bench/rays.h"
 
+#include "trees/traversals/single_rays.h"
 #include "trees/traversals/sorted_rays.h"
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace boxwood::bench {
 namespace {
@@ -36,12 +38,13 @@ class HitPairs final : public HitSink {
 class Rays final : public Contender {
   public:
     Rays(const Job& job, BuildFunction build, const LayoutEntry& layout, std::string kernel,
-         bool sorted)
+         std::string_view order)
         : scene_(*job.scene), ask_(job.ask), executor_(make_executor(job.executor, job.threads)),
           build_(std::move(build)), layout_entry_(layout), kernel_(std::move(kernel)),
-          sorted_(sorted) {}
+          order_(order) {}
 
     void build() override {
+        single_.reset();
         layout_.reset();
         triangles_ = {};
         if (build_.build_of_mesh) {
@@ -51,6 +54,8 @@ class Rays final : public Contender {
             layout_ = make_layout(layout_entry_, build_, scene_.boxes, *executor_, tree_);
         }
         triangles_ = layout_->triangles(scene_.mesh, *executor_);
+        if (order_ == "single")
+            single_.emplace(*layout_, kernel_, triangles_);
     }
 
     void query(Answers& answers) override {
@@ -60,7 +65,9 @@ class Rays final : public Contender {
             return sink_.append_to(answers.pairs);
         }
         answers.hits.resize(scene_.rays.size());
-        if (sorted_)
+        if (single_)
+            one_by_one(answers.hits);
+        else if (order_ == "sorted")
             sorted_rays(*layout_, scene_.rays, wanted(), kernel_, triangles_, *executor_,
                         answers.hits);
         else
@@ -80,6 +87,21 @@ class Rays final : public Contender {
     }
 
   private:
+    /// Embree's share of rays per task; its any-hits do not say which triangle it was.
+    void one_by_one(std::vector<RayHit>& hits) const {
+        constexpr std::size_t chunk = 256;
+        executor_->for_each((hits.size() + chunk - 1) / chunk, [&](std::size_t c) {
+            const std::size_t end = std::min(hits.size(), (c + 1) * chunk);
+            for (std::size_t i = c * chunk; i < end; ++i)
+                if (ask_ == Ask::rays_closest) {
+                    hits[i] = single_->closest(scene_.rays[i]);
+                } else {
+                    hits[i] = {};
+                    if (single_->any(scene_.rays[i]))
+                        hits[i].triangle = 0;
+                }
+        });
+    }
     RayQuery wanted() const {
         return ask_ == Ask::rays_closest ? RayQuery::closest : RayQuery::any;
     }
@@ -90,22 +112,25 @@ class Rays final : public Contender {
     BuildFunction build_;
     const LayoutEntry& layout_entry_;
     std::string kernel_;
-    bool sorted_;
+    std::string_view order_;
     Tree tree_;
     std::unique_ptr<AnyLayout> layout_;
     TriangleBlocks triangles_;
+    std::optional<SingleRays> single_; ///< of the order "single"
     HitPairs sink_;
 };
 
 constexpr std::array orders{
-    RayOrderEntry{"given", "the rays one after another as they come"},
-    RayOrderEntry{"sorted", "by direction and place, answers put back: for incoherent rays"}};
+    RayOrderEntry{"given", "a batch as it comes, some of its rays on their way at a time", "rays"},
+    RayOrderEntry{"sorted", "a batch by direction and place, answers put back", "sorted_rays"},
+    RayOrderEntry{"single", "one ray in a call, answered before the next", "single_rays"}};
 
 } // namespace
 
 std::unique_ptr<Contender> make_rays(const Job& job, BuildFunction build, const LayoutEntry& layout,
-                                     const std::string& kernel, bool sorted) {
-    return std::make_unique<Rays>(job, std::move(build), layout, kernel, sorted);
+                                     const std::string& kernel, const RayOrderEntry& order) {
+    return std::make_unique<Rays>(job, std::move(build), layout, kernel,
+                                  has_ray_order(job.ask) ? order.name : "given");
 }
 
 std::span<const RayOrderEntry> ray_orders() { return orders; }

@@ -221,6 +221,23 @@ TEST(RaysBatches, SortedAnswerAsGivenForEveryWay) {
                  std::invalid_argument);
 }
 
+TEST(RaysOneByOne, AnswerAsABatchForEveryWay) {
+    for (const Ask ask : {Ask::rays_closest, Ask::rays_any}) {
+        const Scene scene = make_scene(small_spec("triangle_soup", "random"));
+        for (const LayoutEntry& layout : layouts()) {
+            Choice choice;
+            choice.layout = std::string(layout.name);
+            const Answers given = answers_of(our_contender(choice, ask), {&scene, ask});
+            choice.ray_order = "single";
+            const ContenderEntry single = our_contender(choice, ask);
+            EXPECT_EQ(single.name, "binned_sah." + choice.layout + ".single_rays.watertight");
+            const Answers alone = answers_of(single, {&scene, ask});
+            EXPECT_EQ(answer_hash(alone, ask), answer_hash(given, ask)) << single.name;
+            EXPECT_EQ(answers_of(single, {&scene, ask, "tbb", 2}).hits, alone.hits);
+        }
+    }
+}
+
 TEST(RaysBatches, EmbreesPacketsAnswerRight) {
     for (const Ask ask : {Ask::rays_closest, Ask::rays_any}) {
         SceneSpec spec = small_spec("sphere_mesh", "random");
