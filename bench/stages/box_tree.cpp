@@ -44,16 +44,18 @@ class BoxTree final : public SceneStage {
   private:
     static constexpr double patience = .4;
 
-    /// Bodies that are absent are put in the middle of the room, and hold no place in the tree.
+    /// Bodies that are absent have the place in the order of where they would be, and no box.
     void order_anew(Playing& playing) {
+        const Bodies& bodies = playing.scene.bodies();
         const std::vector<Box>* boxes = &playing.boxes;
         std::vector<Box> placed;
-        if (std::ranges::any_of(*boxes, [](const Box& box) { return box.is_empty(); })) {
-            const Aabb<double>& room = playing.scene.bodies().room;
-            const auto middle = static_cast<Vec3<float>>(.5 * (room.min + room.max));
+        if (std::ranges::find(bodies.present, 0) != bodies.present.end()) {
             placed = *boxes;
-            for (Box& box : placed)
-                box = box.is_empty() ? Box{middle, middle} : box;
+            for (std::size_t i = 0; i < placed.size(); ++i)
+                if (placed[i].is_empty()) {
+                    const auto at = static_cast<Vec3<float>>(bodies.pose[i].translation);
+                    placed[i] = {at, at};
+                }
             boxes = &placed;
         }
         const auto order = HilbertBuilder{}.order(*boxes, playing.executor);

@@ -51,7 +51,19 @@ void Changed::clear() {
     bodies_.clear();
 }
 
-void Changed::sort() { std::ranges::sort(bodies_); }
+/// Of many by looking at all.
+void Changed::sort() {
+    if (std::ranges::is_sorted(bodies_))
+        return;
+    if (bodies_.size() < is_listed_.size() / 16) {
+        std::ranges::sort(bodies_);
+        return;
+    }
+    bodies_.clear();
+    for (std::uint32_t body = 0; body < is_listed_.size(); ++body)
+        if (is_listed_[body] != 0)
+            bodies_.push_back(body);
+}
 
 Aabb<float> fitted_box(const Bodies& bodies, std::uint32_t i) {
     if (!bodies.present[i])

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 namespace boxwood {
 namespace {
@@ -80,6 +81,24 @@ TEST(MovingScene, ListsEveryBodyWhoseBoxIsAnother) {
                 ASSERT_TRUE(played.bodies().present[i] ? now[i].is_valid() : now[i].is_empty());
             }
             before = now;
+        }
+    }
+}
+
+TEST(Changed, IsListedOnceInOrder) {
+    for (const std::uint32_t step : {1u, 7u, 97u}) { // many, and few
+        Changed changed(1000);
+        for (int pass = 0; pass < 2; ++pass) {
+            std::set<std::uint32_t> expected;
+            for (std::uint32_t i = 0; i < 1000; i += step)
+                for (int twice = 0; twice < 2; ++twice) {
+                    changed.add(999 - i);
+                    expected.insert(999 - i);
+                }
+            changed.sort();
+            EXPECT_TRUE(std::ranges::equal(changed.bodies(), expected));
+            changed.clear();
+            EXPECT_TRUE(changed.bodies().empty());
         }
     }
 }
