@@ -2,8 +2,8 @@
 
 #include "trees/radix_sort.h"
 #include "trees/traversals/chunk_sink.h"
+#include "trees/traversals/points.h"
 #include "trees/traversals/self_pairs.h"
-#include "trees/traversals/tree_pairs.h"
 #include "trees/updates/box_steps.h"
 
 #include <algorithm>
@@ -11,14 +11,14 @@
 #include <cfloat>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace boxwood {
 namespace {
 
 // Nanoseconds, on one thread: what the choices go by.
-constexpr double per_moved = 3, per_examined = 8, per_restless = 180, per_item_of_tree = .4,
-                 per_left_out = 1.5, per_found = 10, per_item_renewed = 8, per_item_anew = 13,
-                 per_pair_anew = 1.8;
+constexpr double per_moved = 4, per_examined = 14, per_restless = 800, per_left_out = 2,
+                 per_found = 16, per_item_renewed = 10, per_item_anew = 20, per_pair_anew = 2.2;
 
 /// The median of a sample's sides, each the mean of three; where it is 0, of the least size that
 /// is safe to divide by.
@@ -185,7 +185,7 @@ bool KeptPairs::renew(MovingTree& tree, Boxes boxes, const Executor& executor) {
 
 double KeptPairs::forecast(std::vector<float> steps, double items) {
     const std::size_t most =
-        std::min(static_cast<std::size_t>(std::max(1., n() / 8 / items)), steps.size());
+        std::min(static_cast<std::size_t>(std::max(1., n() / 16 / items)), steps.size());
     std::ranges::partial_sort(steps, steps.begin() + static_cast<std::ptrdiff_t>(most),
                               std::greater<>());
     pace_ = most == 0 ? 0 : std::min(steps[most - 1], FLT_MAX / 8);
@@ -195,7 +195,7 @@ double KeptPairs::forecast(std::vector<float> steps, double items) {
         constexpr double per_pair = 50; // examined in a step of a side, by the logarithm
         const double cost = step / side_ * (pairs_ + n()) * per_pair * per_examined +
                             (step > 0 ? step / margin_for(step) * renewal_cost() : 0) +
-                            restless * per_restless + (k > 0 ? n() * per_item_of_tree : 0);
+                            restless * per_restless;
         if (cost < least) {
             least = cost;
             pace_ = steps[k];
@@ -212,7 +212,8 @@ void KeptPairs::forecast_by_frame() {
     forecast(std::move(steps), 1);
 }
 
-/// All boxes are looked at, sixteen at a time. Returns the largest step of the calm.
+/// All boxes are looked at, sixteen at a time. Returns the largest step of the calm; +inf if they
+/// are too few.
 float KeptPairs::follow_all(Boxes boxes, const Executor& executor) {
     const std::size_t blocks = (boxes.size() + follow_block - 1) / follow_block;
     steps_.resize(blocks);
@@ -224,6 +225,9 @@ float KeptPairs::follow_all(Boxes boxes, const Executor& executor) {
         n_far[c] = follow_blocks(boxes, kept_.data(), range.begin, range.end, most_, steps_.data(),
                                  far_.data() + range.begin);
     });
+    // Nearly everywhere somebody went far: that is too many, whoever they are.
+    if (std::accumulate(n_far.begin(), n_far.end(), std::size_t{0}) > blocks / 4 * 3 + 16)
+        return std::numeric_limits<float>::infinity();
     for (std::size_t c = 0; c < chunks; ++c) {
         const ChunkRange range(blocks, chunks, c);
         for (std::size_t j = range.begin; j < range.begin + n_far[c]; ++j) {
@@ -278,9 +282,14 @@ void KeptPairs::follow_out(Boxes boxes, std::span<const std::uint32_t> moved) {
 
 /// Makes those who went far restless, or absent.
 void KeptPairs::leave_out(const Executor& executor) {
-    for (const Out& out : fresh_)
+    marks_.resize(kept_.size());
+    for (const Out& out : fresh_) {
         kept_[out.item] = Box{};
-    executor.for_each(n_parts_, [&](std::size_t p) { parts_[p].leave_out_empty(kept_.data()); });
+        marks_[out.item] = 1;
+    }
+    executor.for_each(n_parts_, [&](std::size_t p) { parts_[p].leave_out(marks_.data()); });
+    for (const Out& out : fresh_)
+        marks_[out.item] = 0;
     spent_ += pairs_ * per_left_out;
 }
 
@@ -310,7 +319,7 @@ bool KeptPairs::follow(MovingTree& tree, Boxes boxes, std::span<const std::uint3
     if (step > 0)
         used_ = std::nextafter(used_ + 2 * (double{step} * (1 + 0x1p-20) + 2 * double{FLT_MIN}),
                                HUGE_VAL);
-    if (restless > kept_.size() / 8 + 16 || reach_.used_up(used_) || waste_ > renewal_cost()) {
+    if (restless > kept_.size() / 16 + 16 || reach_.used_up(used_) || waste_ > renewal_cost()) {
         forecast_by_frame();
         return false;
     }
@@ -352,8 +361,8 @@ void KeptPairs::find_restless(MovingTree& tree, const Executor& executor) {
     for (Pair& pair : restless_pairs_) // ascending, as they are listed
         pair = {restless_items_[pair.a], restless_items_[pair.b]};
     AgainstKept against(*this, sink);
-    boxwood::tree_pairs(restless_tree_, tree.layout(), executor, against);
-    spent_ += static_cast<double>(restless_.size()) * per_restless + n() * per_item_of_tree;
+    boxwood::regions(tree.layout(), Boxes(restless_), executor, against, nullptr);
+    spent_ += static_cast<double>(restless_.size()) * per_restless;
 }
 
 /// Parts in order, then the pairs of the restless.
@@ -381,7 +390,7 @@ Work KeptPairs::self_pairs_counted(const MovingTree& tree, PairSink& sink) const
     if (searched_) {
         CountPairs ignored;
         work += boxwood::self_pairs_counted(restless_tree_, ignored);
-        work += boxwood::tree_pairs_counted(restless_tree_, tree.layout(), ignored);
+        boxwood::regions(tree.layout(), Boxes(restless_), serial(), ignored, &work);
     }
     work.box_tests += examined_;
     work.answers = count_pairs();
@@ -391,7 +400,8 @@ Work KeptPairs::self_pairs_counted(const MovingTree& tree, PairSink& sink) const
 
 std::size_t KeptPairs::bytes() const {
     std::size_t sum = (kept_.capacity() + widened_.capacity() + restless_.capacity()) * sizeof(Box);
-    sum += (steps_.capacity() + far_.capacity() + restless_items_.capacity()) * sizeof(float);
+    sum += (steps_.capacity() + far_.capacity() + restless_items_.capacity()) * sizeof(float) +
+           marks_.capacity();
     sum += (out_.capacity() + fresh_.capacity()) * sizeof(Out) + restless_tree_.bytes();
     sum += restless_pairs_.capacity() * sizeof(Pair);
     for (const auto& chunk : found_)

@@ -26,8 +26,8 @@ namespace boxwood {
 /// sums are rounded up. Decisions are comparisons of the present boxes: the answers are exact.
 ///
 /// An item that steps farther than the others must not use up the margin for all: it becomes
-/// restless, its box counts as empty here, and its pairs are found in each frame by a tree of the
-/// restless ones against the tree of the widened boxes. A renewal calms those that have stopped.
+/// restless, its box counts as empty here, and its pairs are found in each frame: in the tree of
+/// the widened boxes, and in one of the restless. A renewal calms those that have stopped.
 /// Memory: 12 to 24 bytes for each pair within the margin, and as much as three frames.
 class KeptPairs {
   public:
@@ -102,6 +102,7 @@ class KeptPairs {
     std::vector<float> steps_; ///< the largest of each sixteen items that moved
     std::vector<std::uint32_t> far_;
     std::vector<Out> out_, fresh_;         ///< by item; those that just became so
+    std::vector<std::uint8_t> marks_;      ///< by item, 0 between calls
     std::vector<std::vector<Pair>> found_; ///< at the renewal, by chunk
     std::vector<ExpiringPairs> parts_;
     std::size_t n_parts_ = 0;

@@ -33,12 +33,12 @@ struct Auto {
     }
 
     void start(MovingTree& tree, Boxes boxes, const Executor& executor) {
-        order_anew(tree, boxes, executor);
-        kept_.drop();
-        kept_.start(boxes, 0);
-        sample_.start(boxes);
+        tree.order_anew(boxes, executor);
         wait_ = 0;
-        pause_ = 8;
+        pause_ = least_pause;
+        constexpr double slow = 1e-3; // until steps have been seen
+        begin_to_keep(tree, boxes, slow, executor);
+        tree.step = {};
     }
     void update(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
                 const Executor& executor) {
@@ -49,7 +49,7 @@ struct Auto {
         const auto steps = sample_.follow(boxes, moved);
         wait_ -= wait_ > 0;
         if (wait_ == 0 && pays(kept_.forecast({steps.begin(), steps.end()}, sample_.items_each())))
-            return begin_to_keep(tree, boxes, executor);
+            return begin_to_keep(tree, boxes, kept_.pace() / kept_.side(), executor);
         follow(tree, boxes, moved, executor);
     }
     void self_pairs(const MovingTree& tree, const Executor& executor, PairSink& sink) const {
@@ -93,9 +93,11 @@ struct Auto {
 
     bool pays(double nanoseconds) const { return nanoseconds < .75 * kept_.spent_anew(); }
 
-    void begin_to_keep(MovingTree& tree, Boxes boxes, const Executor& executor) {
-        kept_.start(boxes, kept_.pace() / kept_.side());
+    void begin_to_keep(MovingTree& tree, Boxes boxes, double step, const Executor& executor) {
+        kept_.drop();
+        kept_.start(boxes, step);
         lost_ = 0;
+        paid_ = 0;
         if (!kept_.renew(tree, boxes, executor))
             cease(tree, boxes, executor);
     }
@@ -105,29 +107,30 @@ struct Auto {
         if (!held && pays(kept_.forecast()))
             held = kept_.renew(tree, boxes, executor);
         lost_ = std::max(0., lost_ + kept_.spent() - kept_.spent_anew());
-        constexpr double most_frames = 8;
+        constexpr double most_frames = 2;
         if (!held || lost_ > most_frames * kept_.spent_anew())
             cease(tree, boxes, executor);
-        else if (lost_ == 0)
-            pause_ = 8;
+        else if (lost_ == 0 && ++paid_ == some_frames)
+            pause_ = least_pause;
     }
     /// It did not pay: each time longer until it is tried again.
     void cease(MovingTree& tree, Boxes boxes, const Executor& executor) {
         kept_.drop();
-        tree.exchange(boxes, executor);
-        margins_.start(boxes, margin);
-        excess_ = 0;
+        order_anew(tree, boxes, executor);
         sample_.start(boxes);
         wait_ = pause_;
         pause_ = std::min<std::size_t>(2 * pause_, 1024);
     }
 
+    static constexpr std::size_t least_pause = 32, some_frames = 64;
+
     Margins margins_;
     double excess_ = 0; ///< since the last new order
     KeptPairs kept_;
-    StepSample sample_;                ///< followed while no pairs are kept
-    double lost_ = 0;                  ///< by keeping pairs, of late
-    std::size_t wait_ = 0, pause_ = 8; ///< frames until keeping may be tried again
+    StepSample sample_;                          ///< followed while no pairs are kept
+    double lost_ = 0;                            ///< by keeping pairs, of late
+    std::size_t paid_ = 0;                       ///< frames in which keeping them paid
+    std::size_t wait_ = 0, pause_ = least_pause; ///< frames until keeping may be tried again
 };
 
 } // namespace

@@ -111,26 +111,23 @@ std::size_t ExpiringPairs::examine(const Box* boxes, double used) {
     return n;
 }
 
-void ExpiringPairs::leave_out_empty(const Box* boxes) {
-    const auto stays = [&](Pair pair) {
-        return (boxes[pair.a].min.x <= boxes[pair.a].max.x) &
-               (boxes[pair.b].min.x <= boxes[pair.b].max.x);
-    };
+void ExpiringPairs::leave_out(const std::uint8_t* marks) {
+    const auto stays = [&](Pair pair) { return (marks[pair.a] | marks[pair.b]) ^ 1; };
     std::size_t to = 0;
     for (std::size_t i = 0; i < n_sure_; ++i) {
         const Pair pair = sure_[i];
         sure_[to] = pair;
-        to += stays(pair);
+        to += static_cast<std::size_t>(stays(pair));
     }
     n_sure_ = to;
     to = 0;
     for (std::size_t i = 0; i < n_on_; ++i) {
         const Pair pair = on_[i];
         const std::uint32_t id = on_id_[i];
-        const bool stay = stays(pair);
+        const auto stay = static_cast<std::uint32_t>(stays(pair));
         on_[to] = pair;
         on_id_[to] = id;
-        place_[id] = stay ? static_cast<std::uint32_t>(to) : off;
+        place_[id] = static_cast<std::uint32_t>(to) | (stay - 1); // or off
         to += stay;
     }
     n_on_ = to;

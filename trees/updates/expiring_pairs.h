@@ -37,8 +37,8 @@ class ExpiringPairs {
     void start(std::span<const std::vector<Pair>> parts, const Box* boxes, Reach reach);
     /// Looks again at the pairs that `used` may have changed; returns how many.
     std::size_t examine(const Box* boxes, double used);
-    /// Takes out the pairs of items whose boxes are now empty.
-    void leave_out_empty(const Box* boxes);
+    /// Takes out the pairs of the items marked 1, whose boxes are empty from now on.
+    void leave_out(const std::uint8_t* marks);
 
     /// The pairs that overlap: those that will until `reach`, and the rest.
     std::span<const Pair> sure() const { return {sure_.data(), n_sure_}; }
