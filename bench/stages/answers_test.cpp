@@ -267,6 +267,37 @@ TEST(Answers, AreThoseOfBruteForce) {
     EXPECT_GT(hits, 1000u);
 }
 
+TEST(Answers, OfOneBodyAndOfNobody) {
+    const std::string cubes = "[[bodies]]\ngenerator = \"cubes\"\nn = ";
+    const std::string gone = "effects = [\"drift\", {name = \"despawn\", often = 1}]\n";
+    for (const std::string& text : {cubes + "1\n", cubes + "1\n" + gone, cubes + "40\n" + gone,
+                                    cubes + "2\nshape = \"sphere_mesh\"\ntriangles = 1\n" + gone}) {
+        SCOPED_TRACE(text);
+        const SceneFile file = asking_all(parse_scene_file(text, "mine.toml"));
+        ScenePlayer some(MovingScene(file), Extent::called_for, serial());
+        ScenePlayer everything(MovingScene(file), Extent::everything, serial());
+        some.start();
+        everything.start();
+        for (int frame = 0; frame < 4; ++frame) {
+            const FrameAnswers answers = sorted(some.ask());
+            expect_same(answers, sorted(everything.ask()));
+            EXPECT_EQ(answers.pairs, true_body_pairs(some.scene()));
+            EXPECT_EQ(answers.rays.size(), 60u);
+            std::vector<Vec3<float>> points;
+            points_of_frame(some.scene(), *ask_of(file, "nearest"), points);
+            EXPECT_EQ(answers.nearest,
+                      true_nearest(some.scene(), points, ask_of(file, "nearest")->k));
+            some.advance();
+            everything.advance();
+        }
+        if (text.find("despawn") != std::string::npos) {
+            EXPECT_TRUE(some.ask().pairs.empty());
+            EXPECT_EQ(some.ask().rays[0], SurfaceHit{});
+            EXPECT_EQ(some.ask().nearest[0], Neighbour{});
+        }
+    }
+}
+
 TEST(Answers, ABoxHasTwelveTrianglesThatCloseIt) {
     Bodies bodies;
     bodies.add({{-1, -2, -3}, {1, 2, 3}});

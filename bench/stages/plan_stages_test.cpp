@@ -1,6 +1,5 @@
 #include "bench/stages/plan_stages.h"
 
-#include "bench/commands/plan.h"
 #include "bench/stages/playing.h"
 
 #include <gmock/gmock.h>
@@ -13,8 +12,6 @@ namespace {
 
 using testing::Contains;
 using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsSupersetOf;
 
 MovingScene scene_of(const std::string& text, std::size_t n = 20) {
     return MovingScene(parse_scene_file(text, "mine.toml"), n);
@@ -102,28 +99,6 @@ TEST(PlanStages, EverythingOnIsCalledForAlike) {
              {"move", "fit", "tree", "update", "pairs", "filter", "transform", "mesh_trees"})
             EXPECT_TRUE(stage_of(all, name).runs) << name;
     }
-}
-
-TEST(Plan, IsToldAsATableAndAsJson) {
-    const MovingScene scene(load_scene("warehouse"), 1000);
-    const std::string text = plan_text(scene, Extent::called_for, false);
-    EXPECT_THAT(text, HasSubstr("warehouse: 10 of 27 stages are called for"));
-    EXPECT_THAT(text, HasSubstr("2 effects change bodies"));
-    EXPECT_THAT(text, HasSubstr("no body has this effect"));
-    EXPECT_THAT(plan_text(scene, Extent::everything, false), HasSubstr("everything on 13 run"));
-    const std::string json = plan_text(scene, Extent::called_for, true);
-    EXPECT_THAT(json, testing::StartsWith("{\"scene\":\"warehouse\",\"bodies\":1000,"));
-    EXPECT_THAT(json, HasSubstr("{\"stage\":\"filter\",\"called_for\":false,\"runs\":false,"
-                                "\"why\":\"no pairs are ignored\"}"));
-}
-
-TEST(Plan, PlayingSaysWhatEachStageDid) {
-    SceneFile file = load_scene("warehouse");
-    file.n = 500;
-    const std::string text = played_text(file, 3, serial());
-    EXPECT_THAT(text, HasSubstr("500 bodies, 3 frames and the start: the same answers"));
-    EXPECT_THAT(text, HasSubstr("advance_drift"));
-    EXPECT_THAT(text, testing::Not(HasSubstr("advance_gravity")));
 }
 
 } // namespace

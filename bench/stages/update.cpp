@@ -9,11 +9,19 @@ class MakeTree final : public SceneStage {
   public:
     std::size_t start(Playing& playing) override {
         if (!playing.tree)
-            playing.tree = find_update(playing.is_everything() ? "merge" : "auto")->make({});
+            playing.tree = find_update(policy(playing))->make({});
         playing.tree->start(playing.pair_boxes(), playing.executor);
         return playing.tree->size();
     }
     std::size_t bytes(const Playing& playing) const override { return playing.tree->bytes(); }
+
+  private:
+    /// With everything on, pairs are found anew in every frame; without motion, once.
+    static std::string_view policy(const Playing& playing) {
+        if (playing.is_everything())
+            return "merge";
+        return playing.scene.effects().empty() ? "refit" : "auto";
+    }
 };
 
 class Update final : public SceneStage {

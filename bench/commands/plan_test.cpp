@@ -1,0 +1,34 @@
+#include "bench/commands/plan.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace boxwood::bench {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Plan, IsToldAsATableAndAsJson) {
+    const MovingScene scene(load_scene("warehouse"), 1000);
+    const std::string text = plan_text(scene, Extent::called_for, false);
+    EXPECT_THAT(text, HasSubstr("warehouse: 10 of 27 stages are called for"));
+    EXPECT_THAT(text, HasSubstr("2 effects change bodies"));
+    EXPECT_THAT(text, HasSubstr("no body has this effect"));
+    EXPECT_THAT(plan_text(scene, Extent::everything, false), HasSubstr("everything on 13 run"));
+    const std::string json = plan_text(scene, Extent::called_for, true);
+    EXPECT_THAT(json, testing::StartsWith("{\"scene\":\"warehouse\",\"bodies\":1000,"));
+    EXPECT_THAT(json, HasSubstr("{\"stage\":\"filter\",\"called_for\":false,\"runs\":false,"
+                                "\"why\":\"no pairs are ignored\"}"));
+}
+
+TEST(Plan, PlayingSaysWhatEachStageDid) {
+    SceneFile file = load_scene("warehouse");
+    file.n = 500;
+    const std::string text = played_text(file, 3, serial());
+    EXPECT_THAT(text, HasSubstr("500 bodies, 3 frames and the start: the same answers"));
+    EXPECT_THAT(text, HasSubstr("advance_drift"));
+    EXPECT_THAT(text, testing::Not(HasSubstr("advance_gravity")));
+}
+
+} // namespace
+} // namespace boxwood::bench
