@@ -5,6 +5,7 @@
 #include "trees/traversals/points.h"
 #include "trees/traversals/self_pairs.h"
 #include "trees/updates/box_steps.h"
+#include "trees/updates/widen.h"
 
 #include <algorithm>
 #include <atomic>
@@ -19,26 +20,6 @@ namespace {
 // Nanoseconds, on one thread: what the choices go by.
 constexpr double per_moved = 4, per_examined = 14, per_restless = 800, per_left_out = 2,
                  per_found = 16, per_item_renewed = 10, per_item_anew = 20, per_pair_anew = 2.2;
-
-/// The median of a sample's sides, each the mean of three; where it is 0, of the least size that
-/// is safe to divide by.
-double median_side(Boxes boxes) {
-    constexpr std::size_t most = 1023;
-    std::vector<double> sides;
-    const std::size_t step = boxes.size() / most + 1;
-    for (std::size_t i = 0; i < boxes.size(); i += step)
-        if (!is_absent(boxes[i])) {
-            const auto side = Vec3<double>(boxes[i].max) - Vec3<double>(boxes[i].min);
-            sides.push_back((side.x + side.y + side.z) / 3);
-        }
-    if (sides.empty())
-        return 1;
-    const auto middle = sides.begin() + static_cast<std::ptrdiff_t>(sides.size() / 2);
-    std::ranges::nth_element(sides, middle);
-    return std::max(*middle, double{FLT_MIN});
-}
-
-bool is_empty(const Box& box) { return !(box.min.x <= box.max.x); }
 
 } // namespace
 
@@ -137,23 +118,7 @@ bool KeptPairs::renew(MovingTree& tree, Boxes boxes, const Executor& executor) {
             out_.push_back({i, 0, Box{}});
     std::ranges::sort(out_, {}, &Out::item);
 
-    widened_.resize(size);
-    const std::size_t chunks = chunks_for(size, executor);
-    const float m = static_cast<float>(reach / 2 * (1 + 0x1p-18)) + 16 * FLT_MIN;
-    executor.for_each(chunks, [&](std::size_t c) {
-        const ChunkRange range(size, chunks, c);
-        constexpr float limit = FLT_MAX;
-        for (std::size_t i = range.begin; i < range.end; ++i) {
-            widened_[i] = kept_[i];
-            if (is_empty(kept_[i]))
-                continue;
-            for (int axis = 0; axis < 3; ++axis) {
-                const float low = kept_[i].min[axis], high = kept_[i].max[axis];
-                widened_[i].min[axis] = std::max(low - (m + std::abs(low) * 0x1p-22f), -limit);
-                widened_[i].max[axis] = std::min(high + (m + std::abs(high) * 0x1p-22f), limit);
-            }
-        }
-    });
+    widen_boxes(kept_, reach / 2, widened_, executor);
     constexpr double too_loose = 1.15;
     if (widened_before_)
         tree.refit(widened_, executor);
@@ -235,7 +200,7 @@ float KeptPairs::follow_all(Boxes boxes, const Executor& executor) {
             const std::size_t first = b * follow_block;
             steps_[b] = 0;
             for (std::size_t i = first; i < std::min(first + follow_block, boxes.size()); ++i) {
-                if (is_empty(kept_[i]))
+                if (is_absent(kept_[i]))
                     continue;
                 const float step = box_step(boxes[i], kept_[i]);
                 if (step > most_) {
@@ -255,7 +220,7 @@ float KeptPairs::follow_some(Boxes boxes, std::span<const std::uint32_t> moved) 
     for (std::size_t j = 0; j < moved.size(); ++j) {
         const std::uint32_t item = moved[j];
         Box& kept = kept_[item];
-        if (is_empty(kept))
+        if (is_absent(kept))
             continue;
         const float step = box_step(boxes[item], kept);
         if (step > most_) {
@@ -418,7 +383,7 @@ std::string KeptPairs::fault() const {
         if (std::string found = parts_[p].fault(kept_.data()); !found.empty())
             return found;
     for (const Out& out : out_)
-        if (!is_empty(kept_[out.item]))
+        if (!is_absent(kept_[out.item]))
             return "item " + std::to_string(out.item) + " is both restless and kept";
     return "";
 }

@@ -54,6 +54,8 @@ class KeptPairs {
     /// thread, by what was done and never by the clock: nanoseconds of a machine of 2023.
     double spent() const { return spent_; }
     double spent_anew() const;
+    /// And how long a renewal.
+    double renewal_cost() const;
     /// What a frame would take, renewals shared out, if the next renewal made restless those who
     /// cost less so. Each of these steps stands for `items` of the fastest.
     double forecast(std::vector<float> steps, double items);
@@ -79,7 +81,6 @@ class KeptPairs {
 
     double n() const { return static_cast<double>(kept_.size()); }
     std::size_t count_pairs() const;
-    double renewal_cost() const;
     double margin_for(double step) const;
     void forecast_by_frame();
     float follow_all(Boxes boxes, const Executor& executor);

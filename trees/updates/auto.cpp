@@ -36,7 +36,7 @@ struct Auto {
         tree.order_anew(boxes, executor);
         wait_ = 0;
         pause_ = least_pause;
-        constexpr double slow = 1e-3; // until steps have been seen
+        constexpr double slow = 3e-3; // until steps have been seen
         begin_to_keep(tree, boxes, slow, executor);
         tree.step = {};
     }
@@ -69,7 +69,7 @@ struct Auto {
     /// Without kept pairs.
     void follow(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
                 const Executor& executor) {
-        const std::size_t n = tree.size(), many = n / 50;
+        const std::size_t n = tree.size(), many = n / 400;
         if (moved.size() > many && margins_.about_left(boxes, moved) > many / 2) {
             const auto far = margins_.left(boxes, moved);
             if (far.size() > n / 3)
@@ -107,8 +107,8 @@ struct Auto {
         if (!held && pays(kept_.forecast()))
             held = kept_.renew(tree, boxes, executor);
         lost_ = std::max(0., lost_ + kept_.spent() - kept_.spent_anew());
-        constexpr double most_frames = 2;
-        if (!held || lost_ > most_frames * kept_.spent_anew())
+        // The next frames are to make good for a renewal.
+        if (!held || lost_ > kept_.renewal_cost() + 2 * kept_.spent_anew())
             cease(tree, boxes, executor);
         else if (lost_ == 0 && ++paid_ == some_frames)
             pause_ = least_pause;

@@ -59,7 +59,7 @@ struct Keep {
 
   private:
     void keep_anew(MovingTree& tree, Boxes boxes, const Executor& executor) {
-        constexpr double slow = 1e-3; // until steps have been seen
+        constexpr double slow = 3e-3; // until steps have been seen
         kept_.start(boxes, slow);
         renew(tree, boxes, executor);
     }
