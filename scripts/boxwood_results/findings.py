@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from . import lanes, stats
-from .run import SCENE_ASKS, TOTAL
+from .run import SCENE_ASKS, TOTAL, WHOLE_FRAMES
 
 
 @dataclass
@@ -33,7 +33,7 @@ class Comparison:
 class Finding:
     job: object
     ours: object  # our ranked cell with the least build + query; None if there is none
-    quickest: object  # our ranked cell with the least query
+    quickest: object  # our ranked cell with the least query, where that is asked alone
     comparisons: list
     wrong: list  # cells of the job that answered wrongly, ours or theirs; of its first lane
     unchecked: list
@@ -107,7 +107,7 @@ def findings(run):
 def in_lane(job, lane, ranked, floor):
     best = {
         phase: min((c for c in ranked if c.ours and c.rounds(phase)), key=lambda c: c.median(phase), default=None)
-        for phase in (TOTAL, "query")
+        for phase in ((TOTAL,) if job.ask in WHOLE_FRAMES else (TOTAL, "query"))
     }
     peers = sorted((c for c in ranked if not c.ours), key=lambda c: c.label)
     comparisons = []
@@ -118,7 +118,7 @@ def in_lane(job, lane, ranked, floor):
             claim.lane = lane
         # Where one side has no build, its query holds all the work: only the sum is fair.
         comparisons += [c for c in family if phase == TOTAL or ours.has_build and c.peer.has_build]
-    return Finding(job, best[TOTAL], best["query"], comparisons, [], [], lane)
+    return Finding(job, best[TOTAL], best.get("query"), comparisons, [], [], lane)
 
 
 def floor_text(run):

@@ -16,6 +16,8 @@ SCENE_ASKS = "scene_asks"  # frames of a moving scene with all that it asks: way
 WHOLE_QUERY = "typical"  # a kernel row about a whole query, whose cell stays among the others
 TOTAL = "build+query"  # within a round: what one use costs; of moving boxes update and query, of trees the build
 TOTAL_WORDS = {"moving_pairs": "update and one query", "tree": "build", SCENE_ASKS: "update and queries of a frame"}
+# Of these an update may have done the work of the query: its time alone says nothing.
+WHOLE_FRAMES = ("moving_pairs", SCENE_ASKS)
 # Under both of these a "build" only copies the input: no structure is made (ns per item; part of the query).
 COPY_NS, COPY_PART = 5, 0.05
 

@@ -6,7 +6,7 @@ from .. import stats, style
 from ..findings import VERDICT_WORDS, findings, floor_text, ratio_text, rounds_text
 from ..metrics import METRICS
 from ..picture import Picture, Skip
-from ..run import TOTAL, TOTAL_WORDS
+from ..run import TOTAL, TOTAL_WORDS, WHOLE_FRAMES
 from ..selection import largest_jobs, wrong_notes
 
 NAME = "forest"
@@ -65,7 +65,7 @@ def draw_one(run, ask, threads, found, floor):
             entries.append((y, finding, peer))
     height = -y + 0.12
     names, panel, texts, top, bottom = 2.5, 2.9, 2.35, 0.35, 0.8
-    phases = (TOTAL, "query")
+    phases = (TOTAL,) if ask in WHOLE_FRAMES else (TOTAL, "query")
     size = (names + len(phases) * (panel + texts), height + top + bottom)
     figure = style.plt.figure(figsize=size)
     rows = []
@@ -115,7 +115,7 @@ def draw(run):
     shown = set(largest_jobs(run))
     groups = {}
     for finding in findings(run):
-        if finding.job in shown and finding.comparisons and finding.quickest:  # builds alone: see tree_quality
+        if finding.job in shown and finding.comparisons and finding.job.ask != "tree":  # builds alone: see tree_quality
             groups.setdefault((finding.job.ask, finding.job.threads), []).append(finding)
     if not groups:
         raise Skip("no job has both a ranked variant of ours and a ranked peer")

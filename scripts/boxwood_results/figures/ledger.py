@@ -19,7 +19,8 @@ COLOURS = {
     "surface": "#E69F00", "rays": "#117733", "points": "#009E73", "regions": "#7F7F7F", "nearest": "#000000",
 }
 WIDTH, LEFT, PANEL = 10.5, 1.15, 7.6  # inches
-BAR, STEP, HEAD, FOOT = 0.27, 0.52, 0.3, 0.62
+BAR, STEP, LINE, HEAD, FOOT = 0.27, 0.38, 0.13, 0.3, 0.62
+LETTERS = 135  # of a line of small text
 
 
 def colour_of(stage):
@@ -66,20 +67,45 @@ def draw_bar(ax, cell, y, limit):
     return narrow
 
 
-def draw_scene(ax, scene, rows):
+def narrow_lines(narrow):
+    return wrapped([f"{name} {time_text(ns)}" for name, ns in narrow], "", LETTERS) if narrow else []
+
+
+def idle_lines(scene):
+    """What neither way to play the scene runs, in lines."""
+    both = scene.everything.stages if scene.everything else {}
+    idle = [name for name, stage in scene.called_for.stages.items()
+            if not stage.calls and not both.get(name, stage).calls]
+    effects = [name.removeprefix("advance_") for name in idle if name.startswith("advance_")]
+    stages = [name for name in idle if not name.startswith("advance_")]
+    lines = wrapped(stages, "not called for (0):", LETTERS) if stages else []
+    return lines + (wrapped(effects, "effects not called for (0):", LETTERS) if effects else [])
+
+
+def sides_of(scene):
     sides = [("called for", scene.called_for), ("everything on", scene.everything)]
-    sides = [(words, cell) for words, cell in sides if cell and cell.stages]
+    return [(words, cell) for words, cell in sides if cell and cell.stages]
+
+
+def height_of(scene):
+    """Inches that the bars and their small text take: of each side at most as many lines as all its stages."""
+    return sum(STEP + LINE * len(narrow_lines(costs(cell))) for _, cell in sides_of(scene))
+
+
+def draw_scene(ax, scene, rows):
+    sides = sides_of(scene)
     limit = 1.14 * max(sum(ns for _, ns in costs(cell)) for _, cell in sides)
     ax.set_xlim(0, limit)
-    ax.set_ylim(len(sides) * STEP, -0.02)
-    for place, (words, cell) in enumerate(sides):
-        y = place * STEP + BAR / 2 + 0.02
+    ax.set_ylim(height_of(scene), -0.02)
+    top = 0.02
+    for words, cell in sides:
+        y = top + BAR / 2
         total = sum(ns for _, ns in costs(cell))
         narrow = draw_bar(ax, cell, y, limit)
         ax.text(-0.012, y, words, transform=ax.get_yaxis_transform(), ha="right", va="center", fontsize=8.5)
-        if narrow:
-            said = ", ".join(f"{name} {time_text(ns)}" for name, ns in narrow)
-            ax.text(0, y + BAR / 2 + 0.02, said, va="top", fontsize=6.8, color="#555555")
+        for place, line in enumerate(narrow_lines(narrow)):
+            ax.text(0, y + BAR / 2 + 0.02 + LINE * place, line.strip(), va="top", fontsize=6.8, color="#555555")
+        top += STEP + LINE * len(narrow_lines(narrow))
         rows += [(scene.job.scene, scene.job.n, scene.job.threads, words.replace(" ", "_"), name,
                   int(stage.called_for), stage.calls, stage.items, stage.ns / cell.n_frames if stage.calls else 0.0,
                   stage.ns / cell.n_frames / total if stage.calls and total else 0.0, stage.bytes)
@@ -92,19 +118,16 @@ def draw_scene(ax, scene, rows):
     ax.xaxis.set_major_locator(style.MaxNLocator(6))
     ax.xaxis.set_major_formatter(lambda value, _: time_text(value) if value else "0")
     ax.tick_params(axis="x", labelsize=7.5)
-    idle = [name for name, stage in scene.called_for.stages.items()
-            if not stage.calls and not (scene.everything and scene.everything.stages.get(name, stage).calls)]
-    if idle:
-        for place, line in enumerate(wrapped(idle, "not called for (0):", 130)):
-            ax.annotate(line, (0, 0), xycoords="axes fraction", xytext=(0, -22 - 9 * place), textcoords="offset points",
-                        fontsize=6.8, color="#777777", va="top")
+    for place, line in enumerate(idle_lines(scene)):
+        ax.annotate(line, (0, 0), xycoords="axes fraction", xytext=(0, -22 - 9 * place), textcoords="offset points",
+                    fontsize=6.8, color="#777777", va="top")
 
 
 def draw(run):
     scenes = [scene for scene in played_scenes(run) if scene.called_for.stages]
     if not scenes:
         raise Skip("no scene was played with what it asks (bench/configs/effects.toml does)")
-    heights = [HEAD + FOOT + STEP * (1 + bool(s.everything and s.everything.stages)) for s in scenes]
+    heights = [HEAD + FOOT + height_of(scene) for scene in scenes]
     figure = style.plt.figure(figsize=(WIDTH, sum(heights)))
     rows, top = [], sum(heights)
     for scene, height in zip(scenes, heights):

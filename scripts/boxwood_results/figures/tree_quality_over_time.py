@@ -1,7 +1,7 @@
 """How structures age: the query of each frame against one by a structure made anew for the frame."""
 
 from .. import labels, style
-from ..moving import WITHOUT, frame_medians
+from ..moving import frame_medians
 from ..picture import Picture, Skip
 from ..selection import choose, largest_jobs, left_out_note, wrong_notes
 
@@ -10,7 +10,8 @@ TITLE = "How trees age"
 HOW_TO_READ = (
     "Lower is better. Each line is the query of each frame by one way to keep the structure, over the query of the same "
     "frame by our structure that is built anew for every frame (where there is none, over its own first frame). A "
-    "structure that ages climbs; one that keeps the pairs that it found may stay below 1."
+    "structure that ages climbs. The policy keep, which answers from the pairs that it found, is left out; auto "
+    "stands below 1 where it does the same."
 )
 COLUMNS = ("scene", "n", "threads", "contender", "library", "status", "frame", "query_ns", "over_a_fresh_one")
 LEAST_FRAMES = 10
@@ -51,7 +52,7 @@ def draw_panel(ax, job, cells, fresh, rows):
 def draw(run):
     panels = []
     for job in largest_jobs(run):
-        cells = [c for c in run.of(job) if len(c.frames) >= LEAST_FRAMES and not c.contender.startswith(WITHOUT)]
+        cells = [c for c in run.of(job) if len(c.frames) >= LEAST_FRAMES and not c.builder.startswith("keep")]
         if job.ask == "moving_pairs" and len(cells) >= 2 and job.threads == 1:
             fresh = next((c for c in cells if c.builder == FRESH and c.status != "wrong"), None)
             shown, left_out = choose(cells, keep=[fresh] if fresh else (), limit=9)

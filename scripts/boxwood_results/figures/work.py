@@ -5,6 +5,7 @@ import math
 from .. import labels, style
 from ..metrics import METRICS
 from ..picture import Picture, Skip
+from ..run import WHOLE_FRAMES
 from ..selection import choose, largest_jobs, left_out_note, wrong_notes
 
 NAME = "work"
@@ -45,7 +46,7 @@ def draw(run):
     by_ask = {}
     for job in largest_jobs(run):
         counted = [c for c in run.of(job) if not math.isnan(measures(c)[2]) and c.executor == "serial"]
-        if job.threads == 1 and len(counted) >= 2:
+        if job.threads == 1 and len(counted) >= 2 and job.ask not in WHOLE_FRAMES:
             by_ask.setdefault(job.ask, []).append((job, counted))
     if not by_ask:
         raise Skip("no job has two variants with work counters")
