@@ -8,6 +8,7 @@
 
 #include <hwy/highway.h>
 
+#include "trees/compress-inl.h"
 #include "trees/traversals/packed_walk.h"
 
 #include <algorithm>
@@ -82,7 +83,7 @@ HWY_INLINE std::size_t Put(M hits, U many, const std::uint32_t* one, std::uint32
                            std::uint32_t* b) {
     const auto mask = hn::RebindMask(du, hits);
     hn::StoreU(hn::Set(du, *one), du, b);
-    hn::StoreU(hn::Compress(many, mask), du, a);
+    hn::StoreU(Compressed(du, many, mask), du, a);
     return hn::CountTrue(du, mask);
 }
 
@@ -100,7 +101,7 @@ HWY_INLINE void Refine(const PackedBlock* level, const PackedList& list, std::si
         for (std::size_t i = 0; i < w; i += lanes) {
             const auto hits = hn::RebindMask(du, Overlap(level[b], i, box));
             const auto number = hn::Add(iota, hn::Set(du, static_cast<std::uint32_t>(b * w + i)));
-            hn::StoreU(hn::Compress(number, hits), du, to);
+            hn::StoreU(Compressed(du, number, hits), du, to);
             to += hn::CountTrue(du, hits);
         }
     }

@@ -245,8 +245,8 @@ template <bool Self, bool Counted> class Walk {
                 if (k == w / 2)
                     hits = hn::And(hits, hn::FirstN(df, w / 2));
                 const auto mask = hn::RebindMask(du, hits);
-                hn::StoreU(hn::Compress(hn::Load(du, twice.item + i), mask), du, a + n);
-                hn::StoreU(hn::Compress(hn::LoadU(du, twice.item + i + k), mask), du, b + n);
+                hn::StoreU(Compressed(du, hn::Load(du, twice.item + i), mask), du, a + n);
+                hn::StoreU(Compressed(du, hn::LoadU(du, twice.item + i + k), mask), du, b + n);
                 n += hn::CountTrue(du, mask);
             }
         pairs_.resize(n);
