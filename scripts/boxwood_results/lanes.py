@@ -2,24 +2,22 @@
 
 RAYS = ("rays_closest", "rays_any", "rays_all")
 PACKETS = ("sect8", "sect16", "occluded8", "occluded16")
+SINGLE_LANE, BATCH_LANE, PACKET_LANE = "against single rays", "batches against single rays", "against packets"
+WATERTIGHT = ", watertight"
 EVERY = ""  # the one lane of all other asks
 
 
 def lanes_of(cell):
-    """As in `boxwood show`. Ours takes all rays in one call: in the order given it answers for single rays and
-    packets, sorted for packets alone, and of any kernel for peers that are not watertight."""
+    """As in `boxwood show`. Ours asks one ray in a call, or all in one: as a batch it is held against single rays
+    and packets, sorted against packets alone, and of any kernel against peers that are not watertight."""
     if cell.job.ask not in RAYS:
         return [EVERY]
     if not cell.ours:
         packets = any(part in cell.contender for part in PACKETS)
-        return [("against packets" if packets else "against single rays")
-                + (", watertight" if ".robust" in cell.contender else "")]
-    lanes = ["against packets"]
-    if cell.traversal != "sorted_rays":
-        lanes.append("against single rays")
-    if cell.kernel == "watertight":
-        lanes += [f"{lane}, watertight" for lane in lanes]
-    return lanes
+        lanes = [PACKET_LANE] if packets else [SINGLE_LANE, BATCH_LANE]
+        return [lane + WATERTIGHT for lane in lanes] if ".robust" in cell.contender else lanes
+    lanes = {"single_rays": [SINGLE_LANE], "sorted_rays": [PACKET_LANE]}.get(cell.traversal, [PACKET_LANE, BATCH_LANE])
+    return lanes + [lane + WATERTIGHT for lane in lanes] if cell.kernel == "watertight" else lanes
 
 
 def split(cells):

@@ -13,6 +13,7 @@ RANKED = ("exact", "conservative", "within_bound")
 STATUSES = ("wrong", "unsupported", "within_bound", "conservative", "exact")  # the worst first
 OURS = "boxwood"
 SCENE_ASKS = "scene_asks"  # frames of a moving scene with all that it asks: ways to play it, not rivals
+ORDERS_OF_RAYS = ("sorted_rays", "single_rays")  # other than one call in the order given
 WHOLE_QUERY = "typical"  # a kernel row about a whole query, whose cell stays among the others
 TOTAL = "build+query"  # within a round: what one use costs; of moving boxes update and query, of trees the build
 TOTAL_WORDS = {"moving_pairs": "update and one query", "tree": "build", SCENE_ASKS: "update and queries of a frame"}
@@ -89,10 +90,11 @@ class Cell:
 
     @property
     def label(self):
-        """Short, for use within one job: traversals follow from the ask, so they are left out."""
+        """Short, for use within one job: a traversal that follows from the ask is left out."""
         if not self.ours:
             return self.contender
-        words = [word for word in self.contender.split(".") if word not in (self.traversal, "tree")]
+        shown = self.traversal in ORDERS_OF_RAYS
+        words = [word for word in self.contender.split(".") if word != "tree" and (shown or word != self.traversal)]
         text = ".".join(words) + (" f64" if self.precision == "f64" else "")
         return text if self.executor == "serial" else f"{text} {self.executor}"
 

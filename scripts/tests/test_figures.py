@@ -244,5 +244,5 @@ def test_watertight_peers_are_held_against_watertight_kernels(results):
         for row in rows:
             assert ("robust" in row["peer"]) == ("watertight" in row["lane"]), row
             assert "robust" not in row["peer"] or "watertight" in row["ours"]
-        assert not rows or {row["lane"] for row in rows} == {"against single rays", "against single rays, watertight"}
+        assert not rows or {row["lane"] for row in rows} == {"batches against single rays", "batches against single rays, watertight"}
         style.plt.close(made.figure)
