@@ -22,8 +22,8 @@ struct Auto {
         "kept pairs, refit, merge or a new order, by how many moved, how far, and what that came "
         "to";
 
-    double margin = 2;    ///< of the mean side: what goes beyond has gone far
-    double patience = .4; ///< excess of the blocks' surface, summed over frames, for a new order
+    double margin = 2;   ///< of the mean side: what goes beyond has gone far
+    double patience = 1; ///< excess of the blocks' surface, summed over frames, for a new order
 
     static std::array<Setting<Auto>, 2> settings() {
         return {{{"margin", "how far a box may go before it has gone far, in mean sides",
