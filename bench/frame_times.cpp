@@ -35,6 +35,13 @@ std::vector<std::vector<const Cell*>> tasks_of(const RunIndex& index) {
     return tasks;
 }
 
+/// What an application would run: of whole scenes what they call for, else the best of each library
+/// and the policies that it need not choose.
+bool is_default(const results::Variant& variant) {
+    return variant.name == called_for_word || variant.builder == "auto" ||
+           variant.builder == "keep";
+}
+
 /// The quickest of each library, by the median round.
 std::map<std::string, const Cell*> best_of(const RunIndex& index,
                                            const std::vector<const Cell*>& cells) {
@@ -50,12 +57,11 @@ std::map<std::string, const Cell*> best_of(const RunIndex& index,
 std::set<const Cell*> kept_in_brief(const RunIndex& index, const std::vector<const Cell*>& cells) {
     std::set<const Cell*> kept;
     for (const auto& [library, cell] : best_of(index, cells))
-        kept.insert(cell);
-    for (const Cell* cell : cells) {
-        const results::Variant& variant = index.variant(*cell);
-        if (variant.builder == "auto" || variant.builder == "keep")
+        if (cell->ask != scene_asks_word)
             kept.insert(cell);
-    }
+    for (const Cell* cell : cells)
+        if (is_default(index.variant(*cell)))
+            kept.insert(cell);
     return kept;
 }
 

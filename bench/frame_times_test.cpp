@@ -63,6 +63,19 @@ TEST(FrameTimes, InBriefKeepTheBestOfEachLibraryAndThePolicyAuto) {
     }
 }
 
+TEST(FrameTimes, InBriefAWholeSceneIsWhatItCallsFor) {
+    RunForTest run;
+    for (const auto& [variant, ns] : {std::pair{"called_for", 100.0}, {"everything", 90.0}}) {
+        const auto cell = run.cell("rubble", 1000, "scene_asks", variant);
+        run.time(cell, "update", ns);
+        run.time(cell, "query", ns);
+        run.results.frames.push_back({cell, 0, 0, 0, ns, ns, 7});
+    }
+    const std::string brief = frame_times_text(RunIndex(run.results), true);
+    EXPECT_THAT(brief, HasSubstr("called_for"));
+    EXPECT_THAT(brief, Not(HasSubstr("everything")));
+}
+
 TEST(FrameTimes, TheBestPeerIsTheQuickestOfAllLibraries) {
     RunForTest run = moving();
     EXPECT_THAT(frame_peers_text(RunIndex(run.results)),
