@@ -43,7 +43,7 @@ HWY_INLINE void WalkAll(const TriangleBlocks& tree, const FusedSlabs& slabs, con
             for (std::size_t i = 0; i < Node::width; i += hn::Lanes(df)) {
                 hn::Vec<decltype(df)> entry;
                 const auto hit = hn::RebindMask(du, clip.Hits(node, i, t_max, entry));
-                hn::StoreU(hn::Compress(hn::LoadU(du, node.ref + i), hit), du, waiting + top);
+                hn::StoreU(Compressed(du, hn::LoadU(du, node.ref + i), hit), du, waiting + top);
                 top += hn::CountTrue(du, hit);
             }
         }

@@ -10,6 +10,7 @@
 
 #include "kernels/ray_triangle/moller_trumbore_block-inl.h"
 #include "kernels/ray_triangle/watertight_block-inl.h"
+#include "trees/compress-inl.h"
 #include "trees/traversals/node_clip-inl.h"
 #include "trees/traversals/ray_walk.h"
 
@@ -159,7 +160,7 @@ template <class Node, RayKernel K, RayMode mode, bool Counted> class RayWave {
             hn::Vec<decltype(df)> entry;
             const auto hit = clip.Hits(node, i, t_max, entry);
             if constexpr (!closest) {
-                hn::StoreU(hn::Compress(hn::LoadU(du, node.ref + i), hn::RebindMask(du, hit)), du,
+                hn::StoreU(Compressed(du, hn::LoadU(du, node.ref + i), hn::RebindMask(du, hit)), du,
                            walker.top);
                 walker.top += hn::CountTrue(df, hit);
             } else {

@@ -84,7 +84,7 @@ template <class Node, RayKernel K, RayMode mode> class RayAlone {
             const auto hit = clip.Hits(node, i, t_max, entry);
             bits |= WideBits(df, hit, i);
             if constexpr (!closest) {
-                hn::StoreU(hn::Compress(hn::LoadU(du, node.ref + i), hn::RebindMask(du, hit)), du,
+                hn::StoreU(Compressed(du, hn::LoadU(du, node.ref + i), hn::RebindMask(du, hit)), du,
                            top_);
                 top_ += hn::CountTrue(df, hit);
             } else if constexpr (!in_register<Node>) {

@@ -5,6 +5,7 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
+#include "trees/compress-inl.h"
 #include "trees/traversals/distance_lanes-inl.h"
 #include "trees/traversals/points.h"
 #include "trees/traversals/triangle_lanes-inl.h"
@@ -31,8 +32,9 @@ HWY_INLINE std::size_t AppendNear(const Block& block, Vec3<float> point, float s
         const auto hits = hn::RebindMask(du, near);
         const auto refs =
             Numbers ? hn::Iota(du, static_cast<std::uint32_t>(i)) : LoadRefs(block, i);
-        hn::StoreInterleaved2(hn::Compress(refs, hits), hn::Compress(hn::BitCast(du, bounds), hits),
-                              du, reinterpret_cast<std::uint32_t*>(to + n));
+        hn::StoreInterleaved2(Compressed(du, refs, hits),
+                              Compressed(du, hn::BitCast(du, bounds), hits), du,
+                              reinterpret_cast<std::uint32_t*>(to + n));
         n += hn::CountTrue(du, hits);
     }
     for (std::size_t i = 1; i < n; ++i) {

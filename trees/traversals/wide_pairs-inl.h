@@ -8,6 +8,7 @@
 
 #include <hwy/highway.h>
 
+#include "trees/compress-inl.h"
 #include "trees/layouts/lanes-inl.h"
 #include "trees/traversals/pair_walk.h"
 
@@ -30,7 +31,7 @@ HWY_INLINE std::size_t Append(const Block& block, const Aabb<typename Block::Rea
     const auto f = hn::Set(du, fixed);
     for (std::size_t i = 0; i < Block::width; i += hn::Lanes(du)) {
         const auto hits = RefMask<Block>(OverlapMask(block, i, box));
-        const auto refs = hn::Compress(LoadRefs(block, i), hits);
+        const auto refs = Compressed(du, LoadRefs(block, i), hits);
         const auto first = order == Order::fixed_first    ? f
                            : order == Order::fixed_second ? refs
                                                           : hn::Min(f, refs);

@@ -5,6 +5,7 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
+#include "trees/compress-inl.h"
 #include "trees/traversals/distance_lanes-inl.h"
 #include "trees/traversals/points.h"
 
@@ -19,7 +20,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class Block>
 HWY_INLINE std::size_t AppendRefs(const Block& block, std::size_t i, hn::Mask<LaneTag<Block>> lanes,
                                   std::uint32_t* to) {
-    hn::StoreU(hn::Compress(LoadRefs(block, i), RefMask<Block>(lanes)), RefTag<Block>(), to);
+    const RefTag<Block> du;
+    hn::StoreU(Compressed(du, LoadRefs(block, i), RefMask<Block>(lanes)), du, to);
     return hn::CountTrue(LaneTag<Block>(), lanes);
 }
 
@@ -71,7 +73,7 @@ struct Ball {
                 hn::And(hn::Le(DistanceBounds(block, i, centre, scale), hn::Set(df, bound)),
                         UsedLanes(df, block, i));
             const auto hits = hn::RebindMask(du, near);
-            hn::StoreU(hn::Compress(LoadRefs(block, i), hits), du, to + n);
+            hn::StoreU(Compressed(du, LoadRefs(block, i), hits), du, to + n);
             n += hn::CountTrue(du, hits);
         }
         return n;
@@ -88,7 +90,7 @@ struct Ball {
             const auto sure = hn::And(hn::Lt(bounds, hn::Set(df, sure_bound)), used);
             const auto near = hn::And(hn::Le(bounds, hn::Set(df, bound)), used);
             const auto hits = hn::RebindMask(du, sure);
-            hn::StoreU(hn::Compress(LoadRefs(block, i), hits), du, to + n);
+            hn::StoreU(Compressed(du, LoadRefs(block, i), hits), du, to + n);
             n += hn::CountTrue(du, hits);
             for (std::uint32_t bits = MaskBits(df, hn::AndNot(sure, near), i); bits != 0;
                  bits &= bits - 1) {
