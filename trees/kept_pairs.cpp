@@ -148,14 +148,14 @@ bool KeptPairs::renew(MovingTree& tree, Boxes boxes, const Executor& executor) {
     return true;
 }
 
-double KeptPairs::forecast(std::vector<float> steps, double items) {
+double KeptPairs::forecast(std::vector<float> steps, double items, std::size_t moved) {
     const std::size_t most =
         std::min(static_cast<std::size_t>(std::max(1., n() / 16 / items)), steps.size());
     std::ranges::partial_sort(steps, steps.begin() + static_cast<std::ptrdiff_t>(most),
                               std::greater<>());
     pace_ = most == 0 ? 0 : std::min(steps[most - 1], FLT_MAX / 8);
     double least = most == 0 ? 0 : std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < most; k = k == 0 ? 1 : 2 * k) {
+    for (std::size_t k = 0; k < most; k += k / 8 + 1) {
         const double step = double{steps[k]}, restless = static_cast<double>(k) * items;
         constexpr double per_pair = 50; // examined in a step of a side, by the logarithm
         const double cost = step / side_ * (pairs_ + n()) * per_pair * per_examined +
@@ -166,7 +166,7 @@ double KeptPairs::forecast(std::vector<float> steps, double items) {
             pace_ = steps[k];
         }
     }
-    return forecast_ = least + n() * per_moved;
+    return forecast_ = least + static_cast<double>(moved) * per_moved;
 }
 
 /// Of sixteen calm items the fastest is known.
@@ -174,7 +174,7 @@ void KeptPairs::forecast_by_frame() {
     std::vector<float> steps = steps_;
     for (const Out& out : out_)
         steps.push_back(out.step);
-    forecast(std::move(steps), 1);
+    forecast(std::move(steps), 1, follow_block * steps_.size() + out_.size());
 }
 
 /// All boxes are looked at, sixteen at a time. Returns the largest step of the calm; +inf if they

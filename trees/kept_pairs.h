@@ -57,8 +57,8 @@ class KeptPairs {
     /// And how long a renewal.
     double renewal_cost() const;
     /// What a frame would take, renewals shared out, if the next renewal made restless those who
-    /// cost less so. Each of these steps stands for `items` of the fastest.
-    double forecast(std::vector<float> steps, double items);
+    /// cost less so. Each of these steps stands for `items` of the fastest; `moved` move at all.
+    double forecast(std::vector<float> steps, double items, std::size_t moved);
     /// The last of these, of steps seen in the newest frame.
     double forecast() const { return forecast_; }
     /// The median side of the boxes at the start.

@@ -1,13 +1,60 @@
 #include "trees/kept_pairs.h"
+#include "trees/updates/box_steps.h"
 #include "trees/updates/margins.h"
 #include "trees/updates/policy.h"
 #include "trees/updates/step_sample.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
 
 namespace boxwood {
 namespace {
+
+/// How many items went far since an order was made, by a sample of about a thousand.
+class FarSample {
+  public:
+    void start(Boxes boxes, double margin) {
+        constexpr std::size_t most = 1024, few = 16;
+        each_ = boxes.size() < most ? 1 : std::max(few, boxes.size() / most);
+        boxes_.clear();
+        double sides = 0;
+        Aabb<double> room;
+        std::size_t present = 0;
+        for (std::size_t i = 0; i < boxes.size(); i += each_) {
+            const Box& box = boxes[i];
+            boxes_.push_back(box);
+            if (is_absent(box))
+                continue;
+            const Vec3<double> low(box.min), side = Vec3<double>(box.max) - low;
+            sides += (side.x + side.y + side.z) / 3;
+            room.extend(low);
+            ++present;
+        }
+        reach_ = 0;
+        if (present == 0)
+            return;
+        const auto sample = static_cast<double>(present), block = 16.;
+        const Vec3<double> extent = room.max - room.min;
+        const double share =
+            extent.x * extent.y * extent.z * block / (sample * static_cast<double>(each_));
+        reach_ = margin * std::max(sides / sample, std::cbrt(share));
+    }
+    std::size_t about(Boxes boxes) const {
+        std::size_t far = 0;
+        for (std::size_t k = 0; k < boxes_.size(); ++k)
+            far += double{box_step(boxes[k * each_], boxes_[k])} > reach_;
+        return far * each_;
+    }
+    std::size_t bytes() const { return boxes_.capacity() * sizeof(Box); }
+
+  private:
+    std::size_t each_ = 1;
+    std::vector<Box> boxes_; ///< when the order was made
+    double reach_ = 0;
+};
 
 /// Picks by what moved, never by the clock, so that the answers and their order are the same
 /// everywhere. While the steps that a sample of the items takes foretell that it pays, pairs are
@@ -18,15 +65,18 @@ namespace {
 /// the time of the best moment for it is spent.
 struct Auto {
     static constexpr std::string_view name = "auto";
-    static constexpr std::string_view summary =
-        "kept pairs, refit, merge or a new order, by how many moved, how far, and what that came "
-        "to";
+    static constexpr std::string_view summary = "kept pairs, refit, merge or a new order, by how "
+                                                "many moved, how far, and what that came to";
 
-    double margin = 2;   ///< of the mean side: what goes beyond has gone far
+    /// What goes beyond has gone far: of the mean side of a box, or of the cube that holds sixteen
+    /// where they are thin.
+    double margin = 1;
     double patience = 1; ///< excess of the blocks' surface, summed over frames, for a new order
 
     static std::array<Setting<Auto>, 2> settings() {
-        return {{{"margin", "how far a box may go before it has gone far, in mean sides",
+        return {{{"margin",
+                  "how far a box may go before it has gone far, in sides of a box or of sixteen "
+                  "boxes' place",
                   &Auto::margin, 0, 1e6},
                  {"patience", "excess of the blocks' surface, summed over frames, for a new order",
                   &Auto::patience, 0, 1e6}}};
@@ -38,18 +88,30 @@ struct Auto {
         pause_ = least_pause;
         constexpr double slow = 3e-3; // until steps have been seen
         begin_to_keep(tree, boxes, slow, executor);
+        sample_.start(boxes);
+        is_first_ = true;
         tree.step = {};
     }
     void update(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
                 const Executor& executor) {
-        if (kept_.holds())
+        const bool is_first = std::exchange(is_first_, false);
+        if (kept_.holds() && !is_first)
             return keep(tree, boxes, moved, executor);
         if (moved.empty())
             return;
+        if (wait_ > 0) {
+            if (--wait_ == 0)
+                sample_.start(boxes);
+            return follow(tree, boxes, moved, executor);
+        }
         const auto steps = sample_.follow(boxes, moved);
-        wait_ -= wait_ > 0;
-        if (wait_ == 0 && pays(kept_.forecast({steps.begin(), steps.end()}, sample_.items_each())))
+        const bool would_pay =
+            pays(kept_.forecast({steps.begin(), steps.end()}, sample_.items_each(), moved.size()));
+        if (kept_.holds())
+            return would_pay ? keep(tree, boxes, moved, executor) : cease(tree, boxes, executor);
+        if (would_pay)
             return begin_to_keep(tree, boxes, kept_.pace() / kept_.side(), executor);
+        wait_ = between_looks;
         follow(tree, boxes, moved, executor);
     }
     void self_pairs(const MovingTree& tree, const Executor& executor, PairSink& sink) const {
@@ -62,7 +124,9 @@ struct Auto {
         return kept_.holds() ? kept_.self_pairs_counted(tree, sink)
                              : boxwood::self_pairs_counted(tree.layout(), sink);
     }
-    std::size_t bytes() const { return margins_.bytes() + kept_.bytes() + sample_.bytes(); }
+    std::size_t bytes() const {
+        return far_.bytes() + margins_.bytes() + kept_.bytes() + sample_.bytes();
+    }
     std::string fault(const MovingTree&) const { return kept_.fault(); }
 
   private:
@@ -70,24 +134,34 @@ struct Auto {
     void follow(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
                 const Executor& executor) {
         const std::size_t n = tree.size(), many = n / 400;
-        if (moved.size() > many && margins_.about_left(boxes, moved) > many / 2) {
-            const auto far = margins_.left(boxes, moved);
-            if (far.size() > n / 3)
-                return order_anew(tree, boxes, executor);
-            if (far.size() > many) {
-                tree.merge_in(boxes, far, executor);
-                margins_.follow(boxes, far);
-                return;
-            }
-        }
+        const std::size_t about_far = moved.size() > many ? far_.about(boxes) : 0;
+        if (about_far > n / 3)
+            return order_anew(tree, boxes, executor);
+        if (about_far > many)
+            return merge(tree, boxes, moved, executor);
         tree.refit(boxes, moved, executor);
         excess_ += tree.looseness() - 1;
         if (excess_ > patience)
             order_anew(tree, boxes, executor);
     }
+    /// At first an order that can be added to.
+    void merge(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
+               const Executor& executor) {
+        if (std::exchange(merges_, true)) {
+            const auto far = margins_.left(boxes, moved);
+            tree.merge_in(boxes, far, executor);
+            margins_.follow(boxes, far);
+        } else {
+            tree.order_to_merge(boxes, executor);
+            margins_.start(boxes, margin);
+        }
+        far_.start(boxes, margin);
+        excess_ = 0;
+    }
     void order_anew(MovingTree& tree, Boxes boxes, const Executor& executor) {
         tree.order_anew(boxes, executor);
-        margins_.start(boxes, margin);
+        far_.start(boxes, margin);
+        merges_ = false;
         excess_ = 0;
     }
 
@@ -117,17 +191,19 @@ struct Auto {
     void cease(MovingTree& tree, Boxes boxes, const Executor& executor) {
         kept_.drop();
         order_anew(tree, boxes, executor);
-        sample_.start(boxes);
         wait_ = pause_;
         pause_ = std::min<std::size_t>(2 * pause_, 1024);
     }
 
-    static constexpr std::size_t least_pause = 32, some_frames = 64;
+    static constexpr std::size_t least_pause = 32, some_frames = 64, between_looks = 8;
 
-    Margins margins_;
+    FarSample far_;
+    Margins margins_; ///< while it merges
+    bool merges_ = false;
     double excess_ = 0; ///< since the last new order
     KeptPairs kept_;
     StepSample sample_;                          ///< followed while no pairs are kept
+    bool is_first_ = false;                      ///< no frame has come since the start
     double lost_ = 0;                            ///< by keeping pairs, of late
     std::size_t paid_ = 0;                       ///< frames in which keeping them paid
     std::size_t wait_ = 0, pause_ = least_pause; ///< frames until keeping may be tried again

@@ -1,5 +1,6 @@
 #include "trees/updates/moving_tree.h"
 
+#include "trees/builders/hilbert.h"
 #include "trees/radix_sort.h"
 #include "trees/updates/box_steps.h"
 
@@ -11,34 +12,38 @@ namespace {
 
 std::uint32_t item_of(std::uint64_t record) { return static_cast<std::uint32_t>(record); }
 
-bool are_some_absent(Boxes boxes) { return std::ranges::any_of(boxes, is_absent); }
+bool are_some_absent(Boxes boxes) {
+    return std::ranges::any_of(boxes, [](const Box& box) { return box.min.x > box.max.x; });
+}
 
-/// Sorts the present boxes to the front, each in their order, and the items with them; returns how
-/// many they are.
+/// The present boxes and their items, in their order; after these the absent items. Returns how
+/// many are present. Without a branch: who is absent can be any.
 std::size_t gather_present(Boxes boxes, std::vector<Box>& present,
                            std::vector<std::uint32_t>& items) {
-    present.clear();
-    items.clear();
-    for (const bool absent : {false, true})
-        for (std::uint32_t i = 0; i < boxes.size(); ++i)
-            if (is_absent(boxes[i]) == absent) {
-                items.push_back(i);
-                if (!absent)
-                    present.push_back(boxes[i]);
-            }
-    return present.size();
+    present.resize(boxes.size());
+    items.resize(boxes.size());
+    std::vector<std::uint32_t> gone(boxes.size());
+    std::size_t n = 0;
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+        present[n] = boxes[i];
+        items[n] = gone[i - n] = i;
+        n += boxes[i].min.x <= boxes[i].max.x;
+    }
+    present.resize(n);
+    std::copy_n(gone.begin(), boxes.size() - n, items.begin() + static_cast<std::ptrdiff_t>(n));
+    return n;
 }
 
 } // namespace
 
-Buffer<std::uint32_t> present_curve_order(Boxes boxes, const Executor& executor) {
+Buffer<std::uint32_t> present_order(Boxes boxes, const Executor& executor) {
     if (!are_some_absent(boxes))
-        return coarse_curve_order(boxes, Curve::hilbert, executor);
+        return HilbertBuilder{}.order(boxes, executor);
     std::vector<Box> present;
     std::vector<std::uint32_t> items;
     const std::size_t n = gather_present(boxes, present, items);
     Buffer<std::uint32_t> order(boxes.size());
-    std::ranges::transform(coarse_curve_order(present, Curve::hilbert, executor), order.begin(),
+    std::ranges::transform(HilbertBuilder{}.order(present, executor), order.begin(),
                            [&](std::uint32_t i) { return items[i]; });
     std::copy(items.begin() + static_cast<std::ptrdiff_t>(n), items.end(), order.begin() + n);
     return order;
@@ -82,17 +87,22 @@ void MovingTree::place(Boxes boxes, const Executor& executor) {
 }
 
 void MovingTree::order_anew(Boxes boxes, const Executor& executor) {
+    order_ = present_order(boxes, executor);
+    records_ = {};
+    place(boxes, executor);
+    step = {boxes.size(), true};
+}
+
+void MovingTree::order_to_merge(Boxes boxes, const Executor& executor) {
     const std::size_t n = boxes.size();
-    if (order_.size() != n)
-        order_ = Buffer<std::uint32_t>(n);
     KeptOrder kept = kept_order(boxes, executor);
+    if (kept.records.size() != n)
+        return order_anew(boxes, executor);
     grid_ = kept.grid;
     records_ = std::move(kept.records);
-    if (records_.size() == n)
-        std::transform(records_.begin(), records_.end(), order_.begin(), item_of);
-    else
-        order_ = are_some_absent(boxes) ? present_curve_order(boxes, executor)
-                                        : curve_order(boxes, Curve::hilbert, executor).order;
+    if (order_.size() != n)
+        order_ = Buffer<std::uint32_t>(n);
+    std::transform(records_.begin(), records_.end(), order_.begin(), item_of);
     place(boxes, executor);
     step = {n, true};
 }
@@ -107,7 +117,7 @@ void MovingTree::merge_in(Boxes boxes, std::span<const std::uint32_t> items,
                           const Executor& executor) {
     const std::size_t n = boxes.size();
     if (records_.size() != n)
-        return order_anew(boxes, executor);
+        return order_to_merge(boxes, executor);
     if (spare_.size() != n) {
         spare_ = Buffer<std::uint64_t>(n);
         taken_out_.assign(n, 0);
@@ -148,7 +158,7 @@ void MovingTree::sort_part(Boxes boxes, std::size_t begin, std::size_t end,
     gathered_.clear();
     for (std::size_t slot = begin; slot < end; ++slot)
         gathered_.push_back(boxes[order_[slot]]);
-    Buffer<std::uint32_t> part = present_curve_order(gathered_, executor);
+    Buffer<std::uint32_t> part = present_order(gathered_, executor);
     for (std::uint32_t& item : part)
         item = order_[begin + item];
     std::ranges::copy(part, order_.begin() + begin);

@@ -10,8 +10,8 @@
 
 namespace boxwood {
 
-/// The items along a curve through their boxes, after them the absent ones.
-Buffer<std::uint32_t> present_curve_order(Boxes boxes, const Executor& executor);
+/// The order of HilbertBuilder, and after it the absent items.
+Buffer<std::uint32_t> present_order(Boxes boxes, const Executor& executor);
 
 /// What all update policies work on: moving boxes in an order, cut into a packed tree over that
 /// order. The boxes given to every call are those of the newest frame, or around them; each is
@@ -25,12 +25,16 @@ class MovingTree {
     std::size_t bytes() const;
     std::string fault() const;
 
-    /// A new order along a curve through these boxes.
+    /// A new order: that of present_order.
     void order_anew(Boxes boxes, const Executor& executor);
+    /// A new order along a curve, to which `merge_in` can add: takes twice as long. Where boxes are
+    /// too close together for that, as order_anew.
+    void order_to_merge(Boxes boxes, const Executor& executor);
     /// This order of all items.
     void set_order(Boxes boxes, Buffer<std::uint32_t> order, const Executor& executor);
-    /// Takes these items out of the order and puts them in where the curve passes them now. Needs
-    /// the order of the last order_anew, merged since or not. Items ascending, all present.
+    /// Takes these items out of the order and puts them in where the curve passes them now, if the
+    /// last order was made by order_to_merge or this; else as order_to_merge. Items ascending, all
+    /// present.
     void merge_in(Boxes boxes, std::span<const std::uint32_t> items, const Executor& executor);
     /// Sorts the slots [begin, end) along the curve anew.
     void sort_part(Boxes boxes, std::size_t begin, std::size_t end, const Executor& executor);

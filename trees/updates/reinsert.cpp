@@ -28,7 +28,7 @@ struct Reinsert {
         items_.clear();
         items_.reserve(boxes.size());
         // Along the curve: neighbours in time are neighbours in space, and in the caches.
-        for (const std::uint32_t item : present_curve_order(boxes, executor))
+        for (const std::uint32_t item : present_order(boxes, executor))
             if (!is_absent(boxes[item]))
                 items_.insert(item, margins_.fat(item));
         tree.set_order(boxes, order(boxes.size()), executor);
