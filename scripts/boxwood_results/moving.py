@@ -48,7 +48,7 @@ class PlayedScene:
 def played_scenes(run, largest=True):
     """What was played as it is called for and answered rightly; of each scene its largest size."""
     played = {}
-    for job in largest_jobs(run) if largest else run.jobs:
+    for job in largest_jobs(run.jobs) if largest else run.jobs:
         if job.ask != SCENE_ASKS:
             continue
         for cell in run.of(job):

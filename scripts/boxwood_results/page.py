@@ -187,7 +187,7 @@ def report(run):
     """The whole page as text."""
     found = findings(run)
     attrs = run.source.attrs
-    largest = set(largest_jobs(run))
+    largest = set(largest_jobs(run.jobs))
     sentences = "".join(f"<li>{escape(sentence(f))}</li>" for f in found if f.job in largest)
     columns, rows = comparison_rows(found)
     missing = (f"<p class=note>{run.missing_samples} samples hold no time and are left out.</p>"

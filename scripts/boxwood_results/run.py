@@ -20,7 +20,7 @@ TOTAL_WORDS = {"moving_pairs": "update and one query", "tree": "build", SCENE_AS
 # Of these an update may have done the work of the query: its time alone says nothing.
 WHOLE_FRAMES = ("moving_pairs", SCENE_ASKS)
 # Under both of these a "build" only copies the input: no structure is made (ns per item; part of the query).
-COPY_NS, COPY_PART = 5, 0.05
+COPY_NS, COPY_PART = 8, 0.05
 
 
 @dataclass(frozen=True)

@@ -5,10 +5,10 @@ from .run import TOTAL
 MOST_LINES = 12
 
 
-def largest_jobs(run):
+def largest_jobs(jobs):
     """Of each scene, ask and thread count, the job with the most items."""
     largest = {}
-    for job in run.jobs:
+    for job in jobs:
         key = (job.ask, job.scene, job.seed, job.threads)
         if key not in largest or job.n > largest[key].n:
             largest[key] = job

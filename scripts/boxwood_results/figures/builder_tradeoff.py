@@ -71,7 +71,7 @@ def draw_panel(ax, job, cells, rows):
 
 def draw(run):
     by_ask = {}
-    for job in largest_jobs(run):
+    for job in largest_jobs(run.jobs):
         cells = run.of(job)
         cells = [cell for cell in cells if cell.rounds("query") and not cell.rounds("update")]
         if sum(cell.has_build for cell in cells) >= 2:

@@ -122,10 +122,11 @@ def draw_one(run, ask, threads, found, floor):
 
 
 def draw(run):
-    shown = set(largest_jobs(run))
+    ranked = [f for f in findings(run) if f.comparisons and f.job.ask != "tree"]  # builds alone: see tree_quality
+    shown = set(largest_jobs(f.job for f in ranked))
     groups = {}
-    for finding in findings(run):
-        if finding.job in shown and finding.comparisons and finding.job.ask != "tree":  # builds alone: see tree_quality
+    for finding in ranked:
+        if finding.job in shown:
             groups.setdefault((finding.job.ask, finding.job.threads), []).append(finding)
     if not groups:
         raise Skip("no job has both a ranked variant of ours and a ranked peer")

@@ -85,7 +85,7 @@ def draw_all(ask, threads, jobs):
 
 def draw(run):
     groups = {}
-    for job in largest_jobs(run):
+    for job in largest_jobs(run.jobs):
         cells = [c for c in run.of(job) if c.frames and not c.contender.startswith(WITHOUT)]
         if cells:
             shown, left_out = choose(cells)

@@ -48,7 +48,7 @@ def draw_panel(ax, job, cells, rows):
 
 def draw(run):
     jobs = []
-    for job in largest_jobs(run):
+    for job in largest_jobs(run.jobs):
         cells = [c for c in run.of(job) if job.ask == "tree" and c.rounds("build") and sah(c) > 0]
         if len(cells) >= 2:
             jobs.append((job, cells))

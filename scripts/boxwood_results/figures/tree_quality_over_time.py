@@ -51,7 +51,7 @@ def draw_panel(ax, job, cells, fresh, rows):
 
 def draw(run):
     panels = []
-    for job in largest_jobs(run):
+    for job in largest_jobs(run.jobs):
         cells = [c for c in run.of(job) if len(c.frames) >= LEAST_FRAMES and not c.builder.startswith("keep")]
         if job.ask == "moving_pairs" and len(cells) >= 2 and job.threads == 1:
             fresh = next((c for c in cells if c.builder == FRESH and c.status != "wrong"), None)

@@ -44,7 +44,7 @@ def scatter(ax, job, points, x_name, y_name, time_on_y):
 
 def draw(run):
     by_ask = {}
-    for job in largest_jobs(run):
+    for job in largest_jobs(run.jobs):
         counted = [c for c in run.of(job) if not math.isnan(measures(c)[2]) and c.executor == "serial"]
         if job.threads == 1 and len(counted) >= 2 and job.ask not in WHOLE_FRAMES:
             by_ask.setdefault(job.ask, []).append((job, counted))
