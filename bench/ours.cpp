@@ -128,7 +128,7 @@ std::string settings_json(const Settings& settings) {
 ContenderEntry our_contender(const Choice& choice, Ask ask) {
     if (ask == Ask::tree)
         return tree_contender(choice); // whatever the layout
-    if (ask == Ask::moving_pairs || is_kernel_ask(ask))
+    if (is_moving_ask(ask) || is_kernel_ask(ask))
         throw std::invalid_argument(fmt::format("no builder and layout answer {}", to_string(ask)));
     const std::string_view builder_name =
         std::string_view(choice.builder).substr(0, choice.builder.find('+'));

@@ -68,7 +68,7 @@ SceneSpec spec_of(Ask ask, std::size_t n) {
 TEST(OurContender, AnswersAsTheTruthAlsoWhenBuiltAndAskedAgain) {
     for (const AskEntry& ask : asks())
         for (const std::size_t n : {1u, 2u, 3u, 700u}) {
-            if (is_kernel_ask(ask.ask) || ask.ask == Ask::tree || ask.ask == Ask::moving_pairs)
+            if (is_kernel_ask(ask.ask) || ask.ask == Ask::tree || is_moving_ask(ask.ask))
                 continue; // no tree, no question, or many: see tree_builds_ and moving_pairs_test
             if ((takes_kernel(ask.ask) || ask.ask == Ask::closest_points) && n < 700)
                 continue; // a sphere needs more triangles
@@ -108,6 +108,7 @@ TEST(OurContender, AnswersAsTheTruthAlsoWhenBuiltAndAskedAgain) {
 
 TEST(OurContender, RefusesAsksThatNoTreeAnswers) {
     EXPECT_THAT(complaint({}, Ask::moving_pairs), HasSubstr("moving_pairs"));
+    EXPECT_THAT(complaint({}, Ask::scene_asks), HasSubstr("scene_asks"));
     EXPECT_THAT(complaint({}, Ask::triangle_distance), HasSubstr("triangle_distance"));
 }
 
