@@ -14,15 +14,6 @@
 namespace boxwood {
 namespace {
 
-std::vector<Pair> brute_force(Boxes boxes) {
-    std::vector<Pair> pairs;
-    for (std::uint32_t a = 0; a < boxes.size(); ++a)
-        for (std::uint32_t b = a + 1; b < boxes.size(); ++b)
-            if (overlaps(boxes[a], boxes[b]))
-                pairs.push_back({a, b});
-    return pairs;
-}
-
 Box shifted(const Box& box, Vec3<float> by) { return {box.min + by, box.max + by}; }
 
 /// Boxes of which all are said to move, kept by the policy `keep`.

@@ -21,15 +21,6 @@ std::vector<std::uint32_t> shuffled(std::size_t n) {
     return order;
 }
 
-std::vector<Pair> brute_force(Boxes boxes) {
-    std::vector<Pair> pairs;
-    for (std::uint32_t i = 0; i < boxes.size(); ++i)
-        for (std::uint32_t j = i + 1; j < boxes.size(); ++j)
-            if (overlaps(boxes[i], boxes[j]))
-                pairs.push_back({i, j});
-    return pairs;
-}
-
 std::vector<Pair> brute_force(Boxes a, Boxes b) {
     std::vector<Pair> pairs;
     for (std::uint32_t i = 0; i < a.size(); ++i)

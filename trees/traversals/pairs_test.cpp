@@ -13,15 +13,6 @@
 namespace boxwood {
 namespace {
 
-std::vector<Pair> brute_force(Boxes boxes) {
-    std::vector<Pair> pairs;
-    for (std::uint32_t i = 0; i < boxes.size(); ++i)
-        for (std::uint32_t j = i + 1; j < boxes.size(); ++j)
-            if (overlaps(boxes[i], boxes[j]))
-                pairs.push_back({i, j});
-    return pairs;
-}
-
 void for_all_ways(const std::function<void(const BuilderEntry&, const LayoutEntry&)>& test) {
     for (const BuilderEntry& builder : builders())
         for (const LayoutEntry& layout : layouts()) {

@@ -1,60 +1,15 @@
 #include "trees/kept_pairs.h"
-#include "trees/updates/box_steps.h"
+#include "trees/updates/far_sample.h"
 #include "trees/updates/margins.h"
 #include "trees/updates/policy.h"
 #include "trees/updates/step_sample.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
-#include <vector>
 
 namespace boxwood {
 namespace {
-
-/// How many items went far since an order was made, by a sample of about a thousand.
-class FarSample {
-  public:
-    void start(Boxes boxes, double margin) {
-        constexpr std::size_t most = 1024, few = 16;
-        each_ = boxes.size() < most ? 1 : std::max(few, boxes.size() / most);
-        boxes_.clear();
-        double sides = 0;
-        Aabb<double> room;
-        std::size_t present = 0;
-        for (std::size_t i = 0; i < boxes.size(); i += each_) {
-            const Box& box = boxes[i];
-            boxes_.push_back(box);
-            if (is_absent(box))
-                continue;
-            const Vec3<double> low(box.min), side = Vec3<double>(box.max) - low;
-            sides += (side.x + side.y + side.z) / 3;
-            room.extend(low);
-            ++present;
-        }
-        reach_ = 0;
-        if (present == 0)
-            return;
-        const auto sample = static_cast<double>(present), block = 16.;
-        const Vec3<double> extent = room.max - room.min;
-        const double share =
-            extent.x * extent.y * extent.z * block / (sample * static_cast<double>(each_));
-        reach_ = margin * std::max(sides / sample, std::cbrt(share));
-    }
-    std::size_t about(Boxes boxes) const {
-        std::size_t far = 0;
-        for (std::size_t k = 0; k < boxes_.size(); ++k)
-            far += double{box_step(boxes[k * each_], boxes_[k])} > reach_;
-        return far * each_;
-    }
-    std::size_t bytes() const { return boxes_.capacity() * sizeof(Box); }
-
-  private:
-    std::size_t each_ = 1;
-    std::vector<Box> boxes_; ///< when the order was made
-    double reach_ = 0;
-};
 
 /// Picks by what moved, never by the clock, so that the answers and their order are the same
 /// everywhere. While the steps that a sample of the items takes foretell that it pays, pairs are

@@ -36,21 +36,6 @@ bool Margins::has_left(std::uint32_t item, const Box& box) const {
              (box.max.x <= fat.max.x) & (box.max.y <= fat.max.y) & (box.max.z <= fat.max.z));
 }
 
-std::size_t Margins::about_left(Boxes boxes, std::span<const std::uint32_t> moved) const {
-    constexpr std::size_t few = 4096, step = 16;
-    const bool all = moved.size() <= few;
-    std::size_t n = 0;
-    if (all)
-        for (const std::uint32_t item : moved)
-            n += has_left(item, boxes[item]);
-    else // somewhere in each sixteen, so that no pattern in the numbers goes unseen
-        for (std::uint32_t part = 0; part < moved.size() / step; ++part) {
-            const std::uint32_t item = moved[part * step + (part * 2654435769u >> 28)];
-            n += has_left(item, boxes[item]);
-        }
-    return all ? n : n * step;
-}
-
 std::span<const std::uint32_t> Margins::left(Boxes boxes, std::span<const std::uint32_t> moved) {
     left_.resize(moved.size());
     std::size_t n = 0;

@@ -16,8 +16,6 @@ class Margins {
     void start(Boxes boxes, double share);
     /// The items of `moved` whose boxes are not inside their fat boxes; valid until the next call.
     std::span<const std::uint32_t> left(Boxes boxes, std::span<const std::uint32_t> moved);
-    /// About how many `left` would find, by one in sixteen of them; by all if they are few.
-    std::size_t about_left(Boxes boxes, std::span<const std::uint32_t> moved) const;
     /// Puts the fat boxes of these items around their boxes anew.
     void follow(Boxes boxes, std::span<const std::uint32_t> items);
     const Box& fat(std::uint32_t item) const { return fat_[item]; }

@@ -42,33 +42,5 @@ TEST(Margins, FindWhatWentFartherThanTheyReach) {
     EXPECT_TRUE(far.left().empty());
 }
 
-TEST(Margins, OfFewItemsTheNumberIsExact) {
-    for (const std::size_t n : {0u, 1u, 15u, 4096u}) {
-        Moving all(n, 1, 5, [](std::uint32_t item) { return item % 7 == 0; });
-        EXPECT_EQ(all.margins.about_left(all.boxes, all.moved), all.gone.size());
-    }
-}
-
-TEST(Margins, OfManyItemsTheNumberIsAboutRightWhateverThePattern) {
-    constexpr std::size_t n = 100'000;
-    const std::function<bool(std::uint32_t)> patterns[] = {
-        [](std::uint32_t item) { return item % 16 == 0; },
-        [](std::uint32_t item) { return item % 16 == 9; },
-        [](std::uint32_t item) { return item % 64 < 4; },
-        [](std::uint32_t item) { return item < n / 16; },
-        [](std::uint32_t item) { return item >= n - n / 16; },
-        [](std::uint32_t item) { return (item * 2246822519u >> 28) == 3; },
-    };
-    for (const auto& pattern : patterns) {
-        Moving some(n, 1, 5, pattern);
-        const double found = static_cast<double>(some.margins.about_left(some.boxes, some.moved));
-        EXPECT_NEAR(found, static_cast<double>(some.gone.size()), 0.25 * n / 16);
-    }
-    Moving none(n, 1, 5, [](std::uint32_t) { return false; });
-    EXPECT_EQ(none.margins.about_left(none.boxes, none.moved), 0u);
-    Moving every(n, 1, 5, [](std::uint32_t) { return true; });
-    EXPECT_EQ(every.margins.about_left(every.boxes, every.moved), n);
-}
-
 } // namespace
 } // namespace boxwood

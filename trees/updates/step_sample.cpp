@@ -1,6 +1,7 @@
 #include "trees/updates/step_sample.h"
 
 #include "trees/updates/box_steps.h"
+#include "trees/updates/item_sample.h"
 
 #include <algorithm>
 
@@ -8,16 +9,12 @@ namespace boxwood {
 
 void StepSample::start(Boxes boxes) {
     constexpr std::size_t most = 512;
-    const std::size_t n = std::min(most, boxes.size());
-    items_each_ = n == 0 ? 1 : static_cast<double>(boxes.size()) / static_cast<double>(n);
-    items_.resize(n);
-    boxes_.resize(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        // Somewhere in each part, so that no pattern in the numbers goes unseen.
-        const std::size_t begin = boxes.size() * i / n, end = boxes.size() * (i + 1) / n;
-        items_[i] = static_cast<std::uint32_t>(begin + (i * 2654435769u >> 8) % (end - begin));
-        boxes_[i] = boxes[items_[i]];
-    }
+    items_ = sampled_items(boxes.size(), most);
+    items_each_ =
+        items_.empty() ? 1 : static_cast<double>(boxes.size()) / static_cast<double>(items_.size());
+    boxes_.clear();
+    for (const std::uint32_t item : items_)
+        boxes_.push_back(boxes[item]);
 }
 
 std::span<const float> StepSample::follow(Boxes boxes, std::span<const std::uint32_t> moved) {

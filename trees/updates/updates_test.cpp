@@ -13,15 +13,6 @@
 namespace boxwood {
 namespace {
 
-std::vector<Pair> brute_force(Boxes boxes) {
-    std::vector<Pair> pairs;
-    for (std::uint32_t a = 0; a < boxes.size(); ++a)
-        for (std::uint32_t b = a + 1; b < boxes.size(); ++b)
-            if (overlaps(boxes[a], boxes[b]))
-                pairs.push_back({a, b});
-    return pairs;
-}
-
 std::vector<Pair> pairs_of(const Updater& updater, const Executor& executor = serial()) {
     std::vector<Pair> pairs;
     AppendPairs sink(pairs);
