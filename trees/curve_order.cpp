@@ -12,8 +12,8 @@
 namespace boxwood {
 namespace {
 
-/// The cube around the centres, cut into 2^bits cells along each axis.
-CurveGrid make_grid(Boxes boxes, int bits, const Executor& executor) {
+/// Throws as `require_valid`.
+Box bounds_of_centres(Boxes boxes, const Executor& executor) {
     const std::size_t chunks = chunks_for(boxes.size(), executor);
     std::vector<CentreBounds> parts(chunks);
     executor.for_each(chunks, [&](std::size_t c) {
@@ -28,6 +28,11 @@ CurveGrid make_grid(Boxes boxes, int bits, const Executor& executor) {
     }
     if (!valid)
         require_valid(boxes); // finds which
+    return centres;
+}
+
+/// The cube around the centres, cut into 2^bits cells along each axis.
+CurveGrid make_grid(const Box& centres, int bits) {
     const Vec3<double> extent = Vec3<double>(centres.max) - Vec3<double>(centres.min);
     const double side = std::max({extent.x, extent.y, extent.z});
     CurveGrid grid;
@@ -129,7 +134,7 @@ bool sort_records(Records& records, int bits, const Less& less, const Executor& 
 
 CurveOrder curve_order(Boxes boxes, Curve curve, const Executor& executor) {
     const std::size_t n = boxes.size();
-    const CurveGrid grid = make_grid(boxes, 21, executor);
+    const CurveGrid grid = make_grid(bounds_of_centres(boxes, executor), 21);
     Buffer<std::uint64_t> codes(n);
     Records records(n);
     constexpr int upper = 32, lower = 31; // bits of a code, sorted in two rounds if need be
@@ -167,27 +172,36 @@ CurveOrder curve_order(Boxes boxes, Curve curve, const Executor& executor) {
 
 namespace {
 
+void grouped_codes(Boxes boxes, Curve curve, const CurveGrid& grid, GroupOfBox group,
+                   std::uint32_t* codes) {
+    coarse_codes(boxes, curve, grid, codes);
+    if (group)
+        for (std::size_t i = 0; i < boxes.size(); ++i)
+            codes[i] |= group(boxes[i]) << 30;
+}
+
 /// Sorts by group and by 10 bits per axis. False if many items are in the same cells.
 bool coarse_sort(Boxes boxes, Curve curve, const CurveGrid& grid, GroupOfBox group, Sorted how,
                  const Executor& executor, PutRecords put) {
     const auto codes = [&](std::size_t first, std::span<std::uint32_t> to) {
-        const Boxes some = boxes.subspan(first, to.size());
-        coarse_codes(some, curve, grid, to.data());
-        if (group)
-            for (std::size_t i = 0; i < some.size(); ++i)
-                to[i] |= group(some[i]) << 30;
+        grouped_codes(boxes.subspan(first, to.size()), curve, grid, group, to.data());
     };
     return bucket_sort(boxes.size(), group ? 32 : 30, codes, how, executor, put) <=
            few(boxes.size());
 }
 
+CurveGrid coarse_grid(Boxes boxes, const Executor& executor, const Box* centres) {
+    return make_grid(centres ? *centres : bounds_of_centres(boxes, executor), 10);
+}
+
 Buffer<std::uint32_t> order_by(Boxes boxes, Curve curve, GroupOfBox group, Sorted how,
-                               const Executor& executor) {
+                               const Executor& executor, const Box* centres) {
     Buffer<std::uint32_t> order(boxes.size());
     const auto put = [&](std::size_t first, std::span<const std::uint64_t> records) {
         std::ranges::transform(records, order.data() + first, item_of);
     };
-    if (!coarse_sort(boxes, curve, make_grid(boxes, 10, executor), group, how, executor, put)) {
+    const CurveGrid grid = coarse_grid(boxes, executor, centres);
+    if (!coarse_sort(boxes, curve, grid, group, how, executor, put)) {
         order = curve_order(boxes, curve, executor).order;
         if (group)
             std::ranges::stable_sort(order, std::less<>(),
@@ -198,35 +212,36 @@ Buffer<std::uint32_t> order_by(Boxes boxes, Curve curve, GroupOfBox group, Sorte
 
 } // namespace
 
-KeptOrder kept_curve_order(Boxes boxes, Curve curve, const Executor& executor) {
-    KeptOrder kept{make_grid(boxes, 10, executor), Records(boxes.size())};
+KeptOrder kept_curve_order(Boxes boxes, Curve curve, GroupOfBox group, const Executor& executor,
+                           const Box* centres) {
+    KeptOrder kept{coarse_grid(boxes, executor, centres), group, Records(boxes.size())};
     const auto put = [&](std::size_t first, std::span<const std::uint64_t> records) {
         std::ranges::copy(records, kept.records.data() + first);
     };
-    if (!coarse_sort(boxes, curve, kept.grid, nullptr, Sorted::exactly, executor, put))
+    if (!coarse_sort(boxes, curve, kept.grid, group, Sorted::exactly, executor, put))
         kept.records = {};
     return kept;
 }
 
-void curve_records(Boxes boxes, std::size_t first_item, Curve curve, const CurveGrid& grid,
+void curve_records(Boxes boxes, Curve curve, const CurveGrid& grid, GroupOfBox group,
                    std::uint64_t* records) {
     constexpr std::size_t batch = 1024;
     std::uint32_t codes[batch];
     for (std::size_t first = 0; first < boxes.size(); first += batch) {
         const std::size_t some = std::min(batch, boxes.size() - first);
-        coarse_codes(boxes.subspan(first, some), curve, grid, codes);
+        grouped_codes(boxes.subspan(first, some), curve, grid, group, codes);
         for (std::size_t i = 0; i < some; ++i)
-            records[first + i] = std::uint64_t{codes[i]} << 32 | (first_item + first + i);
+            records[first + i] = std::uint64_t{codes[i]} << 32 | (first + i);
     }
 }
 
 Buffer<std::uint32_t> coarse_curve_order(Boxes boxes, Curve curve, const Executor& executor) {
-    return order_by(boxes, curve, nullptr, Sorted::exactly, executor);
+    return order_by(boxes, curve, nullptr, Sorted::exactly, executor, nullptr);
 }
 
 Buffer<std::uint32_t> block_curve_order(Boxes boxes, Curve curve, GroupOfBox group,
-                                        const Executor& executor) {
-    return order_by(boxes, curve, group, Sorted::in_blocks, executor);
+                                        const Executor& executor, const Box* centres) {
+    return order_by(boxes, curve, group, Sorted::in_blocks, executor, centres);
 }
 
 } // namespace boxwood

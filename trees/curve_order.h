@@ -16,28 +16,33 @@ struct CurveOrder {
 /// The same on every executor and instruction set. Throws as `require_valid`.
 CurveOrder curve_order(Boxes boxes, Curve curve, const Executor& executor);
 
+// Where `centres` are given, these are the bounds of the boxes' centres, and the boxes are known to
+// be valid.
+
+/// One of three groups that boxes may be put into: items of lower groups come first.
+using GroupOfBox = std::uint32_t (*)(const Box&);
+
 /// A coarse order that other boxes can be put into later: by 10 bits per axis.
 struct KeptOrder {
     CurveGrid grid;
+    GroupOfBox group = nullptr; ///< no function, one group
     /// In order: the code above the item. Empty if the cells do not tell nearly all items apart.
     Buffer<std::uint64_t> records;
 };
-KeptOrder kept_curve_order(Boxes boxes, Curve curve, const Executor& executor);
+KeptOrder kept_curve_order(Boxes boxes, Curve curve, GroupOfBox group, const Executor& executor,
+                           const Box* centres = nullptr);
 
-/// Unsorted records of these boxes, numbered from first_item.
-void curve_records(Boxes boxes, std::size_t first_item, Curve curve, const CurveGrid& grid,
+/// Unsorted records of these boxes, numbered from 0: of 64 bits, the item in the lower 32.
+void curve_records(Boxes boxes, Curve curve, const CurveGrid& grid, GroupOfBox group,
                    std::uint64_t* records);
 
 /// The order alone, for half the time: by 10 bits per axis where these tell nearly all items apart,
 /// else by all 21.
 Buffer<std::uint32_t> coarse_curve_order(Boxes boxes, Curve curve, const Executor& executor);
 
-/// One of four groups that boxes may be put into.
-using GroupOfBox = std::uint32_t (*)(const Box&);
-
 /// The same for what cuts the order into blocks of sixteen: fewer items than that may be out of
-/// order if they are close together. Items of lower groups come first; no function, one group.
+/// order if they are close together.
 Buffer<std::uint32_t> block_curve_order(Boxes boxes, Curve curve, GroupOfBox group,
-                                        const Executor& executor);
+                                        const Executor& executor, const Box* centres = nullptr);
 
 } // namespace boxwood

@@ -5,6 +5,7 @@
 #include "trees/traversals/points.h"
 #include "trees/traversals/self_pairs.h"
 #include "trees/updates/box_steps.h"
+#include "trees/updates/survey.h"
 #include "trees/updates/widen.h"
 
 #include <algorithm>
@@ -126,7 +127,7 @@ bool KeptPairs::renew(MovingTree& tree, Boxes boxes, const Executor& executor) {
         tree.exchange(widened_, executor);
     widened_before_ = true;
     if (tree.looseness() > too_loose)
-        tree.order_anew(widened_, executor);
+        tree.order_anew(widened_, {}, executor);
 
     Candidates candidates(found_, 64 * size + 65536);
     boxwood::self_pairs(tree.layout(), executor, candidates);
@@ -234,11 +235,14 @@ float KeptPairs::follow_some(Boxes boxes, std::span<const std::uint32_t> moved) 
 }
 
 void KeptPairs::follow_out(Boxes boxes, std::span<const std::uint32_t> moved) {
+    const bool look_at_all = is_nearly_all(moved.size(), boxes.size());
     auto next = moved.begin();
     for (Out& out : out_) {
-        next = moved.size() == boxes.size() ? moved.begin() + out.item
-                                            : std::lower_bound(next, moved.end(), out.item);
-        const bool has_moved = next != moved.end() && *next == out.item;
+        bool has_moved = true;
+        if (!look_at_all) {
+            next = std::lower_bound(next, moved.end(), out.item);
+            has_moved = next != moved.end() && *next == out.item;
+        }
         out.step = has_moved ? box_step(boxes[out.item], out.box) : 0;
         if (has_moved)
             out.box = boxes[out.item];
@@ -270,8 +274,8 @@ bool KeptPairs::follow(MovingTree& tree, Boxes boxes, std::span<const std::uint3
     spent_ = static_cast<double>(moved.size()) * per_moved;
     fresh_.clear();
     follow_out(boxes, moved);
-    const float step =
-        moved.size() == boxes.size() ? follow_all(boxes, executor) : follow_some(boxes, moved);
+    const float step = is_nearly_all(moved.size(), boxes.size()) ? follow_all(boxes, executor)
+                                                                 : follow_some(boxes, moved);
     const auto middle = static_cast<std::ptrdiff_t>(out_.size());
     out_.insert(out_.end(), fresh_.begin(), fresh_.end());
     std::inplace_merge(out_.begin(), out_.begin() + middle, out_.end(),

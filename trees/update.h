@@ -40,8 +40,8 @@ class Updater {
     virtual void start(Boxes boxes, const Executor& executor) = 0;
 
     /// Takes the next frame: as many boxes as at the start, those that differ from the last frame
-    /// listed in `moved`, ascending (it may list more; of all others the box is not looked at).
-    /// Throws InvalidBox for a moved box that is neither valid nor absent, and
+    /// listed in `moved`, ascending (it may list more; of all others the box must be the last
+    /// frame's). Throws InvalidBox for a moved box that is neither valid nor absent, and
     /// std::invalid_argument for a number of boxes that is not that of the items or an item that is
     /// none of them; it then holds the last frame.
     virtual void update(Boxes boxes, std::span<const std::uint32_t> moved,

@@ -1,5 +1,4 @@
 #include "trees/builders/hilbert.h"
-#include "trees/curve_order.h"
 
 #include <algorithm>
 #include <array>
@@ -61,9 +60,11 @@ Box build_part(Tree& tree, Boxes boxes, Part part) {
 
 } // namespace
 
-Buffer<std::uint32_t> HilbertBuilder::order(Boxes boxes, const Executor& executor) const {
-    return block_curve_order(boxes, Curve::hilbert, are_long(boxes) ? longest_axis : nullptr,
-                             executor);
+GroupOfBox HilbertBuilder::groups(Boxes boxes) { return are_long(boxes) ? longest_axis : nullptr; }
+
+Buffer<std::uint32_t> HilbertBuilder::order(Boxes boxes, const Executor& executor,
+                                            const Box* centres) const {
+    return block_curve_order(boxes, Curve::hilbert, groups(boxes), executor, centres);
 }
 
 Tree HilbertBuilder::build(Boxes boxes, const Executor& executor) const {

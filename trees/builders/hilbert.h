@@ -1,6 +1,7 @@
 #pragma once
 
 #include "trees/builder.h"
+#include "trees/curve_order.h"
 
 namespace boxwood {
 
@@ -13,8 +14,13 @@ struct HilbertBuilder {
     static constexpr std::string_view summary =
         "along a Hilbert curve, long boxes of each axis apart; the order that packed likes";
 
+    /// The groups that boxes such as these are best put into.
+    static GroupOfBox groups(Boxes boxes);
+
     Tree build(Boxes boxes, const Executor& executor) const;
-    Buffer<std::uint32_t> order(Boxes boxes, const Executor& executor) const;
+    /// centres: the bounds of the boxes' centres, of boxes known to be valid.
+    Buffer<std::uint32_t> order(Boxes boxes, const Executor& executor,
+                                const Box* centres = nullptr) const;
 };
 
 } // namespace boxwood

@@ -203,7 +203,7 @@ Tree radix_tree(const Items& items, Boxes boxes, const Write& write, const Execu
 Tree LbvhBuilder::build(Boxes boxes, const Executor& executor) const {
     if (boxes.empty())
         return {};
-    const KeptOrder coarse = kept_curve_order(boxes, curve(), executor);
+    const KeptOrder coarse = kept_curve_order(boxes, curve(), nullptr, executor);
     if (!coarse.records.empty())
         return radix_tree(
             CoarseItems{coarse.records.data()}, boxes,

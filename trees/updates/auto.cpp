@@ -1,6 +1,7 @@
 #include "trees/kept_pairs.h"
 #include "trees/updates/far_sample.h"
 #include "trees/updates/margins.h"
+#include "trees/updates/order_age.h"
 #include "trees/updates/policy.h"
 #include "trees/updates/step_sample.h"
 
@@ -13,11 +14,10 @@ namespace {
 
 /// Picks by what moved, never by the clock, so that the answers and their order are the same
 /// everywhere. While the steps that a sample of the items takes foretell that it pays, pairs are
-/// kept; as long as what that did in fact bears it out. Otherwise the tree answers: items that went
-/// far in many are merged in at their new places; if they are most of them, all are ordered anew.
-/// Else bounds are refitted, and the excess surface of the blocks is added up from frame to frame:
-/// once it has cost queries about as much as a new order takes, that is made. So no more than twice
-/// the time of the best moment for it is spent.
+/// kept; as long as what that did in fact bears it out. Otherwise the tree answers: bounds are
+/// refitted, until what queries lose by that exceeds what a new order takes (order_age.h). Then the
+/// items that went far are merged in at their new places if they are few, else all are ordered
+/// anew.
 struct Auto {
     static constexpr std::string_view name = "auto";
     static constexpr std::string_view summary = "kept pairs, refit, merge or a new order, by how "
@@ -26,19 +26,26 @@ struct Auto {
     /// What goes beyond has gone far: of the mean side of a box, or of the cube that holds sixteen
     /// where they are thin.
     double margin = 1;
-    double patience = 1; ///< excess of the blocks' surface, summed over frames, for a new order
+    double patience = 1.5; ///< what queries may lose before a new order, in times of making one
 
     static std::array<Setting<Auto>, 2> settings() {
-        return {{{"margin",
-                  "how far a box may go before it has gone far, in sides of a box or of sixteen "
-                  "boxes' place",
-                  &Auto::margin, 0, 1e6},
-                 {"patience", "excess of the blocks' surface, summed over frames, for a new order",
-                  &Auto::patience, 0, 1e6}}};
+        return {
+            {{"margin",
+              "how far a box may go before it has gone far, in sides of a box or of sixteen "
+              "boxes' place",
+              &Auto::margin, 0, 1e6},
+             {"patience",
+              "what queries may lose by loose bounds before a new order, in times of making one",
+              &Auto::patience, 0, 1e6}}};
     }
 
     void start(MovingTree& tree, Boxes boxes, const Executor& executor) {
-        tree.order_anew(boxes, executor);
+        tree.order_anew(boxes, tree.survey, executor);
+        fresh_ = tree.surface();
+        far_.start(boxes, margin);
+        merges_ = false;
+        age_.patience = patience;
+        age_.start(per_order - per_refit, tree.layout(), boxes);
         wait_ = 0;
         pause_ = least_pause;
         constexpr double slow = 3e-3; // until steps have been seen
@@ -63,7 +70,8 @@ struct Auto {
         const bool would_pay =
             pays(kept_.forecast({steps.begin(), steps.end()}, sample_.items_each(), moved.size()));
         if (kept_.holds())
-            return would_pay ? keep(tree, boxes, moved, executor) : cease(tree, boxes, executor);
+            return would_pay ? keep(tree, boxes, moved, executor)
+                             : do_not_begin(tree, boxes, moved, executor);
         if (would_pay)
             return begin_to_keep(tree, boxes, kept_.pace() / kept_.side(), executor);
         wait_ = between_looks;
@@ -85,39 +93,57 @@ struct Auto {
     std::string fault(const MovingTree&) const { return kept_.fault(); }
 
   private:
-    /// Without kept pairs.
+    /// Without kept pairs. Items that went far are merged in if they alone are to blame.
     void follow(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
                 const Executor& executor) {
-        const std::size_t n = tree.size(), many = n / 400;
-        const std::size_t about_far = moved.size() > many ? far_.about(boxes) : 0;
-        if (about_far > n / 3)
-            return order_anew(tree, boxes, executor);
-        if (about_far > many)
-            return merge(tree, boxes, moved, executor);
-        tree.refit(boxes, moved, executor);
-        excess_ += tree.looseness() - 1;
-        if (excess_ > patience)
+        if (!age_.is_due_next()) {
+            tree.refit(boxes, moved, executor);
+            age_.aged(looseness(tree));
+            if (!age_.is_due())
+                return;
+        }
+        renew_order(tree, boxes, moved, executor);
+    }
+    void renew_order(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
+                     const Executor& executor) {
+        const auto n = static_cast<double>(tree.size());
+        const FarSample::Found far = far_.look(boxes);
+        const double refit = std::min(1., 16 * static_cast<double>(moved.size()) / n) * per_refit,
+                     merge = per_merge + per_merged * static_cast<double>(far.items) / n;
+        constexpr double nearly_all = .8;
+        const bool merges = merge < per_order && far.share > nearly_all;
+        if (merges)
+            merge_in(tree, boxes, moved, executor);
+        else
             order_anew(tree, boxes, executor);
+        age_.renewed((merges ? merge : per_order) - refit, tree.layout(), boxes);
     }
     /// At first an order that can be added to.
-    void merge(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
-               const Executor& executor) {
-        if (std::exchange(merges_, true)) {
+    void merge_in(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
+                  const Executor& executor) {
+        if (merges_) {
             const auto far = margins_.left(boxes, moved);
             tree.merge_in(boxes, far, executor);
             margins_.follow(boxes, far);
-        } else {
-            tree.order_to_merge(boxes, executor);
-            margins_.start(boxes, margin);
+            far_.start_far(boxes);
+            return;
         }
+        tree.order_to_merge(boxes, tree.survey, executor);
+        fresh_ = tree.surface();
         far_.start(boxes, margin);
-        excess_ = 0;
+        margins_.start_wide(boxes, far_.reach());
+        merges_ = true;
     }
     void order_anew(MovingTree& tree, Boxes boxes, const Executor& executor) {
-        tree.order_anew(boxes, executor);
+        tree.order_anew(boxes, tree.survey, executor);
+        fresh_ = tree.surface();
         far_.start(boxes, margin);
         merges_ = false;
-        excess_ = 0;
+    }
+    double looseness(const MovingTree& tree) const {
+        const double now = tree.surface();
+        constexpr double all_new = 1e6; // boxes came where there were none
+        return fresh_ > 0 ? now / fresh_ : now > 0 ? all_new : 1;
     }
 
     bool pays(double nanoseconds) const { return nanoseconds < .75 * kept_.spent_anew(); }
@@ -142,20 +168,38 @@ struct Auto {
         else if (lost_ == 0 && ++paid_ == some_frames)
             pause_ = least_pause;
     }
-    /// It did not pay: each time longer until it is tried again.
+    /// In the first frame the order is that of the start.
+    void do_not_begin(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
+                      const Executor& executor) {
+        kept_.drop();
+        wait();
+        tree.refit(boxes, executor);
+        age_.aged(looseness(tree));
+        if (age_.is_due())
+            renew_order(tree, boxes, moved, executor);
+    }
+    /// It did not pay.
     void cease(MovingTree& tree, Boxes boxes, const Executor& executor) {
         kept_.drop();
+        wait();
         order_anew(tree, boxes, executor);
+        age_.renewed(per_order - per_refit, tree.layout(), boxes);
+    }
+    /// Each time longer until it is tried again.
+    void wait() {
         wait_ = pause_;
         pause_ = std::min<std::size_t>(2 * pause_, 1024);
     }
 
+    /// Nanoseconds for each item, as in OrderAge; `per_merged` for each that went far.
+    static constexpr double per_refit = 8, per_order = 20, per_merge = 11, per_merged = 50;
     static constexpr std::size_t least_pause = 32, some_frames = 64, between_looks = 8;
 
     FarSample far_;
     Margins margins_; ///< while it merges
     bool merges_ = false;
-    double excess_ = 0; ///< since the last new order
+    OrderAge age_;
+    double fresh_ = 0; ///< surface of the blocks when all was last ordered anew
     KeptPairs kept_;
     StepSample sample_;                          ///< followed while no pairs are kept
     bool is_first_ = false;                      ///< no frame has come since the start

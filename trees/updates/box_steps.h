@@ -2,27 +2,32 @@
 
 #include "trees/tree.h"
 
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 namespace boxwood {
 
-/// Whether the box is the empty one: its item is absent from this frame.
-inline bool is_absent(const Box& box) { return box == Box{}; }
+/// Whether each is greater than the one before.
+bool are_ascending(std::span<const std::uint32_t> items);
 
-/// Throws InvalidBox for the first box that is neither valid nor absent, and std::length_error as
-/// `require_valid`.
-void require_present_or_absent(Boxes boxes);
-/// Throws the same for one item.
-void require_present_or_absent(std::uint32_t item, const Box& box);
-
-/// Whether these are the items 0, 1, 2 ...
-bool are_all(std::span<const std::uint32_t> items);
+/// Whether so many moved that looking at all boxes is less work than at those alone.
+inline bool is_nearly_all(std::size_t moved, std::size_t items) { return moved > items / 4; }
 
 /// The most that a face of the box moved: 0 only if the boxes are the same, +inf if one of them is
 /// absent and the other is not. Rounded: at most 2^-23 of it, and FLT_MIN, too small.
-float box_step(const Box& now, const Box& before);
+inline float box_step(const Box& now, const Box& before) {
+    const auto step = [](float x, float y) {
+        return x == y ? 0.f : std::max(std::abs(x - y), FLT_MIN);
+    };
+    const auto larger = [&](const Vec3<float>& a, const Vec3<float>& b) {
+        return std::max(std::max(step(a.x, b.x), step(a.y, b.y)), step(a.z, b.z));
+    };
+    return std::max(larger(now.min, before.min), larger(now.max, before.max));
+}
 
 /// Boxes are followed sixteen at a time.
 inline constexpr std::size_t follow_block = 16;

@@ -2,6 +2,7 @@
 
 #include "trees/updates/box_steps.h"
 #include "trees/updates/item_sample.h"
+#include "trees/updates/survey.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +10,11 @@
 namespace boxwood {
 
 void FarSample::start(Boxes boxes, double reach) {
-    constexpr std::size_t most = 1024, few = 16;
+    constexpr std::size_t most = 1024, few = 32;
     const std::size_t n = boxes.size();
-    items_ = sampled_items(n, n < most ? n : std::min(most, n / few));
+    if (n != n_)
+        items_ = sampled_items(n, std::clamp(n / few, std::min(n, most / 4), most));
+    n_ = n;
     if (items_.empty())
         return;
     items_each_ = static_cast<double>(n) / static_cast<double>(items_.size());
@@ -31,17 +34,31 @@ void FarSample::start(Boxes boxes, double reach) {
     reach_ = 0;
     if (present == 0)
         return;
-    constexpr double block = 16;
     const Vec3<double> extent = room.max - room.min;
-    const double share = extent.x * extent.y * extent.z * block / (present * items_each_);
+    const double share = extent.x * extent.y * extent.z / (present * items_each_);
     reach_ = reach * std::max(sides / present, std::cbrt(share));
 }
 
-std::size_t FarSample::about(Boxes boxes) const {
+FarSample::Found FarSample::look(Boxes boxes) const {
     std::size_t far = 0;
+    double of_far = 0, of_all = 0;
+    for (std::size_t k = 0; k < items_.size(); ++k) {
+        const double step = box_step(boxes[items_[k]], boxes_[k]);
+        const double counted = std::min(step, 4 * reach_);
+        of_all += counted;
+        if (step > reach_) {
+            ++far;
+            of_far += counted;
+        }
+    }
+    return {static_cast<std::size_t>(std::lround(static_cast<double>(far) * items_each_)),
+            of_all > 0 ? of_far / of_all : 1};
+}
+
+void FarSample::start_far(Boxes boxes) {
     for (std::size_t k = 0; k < items_.size(); ++k)
-        far += double{box_step(boxes[items_[k]], boxes_[k])} > reach_;
-    return static_cast<std::size_t>(std::lround(static_cast<double>(far) * items_each_));
+        if (double{box_step(boxes[items_[k]], boxes_[k])} > reach_)
+            boxes_[k] = boxes[items_[k]];
 }
 
 } // namespace boxwood

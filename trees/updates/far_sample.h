@@ -7,15 +7,22 @@
 
 namespace boxwood {
 
-/// About how many items have gone far since the start, by a sample of them: all if they are less
-/// than a thousand, else one in sixteen, and a thousand of many.
+/// About how many items have gone far since the start, by a sample of them: one in 32, but 256 at
+/// least and 1024 at most.
 class FarSample {
   public:
-    /// reach: of the mean side of a box, or of the side of the cube that holds sixteen of them if
-    /// that is larger; what moves a face by more has gone far.
+    /// reach: of the mean side of a box, or of the side of the cube that holds one of them if that
+    /// is larger; what moves a face by more has gone far.
     void start(Boxes boxes, double reach);
-    /// Those who came or went are far.
-    std::size_t about(Boxes boxes) const;
+    struct Found {
+        std::size_t items = 0; ///< about how many have gone far; those who came or went have
+        double share = 0;      ///< of the motion of all items, four times the reach at most each
+    };
+    Found look(Boxes boxes) const;
+    /// Those who went far start here.
+    void start_far(Boxes boxes);
+    /// In the unit of the coordinates.
+    double reach() const { return reach_; }
     std::size_t bytes() const {
         return items_.capacity() * sizeof(std::uint32_t) + boxes_.capacity() * sizeof(Box);
     }
@@ -23,6 +30,7 @@ class FarSample {
   private:
     std::vector<std::uint32_t> items_; ///< ascending
     std::vector<Box> boxes_;           ///< at the start
+    std::size_t n_ = 0;                ///< of which these were taken
     double reach_ = 0, items_each_ = 1;
 };
 

@@ -22,12 +22,12 @@ struct Moving {
                 boxes[item] = cube(far);
                 ++gone;
             }
-        about = sample.about(boxes);
+        about = sample.look(boxes).items;
     }
 };
 
 TEST(FarSample, OfFewItemsTheNumberIsExact) {
-    for (const std::size_t n : {0u, 1u, 15u, 1023u}) {
+    for (const std::size_t n : {0u, 1u, 15u, 256u}) {
         const Moving some(n, [](std::uint32_t item) { return item % 7 == 0; });
         EXPECT_EQ(some.about, some.gone);
     }
@@ -62,10 +62,27 @@ TEST(FarSample, WhoCameOrWentIsFar) {
     boxes[3] = Box{};
     FarSample sample;
     sample.start(boxes, 1);
-    EXPECT_EQ(sample.about(boxes), 0u);
+    EXPECT_EQ(sample.look(boxes).items, 0u);
     boxes[3] = cube(0);
     boxes[7] = Box{};
-    EXPECT_EQ(sample.about(boxes), 2u);
+    EXPECT_EQ(sample.look(boxes).items, 2u);
+}
+
+TEST(FarSample, TheMotionOfThoseWhoWentFarIsSharedOut) {
+    std::vector<Box> boxes(10, cube(0));
+    FarSample sample;
+    sample.start(boxes, 1);
+    for (std::size_t i = 0; i < 10; ++i)
+        boxes[i] = cube(i == 0 ? 2 : .5f);
+    EXPECT_EQ(sample.look(boxes).items, 1u);
+    EXPECT_DOUBLE_EQ(sample.look(boxes).share, 2 / 6.5);
+    boxes[0] = cube(1000); // counts as 4
+    EXPECT_DOUBLE_EQ(sample.look(boxes).share, 4 / 8.5);
+    sample.start_far(boxes);
+    EXPECT_EQ(sample.look(boxes).items, 0u);
+    boxes[1] = cube(1.5f); // since the start
+    EXPECT_EQ(sample.look(boxes).items, 1u);
+    EXPECT_DOUBLE_EQ(sample.look(boxes).share, 1.5 / 5.5);
 }
 
 } // namespace

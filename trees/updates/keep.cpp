@@ -24,7 +24,7 @@ struct Keep {
     }
 
     void start(MovingTree& tree, Boxes boxes, const Executor& executor) {
-        tree.order_anew(boxes, executor);
+        tree.order_anew(boxes, tree.survey, executor);
         kept_.margin = margin;
         keep_anew(tree, boxes, executor);
         tree.step = {};
@@ -40,7 +40,7 @@ struct Keep {
         constexpr double too_loose = 1.35;
         tree.refit(boxes, moved, executor);
         if (tree.looseness() > too_loose)
-            tree.order_anew(boxes, executor);
+            tree.order_anew(boxes, tree.survey, executor);
         if (++frames_ % some_frames == 0)
             keep_anew(tree, boxes, executor);
     }

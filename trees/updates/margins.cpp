@@ -15,9 +15,12 @@ void Margins::start(Boxes boxes, double share) {
         const auto side = static_cast<Vec3<double>>(box.max) - static_cast<Vec3<double>>(box.min);
         sides += side.x + side.y + side.z;
     }
+    start_wide(boxes, share * sides / (present == 0 ? 1 : 3 * static_cast<double>(present)));
+}
+
+void Margins::start_wide(Boxes boxes, double margin) {
     constexpr double most = std::numeric_limits<float>::max();
-    const double n = present == 0 ? 1 : static_cast<double>(present);
-    margin_ = static_cast<float>(std::min(share * sides / (3 * n), most));
+    margin_ = static_cast<float>(std::min(margin, most));
     fat_.resize(boxes.size());
     std::ranges::transform(boxes, fat_.begin(), [&](const Box& box) { return around(box); });
     left_.reserve(boxes.size());

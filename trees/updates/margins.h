@@ -14,6 +14,8 @@ class Margins {
   public:
     /// share: the margin on each side, of the mean side of those present.
     void start(Boxes boxes, double share);
+    /// The margin itself on each side.
+    void start_wide(Boxes boxes, double margin);
     /// The items of `moved` whose boxes are not inside their fat boxes; valid until the next call.
     std::span<const std::uint32_t> left(Boxes boxes, std::span<const std::uint32_t> moved);
     /// Puts the fat boxes of these items around their boxes anew.

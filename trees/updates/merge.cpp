@@ -21,7 +21,7 @@ struct Merge {
     }
 
     void start(MovingTree& tree, Boxes boxes, const Executor& executor) {
-        tree.order_to_merge(boxes, executor);
+        tree.order_to_merge(boxes, tree.survey, executor);
         margins_.start(boxes, margin);
     }
     void update(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,

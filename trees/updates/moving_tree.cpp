@@ -2,7 +2,6 @@
 
 #include "trees/builders/hilbert.h"
 #include "trees/radix_sort.h"
-#include "trees/updates/box_steps.h"
 
 #include <algorithm>
 #include <limits>
@@ -11,10 +10,6 @@ namespace boxwood {
 namespace {
 
 std::uint32_t item_of(std::uint64_t record) { return static_cast<std::uint32_t>(record); }
-
-bool are_some_absent(Boxes boxes) {
-    return std::ranges::any_of(boxes, [](const Box& box) { return box.min.x > box.max.x; });
-}
 
 /// The present boxes and their items, in their order; after these the absent items. Returns how
 /// many are present. Without a branch: who is absent can be any.
@@ -36,15 +31,15 @@ std::size_t gather_present(Boxes boxes, std::vector<Box>& present,
 
 } // namespace
 
-Buffer<std::uint32_t> present_order(Boxes boxes, const Executor& executor) {
-    if (!are_some_absent(boxes))
-        return HilbertBuilder{}.order(boxes, executor);
+Buffer<std::uint32_t> present_order(Boxes boxes, const Survey& survey, const Executor& executor) {
+    if (!survey.some_absent)
+        return HilbertBuilder{}.order(boxes, executor, &survey.centres);
     std::vector<Box> present;
     std::vector<std::uint32_t> items;
     const std::size_t n = gather_present(boxes, present, items);
     Buffer<std::uint32_t> order(boxes.size());
-    std::ranges::transform(HilbertBuilder{}.order(present, executor), order.begin(),
-                           [&](std::uint32_t i) { return items[i]; });
+    std::ranges::transform(HilbertBuilder{}.order(present, executor, &survey.centres),
+                           order.begin(), [&](std::uint32_t i) { return items[i]; });
     std::copy(items.begin() + static_cast<std::ptrdiff_t>(n), items.end(), order.begin() + n);
     return order;
 }
@@ -63,15 +58,17 @@ double MovingTree::looseness() const {
 }
 
 /// kept_curve_order; the records of absent items come last.
-KeptOrder MovingTree::kept_order(Boxes boxes, const Executor& executor) {
-    if (!are_some_absent(boxes))
-        return kept_curve_order(boxes, Curve::hilbert, executor);
+KeptOrder MovingTree::kept_order(Boxes boxes, const Survey& found, const Executor& executor) {
+    if (!found.some_absent)
+        return kept_curve_order(boxes, Curve::hilbert, HilbertBuilder::groups(boxes), executor,
+                                &found.centres);
     const std::size_t n = gather_present(boxes, gathered_, gathered_items_);
-    const KeptOrder present = kept_curve_order(gathered_, Curve::hilbert, executor);
-    KeptOrder all{present.grid, {}};
+    const KeptOrder present = kept_curve_order(
+        gathered_, Curve::hilbert, HilbertBuilder::groups(gathered_), executor, &found.centres);
+    KeptOrder all{present.grid, present.group, {}};
     if (present.records.size() == n) {
         all.records = Buffer<std::uint64_t>(boxes.size());
-        constexpr std::uint64_t beyond = ~std::uint64_t{0} << 32; // codes have 30 bits
+        constexpr std::uint64_t beyond = ~std::uint64_t{0} << 32; // there is no fourth group
         for (std::size_t i = 0; i < boxes.size(); ++i)
             all.records[i] =
                 i < n ? (present.records[i] & beyond) | gathered_items_[item_of(present.records[i])]
@@ -86,19 +83,23 @@ void MovingTree::place(Boxes boxes, const Executor& executor) {
     tight_ = surface();
 }
 
-void MovingTree::order_anew(Boxes boxes, const Executor& executor) {
-    order_ = present_order(boxes, executor);
+void MovingTree::order_anew(Boxes boxes, const std::optional<Survey>& known,
+                            const Executor& executor) {
+    order_ = present_order(boxes, known ? *known : survey_of(boxes, executor), executor);
     records_ = {};
     place(boxes, executor);
     step = {boxes.size(), true};
 }
 
-void MovingTree::order_to_merge(Boxes boxes, const Executor& executor) {
+void MovingTree::order_to_merge(Boxes boxes, const std::optional<Survey>& known,
+                                const Executor& executor) {
     const std::size_t n = boxes.size();
-    KeptOrder kept = kept_order(boxes, executor);
+    const Survey found = known ? *known : survey_of(boxes, executor);
+    KeptOrder kept = kept_order(boxes, found, executor);
     if (kept.records.size() != n)
-        return order_anew(boxes, executor);
+        return order_anew(boxes, found, executor);
     grid_ = kept.grid;
+    group_ = kept.group;
     records_ = std::move(kept.records);
     if (order_.size() != n)
         order_ = Buffer<std::uint32_t>(n);
@@ -117,7 +118,7 @@ void MovingTree::merge_in(Boxes boxes, std::span<const std::uint32_t> items,
                           const Executor& executor) {
     const std::size_t n = boxes.size();
     if (records_.size() != n)
-        return order_to_merge(boxes, executor);
+        return order_to_merge(boxes, {}, executor);
     if (spare_.size() != n) {
         spare_ = Buffer<std::uint64_t>(n);
         taken_out_.assign(n, 0);
@@ -129,11 +130,11 @@ void MovingTree::merge_in(Boxes boxes, std::span<const std::uint32_t> items,
     }
     incoming_ = Buffer<std::uint64_t>(items.size());
     incoming_spare_ = Buffer<std::uint64_t>(items.size());
-    curve_records(gathered_, 0, Curve::hilbert, grid_, incoming_.data());
+    curve_records(gathered_, Curve::hilbert, grid_, group_, incoming_.data());
     // From numbers among the items to items: ascending, too, so that the sort stays by item.
     for (std::uint64_t& record : incoming_)
         record = (record >> 32 << 32) | items[item_of(record)];
-    radix_sort(incoming_, incoming_spare_, 32, 62, serial());
+    radix_sort(incoming_, incoming_spare_, 32, 64, serial());
 
     std::size_t next = 0, to = 0;
     for (const std::uint64_t record : records_) {
@@ -158,7 +159,7 @@ void MovingTree::sort_part(Boxes boxes, std::size_t begin, std::size_t end,
     gathered_.clear();
     for (std::size_t slot = begin; slot < end; ++slot)
         gathered_.push_back(boxes[order_[slot]]);
-    Buffer<std::uint32_t> part = present_order(gathered_, executor);
+    Buffer<std::uint32_t> part = present_order(gathered_, survey_of(gathered_, executor), executor);
     for (std::uint32_t& item : part)
         item = order_[begin + item];
     std::ranges::copy(part, order_.begin() + begin);

@@ -3,15 +3,17 @@
 #include "trees/curve_order.h"
 #include "trees/layouts/packed.h"
 #include "trees/update.h"
+#include "trees/updates/survey.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace boxwood {
 
 /// The order of HilbertBuilder, and after it the absent items.
-Buffer<std::uint32_t> present_order(Boxes boxes, const Executor& executor);
+Buffer<std::uint32_t> present_order(Boxes boxes, const Survey& survey, const Executor& executor);
 
 /// What all update policies work on: moving boxes in an order, cut into a packed tree over that
 /// order. The boxes given to every call are those of the newest frame, or around them; each is
@@ -25,11 +27,11 @@ class MovingTree {
     std::size_t bytes() const;
     std::string fault() const;
 
-    /// A new order: that of present_order.
-    void order_anew(Boxes boxes, const Executor& executor);
+    /// A new order: that of present_order. `known` of these boxes, if it is.
+    void order_anew(Boxes boxes, const std::optional<Survey>& known, const Executor& executor);
     /// A new order along a curve, to which `merge_in` can add: takes twice as long. Where boxes are
     /// too close together for that, as order_anew.
-    void order_to_merge(Boxes boxes, const Executor& executor);
+    void order_to_merge(Boxes boxes, const std::optional<Survey>& known, const Executor& executor);
     /// This order of all items.
     void set_order(Boxes boxes, Buffer<std::uint32_t> order, const Executor& executor);
     /// Takes these items out of the order and puts them in where the curve passes them now, if the
@@ -53,10 +55,12 @@ class MovingTree {
     /// That over what it was when the order was last made or changed.
     double looseness() const;
 
-    UpdateStep step; ///< of the newest frame
+    // Of the newest frame:
+    UpdateStep step;
+    std::optional<Survey> survey; ///< if nearly all of it moved
 
   private:
-    KeptOrder kept_order(Boxes boxes, const Executor& executor);
+    KeptOrder kept_order(Boxes boxes, const Survey& found, const Executor& executor);
     void place(Boxes boxes, const Executor& executor);
     void note_slots();
 
@@ -68,6 +72,7 @@ class MovingTree {
 
     // Of the curve: records of a code above an item, in the order of the slots.
     CurveGrid grid_;
+    GroupOfBox group_ = nullptr;
     Buffer<std::uint64_t> records_, spare_, incoming_, incoming_spare_;
     std::vector<std::uint8_t> taken_out_; ///< by item, 0 between calls
     std::vector<Box> gathered_;

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "trees/traversals/self_pairs.h"
-#include "trees/updates/box_steps.h"
 #include "trees/updates/moving_tree.h"
 
 #include <concepts>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -26,8 +26,10 @@ concept UpdatePolicy = std::default_initializable<P> &&
     { P::summary } -> std::convertible_to<std::string_view>;
 };
 
-/// Throws std::invalid_argument or InvalidBox as Updater::update does.
-void require_frame(Boxes boxes, std::span<const std::uint32_t> moved, std::size_t size);
+/// The survey of a frame if nearly all of it moved. Throws std::invalid_argument or InvalidBox as
+/// Updater::update does.
+std::optional<Survey> survey_frame(Boxes boxes, std::span<const std::uint32_t> moved,
+                                   std::size_t size, const Executor& executor);
 
 /// Puts a policy behind Updater: bad frames are refused before it sees them.
 template <UpdatePolicy P> class UpdaterOf final : public Updater {
@@ -35,13 +37,13 @@ template <UpdatePolicy P> class UpdaterOf final : public Updater {
     explicit UpdaterOf(P policy) : policy_(std::move(policy)) {}
 
     void start(Boxes boxes, const Executor& executor) override {
-        require_present_or_absent(boxes);
+        tree_.survey = survey_of(boxes, executor);
         tree_.step = {};
         policy_.start(tree_, boxes, executor);
     }
     void update(Boxes boxes, std::span<const std::uint32_t> moved,
                 const Executor& executor) override {
-        require_frame(boxes, moved, tree_.size());
+        tree_.survey = survey_frame(boxes, moved, tree_.size(), executor);
         tree_.step = {};
         if (answers || !moved.empty())
             policy_.update(tree_, boxes, moved, executor);

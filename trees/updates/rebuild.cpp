@@ -19,14 +19,14 @@ struct Rebuild {
     }
 
     void start(MovingTree& tree, Boxes boxes, const Executor& executor) {
-        tree.order_anew(boxes, executor);
+        tree.order_anew(boxes, tree.survey, executor);
     }
     void update(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
                 const Executor& executor) {
         if (trigger > 0)
             tree.refit(boxes, moved, executor);
         if (!(trigger > 0 && tree.looseness() <= trigger))
-            tree.order_anew(boxes, executor);
+            tree.order_anew(boxes, tree.survey, executor);
     }
     std::size_t bytes() const { return 0; }
 };

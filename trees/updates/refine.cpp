@@ -21,7 +21,7 @@ struct Refine {
     }
 
     void start(MovingTree& tree, Boxes boxes, const Executor& executor) {
-        tree.order_anew(boxes, executor);
+        tree.order_anew(boxes, tree.survey, executor);
         next_ = 0;
     }
     void update(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t>,

@@ -1,7 +1,7 @@
 #include "trees/dynamic_tree.h"
-#include "trees/updates/box_steps.h"
 #include "trees/updates/margins.h"
 #include "trees/updates/policy.h"
+#include "trees/updates/survey.h"
 
 #include <algorithm>
 #include <array>
@@ -28,7 +28,7 @@ struct Reinsert {
         items_.clear();
         items_.reserve(boxes.size());
         // Along the curve: neighbours in time are neighbours in space, and in the caches.
-        for (const std::uint32_t item : present_order(boxes, executor))
+        for (const std::uint32_t item : present_order(boxes, survey_of(boxes, executor), executor))
             if (!is_absent(boxes[item]))
                 items_.insert(item, margins_.fat(item));
         tree.set_order(boxes, order(boxes.size()), executor);

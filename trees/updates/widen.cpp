@@ -1,7 +1,7 @@
 #include "trees/updates/widen.h"
 
 #include "trees/radix_sort.h"
-#include "trees/updates/box_steps.h"
+#include "trees/updates/survey.h"
 
 #include <algorithm>
 #include <cfloat>
