@@ -111,17 +111,25 @@ template <bool Self, bool Counted> class Walk {
                 alone_.plane[3 + axis][0] = box.max[axis];
             }
         above_ = alone ? &alone_ : &a_.level(1)[node];
-        near_.n = 0;
+        near_.n = close_.n = 0;
         for (std::size_t j = Self && alone ? 1 : 0; j < candidates->size(); ++j) {
-            if (near_.n + w * w > near_.most && !meet_near())
-                return false;
             const std::uint32_t c = (*candidates)[j];
-            if (level_b == 0)
+            if (level_b == 0) {
+                if (near_.n + count > near_.most && !meet_near())
+                    return false;
                 for (std::uint32_t i = 0; i < count; ++i)
                     near_.push(c, i);
-            else
-                list_near(c, Self && c == node, count);
+            } else if (Self && c == node) { // comes first
+                for (std::uint32_t i = 0; i < count; ++i)
+                    list_near<true>(c, i);
+            } else {
+                if (close_.n + w > close_.most && !list_near())
+                    return false;
+                list_close(c);
+            }
         }
+        if (!list_near())
+            return false;
         if (!meet_near())
             return false;
         if constexpr (Self) {
@@ -139,23 +147,45 @@ template <bool Self, bool Counted> class Walk {
         return true;
     }
 
-    /// Leaves of `b` that lie below node c of level 1 and overlap one of the leaves at hand; below
-    /// the node itself those after it.
-    void list_near(std::uint32_t c, bool itself, std::size_t count) {
+    /// Of the leaves at hand those that node c of level 1 of `b` overlaps.
+    void list_close(std::uint32_t c) {
+        const Box box = b_.depth() == 2 ? b_.bounds() : b_.level(2)[c / w].lane(c % w);
+        const OneBox one(box);
+        std::size_t n = close_.n;
+        for (std::size_t i = 0; i < w; i += lanes)
+            n += Put(Overlap(*above_, i, one), hn::Iota(du, static_cast<std::uint32_t>(i)), &c,
+                     close_.a + n, close_.b + n);
+        close_.n = n;
+        if constexpr (Counted)
+            count_work(1, n);
+    }
+
+    /// Leaves of `b` that lie below node c of level 1 and overlap the leaf `at` at hand; below the
+    /// node itself those after it.
+    template <bool itself> void list_near(std::uint32_t c, std::uint32_t at) {
         const PackedBlock& block = b_.level(1)[c];
         std::size_t n = near_.n;
-        for (std::uint32_t at = 0; at < count; ++at)
-            for (std::size_t i = 0; i < w; i += lanes) {
-                const auto lane = hn::Iota(du, static_cast<std::uint32_t>(i));
-                M hits = Overlap(block, i, *above_, at);
-                if (Self && itself)
-                    hits = hn::And(hits, hn::RebindMask(df, hn::Gt(lane, hn::Set(du, at))));
-                const auto number = hn::Add(lane, hn::Set(du, static_cast<std::uint32_t>(c * w)));
-                n += Put(hits, number, &at, near_.a + n, near_.b + n);
-            }
+        for (std::size_t i = 0; i < w; i += lanes) {
+            const auto lane = hn::Iota(du, static_cast<std::uint32_t>(i));
+            M hits = Overlap(block, i, *above_, at);
+            if constexpr (itself)
+                hits = hn::And(hits, hn::RebindMask(df, hn::Gt(lane, hn::Set(du, at))));
+            const auto number = hn::Add(lane, hn::Set(du, static_cast<std::uint32_t>(c * w)));
+            n += Put(hits, number, &at, near_.a + n, near_.b + n);
+        }
         near_.n = n;
         if constexpr (Counted)
-            count_work(count, near_.n);
+            count_work(1, near_.n);
+    }
+    /// The same of all that `close_` lists; then what is near meets.
+    bool list_near() {
+        for (std::size_t j = 0; j < close_.n; ++j) {
+            if (near_.n + w > near_.most && !meet_near())
+                return false;
+            list_near<false>(close_.b[j], close_.a[j]);
+        }
+        close_.n = 0;
+        return meet_near();
     }
 
     /// What `near_` lists, in parts whose slots have room: of two leaves the slots of `b` that
@@ -283,6 +313,7 @@ template <bool Self, bool Counted> class Walk {
     std::size_t first_ = 0;
     const PackedBlock* above_ = nullptr;
     PackedBlock alone_{};
+    PackedColumns close_;  ///< leaves at hand, from first_ on, and nodes of level 1 of `b`
     PackedColumns near_;   ///< leaves of `b`, and which of ours each is near to, from first_ on
     PackedColumns theirs_; ///< slots of `b`, and leaves of `a` they might overlap
     PackedColumns ours_;   ///< slots of `a`, and leaves of `b`
