@@ -11,18 +11,23 @@
 namespace boxwood {
 
 void OrderAge::start(double price, const PackedLayout& layout, Boxes boxes) {
+    start(price, 0);
+    measure(layout, boxes);
+}
+
+void OrderAge::start(double price, double query) {
     const double kept = patience;
     *this = {};
     patience = kept;
     price_ = price;
-    measure(layout, boxes);
+    fresh_query_ = query;
 }
 
-/// Some of the boxes ask as regions. All pairs together take a third of as many box tests: each is
-/// found once, and by whole blocks.
+/// Some of the boxes ask as regions. All pairs together take about a quarter of as many box tests:
+/// each found once, and by whole blocks.
 void OrderAge::measure(const PackedLayout& layout, Boxes boxes) {
     constexpr std::size_t few = 16, most = 256;
-    constexpr double per_test = .3, share = 1. / 3;
+    constexpr double per_test = .3, share = .28;
     std::vector<Box> asked;
     for (const std::uint32_t item :
          sampled_items(boxes.size(), std::clamp(boxes.size() / 64, few, most)))
@@ -40,8 +45,14 @@ void OrderAge::measure(const PackedLayout& layout, Boxes boxes) {
 
 void OrderAge::renewed(double price, const PackedLayout& layout, Boxes boxes) {
     constexpr std::size_t between_measures = 16;
-    if (++renewals_ % between_measures == 0)
+    renewed(price, fresh_query_);
+    if (renewals_ % between_measures == 0)
         measure(layout, boxes);
+}
+
+void OrderAge::renewed(double price, double query) {
+    fresh_query_ = query;
+    ++renewals_;
     in_a_row_ = frames_ == 0 ? in_a_row_ + 1 : 0;
     price_ = price;
     before_ = newest_ = 0;

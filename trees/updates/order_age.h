@@ -19,8 +19,11 @@ class OrderAge {
 
     /// Forgets all but `patience`. The order is fresh, and no motion has been seen.
     void start(double price, const PackedLayout& layout, Boxes boxes);
+    /// The same, for queries that are known to take so much over a fresh order.
+    void start(double price, double query);
     /// The order was made anew, or in part, at this price above that of leaving it.
     void renewed(double price, const PackedLayout& layout, Boxes boxes);
+    void renewed(double price, double query);
     /// The boxes moved, the order stayed: `looseness` is the surface of all blocks over what it was
     /// when all of the order was fresh.
     void aged(double looseness);

@@ -4,6 +4,7 @@
 #include "trees/updates/moving_tree.h"
 
 #include <concepts>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -63,6 +64,16 @@ template <UpdatePolicy P> class UpdaterOf final : public Updater {
     std::size_t size() const override { return tree_.size(); }
     std::size_t bytes() const override { return tree_.bytes() + policy_.bytes(); }
     UpdateStep last_step() const override { return tree_.step; }
+    double sah() const override {
+        const PackedLayout& layout = tree_.layout();
+        if (layout.bounds().is_empty())
+            return 0;
+        // Below this no area of a lane, which is a float, becomes infinite.
+        constexpr double most = std::numeric_limits<float>::max() / 2;
+        const double area = layout.bounds().half_area();
+        return area > 0 && area < most ? PackedLayout::width * (1 + layout.surface())
+                                       : std::numeric_limits<double>::quiet_NaN();
+    }
     std::string fault() const override {
         std::string found = tree_.fault();
         if constexpr (answers)

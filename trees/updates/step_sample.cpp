@@ -19,17 +19,20 @@ void StepSample::start(Boxes boxes) {
 
 std::span<const float> StepSample::follow(Boxes boxes, std::span<const std::uint32_t> moved) {
     steps_.assign(items_.size(), 0);
-    auto at = moved.begin();
-    for (std::size_t i = 0; i < items_.size(); ++i) {
-        const std::uint32_t item = items_[i];
-        at = moved.size() == boxes.size() ? moved.begin() + item
-                                          : std::lower_bound(at, moved.end(), item);
-        if (at == moved.end())
-            break;
-        if (*at != item)
-            continue;
-        steps_[i] = box_step(boxes[item], boxes_[i]);
-        boxes_[i] = boxes[item];
+    const auto look = [&](std::size_t i) {
+        steps_[i] = box_step(boxes[items_[i]], boxes_[i]);
+        boxes_[i] = boxes[items_[i]];
+    };
+    if (moved.size() >= items_.size()) { // those that have not moved have their old boxes
+        for (std::size_t i = 0; i < items_.size(); ++i)
+            look(i);
+        return steps_;
+    }
+    auto at = items_.begin();
+    for (const std::uint32_t item : moved) {
+        at = std::lower_bound(at, items_.end(), item);
+        if (at != items_.end() && *at == item)
+            look(static_cast<std::size_t>(at - items_.begin()));
     }
     return steps_;
 }
