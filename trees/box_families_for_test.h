@@ -1,6 +1,6 @@
 #pragma once
 
-#include "trees/pairs.h"
+#include "trees/brute_force_for_test.h"
 #include "trees/tree.h"
 
 #include <cmath>
@@ -16,16 +16,6 @@ struct BoxFamily {
     std::string name;
     std::vector<Box> boxes;
 };
-
-/// Every overlapping pair, ascending: the oracle.
-inline std::vector<Pair> brute_force(Boxes boxes) {
-    std::vector<Pair> pairs;
-    for (std::uint32_t a = 0; a < boxes.size(); ++a)
-        for (std::uint32_t b = a + 1; b < boxes.size(); ++b)
-            if (overlaps(boxes[a], boxes[b]))
-                pairs.push_back({a, b});
-    return pairs;
-}
 
 /// n boxes with their lower corners in the unit cube and sides of up to `size`.
 inline std::vector<Box> random_boxes(std::size_t n, float size, std::uint32_t seed) {

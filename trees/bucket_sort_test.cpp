@@ -1,4 +1,5 @@
 #include "trees/bucket_sort.h"
+#include "trees/every_executor_for_test.h"
 
 #include <gtest/gtest.h>
 
@@ -63,14 +64,10 @@ TEST(BucketSort, AgreesWithTheStandardSortOnEveryFamilyAndExecutor) {
         for (std::size_t i = 0; i < family.codes.size(); ++i)
             truth.push_back(std::uint64_t{family.codes[i]} << 32 | i);
         std::ranges::sort(truth);
-        for (const ExecutorEntry& entry : executors())
-            for (const unsigned threads : {1u, 2u, 4u}) {
-                if (entry.name == "serial" && threads > 1)
-                    continue;
-                std::size_t alike = 0;
-                EXPECT_EQ(sorted(family.codes, 30, Sorted::exactly, *entry.make(threads), alike),
-                          truth);
-            }
+        for (const auto& [name, executor] : every_executor()) {
+            std::size_t alike = 0;
+            EXPECT_EQ(sorted(family.codes, 30, Sorted::exactly, *executor, alike), truth) << name;
+        }
     }
 }
 
@@ -82,14 +79,11 @@ TEST(BucketSort, InBlocksIsTheSameOnEveryExecutorAndNowhereFarFromSorted) {
             codes[i] |= static_cast<std::uint32_t>(i % 3) << 30;
         std::size_t alike = 0;
         const auto found = sorted(codes, 32, Sorted::in_blocks, serial(), alike);
-        for (const ExecutorEntry& entry : executors())
-            for (const unsigned threads : {2u, 4u}) {
-                if (entry.name == "serial")
-                    continue;
-                std::size_t other = 0;
-                EXPECT_EQ(sorted(codes, 32, Sorted::in_blocks, *entry.make(threads), other), found);
-                EXPECT_EQ(other, alike);
-            }
+        for (const auto& [name, executor] : parallel_executors()) {
+            std::size_t other = 0;
+            EXPECT_EQ(sorted(codes, 32, Sorted::in_blocks, *executor, other), found) << name;
+            EXPECT_EQ(other, alike) << name;
+        }
         std::vector<std::uint64_t> truth = found;
         std::ranges::sort(truth);
         for (std::size_t i = 0; i < found.size(); ++i) {

@@ -5,6 +5,7 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
+#include "kernels/every_target_for_test.h"
 #include "trees/compress-inl.h"
 
 #include <gtest/gtest.h>
@@ -49,21 +50,17 @@ HWY_EXPORT(LeftOf16);
 namespace {
 
 TEST(Compress, LeavesTheLanesOfEveryMaskInTheirOrderOnEveryInstructionSet) {
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        hwy::SetSupportedTargetsForTest(target);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    on_every_target([] {
         for (std::uint32_t mask = 0; mask < 1 << 16; ++mask) {
             std::vector<std::uint32_t> expected;
             for (std::uint32_t i = 0; i < 16; ++i)
                 if (mask >> i & 1)
                     expected.push_back(1000 + i);
-            ASSERT_EQ(HWY_DYNAMIC_DISPATCH(LeftOf4)(mask), expected) << hwy::TargetName(target);
-            ASSERT_EQ(HWY_DYNAMIC_DISPATCH(LeftOf8)(mask), expected) << hwy::TargetName(target);
-            ASSERT_EQ(HWY_DYNAMIC_DISPATCH(LeftOf16)(mask), expected) << hwy::TargetName(target);
+            ASSERT_EQ(HWY_DYNAMIC_DISPATCH(LeftOf4)(mask), expected);
+            ASSERT_EQ(HWY_DYNAMIC_DISPATCH(LeftOf8)(mask), expected);
+            ASSERT_EQ(HWY_DYNAMIC_DISPATCH(LeftOf16)(mask), expected);
         }
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    });
 }
 
 } // namespace

@@ -1,12 +1,11 @@
+#include "kernels/every_target_for_test.h"
 #include "trees/box_families_for_test.h"
 #include "trees/curve_order.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <limits>
 #include <numeric>
 #include <random>
@@ -44,21 +43,10 @@ std::vector<Box> lattice(int side, std::vector<Cell>& cells) {
     return boxes;
 }
 
-void for_all_targets(const std::function<void()>& test) {
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        SCOPED_TRACE(hwy::TargetName(target));
-        hwy::SetSupportedTargetsForTest(target);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-        test();
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
-
 TEST(CurveOrder, MortonInterleavesTheBitsOfTheCells) {
     std::vector<Cell> cells;
     const std::vector<Box> boxes = lattice(16, cells);
-    for_all_targets([&] {
+    on_every_target([&] {
         const CurveOrder found = curve_order(boxes, Curve::morton, serial());
         for (std::size_t i = 0; i < boxes.size(); ++i) {
             Cell cell = cells[found.order[i]];
@@ -88,7 +76,7 @@ TEST(CurveOrder, HilbertStepsFromNeighbourToNeighbour) {
         for (std::size_t i = 1; i < steps.size(); ++i)
             ASSERT_EQ(distance(steps[i - 1], steps[i]), 1u) << i;
     };
-    for_all_targets([&] {
+    on_every_target([&] {
         check(curve_order(boxes, Curve::hilbert, serial()).order.span());
         check(coarse_curve_order(boxes, Curve::hilbert, serial()).span());
     });
@@ -166,7 +154,7 @@ TEST(CurveOrder, IsTheSameOnEveryExecutorAndInstructionSet) {
             for (const std::string_view word : {"openmp", "tbb"})
                 for (const unsigned threads : {2u, 4u})
                     check(*make_executor(word, threads));
-            for_all_targets([&] { check(serial()); });
+            on_every_target([&] { check(serial()); });
         }
 }
 
@@ -180,7 +168,7 @@ TEST(CurveOrder, NamesTheFirstBadBox) {
             for (std::size_t at = 0; at < n; ++at) {
                 std::vector<Box> boxes = random_boxes(n, .1f, 1);
                 boxes[at] = boxes[n - 1] = bad;
-                for_all_targets([&] {
+                on_every_target([&] {
                     try {
                         curve_order(boxes, Curve::hilbert, serial());
                         FAIL() << "took a bad box";
@@ -203,7 +191,7 @@ TEST(CurveOrder, PutsGroupsOneAfterAnotherAndIsTheSameOnEveryTargetAndExecutor) 
             return std::vector<std::uint32_t>(order.begin(), order.end());
         };
         const std::vector<std::uint32_t> order = order_on(serial());
-        for_all_targets([&] { EXPECT_EQ(order_on(*make_executor("tbb", 2)), order); });
+        on_every_target([&] { EXPECT_EQ(order_on(*make_executor("tbb", 2)), order); });
         std::vector<std::uint32_t> groups, items = order, all(boxes.size());
         for (const std::uint32_t item : order)
             groups.push_back(by_length(boxes[item]));

@@ -1,6 +1,9 @@
+#include "trees/brute_force_for_test.h"
 #include "trees/builder.h"
+#include "trees/every_executor_for_test.h"
 #include "trees/layout.h"
 #include "trees/pairs.h"
+#include "trees/same_tree_for_test.h"
 #include "trees/validate.h"
 #include "trees/ways_to_build_for_test.h"
 
@@ -37,37 +40,10 @@ rc::Gen<std::vector<Box>> any_boxes() {
     });
 }
 
-/// Each executor with 1, 2 and 4 threads, kept from case to case.
-std::span<const std::unique_ptr<Executor>> all_executors() {
-    static const auto all = [] {
-        std::vector<std::unique_ptr<Executor>> made;
-        for (const ExecutorEntry& entry : executors())
-            for (const unsigned threads : {1u, 2u, 4u})
-                if (entry.name != "serial" || threads == 1)
-                    made.push_back(entry.make(threads));
-        return made;
-    }();
-    return all;
-}
-
-bool same(const Tree& a, const Tree& b) {
-    return std::ranges::equal(a.order, b.order) &&
-           std::ranges::equal(a.nodes, b.nodes, [](const TreeNode& x, const TreeNode& y) {
-               return x.box == y.box && x.first == y.first && x.count == y.count;
-           });
-}
-
-std::vector<Pair> overlapping(Boxes boxes) {
-    std::vector<Pair> pairs;
-    for (std::uint32_t i = 0; i < boxes.size(); ++i)
-        for (std::uint32_t j = i + 1; j < boxes.size(); ++j)
-            if (overlaps(boxes[i], boxes[j]))
-                pairs.push_back({i, j});
-    return pairs;
-}
-
+/// One of those kept from case to case.
 const Executor& any_executor() {
-    return *all_executors()[*rc::gen::inRange<std::size_t>(0, all_executors().size())];
+    static const std::vector<ExecutorToTry> all = every_executor();
+    return *all[*rc::gen::inRange<std::size_t>(0, all.size())].run;
 }
 
 RC_GTEST_PROP(Properties, EveryBuilderMakesOneValidTree, ()) {
@@ -78,14 +54,14 @@ RC_GTEST_PROP(Properties, EveryBuilderMakesOneValidTree, ()) {
         const Tree tree = build(boxes, serial());
         if (const auto fault = validate(tree, boxes))
             RC_FAIL(way + ": " + *fault);
-        if (!same(build(boxes, executor), tree))
+        if (!same_tree(build(boxes, executor), tree))
             RC_FAIL(way + ": another tree on " + std::to_string(executor.threads()) + " threads");
     }
 }
 
 RC_GTEST_PROP(Properties, EveryLayoutOfAnyTreeFindsThePairs, ()) {
     const std::vector<Box> boxes = *any_boxes();
-    const std::vector<Pair> expected = overlapping(boxes);
+    const std::vector<Pair> expected = brute_force(boxes);
     const Executor& executor = any_executor();
     const std::string way = *rc::gen::elementOf(ways_to_build());
     const BuildFunction build = make_builder(way);
@@ -139,11 +115,9 @@ TEST(Properties, ManyBoxesMakeTheSameTreeOnEveryExecutor) {
             const BuildFunction build = make_builder(way);
             const Tree tree = build(boxes, serial());
             EXPECT_EQ(validate(tree, boxes).value_or(""), "") << way;
-            for (const auto& executor : all_executors())
-                if (executor->threads() > 1) {
-                    EXPECT_TRUE(same(build(boxes, *executor), tree))
-                        << way << ", " << executor->threads() << " threads, seed " << seed;
-                }
+            for (const auto& [name, executor] : parallel_executors())
+                EXPECT_TRUE(same_tree(build(boxes, *executor), tree))
+                    << way << ", " << name << " threads, seed " << seed;
         }
     }
 }

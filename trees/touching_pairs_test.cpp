@@ -4,6 +4,7 @@
 #include "kernels/oracle/oracle.h"
 #include "trees/builder.h"
 #include "trees/layout.h"
+#include "trees/triangle_soup_for_test.h"
 
 #include <gtest/gtest.h>
 
@@ -31,10 +32,7 @@ TriangleMesh lattice_mesh(std::size_t n) {
 
 template <class K> void check(const TriangleMesh& mesh, const std::vector<Pair>& expected) {
     SCOPED_TRACE(std::string(K::name));
-    std::vector<Aabb<float>> boxes;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-        boxes.push_back(mesh.triangle(i).bounds());
-    const Tree tree = builders().front().make({})(boxes, serial());
+    const Tree tree = builders().front().make({})(triangle_boxes(mesh), serial());
     for (const LayoutEntry& entry : layouts()) {
         const auto layout = entry.make(tree, serial());
         std::vector<Pair> in_order;

@@ -1,9 +1,9 @@
 #include "kernels/ray_triangle/blocks.h"
 
 #include "kernels/catalogue.h"
+#include "kernels/every_target_for_test.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <bit>
 #include <cmath>
@@ -73,9 +73,7 @@ RayHit one_by_one(const Ray<float>& ray, const TriangleBlock<lanes>& block) {
 template <std::size_t lanes> void compare() {
     const Input<lanes> input(6000);
     const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        hwy::SetSupportedTargetsForTest(target);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    on_every_target([&] {
         for (const KernelInfo& info : ray_kernels())
             with_kernel<RayKernels>(info.name, [&]<RayKernel K>(std::type_identity<K>) {
                 std::vector<RayHit> hits(input.rays.size());
@@ -87,15 +85,13 @@ template <std::size_t lanes> void compare() {
                                       bits(hits[i].t) == bits(expected.t) &&
                                       bits(hits[i].u) == bits(expected.u) &&
                                       bits(hits[i].v) == bits(expected.v);
-                    ASSERT_TRUE(same) << K::name << ' ' << hwy::TargetName(target) << ' ' << i;
+                    ASSERT_TRUE(same) << K::name << ' ' << i;
                     n_hits += hits[i].hit();
                 }
                 EXPECT_GT(n_hits, 2000) << K::name;
                 EXPECT_LT(n_hits, 5900) << K::name;
             });
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    });
 }
 
 TEST(RayBlocks, OfFourAnswerAsOneByOneOnEveryInstructionSet) { compare<4>(); }

@@ -1,10 +1,10 @@
 #include "kernels/triangle_distance/features.h"
 
+#include "kernels/every_target_for_test.h"
 #include "kernels/triangle_distance/distance_pairs_for_test.h"
 #include "kernels/triangle_distance/features_batch.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <limits>
 
@@ -205,10 +205,7 @@ TEST(FeaturesBatch, SameBitsOnEveryTarget) {
             std::array{d.distance, d.lo, d.hi, d.point_a.x, d.point_a.y, d.point_a.z, d.point_b.x,
                        d.point_b.y, d.point_b.z});
     };
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        SCOPED_TRACE(hwy::TargetName(target));
-        hwy::SetSupportedTargetsForTest(target);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    on_every_target([&] {
         for (const std::size_t n : {std::size_t{0}, std::size_t{1}, std::size_t{3}, std::size_t{8},
                                     std::size_t{130}, a.size() - 5, a.size()}) {
             std::vector<Distance> got(n + 1);
@@ -220,9 +217,7 @@ TEST(FeaturesBatch, SameBitsOnEveryTarget) {
                     << expected[i].distance;
             EXPECT_EQ(got.back().distance, -1);
         }
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    });
 }
 
 } // namespace

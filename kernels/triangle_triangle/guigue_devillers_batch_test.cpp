@@ -1,10 +1,10 @@
 #include "kernels/triangle_triangle/guigue_devillers_batch.h"
 
+#include "kernels/every_target_for_test.h"
 #include "kernels/float_mode.h"
 #include "kernels/triangle_triangle/triangle_pairs_for_test.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <limits>
 
@@ -24,18 +24,6 @@ static_assert(!TriangleBatchKernel<GuigueDevillersF32>);
 static_assert(GuigueDevillersF32Batch::info.promise == Promise::none);
 static_assert(GuigueDevillersExactF32Batch::info.promise == Promise::exact);
 static_assert(GuigueDevillersExactF32Batch::name == "guigue_devillers_exact_f32_batch");
-
-/// f() on every instruction set that this machine has.
-template <class F> void on_each_target(F f) {
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        SCOPED_TRACE(hwy::TargetName(target));
-        hwy::SetSupportedTargetsForTest(target);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-        f();
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
 
 template <class K> struct Blocks {
     using Real = typename K::Real;
@@ -71,7 +59,7 @@ template <class K> class Batch : public testing::Test {
     static std::vector<Verdict> verdicts(const std::vector<TrianglePair>& pairs) {
         const Blocks<K> blocks(pairs);
         const std::vector<Verdict> best = blocks.verdicts(pairs.size());
-        on_each_target([&] { EXPECT_EQ(blocks.verdicts(pairs.size()), best); });
+        on_every_target([&] { EXPECT_EQ(blocks.verdicts(pairs.size()), best); });
         for (std::size_t i = 0; i < pairs.size(); ++i) {
             const auto one =
                 K::intersect(as<typename K::Real>(pairs[i].a), as<typename K::Real>(pairs[i].b));
@@ -184,7 +172,7 @@ TYPED_TEST(Batch, WritesNoMoreThanAsked) {
     const auto pairs = this->families(3).grid(40, 3);
     const Blocks<TypeParam> blocks(pairs);
     const std::vector<Verdict> all = blocks.verdicts(pairs.size());
-    on_each_target([&] {
+    on_every_target([&] {
         for (std::size_t n = 0; n <= pairs.size(); ++n)
             EXPECT_EQ(blocks.verdicts(n),
                       std::vector<Verdict>(all.begin(), all.begin() + std::ptrdiff_t(n)));
@@ -201,7 +189,7 @@ TYPED_TEST(Batch, MaybeForNanAndInfinity) {
     std::vector<Real> bad{nan};
     if (this->exact) // the rung above the other one judges infinity as it can
         bad.insert(bad.end(), {inf, -inf});
-    on_each_target([&] {
+    on_every_target([&] {
         for (const Real x : bad)
             for (int corner = 0; corner < 3; ++corner)
                 for (int k = 0; k < 3; ++k)

@@ -1,12 +1,13 @@
+#include "kernels/every_target_for_test.h"
 #include "trees/box_families_for_test.h"
 #include "trees/builder.h"
 #include "trees/builders/top_down.h"
+#include "trees/every_executor_for_test.h"
 #include "trees/quality.h"
+#include "trees/same_tree_for_test.h"
 #include "trees/validate.h"
 
 #include <gtest/gtest.h>
-
-#include <hwy/targets.h>
 
 #include <bit>
 #include <cstring>
@@ -113,12 +114,6 @@ TEST(BinnedSahBuilder, DepthIsBoundedOnGeometricSpacing) {
     EXPECT_GT(depth, 2u * std::bit_width(boxes.size()) + 17) << "the limit was not put to the test";
 }
 
-bool same(const Tree& a, const Tree& b) {
-    return a.size() == b.size() &&
-           std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.bytes()) == 0 &&
-           std::memcmp(a.order.data(), b.order.data(), a.order.bytes()) == 0;
-}
-
 TEST(Builders, MakeTheSameTreeOnEveryExecutorAndInstructionSet) {
     std::vector<Box> boxes = random_boxes(30000, .05f, 10);
     for (std::size_t i = 0; i < 9000; ++i)
@@ -127,18 +122,9 @@ TEST(Builders, MakeTheSameTreeOnEveryExecutorAndInstructionSet) {
         SCOPED_TRACE(builder.name);
         const BuildFunction build = builder.make({});
         const Tree expected = build(boxes, serial());
-        for (const ExecutorEntry& executor : executors())
-            for (const unsigned threads : {2u, 4u}) {
-                if (executor.name == "serial")
-                    continue;
-                EXPECT_TRUE(same(expected, build(boxes, *executor.make(threads))))
-                    << executor.name << " " << threads;
-            }
-        for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-            hwy::SetSupportedTargetsForTest(target);
-            EXPECT_TRUE(same(expected, build(boxes, serial()))) << hwy::TargetName(target);
-            hwy::SetSupportedTargetsForTest(0);
-        }
+        for (const auto& [name, executor] : parallel_executors())
+            EXPECT_TRUE(same_tree(expected, build(boxes, *executor))) << name;
+        on_every_target([&] { EXPECT_TRUE(same_tree(expected, build(boxes, serial()))); });
     }
 }
 

@@ -1,11 +1,13 @@
 #include "trees/builders/lbvh.h"
 
+#include "kernels/every_target_for_test.h"
 #include "trees/box_families_for_test.h"
+#include "trees/every_executor_for_test.h"
 #include "trees/quality.h"
+#include "trees/same_tree_for_test.h"
 #include "trees/validate.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <bit>
@@ -19,13 +21,6 @@ Tree lbvh(Boxes boxes, double hilbert = LbvhBuilder{}.hilbert,
     LbvhBuilder builder;
     builder.hilbert = hilbert;
     return builder.build(boxes, executor);
-}
-
-bool same(const Tree& a, const Tree& b) {
-    return std::ranges::equal(a.order, b.order) &&
-           std::ranges::equal(a.nodes, b.nodes, [](const TreeNode& x, const TreeNode& y) {
-               return x.box == y.box && x.first == y.first && x.count == y.count;
-           });
 }
 
 TEST(LbvhBuilder, SplitsCornersOfACubeByTheFirstBit) {
@@ -81,17 +76,9 @@ TEST(LbvhBuilder, IsTheSameOnEveryExecutorAndInstructionSet) {
             std::fill(boxes.begin() + 10000, boxes.end(), boxes[0]);
         const Tree expected = lbvh(boxes);
         ASSERT_FALSE(validate(expected, boxes));
-        for (const ExecutorEntry& executor : executors())
-            for (const unsigned threads : {1u, 2u, 4u})
-                if (threads == 1 || executor.name != "serial") {
-                    EXPECT_TRUE(same(lbvh(boxes, 0, *executor.make(threads)), expected))
-                        << executor.name << threads;
-                }
-        for (std::int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1) {
-            hwy::SetSupportedTargetsForTest(targets & -targets);
-            EXPECT_TRUE(same(lbvh(boxes), expected)) << hwy::TargetName(targets & -targets);
-        }
-        hwy::SetSupportedTargetsForTest(0);
+        for (const auto& [name, executor] : every_executor())
+            EXPECT_TRUE(same_tree(lbvh(boxes, 0, *executor), expected)) << name;
+        on_every_target([&] { EXPECT_TRUE(same_tree(lbvh(boxes), expected)); });
     }
 }
 

@@ -1,13 +1,15 @@
 #include "trees/builders/ploc.h"
 
+#include "kernels/every_target_for_test.h"
 #include "trees/box_families_for_test.h"
 #include "trees/builders/lbvh.h"
 #include "trees/builders/ploc_tile.h"
+#include "trees/every_executor_for_test.h"
 #include "trees/quality.h"
+#include "trees/same_tree_for_test.h"
 #include "trees/validate.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <bit>
@@ -20,13 +22,6 @@ Tree ploc(Boxes boxes, double radius = PlocBuilder{}.radius, const Executor& exe
     PlocBuilder builder;
     builder.radius = radius;
     return builder.build(boxes, executor);
-}
-
-bool same(const Tree& a, const Tree& b) {
-    return std::ranges::equal(a.order, b.order) &&
-           std::ranges::equal(a.nodes, b.nodes, [](const TreeNode& x, const TreeNode& y) {
-               return x.box == y.box && x.first == y.first && x.count == y.count;
-           });
 }
 
 Quality quality_of(const Tree& tree, Boxes boxes) { return quality(tree, boxes, {1, 1, 0}); }
@@ -103,17 +98,9 @@ TEST(PlocBuilder, IsTheSameOnEveryExecutorAndInstructionSet) {
     const std::vector<Box> boxes = random_boxes(30000, .02f, 6);
     const Tree expected = ploc(boxes);
     ASSERT_FALSE(validate(expected, boxes));
-    for (const ExecutorEntry& executor : executors())
-        for (const unsigned threads : {1u, 2u, 4u})
-            if (threads == 1 || executor.name != "serial") {
-                EXPECT_TRUE(same(ploc(boxes, 8, *executor.make(threads)), expected))
-                    << executor.name << threads;
-            }
-    for (std::int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1) {
-        hwy::SetSupportedTargetsForTest(targets & -targets);
-        EXPECT_TRUE(same(ploc(boxes), expected)) << hwy::TargetName(targets & -targets);
-    }
-    hwy::SetSupportedTargetsForTest(0);
+    for (const auto& [name, executor] : every_executor())
+        EXPECT_TRUE(same_tree(ploc(boxes, 8, *executor), expected)) << name;
+    on_every_target([&] { EXPECT_TRUE(same_tree(ploc(boxes), expected)); });
 }
 
 TEST(PlocBuilder, DepthIsBoundedOnIdenticalAndNestedBoxes) {

@@ -3,12 +3,17 @@
 #include "kernels/catalogue.h"
 #include "kernels/ray_triangle/closed_meshes_for_test.h"
 #include "trees/builders/clip_triangle.h"
+#include "trees/every_executor_for_test.h"
 #include "trees/layout.h"
 #include "trees/quality.h"
+#include "trees/same_tree_for_test.h"
+#include "trees/traversals/brute_force_rays_for_test.h"
+#include "trees/triangle_soup_for_test.h"
 #include "trees/validate.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -39,13 +44,6 @@ TriangleMesh slivers(std::uint32_t n, float size, float centre, std::uint32_t se
         mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
     }
     return mesh;
-}
-
-std::vector<Box> triangle_boxes(const TriangleMesh& mesh) {
-    std::vector<Box> boxes;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-        boxes.push_back(mesh.triangle(i).bounds());
-    return boxes;
 }
 
 Tree build(const TriangleMesh& mesh, const Settings& settings = {},
@@ -179,15 +177,8 @@ TEST(SpatialSah, CutsLowerTheCostOfSlivers) {
 TEST(SpatialSah, SameTreeForAnyNumberOfThreads) {
     const TriangleMesh mesh = slivers(20000, .3f, 0, 2);
     const Tree expected = build(mesh);
-    for (const ExecutorEntry& executor : executors())
-        for (const unsigned threads : {1u, 2u, 4u}) {
-            if (executor.name == "serial" && threads > 1)
-                continue;
-            const Tree tree = build(mesh, {}, *executor.make(threads));
-            ASSERT_TRUE(std::ranges::equal(tree.order, expected.order)) << executor.name;
-            for (std::size_t i = 0; i < tree.nodes.size(); ++i)
-                ASSERT_EQ(tree.nodes[i].box, expected.nodes[i].box);
-        }
+    for (const auto& [name, executor] : every_executor())
+        ASSERT_TRUE(same_tree(build(mesh, {}, *executor), expected)) << name;
 }
 
 TEST(SpatialSah, BadTriangleIsNamed) {
@@ -199,22 +190,6 @@ TEST(SpatialSah, BadTriangleIsNamed) {
     } catch (const InvalidBox& e) {
         EXPECT_EQ(e.index, 7u);
     }
-}
-
-/// Hits by the kernel on every triangle, without a tree.
-template <RayKernel K> RayHit brute_force(const TriangleMesh& mesh, const Ray<float>& ray) {
-    RayHit best;
-    best.t = ray.t_max;
-    const auto per_ray = K::prepare(ray);
-    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-        RayHit hit;
-        if (K::intersect(per_ray, ray, mesh.triangle(i), best.t, hit) &&
-            (hit.t < best.t || !best.hit())) {
-            hit.triangle = i;
-            best = hit;
-        }
-    }
-    return best.hit() ? best : RayHit{};
 }
 
 TEST(SpatialSah, RaysThroughTheSeamsHitWhatTheyHitWithoutATree) {
@@ -247,12 +222,8 @@ TEST(SpatialSah, RaysThroughTheSeamsHitWhatTheyHitWithoutATree) {
                 rays.push_back({target - along * 3.f, along});
             }
         }
-        std::vector<RayHit> expected;
-        std::size_t n_hits = 0;
-        for (const Ray<float>& ray : rays) {
-            expected.push_back(brute_force<Watertight>(mesh, ray));
-            n_hits += expected.back().hit();
-        }
+        const std::vector<RayHit> expected = brute_force<Watertight>(mesh, rays);
+        const auto n_hits = static_cast<std::size_t>(std::ranges::count_if(expected, &RayHit::hit));
         EXPECT_GT(n_hits, rays.size() / 20);
         EXPECT_LT(n_hits, rays.size());
         for (const LayoutEntry& entry : layouts()) {

@@ -1,8 +1,10 @@
 #include "trees/stages/reinsertion.h"
 
 #include "trees/box_families_for_test.h"
+#include "trees/every_executor_for_test.h"
 #include "trees/quality.h"
 #include "trees/refit.h"
+#include "trees/same_tree_for_test.h"
 #include "trees/validate.h"
 
 #include <gtest/gtest.h>
@@ -19,13 +21,6 @@ double inner_area(const Tree& tree) {
     for (const TreeNode& node : tree.nodes)
         sum += node.count > 1 ? node.box.half_area() : 0;
     return sum;
-}
-
-bool same(const Tree& a, const Tree& b) {
-    return std::ranges::equal(a.order, b.order) &&
-           std::ranges::equal(a.nodes, b.nodes, [](const TreeNode& x, const TreeNode& y) {
-               return x.box == y.box && x.first == y.first && x.count == y.count;
-           });
 }
 
 /// A chain: each left child is a leaf.
@@ -74,13 +69,10 @@ TEST(Reinsertion, IsReachedByItsWordWithItsSettings) {
 TEST(Reinsertion, SameTreeForAnyNumberOfThreads) {
     const std::vector<Box> boxes = random_boxes(5000, .05f, 4);
     const Tree expected = make_builder("median+reinsertion")(boxes, serial());
-    for (const ExecutorEntry& executor : executors())
-        for (const unsigned threads : {1u, 2u, 4u}) {
-            if (executor.name == "serial" && threads > 1)
-                continue;
-            const Tree tree = make_builder("median+reinsertion")(boxes, *executor.make(threads));
-            EXPECT_TRUE(same(tree, expected)) << executor.name << " " << threads;
-        }
+    for (const auto& [name, executor] : every_executor()) {
+        const Tree tree = make_builder("median+reinsertion")(boxes, *executor);
+        EXPECT_TRUE(same_tree(tree, expected)) << name;
+    }
 }
 
 TEST(Reinsertion, UntanglesTwoPairs) {

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 /// Work is cut by the input alone, so its balance is a matter of counting: what the heaviest chunk
-/// holds of all answers. self_pairs has its own test beside it (pairs_test.cpp).
+/// holds of all answers.
 namespace boxwood {
 namespace {
 
@@ -42,6 +42,21 @@ std::vector<Box> giant_cluster(std::uint32_t seed) {
     for (const Box& box : random_boxes(12000, .08f, seed + 1))
         boxes.push_back(box);
     return boxes;
+}
+
+TEST(Balance, NoChunkOfOneTreeHasMostOfTheWork) {
+    // A giant cluster far from the few others, and one that is all the same box.
+    const std::vector<Box> same(6000, Box{{0, 0, 0}, {1, 1, 1}});
+    for (const std::vector<Box>& boxes : {giant_cluster(5), same})
+        for (const std::string_view builder : {"median", "binned_sah"}) {
+            const Tree tree = find_builder(builder)->make({})(boxes, serial());
+            for (const LayoutEntry& entry : layouts()) {
+                SCOPED_TRACE(std::string(builder) + "." + std::string(entry.name));
+                ChunkSizes chunks;
+                entry.make(tree, serial())->self_pairs(serial(), chunks);
+                EXPECT_LT(chunks.heaviest(), 1. / 8);
+            }
+        }
 }
 
 TEST(Balance, NoChunkOfTwoTreesHasMostOfTheWork) {

@@ -1,3 +1,4 @@
+#include "kernels/every_target_for_test.h"
 #include "trees/box_families_for_test.h"
 #include "trees/curve_order.h"
 #include "trees/layouts/packed.h"
@@ -5,7 +6,6 @@
 #include "trees/traversals/tree_pairs.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <numeric>
@@ -100,10 +100,7 @@ TEST(PackedLayout, ShowsItsBlocksToWalks) {
 }
 
 TEST(PackedPairs, AgreeWithBruteForceInAnyOrderOnEveryInstructionSet) {
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        SCOPED_TRACE(hwy::TargetName(target));
-        hwy::SetSupportedTargetsForTest(target);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    on_every_target([&] {
         for (const BoxFamily& family : box_families()) {
             SCOPED_TRACE(family.name);
             const std::vector<Pair> expected = brute_force(family.boxes);
@@ -117,9 +114,7 @@ TEST(PackedPairs, AgreeWithBruteForceInAnyOrderOnEveryInstructionSet) {
                 ASSERT_EQ(pairs, expected);
             }
         }
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    });
 }
 
 TEST(PackedPairs, MeetTreesOfAnyTwoHeights) {

@@ -1,10 +1,12 @@
+#include "kernels/every_target_for_test.h"
 #include "trees/box_families_for_test.h"
 #include "trees/builder.h"
+#include "trees/every_executor_for_test.h"
 #include "trees/layout.h"
 #include "trees/pairs.h"
+#include "trees/same_tree_for_test.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <functional>
@@ -29,20 +31,17 @@ TEST(SelfPairs, AgreeWithBruteForceOnEveryFamilyWayAndExecutor) {
             const Tree tree = builder.make({})(family.boxes, serial());
             const auto layout = entry.make(tree, serial());
             std::vector<Pair> first;
-            for (const ExecutorEntry& executor : executors())
-                for (const unsigned threads : {1u, 2u, 4u}) {
-                    if (executor.name == "serial" && threads > 1)
-                        continue;
-                    SCOPED_TRACE(std::string(executor.name) + "-" + std::to_string(threads));
-                    std::vector<Pair> pairs;
-                    AppendPairs sink(pairs);
-                    layout->self_pairs(*executor.make(threads), sink);
-                    if (first.empty())
-                        first = pairs;
-                    EXPECT_EQ(pairs, first) << "the order depends on the executor";
-                    std::ranges::sort(pairs);
-                    ASSERT_EQ(pairs, expected);
-                }
+            for (const auto& [name, executor] : every_executor()) {
+                SCOPED_TRACE(name);
+                std::vector<Pair> pairs;
+                AppendPairs sink(pairs);
+                layout->self_pairs(*executor, sink);
+                if (first.empty())
+                    first = pairs;
+                EXPECT_EQ(pairs, first) << "the order depends on the executor";
+                std::ranges::sort(pairs);
+                ASSERT_EQ(pairs, expected);
+            }
             CountPairs count;
             const Work work = layout->self_pairs_counted(count);
             EXPECT_EQ(count.count(), expected.size());
@@ -93,11 +92,9 @@ TEST(SelfPairs, AgreeOnEveryInstructionSet) {
             expected_halves.push_back({p.a, p.b - 3000});
     const Tree half_a = find_builder("median")->make({})({boxes.data(), 3000}, serial());
     const Tree half_b = find_builder("binned_sah")->make({})({boxes.data() + 3000, 3000}, serial());
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
+    on_every_target([&] {
         for (const LayoutEntry& entry : layouts()) {
-            SCOPED_TRACE(std::string(entry.name) + " " + hwy::TargetName(target));
-            hwy::SetSupportedTargetsForTest(target);
-            hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+            SCOPED_TRACE(entry.name);
             std::vector<Pair> pairs, halves;
             AppendPairs sink(pairs), sink_halves(halves);
             entry.make(tree, serial())->self_pairs(serial(), sink);
@@ -108,8 +105,7 @@ TEST(SelfPairs, AgreeOnEveryInstructionSet) {
             EXPECT_EQ(pairs, expected);
             EXPECT_EQ(halves, expected_halves);
         }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    });
 }
 
 TEST(TreePairs, RefuseTwoLayouts) {
@@ -128,15 +124,8 @@ TEST(SelfPairs, TreesAreTheSameOnEveryExecutor) {
     for (const BuilderEntry& builder : builders()) {
         SCOPED_TRACE(builder.name);
         const Tree expected = builder.make({})(boxes, serial());
-        for (const std::string_view word : {"openmp", "tbb"})
-            for (const unsigned threads : {2u, 4u}) {
-                const Tree tree = builder.make({})(boxes, *make_executor(word, threads));
-                EXPECT_TRUE(std::ranges::equal(tree.order, expected.order));
-                EXPECT_TRUE(std::ranges::equal(
-                    tree.nodes, expected.nodes, [](const TreeNode& a, const TreeNode& b) {
-                        return a.box == b.box && a.first == b.first && a.count == b.count;
-                    }));
-            }
+        for (const auto& [name, executor] : parallel_executors())
+            EXPECT_TRUE(same_tree(builder.make({})(boxes, *executor), expected)) << name;
     }
 }
 
@@ -160,42 +149,6 @@ TEST(SelfPairs, WorkOnIdenticalBoxesIsThatOfTheOutput) {
         EXPECT_EQ(count.count(), 4000u * 3999 / 2);
         EXPECT_LT(work.box_tests, 5 * count.count());
     });
-}
-
-/// Counts the pairs of each chunk.
-class ChunkSizes final : public PairSink {
-  public:
-    void begin(std::size_t chunks, bool) override { sizes.assign(chunks, 0); }
-    bool take(std::size_t chunk, std::span<const Pair> pairs) override {
-        sizes[chunk] += pairs.size();
-        return true;
-    }
-    void end() override {}
-    std::vector<std::size_t> sizes;
-};
-
-TEST(SelfPairs, NoChunkHasMostOfTheWorkOfABadCase) {
-    // A giant cluster far from the few others, and one that is all the same box.
-    std::vector<Box> cluster = random_boxes(12000, .08f, 5);
-    for (Box box : random_boxes(300, .1f, 6)) {
-        for (Vec3<float>* p : {&box.min, &box.max})
-            *p = 1000.0f * *p;
-        cluster.push_back(box);
-    }
-    const std::vector<Box> same(6000, Box{{0, 0, 0}, {1, 1, 1}});
-    for (const std::vector<Box>& boxes : {cluster, same})
-        for (const std::string_view builder : {"median", "binned_sah"}) {
-            const Tree tree = find_builder(builder)->make({})(boxes, serial());
-            for (const LayoutEntry& entry : layouts()) {
-                SCOPED_TRACE(std::string(builder) + "." + std::string(entry.name));
-                ChunkSizes chunks;
-                entry.make(tree, serial())->self_pairs(serial(), chunks);
-                std::size_t all = 0;
-                for (const std::size_t size : chunks.sizes)
-                    all += size;
-                EXPECT_LT(8 * std::ranges::max(chunks.sizes), all);
-            }
-        }
 }
 
 TEST(SelfPairs, WalkATreeThatIsAChain) {

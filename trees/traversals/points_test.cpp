@@ -1,13 +1,14 @@
+#include "kernels/every_target_for_test.h"
 #include "kernels/features/point_triangle.h"
 #include "trees/box_families_for_test.h"
 #include "trees/builder.h"
+#include "trees/every_executor_for_test.h"
 #include "trees/layout.h"
+#include "trees/triangle_soup_for_test.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
-#include <functional>
 #include <string>
 
 namespace boxwood {
@@ -133,18 +134,6 @@ void expect_answers(const AnyLayout& layout, const Queries& q, const Expected& e
         ASSERT_EQ(near[i], e.nearest[k * i]) << i;
 }
 
-/// Calls test() for each instruction set.
-void for_all_targets(const std::function<void()>& test) {
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        SCOPED_TRACE(hwy::TargetName(target));
-        hwy::SetSupportedTargetsForTest(target);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-        test();
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
-
 TEST(Points, RegionsAndNeighboursAgreeWithBruteForce) {
     for (const BoxFamily& family : box_families()) {
         SCOPED_TRACE(family.name);
@@ -167,7 +156,7 @@ TEST(Points, RegionsAndNeighboursAgreeWithBruteForce) {
                           e.points.size() + e.boxes.size() + e.balls.size() + found + any);
                 EXPECT_EQ(work.box_tests > 0, !family.boxes.empty());
                 if (&builder == &builders().front())
-                    for_all_targets([&] { expect_answers(*layout, q, e, serial()); });
+                    on_every_target([&] { expect_answers(*layout, q, e, serial()); });
             }
         }
     }
@@ -189,10 +178,10 @@ TEST(Points, AnswerInOneOrderOnEveryExecutor) {
     for (const LayoutEntry& entry : layouts()) {
         SCOPED_TRACE(entry.name);
         const auto layout = entry.make(builders().front().make({})(items, serial()), serial());
-        for (const ExecutorEntry& executor : executors())
-            for (const unsigned threads : {1u, 2u, 4u})
-                if (executor.name != "serial" || threads == 1)
-                    expect_answers(*layout, q, e, *executor.make(threads));
+        for (const auto& [name, executor] : every_executor()) {
+            SCOPED_TRACE(name);
+            expect_answers(*layout, q, e, *executor);
+        }
         std::size_t taken = 0;
         ForEachPair stop([&](Pair) { return ++taken < 10; });
         layout->regions(q.boxes, serial(), stop);
@@ -247,9 +236,7 @@ TEST(ClosestPoints, AgreeWithTheKernelOnEveryTriangle) {
          {soup(2000, .1f, 1), soup(300, 1, 1e30f), soup(300, .5f, 1e-38f), soup(5, 1, 1),
           soup(1, 1, 1), TriangleMesh{}}) {
         SCOPED_TRACE(std::to_string(mesh.triangles.size()));
-        std::vector<Box> items;
-        for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-            items.push_back(mesh.triangle(i).bounds());
+        const std::vector<Box> items = triangle_boxes(mesh);
         std::vector<Vec3<float>> points = queries_for(items).points;
         for (std::size_t i = 0; i < std::min<std::size_t>(mesh.vertices.size(), 600); ++i)
             points.push_back(.9f * mesh.vertices[(7 * i) % mesh.vertices.size()]);
@@ -274,7 +261,7 @@ TEST(ClosestPoints, AgreeWithTheKernelOnEveryTriangle) {
                 EXPECT_EQ(work.triangle_tests > 0, !items.empty());
                 if (&builder != &builders().front())
                     continue;
-                for_all_targets([&] { expect(serial(), nullptr); });
+                on_every_target([&] { expect(serial(), nullptr); });
                 for (const ExecutorEntry& executor : executors())
                     expect(*executor.make(executor.name == "serial" ? 1 : 4), nullptr);
             }

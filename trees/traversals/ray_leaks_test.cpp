@@ -2,6 +2,7 @@
 #include "trees/builder.h"
 #include "trees/layout.h"
 #include "trees/traversals/single_rays.h"
+#include "trees/triangle_soup_for_test.h"
 
 #include <gtest/gtest.h>
 
@@ -22,10 +23,7 @@ std::size_t n_rays() {
 }
 
 std::unique_ptr<AnyLayout> layout_of(const TriangleMesh& mesh, const LayoutEntry& entry) {
-    std::vector<Box> boxes;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-        boxes.push_back(mesh.triangle(i).bounds());
-    return entry.make(make_builder("binned_sah")(boxes, serial()), serial());
+    return entry.make(make_builder("binned_sah")(triangle_boxes(mesh), serial()), serial());
 }
 
 /// Rays from within a mesh that hit nothing, closest and any together, in a batch and alone.

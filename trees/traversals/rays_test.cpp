@@ -1,9 +1,12 @@
 #include "kernels/catalogue.h"
+#include "kernels/every_target_for_test.h"
 #include "trees/builder.h"
+#include "trees/every_executor_for_test.h"
 #include "trees/layout.h"
+#include "trees/traversals/brute_force_rays_for_test.h"
+#include "trees/triangle_soup_for_test.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <cmath>
@@ -41,27 +44,6 @@ TriangleMesh sphere(int rings) {
     return mesh;
 }
 
-TriangleMesh soup(std::size_t n) {
-    std::mt19937 random(5);
-    std::uniform_real_distribution<float> place(-1, 1), extent(-.1f, .1f);
-    TriangleMesh mesh;
-    for (std::uint32_t i = 0; i < n; ++i) {
-        const Vec3<float> p{place(random), place(random), place(random)};
-        for (int k = 0; k < 3; ++k)
-            mesh.vertices.push_back(p +
-                                    Vec3<float>{extent(random), extent(random), extent(random)});
-        mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
-    }
-    return mesh;
-}
-
-std::vector<Box> triangle_boxes(const TriangleMesh& mesh) {
-    std::vector<Box> boxes;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-        boxes.push_back(mesh.triangle(i).bounds());
-    return boxes;
-}
-
 /// Random rays, axis-parallel rays with +0 and -0, and rays along lattice planes and with ends.
 std::vector<Ray<float>> test_rays() {
     std::mt19937 random(11);
@@ -84,27 +66,6 @@ std::vector<Ray<float>> test_rays() {
         rays.push_back(ray);
     }
     return rays;
-}
-
-/// The same kernel on every triangle, without a tree.
-template <RayKernel K>
-std::vector<RayHit> brute_force(const TriangleMesh& mesh, std::span<const Ray<float>> rays) {
-    std::vector<RayHit> hits;
-    for (const Ray<float>& ray : rays) {
-        RayHit best;
-        best.t = ray.t_max;
-        const auto per_ray = K::prepare(ray);
-        for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-            RayHit hit;
-            if (K::intersect(per_ray, ray, mesh.triangle(i), best.t, hit) &&
-                (hit.t < best.t || !best.hit())) {
-                hit.triangle = i;
-                best = hit;
-            }
-        }
-        hits.push_back(best.hit() ? best : RayHit{});
-    }
-    return hits;
 }
 
 /// All hits of all rays, in the order of the chunks.
@@ -152,10 +113,7 @@ template <RayKernel K>
 void expect_hits(const AnyLayout& layout, const TriangleMesh& mesh,
                  std::span<const Ray<float>> rays, std::span<const RayHit> expected) {
     const TriangleBlocks triangles = layout.triangles(mesh);
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        SCOPED_TRACE(hwy::TargetName(target));
-        hwy::SetSupportedTargetsForTest(target);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    on_every_target([&] {
         for (const ExecutorEntry& executor : executors()) {
             std::vector<RayHit> hits(rays.size()), any(rays.size());
             const auto run = executor.make(executor.name == "serial" ? 1 : 2);
@@ -172,14 +130,13 @@ void expect_hits(const AnyLayout& layout, const TriangleMesh& mesh,
         EXPECT_EQ(work.answers,
                   static_cast<std::uint64_t>(std::ranges::count_if(expected, &RayHit::hit)));
         EXPECT_TRUE(std::ranges::equal(counted, expected));
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    });
 }
 
 TEST(Rays, AgreeWithBruteForceForEveryWayExecutorAndInstructionSet) {
     const std::vector<Ray<float>> rays = test_rays();
-    for (const TriangleMesh& mesh : {sphere(40), soup(3000), soup(1), soup(5), TriangleMesh{}}) {
+    for (const TriangleMesh& mesh :
+         {sphere(40), triangle_soup(3000), triangle_soup(1), triangle_soup(5), TriangleMesh{}}) {
         const std::vector<Box> boxes = triangle_boxes(mesh);
         const std::vector<RayHit> expected = brute_force<Watertight>(mesh, rays);
         if (mesh.triangles.size() > 1000) {
@@ -196,7 +153,7 @@ TEST(Rays, AgreeWithBruteForceForEveryWayExecutorAndInstructionSet) {
 
 TEST(Rays, AgreeWithBruteForceForEveryKernel) {
     const std::vector<Ray<float>> all_rays = test_rays();
-    for (const TriangleMesh& mesh : {sphere(20), soup(1000)})
+    for (const TriangleMesh& mesh : {sphere(20), triangle_soup(1000)})
         for (const KernelInfo& info : ray_kernels())
             with_kernel<RayKernels>(info.name, [&]<RayKernel K>(std::type_identity<K>) {
                 // The boxes may lose what kernels without bounds hit beside a triangle: these get
@@ -215,7 +172,8 @@ TEST(Rays, AgreeWithBruteForceForEveryKernel) {
 
 TEST(Rays, FindEveryHitOnceForEveryWayExecutorAndInstructionSet) {
     const std::vector<Ray<float>> rays = test_rays();
-    for (const TriangleMesh& mesh : {sphere(40), soup(3000), soup(1), soup(9), TriangleMesh{}}) {
+    for (const TriangleMesh& mesh :
+         {sphere(40), triangle_soup(3000), triangle_soup(1), triangle_soup(9), TriangleMesh{}}) {
         const auto expected = all_by_brute_force<Watertight>(mesh, rays);
         if (mesh.triangles.size() > 1000) {
             EXPECT_GT(expected.size(), rays.size());
@@ -225,19 +183,14 @@ TEST(Rays, FindEveryHitOnceForEveryWayExecutorAndInstructionSet) {
             SCOPED_TRACE(entry.name);
             const auto layout = entry.make(tree, serial());
             const TriangleBlocks triangles = layout->triangles(mesh);
-            for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-                SCOPED_TRACE(hwy::TargetName(target));
-                hwy::SetSupportedTargetsForTest(target);
-                hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+            on_every_target([&] {
                 for (const ExecutorEntry& executor : executors()) {
                     AppendHits sink;
                     const auto run = executor.make(executor.name == "serial" ? 1 : 2);
                     layout->rays_all(rays, "watertight", triangles, *run, sink);
                     EXPECT_TRUE(sink.all == expected) << executor.name;
                 }
-            }
-            hwy::SetSupportedTargetsForTest(0);
-            hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+            });
         }
     }
 }
@@ -265,7 +218,7 @@ TEST(Rays, StopWhenTheSinkHasEnough) {
 
 TEST(Rays, AreRightAtEveryScaleAndFarFromTheOrigin) {
     // Powers of two: the kernels answer the same, so the boxes must not lose anything either.
-    const TriangleMesh plain = soup(60);
+    const TriangleMesh plain = triangle_soup(60);
     for (const float scale : {0x1p-130f, 1.0f, 0x1p99f})
         for (const float offset : {0.0f, 1000.0f}) {
             TriangleMesh mesh = plain;
@@ -292,7 +245,8 @@ TEST(Rays, AreRightAtEveryScaleAndFarFromTheOrigin) {
 }
 
 TEST(Rays, HaveTheSameBlocksOnEveryExecutor) {
-    for (const TriangleMesh& mesh : {soup(20000), soup(9), soup(1), TriangleMesh{}})
+    for (const TriangleMesh& mesh :
+         {triangle_soup(20000), triangle_soup(9), triangle_soup(1), TriangleMesh{}})
         for (const LayoutEntry& entry : layouts()) {
             const auto layout =
                 entry.make(make_builder("median")(triangle_boxes(mesh), serial()), serial());
@@ -312,21 +266,18 @@ TEST(Rays, HaveTheSameBlocksOnEveryExecutor) {
                 return all;
             };
             EXPECT_EQ(mesh.triangles.empty(), !one.bounds.is_valid()) << entry.name;
-            for (const ExecutorEntry& executor : executors())
-                for (const unsigned threads : {1u, 2u, 4u}) {
-                    if (executor.name == "serial" && threads > 1)
-                        continue;
-                    const TriangleBlocks other = layout->triangles(mesh, *executor.make(threads));
-                    EXPECT_TRUE(same(one.nodes, other.nodes, size, used) &&
-                                same(one.blocks, other.blocks, 32, 32) && one.root == other.root &&
-                                one.bounds == other.bounds)
-                        << entry.name << " " << executor.name << " " << threads;
-                }
+            for (const auto& [name, executor] : every_executor()) {
+                const TriangleBlocks other = layout->triangles(mesh, *executor);
+                EXPECT_TRUE(same(one.nodes, other.nodes, size, used) &&
+                            same(one.blocks, other.blocks, 32, 32) && one.root == other.root &&
+                            one.bounds == other.bounds)
+                    << entry.name << " " << name;
+            }
         }
 }
 
 TEST(Rays, RefuseWrongArguments) {
-    const TriangleMesh mesh = soup(10);
+    const TriangleMesh mesh = triangle_soup(10);
     const Tree tree = builders()[0].make({})(triangle_boxes(mesh), serial());
     const std::vector<Ray<float>> rays(3, Ray<float>{{0, 0, 0}, {1, 0, 0}});
     std::vector<RayHit> hits(3), few(2);

@@ -1,11 +1,13 @@
 #include "trees/traversals/single_rays.h"
 
 #include "kernels/catalogue.h"
+#include "kernels/every_target_for_test.h"
 #include "kernels/ray_triangle/closed_meshes_for_test.h"
 #include "trees/builder.h"
+#include "trees/traversals/brute_force_rays_for_test.h"
+#include "trees/triangle_soup_for_test.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <cmath>
 #include <random>
@@ -16,31 +18,11 @@ namespace {
 
 using Point = Vec3<float>;
 
-TriangleMesh soup(std::uint32_t n) {
-    std::mt19937 random(21);
-    std::uniform_real_distribution<float> place(-1, 1), extent(-.1f, .1f);
-    TriangleMesh mesh;
-    for (std::uint32_t i = 0; i < n; ++i) {
-        const Point p{place(random), place(random), place(random)};
-        for (int k = 0; k < 3; ++k)
-            mesh.vertices.push_back(p + Point{extent(random), extent(random), extent(random)});
-        mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
-    }
-    return mesh;
-}
-
 /// Each triangle twice: every hit is a tie.
 TriangleMesh doubled(TriangleMesh mesh) {
     const auto all = mesh.triangles;
     mesh.triangles.insert(mesh.triangles.end(), all.rbegin(), all.rend());
     return mesh;
-}
-
-std::vector<Box> triangle_boxes(const TriangleMesh& mesh) {
-    std::vector<Box> boxes;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-        boxes.push_back(mesh.triangle(i).bounds());
-    return boxes;
 }
 
 /// In all directions, with and without ends; then along axes, +0 and -0 components, within planes
@@ -88,33 +70,6 @@ std::vector<Ray<float>> test_rays() {
     return rays;
 }
 
-template <RayKernel K> RayHit brute_force(const TriangleMesh& mesh, const Ray<float>& ray) {
-    RayHit best;
-    best.t = ray.t_max;
-    const auto per_ray = K::prepare(ray);
-    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-        RayHit hit;
-        if (K::intersect(per_ray, ray, mesh.triangle(i), best.t, hit) &&
-            (hit.t < best.t || !best.hit())) {
-            hit.triangle = i;
-            best = hit;
-        }
-    }
-    return best.hit() ? best : RayHit{};
-}
-
-/// Calls f(name) on every instruction set.
-template <class F> void on_each_target(const F& f) {
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        SCOPED_TRACE(hwy::TargetName(target));
-        hwy::SetSupportedTargetsForTest(target);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-        f();
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
-
 void expect_answers(const SingleRays& single, std::span<const Ray<float>> rays,
                     std::span<const RayHit> expected) {
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -126,17 +81,16 @@ void expect_answers(const SingleRays& single, std::span<const Ray<float>> rays,
 TEST(SingleRays, AgreeWithBruteForceForEveryWayAndInstructionSet) {
     const std::vector<Ray<float>> rays = test_rays();
     for (const TriangleMesh& mesh :
-         {uv_sphere(40, 20), soup(3000), doubled(soup(300)), soup(9), soup(1), TriangleMesh{}}) {
-        std::vector<RayHit> expected;
-        for (const Ray<float>& ray : rays)
-            expected.push_back(brute_force<Watertight>(mesh, ray));
+         {uv_sphere(40, 20), triangle_soup(3000, 21), doubled(triangle_soup(300, 21)),
+          triangle_soup(9, 21), triangle_soup(1, 21), TriangleMesh{}}) {
+        const std::vector<RayHit> expected = brute_force<Watertight>(mesh, rays);
         const std::vector<Box> boxes = triangle_boxes(mesh);
         for (const char* builder : {"binned_sah", "ploc"})
             for (const LayoutEntry& entry : layouts()) {
                 SCOPED_TRACE(std::string(builder) + "." + std::string(entry.name));
                 const auto layout = entry.make(make_builder(builder)(boxes, serial()), serial());
                 const TriangleBlocks triangles = layout->triangles(mesh);
-                on_each_target([&] {
+                on_every_target([&] {
                     expect_answers(SingleRays(*layout, "watertight", triangles), rays, expected);
                 });
             }
@@ -146,7 +100,7 @@ TEST(SingleRays, AgreeWithBruteForceForEveryWayAndInstructionSet) {
 TEST(SingleRays, AnswerAsABatchForEveryKernel) {
     const std::vector<Ray<float>> rays = test_rays();
     std::vector<RayHit> batch(rays.size());
-    for (const TriangleMesh& mesh : {uv_sphere(40, 20), soup(3000)}) {
+    for (const TriangleMesh& mesh : {uv_sphere(40, 20), triangle_soup(3000, 21)}) {
         const Tree tree = make_builder("binned_sah")(triangle_boxes(mesh), serial());
         for (const LayoutEntry& entry : layouts()) {
             const auto layout = entry.make(tree, serial());
@@ -161,11 +115,9 @@ TEST(SingleRays, AnswerAsABatchForEveryKernel) {
 }
 
 TEST(SingleRays, AreAnsweredOnManyThreadsAtATime) {
-    const TriangleMesh mesh = soup(2000);
+    const TriangleMesh mesh = triangle_soup(2000, 21);
     const std::vector<Ray<float>> rays = test_rays();
-    std::vector<RayHit> expected;
-    for (const Ray<float>& ray : rays)
-        expected.push_back(brute_force<Watertight>(mesh, ray));
+    const std::vector<RayHit> expected = brute_force<Watertight>(mesh, rays);
     for (const LayoutEntry& entry : layouts()) {
         const auto layout =
             entry.make(make_builder("median")(triangle_boxes(mesh), serial()), serial());
@@ -203,9 +155,7 @@ TEST(SingleRays, WalkTreesThatAreTooDeepForTheirStack) {
     std::vector<Ray<float>> rays{{{-1, .25f, .25f}, {1, 0, 0}}, {{n + 1, .25f, .25f}, {-1, 0, 0}}};
     for (std::uint32_t k = 0; k < n; k += 37)
         rays.push_back({{static_cast<float>(k) + .25f, .25f, -1}, {0, 0, 1}});
-    std::vector<RayHit> expected;
-    for (const Ray<float>& ray : rays)
-        expected.push_back(brute_force<Watertight>(mesh, ray));
+    const std::vector<RayHit> expected = brute_force<Watertight>(mesh, rays);
     EXPECT_TRUE(expected.back().hit());
     for (const LayoutEntry& entry : layouts()) {
         SCOPED_TRACE(entry.name);
@@ -218,7 +168,7 @@ TEST(SingleRays, WalkTreesThatAreTooDeepForTheirStack) {
 }
 
 TEST(SingleRays, HaveWalksOfTheirOwnForTheKernelsOfTheBench) {
-    const TriangleMesh mesh = soup(100);
+    const TriangleMesh mesh = triangle_soup(100, 21);
     const Tree tree = make_builder("median")(triangle_boxes(mesh), serial());
     for (const LayoutEntry& entry : layouts()) {
         const auto layout = entry.make(tree, serial());
@@ -231,7 +181,7 @@ TEST(SingleRays, HaveWalksOfTheirOwnForTheKernelsOfTheBench) {
 }
 
 TEST(SingleRays, RefuseAnUnknownKernel) {
-    const TriangleMesh mesh = soup(10);
+    const TriangleMesh mesh = triangle_soup(10, 21);
     const Tree tree = make_builder("median")(triangle_boxes(mesh), serial());
     for (const LayoutEntry& entry : layouts()) {
         const auto layout = entry.make(tree, serial());

@@ -1,4 +1,6 @@
+#include "trees/every_executor_for_test.h"
 #include "trees/traversals/sorted_rays.h"
+#include "trees/triangle_soup_for_test.h"
 
 #include <gtest/gtest.h>
 
@@ -10,25 +12,8 @@
 namespace boxwood {
 namespace {
 
-TriangleMesh soup(std::uint32_t n) {
-    std::mt19937 random(5);
-    std::uniform_real_distribution<float> place(-1, 1), extent(-.1f, .1f);
-    TriangleMesh mesh;
-    for (std::uint32_t i = 0; i < n; ++i) {
-        const Vec3<float> p{place(random), place(random), place(random)};
-        for (int k = 0; k < 3; ++k)
-            mesh.vertices.push_back(p +
-                                    Vec3<float>{extent(random), extent(random), extent(random)});
-        mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
-    }
-    return mesh;
-}
-
 std::unique_ptr<AnyLayout> layout_of(const LayoutEntry& entry, const TriangleMesh& mesh) {
-    std::vector<Box> boxes;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-        boxes.push_back(mesh.triangle(i).bounds());
-    return entry.make(make_builder("median")(boxes, serial()), serial());
+    return entry.make(make_builder("median")(triangle_boxes(mesh), serial()), serial());
 }
 
 /// More than one chunk of the sort, and some rays that have no place in any grid.
@@ -57,7 +42,7 @@ bool same_bits(std::span<const RayHit> a, std::span<const RayHit> b) {
 }
 
 TEST(SortedRays, AnswerBitForBitAsTheRaysOneByOne) {
-    const TriangleMesh mesh = soup(2000);
+    const TriangleMesh mesh = triangle_soup(2000);
     for (const LayoutEntry& entry : layouts()) {
         const auto layout = layout_of(entry, mesh);
         const TriangleBlocks triangles = layout->triangles(mesh);
@@ -69,16 +54,11 @@ TEST(SortedRays, AnswerBitForBitAsTheRaysOneByOne) {
                 if (n > 500) {
                     EXPECT_GT(std::ranges::count_if(single, &RayHit::hit), 1000);
                 }
-                for (const ExecutorEntry& executor : executors())
-                    for (const unsigned threads : {1u, 2u, 4u}) {
-                        if (executor.name == "serial" && threads > 1)
-                            continue;
-                        const auto run = executor.make(threads);
-                        std::vector<RayHit> hits(rays.size(), RayHit{1, 2, 3, 4});
-                        sorted_rays(*layout, rays, query, "watertight", triangles, *run, hits);
-                        EXPECT_TRUE(same_bits(hits, single))
-                            << entry.name << " " << n << " " << executor.name << " " << threads;
-                    }
+                for (const auto& [name, executor] : every_executor()) {
+                    std::vector<RayHit> hits(rays.size(), RayHit{1, 2, 3, 4});
+                    sorted_rays(*layout, rays, query, "watertight", triangles, *executor, hits);
+                    EXPECT_TRUE(same_bits(hits, single)) << entry.name << " " << n << " " << name;
+                }
             }
         }
     }
@@ -142,7 +122,7 @@ TEST(SortedRays, StayAsTheyCameFromOnePointInside) {
 }
 
 TEST(SortedRays, RefuseWrongArguments) {
-    const TriangleMesh mesh = soup(10);
+    const TriangleMesh mesh = triangle_soup(10);
     const auto layout = layout_of(*find_layout("wide8"), mesh);
     const TriangleBlocks triangles = layout->triangles(mesh);
     const std::vector<Ray<float>> rays(3, Ray<float>{{0, 0, 0}, {1, 0, 0}});
