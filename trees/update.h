@@ -55,6 +55,11 @@ class Updater {
     /// Memory held between frames.
     virtual std::size_t bytes() const = 0;
     virtual UpdateStep last_step() const = 0;
+    /// How many boxes a random line that meets the bounds tests on average in the tree as it
+    /// stands, by the surface area heuristic: the 16 lanes of the root block, and those of each
+    /// other block as often as its surface is part of that of the bounds. 0 where no box is
+    /// present, NaN where the bounds have no surface or one beyond floats. O(n).
+    virtual double sah() const = 0;
     /// What is wrong with the tree, every box of it looked at; empty if nothing. O(n).
     virtual std::string fault() const = 0;
 };
