@@ -212,7 +212,7 @@ TEST_F(ResultFile, UnknownColumnsArePassedOverAndMissingOnesKeepDefaults) {
         H5Tinsert(type, "wall_ns", offsetof(Other, wall_ns), H5T_NATIVE_FLOAT);
         const hsize_t n = rows.size();
         const Handle space(H5Screate_simple(1, &n, nullptr), H5Sclose, "space");
-        for (const char* name : {"samples", "unknown_table"}) {
+        for (const char* name : {"samples", "frames", "unknown_table"}) {
             if (H5Lexists(file, name, H5P_DEFAULT) > 0)
                 checked(H5Ldelete(file, name, H5P_DEFAULT), name);
             const Handle dataset(
@@ -229,6 +229,10 @@ TEST_F(ResultFile, UnknownColumnsArePassedOverAndMissingOnesKeepDefaults) {
     EXPECT_EQ(back.samples[1].wall_ns, 1.5);
     EXPECT_TRUE(std::isnan(back.samples[1].cpu_ns));
     EXPECT_EQ(back.samples[1].phase, "");
+    ASSERT_EQ(back.frames.size(), 2u);
+    EXPECT_EQ(back.frames[1].cell_id, 13u);
+    EXPECT_EQ(back.frames[1].box_tests, no_count);
+    EXPECT_TRUE(std::isnan(back.frames[1].sah));
     EXPECT_TRUE(back.trees.empty());
     EXPECT_TRUE(back.effects.empty());
 }

@@ -1,6 +1,7 @@
 #include "results/example_for_test.h"
 #include "results/results.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace boxwood::results {
@@ -56,6 +57,10 @@ Results part(const std::string& machine, std::uint32_t round, std::uint32_t firs
         frame.cell_id = cell.cell_id;
         frame.shard_id = first_id + 2;
         frame.round = round;
+        if (round == 0) {
+            frame.box_tests = 50 + static_cast<std::uint64_t>(i);
+            frame.sah = 0.5 + static_cast<double>(i);
+        }
         p.frames.push_back(frame);
         for (const char* stage : {"update", "pairs"}) {
             EffectRow effect;
@@ -115,6 +120,12 @@ TEST(Merge, RoundsAddUpWhateverTheIds) {
         EXPECT_EQ(all.shards.at(sample.shard_id).round, sample.round);
     }
     EXPECT_EQ(all.frames.size(), 6u);
+    for (const FrameRow& frame : all.frames) {
+        const std::uint64_t i = all.cells.at(frame.cell_id).name == "soup/ours" ? 0 : 1;
+        EXPECT_EQ(frame.box_tests, frame.round == 0 ? 50 + i : no_count);
+        EXPECT_THAT(frame.sah, testing::NanSensitiveDoubleEq(
+                                   frame.round == 0 ? 0.5 + static_cast<double>(i) : missing));
+    }
     ASSERT_EQ(all.effects.size(), 12u);
     for (const EffectRow& effect : all.effects) {
         const double base = all.cells.at(effect.cell_id).name == "soup/ours" ? 10 : 20;

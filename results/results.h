@@ -85,11 +85,13 @@ struct Sample {
     std::uint32_t flags = 0;
 };
 
-/// One frame of a moving scene in one round of one cell: means over the passes of the round.
+/// One frame of a moving scene in one round of one cell: means over the passes of the round. What
+/// is counted is the same in every round, and so round 0 alone counts it.
 struct FrameRow {
     std::uint32_t cell_id = 0, shard_id = 0, round = 0, frame = 0;
     double update_ns = missing, query_ns = missing;
-    std::uint64_t pairs = 0;
+    std::uint64_t pairs = 0, box_tests = no_count;
+    double sah = missing;
 };
 
 /// One stage of the plan of a moving scene in one round of one cell: sums over the frames of one

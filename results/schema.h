@@ -14,7 +14,7 @@
 namespace boxwood::results {
 
 inline constexpr std::string_view format_name = "boxwood-results";
-inline constexpr std::uint32_t schema_major = 1, schema_minor = 3;
+inline constexpr std::uint32_t schema_major = 1, schema_minor = 4;
 
 /// One column of a table of `Row`s.
 template <class Row> struct Column {
