@@ -16,8 +16,8 @@ namespace {
 /// everywhere. While the steps that a sample of the items takes foretell that it pays, pairs are
 /// kept; as long as what that did in fact bears it out. Otherwise the tree answers: bounds are
 /// refitted, until what queries lose by that exceeds what a new order takes (order_age.h). Then the
-/// items that went far are merged in at their new places if they are few, else all are ordered
-/// anew.
+/// items that went far (far_sample.h) are merged in at their new places if they are few, else all
+/// are ordered anew.
 struct Auto {
     static constexpr std::string_view name = "auto";
     static constexpr std::string_view summary = "kept pairs, refit, merge or a new order, by how "
@@ -77,20 +77,10 @@ struct Auto {
         wait_ = between_looks;
         follow(tree, boxes, moved, executor);
     }
-    void self_pairs(const MovingTree& tree, const Executor& executor, PairSink& sink) const {
-        if (kept_.holds())
-            kept_.self_pairs(executor, sink);
-        else
-            boxwood::self_pairs(tree.layout(), executor, sink);
-    }
-    Work self_pairs_counted(const MovingTree& tree, PairSink& sink) const {
-        return kept_.holds() ? kept_.self_pairs_counted(tree, sink)
-                             : boxwood::self_pairs_counted(tree.layout(), sink);
-    }
+    const KeptPairs& kept_pairs() const { return kept_; }
     std::size_t bytes() const {
         return far_.bytes() + margins_.bytes() + kept_.bytes() + sample_.bytes();
     }
-    std::string fault(const MovingTree&) const { return kept_.fault(); }
 
   private:
     /// Without kept pairs. Items that went far are merged in if they alone are to blame.

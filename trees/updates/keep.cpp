@@ -44,18 +44,8 @@ struct Keep {
         if (++frames_ % some_frames == 0)
             keep_anew(tree, boxes, executor);
     }
-    void self_pairs(const MovingTree& tree, const Executor& executor, PairSink& sink) const {
-        if (kept_.holds())
-            kept_.self_pairs(executor, sink);
-        else
-            boxwood::self_pairs(tree.layout(), executor, sink);
-    }
-    Work self_pairs_counted(const MovingTree& tree, PairSink& sink) const {
-        return kept_.holds() ? kept_.self_pairs_counted(tree, sink)
-                             : boxwood::self_pairs_counted(tree.layout(), sink);
-    }
+    const KeptPairs& kept_pairs() const { return kept_; }
     std::size_t bytes() const { return kept_.bytes(); }
-    std::string fault(const MovingTree&) const { return kept_.fault(); }
 
   private:
     void keep_anew(MovingTree& tree, Boxes boxes, const Executor& executor) {

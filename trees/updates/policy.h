@@ -1,5 +1,6 @@
 #pragma once
 
+#include "trees/kept_pairs.h"
 #include "trees/traversals/self_pairs.h"
 #include "trees/updates/moving_tree.h"
 
@@ -14,8 +15,9 @@ namespace boxwood {
 
 /// A policy says how a MovingTree follows its boxes. Its settings are documented data members with
 /// defaults, listed by `settings()`; it may keep a state of its own. It sees good frames only. One
-/// that need not ask the tree has `self_pairs(tree, executor, sink)`, `self_pairs_counted(tree,
-/// sink)` and `fault(tree)` of its own.
+/// that keeps pairs shows them by `kept_pairs()`: while they hold, they answer and not the tree.
+/// What policies go by: order_age.h (when a new order pays), margins.h and far_sample.h (who left
+/// his place), step_sample.h (how fast all go).
 template <class P>
 concept UpdatePolicy = std::default_initializable<P> &&
     requires(P policy, MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
@@ -46,20 +48,19 @@ template <UpdatePolicy P> class UpdaterOf final : public Updater {
                 const Executor& executor) override {
         tree_.survey = survey_frame(boxes, moved, tree_.size(), executor);
         tree_.step = {};
-        if (answers || !moved.empty())
+        if (keeps_pairs || !moved.empty())
             policy_.update(tree_, boxes, moved, executor);
     }
     void self_pairs(const Executor& executor, PairSink& sink) const override {
-        if constexpr (answers)
-            policy_.self_pairs(tree_, executor, sink);
+        if (const KeptPairs* kept = held_pairs())
+            kept->self_pairs(executor, sink);
         else
             boxwood::self_pairs(tree_.layout(), executor, sink);
     }
     Work self_pairs_counted(PairSink& sink) const override {
-        if constexpr (answers)
-            return policy_.self_pairs_counted(tree_, sink);
-        else
-            return boxwood::self_pairs_counted(tree_.layout(), sink);
+        const KeptPairs* kept = held_pairs();
+        return kept ? kept->self_pairs_counted(tree_, sink)
+                    : boxwood::self_pairs_counted(tree_.layout(), sink);
     }
     std::size_t size() const override { return tree_.size(); }
     std::size_t bytes() const override { return tree_.bytes() + policy_.bytes(); }
@@ -76,17 +77,23 @@ template <UpdatePolicy P> class UpdaterOf final : public Updater {
     }
     std::string fault() const override {
         std::string found = tree_.fault();
-        if constexpr (answers)
+        if constexpr (keeps_pairs)
             if (found.empty())
-                found = policy_.fault(tree_);
+                found = policy_.kept_pairs().fault();
         return found;
     }
 
   private:
-    static constexpr bool answers =
-        requires(const P& policy, const MovingTree& tree, PairSink& sink) {
-        policy.self_pairs_counted(tree, sink);
+    static constexpr bool keeps_pairs = requires(const P& policy) {
+        { policy.kept_pairs() } -> std::same_as<const KeptPairs&>;
     };
+
+    const KeptPairs* held_pairs() const {
+        if constexpr (keeps_pairs)
+            if (policy_.kept_pairs().holds())
+                return &policy_.kept_pairs();
+        return nullptr;
+    }
 
     MovingTree tree_;
     P policy_;
