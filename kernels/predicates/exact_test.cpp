@@ -1,6 +1,7 @@
 #include "kernels/predicates/exact.h"
 
 #include "kernels/float_mode.h"
+#include "kernels/thinned_for_test.h"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>
@@ -16,12 +17,7 @@ namespace {
 
 using Point = Vec3<double>;
 
-/// Rationals allocate, which the address sanitizer makes 100 times slower: fewer cases then.
-#if defined(__SANITIZE_ADDRESS__)
-constexpr int thinned = 16;
-#else
-constexpr int thinned = 1;
-#endif
+using for_test::thinned;
 
 std::array<mpq_class, 3> exact_difference(const Point& p, const Point& q) {
     return {mpq_class(p.x) - mpq_class(q.x), mpq_class(p.y) - mpq_class(q.y),

@@ -1,4 +1,5 @@
 #include "kernels/predicates/grid.h"
+#include "kernels/thinned_for_test.h"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>
@@ -14,12 +15,7 @@ namespace {
 
 using Point = Vec3<double>;
 
-/// Rationals allocate, which the address sanitizer makes 100 times slower: fewer cases then.
-#if defined(__SANITIZE_ADDRESS__)
-constexpr int thinned = 16;
-#else
-constexpr int thinned = 1;
-#endif
+using for_test::thinned;
 
 int truth3d(const std::array<Point, 4>& p) {
     std::array<std::array<mpq_class, 3>, 3> row;

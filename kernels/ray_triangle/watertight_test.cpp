@@ -16,14 +16,6 @@ static_assert(RayKernel<Watertight>);
 using Point = Vec3<float>;
 constexpr float inf_f = std::numeric_limits<float>::infinity();
 
-struct NoIntersect {
-    static constexpr std::string_view name = "none";
-    static constexpr KernelInfo info{};
-    struct PerRay {};
-    static PerRay prepare(const Ray<float>&);
-};
-static_assert(!RayKernel<NoIntersect>);
-
 bool hits(const Ray<float>& ray, const Triangle<float>& triangle, RayHit& hit) {
     return Watertight::intersect(Watertight::prepare(ray), ray, triangle, ray.t_max, hit);
 }

@@ -18,7 +18,7 @@
 namespace boxwood::for_test {
 
 /// n, or fewer where the oracle is slow.
-constexpr int few(int n) { return (n + static_cast<int>(thinned) - 1) / static_cast<int>(thinned); }
+constexpr int few(int n) { return (n + thinned - 1) / thinned; }
 
 /// The longest distance of two corners of either; not 0, not infinite.
 inline double size_of(const Triangle<double>& a, const Triangle<double>& b) {

@@ -27,7 +27,7 @@ static_assert(GuigueDevillersExact::info.promise == Promise::exact);
 static_assert(GuigueDevillersFiltered::info.promise == Promise::certified);
 
 /// Of a count that is asked for, what is left where there are fewer pairs.
-constexpr int at_least(int n) { return n / static_cast<int>(for_test::thinned); }
+constexpr int at_least(int n) { return n / for_test::thinned; }
 
 Answer answer_of(bool touch) { return touch ? Answer::yes : Answer::no; }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/oracle/oracle.h"
+#include "kernels/thinned_for_test.h"
 #include "kernels/triangle.h"
 
 #include <algorithm>
@@ -35,13 +36,6 @@ inline std::string print(const TrianglePair& pair) {
 template <class To, class From> Triangle<To> as(const Triangle<From>& t) {
     return {Vec3<To>(t.a), Vec3<To>(t.b), Vec3<To>(t.c)};
 }
-
-/// The oracle allocates, which the address sanitizer makes 100 times slower: fewer pairs then.
-#if defined(__SANITIZE_ADDRESS__)
-inline constexpr std::size_t thinned = 16;
-#else
-inline constexpr std::size_t thinned = 1;
-#endif
 
 class PairFamilies {
   public:
