@@ -34,12 +34,10 @@ std::span<const SceneEntry> scene_generators() {
 }
 
 const SceneEntry& scene_generator(std::string_view name) {
-    std::vector<std::string_view> known;
-    for (const SceneEntry& entry : scene_generators()) {
+    for (const SceneEntry& entry : scene_generators())
         if (entry.name == name)
             return entry;
-        known.push_back(entry.name);
-    }
+    std::vector<std::string_view> known = names_of(scene_generators());
     for (const HardCaseFamily& family : hard_case_families())
         known.push_back(family.name);
     throw std::invalid_argument(unknown_word("scene", name, known));

@@ -98,13 +98,7 @@ std::span<const RegionKindEntry> region_kinds() {
 }
 
 void check_region_kind(std::string_view kind) {
-    std::vector<std::string_view> known;
-    for (const RegionKindEntry& entry : region_kinds()) {
-        if (entry.name == kind)
-            return;
-        known.push_back(entry.name);
-    }
-    throw std::invalid_argument(unknown_word("kind of regions", kind, known));
+    entry_named(kind, region_kinds(), "kind of regions");
 }
 
 std::vector<Vec3<float>> make_points(SceneBoxes boxes, std::size_t n, std::uint64_t seed) {

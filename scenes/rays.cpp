@@ -176,15 +176,7 @@ std::span<const RayKindEntry> ray_kinds() {
     return entries;
 }
 
-void check_ray_kind(std::string_view kind) {
-    std::vector<std::string_view> known;
-    for (const RayKindEntry& entry : ray_kinds()) {
-        if (entry.name == kind)
-            return;
-        known.push_back(entry.name);
-    }
-    throw std::invalid_argument(unknown_word("kind of rays", kind, known));
-}
+void check_ray_kind(std::string_view kind) { entry_named(kind, ray_kinds(), "kind of rays"); }
 
 std::vector<Ray<float>> make_rays(std::string_view kind, const TriangleMesh& mesh, std::size_t n,
                                   std::uint64_t seed) {

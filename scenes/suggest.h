@@ -1,8 +1,10 @@
 #pragma once
 
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace boxwood {
 
@@ -14,5 +16,24 @@ std::string suggest(std::string_view word, std::span<const std::string_view> can
 /// "unknown scene 'unifrom'; did you mean 'uniform'?", or the list of all words if none is near.
 std::string unknown_word(std::string_view what, std::string_view word,
                          std::span<const std::string_view> candidates);
+
+/// The names of a catalogue.
+template <class Entries> std::vector<std::string_view> names_of(const Entries& entries) {
+    std::vector<std::string_view> names;
+    for (const auto& entry : entries)
+        names.emplace_back(entry.name);
+    return names;
+}
+
+/// The entry of that name, which outlives the call. Throws std::invalid_argument with the text of
+/// `unknown_word` if there is none.
+template <class Entry>
+const Entry& entry_named(std::string_view name, std::span<const Entry> entries,
+                         std::string_view what) {
+    for (const Entry& entry : entries)
+        if (entry.name == name)
+            return entry;
+    throw std::invalid_argument(unknown_word(what, name, names_of(entries)));
+}
 
 } // namespace boxwood

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/settings.h"
+#include "scenes/suggest.h"
 
 #include <toml++/toml.h>
 
@@ -85,13 +86,5 @@ class TomlReader {
   private:
     std::string file_;
 };
-
-/// The names of a catalogue.
-template <class Entries> TomlReader::Words names_of(const Entries& entries) {
-    TomlReader::Words words;
-    for (const auto& entry : entries)
-        words.emplace_back(entry.name);
-    return words;
-}
 
 } // namespace boxwood

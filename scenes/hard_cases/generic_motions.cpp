@@ -104,21 +104,14 @@ Cases motions(const HardCaseSpec& spec, const Random& random) {
 } // namespace
 
 HardCaseFamily generic_vertex_face_family() {
-    return {.name = "generic_vertex_face",
-            .summary = "a vertex through the inside of a face, or kept away from it",
-            .panel = Panel::generic,
-            .scale_least = -rounded_scale,
-            .scale_most = rounded_scale,
-            .generate = motions<vertex_face, MotionKind::vertex_face>};
+    return rounded_family("generic_vertex_face",
+                          "a vertex through the inside of a face, or kept away from it",
+                          Panel::generic, motions<vertex_face, MotionKind::vertex_face>);
 }
 
 HardCaseFamily generic_edge_edge_family() {
-    return {.name = "generic_edge_edge",
-            .summary = "an edge across another, or kept away from it",
-            .panel = Panel::generic,
-            .scale_least = -rounded_scale,
-            .scale_most = rounded_scale,
-            .generate = motions<edge_edge, MotionKind::edge_edge>};
+    return rounded_family("generic_edge_edge", "an edge across another, or kept away from it",
+                          Panel::generic, motions<edge_edge, MotionKind::edge_edge>);
 }
 
 } // namespace boxwood

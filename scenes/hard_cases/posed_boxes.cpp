@@ -107,43 +107,30 @@ Cases rotated(const HardCaseSpec& spec, const Random& random) {
     return cases;
 }
 
-HardCaseFamily family(std::string_view name, std::string_view summary, Panel panel,
-                      decltype(HardCaseFamily::generate) generate) {
-    return {.name = name,
-            .summary = summary,
-            .panel = panel,
-            .scale_least = -rounded_scale,
-            .scale_most = rounded_scale,
-            .generate = generate};
-}
-
 } // namespace
 
 HardCaseFamily generic_obbs_family() {
-    return family("generic_obbs", "boxes in any pose, about half of the pairs touching",
-                  Panel::generic, obb_pairs<generic>);
+    return rounded_family("generic_obbs", "boxes in any pose, about half of the pairs touching",
+                          Panel::generic, obb_pairs<generic>);
 }
 
 HardCaseFamily kissing_obbs_family() {
-    return family("kissing_obbs", "cubes of one pose face to face, the gap a rounding error",
-                  Panel::touching, obb_pairs<kissing>);
+    return rounded_family("kissing_obbs",
+                          "cubes of one pose face to face, the gap a rounding error",
+                          Panel::touching, obb_pairs<kissing>);
 }
 
 HardCaseFamily thin_obbs_family() {
-    HardCaseFamily row = family("thin_obbs", "plates 10^-k thick, face to face, nearly touching",
-                                Panel::degenerate, obb_pairs<thin>);
-    row.k_meaning = "thickness 10^-k of the width";
-    row.k_default = 3;
-    row.k_most = 9;
-    return row;
+    return with_k(rounded_family("thin_obbs", "plates 10^-k thick, face to face, nearly touching",
+                                 Panel::degenerate, obb_pairs<thin>),
+                  "thickness 10^-k of the width", 3, 0, 9);
 }
 
 HardCaseFamily rotated_boxes_family() {
-    HardCaseFamily row = family("rotated_boxes", "boxes to be fitted after a rotation, any or tiny",
-                                Panel::generic, rotated);
-    row.k_meaning = "distance 2^k from the origin";
-    row.k_most = 40;
-    return row;
+    return with_k(rounded_family("rotated_boxes",
+                                 "boxes to be fitted after a rotation, any or tiny", Panel::generic,
+                                 rotated),
+                  "distance 2^k from the origin", 0, 0, 40);
 }
 
 } // namespace boxwood

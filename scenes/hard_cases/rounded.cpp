@@ -78,4 +78,22 @@ Triangle<double> scaled(const Triangle<double>& t, int exponent) {
     return {scaled(t.a, exponent), scaled(t.b, exponent), scaled(t.c, exponent)};
 }
 
+HardCaseFamily rounded_family(std::string_view name, std::string_view summary, Panel panel,
+                              decltype(HardCaseFamily::generate) generate) {
+    return {.name = name,
+            .summary = summary,
+            .panel = panel,
+            .scale_least = -rounded_scale,
+            .scale_most = rounded_scale,
+            .generate = generate};
+}
+
+HardCaseFamily with_k(HardCaseFamily family, std::string_view meaning, int k, int least, int most) {
+    family.k_meaning = meaning;
+    family.k_default = k;
+    family.k_least = least;
+    family.k_most = most;
+    return family;
+}
+
 } // namespace boxwood

@@ -43,6 +43,11 @@ Triangle<double> scaled(const Triangle<double>& t, int exponent);
 /// have bits down to 2^-160, or are 0.
 constexpr int rounded_scale = 860;
 
+/// A family of rounded coordinates, without a k.
+HardCaseFamily rounded_family(std::string_view name, std::string_view summary, Panel panel,
+                              decltype(HardCaseFamily::generate) generate);
+HardCaseFamily with_k(HardCaseFamily family, std::string_view meaning, int k, int least, int most);
+
 /// Pairs of triangles drawn in real numbers, rounded as they come, then scaled by 2^scale.
 using DrawRoundedPair = TrianglePairCase (*)(Draws& draws, int k);
 template <DrawRoundedPair draw>

@@ -86,24 +86,6 @@ TrianglePairCase near_parallel(Draws& draws, int k) {
     return {turn * a + shift, turn * b + shift};
 }
 
-HardCaseFamily family(std::string_view name, std::string_view summary, Panel panel,
-                      decltype(HardCaseFamily::generate) generate) {
-    return {.name = name,
-            .summary = summary,
-            .panel = panel,
-            .scale_least = -rounded_scale,
-            .scale_most = rounded_scale,
-            .generate = generate};
-}
-
-HardCaseFamily with_k(HardCaseFamily row, std::string_view meaning, int k, int least, int most) {
-    row.k_meaning = meaning;
-    row.k_default = k;
-    row.k_least = least;
-    row.k_most = most;
-    return row;
-}
-
 } // namespace
 
 TrianglePairCase draw_generic_pair(Draws& draws) {
@@ -158,38 +140,39 @@ TrianglePairCase draw_edge_on_edge(Draws& draws) {
 }
 
 HardCaseFamily generic_triangles_family() {
-    return family("generic_triangles", "triangles in the unit ball, half of the pairs hitting",
-                  Panel::generic, rounded_pairs<generic>);
+    return rounded_family("generic_triangles",
+                          "triangles in the unit ball, half of the pairs hitting", Panel::generic,
+                          rounded_pairs<generic>);
 }
 
 HardCaseFamily vertex_on_face_family() {
-    return family("vertex_on_face", "a corner on the other's face or edge, up to rounding",
-                  Panel::touching, rounded_pairs<vertex_on_face>);
+    return rounded_family("vertex_on_face", "a corner on the other's face or edge, up to rounding",
+                          Panel::touching, rounded_pairs<vertex_on_face>);
 }
 
 HardCaseFamily edge_on_edge_family() {
-    return family("edge_on_edge", "an edge across the other's edge, up to rounding",
-                  Panel::touching, rounded_pairs<edge_on_edge>);
+    return rounded_family("edge_on_edge", "an edge across the other's edge, up to rounding",
+                          Panel::touching, rounded_pairs<edge_on_edge>);
 }
 
 HardCaseFamily within_one_ulp_family() {
     return with_k(
-        family("within_one_ulp",
-               "a corner on a face or an edge on an edge, each coordinate up to k ulps off",
-               Panel::touching, rounded_pairs<within_ulps>),
+        rounded_family("within_one_ulp",
+                       "a corner on a face or an edge on an edge, each coordinate up to k ulps off",
+                       Panel::touching, rounded_pairs<within_ulps>),
         "ulps that a touching coordinate is moved at most", 1, 1, 64);
 }
 
 HardCaseFamily near_coplanar_family() {
-    return with_k(family("near_coplanar", "triangles of two planes at an angle of 10^-k",
-                         Panel::degenerate, rounded_pairs<near_coplanar>),
+    return with_k(rounded_family("near_coplanar", "triangles of two planes at an angle of 10^-k",
+                                 Panel::degenerate, rounded_pairs<near_coplanar>),
                   "the angle is 10^-k", 16, 1, 18);
 }
 
 HardCaseFamily near_parallel_edges_family() {
-    return with_k(family("near_parallel_edges",
-                         "edges a gap of 10^-k apart at an angle of 1e-1 to 1e-16",
-                         Panel::degenerate, rounded_pairs<near_parallel>),
+    return with_k(rounded_family("near_parallel_edges",
+                                 "edges a gap of 10^-k apart at an angle of 1e-1 to 1e-16",
+                                 Panel::degenerate, rounded_pairs<near_parallel>),
                   "the gap is 10^-k", 8, 1, 16);
 }
 

@@ -44,35 +44,27 @@ template <Triangle<double> (*shape)(Draws&, int)> TrianglePairCase crossing(Draw
     return pair;
 }
 
-HardCaseFamily family(std::string_view name, std::string_view summary, std::string_view k_meaning,
-                      int k, int k_most, decltype(HardCaseFamily::generate) generate) {
-    return {.name = name,
-            .summary = summary,
-            .panel = Panel::degenerate,
-            .k_meaning = k_meaning,
-            .k_default = k,
-            .k_least = 1,
-            .k_most = k_most,
-            .scale_least = -rounded_scale,
-            .scale_most = rounded_scale,
-            .generate = generate};
-}
-
 } // namespace
 
 HardCaseFamily slivers_family() {
-    return family("slivers", "triangles 10^k long and 10^-k wide, crossing or nearly so",
-                  "length 10^k, width 10^-k", 3, 8, rounded_pairs<crossing<draw_sliver>>);
+    return with_k(rounded_family("slivers",
+                                 "triangles 10^k long and 10^-k wide, crossing or nearly so",
+                                 Panel::degenerate, rounded_pairs<crossing<draw_sliver>>),
+                  "length 10^k, width 10^-k", 3, 1, 8);
 }
 
 HardCaseFamily needle_triangles_family() {
-    return family("needle_triangles", "triangles with one edge of 10^-k, crossing or nearly so",
-                  "the short edge is 10^-k", 6, 15, rounded_pairs<crossing<draw_needle>>);
+    return with_k(rounded_family("needle_triangles",
+                                 "triangles with one edge of 10^-k, crossing or nearly so",
+                                 Panel::degenerate, rounded_pairs<crossing<draw_needle>>),
+                  "the short edge is 10^-k", 6, 1, 15);
 }
 
 HardCaseFamily cap_triangles_family() {
-    return family("cap_triangles", "obtuse triangles 10^-k high, crossing or nearly so",
-                  "the height is 10^-k", 6, 15, rounded_pairs<crossing<draw_cap>>);
+    return with_k(rounded_family("cap_triangles",
+                                 "obtuse triangles 10^-k high, crossing or nearly so",
+                                 Panel::degenerate, rounded_pairs<crossing<draw_cap>>),
+                  "the height is 10^-k", 6, 1, 15);
 }
 
 } // namespace boxwood

@@ -28,13 +28,7 @@ std::span<const EffectEntry> effects() {
 }
 
 const EffectEntry& effect_of(std::string_view word) {
-    std::vector<std::string_view> known;
-    for (const EffectEntry& entry : effects()) {
-        if (entry.name == word)
-            return entry;
-        known.push_back(entry.name);
-    }
-    throw std::invalid_argument(unknown_word("effect", word, known));
+    return entry_named(word, effects(), "effect");
 }
 
 double wave(double quarters) {
