@@ -2,9 +2,11 @@
 
 import math
 
+from matplotlib.patheffects import withStroke
 from matplotlib.transforms import Bbox
 
 SIZE = 7.5  # points
+HALO = (withStroke(linewidth=2.2, foreground="white", alpha=0.85),)  # texts stay readable on lines
 RINGS = (7, 13, 21, 31, 43, 57)  # distances tried, in points
 DIRECTIONS = (0, 180, 90, 270, 45, 315, 135, 225, 20, 340, 160, 200)  # degrees, the best first
 
@@ -34,16 +36,26 @@ def candidates(x, y, width, height, pixels):
             yield ring, Bbox.from_bounds(centre_x - width / 2, centre_y - height / 2, width, height)
 
 
-def beside_points(ax, labels, later=()):
-    """labels: [(x, y, text, colour)] in data units; later: more of them that choose last. Each goes to
-    the nearest free place within the axes, with a thin line to its point unless it is right beside
-    it. Those in a crowd choose first, and a thin line keeps clear of other labels and points."""
+def along(start, end, every):
+    """Points from `start` to `end`, both pixels, at most `every` pixels apart."""
+    count = max(1, math.ceil(math.dist(start, end) / every))
+    return [(start[0] + t / count * (end[0] - start[0]), start[1] + t / count * (end[1] - start[1]))
+            for t in range(count + 1)]
+
+
+def beside_points(ax, labels, later=(), lines=()):
+    """labels: [(x, y, text, colour)] in data units; later: more of them that choose last; lines: what is
+    drawn besides, as [(x, y), ...] each. Each label goes to the nearest free place within the axes, with a
+    thin line to its point unless it is right beside it. Those in a crowd choose first; texts keep clear of
+    other texts, points and lines as far as there is room, and thin lines of texts and points."""
     figure = ax.figure
     pixels = figure.dpi / 72
     frame = ax.get_window_extent()
     everything = [*labels, *later]
     marks = [ax.transData.transform((x, y)) for x, y, *_ in everything]
     taken = [Bbox.from_bounds(x - 4 * pixels, y - 4 * pixels, 8 * pixels, 8 * pixels) for x, y in marks]
+    corners = [[ax.transData.transform(point) for point in line] for line in lines]
+    drawn = [step for line in corners for a, b in zip(line, line[1:]) for step in along(a, b, 4 * pixels)]
 
     def crowd(index):
         if index >= len(labels):
@@ -58,14 +70,17 @@ def beside_points(ax, labels, later=()):
         for ring, box in candidates(at_x, at_y, width, height, pixels):
             outside = box.width * box.height - overlap(box, frame)
             cost = ring + 10 * (sum(overlap(box, other) for other in taken) + outside)
+            cost += 2 * sum(box.contains(*step) for step in drawn)
             if ring > RINGS[1]:
-                steps = [(at_x + t * ((box.x0 + box.x1) / 2 - at_x), at_y + t * ((box.y0 + box.y1) / 2 - at_y))
-                         for t in (0.3, 0.5, 0.7)]
-                cost += 15 * sum(other.contains(*step) for other in taken for step in steps)
+                steps = along((at_x, at_y), ((box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2), 6 * pixels)[1:]
+                cost += 5 * sum(other.contains(*step) for other in taken for step in steps if not box.contains(*step))
             if cost < least:
                 best, least = (ring, box), cost
         ring, box = best
         taken.append(box)
+        if ring > RINGS[1]:
+            ends = (at_x, at_y), ((box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2)
+            drawn += [step for step in along(*ends, 4 * pixels) if not box.contains(*step)]
         ax.annotate(
             text,
             (x, y),
@@ -73,6 +88,8 @@ def beside_points(ax, labels, later=()):
             textcoords="offset points",
             fontsize=SIZE,
             color=colour,
+            path_effects=HALO,
+            zorder=7,
             annotation_clip=False,
             arrowprops=None
             if ring <= RINGS[1]

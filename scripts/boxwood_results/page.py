@@ -12,7 +12,8 @@ from .selection import largest_jobs, wrong_text
 
 STYLE = """
 body { font: 15px/1.5 system-ui, "DejaVu Sans", sans-serif; color: #222; background: #fff;
-       max-width: 68rem; margin: 2rem auto; padding: 0 1.2rem; }
+       max-width: 90rem; margin: 2rem auto; padding: 0 1.2rem; }
+p, ul { max-width: 60rem; }
 h1 { font-size: 1.7rem; margin-bottom: .2rem; } h2 { font-size: 1.25rem; margin-top: 2.4rem; }
 h3 { font-size: 1.05rem; margin: 1.6rem 0 .3rem; }
 .lead { color: #555; margin-top: 0; }

@@ -38,6 +38,22 @@ def choose(cells, keep=(), limit=MOST_LINES):
     return chosen[:limit], len(chosen) - len(chosen[:limit])
 
 
+LONG = 24  # letters of a label that crowds a panel
+
+
+def short_labels(cells):
+    """({cell id: label}, words): where labels are long, without the words that all of ours share."""
+    full = {id(cell): cell.label for cell in cells}
+    ours = [cell.label.split(".") for cell in cells if cell.ours]
+    shared = [word for word in ours[0] if all(word in words for words in ours)] if len(ours) > 1 else []
+    if max(map(len, full.values())) <= LONG or any(set(words) <= set(shared) for words in ours):
+        return full, ""
+    for cell in cells:
+        if cell.ours:
+            full[id(cell)] = ".".join(word for word in cell.label.split(".") if word not in shared)
+    return full, ".".join(shared)
+
+
 def left_out_note(count, what="variants"):
     return [f"{count} further {what} are left out here; the table of all cells has them."] if count else []
 

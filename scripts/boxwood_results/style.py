@@ -39,12 +39,13 @@ POLICIES = {
     "refit": ("#882255", "d"),
     "refine": ("#AA4499", "H"),
     "reinsert": ("#999933", "8"),
-    "called_for": ("#44AA99", "<"),
-    "everything": ("#117733", ">"),
+    "called_for": ("#0072B2", "o"),  # stand beside each other alone
+    "everything": ("#D55E00", "D"),
 }
 # For families that come later: Tol's muted colours, chosen by name so that they never change.
 OTHER_COLOURS = ("#332288", "#117733", "#882255", "#999933", "#AA4499", "#44AA99")
 OTHER_MARKERS = ("<", ">", "p", "h", "d", "H", "8")
+THIN = {"*": 1.7, "P": 1.25, "<": 1.15, ">": 1.15}  # markers that show too little at the size of the others
 INK, FAINT = "#222222", "#B8B8B8"
 
 plt.rcParams.update(
@@ -74,19 +75,40 @@ plt.rcParams.update(
 
 
 def look(family):
-    """(colour, marker) of a family; the same in every figure and every run."""
+    """(colour, marker) of a family; the same in every figure and every run. A builder with settings or with
+    a second one behind it has the colour of its first word and a marker of its own."""
     if family in FAMILIES:
         return FAMILIES[family]
     for policy in POLICIES:
         if family == policy or family.startswith(policy + "_"):
             return POLICIES[policy]
     number = zlib.crc32(family.encode())
-    return OTHER_COLOURS[number % len(OTHER_COLOURS)], OTHER_MARKERS[number // 7 % len(OTHER_MARKERS)]
+    marker = OTHER_MARKERS[number // 7 % len(OTHER_MARKERS)]
+    for word, (colour, _) in FAMILIES.items():
+        if family.startswith(word + "_"):
+            return colour, marker
+    return OTHER_COLOURS[number % len(OTHER_COLOURS)], marker
+
+
+def looks(names):
+    """{name: (colour, marker)}, no two alike while the colours last: each its own look, or the next free
+    one. Of kernels, which are more than there are colours that can be told apart."""
+    colours, found = ("#0072B2", "#009E73", *OTHER_COLOURS), {}
+    for name in sorted(names):
+        at = colours.index(look(name)[0]) if look(name)[0] in colours else 0
+        free = [colours[(at + k) % len(colours)] for k in range(len(colours))]
+        free = [colour for colour in free if all(colour != other for other, _ in found.values())] or free
+        found[name] = free[0], OTHER_MARKERS[colours.index(free[0]) % len(OTHER_MARKERS)]
+    return found
 
 
 def text_colour(family):
-    """The family's colour, darkened until small text can be read on white."""
-    red, green, blue = colors.to_rgb(look(family)[0])
+    return readable(look(family)[0])
+
+
+def readable(colour):
+    """The colour, darkened until small text can be read on white."""
+    red, green, blue = colors.to_rgb(colour)
     while 0.2126 * red + 0.7152 * green + 0.0722 * blue > 0.38:
         red, green, blue = red * 0.9, green * 0.9, blue * 0.9
     return red, green, blue
@@ -98,7 +120,7 @@ def point_style(cell, size=6):
     filled = cell.status != "wrong"
     return {
         "marker": marker,
-        "markersize": size,
+        "markersize": size * THIN.get(marker, 1),
         "color": colour,
         "markerfacecolor": colour if filled else "none",
         "markeredgecolor": "white" if filled else colour,
@@ -114,7 +136,8 @@ def cross_out(ax, x, y):
 
 def title(ax, text):
     """A panel's title, made smaller where it would run into the next panel."""
-    ax.set_title(text, fontsize=9.5 * min(1, 56 / len(text)))
+    inches = ax.get_position().width * ax.figure.get_figwidth()
+    ax.set_title(text, fontsize=9.5 * min(1, max(56, 14 * inches) / len(text)))
 
 
 def log_ticks(low, high):

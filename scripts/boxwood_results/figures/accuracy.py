@@ -2,7 +2,7 @@
 
 import math
 
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
+from matplotlib.ticker import FixedFormatter, FixedLocator, NullLocator
 
 from .. import labels, style
 from ..kernels import LEAST_ERROR, PANELS, by_kernel_family, is_measured, rungs
@@ -13,53 +13,63 @@ TITLE = "What accuracy costs"
 HOW_TO_READ = (
     "Lower left is better. The line joins our rungs that no faster one of ours betters; hollow marks are peers. "
     "A rung in the zero lane at the bottom gave no wrong answer; its bar reaches up to 3/N, the rate that so "
-    "many right answers cannot exclude (95 %). Distances are drawn by their worst relative error; their lane "
-    "is half an ulp or less. Times are means over the families of a panel."
+    "many right answers cannot exclude (95 %). Distances are drawn by their worst relative error; their zero lane "
+    "is half an ulp or less, their lane at the top all above 1, where no digit is right. Times are means over the "
+    "families of a panel."
 )
+NO_DIGIT = 1.0
 COLUMNS = ("kernel_family", "panel", "rung", "library", "promise", "ns", "n", "wrong", "per_million", "maybe",
            "max_rel_err")
 
 
 def value(rung, measured):
-    """What is on the y axis; 0 in the lane."""
+    """What is on the y axis; 0 in the lane at the bottom, infinity in that at the top."""
     if not measured:
         return rung.per_million
-    if rung.error != rung.error:
-        return 0.0
+    if rung.error > NO_DIGIT:
+        return math.inf
     return rung.error if rung.error > LEAST_ERROR else 0.0
 
 
 def y_axis(ax, values, bars, measured):
-    """A log axis with a lane for zero below it; gives the height of the lane."""
+    """A log axis up to all (a million in a million, or an error of 1) with a lane for zero below it, and for
+    distances one for what is worse above it; gives the heights of the lanes."""
     seen = [v for v in (*values, *bars) if v > 0 and math.isfinite(v)]
     low = 10.0 ** math.floor(math.log10(min(seen, default=1e-16 if measured else 1)))
-    high = 10.0 ** math.ceil(math.log10(max(max(seen, default=1), 100 * low)) + 0.2)
+    high = NO_DIGIT if measured else 1e6
     decades = math.log10(high / low)
-    lane = low / 10 ** (0.3 * decades)
+    lane, top = low / 10 ** (0.3 * decades), high * 10 ** (0.1 * decades)
+    bottom, ceiling = lane / 10 ** (0.22 * decades), high * 10 ** ((0.17 if measured else 0.05) * decades)
     ax.set_yscale("log")
-    ax.set_ylim(lane / 10 ** (0.22 * decades), high)
+    ax.set_ylim(bottom, ceiling)
     steps = range(round(math.log10(low)), round(math.log10(high)) + 1, max(1, round(decades / 6)))
-    ticks = [lane] + [10.0**d for d in steps]
-    ax.yaxis.set_major_locator(FixedLocator(ticks))
+    ticks = {lane: "0", **{10.0**d: f"{10.0**d:.0e}" if measured else style.count_text(10.0**d) for d in steps}}
+    if measured:
+        ticks[top] = "no digit"
+        ax.axhspan(high * 10 ** (0.04 * decades), ceiling, color="#FBE9E0", zorder=0)
+    ax.yaxis.set_major_locator(FixedLocator(list(ticks)))
     ax.yaxis.set_minor_locator(NullLocator())
-    ax.yaxis.set_major_formatter(
-        FuncFormatter(lambda v, _: "0" if v <= lane * 1.01 else f"{v:.0e}" if measured else style.count_text(v))
-    )
-    ax.axhspan(lane / 10 ** (0.22 * decades), lane * 10 ** (0.15 * decades), color="#EAF4EA", zorder=0)
-    return lane
+    ax.yaxis.set_major_formatter(FixedFormatter(list(ticks.values())))
+    ax.axhspan(bottom, lane * 10 ** (0.15 * decades), color="#EAF4EA", zorder=0)
+    return lane, top
 
 
 def draw_panel(ax, panel, found, measured):
     values = [value(r, measured) for r in found]
-    bars = [0 if measured or v else 3e6 / r.n for v, r in zip(values, found)]
-    lane = y_axis(ax, values, bars, measured)
+    bars = [0 if measured or v else min(3e6 / r.n, 1e6) for v, r in zip(values, found)]
+    lane, top = y_axis(ax, values, bars, measured)
+
+    def height(v):
+        return (v or lane) if math.isfinite(v) else top
+
     style.time_axis(ax.xaxis, min(r.ns for r in found), max(r.ns for r in found), room=0.15)
-    marks = []
+    marks, lines = [], []
     for rung, v, bar in zip(found, values, bars):
         colour, marker = style.look(rung.library if not rung.ours else "binned_sah")
-        y = v or lane
+        y = height(v)
         if not v and bar:
             ax.plot([rung.ns, rung.ns], [lane, bar], color=colour, linewidth=1, alpha=0.45, zorder=2)
+            lines.append([(rung.ns, lane), (rung.ns, bar)])
         ax.plot([rung.ns], [y], marker=marker, markersize=7, linestyle="", zorder=5, markeredgewidth=1.3,
                 markeredgecolor=colour if not rung.ours else "white",
                 markerfacecolor="white" if not rung.ours else colour)
@@ -67,12 +77,13 @@ def draw_panel(ax, panel, found, measured):
     best = []  # no other rung of ours is both faster and less wrong
     for rung, v in zip(found, values):
         if rung.ours and (not best or v < best[-1][2]):
-            best.append((rung.ns, v or lane, v))
+            best.append((rung.ns, height(v), v))
     ax.plot([x for x, _, _ in best], [y for _, y, _ in best], color=style.FAINT, linewidth=1.1, zorder=1)
     style.title(ax, f"{panel} input, {max(r.n for r in found):,} cases")
     ax.set_xlabel("time per call (lower is better)")
     ax.set_ylabel("worst relative error" if measured else "wrong answers per million")
-    labels.beside_points(ax, marks)
+    lines.append([(x, y) for x, y, _ in best])
+    labels.beside_points(ax, marks, lines=lines)
 
 
 def draw(run):
@@ -83,7 +94,7 @@ def draw(run):
         panels = [(panel, found) for panel, found in panels if found]
         if not panels:
             continue
-        figure, axes = style.panels(len(panels), width=7.4, height=4.6, columns=2)
+        figure, axes = style.panels(len(panels), width=10.5, height=4.3, columns=1)
         rows = []
         for ax, (panel, found) in zip(axes, panels):
             draw_panel(ax, panel, found, measured)

@@ -6,7 +6,7 @@ from .. import labels, style
 from ..findings import time_text
 from ..metrics import METRICS
 from ..picture import Picture, Skip
-from ..selection import choose, front, largest_jobs, left_out_note, wrong_notes
+from ..selection import choose, front, largest_jobs, left_out_note, short_labels, wrong_notes
 
 NAME = "builder_tradeoff"
 TITLE = "What a build buys"
@@ -14,9 +14,14 @@ HOW_TO_READ = (
     "Lower left is better. The line joins the variants that none beats in both; the number on a "
     "piece is how many queries it takes until the slower build has paid for itself (no number: the "
     "first query does). A contender "
-    "without a build of its own stands at the left edge: its query holds all the work."
+    "without a build of its own stands at the left edge: its query holds all the work. What the long names "
+    "of ours have in common stands in the title."
 )
 COLUMNS = ("ask", "scene", "n", "threads", "variant", "library", "status", "build_ns", "query_ns", "break_even_queries")
+
+
+VERY_LONG = 40  # letters of a label with which panels do not stand beside each other
+WIDE = {"width": 10.5, "height": 4.1, "columns": 1}
 
 
 def break_even(cheap, dear):
@@ -44,12 +49,13 @@ def draw_panel(ax, job, cells, rows):
     line = [at(cell) for cell in best]
     ax.plot(*zip(*line), color=style.FAINT, linewidth=1.2, zorder=1)
     marks = []
+    names, shared = short_labels(shown)
     for cell in shown:
         x, y = at(cell)
         ax.plot([x], [y], **{**style.point_style(cell, 7), "linestyle": ""}, zorder=5)
         if cell.status == "wrong":
             style.cross_out(ax, x, y)
-        marks.append((x, y, cell.label, style.text_colour(cell.family)))
+        marks.append((x, y, names[id(cell)], style.text_colour(cell.family)))
     pays = {id(dear): break_even(cheap, dear) for cheap, dear in zip(best, best[1:])}
     joints = []
     for cheap, dear in zip(best, best[1:]):
@@ -57,7 +63,7 @@ def draw_panel(ax, job, cells, rows):
         count = math.ceil(pays[id(dear)])
         if count > 1:
             joints.append((math.sqrt(x0 * x1), math.sqrt(y0 * y1), f"{count:,} queries", "#555555"))
-    style.title(ax, str(job))
+    style.title(ax, f"{job} · ours: {shared}" if shared else str(job))
     ax.set_xlabel(METRICS["build"].axis)
     ax.set_ylabel(METRICS["query"].axis)
     for cell in shown:
@@ -65,7 +71,7 @@ def draw_panel(ax, job, cells, rows):
             (job.ask, job.scene, job.n, job.threads, cell.label, cell.library, cell.status,
              cell.median("build"), cell.median("query"), pays.get(id(cell)))
         )
-    labels.beside_points(ax, marks, later=joints)
+    labels.beside_points(ax, marks, later=joints, lines=[line])
     return left_out
 
 
@@ -80,7 +86,8 @@ def draw(run):
         raise Skip("it takes at least two variants with a build time on one job")
     pictures = []
     for ask, jobs in by_ask.items():
-        figure, axes = style.panels(len(jobs), width=5.4, height=3.9)
+        crowded = max(len(cell.label) for _, cells in jobs for cell in cells) > VERY_LONG
+        figure, axes = style.panels(len(jobs), **(WIDE if crowded else {"width": 5.4, "height": 3.9}))
         rows, notes = [], []
         for ax, (job, cells) in zip(axes, jobs):
             left_out = draw_panel(ax, job, cells, rows)

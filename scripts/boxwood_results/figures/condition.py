@@ -10,11 +10,12 @@ NAME = "condition"
 TITLE = "Error against condition number"
 HOW_TO_READ = (
     "Lower is better. Each line is the worst relative error of one kernel over all cases of one decade of the condition "
-    "number (extent over distance). Dashed: the bound that a certified kernel itself gave there, which its error may "
+    "number (extent over distance); an error of 1 leaves no digit, and what is above 20 is drawn at 20. Hollow marks on "
+    "dashed lines are peers. Dots and dashes: the bound that a certified kernel itself gave there, which its error may "
     "not pass. Dotted: u times the condition and u times its square, u = 2^-53."
 )
 COLUMNS = ("kernel_family", "rung", "library", "log10_condition", "n", "max_rel_err", "bound")
-FLOOR = LEAST_ERROR
+FLOOR, CEILING = LEAST_ERROR, 20.0
 
 
 def lines_of(points):
@@ -44,15 +45,18 @@ def draw(run):
             ys = [FLOOR * 10 ** (power * d) for d in decades]
             ax.plot(decades, ys, color="#888888", linestyle=":", linewidth=1)
         rows, ends = [], []
+        looks = style.looks({rung for ours, _, rung, _ in lines if ours})
         for (ours, library, rung, promise), line in sorted(lines.items(), key=lambda item: (not item[0][0], item[0][2])):
-            colour, marker = style.look(rung if ours else library)
+            colour, marker = looks[rung] if ours else style.look(library)
             xs = sorted(line)
-            ys = [min(max(line[x][1], FLOOR), 20.0) for x in xs]
+            ys = [min(max(line[x][1], FLOOR), CEILING) for x in xs]
             ax.plot(xs, ys, color=colour, marker=marker, markersize=4, linewidth=1.3, linestyle="-" if ours else "--",
                     markerfacecolor=colour if ours else "white")
             if promise == "certified":
-                ax.plot(xs, [max(line[x][2], FLOOR) for x in xs], color=colour, linewidth=1, linestyle=(0, (5, 2)))
-            ends.append((xs[-1], ys[-1], rung, style.text_colour(rung if ours else library)))
+                bound = [max(line[x][2], FLOOR) for x in xs]
+                ax.plot(xs, bound, color=colour, linewidth=1, linestyle="-.")
+                ends.append((xs[-1], bound[-1], f"{rung}: its bound", style.readable(colour)))
+            ends.append((xs[-1], ys[-1], rung, style.readable(colour)))
             rows += [(kernel_family, rung, library, x, *line[x]) for x in xs]
         style.title(ax, kernel_family)
         ax.set_xlabel("log10 of the condition number L/d")

@@ -16,7 +16,8 @@ HOW_TO_READ = (
 )
 COLUMNS = ("scene", "n", "threads", "what", "with_ns", "without_ns", "rounds", "ratio", "ratio_lo", "ratio_hi")
 ROW, GAP = 0.23, 0.12  # inches
-EFFECT, ALL = ("#0072B2", "o"), ("#D55E00", "D")
+EFFECT, ALL = style.look("called_for"), style.look("everything")
+TALL = 8  # inches from which the axis is told at the top, too
 
 
 def entries_of(scene):
@@ -28,7 +29,9 @@ def entries_of(scene):
     return [entry for entry in found if entry[3].n]
 
 
-def price_text(ns):
+def price_text(with_ns, ratio):
+    """What a frame with it takes more than without, as the paired ratio has it."""
+    ns = with_ns * (1 - 1 / ratio.mid)
     return f"{'+' if ns >= 0 else '-'}{time_text(abs(ns))}"
 
 
@@ -60,7 +63,7 @@ def draw(run):
             ax.plot([ratio.mid], [y], marker=marker, markersize=6.5, color=colour, markeredgecolor="white",
                     markeredgewidth=0.6, zorder=4)
             ax.text(-0.02, y, words, transform=ax.get_yaxis_transform(), ha="right", va="center", fontsize=8)
-            said = f"{interval_text(ratio)}   {price_text(frame_ns(with_it) - frame_ns(without))} a frame"
+            said = f"{interval_text(ratio)}   {price_text(frame_ns(with_it), ratio)} a frame"
             ax.text(1.03, y, said, transform=ax.get_yaxis_transform(), va="center", fontsize=7.5)
             ends += [ratio.lo, ratio.hi] if ratio.known else [ratio.mid]
             rows.append((job.scene, job.n, job.threads, words, frame_ns(with_it), frame_ns(without), ratio.n, ratio.mid,
@@ -68,6 +71,7 @@ def draw(run):
             y += ROW / 2
     style.log_axis(ax.xaxis, min(ends), max(ends), lambda value: f"{value:g}x", room=0.04)
     ax.set_xlabel("time of a frame with it / without it (right: it costs time)")
+    ax.tick_params(axis="x", labeltop=height > TALL)
     ax.set_ylim(height, 0)
     ax.set_yticks([])
     ax.grid(axis="y", visible=False)

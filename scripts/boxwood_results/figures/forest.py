@@ -18,6 +18,7 @@ HOW_TO_READ = (
 )
 COLUMNS = ("ask", "lane", "scene", "n", "threads", "ours", "peer", "peer_library", "phase", "rounds", "ratio", "ratio_lo",
            "ratio_hi", "verdict")
+TALL = 8  # inches from which the axis is told at the top, too
 ROW, GAP, OURS = 0.23, 0.34, 0.17  # inches; the last: a line for our variant below a long heading
 
 
@@ -85,6 +86,7 @@ def draw_one(run, ask, threads, found, floor):
         comparisons = [finding.against(peer, phase) if peer else None for _, finding, peer in entries]
         draw_marks(ax, comparisons, [entry[0] for entry in entries], floor)
         ratio_axis(ax, comparisons)
+        ax.tick_params(axis="x", labeltop=height > TALL)
         ax.set_ylim(y - 0.12, 0)
         ax.set_yticks([])
         ax.set_title(TOTAL_WORDS.get(ask, "build and one query") if phase == TOTAL else "query alone", fontsize=10,

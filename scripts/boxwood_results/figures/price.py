@@ -2,13 +2,16 @@
 
 from .. import style
 from ..findings import time_text
+from ..metrics import METRICS
 from ..picture import Picture, Skip
+from ..selection import largest_jobs
 
 NAME = "price"
 TITLE = "What a kernel costs in a whole query"
 HOW_TO_READ = (
     "Shorter is better. Each bar is the time of one whole query with one kernel under the same tree; the number is its "
-    "time over that of the fastest. A hollow bar answered wrongly."
+    "time over that of the fastest of its tree. A hollow bar answered wrongly: how many answers are missing or too many "
+    "stands beside it."
 )
 COLUMNS = ("ask", "scene", "n", "threads", "tree", "kernel", "status", "query_ns", "times_the_fastest", "missing", "extra")
 ASKS = ("triangle_pairs", "rays_closest", "rays_any")
@@ -17,7 +20,7 @@ ASKS = ("triangle_pairs", "rays_closest", "rays_any")
 def groups(run):
     """{(job, tree): cells that differ by kernel alone}."""
     found = {}
-    for job in run.jobs:
+    for job in largest_jobs(run.jobs):
         if job.ask not in ASKS:
             continue
         for cell in run.of(job):
@@ -36,15 +39,15 @@ def draw(run):
     pictures = []
     for ask, jobs in by_ask.items():
         most = max(len(cells) for *_, cells in jobs)
-        figure, axes = style.panels(len(jobs), width=6.0, height=1.1 + 0.26 * most)
+        figure, axes = style.panels(len(jobs), width=6.0, height=1.25 + 0.26 * most)
         rows = []
         for ax, (job, tree, cells) in zip(axes, jobs):
             fastest = cells[0].median("query")
             for y, cell in enumerate(cells):
                 time, wrong = cell.median("query"), cell.status == "wrong"
-                colour = style.look(cell.kernel)[0]
+                colour = style.look("binned_sah")[0]  # of all of ours: the names tell them apart
                 ax.barh(y, time, height=0.7, color="white" if wrong else colour, edgecolor=colour, linewidth=1.2)
-                lost = f"  {int(cell.check['missing'])} missing, {int(cell.check['extra'])} extra" if wrong else ""
+                lost = f"  {int(cell.check['missing']):,} missing, {int(cell.check['extra']):,} extra" if wrong else ""
                 ax.text(time, y, f" {time / fastest:.2f}x{lost}", va="center", fontsize=7.5)
                 rows.append((job.ask, job.scene, job.n, job.threads, tree, cell.kernel, cell.status, time,
                              time / fastest, int(cell.check["missing"]) if cell.check is not None else None,
@@ -55,7 +58,8 @@ def draw(run):
             ax.xaxis.set_major_formatter(lambda value, _: time_text(value) if value else "0")
             ax.xaxis.set_major_locator(style.MaxNLocator(4))
             ax.grid(axis="y", visible=False)
-            style.title(ax, f"{job} · {tree}")
+            ax.set_title(f"{job}\n{tree}", fontsize=8.5)
+            ax.set_xlabel(METRICS["query"].axis, fontsize=8)
             box = ax.get_position()
             ax.set_position([box.x0 + 0.28 * box.width, box.y0, 0.72 * box.width, box.height])
         said = "; ".join(f"{row[5]} on {row[1]}: {row[8]:.2f} times the fastest" for row in rows)

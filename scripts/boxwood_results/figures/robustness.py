@@ -13,10 +13,12 @@ NAME = "robustness"
 TITLE = "Robustness"
 HOW_TO_READ = (
     "Each row is a family of hard cases, each column a kernel, ours left of the line, peers right of it. The number "
-    "is wrong answers per million (for distances the worst relative error); green is none, the darker the more. "
-    "A number in brackets counts what was left undecided per million. A dash: not supported."
+    "is wrong answers per million, green none; for distances it is the worst relative error, green below 1e-9, and "
+    "\"out\" counts answers beyond the bound that was given. The darker the worse. A number in brackets counts what was "
+    "left undecided per million. A dash: not supported."
 )
 COLUMNS = ("kernel_family", "cases", "rung", "library", "n", "wrong", "maybe", "max_rel_err")
+WIDE = 0.72  # inches of a column
 COLOURS = LinearSegmentedColormap.from_list("wrong", ["#FFF3D6", "#F5B971", "#D55E00", "#6E1A00"])
 RIGHT = "#D9EFDD"
 
@@ -49,9 +51,9 @@ def draw(run):
         if not columns:
             continue
         at = {(p.cases, (p.ours, p.library, p.rung)): p for p in points if p.supported}
-        width, height = 2.6 + 0.62 * len(columns), 1.9 + 0.2 * len(families)
+        width, height = 2.6 + WIDE * len(columns), 1.9 + 0.2 * len(families)
         figure = style.plt.figure(figsize=(width, height))
-        ax = figure.add_axes((2.4 / width, 0.1 / height, 0.62 * len(columns) / width, 0.2 * len(families) / height))
+        ax = figure.add_axes((2.4 / width, 0.1 / height, WIDE * len(columns) / width, 0.2 * len(families) / height))
         rows = []
         for y, cases in enumerate(families):
             for x, column in enumerate(columns):
@@ -62,7 +64,7 @@ def draw(run):
                 text, dark = entry(point, measured)
                 colour = RIGHT if dark is None else COLOURS(dark)
                 ax.add_patch(style.plt.Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=colour, edgecolor="white"))
-                ax.text(x, y, text, ha="center", va="center", fontsize=6 if len(text) < 7 else 4.8,
+                ax.text(x, y, text, ha="center", va="center", fontsize=6.2 if len(text) < 8 else 5.4,
                         color="white" if dark is not None and dark > 0.7 else style.INK)
                 rows.append((kernel_family, cases, point.rung, point.library, point.n, point.wrong,
                              int(point.row["maybe"]), point.error))

@@ -52,7 +52,7 @@ def best_lines(lines):
 
 
 def draw_panel(ax, job, lines, rows):
-    ends, most, highest = [], 1, 1.0
+    ends, most, lowest, highest = [], 1, 1.0, 1.0
     for place, (base, line) in enumerate(lines):
         threads, ratios = [1], [stats.Interval(0, 1.0, math.nan, math.nan)]
         for cell in line:
@@ -72,11 +72,12 @@ def draw_panel(ax, job, lines, rows):
         ends.append((threads[-1], ratios[-1].mid, f"{last.label}  {ratios[-1].mid:.2f}x",
                      style.text_colour(last.family)))
         most = max(most, threads[-1])
+        lowest = min(lowest, *(r.lo if r.known else r.mid for r in ratios))
         highest = max(highest, *(r.hi if r.known else r.mid for r in ratios))
     ax.plot((1, most), (1, most), color="#888888", linestyle=":", linewidth=1.2)
     ends.append((most, most, "ideal", "#666666"))
     ax.set_xlim(1 - 0.04 * most, most * 1.03)
-    ax.set_ylim(min(0.9, *(end[1] * 0.95 for end in ends)), max(highest, most) * 1.05)
+    ax.set_ylim(min(0.9, lowest * 0.95), max(highest, most) * 1.05)
     ax.set_xticks(sorted({1, *(cell.job.threads for _, line in lines for cell in line)}))
     style.title(ax, f"{job.scene} {job.n:,} · {job.ask} · {TOTAL_WORDS.get(job.ask, 'build and one query')}")
     ax.set_xlabel(METRICS["threads"].axis)

@@ -42,7 +42,7 @@ def draw_panel(ax, job, cells, rows):
     style.title(ax, str(job))
     ax.set_xlabel(METRICS["build"].axis)
     ax.set_ylabel(METRICS["sah_cost"].axis)
-    labels.beside_points(ax, marks)
+    labels.beside_points(ax, marks, lines=[[(c.median("build"), sah(c)) for c in best]])
     return best
 
 

@@ -6,14 +6,15 @@ from .. import labels, style
 from ..metrics import METRICS
 from ..picture import Picture, Skip
 from ..run import WHOLE_FRAMES
-from ..selection import choose, largest_jobs, left_out_note, wrong_notes
+from ..selection import choose, largest_jobs, left_out_note, short_labels, wrong_notes
 
 NAME = "work"
 TITLE = "Work and time"
 HOW_TO_READ = (
-    "Lower left is better. Left: the surface-area cost of each tree against the nodes that its queries "
-    "visit. Right: box tests against time; variants on one slanted line spend the same time per box "
-    "test. Counts come from a separate pass and carry no noise."
+    "Lower left is better. Where the cost of the trees is known: the surface-area cost of each tree against "
+    "the nodes that its queries visit; those at one place stand there once. Box tests against time: variants on "
+    "one slanted line spend the same time per box test. Counts come from a separate pass and carry no noise. "
+    "What the long names of ours have in common stands in the title."
 )
 COLUMNS = ("ask", "scene", "n", "variant", "status", "sah_cost", "node_visits_each", "box_tests_each",
            "query_ns_each")
@@ -27,19 +28,34 @@ def measures(cell):
     return sah, *count, cell.median("query") / each
 
 
+def places(points, names):
+    """[(cell that stands there, x, y, label)]: points at one place are one."""
+    at = {}
+    for cell, x, y in points:
+        at.setdefault((x, y), []).append(cell)
+    found = []
+    for (x, y), cells in at.items():
+        shared = [word for word in cells[0].label.split(".") if all(word in c.label.split(".") for c in cells)]
+        label = names[id(cells[0])] if len(cells) == 1 else f"{len(cells)} of {'.'.join(shared) or 'several'}"
+        found.append((min(cells, key=lambda c: c.status == "wrong"), x, y, label))
+    return found
+
+
 def scatter(ax, job, points, x_name, y_name, time_on_y):
     """points: [(cell, x, y)]."""
     xs, ys = [x for _, x, _ in points], [y for *_, y in points]
     style.count_axis(ax.xaxis, min(xs), max(xs), room=0.12)
     (style.time_axis if time_on_y else style.count_axis)(ax.yaxis, min(ys), max(ys), room=0.12)
-    for cell, x, y in points:
+    names, shared = short_labels([cell for cell, *_ in points])
+    standing = places(points, names)
+    for cell, x, y, _ in standing:
         ax.plot([x], [y], **{**style.point_style(cell, 7), "linestyle": ""}, zorder=5)
         if cell.status == "wrong":
             style.cross_out(ax, x, y)
-    style.title(ax, str(job))
+    style.title(ax, f"{job} · ours: {shared}" if shared else str(job))
     ax.set_xlabel(METRICS[x_name].axis)
     ax.set_ylabel(METRICS[y_name].axis)
-    labels.beside_points(ax, [(x, y, c.label, style.text_colour(c.family)) for c, x, y in points])
+    labels.beside_points(ax, [(x, y, label, style.text_colour(c.family)) for c, x, y, label in standing])
 
 
 def draw(run):
@@ -52,20 +68,19 @@ def draw(run):
         raise Skip("no job has two variants with work counters")
     pictures = []
     for ask, jobs in by_ask.items():
-        figure, axes = style.panels(2 * len(jobs))
-        rows, notes = [], []
-        for place, (job, counted) in enumerate(jobs):
+        rows, notes, panels = [], [], []
+        for job, counted in jobs:
             shown, left_out = choose(counted)
             values = [(cell, *measures(cell)) for cell in shown]
             with_tree = [(c, sah, visits) for c, sah, visits, _, _ in values if sah > 0 and visits > 0]
             if len(with_tree) >= 2:
-                scatter(axes[2 * place], job, with_tree, "sah_cost", "node_visits", False)
-            else:
-                axes[2 * place].remove()
-            scatter(axes[2 * place + 1], job, [(c, tests, ns) for c, _, _, tests, ns in values], "box_tests",
-                    "query_each", True)
+                panels.append((job, with_tree, "sah_cost", "node_visits", False))
+            panels.append((job, [(c, tests, ns) for c, _, _, tests, ns in values], "box_tests", "query_each", True))
             rows += [(ask, job.scene, job.n, c.label, c.status, *rest) for c, *rest in values]
             notes += left_out_note(left_out, f"variants of {job}") + wrong_notes(counted)
+        figure, axes = style.panels(len(panels), width=5.4, height=3.7)
+        for ax, panel in zip(axes, panels):
+            scatter(ax, *panel)
         said = "; ".join(f"{row[3]} on {row[1]}: {row[7]:.3g} box tests and {row[8]:.3g} ns each" for row in rows)
         pictures.append(Picture(f"{NAME}_{ask}", figure, f"{TITLE}: {ask}", f"Work against time. {said}.",
                                 COLUMNS, rows, notes))

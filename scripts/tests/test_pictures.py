@@ -1,0 +1,119 @@
+"""What makes a picture readable: axes that end where values do, colours with one meaning, texts clear of lines."""
+
+import math
+from types import SimpleNamespace
+
+import pytest
+import synthetic
+
+from boxwood_results import labels, registry, run, selection, style
+from boxwood_results.figures import accuracy, effect_price, work
+from boxwood_results.kernels import Rung
+
+
+@pytest.fixture(scope="module")
+def results(full):
+    return run.read(full)
+
+
+def rung(name, ns, wrong=0, error=math.nan):
+    return Rung(name, True, "boxwood", "no promise", ns, 1000, wrong, 0, error)
+
+
+def test_the_axis_of_wrong_answers_ends_at_all():
+    figure, (ax,) = style.panels(1)
+    accuracy.draw_panel(ax, "generic", [rung("always_wrong", 5, 1000), rung("right", 9)], False)
+    ticks = [text.get_text() for text in ax.get_yticklabels()]
+    assert ticks[0] == "0" and ticks[-1] == "1 M"
+    assert 1e6 < ax.get_ylim()[1] < 2.5e6  # room for the mark and no further number
+    style.plt.close(figure)
+
+
+@pytest.mark.parametrize("error", [7.0, 1e20, math.inf])
+def test_an_error_without_a_right_digit_stands_in_the_lane_at_the_top(error):
+    figure, (ax,) = style.panels(1)
+    accuracy.draw_panel(ax, "generic", [rung("far_off", 5, 10, error), rung("near", 9, 0, 1e-12)], True)
+    marks = {line.get_xdata()[0]: line.get_ydata()[0] for line in ax.lines if line.get_marker() == "o"}
+    assert 1 < marks[5] < ax.get_ylim()[1] < 1e6 and marks[9] == 1e-12
+    tick = dict(zip(ax.get_yticks(), (text.get_text() for text in ax.get_yticklabels())))
+    assert tick[marks[5]] == "no digit"
+    style.plt.close(figure)
+
+
+def test_settings_keep_the_colour_of_their_builder():
+    for word in ("binned_sah", "bonsai", "sweep_sah"):
+        assert style.look(word + "_block8_joined8")[0] == style.look(word)[0]
+    assert style.look("binned_sah_reinsertion")[0] != style.look("sweep_sah")[0]
+
+
+def test_kernels_in_one_picture_look_different():
+    names = {"features_f32", "features_f64", "features_f64_batch", "cross_product_f64", "certified", "rational"}
+    looks = style.looks(names)
+    assert set(looks) == names and len({colour for colour, _ in looks.values()}) == len(names)
+    assert len({marker for _, marker in looks.values()}) == len(names)
+
+
+def test_a_text_keeps_clear_of_a_line():
+    figure, (ax,) = style.panels(1)
+    ax.set(xlim=(0, 10), ylim=(0, 10))
+    line = [(5, 5), (9, 5)]  # through the place that is tried first
+    labels.beside_points(ax, [(5, 5, "a name", "#000000")], lines=[line])
+    box = ax.texts[0].get_window_extent(figure.canvas.get_renderer())
+    steps = [ax.transData.transform((5 + 0.05 * k, 5)) for k in range(80)]
+    assert not any(box.contains(*step) for step in steps)
+    style.plt.close(figure)
+
+
+def cell(label, ours=True, status="right"):
+    return SimpleNamespace(label=label, ours=ours, status=status)
+
+
+def test_long_names_leave_out_what_they_share():
+    cells = [cell("binned_sah.wide8.guigue_devillers_f32"), cell("binned_sah.wide8.sat_f64"), cell("fcl.wide8.x", False)]
+    names, shared = selection.short_labels(cells)
+    assert shared == "binned_sah.wide8"
+    assert [names[id(c)] for c in cells] == ["guigue_devillers_f32", "sat_f64", "fcl.wide8.x"]
+    for kept in ([cell("hilbert.packed"), cell("median.packed")],  # short ones stay as other figures have them
+                 [cell("binned_sah_block8_joined8.wide8"), cell("binned_sah_block8_joined8.wide8.watertight")]):
+        names, shared = selection.short_labels(kept)
+        assert shared == "" and [names[id(c)] for c in kept] == [c.label for c in kept]
+
+
+def test_variants_at_one_place_stand_there_once():
+    cells = [cell("sah.wide8.a", status="wrong"), cell("sah.wide8.b"), cell("lbvh.wide8.a")]
+    names = {id(c): c.label for c in cells}
+    found = work.places([(cells[0], 1, 2), (cells[1], 1, 2), (cells[2], 1, 3)], names)
+    assert found == [(cells[1], 1, 2, "2 of sah.wide8"), (cells[2], 1, 3, "lbvh.wide8.a")]
+
+
+@pytest.mark.parametrize("name", registry.FIGURES)
+def test_no_panel_is_empty(results, name):
+    for made in registry.draw(name, results).pictures:
+        assert all(ax.has_data() for ax in made.figure.axes)
+        style.plt.close(made.figure)
+
+
+def test_intervals_of_speed_ups_are_not_cut(results):
+    for made in registry.draw("speedup", results).pictures:
+        for ax in made.figure.axes:
+            low, high = ax.get_ylim()
+            assert all(low <= y <= high for line in ax.lines for y in line.get_ydata())
+        style.plt.close(made.figure)
+
+
+def test_a_price_has_the_sign_of_its_ratio():
+    for ratio, sign in ((0.99, "-"), (1.3, "+")):
+        assert effect_price.price_text(1e6, SimpleNamespace(mid=ratio)).startswith(sign)
+    assert effect_price.price_text(2e6, SimpleNamespace(mid=2.0)) == "+1 ms"
+
+
+def test_a_tall_picture_tells_its_axis_at_the_top_too(tmp_path):
+    made = synthetic.Maker(9)
+    for k in range(20):
+        for contender in ("median.packed", "fcl.dynamic_aabb_tree", "bullet.dbvt"):
+            library, builder = ("boxwood", "median") if contender == "median.packed" else (contender.split(".")[0], "")
+            made.cell(f"scene_{k}", 500, "pairs", contender, (library, builder, 50, 500, 40), 1)
+    figure = registry.draw("forest", run.read(made.write(tmp_path / "a.h5"))).pictures[0].figure
+    figure.canvas.draw()
+    assert all(tick.label2.get_visible() and tick.label2.get_text() for ax in figure.axes for tick in ax.xaxis.get_major_ticks())
+    style.plt.close(figure)
