@@ -10,6 +10,7 @@
 #include "trees/work.h"
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -108,6 +109,8 @@ struct StructureInfo {
     std::size_t bytes = 0;
     const Tree* tree =
         nullptr; ///< ours alone: valid until the next build; empty if none was needed
+    /// Of moving_pairs, ours alone: Updater::sah.
+    double sah = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// A work counter beyond those of Work.

@@ -39,7 +39,7 @@ class MovingPairs final : public Contender {
         return {{"items_placed", placed_}, {"rebuilds", rebuilds_}};
     }
     std::optional<StructureInfo> structure() const override {
-        return StructureInfo{updater_->bytes(), nullptr};
+        return StructureInfo{updater_->bytes(), nullptr, updater_->sah()};
     }
 
   private:
@@ -80,6 +80,15 @@ void play_frame(Contender& contender, const Frame& frame, Answers& answers, Fram
     time.update_cpu_ns += updated.cpu_ns - start.cpu_ns;
     time.query_cpu_ns += end.cpu_ns - updated.cpu_ns;
     time.pairs = answers.pairs.size();
+}
+
+FrameCount count_frame(Contender& contender, Answers& answers) {
+    FrameCount count;
+    if (const std::optional<Work> work = contender.counted_query(answers))
+        count.box_tests = work->box_tests;
+    if (const std::optional<StructureInfo> structure = contender.structure())
+        count.sah = structure->sah;
+    return count;
 }
 
 ContenderEntry moving_contender(const BuilderChoice& policy) {

@@ -3,6 +3,7 @@
 #include "bench/config.h"
 #include "bench/contender.h"
 #include "bench/truth.h"
+#include "results/results.h"
 #include "scenes/moving/frames.h"
 #include "trees/function_ref.h"
 
@@ -25,6 +26,15 @@ struct FrameTime {
 
 /// Takes the contender through one frame: update and query are added to its time.
 void play_frame(Contender& contender, const Frame& frame, Answers& answers, FrameTime& time);
+
+/// What the query of one frame does and what its structure is like, apart from any clock; missing
+/// where the contender cannot tell.
+struct FrameCount {
+    std::uint64_t box_tests = results::no_count;
+    double sah = results::missing; ///< Updater::sah
+};
+/// Untimed, of the newest frame. A contender that counts answers once more.
+FrameCount count_frame(Contender& contender, Answers& answers);
 
 /// Takes a contender that was just built through all frames: update and query of each are added to
 /// its time. `after_frame` is called after each, from 0, untimed. Frames that must be made first

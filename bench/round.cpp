@@ -4,9 +4,9 @@
 #include "bench/prepare.h"
 #include "bench/scene_asks.h"
 #include "bench/truth.h"
+#include "bench/usage.h"
 
 #include <benchmark/benchmark.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,46 +14,12 @@
 #include <cfenv>
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <stdexcept>
 
 namespace boxwood::bench {
 namespace {
-
-/// The eighth number of the first line of /proc/stat, in clock ticks; 0 where there is none.
-std::uint64_t steal_ticks() {
-    std::ifstream stat("/proc/stat");
-    std::string cpu;
-    std::uint64_t ticks = 0;
-    stat >> cpu;
-    for (int i = 0; i < 8; ++i)
-        if (!(stat >> ticks))
-            return 0;
-    return ticks;
-}
-
-/// What the operating system counts for the whole process.
-struct Usage {
-    std::uint64_t steal = steal_ticks();
-    rusage process = [] {
-        rusage usage{};
-        getrusage(RUSAGE_SELF, &usage);
-        return usage;
-    }();
-};
-
-void add_usage(results::Sample& sample, const Usage& before, const Usage& after) {
-    const auto difference = [](long a, long b) { return static_cast<std::uint64_t>(b - a); };
-    sample.nvcsw = difference(before.process.ru_nvcsw, after.process.ru_nvcsw);
-    sample.nivcsw = difference(before.process.ru_nivcsw, after.process.ru_nivcsw);
-    sample.minflt = difference(before.process.ru_minflt, after.process.ru_minflt);
-    if (after.steal > before.steal)
-        sample.flags |= results::disturbed_steal;
-    if (sample.nivcsw > 0)
-        sample.flags |= results::disturbed_switches;
-}
 
 /// One timing of a cell in this round.
 struct Timing {
@@ -104,21 +70,33 @@ class Round final : public benchmark::BenchmarkReporter {
 
     /// Of moving scenes: passes through all frames, one untimed with every answer looked at, the
     /// last of the others looked at afterwards. Their times are our own: google-benchmark would
-    /// add up update and query.
+    /// add up update and query. What does not depend on the round is counted in round 0.
     void play_frames(benchmark::State& state, const Timing& timing) {
         Frames& all = frames_of(timing.cell->scene);
+        const bool counts = round_ == 0 && !timing.is_twin;
         answers_ = {};
         std::vector<FrameTime> times(all.size());
+        std::vector<FrameCount> counted(counts ? all.size() : 0);
         FramesHash hash;
         PairsDigest last;
-        play(*contender_, all, answers_, times, [&](std::size_t, const Frame&) {
+        bool is_steady = true;
+        play(*contender_, all, answers_, times, [&](std::size_t index, const Frame&) {
             last = digest_of(answers_.pairs);
             hash.add(last.hash);
+            if (counts) {
+                counted[index] = count_frame(*contender_, answers_);
+                is_steady = is_steady && digest_of(answers_.pairs) == last;
+            }
         });
         time_passes(state, timing, times, [&] {
             play(*contender_, all, answers_, times, [](std::size_t, const Frame&) {});
         });
-        if (hash.value() != timing.checked_hash ||
+        auto row = frames.end() - std::ssize(counted);
+        for (const FrameCount& count : counted) {
+            row->box_tests = count.box_tests;
+            (row++)->sah = count.sah;
+        }
+        if (hash.value() != timing.checked_hash || !is_steady ||
             (!times.empty() && digest_of(answers_.pairs) != last))
             flag_wrong();
         finish();
@@ -195,7 +173,8 @@ class Round final : public benchmark::BenchmarkReporter {
             query.cpu_ns += time.query_cpu_ns / played;
             if (!timing.is_twin)
                 frames.push_back({timing.cell_id, 0, round_, static_cast<std::uint32_t>(f),
-                                  time.update_ns / passes, time.query_ns / passes, time.pairs});
+                                  time.update_ns / passes, time.query_ns / passes, time.pairs,
+                                  results::no_count, results::missing});
         }
         for (results::Sample* sample : {&update, &query}) {
             sample->iterations = static_cast<std::uint64_t>(played);

@@ -5,11 +5,14 @@
 #include "bench/calibration.h"
 #include "bench/prepare.h"
 #include "bench/rungs/rungs.h"
+#include "scenes/moving/frames.h"
+#include "trees/update.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -266,6 +269,92 @@ TEST_F(RoundTest, KernelsAreJudgedAndHaveAQueryAlone) {
     EXPECT_GE(phases.count("1 query"), 1u);
     EXPECT_GE(phases.count("2 build"), 1u);
     EXPECT_EQ(phases.count("2 build"), phases.count("2 query"));
+}
+
+/// A policy that can count its frames, cannot, or answers otherwise when it counts.
+class Follower final : public Contender {
+  public:
+    Follower(std::unique_ptr<Contender> policy, Fault fault)
+        : policy_(std::move(policy)), fault_(fault) {}
+    void build() override { policy_->build(); }
+    void query(Answers& answers) override { policy_->query(answers); }
+    void update(const Frame& frame) override {
+        policy_->update(frame);
+        ++frame_;
+    }
+    std::optional<Work> counted_query(Answers& answers) override {
+        if (fault_ == Fault::cannot)
+            return std::nullopt;
+        const std::optional<Work> work = policy_->counted_query(answers);
+        if (fault_ == Fault::counts_otherwise && Made::is_late && frame_ == 2)
+            answers.pairs.pop_back();
+        return work;
+    }
+    std::optional<StructureInfo> structure() const override {
+        return fault_ == Fault::cannot ? std::nullopt : policy_->structure();
+    }
+
+  private:
+    std::unique_ptr<Contender> policy_;
+    Fault fault_;
+    int frame_ = 0;
+};
+
+TEST_F(RoundTest, Round0CountsTheFramesOfMovingScenes) {
+    const std::vector<std::string> policies{"auto",     "refit", "keep",
+                                            "reinsert", "merge", "rebuild"};
+    plan = make_plan("rounds = 2\nmin_time_ms = 1\n[[cells]]\nask = \"moving_pairs\"\n"
+                     "scene = \"broadmark_brownian\"\nn = 700\nframes = 5\n"
+                     "updates = [\"auto\", \"refit\", \"keep\", \"reinsert\", \"merge\", "
+                     "\"rebuild\"]\n",
+                     "test.toml", {});
+    ASSERT_EQ(plan.cells.size(), policies.size());
+    for (const Fault fault : {Fault::cannot, Fault::counts_otherwise}) {
+        PlannedCell cell = plan.cells[1];
+        cell.name = fault == Fault::cannot ? "cannot" : "counts_otherwise";
+        cell.contender.make = [fault, make = plan.cells[1].contender.make](const Job& job) {
+            return std::make_unique<Follower>(make(job), fault);
+        };
+        plan.cells.push_back(cell);
+    }
+    const results::Results ready = prepared();
+    Made::is_late = true;
+    const results::Results counted = run_round(plan, ready, 0, report()),
+                           later = run_round(plan, ready, 1, report());
+    ASSERT_EQ(counted.frames.size(), 5 * plan.cells.size());
+    std::map<std::pair<std::uint32_t, std::uint32_t>, const results::FrameRow*> rows;
+    for (const results::FrameRow& row : counted.frames)
+        rows[{row.cell_id, row.frame}] = &row;
+    for (std::uint32_t cell = 0; cell < policies.size(); ++cell) {
+        const SceneSpec& spec = plan.cells[cell].scene;
+        Frames frames(spec.moving);
+        const std::unique_ptr<Updater> updater = find_update(policies[cell])->make({});
+        updater->start(make_scene(spec).boxes, serial());
+        for (std::uint32_t f = 0; const Frame* const frame = frames.next(); ++f) {
+            updater->update(frame->boxes, frame->moved, serial());
+            CountPairs pairs;
+            const Work work = updater->self_pairs_counted(pairs);
+            const results::FrameRow& row = *rows.at({cell, f});
+            EXPECT_EQ(row.box_tests, work.box_tests) << policies[cell] << ", frame " << f;
+            EXPECT_EQ(row.pairs, work.answers);
+            EXPECT_EQ(row.sah, updater->sah());
+            EXPECT_GT(row.sah, 16);
+        }
+    }
+    for (std::uint32_t f = 0; f < 5; ++f) {
+        EXPECT_EQ(rows.at({policies.size(), f})->box_tests, results::no_count);
+        EXPECT_TRUE(std::isnan(rows.at({policies.size(), f})->sah));
+        EXPECT_GT(rows.at({policies.size(), f})->query_ns, 0);
+    }
+    for (const results::FrameRow& row : later.frames) {
+        EXPECT_EQ(row.box_tests, results::no_count);
+        EXPECT_TRUE(std::isnan(row.sah));
+    }
+    for (const results::Results* round : {&counted, &later})
+        for (const results::Sample& sample : round->samples)
+            EXPECT_EQ((sample.flags & results::wrong_answer) != 0,
+                      round == &counted && sample.cell_id == policies.size() + 1 &&
+                          sample.phase != "build" && !(sample.flags & results::aa_twin));
 }
 
 TEST_F(RoundTest, ACellWithFewerRoundsIsNotInTheLaterOnes) {

@@ -1,5 +1,6 @@
 #include "bench/sections.h"
 
+#include "bench/ageing.h"
 #include "bench/effect_prices.h"
 #include "bench/frame_times.h"
 #include "bench/growth.h"
@@ -32,6 +33,7 @@ std::string sections_text(const results::Results& results,
         {"The policies auto and keep against the best of the other fixed ones: update and query of "
          "a frame",
          policies_text(index)},
+        {"How trees age, counted: the last frame over the first", ageing_text(index, brief)},
         {"Everything on against only what the scene calls for: update and query of a frame",
          everything_text(index)},
         {"What an effect adds to a frame", effect_prices_text(index)},
