@@ -28,5 +28,6 @@ METRICS = {
     "box_tests": Metric("box tests per box or ray", "", "lower is better"),
     "node_visits": Metric("node visits per box or ray", "", "lower is better"),
     "query_each": Metric("query time per box or ray", "ns", "lower is better"),
+    "sah": Metric("box tests of a random ray", "", "lower is better"),
     "sah_cost": Metric("surface-area cost of the tree", "", "lower is better"),
 }

@@ -8,6 +8,7 @@ from . import stats
 from .kernels import KernelPoint
 from .reader import load
 
+NO_COUNT = 2**64 - 1  # a missing whole number
 AA_TWIN, WRONG_ANSWER, DISTURBED = 4, 8, 1 | 2
 RANKED = ("exact", "conservative", "within_bound")
 STATUSES = ("wrong", "unsupported", "within_bound", "conservative", "exact")  # the worst first
@@ -75,6 +76,7 @@ class Cell:
     n_frames: int = 1
     scene_json: str = ""  # parameters of the scene
     frames: dict = field(default_factory=dict)  # number -> [(ns to update, ns to query)] of the rounds
+    counted: dict = field(default_factory=dict)  # number -> (box tests, SAH); NaN where unknown
     stages: dict = field(default_factory=dict)  # name -> Stage, in the order of the plan
 
     @property
@@ -212,6 +214,11 @@ def add_frames(cells, table):
     for cell_id, frame, update, query in zip(*(table[name].tolist() for name in names)):
         if update + query >= 0:
             cells[cell_id].frames.setdefault(frame, []).append((update, query))
+    if not {"box_tests", "sah"} <= set(table.dtype.names):  # before schema minor 4
+        return
+    for cell_id, frame, tests, sah in zip(*(table[name].tolist() for name in ("cell_id", "frame", "box_tests", "sah"))):
+        if tests != NO_COUNT or sah == sah:
+            cells[cell_id].counted[frame] = (math.nan if tests == NO_COUNT else float(tests), sah)
 
 
 def add_stages(cells, table):

@@ -25,7 +25,7 @@ COLUMNS = {
     "samples": [("cell_id", U4), ("shard_id", U4), ("round", U4), ("position", U4), ("phase", WORD), ("wall_ns", F8),
                 ("cpu_ns", F8), ("iterations", U8), ("nvcsw", U8), ("nivcsw", U8), ("minflt", U8), ("flags", U4)],
     "frames": [("cell_id", U4), ("shard_id", U4), ("round", U4), ("frame", U4), ("update_ns", F8), ("query_ns", F8),
-               ("pairs", U8)],
+               ("pairs", U8), ("box_tests", U8), ("sah", F8)],
     "effects": [("cell_id", U4), ("shard_id", U4), ("round", U4), ("stage", WORD), ("called_for", U4), ("calls", U8),
                 ("items", U8), ("total_ns", F8), ("bytes", U8)],
     "counters": [("cell_id", U4), ("counter", WORD), ("value", U8)],
@@ -181,9 +181,16 @@ class Maker:
                 slow = 1 + 0.05 * self.random.random() + 2.0 * (frame % 10 == 7 and contender == "auto")
                 self.rows["frames"].append(dict(
                     cell_id=cell_id, shard_id=round_, round=round_, frame=frame, update_ns=update * slow * self.speed[round_],
-                    query_ns=query * (1 + growth * frame) * self.speed[round_], pairs=7))
+                    query_ns=query * (1 + growth * frame) * self.speed[round_], pairs=7,
+                    **self.frame_counts(ask, builder, round_, n, 1 + 2 * growth * frame)))
         self.rows["checks"].append(dict(cell_id=cell_id, oracle="sweep", status=status, n_checked=n, n_expected=n, n_got=n))
         return cell_id
+
+    def frame_counts(self, ask, builder, round_, n, grown):
+        """What round 0 counts of ours: 40 box tests per item and 200 of a ray, times how far it has grown."""
+        if ask != "moving_pairs" or not builder or round_:
+            return dict(box_tests=2**64 - 1, sah=math.nan)
+        return dict(box_tests=round(40 * n * grown), sah=200 * grown)
 
     def moving(self, n=10000):
         """Every policy on one scene with several shares that move, and two scenes with what they ask."""
@@ -270,12 +277,14 @@ class Maker:
             for name, columns in COLUMNS.items():
                 if name in drop:
                     continue
+                columns = [(c, kind) for c, kind in columns if f"{name}.{c}" not in drop]
                 dtype = [(c, h5py.string_dtype("utf-8", int(kind[1:])) if kind[0] == "S" else kind)
                          for c, kind in columns]
                 data = np.zeros(len(self.rows[name]), dtype=dtype)
                 for index, row in enumerate(self.rows[name]):
                     for column, value in row.items():
-                        data[index][column] = value.encode() if isinstance(value, str) else value
+                        if f"{name}.{column}" not in drop:
+                            data[index][column] = value.encode() if isinstance(value, str) else value
                 file.create_dataset(name, data=data, chunks=(max(1, min(len(data), 4096)),), maxshape=(None,),
                                     shuffle=True, compression="gzip", compression_opts=1, fletcher32=True)
             file["text/argv"] = "boxwood sweep --config x.toml"

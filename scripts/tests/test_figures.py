@@ -226,6 +226,19 @@ def test_a_structure_that_ages_climbs(results):
     assert last["merge"] == pytest.approx(62 / 58, rel=0.03)
 
 
+def test_ageing_is_counted_where_it_was(tmp_path, results):
+    timed, counted = registry.draw("tree_quality_over_time", results).pictures
+    rows = [dict(zip(counted.columns, row)) for row in counted.rows if row[0] == "uniform_drift"]
+    assert {row["contender"] for row in rows} == {"auto", "merge", "rebuild.trigger0", "reinsert"}  # no peers, no keep
+    last = {row["contender"]: row for row in rows if row["frame"] == 19}
+    assert last["reinsert"]["box_tests_per_item"] == pytest.approx(40 * (1 + 2 * 0.012 * 19))
+    assert last["reinsert"]["sah"] == pytest.approx(200 * (1 + 2 * 0.012 * 19))
+    assert last["merge"]["box_tests_per_item"] == 40
+    old = synthetic.full(3).write(tmp_path / "old.h5", drop=("frames.box_tests", "frames.sah"))
+    assert [made.columns for made in registry.draw("tree_quality_over_time", run.read(old)).pictures] == [timed.columns]
+    style.plt.close("all")
+
+
 def test_the_moved_share_comes_from_the_scene(results):
     rows = [row for row in rows_of("moved_share", results) if row["contender"] == "merge"]
     assert [row["moved_share"] for row in rows] == list(synthetic.SHARES)

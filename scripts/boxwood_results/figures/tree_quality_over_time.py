@@ -1,6 +1,7 @@
-"""How structures age: the query of each frame against one by a structure made anew for the frame."""
+"""How structures age: the query of each frame against one by a structure made anew for the frame, and counted."""
 
 from .. import labels, style
+from ..metrics import METRICS
 from ..moving import frame_medians
 from ..picture import Picture, Skip
 from ..selection import choose, largest_jobs, left_out_note, wrong_notes
@@ -11,9 +12,13 @@ HOW_TO_READ = (
     "Lower is better. Each line is the query of each frame by one way to keep the structure, over the query of the same "
     "frame by our structure that is built anew for every frame (where there is none, over its own first frame). A "
     "structure that ages climbs. The policy keep, which answers from the pairs that it found, is left out; auto "
-    "stands below 1 where it does the same."
+    "stands below 1 where it does the same. Where it was counted, a second picture holds what does not depend on the "
+    "machine: the tests of boxes that the query of each frame made, per item, and those that a random ray "
+    "would make by the surface-area heuristic."
 )
 COLUMNS = ("scene", "n", "threads", "contender", "library", "status", "frame", "query_ns", "over_a_fresh_one")
+COUNTED_COLUMNS = ("scene", "n", "threads", "contender", "library", "status", "frame", "box_tests_per_item", "sah")
+MEASURES = ((7, METRICS["box_tests"].axis.replace("box or ray", "item")), (8, METRICS["sah"].axis))  # column, axis
 LEAST_FRAMES = 10
 FRESH = "rebuild_trigger0"
 
@@ -49,6 +54,54 @@ def draw_panel(ax, job, cells, fresh, rows):
     return ends
 
 
+def counted_rows(job, cell):
+    return [(job.scene, job.n, job.threads, cell.label, cell.library, cell.status, frame, tests / job.n, sah)
+            for frame, (tests, sah) in sorted(cell.counted.items())]
+
+
+def markers_of(number, count):
+    """Which of the points of a line bear a marker: others than of the next, as lines may coincide."""
+    step = max(1, count // 8)
+    return (number % min(step, count), step)
+
+
+def draw_counted_panel(ax, job, cells, column, axis):
+    """Gives the labels of the lines' ends. What is zero, as where kept pairs answered, has no place on the axis."""
+    ends, shown = [], []
+    for number, cell in enumerate(cells):
+        points = [(row[6], row[column]) for row in counted_rows(job, cell) if row[column] > 0]
+        if not points:
+            continue
+        style_of = {**style.point_style(cell, 4), "markevery": markers_of(number, len(points))}
+        ax.plot(*zip(*points), **style_of, linewidth=1.3)
+        ends.append((*points[-1], f"{cell.label}  {points[-1][1]:.3g}", style.text_colour(cell.family)))
+        shown += [value for _, value in points]
+    style.count_axis(ax.yaxis, min(shown, default=1), max(shown, default=1))
+    ax.set_xlim(0, max(max(cell.counted) for cell in cells))
+    ax.xaxis.set_major_locator(style.MaxNLocator(6, integer=True))
+    style.title(ax, f"{job.scene} {job.n:,}")
+    ax.set_xlabel("frame")
+    ax.set_ylabel(axis)
+    return ends
+
+
+def draw_counted(panels):
+    """The second picture, of the cells that were counted; none in files from before."""
+    panels = [(job, [cell for cell in cells if cell.counted]) for job, cells, *_ in panels]
+    panels = [(job, cells) for job, cells in panels if cells]
+    if not panels:
+        return []
+    figure, axes = style.panels(2 * len(panels), width=4.3, labels_right=2.1)
+    for place, ax in enumerate(axes):
+        job, cells = panels[place // 2]
+        labels.at_line_ends(ax, draw_counted_panel(ax, job, cells, *MEASURES[place % 2]))
+    rows = [row for job, cells in panels for cell in cells for row in counted_rows(job, cell)]
+    ends = {(row[0], row[3]): row for row in rows}
+    said = "; ".join(f"{name} on {scene} {row[7]:.3g} and {row[8]:.3g}" for (scene, name), row in ends.items())
+    alt = f"Box tests per item of the query of each frame, and of a random ray, at the last frame: {said}."
+    return [Picture(f"{NAME}_counted", figure, "How trees age, counted", alt, COUNTED_COLUMNS, rows)]
+
+
 def draw(run):
     panels = []
     for job in largest_jobs(run.jobs):
@@ -66,4 +119,5 @@ def draw(run):
         notes += said
     last = {(row[0], row[3]): row[8] for row in rows}
     said = "; ".join(f"{name} on {scene} {ratio:.2f}x at the last frame" for (scene, name), ratio in last.items())
-    return [Picture(NAME, figure, TITLE, f"Query of each frame over that of a fresh tree. {said}.", COLUMNS, rows, notes)]
+    return [Picture(NAME, figure, TITLE, f"Query of each frame over that of a fresh tree. {said}.", COLUMNS, rows, notes),
+            *draw_counted(panels)]
