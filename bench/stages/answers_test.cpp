@@ -1,8 +1,8 @@
 /// What a scene asks, answered by its plan, against everything on and against brute force.
 
 #include "bench/ray_truth.h"
+#include "bench/stages/body_surface.h"
 #include "bench/stages/scene_player.h"
-#include "bench/stages/surface.h"
 #include "kernels/oracle/oracle.h"
 
 #include <gtest/gtest.h>
@@ -199,6 +199,32 @@ std::vector<Neighbour> true_nearest(const MovingScene& scene,
     return nearest;
 }
 
+/// All that rays may hit, body by body; first: the first triangle of each, and the number of all.
+TriangleMesh surface_mesh(const Bodies& bodies, std::vector<std::uint32_t>& first) {
+    TriangleMesh mesh;
+    first.clear();
+    for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+        first.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
+        if (!bodies.present[i])
+            continue;
+        TriangleMesh own{{}, {box_triangles.begin(), box_triangles.end()}};
+        const auto &low = bodies.rest[i].min, &high = bodies.rest[i].max;
+        for (unsigned corner = 0; corner < 8; ++corner)
+            own.vertices.push_back({corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y,
+                                    corner & 4 ? high.z : low.z});
+        if (bodies.mesh[i] != no_mesh)
+            own = bodies.meshes[bodies.mesh[i]];
+        const auto before = static_cast<std::uint32_t>(mesh.vertices.size());
+        for (const Vec3<float>& v : own.vertices)
+            mesh.vertices.push_back(
+                static_cast<Vec3<float>>(bodies.pose[i](static_cast<Vec3<double>>(v))));
+        for (const auto& t : own.triangles)
+            mesh.triangles.push_back({before + t[0], before + t[1], before + t[2]});
+    }
+    first.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
+    return mesh;
+}
+
 void expect_true_rays(const MovingScene& scene, const std::vector<Ray<float>>& rays,
                       const std::vector<SurfaceHit>& hits) {
     std::vector<std::uint32_t> first;
@@ -265,6 +291,52 @@ TEST(Answers, AreThoseOfBruteForce) {
     EXPECT_GT(pairs, 1000u);
     EXPECT_GT(triangles, 100u);
     EXPECT_GT(hits, 1000u);
+}
+
+// So many rays that what rests has a tree of its own, made with care; and so few that it has not.
+TEST(Answers, OfRaysAreThoseOfBruteForceInOneTreeAndInTwo) {
+    for (const char* name : {"tumbling_rocks", "crowd", "warehouse", "popcorn", "cloth_on_sphere"})
+        for (const std::size_t frames : {1u, 100000u}) {
+            SCOPED_TRACE(name);
+            SceneFile file = asking_all(built_in(name, 150));
+            file.frames = frames;
+            const auto executor = make_executor("tbb", 2);
+            ScenePlayer player(MovingScene(file), Extent::called_for, serial());
+            ScenePlayer on_two(MovingScene(file), Extent::called_for, *executor);
+            player.start();
+            on_two.start();
+            for (int frame = 0; frame < 8; ++frame) {
+                std::vector<Ray<float>> rays;
+                rays_of_frame(player.scene(), *ask_of(file, "rays"), rays);
+                expect_true_rays(player.scene(), rays, player.ask().rays);
+                EXPECT_EQ(player.answers().rays, on_two.ask().rays);
+                player.advance();
+                on_two.advance();
+            }
+        }
+}
+
+// An arm that rests and one that moves lie in the same place: a ray that meets both at the same t
+// is told of the one that comes first, whichever tree it is in.
+TEST(Answers, OfRaysThatMeetTwoBodiesAtOnceNameTheFirst) {
+    const std::string arm = "[[bodies]]\ngenerator = \"four_link\"\nn = 4\n";
+    const std::string moves = "effects = \"drift\"\n";
+    for (const std::string& text : {arm + arm + moves, arm + moves + arm})
+        for (const std::size_t frames : {1u, 100000u}) {
+            SceneFile file = parse_scene_file("asks = \"rays\"\n" + text, "mine.toml");
+            file.frames = frames;
+            ScenePlayer player(MovingScene(file), Extent::called_for, serial());
+            player.start();
+            const Bodies& bodies = player.scene().bodies();
+            ASSERT_EQ(fitted_box(bodies, 1), fitted_box(bodies, 5));
+            std::size_t hits = 0;
+            for (const SurfaceHit& hit : player.ask().rays)
+                if (hit.body != SurfaceHit::none) {
+                    EXPECT_LT(hit.body, 4u) << text;
+                    ++hits;
+                }
+            EXPECT_GT(hits, 0u);
+        }
 }
 
 TEST(Answers, OfOneBodyAndOfNobody) {

@@ -132,7 +132,7 @@ class Plan {
         const bool rays = wants_.asks("rays"), aim = rays || !wants_.box_asks.empty();
         add_only("surface", rays,
                  !rays          ? "no rays are asked"
-                 : wants_.moves ? "rays meet it; made anew when a body has changed"
+                 : wants_.moves ? "rays meet it; bodies that have changed are written in place"
                                 : "rays meet it; made once, as nothing moves");
         add_only("aim", aim, aim ? "queries go with the frame" : "no queries are asked");
         for (const std::string_view word : {"rays", "points", "regions", "nearest"}) {

@@ -45,8 +45,11 @@ ScenePlayer::ScenePlayer(MovingScene scene, Extent extent, const Executor& execu
         add("mesh_trees", mesh_trees_stage(), Runs::asking);
     if (runs("triangle_pairs"))
         add("triangle_pairs", ask_stage("triangle_pairs"), Runs::asking);
-    if (runs("surface"))
+    if (runs("surface")) {
         add("surface", surface_stage(), Runs::asking);
+        if (moves)
+            noting_.push_back(stages_.size() - 1);
+    }
     if (runs("aim"))
         add("aim", aim_stage(), Runs::asking);
     for (const std::string_view word : {"rays", "points", "regions", "nearest"})

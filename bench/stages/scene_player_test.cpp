@@ -140,6 +140,26 @@ TEST(ScenePlayer, BodiesAtRestAreNotTransformedFittedOrRefitted) {
     EXPECT_EQ(ledger.row("mesh_trees").items, triangles);
 }
 
+// The surface that rays meet is written once, then where bodies have changed: in a tree for all, or
+// in one beside that of the bodies at rest. No order pays in so few frames.
+TEST(ScenePlayer, TrianglesThatRestAreNotWrittenAgain) {
+    for (const std::size_t rays : {10u, 60000u}) {
+        SceneFile file = load_scene("tumbling_rocks");
+        file.n = 300;
+        file.asks = {{.name = "rays", .kind = "scattered", .n = rays}};
+        MovingScene scene(file);
+        std::size_t all = 0, written = 0;
+        for (const std::uint32_t mesh : scene.bodies().mesh)
+            all += scene.bodies().meshes[mesh].triangles.size();
+        for (int frame = 0; frame < 4; ++frame)
+            for (const std::uint32_t i : scene.advance())
+                written += scene.bodies().meshes[scene.bodies().mesh[i]].triangles.size();
+        EXPECT_LT(written, all);
+        const auto player = played(file, 4);
+        EXPECT_EQ(player->ledger().row("surface").items, all + written) << rays << " rays";
+    }
+}
+
 TEST(ScenePlayer, NoFilterNamedNoFilterLookedUp) {
     SceneFile file = load_scene("warehouse");
     file.n = 300;
@@ -195,6 +215,7 @@ TEST(ScenePlayer, StartsAgain) {
 TEST(ScenePlayer, FramesMayGoUnasked) {
     SceneFile file = load_scene("tumbling_rocks");
     file.n = 200;
+    file.asks.push_back({.name = "rays", .kind = "scattered", .n = 100});
     ScenePlayer player(MovingScene(file), Extent::called_for, serial());
     player.start();
     for (const int frames : {0, 3, 4}) { // the first is asked, and then a few
@@ -204,6 +225,7 @@ TEST(ScenePlayer, FramesMayGoUnasked) {
     }
     EXPECT_EQ(answers_hash(player.answers()), answers_hash(played(file, 7)->answers()));
     EXPECT_FALSE(player.answers().triangle_pairs.empty());
+    EXPECT_FALSE(player.answers().rays.empty());
 }
 
 } // namespace
