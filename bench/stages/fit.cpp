@@ -1,11 +1,45 @@
+#include "kernels/boxes/fit.h"
 #include "bench/stages/playing.h"
+#include "kernels/rounding.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace boxwood::bench {
 namespace {
 
-/// The boxes of the bodies that have changed, in parts of 4096.
+/// What stays of the fitted box of a body while nothing turns it: that of PaddedFit, whose every
+/// rounding comes in the same turn, so that `at` gives the bits of `fitted_box`.
+struct TurnedBox {
+    Vec3<double> centre, half, size; ///< Rc, |R|e, |R||c|
+
+    explicit TurnedBox(const std::array<Vec3<double>, 3>& rotation, const Aabb<float>& rest) {
+        const CentredBox<double> in(
+            {static_cast<Vec3<double>>(rest.min), static_cast<Vec3<double>>(rest.max)});
+        for (int i = 0; i < 3; ++i) {
+            const Vec3<double> row = rotation[static_cast<std::size_t>(i)];
+            centre[i] = dot(row, in.centre);
+            half[i] = dot(magnitudes(row), in.half);
+            size[i] = dot(magnitudes(row), magnitudes(in.centre));
+        }
+    }
+
+    Box at(const Vec3<double>& translation) const {
+        using Limits = std::numeric_limits<double>;
+        Aabb<double> box;
+        for (int i = 0; i < 3; ++i) {
+            const double all = size[i] + std::abs(translation[i]) + half[i];
+            const double reach = half[i] + (4 * Limits::epsilon() * all + 4 * Limits::denorm_min());
+            const bool known = all <= Limits::max();
+            box.min[i] = known ? centre[i] + translation[i] - reach : -Limits::infinity();
+            box.max[i] = known ? centre[i] + translation[i] + reach : Limits::infinity();
+        }
+        return round_outward(box);
+    }
+};
+
+/// The boxes of the bodies that have changed, in parts of 4096. What turns nothing turns no box.
 class Fit final : public SceneStage {
   public:
     Fit(bool boxes, bool wide) : with_boxes_(boxes), with_wide_(wide) {}
@@ -16,6 +50,11 @@ class Fit final : public SceneStage {
             playing.boxes.resize(n);
         if (with_wide_)
             playing.wide_boxes.resize(n);
+        turned_.clear();
+        if (!playing.is_everything() && only_shifts(playing.scene))
+            for (std::size_t i = 0; i < n; ++i)
+                turned_.emplace_back(playing.scene.bodies().pose[i].rotation,
+                                     playing.scene.bodies().rest[i]);
         fit(playing, n, [](std::size_t i) { return static_cast<std::uint32_t>(i); });
         return n;
     }
@@ -25,7 +64,7 @@ class Fit final : public SceneStage {
         return changed.size();
     }
     std::size_t bytes(const Playing& playing) const override {
-        return bytes_of(playing.boxes) + bytes_of(playing.wide_boxes);
+        return bytes_of(playing.boxes) + bytes_of(playing.wide_boxes) + bytes_of(turned_);
     }
 
   private:
@@ -33,18 +72,40 @@ class Fit final : public SceneStage {
         constexpr std::size_t part = 4096;
         playing.executor.for_each((n + part - 1) / part, [&](std::size_t p) {
             const std::size_t end = std::min(n, (p + 1) * part);
-            for (std::size_t at = p * part; at < end; ++at)
-                fit_one(playing, body_at(at));
+            without_flushing([&] {
+                for (std::size_t at = p * part; at < end; ++at)
+                    fit_one(playing, body_at(at));
+            });
         });
     }
+    /// Whether bodies move but do not turn or change their shape, and enough of them to note what
+    /// stays.
+    bool only_shifts(const MovingScene& scene) const {
+        const Changes changes = scene.changes();
+        if (!with_boxes_ || changes.rotation || changes.shape)
+            return false;
+        const Bodies& bodies = scene.bodies();
+        return std::ranges::any_of(scene.effects(),
+                                   [&](const MovingScene::Laid& laid) {
+                                       const Changes own = laid.entry->changes;
+                                       return (own.position || own.velocity) &&
+                                              laid.chosen.size() >= bodies.size() / 4;
+                                   }) &&
+               std::ranges::none_of(bodies.rest, &Aabb<float>::is_empty);
+    }
     void fit_one(Playing& playing, std::uint32_t i) const {
-        if (with_boxes_)
-            playing.boxes[i] = fitted_box(playing.scene.bodies(), i);
+        const Bodies& bodies = playing.scene.bodies();
+        if (with_boxes_ && turned_.empty())
+            playing.boxes[i] = fitted_box(bodies, i);
+        else if (with_boxes_)
+            playing.boxes[i] =
+                bodies.present[i] ? turned_[i].at(bodies.pose[i].translation) : Box{};
         if (with_wide_)
             playing.wide_boxes[i] = pair_box(playing.scene, i);
     }
 
     bool with_boxes_, with_wide_;
+    std::vector<TurnedBox> turned_; ///< by body, if bodies only shift
 };
 
 } // namespace

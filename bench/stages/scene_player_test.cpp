@@ -160,6 +160,23 @@ TEST(ScenePlayer, TrianglesThatRestAreNotWrittenAgain) {
     }
 }
 
+// Those who come and go are, in the frame in which they do.
+TEST(ScenePlayer, BodiesThatStayAbsentAreNotFitted) {
+    SceneFile file = load_scene("crowd");
+    file.n = 400;
+    MovingScene scene(file);
+    std::size_t fitted = file.n;
+    for (int frame = 0; frame < 10; ++frame) {
+        const std::vector<std::uint8_t> before = scene.bodies().present;
+        for (const std::uint32_t i : scene.advance())
+            fitted += before[i] != 0 || scene.bodies().present[i] != 0;
+    }
+    EXPECT_LT(fitted, 11 * file.n * 2 / 3);
+    const auto player = played(file, 10);
+    for (const char* stage : {"fit", "box_tree"})
+        EXPECT_EQ(player->ledger().row(stage).items, fitted) << stage;
+}
+
 TEST(ScenePlayer, NoFilterNamedNoFilterLookedUp) {
     SceneFile file = load_scene("warehouse");
     file.n = 300;
