@@ -73,7 +73,7 @@ def beside_points(ax, labels, later=(), lines=()):
             cost += 2 * sum(box.contains(*step) for step in drawn)
             if ring > RINGS[1]:
                 steps = along((at_x, at_y), ((box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2), 6 * pixels)[1:]
-                cost += 5 * sum(other.contains(*step) for other in taken for step in steps if not box.contains(*step))
+                cost += 12 * sum(other.contains(*step) for other in taken for step in steps if not box.contains(*step))
             if cost < least:
                 best, least = (ring, box), cost
         ring, box = best

@@ -38,7 +38,7 @@ def choose(cells, keep=(), limit=MOST_LINES):
     return chosen[:limit], len(chosen) - len(chosen[:limit])
 
 
-LONG = 24  # letters of a label that crowds a panel
+LONG, VERY_LONG = 24, 40  # letters of a label that crowds a panel; with which panels stand below each other
 
 
 def short_labels(cells):
@@ -46,7 +46,7 @@ def short_labels(cells):
     full = {id(cell): cell.label for cell in cells}
     ours = [cell.label.split(".") for cell in cells if cell.ours]
     shared = [word for word in ours[0] if all(word in words for words in ours)] if len(ours) > 1 else []
-    if max(map(len, full.values())) <= LONG or any(set(words) <= set(shared) for words in ours):
+    if max((len(cell.label) for cell in cells if cell.ours), default=0) <= LONG or any(set(words) <= set(shared) for words in ours):
         return full, ""
     for cell in cells:
         if cell.ours:

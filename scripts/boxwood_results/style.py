@@ -180,6 +180,11 @@ def count_axis(axis, low, high, room=0.06):
     log_axis(axis, low, high, count_text, room)
 
 
+def pair_of_panels(crowded):
+    """Sizes for `panels` with labels beside points: two in a row, or one where labels are very long."""
+    return {"width": 10.5, "height": 4.1, "columns": 1} if crowded else {"width": 5.4, "height": 3.9}
+
+
 def panels(count, width=4.9, height=3.5, columns=2, labels_right=0.0):
     """A figure of `count` panels, at most `columns` beside each other. `labels_right` inches are kept
     free to the right of each panel for labels."""

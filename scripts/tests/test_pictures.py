@@ -73,7 +73,8 @@ def test_long_names_leave_out_what_they_share():
     names, shared = selection.short_labels(cells)
     assert shared == "binned_sah.wide8"
     assert [names[id(c)] for c in cells] == ["guigue_devillers_f32", "sat_f64", "fcl.wide8.x"]
-    for kept in ([cell("hilbert.packed"), cell("median.packed")],  # short ones stay as other figures have them
+    peer = cell("cgal.box_self_intersection_d_of_all", False)
+    for kept in ([cell("hilbert.packed"), cell("median.packed"), peer],  # short ones stay as other figures have them
                  [cell("binned_sah_block8_joined8.wide8"), cell("binned_sah_block8_joined8.wide8.watertight")]):
         names, shared = selection.short_labels(kept)
         assert shared == "" and [names[id(c)] for c in kept] == [c.label for c in kept]

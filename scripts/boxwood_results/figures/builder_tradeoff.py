@@ -6,7 +6,7 @@ from .. import labels, style
 from ..findings import time_text
 from ..metrics import METRICS
 from ..picture import Picture, Skip
-from ..selection import choose, front, largest_jobs, left_out_note, short_labels, wrong_notes
+from ..selection import choose, front, largest_jobs, VERY_LONG, left_out_note, short_labels, wrong_notes
 
 NAME = "builder_tradeoff"
 TITLE = "What a build buys"
@@ -18,10 +18,6 @@ HOW_TO_READ = (
     "of ours have in common stands in the title."
 )
 COLUMNS = ("ask", "scene", "n", "threads", "variant", "library", "status", "build_ns", "query_ns", "break_even_queries")
-
-
-VERY_LONG = 40  # letters of a label with which panels do not stand beside each other
-WIDE = {"width": 10.5, "height": 4.1, "columns": 1}
 
 
 def break_even(cheap, dear):
@@ -46,7 +42,7 @@ def draw_panel(ax, job, cells, rows):
         ax.axvline(edge, color=style.FAINT, linewidth=5, alpha=0.35, zorder=0)
         ax.text(edge, 0.02, "no build", transform=ax.get_xaxis_transform(), fontsize=7, rotation=90, ha="center",
                 va="bottom", color="#666666")
-    line = [at(cell) for cell in best]
+    line, stripe = [at(cell) for cell in best], [(edge, low) for low in ax.get_ylim()]
     ax.plot(*zip(*line), color=style.FAINT, linewidth=1.2, zorder=1)
     marks = []
     names, shared = short_labels(shown)
@@ -71,7 +67,7 @@ def draw_panel(ax, job, cells, rows):
             (job.ask, job.scene, job.n, job.threads, cell.label, cell.library, cell.status,
              cell.median("build"), cell.median("query"), pays.get(id(cell)))
         )
-    labels.beside_points(ax, marks, later=joints, lines=[line])
+    labels.beside_points(ax, marks, later=joints, lines=[line, stripe] if len(builds) < len(shown) else [line])
     return left_out
 
 
@@ -87,7 +83,7 @@ def draw(run):
     pictures = []
     for ask, jobs in by_ask.items():
         crowded = max(len(cell.label) for _, cells in jobs for cell in cells) > VERY_LONG
-        figure, axes = style.panels(len(jobs), **(WIDE if crowded else {"width": 5.4, "height": 3.9}))
+        figure, axes = style.panels(len(jobs), **style.pair_of_panels(crowded))
         rows, notes = [], []
         for ax, (job, cells) in zip(axes, jobs):
             left_out = draw_panel(ax, job, cells, rows)

@@ -41,6 +41,7 @@ def draw(run):
         ax.set_yscale("log")
         ax.set_ylim(FLOOR / 3, 30)
         ax.set_xlim(decades[0] - 0.3, decades[-1] + 0.3)
+        ax.xaxis.set_major_locator(style.MaxNLocator(8, integer=True))
         for power in (1, 2):
             ys = [FLOOR * 10 ** (power * d) for d in decades]
             ax.plot(decades, ys, color="#888888", linestyle=":", linewidth=1)

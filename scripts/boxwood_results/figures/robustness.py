@@ -12,10 +12,10 @@ from ..picture import Picture, Skip
 NAME = "robustness"
 TITLE = "Robustness"
 HOW_TO_READ = (
-    "Each row is a family of hard cases, each column a kernel, ours left of the line, peers right of it. The number "
-    "is wrong answers per million, green none; for distances it is the worst relative error, green below 1e-9, and "
-    "\"out\" counts answers beyond the bound that was given. The darker the worse. A number in brackets counts what was "
-    "left undecided per million. A dash: not supported."
+    "Each row is a family of hard cases, each column a kernel, ours left of the line, peers right of it (no line: no "
+    "peers). The number is wrong answers per million, green none; for distances it is the worst relative error, green "
+    "below 1e-9, and \"out\" counts answers beyond the bound that was given. The darker the worse. A number in brackets "
+    "counts what was left undecided per million. A dash: not supported."
 )
 COLUMNS = ("kernel_family", "cases", "rung", "library", "n", "wrong", "maybe", "max_rel_err")
 WIDE = 0.72  # inches of a column
@@ -69,7 +69,8 @@ def draw(run):
                 rows.append((kernel_family, cases, point.rung, point.library, point.n, point.wrong,
                              int(point.row["maybe"]), point.error))
         ours = sum(column[0] for column in columns)
-        ax.axvline(ours - 0.5, color=style.INK, linewidth=1.2)
+        if 0 < ours < len(columns):
+            ax.axvline(ours - 0.5, color=style.INK, linewidth=1.2)
         ax.set_xlim(-0.5, len(columns) - 0.5)
         ax.set_ylim(len(families) - 0.5, -0.5)
         ax.set_yticks(np.arange(len(families)), families, fontsize=7)

@@ -6,12 +6,12 @@ from .. import labels, style
 from ..metrics import METRICS
 from ..picture import Picture, Skip
 from ..run import WHOLE_FRAMES
-from ..selection import choose, largest_jobs, left_out_note, short_labels, wrong_notes
+from ..selection import choose, largest_jobs, VERY_LONG, left_out_note, short_labels, wrong_notes
 
 NAME = "work"
 TITLE = "Work and time"
 HOW_TO_READ = (
-    "Lower left is better. Where the cost of the trees is known: the surface-area cost of each tree against "
+    "Lower left is better. Where the trees differ in their cost: the surface-area cost of each tree against "
     "the nodes that its queries visit; those at one place stand there once. Box tests against time: variants on "
     "one slanted line spend the same time per box test. Counts come from a separate pass and carry no noise. "
     "What the long names of ours have in common stands in the title."
@@ -35,8 +35,9 @@ def places(points, names):
         at.setdefault((x, y), []).append(cell)
     found = []
     for (x, y), cells in at.items():
-        shared = [word for word in cells[0].label.split(".") if all(word in c.label.split(".") for c in cells)]
-        label = names[id(cells[0])] if len(cells) == 1 else f"{len(cells)} of {'.'.join(shared) or 'several'}"
+        words = [names[id(c)].split(".") for c in cells]
+        shared = ".".join(word for word in words[0] if all(word in other for other in words))
+        label = f"{len(cells)} of {shared or len(points)}" if len(cells) > 1 else names[id(cells[0])]
         found.append((min(cells, key=lambda c: c.status == "wrong"), x, y, label))
     return found
 
@@ -73,12 +74,13 @@ def draw(run):
             shown, left_out = choose(counted)
             values = [(cell, *measures(cell)) for cell in shown]
             with_tree = [(c, sah, visits) for c, sah, visits, _, _ in values if sah > 0 and visits > 0]
-            if len(with_tree) >= 2:
+            if len({(sah, visits) for _, sah, visits in with_tree}) >= 2:
                 panels.append((job, with_tree, "sah_cost", "node_visits", False))
             panels.append((job, [(c, tests, ns) for c, _, _, tests, ns in values], "box_tests", "query_each", True))
             rows += [(ask, job.scene, job.n, c.label, c.status, *rest) for c, *rest in values]
             notes += left_out_note(left_out, f"variants of {job}") + wrong_notes(counted)
-        figure, axes = style.panels(len(panels), width=5.4, height=3.7)
+        crowded = max(len(cell.label) for _, points, *_ in panels for cell, *_ in points) > VERY_LONG
+        figure, axes = style.panels(len(panels), **style.pair_of_panels(crowded))
         for ax, panel in zip(axes, panels):
             scatter(ax, *panel)
         said = "; ".join(f"{row[3]} on {row[1]}: {row[7]:.3g} box tests and {row[8]:.3g} ns each" for row in rows)
