@@ -177,13 +177,7 @@ std::vector<Pair> ColumnSweep::pairs() const {
     for_each_column([&](std::size_t column, std::span<const Pair> pairs) {
         parts[column].assign(pairs.begin(), pairs.end());
     });
-    std::vector<Pair> all;
-    for (std::vector<Pair>& part : parts) {
-        all.insert(all.end(), part.begin(), part.end());
-        part = {};
-    }
-    std::ranges::sort(all);
-    return all;
+    return sorted_pairs(std::move(parts));
 }
 
 } // namespace boxwood::bench

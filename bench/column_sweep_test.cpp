@@ -1,6 +1,7 @@
 #include "bench/column_sweep.h"
 
 #include "scenes/scene.h"
+#include "trees/brute_force_for_test.h"
 #include "trees/executor.h"
 
 #include <gtest/gtest.h>
@@ -14,17 +15,8 @@ namespace {
 
 using Box = Aabb<float>;
 
-std::vector<Pair> by_two_loops(std::span<const Box> boxes) {
-    std::vector<Pair> pairs;
-    for (std::uint32_t a = 0; a < boxes.size(); ++a)
-        for (std::uint32_t b = a + 1; b < boxes.size(); ++b)
-            if (overlaps(boxes[a], boxes[b]))
-                pairs.push_back({a, b});
-    return pairs;
-}
-
 void expect_right(std::span<const Box> boxes) {
-    const std::vector<Pair> expected = by_two_loops(boxes);
+    const std::vector<Pair> expected = brute_force(boxes);
     for (const unsigned threads : {1u, 2u}) {
         const ColumnSweep sweep(boxes, threads);
         EXPECT_EQ(sweep.pairs(), expected);

@@ -1,6 +1,8 @@
 #include "scenes/moving/effect_scene.h"
 #include "scenes/moving/frames.h"
 #include "scenes/scene.h"
+#include "trees/brute_force_for_test.h"
+#include "trees/every_executor_for_test.h"
 #include "trees/executor.h"
 #include "trees/update.h"
 
@@ -13,26 +15,6 @@
 /// catalogues: a new word is tried by itself.
 namespace boxwood::bench {
 namespace {
-
-/// Executors of more than one thread.
-std::vector<std::unique_ptr<Executor>> parallel_executors() {
-    std::vector<std::unique_ptr<Executor>> all;
-    for (const ExecutorEntry& entry : executors())
-        if (entry.name != "serial")
-            for (const unsigned threads : {2u, 4u})
-                all.push_back(entry.make(threads));
-    return all;
-}
-
-/// By two loops, ascending.
-std::vector<Pair> expected_pairs(std::span<const Aabb<float>> boxes) {
-    std::vector<Pair> pairs;
-    for (std::uint32_t a = 0; a < boxes.size(); ++a)
-        for (std::uint32_t b = a + 1; b < boxes.size(); ++b)
-            if (overlaps(boxes[a], boxes[b]))
-                pairs.push_back({a, b});
-    return pairs;
-}
 
 /// Every box scene of the catalogue with effects of each kind, and every moving scene.
 std::vector<std::shared_ptr<const SceneFile>> every_moving_scene(std::size_t n) {
@@ -67,9 +49,9 @@ TEST(EveryPolicy, FollowsEveryMovingScene) {
             Frames frames(file);
             std::vector<std::vector<Pair>> expected;
             while (const Frame* frame = frames.next())
-                expected.push_back(expected_pairs(frame->boxes));
+                expected.push_back(brute_force(frame->boxes));
             for (const UpdateEntry& entry : updates()) {
-                const Executor& executor = *parallel[turn++ % parallel.size()];
+                const Executor& executor = *parallel[turn++ % parallel.size()].run;
                 const auto updater = entry.make({});
                 updater->start(frames.start(), executor);
                 frames.rewind();
@@ -107,7 +89,7 @@ TEST(EveryPolicy, BuildsUpNothingOverAHundredThousandFrames) {
     for (std::size_t f = 1; const Frame* frame = frames.next(); ++f) {
         const bool is_looked_at = f % 997 == 0 || f == frames.size();
         const std::vector<Pair> expected =
-            is_looked_at ? expected_pairs(frame->boxes) : std::vector<Pair>();
+            is_looked_at ? brute_force(frame->boxes) : std::vector<Pair>();
         n_pairs += expected.size();
         for (std::size_t u = 0; u < followers.size(); ++u) {
             followers[u]->update(frame->boxes, frame->moved, serial());

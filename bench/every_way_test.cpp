@@ -1,6 +1,7 @@
 #include "bench/truth.h"
 #include "scenes/scenes.h"
 #include "trees/builder.h"
+#include "trees/every_executor_for_test.h"
 #include "trees/layout.h"
 #include "trees/traversals/sorted_rays.h"
 #include "trees/validate.h"
@@ -226,16 +227,6 @@ std::uint64_t number_of(const Answers& answers) {
                  [](const auto& x) { return x.triangle != Neighbour::none; });
 }
 
-/// Executors of more than one thread.
-std::vector<std::unique_ptr<Executor>> parallel_executors() {
-    std::vector<std::unique_ptr<Executor>> all;
-    for (const ExecutorEntry& entry : executors())
-        if (entry.name != "serial")
-            for (const unsigned threads : {2u, 4u})
-                all.push_back(entry.make(threads));
-    return all;
-}
-
 std::string title(const Question& q) {
     return q.scene.name + " n " + std::to_string(q.scene.boxes.size()) + " " +
            std::string(to_string(q.ask));
@@ -256,10 +247,10 @@ TEST(EveryWay, AnswersEveryQuestionOfEveryScene) {
                 for (const LayoutEntry& layout : layouts()) {
                     if (staged && &layout != &layouts()[turn % layouts().size()])
                         continue;
-                    const Built built(scene, build, layout, *parallel[turn % parallel.size()]);
+                    const Built built(scene, build, layout, *parallel[turn % parallel.size()].run);
                     for (std::size_t i = 0; i < questions.size(); ++i) {
                         const Question& q = questions[i];
-                        const Executor& executor = *parallel[++turn % parallel.size()];
+                        const Executor& executor = *parallel[++turn % parallel.size()].run;
                         const Answers answers = answers_to(q, built, serial());
                         const results::Check check = truths[i]->check(answers);
                         ASSERT_TRUE(check.status != "wrong" && check.missing + check.extra == 0)
@@ -290,9 +281,9 @@ TEST(EveryWay, AnswersAlikeOnAnyNumberOfThreadsAndCounted) {
             for (const Question& q : questions) {
                 SCOPED_TRACE(way + "." + std::string(layout.name) + ", " + title(q));
                 const Answers answers = answers_to(q, built, serial());
-                for (const auto& executor : parallel) {
+                for (const auto& [name, executor] : parallel) {
                     const Answers again = answers_to(q, built, *executor);
-                    EXPECT_TRUE(same(again, answers)) << executor->threads();
+                    EXPECT_TRUE(same(again, answers)) << name;
                     EXPECT_EQ(answer_hash(again, q.ask), answer_hash(answers, q.ask));
                 }
                 if (q.ask == Ask::rays_all)
@@ -325,7 +316,7 @@ TEST(EveryWay, HandsPairsToEverySinkAndStopsWhenOneHasEnough) {
                 const std::uint64_t all = answers_to(q, built, serial()).pairs.size();
                 ASSERT_GT(all, 400u);
                 EXPECT_EQ(count.count(), all);
-                for (const auto& executor : parallel) {
+                for (const auto& [name, executor] : parallel) {
                     pairs_to(count, q, built, *executor, nullptr);
                     EXPECT_EQ(count.count(), all);
                 }
@@ -333,7 +324,7 @@ TEST(EveryWay, HandsPairsToEverySinkAndStopsWhenOneHasEnough) {
                 ForEachPair ten([&](Pair) { return ++taken < 10; });
                 pairs_to(ten, q, built, serial(), nullptr);
                 EXPECT_EQ(taken, 10u);
-                for (const auto& executor : parallel) {
+                for (const auto& [name, executor] : parallel) {
                     // At most one batch of each thread is under way when the first is refused.
                     std::atomic<std::uint64_t> calls = 0;
                     ForEachPair none([&](Pair) { return ++calls == 0; });

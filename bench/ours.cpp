@@ -3,6 +3,7 @@
 #include "bench/points.h"
 #include "bench/rays.h"
 #include "bench/tree_builds.h"
+#include "bench/tree_contender.h"
 #include "bench/triangle_pairs.h"
 #include "kernels/catalogue.h"
 #include "scenes/suggest.h"
@@ -17,48 +18,25 @@
 namespace boxwood::bench {
 namespace {
 
-/// The contenders of pairs share all but the query.
-class OurContender : public Contender {
+class SelfPairs final : public TreeContender {
   public:
-    OurContender(const Job& job, BuildFunction build, const LayoutEntry& layout)
-        : scene_(*job.scene), executor_(make_executor(job.executor, job.threads)),
-          build_(std::move(build)), layout_entry_(layout) {}
-
-  protected:
-    AppendPairs& sink(Answers& answers) { return sink_.to(answers.pairs); }
-
-    const Scene& scene_;
-    std::unique_ptr<Executor> executor_;
-    BuildFunction build_;
-    const LayoutEntry& layout_entry_;
-    Tree tree_;
-    std::unique_ptr<AnyLayout> layout_;
+    using TreeContender::TreeContender;
+    void query(Answers& answers) override {
+        layout_->self_pairs(*executor_, pairs_.to(answers.pairs));
+    }
+    std::optional<Work> counted_query(Answers& answers) override {
+        return layout_->self_pairs_counted(pairs_.to(answers.pairs));
+    }
 
   private:
-    PairsInto sink_;
-};
-
-class SelfPairs final : public OurContender {
-  public:
-    using OurContender::OurContender;
-    void build() override {
-        layout_.reset();
-        layout_ = make_layout(layout_entry_, build_, scene_.boxes, *executor_, tree_);
-    }
-    void query(Answers& answers) override { layout_->self_pairs(*executor_, sink(answers)); }
-    std::optional<Work> counted_query(Answers& answers) override {
-        return layout_->self_pairs_counted(sink(answers));
-    }
-    std::optional<StructureInfo> structure() const override {
-        return StructureInfo{layout_->bytes(), &tree_};
-    }
+    PairsInto pairs_;
 };
 
 /// A tree over each half of the boxes; the items of the second are numbered from its start, so its
 /// half of the pairs is moved by the split afterwards.
-class TreePairs final : public OurContender {
+class TreePairs final : public TreeContender {
   public:
-    using OurContender::OurContender;
+    using TreeContender::TreeContender;
     void build() override {
         layout_.reset();
         other_.reset();
@@ -67,11 +45,11 @@ class TreePairs final : public OurContender {
         other_ = make_layout(layout_entry_, build_, boxes.subspan(split_), *executor_, tree_);
     }
     void query(Answers& answers) override {
-        layout_->tree_pairs(*other_, *executor_, sink(answers));
+        layout_->tree_pairs(*other_, *executor_, pairs_.to(answers.pairs));
         move_second(answers);
     }
     std::optional<Work> counted_query(Answers& answers) override {
-        const Work work = layout_->tree_pairs_counted(*other_, sink(answers));
+        const Work work = layout_->tree_pairs_counted(*other_, pairs_.to(answers.pairs));
         move_second(answers);
         return work;
     }
@@ -88,21 +66,13 @@ class TreePairs final : public OurContender {
 
     std::size_t split_ = tree_pairs_split(scene_.boxes.size());
     std::unique_ptr<AnyLayout> other_;
+    PairsInto pairs_;
 };
 
 std::string_view traversal_of(Ask ask, const RayOrderEntry& order) {
     if (is_point_ask(ask) || ask == Ask::rays_all)
         return to_string(ask);
     return is_ray_ask(ask) ? order.traversal : ask == Ask::tree_pairs ? "tree_pairs" : "self_pairs";
-}
-
-template <class Entries>
-[[noreturn]] void throw_unknown(std::string_view what, std::string_view word,
-                                const Entries& entries) {
-    std::vector<std::string_view> known;
-    for (const auto& entry : entries)
-        known.push_back(entry.name);
-    throw std::invalid_argument(unknown_word(what, word, known));
 }
 
 } // namespace
@@ -132,35 +102,28 @@ ContenderEntry our_contender(const Choice& choice, Ask ask) {
         throw std::invalid_argument(fmt::format("no builder and layout answer {}", to_string(ask)));
     const std::string_view builder_name =
         std::string_view(choice.builder).substr(0, choice.builder.find('+'));
-    const BuilderEntry* builder = find_builder(builder_name);
-    if (!builder)
-        throw_unknown("builder", builder_name, builders());
-    const LayoutEntry* layout = find_layout(choice.layout);
-    if (!layout)
-        throw_unknown("layout", choice.layout, layouts());
-    const auto kernels = is_ray_ask(ask) ? ray_kernels() : triangle_kernels();
-    const auto kernel = std::ranges::find(kernels, choice.kernel, &KernelInfo::name);
-    if (takes_kernel(ask) && kernel == kernels.end())
-        throw_unknown(is_ray_ask(ask) ? "ray kernel" : "triangle kernel", choice.kernel, kernels);
-    const auto order = std::ranges::find(ray_orders(), choice.ray_order, &RayOrderEntry::name);
-    if (order == ray_orders().end())
-        throw_unknown("ray order", choice.ray_order, ray_orders());
+    const BuilderEntry& builder = entry_named(builder_name, builders(), "builder");
+    const LayoutEntry& layout = entry_named(choice.layout, layouts(), "layout");
+    const RayOrderEntry& order = entry_named(choice.ray_order, ray_orders(), "ray order");
 
     ContenderEntry entry;
     entry.library = "boxwood";
     entry.is_peer = false;
-    entry.precision = layout->precision;
+    entry.precision = layout.precision;
     entry.builder = word_with_settings(choice.builder, choice.settings);
     entry.layout = choice.layout;
-    entry.traversal = traversal_of(ask, *order);
+    entry.traversal = traversal_of(ask, order);
     if (takes_kernel(ask)) {
         entry.kernel = choice.kernel;
-        entry.promise = kernel->promise;
+        entry.promise =
+            is_ray_ask(ask)
+                ? entry_named(choice.kernel, ray_kernels(), "ray kernel").promise
+                : entry_named(choice.kernel, triangle_kernels(), "triangle kernel").promise;
     }
     entry.name = fmt::format("{}.{}.{}", entry.builder, entry.layout, entry.traversal);
     if (!entry.kernel.empty())
         entry.name += "." + entry.kernel;
-    entry.summary = fmt::format("{}; {}", builder->summary, layout->summary);
+    entry.summary = fmt::format("{}; {}", builder.summary, layout.summary);
     entry.notes = "build: boxes to tree to layout; answers in the same order for any number of "
                   "threads";
     entry.params_json = settings_json(choice.settings);
@@ -175,23 +138,22 @@ ContenderEntry our_contender(const Choice& choice, Ask ask) {
             return "the executor serial has one thread";
         return std::nullopt;
     };
-    entry.make = [build = make_builder(choice.builder, choice.settings), layout,
-                  kernel = choice.kernel,
-                  order = *order](const Job& job) -> std::unique_ptr<Contender> {
+    entry.make = [build = make_builder(choice.builder, choice.settings), &layout,
+                  kernel = choice.kernel, &order](const Job& job) -> std::unique_ptr<Contender> {
         switch (job.ask) {
         case Ask::pairs:
-            return std::make_unique<SelfPairs>(job, build, *layout);
+            return std::make_unique<SelfPairs>(job, build, layout);
         case Ask::tree_pairs:
-            return std::make_unique<TreePairs>(job, build, *layout);
+            return std::make_unique<TreePairs>(job, build, layout);
         case Ask::triangle_pairs:
-            return make_triangle_pairs(job, build, *layout, kernel);
+            return make_triangle_pairs(job, build, layout, kernel);
         case Ask::points:
         case Ask::regions:
         case Ask::nearest:
         case Ask::closest_points:
-            return make_point_queries(job, build, *layout);
+            return make_point_queries(job, build, layout);
         default:
-            return make_rays(job, build, *layout, kernel, order);
+            return make_rays(job, build, layout, kernel, order);
         }
     };
     return entry;

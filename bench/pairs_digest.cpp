@@ -14,6 +14,16 @@ PairsDigest digest_of(std::span<const Pair> pairs) {
     return digest;
 }
 
+std::vector<Pair> sorted_pairs(std::vector<std::vector<Pair>> parts) {
+    std::vector<Pair> all;
+    for (std::vector<Pair>& part : parts) {
+        all.insert(all.end(), part.begin(), part.end());
+        part = {}; // never twice in memory
+    }
+    std::ranges::sort(all);
+    return all;
+}
+
 PairsDifference difference(std::span<const Pair> expected, std::vector<Pair> got) {
     std::ranges::sort(got);
     std::vector<Pair> missing, extra;

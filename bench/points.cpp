@@ -1,29 +1,20 @@
 #include "bench/points.h"
 
 #include "bench/ours.h"
-#include "trees/layout.h"
+#include "bench/tree_contender.h"
 
 namespace boxwood::bench {
 namespace {
 
-class PointQueries final : public Contender {
+class PointQueries final : public TreeContender {
   public:
-    PointQueries(const Job& job, BuildFunction build, const LayoutEntry& layout)
-        : scene_(*job.scene), ask_(job.ask), executor_(make_executor(job.executor, job.threads)),
-          build_(std::move(build)), layout_entry_(layout) {}
+    using TreeContender::TreeContender;
 
-    void build() override {
-        layout_.reset();
-        layout_ = make_layout(layout_entry_, build_, scene_.boxes, *executor_, tree_);
-    }
     void query(Answers& answers) override { run(answers, *executor_, nullptr); }
     std::optional<Work> counted_query(Answers& answers) override {
         Work work;
         run(answers, serial(), &work);
         return work;
-    }
-    std::optional<StructureInfo> structure() const override {
-        return StructureInfo{layout_->bytes(), &tree_};
     }
 
   private:
@@ -47,13 +38,6 @@ class PointQueries final : public Contender {
         }
     }
 
-    const Scene& scene_;
-    Ask ask_;
-    std::unique_ptr<Executor> executor_;
-    BuildFunction build_;
-    const LayoutEntry& layout_entry_;
-    Tree tree_;
-    std::unique_ptr<AnyLayout> layout_;
     PairsInto pairs_;
 };
 

@@ -1,5 +1,6 @@
 #include "bench/rays.h"
 
+#include "bench/tree_contender.h"
 #include "trees/traversals/single_rays.h"
 #include "trees/traversals/sorted_rays.h"
 
@@ -35,23 +36,21 @@ class HitPairs final : public HitSink {
     std::vector<std::vector<Pair>> parts_;
 };
 
-class Rays final : public Contender {
+class Rays final : public TreeContender {
   public:
     Rays(const Job& job, BuildFunction build, const LayoutEntry& layout, std::string kernel,
          std::string_view order)
-        : scene_(*job.scene), ask_(job.ask), executor_(make_executor(job.executor, job.threads)),
-          build_(std::move(build)), layout_entry_(layout), kernel_(std::move(kernel)),
-          order_(order) {}
+        : TreeContender(job, std::move(build), layout), kernel_(std::move(kernel)), order_(order) {}
 
     void build() override {
         single_.reset();
-        layout_.reset();
         triangles_ = {};
         if (build_.build_of_mesh) {
+            layout_.reset();
             tree_ = build_.build_of_mesh(scene_.mesh, *executor_);
             layout_ = layout_entry_.make(tree_, *executor_);
         } else {
-            layout_ = make_layout(layout_entry_, build_, scene_.boxes, *executor_, tree_);
+            TreeContender::build();
         }
         triangles_ = layout_->triangles(scene_.mesh, *executor_);
         if (order_ == "single")
@@ -106,15 +105,8 @@ class Rays final : public Contender {
         return ask_ == Ask::rays_closest ? RayQuery::closest : RayQuery::any;
     }
 
-    const Scene& scene_;
-    Ask ask_;
-    std::unique_ptr<Executor> executor_;
-    BuildFunction build_;
-    const LayoutEntry& layout_entry_;
     std::string kernel_;
     std::string_view order_;
-    Tree tree_;
-    std::unique_ptr<AnyLayout> layout_;
     TriangleBlocks triangles_;
     std::optional<SingleRays> single_; ///< of the order "single"
     HitPairs sink_;

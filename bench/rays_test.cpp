@@ -203,39 +203,37 @@ TEST(RaysAll, AreJudgedWrongWhenOneIsMissingExtraOrToldTwice) {
     EXPECT_THAT(most.witness, testing::HasSubstr("extra"));
 }
 
-TEST(RaysBatches, SortedAnswerAsGivenForEveryWay) {
+/// Calls check(ask, answers, given) for each layout and both asks: the answers to rays that are
+/// asked in that order, the same with two threads, and those to a batch as it comes.
+template <class Check> void against_the_given_order(const std::string& order, const Check& check) {
     for (const Ask ask : {Ask::rays_closest, Ask::rays_any}) {
         const Scene scene = make_scene(small_spec("triangle_soup", "random"));
         for (const LayoutEntry& layout : layouts()) {
             Choice choice;
             choice.layout = std::string(layout.name);
             const Answers given = answers_of(our_contender(choice, ask), {&scene, ask});
-            choice.ray_order = "sorted";
-            const ContenderEntry sorted = our_contender(choice, ask);
-            EXPECT_EQ(sorted.name, "binned_sah." + choice.layout + ".sorted_rays.watertight");
-            EXPECT_EQ(answers_of(sorted, {&scene, ask}).hits, given.hits) << sorted.name;
-            EXPECT_EQ(answers_of(sorted, {&scene, ask, "tbb", 2}).hits, given.hits);
+            choice.ray_order = order;
+            const ContenderEntry other = our_contender(choice, ask);
+            EXPECT_EQ(other.name, "binned_sah." + choice.layout + "." + order + "_rays.watertight");
+            const Answers answers = answers_of(other, {&scene, ask});
+            check(ask, answers, given);
+            EXPECT_EQ(answers_of(other, {&scene, ask, "tbb", 2}).hits, answers.hits) << other.name;
         }
     }
+}
+
+TEST(RaysBatches, SortedAnswerAsGivenForEveryWay) {
+    against_the_given_order("sorted", [](Ask, const Answers& sorted, const Answers& given) {
+        EXPECT_EQ(sorted.hits, given.hits);
+    });
     EXPECT_THROW(our_contender({"median", {}, "wide8", "watertight", "shuffled"}, Ask::rays_any),
                  std::invalid_argument);
 }
 
 TEST(RaysOneByOne, AnswerAsABatchForEveryWay) {
-    for (const Ask ask : {Ask::rays_closest, Ask::rays_any}) {
-        const Scene scene = make_scene(small_spec("triangle_soup", "random"));
-        for (const LayoutEntry& layout : layouts()) {
-            Choice choice;
-            choice.layout = std::string(layout.name);
-            const Answers given = answers_of(our_contender(choice, ask), {&scene, ask});
-            choice.ray_order = "single";
-            const ContenderEntry single = our_contender(choice, ask);
-            EXPECT_EQ(single.name, "binned_sah." + choice.layout + ".single_rays.watertight");
-            const Answers alone = answers_of(single, {&scene, ask});
-            EXPECT_EQ(answer_hash(alone, ask), answer_hash(given, ask)) << single.name;
-            EXPECT_EQ(answers_of(single, {&scene, ask, "tbb", 2}).hits, alone.hits);
-        }
-    }
+    against_the_given_order("single", [](Ask ask, const Answers& alone, const Answers& given) {
+        EXPECT_EQ(answer_hash(alone, ask), answer_hash(given, ask));
+    });
 }
 
 TEST(RaysBatches, EmbreesPacketsAnswerRight) {

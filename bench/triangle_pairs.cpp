@@ -1,5 +1,6 @@
 #include "bench/triangle_pairs.h"
 
+#include "bench/tree_contender.h"
 #include "kernels/catalogue.h"
 #include "trees/touching_pairs.h"
 
@@ -10,16 +11,9 @@
 namespace boxwood::bench {
 namespace {
 
-template <TriangleKernel K> class TrianglePairs final : public Contender {
+template <TriangleKernel K> class TrianglePairs final : public TreeContender {
   public:
-    TrianglePairs(const Job& job, BuildFunction build, const LayoutEntry& layout)
-        : scene_(*job.scene), executor_(make_executor(job.executor, job.threads)),
-          build_(std::move(build)), layout_entry_(layout) {}
-
-    void build() override {
-        layout_.reset();
-        layout_ = make_layout(layout_entry_, build_, scene_.boxes, *executor_, tree_);
-    }
+    using TreeContender::TreeContender;
 
     void query(Answers& answers) override {
         answers.pairs.clear();
@@ -47,17 +41,7 @@ template <TriangleKernel K> class TrianglePairs final : public Contender {
                 {"undecided", tiers_.undecided}};
     }
 
-    std::optional<StructureInfo> structure() const override {
-        return StructureInfo{layout_->bytes(), &tree_};
-    }
-
   private:
-    const Scene& scene_;
-    std::unique_ptr<Executor> executor_;
-    BuildFunction build_;
-    const LayoutEntry& layout_entry_;
-    Tree tree_;
-    std::unique_ptr<AnyLayout> layout_;
     TierCounts tiers_;
 };
 

@@ -25,13 +25,7 @@ constexpr std::size_t most_boxes_for_all_pairs = 20'000;
 template <class Body> std::vector<Pair> gather(std::size_t n, unsigned threads, const Body& body) {
     std::vector<std::vector<Pair>> parts(n);
     make_executor("tbb", threads)->for_each(n, [&](std::size_t i) { body(i, parts[i]); });
-    std::vector<Pair> all;
-    for (std::vector<Pair>& part : parts) {
-        all.insert(all.end(), part.begin(), part.end());
-        part = {};
-    }
-    std::ranges::sort(all);
-    return all;
+    return sorted_pairs(std::move(parts));
 }
 
 constexpr std::size_t rows_per_part = 4 * BruteForce::tile;

@@ -10,13 +10,6 @@
 namespace boxwood::bench {
 namespace {
 
-template <class Entries> std::vector<std::string_view> words(const Entries& entries) {
-    std::vector<std::string_view> list;
-    for (const auto& entry : entries)
-        list.push_back(entry.name);
-    return list;
-}
-
 constexpr unsigned most_threads = 1024;
 constexpr std::size_t block_bytes = std::size_t{1} << 20;
 
@@ -42,7 +35,7 @@ BuildFunction chosen_builder(const TreeChoice& choice) {
     const std::string_view word =
         std::string_view(choice.builder).substr(0, choice.builder.find('+'));
     if (!find_builder(word))
-        throw BadInput(unknown_word("builder", word, words(builders())));
+        throw BadInput(unknown_word("builder", word, names_of(builders())));
     try {
         return make_builder(choice.builder);
     } catch (const std::invalid_argument& error) {
@@ -53,12 +46,12 @@ BuildFunction chosen_builder(const TreeChoice& choice) {
 const LayoutEntry& chosen_layout(const TreeChoice& choice) {
     const LayoutEntry* entry = find_layout(choice.layout);
     if (!entry)
-        throw BadInput(unknown_word("layout", choice.layout, words(layouts())));
+        throw BadInput(unknown_word("layout", choice.layout, names_of(layouts())));
     return *entry;
 }
 
 std::unique_ptr<Executor> chosen_executor(const TreeChoice& choice) {
-    const auto known = words(executors());
+    const auto known = names_of(executors());
     if (std::find(known.begin(), known.end(), choice.executor) == known.end())
         throw BadInput(unknown_word("executor", choice.executor, known));
     const unsigned all = choice.executor == "serial"

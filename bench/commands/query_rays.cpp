@@ -51,9 +51,7 @@ std::vector<Ray<float>> read_rays(const std::string& path) {
 }
 
 void require_kernel(const std::string& word) {
-    std::vector<std::string_view> known;
-    for (const KernelInfo& kernel : ray_kernels())
-        known.push_back(kernel.name);
+    const std::vector<std::string_view> known = names_of(ray_kernels());
     if (std::find(known.begin(), known.end(), word) == known.end())
         throw BadInput(unknown_word("ray kernel", word, known));
 }

@@ -66,14 +66,18 @@ std::string_view digit(Answer answer, Promise promise) {
     return answer == Answer::yes || (answer == Answer::maybe && read_as_yes) ? "1" : "0";
 }
 
+/// What stands before the answers.
+template <class K> std::string head(const Format& format, std::size_t n, std::string_view columns) {
+    if (format.json)
+        return fmt::format("{{\"n\":{},\"kernel\":{},\"answers\":[", n, json_string(K::name));
+    return format.header ? fmt::format("{}\n", columns) : "";
+}
+
 template <class K>
 void answer_touch(std::span<const TrianglePair> pairs, const Format& format, BlockWriter& text) {
     std::vector<std::size_t> undecided;
     std::string tiers;
-    text << (format.json     ? fmt::format("{{\"n\":{},\"kernel\":{},\"answers\":[", pairs.size(),
-                                           json_string(K::name))
-             : format.header ? std::string("touch\n")
-                             : std::string());
+    text << head<K>(format, pairs.size(), "touch");
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         using Real = typename K::Real;
         const Verdict v = K::intersect(rounded<Real>(pairs[i][0]), rounded<Real>(pairs[i][1]));
@@ -102,10 +106,7 @@ std::string point(Vec3<double> p) {
 
 template <class K>
 void answer_distance(std::span<const TrianglePair> pairs, const Format& format, BlockWriter& text) {
-    text << (format.json     ? fmt::format("{{\"n\":{},\"kernel\":{},\"answers\":[", pairs.size(),
-                                           json_string(K::name))
-             : format.header ? std::string("distance,lo,hi\n")
-                             : std::string());
+    text << head<K>(format, pairs.size(), "distance,lo,hi");
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         using Real = typename K::Real;
         const Distance d = K::distance(rounded<Real>(pairs[i][0]), rounded<Real>(pairs[i][1]));

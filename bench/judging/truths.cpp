@@ -28,6 +28,13 @@ class ToFloats {
     bool changed_ = false;
 };
 
+template <class PairCase> std::optional<PairCase> rounded_pair(PairCase c) {
+    if (!ToFloats()(c.a)(c.b).changed())
+        return std::nullopt;
+    c.touch = Known::ask;
+    return c;
+}
+
 bool finite(const Triangle<double>& t) {
     return is_finite(t.a) && is_finite(t.b) && is_finite(t.c);
 }
@@ -44,20 +51,9 @@ bool finite(const Ray<float>& ray) {
 } // namespace
 
 std::optional<TrianglePairCase> rounded_to_floats(const TrianglePairCase& c) {
-    TrianglePairCase rounded = c;
-    if (!ToFloats()(rounded.a)(rounded.b).changed())
-        return std::nullopt;
-    rounded.touch = Known::ask;
-    return rounded;
+    return rounded_pair(c);
 }
-
-std::optional<ObbPairCase> rounded_to_floats(const ObbPairCase& c) {
-    ObbPairCase rounded = c;
-    if (!ToFloats()(rounded.a)(rounded.b).changed())
-        return std::nullopt;
-    rounded.touch = Known::ask;
-    return rounded;
-}
+std::optional<ObbPairCase> rounded_to_floats(const ObbPairCase& c) { return rounded_pair(c); }
 
 std::optional<FitCase> rounded_to_floats(const FitCase& c) {
     FitCase rounded = c;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bench/one_by_one.h"
 #include "bench/peers/capability.h"
 
 #include <cstddef>
@@ -10,26 +11,9 @@
 
 namespace boxwood::bench {
 
-/// A peer's function over all cases of a hard-case family, on one thread. `Input` is a case in the
-/// peer's own types, made before timing; `answers` is the list of Answers that it fills.
-template <class Input, auto function, auto answers> class EachCase final : public Contender {
-  public:
-    explicit EachCase(std::vector<Input> inputs) : inputs_(std::move(inputs)) {}
-
-    void build() override {}
-
-    void query(Answers& all) override {
-        auto& out = all.*answers;
-        out.resize(inputs_.size());
-        for (std::size_t i = 0; i < inputs_.size(); ++i)
-            out[i] = function(inputs_[i]);
-    }
-
-  private:
-    std::vector<Input> inputs_;
-};
-
-/// The catalogue row of a peer's function. `Input` is made of one case of type `Case`.
+/// The catalogue row of a peer's function over all cases of a hard-case family, on one thread.
+/// `Input`, in the peer's own types, is made of one case of type `Case`; `answers` is the list of
+/// Answers that it fills.
 template <class Case, class Input, auto function, auto answers>
 ContenderEntry each_case(Ask ask, std::string library, std::string name, std::string precision,
                          std::string summary, std::string notes) {
@@ -53,7 +37,7 @@ ContenderEntry each_case(Ask ask, std::string library, std::string name, std::st
         else
             for (const Case& c : std::get<std::vector<Case>>(job.scene->cases))
                 inputs.emplace_back(c);
-        return std::make_unique<EachCase<Input, function, answers>>(std::move(inputs));
+        return one_by_one<answers>(std::move(inputs), [](Input& input) { return function(input); });
     };
     return e;
 }

@@ -137,8 +137,8 @@ class PointQuery final : public Contender {
     static bool take_nearest(RTCPointQueryFunctionArguments* args) {
         const Asked& asked = *static_cast<const Asked*>(args->userPtr);
         const Scene& scene = asked.self->scene_;
-        asked.nearest->offer({args->primID, squared_distance_to_box(scene.points[asked.query],
-                                                                    scene.boxes[args->primID])});
+        asked.nearest->offer(
+            {args->primID, squared_distance(scene.points[asked.query], scene.boxes[args->primID])});
         return shrink(args, asked.nearest->worst());
     }
     static bool take_triangle(RTCPointQueryFunctionArguments* args) {

@@ -93,8 +93,7 @@ class AskManager final : public Contender {
         const Asked& asked = *static_cast<const Asked*>(data);
         const Scene& scene = asked.self.scene_;
         const std::uint32_t i = item(asked, a, b);
-        asked.nearest->offer(
-            {i, squared_distance_to_box(scene.points[asked.query], scene.boxes[i])});
+        asked.nearest->offer({i, squared_distance(scene.points[asked.query], scene.boxes[i])});
         worst = std::sqrt(asked.nearest->worst());
         return worst == 0; // nothing can be nearer
     }

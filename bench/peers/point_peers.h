@@ -2,6 +2,7 @@
 
 #include "bench/peers/capability.h"
 #include "bench/points.h"
+#include "trees/traversals/box_distance.h"
 
 #include <vector>
 
@@ -14,21 +15,9 @@ std::vector<ContenderEntry> cgal_points();
 std::vector<ContenderEntry> embree_points();
 std::vector<ContenderEntry> bullet_points();
 
-/// The square of the distance from a point to a box, in doubles.
-inline double squared_distance_to_box(Vec3<float> point, const Aabb<float>& box) {
-    double sum = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double p = static_cast<double>(point[axis]);
-        const double d = std::max(
-            {0.0, static_cast<double>(box.min[axis]) - p, p - static_cast<double>(box.max[axis])});
-        sum += d * d;
-    }
-    return sum;
-}
-
 inline bool meets(const Sphere<float>& ball, const Aabb<float>& box) {
     const double radius = static_cast<double>(ball.radius);
-    return squared_distance_to_box(ball.centre, box) <= radius * radius;
+    return squared_distance(ball.centre, box) <= radius * radius;
 }
 
 /// The box around a ball, rounded outward.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bench/contender.h"
+#include "bench/one_by_one.h"
 #include "bench/rungs/rungs.h"
 
 #include <functional>
@@ -48,30 +49,6 @@ struct RealOf<K, Default> {
 };
 template <class Real> std::string precision_of() {
     return std::is_same_v<Real, float> ? "f32" : "f64";
-}
-
-/// Calls `kernel` for one case after the other; `answers` is the list of Answers that it fills.
-/// `Input` is a case in the kernel's own numbers, made before timing.
-template <class Input, auto answers, class Kernel> class OneByOne final : public Contender {
-  public:
-    OneByOne(std::vector<Input> inputs, Kernel kernel)
-        : inputs_(std::move(inputs)), kernel_(std::move(kernel)) {}
-
-    void build() override {}
-    void query(Answers& all) override {
-        auto& out = all.*answers;
-        out.resize(inputs_.size());
-        for (std::size_t i = 0; i < inputs_.size(); ++i)
-            out[i] = kernel_(inputs_[i]);
-    }
-
-  private:
-    std::vector<Input> inputs_;
-    Kernel kernel_;
-};
-template <auto answers, class Input, class Kernel>
-std::unique_ptr<Contender> one_by_one(std::vector<Input> inputs, Kernel kernel) {
-    return std::make_unique<OneByOne<Input, answers, Kernel>>(std::move(inputs), std::move(kernel));
 }
 
 /// Calls `kernel` once for all blocks; the last one may hold fewer cases than it has lanes.

@@ -60,13 +60,9 @@ std::span<const KernelInfo> rungs(Ask ask) { return ladder(ask).infos; }
 ContenderEntry rung_contender(Ask ask, std::string_view kernel) {
     const std::vector<Rung>& known = ladder(ask).rungs;
     const auto rung = std::ranges::find(known, kernel, [](const Rung& r) { return r.info.name; });
-    if (rung == known.end()) {
-        std::vector<std::string_view> words;
-        for (const Rung& r : known)
-            words.push_back(r.info.name);
+    if (rung == known.end())
         throw std::invalid_argument(
-            unknown_word(std::string(to_string(ask)) + " kernel", kernel, words));
-    }
+            unknown_word(std::string(to_string(ask)) + " kernel", kernel, names_of(rungs(ask))));
     ContenderEntry entry;
     entry.name = entry.kernel = kernel;
     entry.library = "boxwood";
