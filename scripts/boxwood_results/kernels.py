@@ -143,7 +143,7 @@ def take_home(run):
                 continue
             best = right[0]
             lines.append(
-                start + f"cheapest rung with no wrong answer: {best.name}, {best.ns:.3g} ns, at "
-                f"{best.ns / fastest.ns:.2f} times the fastest ({fastest.name})"
+                start + f"cheapest rung with no wrong answer: {best.name}, {best.ns:,.{0 if best.ns >= 100 else 1}f} ns, at "
+                f"{best.ns / fastest.ns:,.2f} times the fastest ({fastest.name})"
             )
     return lines
