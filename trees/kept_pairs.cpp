@@ -16,13 +16,6 @@
 #include <numeric>
 
 namespace boxwood {
-namespace {
-
-// Nanoseconds, on one thread: what the choices go by.
-constexpr double per_moved = 4, per_examined = 14, per_restless = 800, per_left_out = 2,
-                 per_found = 16, per_item_renewed = 10, per_item_anew = 20, per_pair_anew = 2.2;
-
-} // namespace
 
 /// What the renewal's walk finds, by chunk, up to a limit.
 class KeptPairs::Candidates final : public PairSink {
@@ -77,6 +70,8 @@ void KeptPairs::start(Boxes boxes, double expected_step) {
     pairs_ = 5 * n(); // a guess
     steps_.clear();
     out_.clear();
+    fresh_.clear();
+    fresh_before_ = 0;
     n_parts_ = 0;
 }
 
@@ -85,20 +80,6 @@ std::size_t KeptPairs::count_pairs() const {
     for (std::size_t p = 0; p < n_parts_; ++p)
         sum += parts_[p].sure().size() + parts_[p].now().size();
     return sum;
-}
-
-double KeptPairs::spent_anew() const { return n() * per_item_anew + pairs_ * per_pair_anew; }
-
-/// A third more pairs than overlap are found.
-double KeptPairs::renewal_cost() const {
-    return n() * (per_item_renewed + per_item_anew) + pairs_ * 1.3 * (per_found + per_pair_anew);
-}
-
-/// Renewals cost as step / margin, pairs unsure as the margin; both little between these bounds.
-double KeptPairs::margin_for(double step) const {
-    constexpr double most = double{FLT_MAX} / 8;
-    return std::min(margin > 0 ? margin * side_ : std::clamp(80 * step, .03 * side_, .08 * side_),
-                    most);
 }
 
 /// Widened by a margin, for calm items; the other boxes are empty.
@@ -147,35 +128,6 @@ bool KeptPairs::renew(MovingTree& tree, Boxes boxes, const Executor& executor) {
     tree.step.renewed = holds_ = true;
     spent_ = renewal_cost() + (tree.step.rebuilt ? 40 * n() : 0);
     return true;
-}
-
-double KeptPairs::forecast(std::vector<float> steps, double items, std::size_t moved) {
-    const std::size_t most =
-        std::min(static_cast<std::size_t>(std::max(1., n() / 16 / items)), steps.size());
-    std::ranges::partial_sort(steps, steps.begin() + static_cast<std::ptrdiff_t>(most),
-                              std::greater<>());
-    pace_ = most == 0 ? 0 : std::min(steps[most - 1], FLT_MAX / 8);
-    double least = most == 0 ? 0 : std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < most; k += k / 8 + 1) {
-        const double step = double{steps[k]}, restless = static_cast<double>(k) * items;
-        constexpr double per_pair = 50; // examined in a step of a side, by the logarithm
-        const double cost = step / side_ * (pairs_ + n()) * per_pair * per_examined +
-                            (step > 0 ? step / margin_for(step) * renewal_cost() : 0) +
-                            restless * per_restless;
-        if (cost < least) {
-            least = cost;
-            pace_ = steps[k];
-        }
-    }
-    return forecast_ = least + static_cast<double>(moved) * per_moved;
-}
-
-/// Of sixteen calm items the fastest is known.
-void KeptPairs::forecast_by_frame() {
-    std::vector<float> steps = steps_;
-    for (const Out& out : out_)
-        steps.push_back(out.step);
-    forecast(std::move(steps), 1, follow_block * steps_.size() + out_.size());
 }
 
 /// All boxes are looked at, sixteen at a time. Returns the largest step of the calm; +inf if they
@@ -268,11 +220,12 @@ bool KeptPairs::follow(MovingTree& tree, Boxes boxes, std::span<const std::uint3
     examined_ = 0;
     searched_ = false;
     tree.step.restless = restless_.size();
+    fresh_before_ = fresh_.size();
+    fresh_.clear();
     if (moved.empty())
         return true;
     holds_ = false;
     spent_ = static_cast<double>(moved.size()) * per_moved;
-    fresh_.clear();
     follow_out(boxes, moved);
     const float step = is_nearly_all(moved.size(), boxes.size()) ? follow_all(boxes, executor)
                                                                  : follow_some(boxes, moved);

@@ -56,6 +56,9 @@ class KeptPairs {
     double spent_anew() const;
     /// And how long a renewal.
     double renewal_cost() const;
+    /// And a frame on average if in each to come as many items become restless as in each of the
+    /// newest two at least: they are more and more until it is best to renew.
+    double churn_cost() const;
     /// What a frame would take, renewals shared out, if the next renewal made restless those who
     /// cost less so. Each of these steps stands for `items` of the fastest; `moved` move at all.
     double forecast(std::vector<float> steps, double items, std::size_t moved);
@@ -79,6 +82,11 @@ class KeptPairs {
     class Candidates;
     class AgainstKept;
 
+    // Nanoseconds, on one thread: what the choices go by.
+    static constexpr double per_moved = 4, per_examined = 14, per_restless = 800, per_left_out = 2,
+                            per_found = 16, per_item_renewed = 10, per_item_anew = 20,
+                            per_pair_anew = 2.2;
+
     double n() const { return static_cast<double>(kept_.size()); }
     std::size_t count_pairs() const;
     double margin_for(double step) const;
@@ -96,7 +104,8 @@ class KeptPairs {
     double used_ = 0;  ///< of the motion since the renewal
     double waste_ = 0; ///< spent since then on the restless who had come to rest
     double spent_ = 0, forecast_ = 0;
-    double pairs_ = 0; ///< when last held
+    std::size_t fresh_before_ = 0; ///< who became restless in the frame before the newest
+    double pairs_ = 0;             ///< when last held
     ExpiringPairs::Reach reach_;
     std::vector<Box> kept_;    ///< by item: the box of the newest frame if calm, else Box{}
     std::vector<Box> widened_; ///< by item: at the renewal

@@ -195,6 +195,32 @@ TEST(KeptPairs, AFastFewAreRestlessAndCalmDownWhenTheyStop) {
     EXPECT_LT(renewed, 4u);
 }
 
+/// How many are restless in the fourth frame, where in each some items jump to and fro.
+std::size_t restless_in_the_fourth(const char* policy,
+                                   const std::function<bool(int, std::size_t)>& jumps) {
+    Keeping keeping(random_boxes(8000, .03f, 36), policy);
+    std::size_t restless = 0;
+    for (int frame = 0; frame < 4; ++frame)
+        restless =
+            keeping
+                .step([&](std::size_t i, const Box& box) {
+                    return jumps(frame, i) ? shifted(box, {frame % 2 ? -.2f : .2f, 0, 0}) : box;
+                })
+                .restless;
+    EXPECT_TRUE(keeping.is_right());
+    return restless;
+}
+
+TEST(KeptPairs, AutoGivesUpWhereOtherItemsJumpInEachFrame) {
+    const auto others = [](int frame, std::size_t i) {
+        return i % 50 == static_cast<std::size_t>(frame);
+    };
+    const auto the_same = [](int, std::size_t i) { return i % 500 == 0; };
+    EXPECT_GE(restless_in_the_fourth("keep", others), 160u);
+    EXPECT_EQ(restless_in_the_fourth("auto", others), 0u);
+    EXPECT_EQ(restless_in_the_fourth("auto", the_same), 16u);
+}
+
 TEST(KeptPairs, WhereTheyAreTooManyTheTreeAnswers) {
     std::vector<Box> same(700, Box{{0, 0, 0}, {1, 1, 1}});
     for (const char* policy : {"keep", "auto"}) {

@@ -153,7 +153,8 @@ struct Auto {
             held = kept_.renew(tree, boxes, executor);
         lost_ = std::max(0., lost_ + kept_.spent() - kept_.spent_anew());
         // The next frames are to make good for a renewal.
-        if (!held || lost_ > kept_.renewal_cost() + 2 * kept_.spent_anew())
+        if (!held || lost_ > kept_.renewal_cost() + 2 * kept_.spent_anew() ||
+            kept_.churn_cost() > kept_.spent_anew())
             cease(tree, boxes, executor);
         else if (lost_ == 0 && ++paid_ == some_frames)
             pause_ = least_pause;
