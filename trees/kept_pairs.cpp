@@ -287,23 +287,21 @@ void KeptPairs::find_restless(MovingTree& tree, const Executor& executor) {
     spent_ += static_cast<double>(restless_.size()) * per_restless;
 }
 
-/// Parts in order, then the pairs of the restless.
-void KeptPairs::self_pairs(const Executor& executor, PairSink& sink) const {
-    const std::size_t chunks = n_parts_ + 1;
-    sink.begin(chunks, executor.threads() == 1);
-    std::atomic<std::size_t> next = 0; // in order: then a sink can put the pairs in place at once
+/// Parts in order, then the pairs of the restless; on the calling thread, as no more than memory is
+/// copied.
+void KeptPairs::self_pairs(PairSink& sink) const {
+    sink.begin(n_parts_ + 1, true);
     std::atomic<bool> stop = false;
-    executor.for_each(chunks, [&](std::size_t) {
-        const std::size_t c = next++;
+    for (std::size_t c = 0; c <= n_parts_; ++c) {
         const ChunkSink to(sink, c, stop, nullptr);
         if (to.stopped())
-            return;
+            break;
         if (c == n_parts_)
             to.take(restless_pairs_);
         else if (to.take(parts_[c].sure()))
             to.take(parts_[c].now());
         sink.finish(c);
-    });
+    }
     sink.end();
 }
 
@@ -316,7 +314,7 @@ Work KeptPairs::self_pairs_counted(const MovingTree& tree, PairSink& sink) const
     }
     work.box_tests += examined_;
     work.answers = count_pairs();
-    self_pairs(serial(), sink);
+    self_pairs(sink);
     return work;
 }
 

@@ -46,7 +46,7 @@ class KeptPairs {
     void drop() { holds_ = widened_before_ = false; }
     bool holds() const { return holds_; }
 
-    void self_pairs(const Executor& executor, PairSink& sink) const;
+    void self_pairs(PairSink& sink) const;
     /// Counts the tests of the newest frame: of pairs examined, and in the trees of the restless.
     Work self_pairs_counted(const MovingTree& tree, PairSink& sink) const;
 

@@ -9,6 +9,7 @@ import synthetic
 from matplotlib.text import Annotation, Text
 
 from boxwood_results import labels, picture, registry, run, style
+from boxwood_results.figures import tree_quality_over_time
 from boxwood_results.metrics import METRICS
 
 
@@ -236,6 +237,18 @@ def test_ageing_is_counted_where_it_was(tmp_path, results):
     assert last["merge"]["box_tests_per_item"] == 40
     old = synthetic.full(3).write(tmp_path / "old.h5", drop=("frames.box_tests", "frames.sah"))
     assert [made.columns for made in registry.draw("tree_quality_over_time", run.read(old)).pictures] == [timed.columns]
+    style.plt.close("all")
+
+
+def test_of_many_scenes_those_that_age_most_are_drawn_and_all_are_listed(results, monkeypatch):
+    module = tree_quality_over_time
+    everything = module.draw(results)[0]
+    monkeypatch.setattr(module, "MOST_SCENES", 1)
+    timed, counted = module.draw(results)
+    assert timed.rows == everything.rows and len({row[0] for row in timed.rows}) > 1
+    assert sum(bool(ax.lines) for ax in timed.figure.axes) == 1
+    assert sum(bool(ax.lines) for ax in counted.figure.axes) == 2
+    assert any("the CSV file holds all" in note for note in timed.notes)
     style.plt.close("all")
 
 

@@ -53,7 +53,7 @@ template <UpdatePolicy P> class UpdaterOf final : public Updater {
     }
     void self_pairs(const Executor& executor, PairSink& sink) const override {
         if (const KeptPairs* kept = held_pairs())
-            kept->self_pairs(executor, sink);
+            kept->self_pairs(sink);
         else
             boxwood::self_pairs(tree_.layout(), executor, sink);
     }

@@ -20,6 +20,7 @@ COLUMNS = ("scene", "n", "threads", "contender", "library", "status", "frame", "
 COUNTED_COLUMNS = ("scene", "n", "threads", "contender", "library", "status", "frame", "box_tests_per_item", "sah")
 MEASURES = ((7, METRICS["box_tests"].axis.replace("box or ray", "item")), (8, METRICS["sah"].axis))  # column, axis
 LEAST_FRAMES = 10
+MOST_SCENES = 8  # of these the pictures tell; the CSV files tell of all
 FRESH = "rebuild_trigger0"
 
 
@@ -27,21 +28,29 @@ def queries(cell):
     return frame_medians(cell, of=lambda times: times[1])
 
 
-def draw_panel(ax, job, cells, fresh, rows):
+def ratio_rows(job, cell, fresh):
+    times = queries(cell)
+    base = queries(fresh) if fresh else [times[0]] * len(times)
+    return [(job.scene, job.n, job.threads, cell.label, cell.library, cell.status, frame, time, time / other)
+            for frame, time, other in zip(sorted(cell.frames), times, base)]
+
+
+def ageing(panel):
+    """The last frame over the first of the way that ages most."""
+    job, cells, fresh, _ = panel
+    ratios = [[row[8] for row in ratio_rows(job, cell, fresh)] for cell in cells]
+    return max(line[-1] / line[0] for line in ratios)
+
+
+def draw_panel(ax, job, cells, fresh):
     ends, all_ratios = [], [1.0]
     for cell in cells:
-        times = queries(cell)
-        base = queries(fresh) if fresh else [times[0]] * len(times)
-        frames = sorted(cell.frames)
-        ratios = [time / other for time, other in zip(times, base)]
+        frames, ratios = zip(*[(row[6], row[8]) for row in ratio_rows(job, cell, fresh)])
         if cell is not fresh:
             style_of = {**style.point_style(cell, 4), "markevery": max(1, len(frames) // 10)}
-            ax.plot(frames[:len(ratios)], ratios, **style_of, linewidth=1.3)
-            ends.append((frames[len(ratios) - 1], ratios[-1], f"{cell.label}  {ratios[-1]:.2f}x",
-                         style.text_colour(cell.family)))
+            ax.plot(frames, ratios, **style_of, linewidth=1.3)
+            ends.append((frames[-1], ratios[-1], f"{cell.label}  {ratios[-1]:.2f}x", style.text_colour(cell.family)))
             all_ratios += ratios
-        rows += [(job.scene, job.n, job.threads, cell.label, cell.library, cell.status, frame, time, ratio)
-                 for frame, time, ratio in zip(frames, times, ratios)]
     ax.axhline(1, color="#555555", linewidth=1, zorder=1)
     last = max(max(cell.frames) for cell in cells)
     ends.append((last, 1.0, "built anew: 1" if fresh else "its first frame: 1", "#555555"))
@@ -74,7 +83,9 @@ def draw_counted_panel(ax, job, cells, column, axis):
             continue
         style_of = {**style.point_style(cell, 4), "markevery": markers_of(number, len(points))}
         ax.plot(*zip(*points), **style_of, linewidth=1.3)
-        ends.append((*points[-1], f"{cell.label}  {points[-1][1]:.3g}", style.text_colour(cell.family)))
+        value = points[-1][1]
+        ends.append((*points[-1], f"{cell.label}  {value:,.0f}" if value >= 1000 else f"{cell.label}  {value:.3g}",
+                     style.text_colour(cell.family)))
         shown += [value for _, value in points]
     style.count_axis(ax.yaxis, min(shown, default=1), max(shown, default=1))
     ax.set_xlim(0, max(max(cell.counted) for cell in cells))
@@ -85,21 +96,25 @@ def draw_counted_panel(ax, job, cells, column, axis):
     return ends
 
 
-def draw_counted(panels):
-    """The second picture, of the cells that were counted; none in files from before."""
+def counted(panels):
     panels = [(job, [cell for cell in cells if cell.counted]) for job, cells, *_ in panels]
-    panels = [(job, cells) for job, cells in panels if cells]
+    return [(job, cells) for job, cells in panels if cells]
+
+
+def draw_counted(drawn, all_panels, notes):
+    """The second picture, of the cells that were counted; none in files from before."""
+    panels = counted(drawn)
     if not panels:
         return []
     figure, axes = style.panels(2 * len(panels), width=4.3, labels_right=2.1)
     for place, ax in enumerate(axes):
         job, cells = panels[place // 2]
         labels.at_line_ends(ax, draw_counted_panel(ax, job, cells, *MEASURES[place % 2]))
-    rows = [row for job, cells in panels for cell in cells for row in counted_rows(job, cell)]
-    ends = {(row[0], row[3]): row for row in rows}
+    rows = [row for job, cells in counted(all_panels) for cell in cells for row in counted_rows(job, cell)]
+    ends = {(row[0], row[3]): row for job, cells in panels for cell in cells for row in counted_rows(job, cell)}
     said = "; ".join(f"{name} on {scene} {row[7]:.3g} and {row[8]:.3g}" for (scene, name), row in ends.items())
     alt = f"Box tests per item of the query of each frame, and of a random ray, at the last frame: {said}."
-    return [Picture(f"{NAME}_counted", figure, "How trees age, counted", alt, COUNTED_COLUMNS, rows)]
+    return [Picture(f"{NAME}_counted", figure, "How trees age, counted", alt, COUNTED_COLUMNS, rows, notes)]
 
 
 def draw(run):
@@ -112,12 +127,19 @@ def draw(run):
             panels.append((job, shown, fresh, left_out_note(left_out, f"ways to play {job}") + wrong_notes(cells)))
     if not panels:
         raise Skip(f"no scene of {LEAST_FRAMES} or more frames was played in two ways")
-    figure, axes = style.panels(len(panels), width=4.3, labels_right=2.5)
-    rows, notes = [], []
-    for ax, (job, cells, fresh, said) in zip(axes, panels):
-        labels.at_line_ends(ax, draw_panel(ax, job, cells, fresh, rows))
+    telling = sorted(panels, key=ageing, reverse=True)[:MOST_SCENES]
+    drawn = [panel for panel in panels if panel in telling]
+    figure, axes = style.panels(len(drawn), width=4.3, labels_right=2.5)
+    rows = [row for job, cells, fresh, _ in panels for cell in cells for row in ratio_rows(job, cell, fresh)]
+    last, cut = {}, []
+    if len(drawn) < len(panels):
+        cut = [f"Of {len(panels)} scenes the {len(drawn)} on which one of the ways ages most; "
+               "the CSV file holds all."]
+    notes = list(cut)
+    for ax, (job, cells, fresh, said) in zip(axes, drawn):
+        labels.at_line_ends(ax, draw_panel(ax, job, cells, fresh))
+        last.update({(job.scene, cell.label): ratio_rows(job, cell, fresh)[-1][8] for cell in cells})
         notes += said
-    last = {(row[0], row[3]): row[8] for row in rows}
     said = "; ".join(f"{name} on {scene} {ratio:.2f}x at the last frame" for (scene, name), ratio in last.items())
     return [Picture(NAME, figure, TITLE, f"Query of each frame over that of a fresh tree. {said}.", COLUMNS, rows, notes),
-            *draw_counted(panels)]
+            *draw_counted(drawn, panels, cut)]
