@@ -31,7 +31,7 @@ struct Changes {
 /// The moment at which an effect is asked to act.
 struct Moment {
     Bodies& bodies;
-    std::span<const std::uint32_t> chosen; ///< the bodies it is laid on, ascending
+    std::span<const std::uint32_t> chosen; ///< the bodies it is laid on, ascending: no other changes
     Changed& changed;                      ///< what it must list: bodies it changed, but velocity
     Random random;                         ///< its own numbers
     std::uint64_t frame;                   ///< from 1; 0 at the start

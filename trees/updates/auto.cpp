@@ -164,7 +164,7 @@ struct Auto {
                       const Executor& executor) {
         kept_.drop();
         wait();
-        tree.refit(boxes, executor);
+        tree.exchange(boxes, executor);
         age_.aged(looseness(tree));
         if (age_.is_due())
             renew_order(tree, boxes, moved, executor);

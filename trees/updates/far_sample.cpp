@@ -15,10 +15,11 @@ void FarSample::start(Boxes boxes, double reach) {
     if (n != n_)
         items_ = sampled_items(n, std::clamp(n / few, std::min(n, most / 4), most));
     n_ = n;
+    boxes_.clear();
+    far_.clear();
     if (items_.empty())
         return;
     items_each_ = static_cast<double>(n) / static_cast<double>(items_.size());
-    boxes_.clear();
     double sides = 0, present = 0;
     Aabb<double> room;
     for (const std::uint32_t item : items_) {
@@ -39,26 +40,25 @@ void FarSample::start(Boxes boxes, double reach) {
     reach_ = reach * std::max(sides / present, std::cbrt(share));
 }
 
-FarSample::Found FarSample::look(Boxes boxes) const {
-    std::size_t far = 0;
+FarSample::Found FarSample::look(Boxes boxes) {
+    far_.clear();
     double of_far = 0, of_all = 0;
     for (std::size_t k = 0; k < items_.size(); ++k) {
         const double step = box_step(boxes[items_[k]], boxes_[k]);
         const double counted = std::min(step, 4 * reach_);
         of_all += counted;
         if (step > reach_) {
-            ++far;
+            far_.push_back(static_cast<std::uint32_t>(k));
             of_far += counted;
         }
     }
-    return {static_cast<std::size_t>(std::lround(static_cast<double>(far) * items_each_)),
+    return {static_cast<std::size_t>(std::lround(static_cast<double>(far_.size()) * items_each_)),
             of_all > 0 ? of_far / of_all : 1};
 }
 
 void FarSample::start_far(Boxes boxes) {
-    for (std::size_t k = 0; k < items_.size(); ++k)
-        if (double{box_step(boxes[items_[k]], boxes_[k])} > reach_)
-            boxes_[k] = boxes[items_[k]];
+    for (const std::uint32_t k : far_)
+        boxes_[k] = boxes[items_[k]];
 }
 
 } // namespace boxwood

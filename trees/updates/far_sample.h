@@ -18,18 +18,20 @@ class FarSample {
         std::size_t items = 0; ///< about how many have gone far; those who came or went have
         double share = 0;      ///< of the motion of all items, four times the reach at most each
     };
-    Found look(Boxes boxes) const;
-    /// Those who went far start here.
+    Found look(Boxes boxes);
+    /// Those whom the last look found far start here.
     void start_far(Boxes boxes);
     /// In the unit of the coordinates.
     double reach() const { return reach_; }
     std::size_t bytes() const {
-        return items_.capacity() * sizeof(std::uint32_t) + boxes_.capacity() * sizeof(Box);
+        return (items_.capacity() + far_.capacity()) * sizeof(std::uint32_t) +
+               boxes_.capacity() * sizeof(Box);
     }
 
   private:
     std::vector<std::uint32_t> items_; ///< ascending
     std::vector<Box> boxes_;           ///< at the start
+    std::vector<std::uint32_t> far_;   ///< at the last look: which of items_
     std::size_t n_ = 0;                ///< of which these were taken
     double reach_ = 0, items_each_ = 1;
 };
