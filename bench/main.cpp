@@ -2,7 +2,7 @@
 /// stderr and the exit code that bench/commands/command.h names.
 
 #include "bench/commands/command.h"
-#include "bench/environment.h"
+#include "bench/running/environment.h"
 #include "scenes/suggest.h"
 
 #include <fmt/format.h>

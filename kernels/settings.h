@@ -8,7 +8,7 @@
 
 namespace boxwood {
 
-/// One number of a catalogue type, such as a builder, that the user may set.
+/// One number of a registry type, such as a builder, that the user may set.
 template <class T> struct Setting {
     std::string_view name, summary;
     double T::*value;

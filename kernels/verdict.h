@@ -42,7 +42,7 @@ constexpr std::string_view to_string(Promise p) {
 /// One rung: what `boxwood list kernels` prints.
 struct KernelInfo {
     std::string_view family;  ///< "ray_triangle", "triangle_triangle", ...
-    std::string_view name;    ///< catalogue word within the family
+    std::string_view name;    ///< registry word within the family
     std::string_view summary; ///< one line: method and source
     Promise promise = Promise::none;
     std::string_view bound = "none"; ///< the error bound and its source, or why there is none

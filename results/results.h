@@ -37,7 +37,7 @@ struct SceneRow {
     std::uint32_t scene_id = 0;
     std::string name, generator;
     std::uint64_t n_items = 0, n_triangles = 0, n_frames = 1, seed = 0;
-    std::string effects, asks; ///< comma-separated words
+    std::string effects, queries; ///< comma-separated words
     std::uint64_t content_hash = 0;
     std::string params_json;
 };
@@ -53,7 +53,7 @@ struct Cell {
     std::uint32_t cell_id = 0;
     std::string name;
     std::uint32_t scene_id = 0, variant_id = 0;
-    std::string ask;
+    std::string task;
     std::uint64_t n_items = 0, n_queries = 0;
     std::string precision, executor;
     std::uint32_t threads = 1;
@@ -100,7 +100,7 @@ struct FrameRow {
 struct EffectRow {
     std::uint32_t cell_id = 0, shard_id = 0, round = 0;
     std::string stage; ///< advance_<effect> | move | fit | update | pairs | filter | ...
-    std::uint32_t called_for = 0;
+    std::uint32_t required = 0;
     std::uint64_t calls = 0, items = 0;
     double total_ns = missing;
     std::uint64_t bytes = 0; ///< memory that the stage alone holds, at its most
@@ -136,8 +136,8 @@ struct KernelRow {
     std::uint32_t cell_id = 0;
     std::string family;        ///< hard-case family, or "typical"
     std::string panel;         ///< generic | touching | degenerate
-    std::string kernel_family; ///< triangle_triangle, ray_triangle, ...
-    std::string rung, promise;
+    std::string task; ///< triangle_triangle, ray_triangle, ...
+    std::string kernel, promise;
     std::uint64_t n = 0;
     double ns_per_call = missing; ///< of the check's own timing; a sweep's samples are better
     std::uint64_t false_pos = 0, false_neg = 0, maybe = 0;

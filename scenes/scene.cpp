@@ -1,10 +1,10 @@
 #include "scenes/scene.h"
 
 #include "scenes/atom.h"
-#include "scenes/catalogue.h"
+#include "scenes/registry.h"
 #include "scenes/moving/frames.h"
-#include "scenes/queries.h"
-#include "scenes/rays.h"
+#include "scenes/sampling/queries.h"
+#include "scenes/sampling/rays.h"
 
 #include <fmt/format.h>
 #include <xxhash.h>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "kernels/aabb.h"
-#include "kernels/ray.h"
-#include "kernels/sphere.h"
-#include "kernels/triangle.h"
+#include "kernels/primitives/aabb.h"
+#include "kernels/primitives/ray.h"
+#include "kernels/primitives/sphere.h"
+#include "kernels/primitives/triangle.h"
 #include "scenes/hard_cases/hard_cases.h"
 
 #include <concepts>
@@ -67,7 +67,7 @@ concept SceneGenerator = requires(const SceneSpec& spec) {
     { G::generate(spec) } -> std::same_as<Scene>;
 };
 
-/// A catalogue row.
+/// A registry row.
 struct SceneEntry {
     std::string_view name, summary;
     Scene (*generate)(const SceneSpec&);

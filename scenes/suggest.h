@@ -17,7 +17,7 @@ std::string suggest(std::string_view word, std::span<const std::string_view> can
 std::string unknown_word(std::string_view what, std::string_view word,
                          std::span<const std::string_view> candidates);
 
-/// The names of a catalogue.
+/// The names of a registry.
 template <class Entries> std::vector<std::string_view> names_of(const Entries& entries) {
     std::vector<std::string_view> names;
     for (const auto& entry : entries)

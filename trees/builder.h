@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/settings.h"
-#include "kernels/triangle.h"
+#include "kernels/primitives/triangle.h"
 #include "trees/executor.h"
 #include "trees/tree.h"
 
@@ -39,7 +39,7 @@ struct BuildFunction {
     Tree operator()(Boxes boxes, const Executor& executor) const { return build(boxes, executor); }
 };
 
-/// A catalogue row. `make` throws std::invalid_argument for an unknown or out-of-range setting.
+/// A registry row. `make` throws std::invalid_argument for an unknown or out-of-range setting.
 struct BuilderEntry {
     std::string_view name, summary;
     std::vector<SettingInfo> settings;
@@ -48,7 +48,7 @@ struct BuilderEntry {
 
 std::span<const BuilderEntry> builders();
 
-/// The builder by its catalogue word, or nullptr.
+/// The builder by its registry word, or nullptr.
 const BuilderEntry* find_builder(std::string_view name);
 
 /// A stage improves a finished tree: same items, a valid canonical tree, the same on every
@@ -60,18 +60,18 @@ concept Stage = std::default_initializable<S> &&
     { S::name } -> std::convertible_to<std::string_view>;
     { S::summary } -> std::convertible_to<std::string_view>;
 };
-struct StageEntry {
+struct OptimizerEntry {
     std::string_view name, summary;
     std::vector<SettingInfo> settings;
     std::function<std::function<void(Tree&, const Executor&)>(const Settings&)> make;
 };
-std::span<const StageEntry> stages();
+std::span<const OptimizerEntry> stages();
 
 /// "ploc", or with a stage after it "ploc+reinsertion"; each setting goes to the one that has it.
 /// Throws std::invalid_argument for an unknown word or setting, with a suggestion.
 BuildFunction make_builder(std::string_view words, const Settings& settings = {});
 
-/// The catalogue row of a Builder type.
+/// The registry row of a Builder type.
 template <Builder B> BuilderEntry builder_entry() {
     return {B::name, B::summary, setting_infos<B>(), [](const Settings& values) {
                 const B builder = with_settings<B>(values);
@@ -94,8 +94,8 @@ template <Builder B> BuilderEntry builder_entry() {
             }};
 }
 
-/// The catalogue row of a Stage type.
-template <Stage S> StageEntry stage_entry() {
+/// The registry row of a Stage type.
+template <Stage S> OptimizerEntry optimizer_entry() {
     return {S::name, S::summary, setting_infos<S>(), [](const Settings& values) {
                 return [stage = with_settings<S>(values)](Tree& tree, const Executor& executor) {
                     stage.improve(tree, executor);

@@ -24,7 +24,7 @@ class Executor {
     virtual void for_each(std::size_t n, FunctionRef<void(std::size_t)> body) const = 0;
 };
 
-/// A catalogue row. `make(threads)` gives an executor of exactly that many threads.
+/// A registry row. `make(threads)` gives an executor of exactly that many threads.
 struct ExecutorEntry {
     std::string_view name, summary;
     std::unique_ptr<Executor> (*make)(unsigned threads);
@@ -32,7 +32,7 @@ struct ExecutorEntry {
 
 std::span<const ExecutorEntry> executors();
 
-/// The executor by its catalogue word. Throws std::invalid_argument for an unknown one, and for
+/// The executor by its registry word. Throws std::invalid_argument for an unknown one, and for
 /// `serial` with more than one thread.
 std::unique_ptr<Executor> make_executor(std::string_view name, unsigned threads);
 

@@ -1,14 +1,14 @@
 #pragma once
 
-#include "kernels/ray.h"
+#include "kernels/primitives/ray.h"
 #include "kernels/ray_triangle/triangle_block.h"
-#include "kernels/sphere.h"
-#include "kernels/triangle.h"
+#include "kernels/primitives/sphere.h"
+#include "kernels/primitives/triangle.h"
 #include "trees/builder.h"
 #include "trees/executor.h"
-#include "trees/pairs.h"
+#include "trees/queries/pairs.h"
 #include "trees/tree.h"
-#include "trees/work.h"
+#include "trees/inspect/work.h"
 
 #include <compare>
 #include <concepts>
@@ -142,7 +142,7 @@ class AnyLayout {
                                 Work* work = nullptr) const = 0;
 };
 
-/// A catalogue row.
+/// A registry row.
 struct LayoutEntry {
     std::string_view name, summary;
     std::unique_ptr<AnyLayout> (*make)(const Tree&, const Executor&);
@@ -158,7 +158,7 @@ struct LayoutEntry {
 
 std::span<const LayoutEntry> layouts();
 
-/// The layout by its catalogue word, or nullptr.
+/// The layout by its registry word, or nullptr.
 const LayoutEntry* find_layout(std::string_view name);
 
 /// The layout of the boxes by this builder: by its order alone if both sides know how; else by its
@@ -166,7 +166,7 @@ const LayoutEntry* find_layout(std::string_view name);
 std::unique_ptr<AnyLayout> make_layout(const LayoutEntry& layout, const BuildFunction& builder,
                                        Boxes boxes, const Executor& executor, Tree& tree);
 
-/// A row of the traversal catalogue.
+/// A row of the traversal registry.
 struct TraversalEntry {
     std::string_view name, summary;
 };

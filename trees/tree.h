@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/aabb.h"
+#include "kernels/primitives/aabb.h"
 #include "trees/buffer.h"
 
 #include <cstdint>

@@ -1,9 +1,9 @@
-#include "bench/check.h"
+#include "bench/running/check.h"
 
 #include "bench/commands/command.h"
-#include "bench/environment.h"
-#include "bench/judging/judge.h"
-#include "bench/ladders.h"
+#include "bench/running/environment.h"
+#include "bench/truth/judging/judge.h"
+#include "bench/analysis/ladders.h"
 
 #include <fmt/format.h>
 
@@ -66,7 +66,7 @@ void add_check(CLI::App& app, int& exit_code) {
     CLI::App* check = app.add_subcommand(
         "check", "hold every kernel, ours and the peers', against the truth on the hard cases");
     check->add_option("--only", options->only,
-                      "only what this regular expression is found in: family/kernel_family/rung");
+                      "only what this regular expression is found in: family/task/rung");
     check->add_option("--out", *out, "a result file to write (HDF5), for scripts/plot");
     check->add_option("--n", *n, "cases of each family (1000; with --quick 300)")
         ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}));

@@ -1,7 +1,7 @@
 #include "bench/commands/compare.h"
 
 #include "bench/commands/command.h"
-#include "bench/text_table.h"
+#include "bench/io/text_table.h"
 
 #include <fmt/format.h>
 

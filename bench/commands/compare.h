@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/compare.h"
+#include "bench/analysis/compare.h"
 #include "results/results.h"
 
 #include <optional>

@@ -1,13 +1,13 @@
 #include "bench/commands/demo.h"
 
 #include "bench/commands/command.h"
-#include "scenes/four_link.h"
+#include "scenes/robots/four_link.h"
 #include "scenes/scene.h"
-#include "trees/allowed_collisions.h"
+#include "trees/queries/allowed_collisions.h"
 #include "trees/builder.h"
-#include "trees/draw.h"
+#include "trees/inspect/draw.h"
 #include "trees/layout.h"
-#include "trees/refit.h"
+#include "trees/optimizers/refit.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,6 +1,6 @@
 #include "bench/commands/demo.h"
 
-#include "scenes/four_link.h"
+#include "scenes/robots/four_link.h"
 #include "trees/builder.h"
 #include "trees/layout.h"
 

@@ -1,9 +1,9 @@
 #include "bench/commands/doctor.h"
 
 #include "bench/commands/command.h"
-#include "bench/contender.h"
-#include "bench/environment.h"
-#include "bench/json.h"
+#include "bench/tasks/contender.h"
+#include "bench/running/environment.h"
+#include "bench/io/json.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/machine.h"
+#include "bench/running/machine.h"
 
 #include <string>
 #include <vector>

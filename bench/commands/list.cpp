@@ -1,17 +1,17 @@
 #include "bench/commands/list.h"
 
 #include "bench/commands/command.h"
-#include "bench/contender.h"
-#include "bench/json.h"
-#include "bench/rungs/rungs.h"
-#include "kernels/catalogue.h"
+#include "bench/tasks/contender.h"
+#include "bench/io/json.h"
+#include "bench/tasks/kernels/kernels.h"
+#include "kernels/registry.h"
 #include "scenes/hard_cases/hard_cases.h"
-#include "scenes/moving/effect.h"
+#include "scenes/effects/effect.h"
 #include "scenes/moving/scene_file.h"
 #include "scenes/suggest.h"
 #include "trees/builder.h"
 #include "trees/layout.h"
-#include "trees/update.h"
+#include "trees/dynamic/update.h"
 
 #include <algorithm>
 #include <array>
@@ -22,7 +22,7 @@
 namespace boxwood::bench {
 namespace {
 
-/// One line of a catalogue; `more` holds further JSON members, `notes` further indented lines.
+/// One line of a registry; `more` holds further JSON members, `notes` further indented lines.
 struct Row {
     std::string name, summary;
     std::vector<std::pair<std::string, std::string>> more;
@@ -30,7 +30,7 @@ struct Row {
 };
 using Rows = std::vector<Row>;
 
-/// The rows of a catalogue of which no more is said than name and summary.
+/// The rows of a registry of which no more is said than name and summary.
 template <class Entries> Rows plain(const Entries& entries) {
     Rows rows;
     for (const auto& entry : entries)
@@ -75,8 +75,8 @@ Rows kernel_rows() {
         if (!ask_of(kernel.family))
             rows.push_back(kernel_row(kernel));
     for (const AskEntry& entry : asks())
-        if (is_kernel_ask(entry.ask))
-            for (const KernelInfo& kernel : rungs(entry.ask))
+        if (is_kernel_ask(entry.task))
+            for (const KernelInfo& kernel : rungs(entry.task))
                 rows.push_back(kernel_row(kernel));
     return rows;
 }
@@ -149,7 +149,7 @@ struct Catalogue {
     Rows (*rows)();
 };
 
-constexpr std::array catalogues{
+constexpr std::array registries{
     Catalogue{"builders", "make the canonical tree from boxes",
               [] { return with_settings(builders()); }},
     Catalogue{"stages", "improve a finished tree: BUILDER+STAGE",
@@ -165,18 +165,18 @@ constexpr std::array catalogues{
               moving_scene_rows},
     Catalogue{"effects", "what may happen to the bodies of a moving scene",
               [] { return with_settings(effects()); }},
-    Catalogue{"scene_asks", "what a moving scene may ask of each frame",
-              [] { return plain(scene_asks()); }},
+    Catalogue{"scene_queries", "what a moving scene may ask of each frame",
+              [] { return plain(scene_queries()); }},
     Catalogue{"query_kinds", "how the queries of a moving scene go through it",
               [] { return plain(query_kinds()); }},
-    Catalogue{"asks", "what is wanted of a scene", [] { return plain(asks()); }},
+    Catalogue{"tasks", "what is wanted of a scene", [] { return plain(asks()); }},
     Catalogue{"executors", "where work runs", [] { return plain(executors()); }},
     Catalogue{"peers", "libraries that are timed and checked beside ours", peer_rows},
     Catalogue{"families", "hard cases for kernels; each is a scene too", family_rows},
 };
 
-std::string as_text(const Catalogue& catalogue, const std::string& indent) {
-    const Rows rows = catalogue.rows();
+std::string as_text(const Catalogue& registry, const std::string& indent) {
+    const Rows rows = registry.rows();
     std::size_t width = 0;
     for (const Row& row : rows)
         width = std::max(width, row.name.size());
@@ -189,9 +189,9 @@ std::string as_text(const Catalogue& catalogue, const std::string& indent) {
     return text;
 }
 
-std::string as_json(const Catalogue& catalogue) {
+std::string as_json(const Catalogue& registry) {
     std::string text;
-    for (const Row& row : catalogue.rows()) {
+    for (const Row& row : registry.rows()) {
         text += fmt::format("{}{{\"name\":{},\"summary\":{}", text.empty() ? "" : ",",
                             json_string(row.name), json_string(row.summary));
         for (const auto& [key, value] : row.more)
@@ -206,8 +206,8 @@ std::string as_json(const Catalogue& catalogue) {
 std::span<const std::string_view> catalogue_names() {
     static const std::vector<std::string_view> names = [] {
         std::vector<std::string_view> list;
-        for (const Catalogue& catalogue : catalogues)
-            list.push_back(catalogue.name);
+        for (const Catalogue& registry : registries)
+            list.push_back(registry.name);
         return list;
     }();
     return names;
@@ -215,34 +215,34 @@ std::span<const std::string_view> catalogue_names() {
 
 std::string list_catalogues(std::string_view name, bool json) {
     if (!name.empty()) {
-        const auto found = std::ranges::find(catalogues, name, &Catalogue::name);
-        if (found == catalogues.end())
-            throw BadInput(unknown_word("catalogue", name, catalogue_names()));
+        const auto found = std::ranges::find(registries, name, &Catalogue::name);
+        if (found == registries.end())
+            throw BadInput(unknown_word("registry", name, catalogue_names()));
         return json ? as_json(*found) + "\n" : as_text(*found, "");
     }
     std::string text;
-    for (const Catalogue& catalogue : catalogues)
+    for (const Catalogue& registry : registries)
         text += json ? fmt::format("{}{}:{}", text.empty() ? "{" : ",\n ",
-                                   json_string(catalogue.name), as_json(catalogue))
-                     : fmt::format("{}{}: {}\n{}", text.empty() ? "" : "\n", catalogue.name,
-                                   catalogue.summary, as_text(catalogue, "  "));
+                                   json_string(registry.name), as_json(registry))
+                     : fmt::format("{}{}: {}\n{}", text.empty() ? "" : "\n", registry.name,
+                                   registry.summary, as_text(registry, "  "));
     return json ? text + "}\n" : text;
 }
 
 void add_list(CLI::App& app, int&) {
     struct Options {
-        std::string catalogue;
+        std::string registry;
         bool json = false;
     };
     auto options = std::make_shared<Options>();
-    CLI::App* list = app.add_subcommand("list", "print the catalogues: what boxwood is made of");
+    CLI::App* list = app.add_subcommand("list", "print the registries: what boxwood is made of");
     list->add_option(
-        "catalogue", options->catalogue,
+        "registry", options->registry,
         fmt::format("one of {}; all if not given", fmt::join(catalogue_names(), ", ")));
     list->add_flag("--json", options->json,
-                   "a list of {\"name\",\"summary\"}; for all catalogues an object of such lists");
+                   "a list of {\"name\",\"summary\"}; for all registries an object of such lists");
     list->footer("Example: boxwood list builders");
-    list->callback([options] { std::cout << list_catalogues(options->catalogue, options->json); });
+    list->callback([options] { std::cout << list_catalogues(options->registry, options->json); });
 }
 
 } // namespace boxwood::bench

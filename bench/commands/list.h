@@ -9,8 +9,8 @@ namespace boxwood::bench {
 /// The words that `boxwood list` takes: "builders", "layouts", ...
 std::span<const std::string_view> catalogue_names();
 
-/// One catalogue, or all for an empty name. As text a line per entry; as JSON a list of objects
-/// with at least "name" and "summary", or for all catalogues one object of such lists. Throws
+/// One registry, or all for an empty name. As text a line per entry; as JSON a list of objects
+/// with at least "name" and "summary", or for all registries one object of such lists. Throws
 /// BadInput for an unknown name.
 std::string list_catalogues(std::string_view name, bool json);
 

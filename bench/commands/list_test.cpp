@@ -23,7 +23,7 @@ TEST(List, OneCatalogueHasALinePerEntry) {
     EXPECT_THAT(list_catalogues("executors", false), HasSubstr("serial"));
     EXPECT_THAT(list_catalogues("executors", true),
                 StartsWith("[{\"name\":\"serial\",\"summary\":"));
-    EXPECT_THAT(list_catalogues("asks", false), HasSubstr("rays_closest"));
+    EXPECT_THAT(list_catalogues("tasks", false), HasSubstr("rays_closest"));
     EXPECT_THAT(list_catalogues("kernels", true), HasSubstr("\"name\":\"watertight\""));
 }
 

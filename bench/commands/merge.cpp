@@ -1,5 +1,5 @@
 #include "bench/commands/command.h"
-#include "bench/compare.h"
+#include "bench/analysis/compare.h"
 #include "results/results.h"
 
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 #include "bench/commands/plan.h"
 
 #include "bench/commands/command.h"
-#include "bench/json.h"
+#include "bench/io/json.h"
 #include "bench/stages/scene_player.h"
-#include "bench/text_table.h"
+#include "bench/io/text_table.h"
 
 #include <fmt/format.h>
 
@@ -28,11 +28,11 @@ std::string plan_json(const MovingScene& scene, Extent extent,
                       const std::vector<PlannedStage>& plan) {
     std::string text = fmt::format("{{\"scene\":{},\"bodies\":{},\"extent\":\"{}\",\"stages\":[",
                                    json_string(scene.file().name), scene.bodies().size(),
-                                   extent == Extent::everything ? "everything" : "called_for");
+                                   extent == Extent::all_stages ? "all_stages" : "required");
     for (const PlannedStage& stage : plan)
-        text += fmt::format("{}{{\"stage\":{},\"called_for\":{},\"runs\":{},\"why\":{}}}",
+        text += fmt::format("{}{{\"stage\":{},\"required\":{},\"runs\":{},\"why\":{}}}",
                             &stage == plan.data() ? "" : ",", json_string(stage.name),
-                            stage.is_called_for, stage.runs, json_string(stage.why));
+                            stage.is_required, stage.runs, json_string(stage.why));
     return text + "]}\n";
 }
 
@@ -43,7 +43,7 @@ void run_plan(const PlanOptions& options) {
     if (options.seed)
         file.seed = *options.seed;
     const auto executor = make_executor(options.threads == 1 ? "serial" : "tbb", options.threads);
-    const Extent extent = options.everything ? Extent::everything : Extent::called_for;
+    const Extent extent = options.everything ? Extent::all_stages : Extent::required;
     if (!options.play)
         fmt::print("{}", plan_text(MovingScene(file), extent, options.json));
     else
@@ -56,52 +56,52 @@ std::string plan_text(const MovingScene& scene, Extent extent, bool json) {
     const std::vector<PlannedStage> plan = plan_stages(scene, extent);
     if (json)
         return plan_json(scene, extent, plan);
-    const bool everything = extent == Extent::everything;
+    const bool everything = extent == Extent::all_stages;
     std::vector<std::string> headings{"stage", "called for", "why"};
     if (everything)
         headings.insert(headings.begin() + 2, "runs");
     TextTable table(headings);
-    std::size_t n_called_for = 0, n_runs = 0;
+    std::size_t n_required = 0, n_runs = 0;
     for (const PlannedStage& stage : plan) {
-        std::vector<std::string> row{stage.name, stage.is_called_for ? "yes" : "-", stage.why};
+        std::vector<std::string> row{stage.name, stage.is_required ? "yes" : "-", stage.why};
         if (everything)
             row.insert(row.begin() + 2, stage.runs ? "yes" : "-");
         table.add(row);
-        n_called_for += stage.is_called_for;
+        n_required += stage.is_required;
         n_runs += stage.runs;
     }
     std::string text = fmt::format("{}: {} of {} stages are called for", scene.file().name,
-                                   n_called_for, plan.size());
+                                   n_required, plan.size());
     if (everything)
         text += fmt::format("; with everything on {} run, for all bodies in every frame", n_runs);
     return fmt::format("{}\n\n{}", text, table.text());
 }
 
 std::string played_text(const SceneFile& file, std::size_t frames, const Executor& executor) {
-    ScenePlayer called_for(MovingScene(file), Extent::called_for, executor);
-    ScenePlayer everything(MovingScene(file), Extent::everything, executor);
+    ScenePlayer required(MovingScene(file), Extent::required, executor);
+    ScenePlayer everything(MovingScene(file), Extent::all_stages, executor);
     const auto in_turns = [&](const auto& play) {
-        const bool odd = called_for.scene().frame() % 2 == 1;
-        play(odd ? everything : called_for);
-        play(odd ? called_for : everything);
-        if (answers_hash(called_for.answers()) != answers_hash(everything.answers()))
+        const bool odd = required.scene().frame() % 2 == 1;
+        play(odd ? everything : required);
+        play(odd ? required : everything);
+        if (answers_hash(required.answers()) != answers_hash(everything.answers()))
             throw std::runtime_error(
                 fmt::format("scene {}, frame {}: everything on gives other answers", file.name,
-                            called_for.scene().frame()));
+                            required.scene().frame()));
     };
     in_turns([](ScenePlayer& player) {
         player.start();
-        player.ask();
+        player.query();
     });
     for (std::size_t frame = 0; frame < frames; ++frame)
         in_turns([](ScenePlayer& player) {
             player.advance();
-            player.ask();
+            player.query();
         });
 
     TextTable table({"stage", "called for", ">calls", ">items", ">time", ">share", ">bytes", "",
                      ">everything", ">items", ">share", ">bytes"});
-    const Ledger &one = called_for.ledger(), &all = everything.ledger();
+    const Ledger &one = required.ledger(), &all = everything.ledger();
     const auto share = [](double ns, const Ledger& of) {
         return fmt::format("{:.1f} %", of.total_ns() > 0 ? 100 * ns / of.total_ns() : 0);
     };
@@ -109,7 +109,7 @@ std::string played_text(const SceneFile& file, std::size_t frames, const Executo
         const LedgerRow &a = one.rows()[i], &b = all.rows()[i];
         if (a.calls == 0 && b.calls == 0)
             continue;
-        table.add({a.stage, a.is_called_for ? "yes" : "-", fmt::format("{}", a.calls),
+        table.add({a.stage, a.is_required ? "yes" : "-", fmt::format("{}", a.calls),
                    fmt::format("{}", a.items), a.calls ? time_text(a.ns) : "-",
                    a.calls ? share(a.ns, one) : "-", fmt::format("{}", a.bytes), "",
                    b.calls ? time_text(b.ns) : "-", fmt::format("{}", b.items),
@@ -119,7 +119,7 @@ std::string played_text(const SceneFile& file, std::size_t frames, const Executo
                "", "", ""});
     return fmt::format("{}, {} bodies, {} frames and the start: the same answers\n\n{}\n"
                        "everything on takes {} times as long\n",
-                       file.name, called_for.scene().bodies().size(), frames, table.text(),
+                       file.name, required.scene().bodies().size(), frames, table.text(),
                        ratio_text(all.total_ns() / one.total_ns()));
 }
 
@@ -143,7 +143,7 @@ void add_plan(CLI::App& app, int&) {
         ->check(CLI::Range(1u, 1024u));
     plan->footer(
         "The built-in scenes: `boxwood list moving_scenes`; what a scene may ask: `boxwood "
-        "list scene_asks`.\n"
+        "list scene_queries`.\n"
         "Example: boxwood plan warehouse --play 20");
     plan->callback([options] { run_plan(*options); });
 }

@@ -10,14 +10,14 @@ using testing::HasSubstr;
 
 TEST(Plan, IsToldAsATableAndAsJson) {
     const MovingScene scene(load_scene("warehouse"), 1000);
-    const std::string text = plan_text(scene, Extent::called_for, false);
+    const std::string text = plan_text(scene, Extent::required, false);
     EXPECT_THAT(text, HasSubstr("warehouse: 10 of 27 stages are called for"));
     EXPECT_THAT(text, HasSubstr("2 effects change bodies"));
     EXPECT_THAT(text, HasSubstr("no body has this effect"));
-    EXPECT_THAT(plan_text(scene, Extent::everything, false), HasSubstr("everything on 13 run"));
-    const std::string json = plan_text(scene, Extent::called_for, true);
+    EXPECT_THAT(plan_text(scene, Extent::all_stages, false), HasSubstr("everything on 13 run"));
+    const std::string json = plan_text(scene, Extent::required, true);
     EXPECT_THAT(json, testing::StartsWith("{\"scene\":\"warehouse\",\"bodies\":1000,"));
-    EXPECT_THAT(json, HasSubstr("{\"stage\":\"filter\",\"called_for\":false,\"runs\":false,"
+    EXPECT_THAT(json, HasSubstr("{\"stage\":\"filter\",\"required\":false,\"runs\":false,"
                                 "\"why\":\"no pairs are ignored\"}"));
 }
 

@@ -1,10 +1,10 @@
 /// `boxwood query ccd`: continuous collision of vertex-face or edge-edge pairs in linear motion.
 
-#include "bench/ccd_file.h"
+#include "bench/io/ccd_file.h"
 #include "bench/commands/command.h"
 #include "bench/commands/query.h"
-#include "bench/csv.h"
-#include "kernels/catalogue.h"
+#include "bench/io/csv.h"
+#include "kernels/registry.h"
 #include "scenes/suggest.h"
 
 #include <fmt/format.h>

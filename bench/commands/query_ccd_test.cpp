@@ -1,8 +1,8 @@
-#include "bench/ccd_file.h"
+#include "bench/io/ccd_file.h"
 #include "bench/commands/command.h"
 #include "bench/commands/query.h"
-#include "bench/csv.h"
-#include "kernels/catalogue.h"
+#include "bench/io/csv.h"
+#include "kernels/registry.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,9 +8,9 @@
 
 #include "bench/commands/command.h"
 #include "bench/commands/query.h"
-#include "bench/csv.h"
-#include "kernels/rounding.h"
-#include "trees/filtered_pairs.h"
+#include "bench/io/csv.h"
+#include "kernels/arithmetic/rounding.h"
+#include "trees/queries/filtered_pairs.h"
 
 #include <fmt/format.h>
 

@@ -2,9 +2,9 @@
 
 #include "bench/commands/command.h"
 #include "bench/commands/query.h"
-#include "bench/csv.h"
-#include "kernels/catalogue.h"
-#include "scenes/mesh_file.h"
+#include "bench/io/csv.h"
+#include "kernels/registry.h"
+#include "scenes/meshes/mesh_file.h"
 #include "scenes/suggest.h"
 
 #include <fmt/format.h>

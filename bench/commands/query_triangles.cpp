@@ -2,10 +2,10 @@
 
 #include "bench/commands/command.h"
 #include "bench/commands/query.h"
-#include "bench/csv.h"
-#include "bench/json.h"
-#include "kernels/catalogue.h"
-#include "kernels/oracle/catalogue.h"
+#include "bench/io/csv.h"
+#include "bench/io/json.h"
+#include "kernels/registry.h"
+#include "kernels/oracle/registry.h"
 #include "scenes/suggest.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 #include "bench/commands/command.h"
-#include "bench/scene_picture.h"
+#include "bench/io/scene_picture.h"
 #include "scenes/moving/moving_scene.h"
 
 #include <fmt/format.h>
@@ -43,7 +43,7 @@ std::string effects_text(const BodyGroup& group) {
 
 std::string asks_text(const SceneFile& file) {
     std::vector<std::string> words;
-    for (const SceneAsk& ask : file.asks)
+    for (const SceneQuery& ask : file.queries)
         words.push_back(ask.n == 0 ? ask.name
                                    : fmt::format("{} ({} {}{})", ask.name, ask.n, ask.kind,
                                                  ask.k ? fmt::format(", k {}", ask.k) : ""));

@@ -1,13 +1,13 @@
 #include "bench/commands/show.h"
 
 #include "bench/commands/command.h"
-#include "bench/compare.h"
-#include "bench/contender.h"
-#include "bench/ladders.h"
-#include "bench/limits.h"
-#include "bench/run_index.h"
-#include "bench/sections.h"
-#include "bench/text_table.h"
+#include "bench/analysis/compare.h"
+#include "bench/tasks/contender.h"
+#include "bench/analysis/ladders.h"
+#include "bench/analysis/limits.h"
+#include "bench/analysis/run_index.h"
+#include "bench/analysis/sections.h"
+#include "bench/io/text_table.h"
 
 #include <fmt/format.h>
 
@@ -141,7 +141,7 @@ class Group {
         for (const auto& row : results_.scenes)
             if (row.scene_id == cell.scene_id)
                 scene = fmt::format("{}, {} items", row.name, row.n_items);
-        return fmt::format("\n{}, {}, {} thread{}\n", scene, cell.ask, cell.threads,
+        return fmt::format("\n{}, {}, {} thread{}\n", scene, cell.task, cell.threads,
                            cell.threads == 1 ? "" : "s");
     }
 
@@ -341,12 +341,12 @@ std::string show_text(const Results& results, bool with_kernels, bool brief) {
     std::vector<Work> order;
     std::size_t passed_over = 0;
     for (const Cell& cell : results.cells) {
-        const auto ask = ask_of(cell.ask);
+        const auto ask = ask_of(cell.task);
         if (ask && is_kernel_ask(*ask) && !with_kernels) {
             ++passed_over; // summed up in the ladders
             continue;
         }
-        const Work work{cell.scene_id, cell.ask, cell.threads};
+        const Work work{cell.scene_id, cell.task, cell.threads};
         if (!groups.contains(work))
             order.push_back(work);
         groups[work].push_back(&cell);

@@ -1,6 +1,6 @@
 #include "bench/commands/show.h"
 
-#include "bench/text_table.h"
+#include "bench/io/text_table.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ results::Results four_cells() {
         results.variants.push_back(variant);
         results::Cell cell;
         cell.cell_id = cell.variant_id = id;
-        cell.ask = "pairs";
+        cell.task = "pairs";
         cell.precision = "f32";
         cell.executor = "serial";
         results.cells.push_back(cell);

@@ -1,4 +1,4 @@
-#include "bench/sweep.h"
+#include "bench/running/sweep.h"
 
 #include "bench/commands/command.h"
 

@@ -90,7 +90,7 @@ namespace {
 class BruteForceContender final : public Contender {
   public:
     explicit BruteForceContender(const Job& job)
-        : scene_(*job.scene), between_halves_(job.ask == Ask::tree_pairs) {}
+        : scene_(*job.scene), between_halves_(job.task == Ask::tree_pairs) {}
 
     void build() override { boxes_.emplace(scene_.boxes); }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/aabb.h"
-#include "trees/pairs.h"
+#include "kernels/primitives/aabb.h"
+#include "trees/queries/pairs.h"
 
 #include <array>
 #include <span>

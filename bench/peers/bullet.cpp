@@ -54,7 +54,7 @@ btDbvtVolume volume_of(const Aabb<float>& box) {
 class DbvtContender final : public Contender {
   public:
     DbvtContender(const Job& job, Way way)
-        : scene_(*job.scene), way_(way), between_halves_(job.ask == Ask::tree_pairs),
+        : scene_(*job.scene), way_(way), between_halves_(job.task == Ask::tree_pairs),
           split_(between_halves_ ? tree_pairs_split(job.scene->boxes.size()) : 0) {
         leaves_.resize(scene_.boxes.size());
         take_boxes();
@@ -156,7 +156,7 @@ ContenderEntry entry(std::string name, std::string summary, std::string build, W
                                  "thread; a build also frees the tree before it";
     e.precision = "f32";
     e.unsupported = [way](const Job& job) -> Unsupported {
-        if (way == Way::reinsert_with_margin && job.ask != Ask::moving_pairs)
+        if (way == Way::reinsert_with_margin && job.task != Ask::moving_pairs)
             return "answers moving_pairs only";
         if (auto why = not_frame_or_box_ask(job))
             return why;

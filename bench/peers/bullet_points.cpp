@@ -34,7 +34,7 @@ class CollideVolumes final : public Contender {
     explicit CollideVolumes(const Job& job) : scene_(*job.scene) {
         for (const Aabb<float>& box : scene_.boxes)
             items_.push_back(volume_of(box));
-        for (const Aabb<float>& box : query_boxes(scene_, job.ask))
+        for (const Aabb<float>& box : query_boxes(scene_, job.task))
             queries_.push_back(volume_of(box));
     }
 
@@ -74,9 +74,9 @@ std::vector<ContenderEntry> bullet_points() {
               "boxes and are tested in doubles by the callback; one thread";
     e.precision = "f32";
     e.unsupported = [](const Job& job) -> Unsupported {
-        if (job.ask != Ask::points && job.ask != Ask::regions)
+        if (job.task != Ask::points && job.task != Ask::regions)
             return "answers points and regions only";
-        if (auto why = no_queries(job.scene, job.ask))
+        if (auto why = no_queries(job.scene, job.task))
             return why;
         return not_serial(job);
     };

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/contender.h"
+#include "bench/tasks/contender.h"
 
 /// What the peers say when they cannot do a job.
 namespace boxwood::bench {
@@ -8,14 +8,14 @@ namespace boxwood::bench {
 using Unsupported = std::optional<std::string>;
 
 inline Unsupported not_box_ask(const Job& job) {
-    if (job.ask == Ask::pairs || job.ask == Ask::tree_pairs)
+    if (job.task == Ask::pairs || job.task == Ask::tree_pairs)
         return std::nullopt;
     return "answers pairs and tree_pairs only";
 }
 
 /// Of those that take new boxes frame after frame, too.
 inline Unsupported not_frame_or_box_ask(const Job& job) {
-    return job.ask == Ask::moving_pairs ? std::nullopt : not_box_ask(job);
+    return job.task == Ask::moving_pairs ? std::nullopt : not_box_ask(job);
 }
 
 inline Unsupported not_serial(const Job& job) {

@@ -40,7 +40,7 @@ constexpr std::ptrdiff_t cutoff = 500;
 class BoxIntersection final : public Contender {
   public:
     explicit BoxIntersection(const Job& job)
-        : scene_(*job.scene), between_halves_(job.ask == Ask::tree_pairs),
+        : scene_(*job.scene), between_halves_(job.task == Ask::tree_pairs),
           parallel_(job.executor == "tbb"), arena_(static_cast<int>(job.threads)) {}
 
     void build() override { take(scene_.boxes); }
@@ -107,9 +107,9 @@ ContenderEntry entry(Ask ask, std::string name, std::string summary) {
         "the number of threads, and pairs go to one list per thread that are joined at the end";
     e.precision = "f32";
     e.unsupported = [ask](const Job& job) -> Unsupported {
-        if (ask == Ask::pairs && job.ask != Ask::pairs && job.ask != Ask::moving_pairs)
+        if (ask == Ask::pairs && job.task != Ask::pairs && job.task != Ask::moving_pairs)
             return "answers pairs and moving_pairs only";
-        if (ask == Ask::tree_pairs && job.ask != Ask::tree_pairs)
+        if (ask == Ask::tree_pairs && job.task != Ask::tree_pairs)
             return "answers tree_pairs only";
         return not_tbb(job);
     };

@@ -72,9 +72,9 @@ std::vector<ContenderEntry> cgal_points() {
               "search tree of the corners that gives the first bound)";
     e.precision = "f64";
     e.unsupported = [](const Job& job) -> Unsupported {
-        if (job.ask != Ask::closest_points)
+        if (job.task != Ask::closest_points)
             return "answers closest_points only";
-        if (auto why = no_queries(job.scene, job.ask))
+        if (auto why = no_queries(job.scene, job.task))
             return why;
         return not_tbb(job);
     };

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/one_by_one.h"
+#include "bench/tasks/one_by_one.h"
 #include "bench/peers/capability.h"
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace boxwood::bench {
 
-/// The catalogue row of a peer's function over all cases of a hard-case family, on one thread.
+/// The registry row of a peer's function over all cases of a hard-case family, on one thread.
 /// `Input`, in the peer's own types, is made of one case of type `Case`; `answers` is the list of
 /// Answers that it fills.
 template <class Case, class Input, auto function, auto answers>
@@ -25,7 +25,7 @@ ContenderEntry each_case(Ask ask, std::string library, std::string name, std::st
     e.precision = std::move(precision);
     e.kernel = e.name;
     e.unsupported = [ask](const Job& job) -> Unsupported {
-        if (job.ask != ask)
+        if (job.task != ask)
             return "answers " + std::string(to_string(ask)) + " only";
         return not_serial(job);
     };

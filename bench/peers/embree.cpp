@@ -4,7 +4,7 @@
 #include "bench/peers/point_peers.h"
 #include "bench/peers/ray_peers.h"
 #include "bench/peers/tree_peers.h"
-#include "scenes/moving/effect.h"
+#include "scenes/effects/effect.h"
 #include "scenes/moving/frames.h"
 
 #include <fmt/format.h>
@@ -40,8 +40,8 @@ class Collide final : public Contender {
   public:
     Collide(const Job& job, RTCBuildQuality quality)
         : scene_(*job.scene), boxes_(scene_.boxes), quality_(quality),
-          split_(job.ask == Ask::tree_pairs ? tree_pairs_split(boxes_.size()) : 0),
-          between_halves_(job.ask == Ask::tree_pairs), threads_(job.threads),
+          split_(job.task == Ask::tree_pairs ? tree_pairs_split(boxes_.size()) : 0),
+          between_halves_(job.task == Ask::tree_pairs), threads_(job.threads),
           device_(make_device(job.threads)), arena_(static_cast<int>(job.threads)) {}
 
     void build() override {
@@ -146,7 +146,7 @@ ContenderEntry collide(const char* word, RTCBuildQuality quality) {
     e.notes += refit ? "; a dynamic scene whose nodes are refitted in each frame"
                      : "; a frame: the geometry committed anew and the scene built anew";
     e.unsupported = [refit](const Job& job) -> Unsupported {
-        if (refit && job.ask != Ask::moving_pairs)
+        if (refit && job.task != Ask::moving_pairs)
             return "answers moving_pairs only";
         if (refit && has_comers(job))
             return "a refit cannot take in bodies that were not there when the scene was built";

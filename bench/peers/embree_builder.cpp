@@ -148,7 +148,7 @@ ContenderEntry entry(const char* word, RTCBuildQuality quality) {
         e.notes += "; splits boxes, with room for as many parts again";
     e.precision = "f32";
     e.unsupported = [](const Job& job) -> Unsupported {
-        if (job.ask != Ask::tree)
+        if (job.task != Ask::tree)
             return "answers tree only";
         return not_tbb(job);
     };

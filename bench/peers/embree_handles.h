@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/ray.h"
+#include "kernels/primitives/ray.h"
 
 #include <embree3/rtcore.h>
 #include <fmt/format.h>

@@ -71,7 +71,7 @@ ContenderEntry entry(bool robust) {
               "its walk of that scene; denormals flushed, as Embree asks";
     e.precision = "f32";
     e.unsupported = [](const Job& job) -> Unsupported {
-        if (job.ask != Ask::ray_triangle)
+        if (job.task != Ask::ray_triangle)
             return "answers ray_triangle only";
         return not_serial(job);
     };

@@ -19,7 +19,7 @@ void bounds_of_item(const RTCBoundsFunctionArguments* args) {
 class PointQuery final : public Contender {
   public:
     explicit PointQuery(const Job& job)
-        : scene_(*job.scene), ask_(job.ask), k_(neighbours_of(scene_)), threads_(job.threads),
+        : scene_(*job.scene), ask_(job.task), k_(neighbours_of(scene_)), threads_(job.threads),
           vertices_(scene_.mesh.vertices), device_(make_device(job.threads)),
           arena_(static_cast<int>(job.threads)) {
         vertices_.emplace_back(); // Embree reads 16 bytes at the last vertex
@@ -178,11 +178,11 @@ std::vector<ContenderEntry> embree_points() {
               "one list per thread that are joined at the end";
     e.precision = "f32";
     e.unsupported = [](const Job& job) -> Unsupported {
-        if (!is_point_ask(job.ask))
+        if (!is_point_ask(job.task))
             return "answers points, regions, nearest and closest_points only";
-        if (job.ask == Ask::regions && job.scene && !job.scene->regions.empty())
+        if (job.task == Ask::regions && job.scene && !job.scene->regions.empty())
             return "asks about balls, not boxes";
-        if (auto why = no_queries(job.scene, job.ask))
+        if (auto why = no_queries(job.scene, job.task))
             return why;
         return not_tbb(job);
     };

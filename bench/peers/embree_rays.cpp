@@ -48,7 +48,7 @@ void collect(const RTCFilterFunctionNArguments* args) {
 class Rays final : public Contender {
   public:
     Rays(const Job& job, RTCSceneFlags flags, int width)
-        : scene_(*job.scene), flags_(flags), ask_(job.ask), width_(width), threads_(job.threads),
+        : scene_(*job.scene), flags_(flags), ask_(job.task), width_(width), threads_(job.threads),
           vertices_(scene_.mesh.vertices), device_(make_device(job.threads)),
           arena_(static_cast<int>(job.threads)) {
         vertices_.emplace_back(); // Embree reads 16 bytes at the last vertex
@@ -206,7 +206,7 @@ ContenderEntry rays(Ask ask, int width, bool robust) {
         : width == 1         ? "single rays"
                              : "packets of rays in the order given, context flag INCOHERENT");
     e.unsupported = [ask](const Job& job) -> Unsupported {
-        if (job.ask != ask)
+        if (job.task != ask)
             return fmt::format("answers {} only", to_string(ask));
         if (job.scene && job.scene->mesh.triangles.empty())
             return "the scene has no triangles";

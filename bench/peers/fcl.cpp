@@ -48,8 +48,8 @@ template <class Manager> class FclContender final : public Contender {
   public:
     FclContender(const Job& job, bool moved_alone) : scene_(*job.scene), moved_alone_(moved_alone) {
         const std::vector<Aabb<float>>& boxes = scene_.boxes;
-        const std::size_t split = job.ask == Ask::tree_pairs ? tree_pairs_split(boxes.size()) : 0;
-        between_halves_ = job.ask == Ask::tree_pairs;
+        const std::size_t split = job.task == Ask::tree_pairs ? tree_pairs_split(boxes.size()) : 0;
+        between_halves_ = job.task == Ask::tree_pairs;
         is_present_.resize(boxes.size());
         for (std::size_t i = 0; i < boxes.size(); ++i) {
             bounds_.push_back(std::make_shared<BoundsOnly>(boxes[i]));
@@ -147,7 +147,7 @@ ContenderEntry entry(std::string name, std::string summary, bool moved_alone = f
                            : "; a frame: boxes of the moved, update() of all";
     e.notes += "; bodies that come and go: registerObject, unregisterObject";
     e.unsupported = [moved_alone](const Job& job) -> Unsupported {
-        if (moved_alone && job.ask != Ask::moving_pairs)
+        if (moved_alone && job.task != Ask::moving_pairs)
             return "answers moving_pairs only";
         if (auto why = not_frame_or_box_ask(job))
             return why;

@@ -38,8 +38,8 @@ std::vector<std::unique_ptr<Object>> objects_of(const std::vector<Aabb<float>>& 
 class AskManager final : public Contender {
   public:
     explicit AskManager(const Job& job)
-        : scene_(*job.scene), ask_(job.ask), k_(neighbours_of(scene_)),
-          items_(objects_of(scene_.boxes)), queries_(objects_of(query_boxes(scene_, job.ask))) {
+        : scene_(*job.scene), ask_(job.task), k_(neighbours_of(scene_)),
+          items_(objects_of(scene_.boxes)), queries_(objects_of(query_boxes(scene_, job.task))) {
         for (const std::unique_ptr<Object>& item : items_)
             registered_.push_back(item.get());
     }
@@ -118,9 +118,9 @@ std::vector<ContenderEntry> fcl_points() {
               "by the callback; one thread";
     e.precision = "f64";
     e.unsupported = [](const Job& job) -> Unsupported {
-        if (!is_point_ask(job.ask) || job.ask == Ask::closest_points)
+        if (!is_point_ask(job.task) || job.task == Ask::closest_points)
             return "answers points, regions and nearest only";
-        if (auto why = no_queries(job.scene, job.ask))
+        if (auto why = no_queries(job.scene, job.task))
             return why;
         return not_serial(job);
     };

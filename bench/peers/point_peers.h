@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bench/peers/capability.h"
-#include "bench/points.h"
+#include "bench/tasks/points.h"
 #include "trees/traversals/box_distance.h"
 
 #include <vector>

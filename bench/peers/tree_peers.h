@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/contender.h"
+#include "bench/tasks/contender.h"
 
 #include <vector>
 

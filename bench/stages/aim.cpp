@@ -9,7 +9,7 @@ class Aim final : public SceneStage {
     std::size_t run(Playing& playing) override {
         const MovingScene& scene = playing.scene;
         std::size_t n = 0;
-        for (const SceneAsk& ask : scene.file().asks) {
+        for (const SceneQuery& ask : scene.file().queries) {
             if (ask.name == "rays")
                 rays_of_frame(scene, ask, playing.rays);
             else if (ask.name == "points")

@@ -1,6 +1,6 @@
 /// What a scene asks, answered by its plan, against everything on and against brute force.
 
-#include "bench/ray_truth.h"
+#include "bench/truth/ray_truth.h"
 #include "bench/stages/body_surface.h"
 #include "bench/stages/scene_player.h"
 #include "kernels/oracle/oracle.h"
@@ -37,13 +37,13 @@ SceneFile built_in(std::string_view name, std::size_t n) {
 
 /// Asks all there is to ask.
 SceneFile asking_all(SceneFile file) {
-    file.asks.clear();
-    for (const SceneAskEntry& entry : scene_asks()) {
-        file.asks.push_back(entry.defaults);
-        file.asks.back().name = entry.name;
-        file.asks.back().n = std::min<std::size_t>(entry.defaults.n, 60);
+    file.queries.clear();
+    for (const SceneQueryEntry& entry : scene_queries()) {
+        file.queries.push_back(entry.defaults);
+        file.queries.back().name = entry.name;
+        file.queries.back().n = std::min<std::size_t>(entry.defaults.n, 60);
         if (entry.name == "points")
-            file.asks.back().kind = "scattered";
+            file.queries.back().kind = "scattered";
     }
     return file;
 }
@@ -55,12 +55,12 @@ TEST(Answers, EverythingOnGivesTheSameFrameByFrame) {
             SceneFile file = built_in(entry.name, 150);
             if (all)
                 file = asking_all(file);
-            ScenePlayer some(MovingScene(file), Extent::called_for, serial());
-            ScenePlayer everything(MovingScene(file), Extent::everything, serial());
+            ScenePlayer some(MovingScene(file), Extent::required, serial());
+            ScenePlayer everything(MovingScene(file), Extent::all_stages, serial());
             some.start();
             everything.start();
             for (int frame = 0; frame < 20; ++frame) {
-                const FrameAnswers &a = some.ask(), &b = everything.ask();
+                const FrameAnswers &a = some.query(), &b = everything.query();
                 EXPECT_EQ(answers_hash(a), answers_hash(b));
                 expect_same(sorted(a), sorted(b));
                 if (testing::Test::HasFailure())
@@ -75,19 +75,19 @@ TEST(Answers, AndTheirOrderAreTheSameOnEveryExecutor) {
     for (const char* name : {"tumbling_rocks", "crowd", "fly_through", "cloth_on_sphere"}) {
         SCOPED_TRACE(name);
         const SceneFile file = asking_all(built_in(name, 600));
-        ScenePlayer one(MovingScene(file), Extent::called_for, serial());
+        ScenePlayer one(MovingScene(file), Extent::required, serial());
         one.start();
         std::vector<FrameAnswers> expected;
         for (int frame = 0; frame < 5; ++frame) {
-            expected.push_back(one.ask());
+            expected.push_back(one.query());
             one.advance();
         }
         for (const auto& [word, threads] : {std::pair{"tbb", 2u}, {"tbb", 4u}, {"openmp", 2u}}) {
             const auto executor = make_executor(word, threads);
-            ScenePlayer other(MovingScene(file), Extent::called_for, *executor);
+            ScenePlayer other(MovingScene(file), Extent::required, *executor);
             other.start();
             for (const FrameAnswers& answers : expected) {
-                expect_same(other.ask(), answers);
+                expect_same(other.query(), answers);
                 other.advance();
             }
         }
@@ -254,10 +254,10 @@ TEST(Answers, AreThoseOfBruteForce) {
     for (const BuiltInScene& entry : built_in_scenes()) {
         SCOPED_TRACE(entry.name);
         const SceneFile file = asking_all(built_in(entry.name, 120));
-        ScenePlayer player(MovingScene(file), Extent::called_for, serial());
+        ScenePlayer player(MovingScene(file), Extent::required, serial());
         player.start();
         for (int frame = 0; frame < 12; ++frame) {
-            const FrameAnswers found = sorted(player.ask());
+            const FrameAnswers found = sorted(player.query());
             const MovingScene& scene = player.scene();
             EXPECT_EQ(found.pairs, true_body_pairs(scene));
             if (frame % 4 == 0) {
@@ -301,15 +301,15 @@ TEST(Answers, OfRaysAreThoseOfBruteForceInOneTreeAndInTwo) {
             SceneFile file = asking_all(built_in(name, 150));
             file.frames = frames;
             const auto executor = make_executor("tbb", 2);
-            ScenePlayer player(MovingScene(file), Extent::called_for, serial());
-            ScenePlayer on_two(MovingScene(file), Extent::called_for, *executor);
+            ScenePlayer player(MovingScene(file), Extent::required, serial());
+            ScenePlayer on_two(MovingScene(file), Extent::required, *executor);
             player.start();
             on_two.start();
             for (int frame = 0; frame < 8; ++frame) {
                 std::vector<Ray<float>> rays;
                 rays_of_frame(player.scene(), *ask_of(file, "rays"), rays);
-                expect_true_rays(player.scene(), rays, player.ask().rays);
-                EXPECT_EQ(player.answers().rays, on_two.ask().rays);
+                expect_true_rays(player.scene(), rays, player.query().rays);
+                EXPECT_EQ(player.answers().rays, on_two.query().rays);
                 player.advance();
                 on_two.advance();
             }
@@ -323,14 +323,14 @@ TEST(Answers, OfRaysThatMeetTwoBodiesAtOnceNameTheFirst) {
     const std::string moves = "effects = \"drift\"\n";
     for (const std::string& text : {arm + arm + moves, arm + moves + arm})
         for (const std::size_t frames : {1u, 100000u}) {
-            SceneFile file = parse_scene_file("asks = \"rays\"\n" + text, "mine.toml");
+            SceneFile file = parse_scene_file("queries = \"rays\"\n" + text, "mine.toml");
             file.frames = frames;
-            ScenePlayer player(MovingScene(file), Extent::called_for, serial());
+            ScenePlayer player(MovingScene(file), Extent::required, serial());
             player.start();
             const Bodies& bodies = player.scene().bodies();
             ASSERT_EQ(fitted_box(bodies, 1), fitted_box(bodies, 5));
             std::size_t hits = 0;
-            for (const SurfaceHit& hit : player.ask().rays)
+            for (const SurfaceHit& hit : player.query().rays)
                 if (hit.body != SurfaceHit::none) {
                     EXPECT_LT(hit.body, 4u) << text;
                     ++hits;
@@ -346,13 +346,13 @@ TEST(Answers, OfOneBodyAndOfNobody) {
                                     cubes + "2\nshape = \"sphere_mesh\"\ntriangles = 1\n" + gone}) {
         SCOPED_TRACE(text);
         const SceneFile file = asking_all(parse_scene_file(text, "mine.toml"));
-        ScenePlayer some(MovingScene(file), Extent::called_for, serial());
-        ScenePlayer everything(MovingScene(file), Extent::everything, serial());
+        ScenePlayer some(MovingScene(file), Extent::required, serial());
+        ScenePlayer everything(MovingScene(file), Extent::all_stages, serial());
         some.start();
         everything.start();
         for (int frame = 0; frame < 4; ++frame) {
-            const FrameAnswers answers = sorted(some.ask());
-            expect_same(answers, sorted(everything.ask()));
+            const FrameAnswers answers = sorted(some.query());
+            expect_same(answers, sorted(everything.query()));
             EXPECT_EQ(answers.pairs, true_body_pairs(some.scene()));
             EXPECT_EQ(answers.rays.size(), 60u);
             std::vector<Vec3<float>> points;
@@ -363,9 +363,9 @@ TEST(Answers, OfOneBodyAndOfNobody) {
             everything.advance();
         }
         if (text.find("despawn") != std::string::npos) {
-            EXPECT_TRUE(some.ask().pairs.empty());
-            EXPECT_EQ(some.ask().rays[0], SurfaceHit{});
-            EXPECT_EQ(some.ask().nearest[0], Neighbour{});
+            EXPECT_TRUE(some.query().pairs.empty());
+            EXPECT_EQ(some.query().rays[0], SurfaceHit{});
+            EXPECT_EQ(some.query().nearest[0], Neighbour{});
         }
     }
 }

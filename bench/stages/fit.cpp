@@ -1,6 +1,6 @@
 #include "kernels/boxes/fit.h"
 #include "bench/stages/playing.h"
-#include "kernels/rounding.h"
+#include "kernels/arithmetic/rounding.h"
 
 #include <algorithm>
 #include <cmath>

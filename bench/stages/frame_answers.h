@@ -1,7 +1,7 @@
 #pragma once
 
 #include "trees/layout.h"
-#include "trees/pairs.h"
+#include "trees/queries/pairs.h"
 
 #include <compare>
 #include <cstdint>

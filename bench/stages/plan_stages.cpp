@@ -15,17 +15,17 @@ struct Wants {
         n = bodies.size();
         meshed = static_cast<std::size_t>(
             std::ranges::count_if(bodies.mesh, [](std::uint32_t m) { return m != no_mesh; }));
-        for (const SceneAsk& ask : scene.file().asks) {
+        for (const SceneQuery& ask : scene.file().queries) {
             asked.push_back(ask.name);
             if (ask.name == "points" || ask.name == "regions" || ask.name == "nearest")
                 box_asks.push_back(ask.name);
         }
         moves = !scene.effects().empty();
-        pairs = asks("pairs") || (asks("triangle_pairs") && meshed >= 2);
-        triangles = asks("triangle_pairs") && meshed >= 2;
+        pairs = queries("pairs") || (asks("triangle_pairs") && meshed >= 2);
+        triangles = queries("triangle_pairs") && meshed >= 2;
         filters = scene.ignored().size();
     }
-    bool asks(std::string_view word) const { return std::ranges::find(asked, word) != asked.end(); }
+    bool queries(std::string_view word) const { return std::ranges::find(asked, word) != asked.end(); }
 
     std::size_t n = 0, meshed = 0, filters = 0;
     std::vector<std::string_view> asked, box_asks;
@@ -39,7 +39,7 @@ std::string counted(std::size_t n, std::string_view one, std::string_view many) 
 class Plan {
   public:
     Plan(const MovingScene& scene, Extent extent)
-        : scene_(scene), wants_(scene), everything_(extent == Extent::everything) {}
+        : scene_(scene), wants_(scene), everything_(extent == Extent::all_stages) {}
 
     std::vector<PlannedStage> stages() {
         changing();
@@ -51,13 +51,13 @@ class Plan {
 
   private:
     /// A stage that everything on runs all the same.
-    void add(std::string_view name, bool called_for, std::string why) {
+    void add(std::string_view name, bool required, std::string why) {
         stages_.push_back(
-            {std::string(name), called_for, called_for || everything_, std::move(why)});
+            {std::string(name), required, required || everything_, std::move(why)});
     }
     /// One that cannot run unless it is called for.
-    void add_only(std::string_view name, bool called_for, std::string why) {
-        stages_.push_back({std::string(name), called_for, called_for, std::move(why)});
+    void add_only(std::string_view name, bool required, std::string why) {
+        stages_.push_back({std::string(name), required, required, std::move(why)});
     }
 
     void changing() {
@@ -103,7 +103,7 @@ class Plan {
     void meetings() {
         std::string why = "not asked";
         if (wants_.pairs)
-            why = wants_.asks("pairs") ? "asked" : "the candidates of triangle_pairs";
+            why = wants_.queries("pairs") ? "asked" : "the candidates of triangle_pairs";
         if (wants_.pairs && !wants_.moves)
             why += "; found once and given again, as nothing moves";
         add("pairs", wants_.pairs, why);
@@ -113,7 +113,7 @@ class Plan {
                                                counted(wants_.filters, "group", "groups"))
             : wants_.filters > 0 ? "no pairs are asked"
                                  : "no pairs are ignored");
-        const std::string no_triangles = wants_.asks("triangle_pairs")
+        const std::string no_triangles = wants_.queries("triangle_pairs")
                                              ? "fewer than two bodies have meshes"
                                              : "no triangle_pairs are asked";
         add("transform", wants_.triangles,
@@ -129,14 +129,14 @@ class Plan {
     }
 
     void queries() {
-        const bool rays = wants_.asks("rays"), aim = rays || !wants_.box_asks.empty();
+        const bool rays = wants_.queries("rays"), aim = rays || !wants_.box_asks.empty();
         add_only("surface", rays,
                  !rays          ? "no rays are asked"
                  : wants_.moves ? "rays meet it; bodies that have changed are written in place"
                                 : "rays meet it; made once, as nothing moves");
         add_only("aim", aim, aim ? "queries go with the frame" : "no queries are asked");
         for (const std::string_view word : {"rays", "points", "regions", "nearest"}) {
-            const SceneAsk* ask = ask_of(scene_.file(), word);
+            const SceneQuery* ask = ask_of(scene_.file(), word);
             add_only(word, ask != nullptr,
                      ask ? fmt::format("{} {} asked", ask->n, ask->kind) : "not asked");
         }

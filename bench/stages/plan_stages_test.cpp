@@ -17,11 +17,11 @@ MovingScene scene_of(const std::string& text, std::size_t n = 20) {
     return MovingScene(parse_scene_file(text, "mine.toml"), n);
 }
 
-std::vector<std::string> called_for(const MovingScene& scene) {
+std::vector<std::string> required(const MovingScene& scene) {
     std::vector<std::string> names;
-    for (const PlannedStage& stage : plan_stages(scene, Extent::called_for)) {
+    for (const PlannedStage& stage : plan_stages(scene, Extent::required)) {
         EXPECT_FALSE(stage.why.empty()) << stage.name;
-        EXPECT_EQ(stage.runs, stage.is_called_for) << stage.name;
+        EXPECT_EQ(stage.runs, stage.is_required) << stage.name;
         if (stage.runs)
             names.push_back(stage.name);
     }
@@ -32,7 +32,7 @@ const std::string uniform = "[[bodies]]\ngenerator = \"uniform\"\n";
 const std::string meshes = uniform + "shape = \"sphere_mesh\"\ntriangles = 20\n";
 
 TEST(PlanStages, AStaticSceneThatAsksForPairsNeedsThreeStages) {
-    EXPECT_THAT(called_for(MovingScene(load_scene("still_life"), 100)),
+    EXPECT_THAT(required(MovingScene(load_scene("still_life"), 100)),
                 ElementsAre("fit", "tree", "pairs"));
 }
 
@@ -40,7 +40,7 @@ TEST(PlanStages, EachEffectBringsItsOwnStageAndNoOther) {
     for (const EffectEntry& effect : effects()) {
         SCOPED_TRACE(effect.name);
         const std::string word(effect.name);
-        const auto stages = called_for(scene_of(meshes + "effects = \"" + word + "\"\n"));
+        const auto stages = required(scene_of(meshes + "effects = \"" + word + "\"\n"));
         std::vector<std::string> expected{"advance_" + word};
         if (effect.changes.velocity)
             expected.push_back("move");
@@ -52,17 +52,17 @@ TEST(PlanStages, EachEffectBringsItsOwnStageAndNoOther) {
 
 TEST(PlanStages, AnEffectOnNobodyIsNotThere) {
     for (const EffectEntry& effect : effects())
-        EXPECT_THAT(called_for(scene_of(meshes + "effects = {name = \"" + std::string(effect.name) +
+        EXPECT_THAT(required(scene_of(meshes + "effects = {name = \"" + std::string(effect.name) +
                                         "\", share = 0}\n")),
                     ElementsAre("fit", "tree", "pairs"));
     // and what has no vertices is not deformed
-    EXPECT_THAT(called_for(scene_of(uniform + "effects = \"deform\"\n")),
+    EXPECT_THAT(required(scene_of(uniform + "effects = \"deform\"\n")),
                 ElementsAre("fit", "tree", "pairs"));
 }
 
 TEST(PlanStages, EachAskBringsWhatItNeeds) {
     const auto of = [](const std::string& ask, const std::string& bodies = meshes) {
-        return called_for(scene_of("asks = \"" + ask + "\"\n" + bodies));
+        return required(scene_of("queries = \"" + ask + "\"\n" + bodies));
     };
     EXPECT_THAT(of("triangle_pairs"),
                 ElementsAre("fit", "tree", "pairs", "transform", "mesh_trees", "triangle_pairs"));
@@ -76,8 +76,8 @@ TEST(PlanStages, EachAskBringsWhatItNeeds) {
 }
 
 TEST(PlanStages, EveryAskHasAStageOfItsWord) {
-    const auto plan = plan_stages(scene_of(uniform), Extent::called_for);
-    for (const SceneAskEntry& ask : scene_asks()) {
+    const auto plan = plan_stages(scene_of(uniform), Extent::required);
+    for (const SceneQueryEntry& ask : scene_queries()) {
         EXPECT_NE(ask_stage(ask.name), nullptr);
         EXPECT_THAT(plan, Contains(testing::Field(&PlannedStage::name, std::string(ask.name))));
     }
@@ -87,12 +87,12 @@ TEST(PlanStages, EverythingOnIsCalledForAlike) {
     for (const BuiltInScene& entry : built_in_scenes()) {
         SCOPED_TRACE(entry.name);
         const MovingScene scene(load_scene(std::string(entry.name)), 100);
-        const auto some = plan_stages(scene, Extent::called_for);
-        const auto all = plan_stages(scene, Extent::everything);
+        const auto some = plan_stages(scene, Extent::required);
+        const auto all = plan_stages(scene, Extent::all_stages);
         ASSERT_EQ(some.size(), all.size());
         for (std::size_t i = 0; i < all.size(); ++i) {
             EXPECT_EQ(all[i].name, some[i].name);
-            EXPECT_EQ(all[i].is_called_for, some[i].is_called_for);
+            EXPECT_EQ(all[i].is_required, some[i].is_required);
             EXPECT_TRUE(all[i].runs || !some[i].runs);
         }
         for (const char* name :

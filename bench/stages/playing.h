@@ -5,7 +5,7 @@
 #include "scenes/moving/moving_scene.h"
 #include "trees/executor.h"
 #include "trees/layouts/packed.h"
-#include "trees/update.h"
+#include "trees/dynamic/update.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -42,7 +42,7 @@ struct Playing {
     std::vector<Box> regions{};                  ///< aim
     FrameAnswers answers{};
 
-    bool is_everything() const { return extent == Extent::everything; }
+    bool is_everything() const { return extent == Extent::all_stages; }
     std::span<const Box> pair_boxes() const { return wide_boxes.empty() ? boxes : wide_boxes; }
     /// Whether what was made in that frame is still so: never if everything is on.
     bool still_holds(std::uint64_t frame) const { return !is_everything() && last_change <= frame; }
@@ -80,7 +80,7 @@ std::unique_ptr<SceneStage> mesh_trees_stage();
 std::unique_ptr<SceneStage> surface_stage();
 std::unique_ptr<SceneStage> aim_stage();
 
-/// The stage of a word of `scene_asks()`: bench/stages/asks/WORD.cpp.
+/// The stage of a word of `scene_queries()`: bench/stages/queries/WORD.cpp.
 std::unique_ptr<SceneStage> ask_stage(std::string_view word);
 
 } // namespace boxwood::bench

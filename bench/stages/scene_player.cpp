@@ -12,7 +12,7 @@ ScenePlayer::ScenePlayer(MovingScene scene, Extent extent, const Executor& execu
       plan_(plan_stages(playing_->scene, extent)), ledger_(plan_) {
     const auto runs = [&](std::string_view name) { return stage_of(plan_, name).runs; };
     const MovingScene& played = playing_->scene;
-    const bool everything = extent == Extent::everything;
+    const bool everything = extent == Extent::all_stages;
     const bool moves = everything || !played.effects().empty();
 
     for (std::size_t i = 0; i < played.effects().size(); ++i)
@@ -103,7 +103,7 @@ void ScenePlayer::advance() {
         });
 }
 
-const FrameAnswers& ScenePlayer::ask() {
+const FrameAnswers& ScenePlayer::query() {
     for (const std::size_t i : asking_)
         timed(stages_[i], 1, [&](SceneStage& stage) { return stage.run(*playing_); });
     return playing_->answers;

@@ -4,7 +4,7 @@
 #include "bench/stages/ledger.h"
 #include "bench/stages/plan_stages.h"
 #include "trees/executor.h"
-#include "trees/work.h"
+#include "trees/inspect/work.h"
 
 #include <memory>
 #include <optional>
@@ -32,7 +32,7 @@ class ScenePlayer {
     /// To the next frame: effects, boxes and trees.
     void advance();
     /// What the scene asks of the present frame; good until the next advance or start.
-    const FrameAnswers& ask();
+    const FrameAnswers& query();
     /// What the last ask gave.
     const FrameAnswers& answers() const;
     /// The work of the walk for pairs in the present frame; zero if no pairs are wanted.

@@ -1,6 +1,6 @@
 #include "bench/stages/scene_player.h"
 
-#include "kernels/aabb.h"
+#include "kernels/primitives/aabb.h"
 #include "trees/executor.h"
 
 #include <gtest/gtest.h>
@@ -21,13 +21,13 @@ SceneFile file_of(const std::string& text, std::size_t n) {
 
 /// Played from the start through so many further frames.
 std::unique_ptr<ScenePlayer> played(const SceneFile& file, int frames,
-                                    Extent extent = Extent::called_for) {
+                                    Extent extent = Extent::required) {
     auto player = std::make_unique<ScenePlayer>(MovingScene(file), extent, serial());
     player->start();
-    player->ask();
+    player->query();
     for (int frame = 0; frame < frames; ++frame) {
         player->advance();
-        player->ask();
+        player->query();
     }
     return player;
 }
@@ -50,8 +50,8 @@ TEST(ScenePlayer, AStaticSceneNeverUpdates) {
     EXPECT_EQ(ledger.row("fit").calls, 1u);
     EXPECT_EQ(ledger.row("fit").items, 500u);
     EXPECT_EQ(ledger.row("tree").calls, 1u);
-    EXPECT_EQ(ledger.row("pairs").items, player->ask().pairs.size()); // found once
-    EXPECT_GT(player->ask().pairs.size(), 100u);
+    EXPECT_EQ(ledger.row("pairs").items, player->query().pairs.size()); // found once
+    EXPECT_GT(player->query().pairs.size(), 100u);
 }
 
 // Every effect is compiled in and may be named; on nobody, it costs nothing.
@@ -65,7 +65,7 @@ TEST(ScenePlayer, EffectsThatAreNotUsedCostNothing) {
     const auto &a = one->ledger().rows(), &b = other->ledger().rows();
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
-        EXPECT_EQ(a[i].is_called_for, b[i].is_called_for) << a[i].stage;
+        EXPECT_EQ(a[i].is_required, b[i].is_required) << a[i].stage;
         EXPECT_EQ(a[i].calls, b[i].calls) << a[i].stage;
         EXPECT_EQ(a[i].items, b[i].items) << a[i].stage;
         EXPECT_EQ(a[i].bytes, b[i].bytes) << a[i].stage;
@@ -76,15 +76,15 @@ TEST(ScenePlayer, EffectsThatAreNotUsedCostNothing) {
     EXPECT_EQ(x.box_tests, y.box_tests);
     EXPECT_EQ(x.answers, y.answers);
     EXPECT_EQ(x.stack_max, y.stack_max);
-    EXPECT_EQ(one->ask().pairs, other->ask().pairs);
+    EXPECT_EQ(one->query().pairs, other->query().pairs);
 }
 
 TEST(ScenePlayer, PairsAloneNeverTouchATriangle) {
     SceneFile file = load_scene("tumbling_rocks");
     file.n = 200;
-    file.asks = {{.name = "pairs"}};
+    file.queries = {{.name = "pairs"}};
     const auto player = played(file, 10);
-    EXPECT_GT(player->ask().pairs.size(), 0u);
+    EXPECT_GT(player->query().pairs.size(), 0u);
     for (const char* stage : {"transform", "mesh_trees", "triangle_pairs", "surface", "box_tree"})
         expect_untouched(player->ledger().row(stage));
 }
@@ -93,20 +93,20 @@ TEST(ScenePlayer, MeshesThatNeverMeetBuildNoTree) {
     const std::string rock = "[[bodies]]\ngenerator = \"cubes\"\nn = 1\nshape = \"sphere_mesh\"\n"
                              "triangles = 20\neffects = \"spin\"\n";
     const auto player =
-        played(file_of("asks = \"triangle_pairs\"\n" + rock + rock + "at = [9, 9, 9]\n", 1), 20);
+        played(file_of("queries = \"triangle_pairs\"\n" + rock + rock + "at = [9, 9, 9]\n", 1), 20);
     EXPECT_EQ(player->ledger().row("transform").items, 0u);
     EXPECT_EQ(player->ledger().row("mesh_trees").items, 0u);
     EXPECT_EQ(player->ledger().row("triangle_pairs").items, 0u);
-    EXPECT_TRUE(player->ask().pairs.empty()); // nobody asked for them
+    EXPECT_TRUE(player->query().pairs.empty()); // nobody asked for them
 }
 
 // What must be done follows from which bodies changed and who met whom, counted here by itself.
 TEST(ScenePlayer, BodiesAtRestAreNotTransformedFittedOrRefitted) {
     SceneFile file = load_scene("tumbling_rocks");
     file.n = 300;
-    file.asks = {{.name = "pairs"}, {.name = "triangle_pairs"}};
+    file.queries = {{.name = "pairs"}, {.name = "triangle_pairs"}};
     const int frames = 15;
-    ScenePlayer player(MovingScene(file), Extent::called_for, serial());
+    ScenePlayer player(MovingScene(file), Extent::required, serial());
     MovingScene scene(file);
     std::size_t fitted = scene.bodies().size(), updated = 0, vertices = 0, triangles = 0;
     std::map<std::uint32_t, int> changed_in, made_for;
@@ -121,7 +121,7 @@ TEST(ScenePlayer, BodiesAtRestAreNotTransformedFittedOrRefitted) {
                 changed_in[i] = frame;
             player.advance();
         }
-        for (const Pair p : player.ask().pairs)
+        for (const Pair p : player.query().pairs)
             for (const std::uint32_t i : {p.a, p.b}) {
                 const auto [made, is_new] = made_for.try_emplace(i, -1);
                 if (made->second == changed_in[i])
@@ -146,7 +146,7 @@ TEST(ScenePlayer, TrianglesThatRestAreNotWrittenAgain) {
     for (const std::size_t rays : {10u, 60000u}) {
         SceneFile file = load_scene("tumbling_rocks");
         file.n = 300;
-        file.asks = {{.name = "rays", .kind = "scattered", .n = rays}};
+        file.queries = {{.name = "rays", .kind = "scattered", .n = rays}};
         MovingScene scene(file);
         std::size_t all = 0, written = 0;
         for (const std::uint32_t mesh : scene.bodies().mesh)
@@ -198,9 +198,9 @@ TEST(ScenePlayer, RestedFramesFindNothingAnew) {
     SceneFile file = file_of(uniform + "effects = \"gravity\"\n", 100);
     const auto player = played(file, 1500); // all of it lies on the floor
     const std::uint64_t found = player->ledger().row("pairs").items;
-    const std::vector<Pair> pairs = player->ask().pairs;
+    const std::vector<Pair> pairs = player->query().pairs;
     player->advance();
-    EXPECT_EQ(player->ask().pairs, pairs);
+    EXPECT_EQ(player->query().pairs, pairs);
     EXPECT_EQ(player->ledger().row("pairs").items, found);
     EXPECT_FALSE(pairs.empty());
 }
@@ -208,12 +208,12 @@ TEST(ScenePlayer, RestedFramesFindNothingAnew) {
 TEST(ScenePlayer, StartsAgain) {
     SceneFile file = load_scene("tumbling_rocks");
     file.n = 200;
-    ScenePlayer player(MovingScene(file, {}, true), Extent::called_for, serial());
+    ScenePlayer player(MovingScene(file, {}, true), Extent::required, serial());
     const auto play = [&] {
         std::vector<std::uint64_t> hashes;
         player.start();
         for (int frame = 0; frame < 10; ++frame) {
-            hashes.push_back(answers_hash(player.ask()));
+            hashes.push_back(answers_hash(player.query()));
             player.advance();
         }
         return hashes;
@@ -223,7 +223,7 @@ TEST(ScenePlayer, StartsAgain) {
     EXPECT_EQ(play(), first);
     EXPECT_EQ(player.ledger().row("pairs").calls, pairs.calls);
     EXPECT_EQ(player.ledger().row("pairs").items, pairs.items);
-    ScenePlayer once(MovingScene(file), Extent::called_for, serial());
+    ScenePlayer once(MovingScene(file), Extent::required, serial());
     once.start();
     once.advance();
     EXPECT_THROW(once.start(), std::logic_error);
@@ -232,13 +232,13 @@ TEST(ScenePlayer, StartsAgain) {
 TEST(ScenePlayer, FramesMayGoUnasked) {
     SceneFile file = load_scene("tumbling_rocks");
     file.n = 200;
-    file.asks.push_back({.name = "rays", .kind = "scattered", .n = 100});
-    ScenePlayer player(MovingScene(file), Extent::called_for, serial());
+    file.queries.push_back({.name = "rays", .kind = "scattered", .n = 100});
+    ScenePlayer player(MovingScene(file), Extent::required, serial());
     player.start();
     for (const int frames : {0, 3, 4}) { // the first is asked, and then a few
         for (int frame = 0; frame < frames; ++frame)
             player.advance();
-        player.ask();
+        player.query();
     }
     EXPECT_EQ(answers_hash(player.answers()), answers_hash(played(file, 7)->answers()));
     EXPECT_FALSE(player.answers().triangle_pairs.empty());

@@ -35,9 +35,9 @@ class Played final : public StagesContender {
 
     void build() override { player_.start(); }
     void update(const Frame&) override { player_.advance(); }
-    void query(Answers&) override { answers_ = &player_.ask(); }
+    void query(Answers&) override { answers_ = &player_.query(); }
     std::optional<Work> counted_query(Answers&) override {
-        answers_ = &player_.ask();
+        answers_ = &player_.query();
         return player_.counted_pairs();
     }
     std::optional<StructureInfo> structure() const override {
@@ -65,8 +65,8 @@ ContenderEntry stages_contender(Extent extent, std::string_view without_effect) 
     entry.is_peer = false;
     entry.precision = "f32";
     entry.layout = "packed";
-    entry.name = extent == Extent::everything ? "everything" : "called_for";
-    entry.summary = extent == Extent::everything
+    entry.name = extent == Extent::all_stages ? "all_stages" : "required";
+    entry.summary = extent == Extent::all_stages
                         ? "every stage, for every body in every frame"
                         : "the stages that the scene calls for, for the bodies that it calls for";
     if (!without_effect.empty()) {
@@ -77,8 +77,8 @@ ContenderEntry stages_contender(Extent extent, std::string_view without_effect) 
                   "price of its effects is in it";
     entry.unsupported =
         [without = std::string(without_effect)](const Job& job) -> std::optional<std::string> {
-        if (job.ask != Ask::scene_asks)
-            return "answers scene_asks only";
+        if (job.task != Ask::scene_queries)
+            return "answers scene_queries only";
         if (job.executor == "serial" && job.threads != 1)
             return "the executor serial has one thread";
         if (!job.scene->spec.moving)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/contender.h"
+#include "bench/tasks/contender.h"
 #include "bench/stages/frame_answers.h"
 #include "bench/stages/ledger.h"
 #include "bench/stages/plan_stages.h"
@@ -9,7 +9,7 @@
 
 namespace boxwood::bench {
 
-/// A contender of scene_asks: build is ScenePlayer::start, update(frame) its advance, query its
+/// A contender of scene_queries: build is ScenePlayer::start, update(frame) its advance, query its
 /// ask. `query` fills no Answers: what was answered lies here, as found.
 class StagesContender : public Contender {
   public:
@@ -19,7 +19,7 @@ class StagesContender : public Contender {
     virtual const Ledger& ledger() = 0;
 };
 
-/// "called_for", "everything", or "called_for.without_<effect>": the scene without one of its
+/// "required", "all_stages", or "required.without_<effect>": the scene without one of its
 /// effects, unsupported if it has none of that word. It plays the scene of
 /// job.scene->spec.moving with the spec's n and seed. Throws std::invalid_argument, with a
 /// suggestion, for an unknown effect. Its contenders are StagesContenders.

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/aabb.h"
-#include "kernels/boxes/rigid_transform.h"
+#include "kernels/primitives/aabb.h"
+#include "kernels/primitives/rigid_transform.h"
 #include "kernels/verdict.h"
 
 #include <concepts>

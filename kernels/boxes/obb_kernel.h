@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/boxes/obb.h"
+#include "kernels/primitives/obb.h"
 #include "kernels/verdict.h"
 
 #include <concepts>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/boxes/obb.h"
-#include "kernels/boxes/rigid_transform.h"
+#include "kernels/primitives/obb.h"
+#include "kernels/primitives/rigid_transform.h"
 
 #include <array>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/boxes/obb_kernel.h"
-#include "kernels/float_mode.h"
+#include "kernels/arithmetic/float_mode.h"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #include "kernels/continuous/inclusion.h"
 #include "kernels/continuous/nearest_direction.h"
 #include "kernels/continuous/touch_proof.h"
-#include "kernels/float_mode.h"
+#include "kernels/arithmetic/float_mode.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "kernels/continuous/tight_inclusion.h"
 
-#include "kernels/float_mode.h"
+#include "kernels/arithmetic/float_mode.h"
 #include "kernels/oracle/continuous.h"
 
 #include <gtest/gtest.h>

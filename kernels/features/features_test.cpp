@@ -1,6 +1,6 @@
 #include "kernels/features/point_triangle.h"
 
-#include "kernels/triangle_distance/distance_pairs_for_test.h"
+#include "kernels/testing/distance_pairs.h"
 
 #include <gtest/gtest.h>
 

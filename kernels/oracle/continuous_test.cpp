@@ -1,6 +1,6 @@
 #include "kernels/oracle/continuous.h"
 
-#include "kernels/float_mode.h"
+#include "kernels/arithmetic/float_mode.h"
 #include "kernels/oracle/exact_vector.h"
 #include "kernels/oracle/grid_hulls.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/triangle.h"
+#include "kernels/primitives/triangle.h"
 
 #include <gmpxx.h>
 

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "kernels/aabb.h"
-#include "kernels/boxes/rigid_transform.h"
+#include "kernels/primitives/aabb.h"
+#include "kernels/primitives/rigid_transform.h"
 #include "kernels/continuous/continuous_kernel.h"
-#include "kernels/ray.h"
-#include "kernels/segment.h"
-#include "kernels/triangle.h"
+#include "kernels/primitives/ray.h"
+#include "kernels/primitives/segment.h"
+#include "kernels/primitives/triangle.h"
 
 #include <gmpxx.h>
 

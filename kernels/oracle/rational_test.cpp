@@ -1,6 +1,6 @@
 #include "kernels/oracle/rational.h"
 
-#include "kernels/oracle/catalogue.h"
+#include "kernels/oracle/registry.h"
 #include "kernels/oracle/nearest.h"
 #include "kernels/oracle/roots.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/float_mode.h"
+#include "kernels/arithmetic/float_mode.h"
 #include "kernels/predicates/accumulated.h"
 #include "kernels/predicates/filtered.h"
 #include "kernels/predicates/grid.h"

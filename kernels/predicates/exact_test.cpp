@@ -1,7 +1,7 @@
 #include "kernels/predicates/exact.h"
 
-#include "kernels/float_mode.h"
-#include "kernels/thinned_for_test.h"
+#include "kernels/arithmetic/float_mode.h"
+#include "kernels/testing/thinned.h"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>

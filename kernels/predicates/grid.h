@@ -2,7 +2,7 @@
 
 #include "kernels/predicates/binary64.h"
 #include "kernels/predicates/two.h"
-#include "kernels/vec3.h"
+#include "kernels/primitives/vec3.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 #include "kernels/predicates/grid.h"
-#include "kernels/thinned_for_test.h"
+#include "kernels/testing/thinned.h"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/vec3.h"
+#include "kernels/primitives/vec3.h"
 #include "kernels/verdict.h"
 
 #include <concepts>

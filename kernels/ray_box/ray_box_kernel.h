@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/aabb.h"
-#include "kernels/ray.h"
+#include "kernels/primitives/aabb.h"
+#include "kernels/primitives/ray.h"
 #include "kernels/verdict.h"
 
 #include <concepts>

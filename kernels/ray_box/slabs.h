@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/ray_box/ray_box_kernel.h"
-#include "kernels/rounding.h"
+#include "kernels/arithmetic/rounding.h"
 
 #include <algorithm>
 #include <array>

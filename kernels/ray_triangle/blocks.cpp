@@ -5,7 +5,7 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
-#include "kernels/catalogue.h"
+#include "kernels/registry.h"
 #include "kernels/ray_triangle/blocks.h"
 #include "kernels/ray_triangle/moller_trumbore_block-inl.h"
 #include "kernels/ray_triangle/watertight_block-inl.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/ray.h"
+#include "kernels/primitives/ray.h"
 #include "kernels/ray_triangle/triangle_block.h"
 
 #include <span>

@@ -1,7 +1,7 @@
 #include "kernels/ray_triangle/blocks.h"
 
-#include "kernels/catalogue.h"
-#include "kernels/every_target_for_test.h"
+#include "kernels/registry.h"
+#include "kernels/testing/every_target.h"
 
 #include <gtest/gtest.h>
 

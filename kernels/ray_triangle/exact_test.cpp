@@ -1,6 +1,6 @@
 #include "kernels/ray_triangle/exact.h"
 
-#include "kernels/float_mode.h"
+#include "kernels/arithmetic/float_mode.h"
 #include "kernels/oracle/oracle.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/predicates/binary64.h"
-#include "kernels/vec3.h"
+#include "kernels/primitives/vec3.h"
 
 #include <array>
 #include <bit>

@@ -1,5 +1,5 @@
-#include "kernels/catalogue.h"
-#include "kernels/ray_triangle/closed_meshes_for_test.h"
+#include "kernels/registry.h"
+#include "kernels/testing/closed_meshes.h"
 
 #include <gtest/gtest.h>
 

@@ -25,7 +25,7 @@ template <class V> struct Vector {
     }
 };
 
-/// `cross` and `dot` of kernels/vec3.h.
+/// `cross` and `dot` of kernels/primitives/vec3.h.
 template <class V> HWY_INLINE Vector<V> Cross(const Vector<V>& a, const Vector<V>& b) {
     namespace hn = hwy::HWY_NAMESPACE;
     return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/ray.h"
-#include "kernels/triangle.h"
+#include "kernels/primitives/ray.h"
+#include "kernels/primitives/triangle.h"
 #include "kernels/verdict.h"
 
 #include <concepts>

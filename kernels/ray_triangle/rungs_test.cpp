@@ -1,4 +1,4 @@
-#include "kernels/catalogue.h"
+#include "kernels/registry.h"
 #include "kernels/oracle/oracle.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include "kernels/triangle_distance/certified.h"
 
-#include "kernels/float_mode.h"
+#include "kernels/arithmetic/float_mode.h"
 #include "kernels/triangle_distance/nearest_pair.h"
 #include "kernels/triangle_distance/refined_bounds.h"
 #include "kernels/triangle_distance/rescale.h"

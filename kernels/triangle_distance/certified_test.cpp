@@ -1,7 +1,7 @@
 #include "kernels/triangle_distance/certified.h"
 
-#include "kernels/float_mode.h"
-#include "kernels/triangle_distance/distance_pairs_for_test.h"
+#include "kernels/arithmetic/float_mode.h"
+#include "kernels/testing/distance_pairs.h"
 #include "kernels/triangle_distance/refined_bounds.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/segment.h"
-#include "kernels/triangle.h"
+#include "kernels/primitives/segment.h"
+#include "kernels/primitives/triangle.h"
 #include "kernels/triangle_triangle/triangle_kernel.h"
 #include "kernels/verdict.h"
 

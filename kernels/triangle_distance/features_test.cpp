@@ -1,7 +1,7 @@
 #include "kernels/triangle_distance/features.h"
 
-#include "kernels/every_target_for_test.h"
-#include "kernels/triangle_distance/distance_pairs_for_test.h"
+#include "kernels/testing/every_target.h"
+#include "kernels/testing/distance_pairs.h"
 #include "kernels/triangle_distance/features_batch.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 
 #include "kernels/features/segment_segment.h"
 #include "kernels/predicates/binary64.h"
-#include "kernels/triangle_distance/double_double.h"
+#include "kernels/arithmetic/double_double.h"
 
 #include <algorithm>
 #include <array>

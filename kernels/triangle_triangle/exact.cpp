@@ -1,6 +1,6 @@
 #include "kernels/triangle_triangle/exact.h"
 
-#include "kernels/float_mode.h"
+#include "kernels/arithmetic/float_mode.h"
 #include "kernels/predicates/accumulated.h"
 #include "kernels/predicates/grid.h"
 

@@ -1,7 +1,7 @@
 #include "kernels/triangle_triangle/exact.h"
 
-#include "kernels/float_mode.h"
-#include "kernels/triangle_triangle/triangle_pairs_for_test.h"
+#include "kernels/arithmetic/float_mode.h"
+#include "kernels/testing/triangle_pairs.h"
 
 #include <gtest/gtest.h>
 

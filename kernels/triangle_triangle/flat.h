@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/predicates/orientation.h"
-#include "kernels/triangle.h"
+#include "kernels/primitives/triangle.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/joined.h"
+#include "kernels/detail/joined.h"
 #include "kernels/predicates/rounded.h"
 #include "kernels/triangle_triangle/determinants.h"
 #include "kernels/triangle_triangle/flat.h"

@@ -5,7 +5,7 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
-#include "kernels/float_mode.h"
+#include "kernels/arithmetic/float_mode.h"
 #include "kernels/triangle_triangle/guigue_devillers_batch.h"
 
 #include <algorithm>

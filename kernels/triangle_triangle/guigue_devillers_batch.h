@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/joined.h"
+#include "kernels/detail/joined.h"
 #include "kernels/triangle_triangle/exact.h"
 #include "kernels/triangle_triangle/guigue_devillers.h"
 #include "kernels/triangle_triangle/triangle_kernel.h"

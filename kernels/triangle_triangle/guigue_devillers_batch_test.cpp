@@ -1,8 +1,8 @@
 #include "kernels/triangle_triangle/guigue_devillers_batch.h"
 
-#include "kernels/every_target_for_test.h"
-#include "kernels/float_mode.h"
-#include "kernels/triangle_triangle/triangle_pairs_for_test.h"
+#include "kernels/testing/every_target.h"
+#include "kernels/arithmetic/float_mode.h"
+#include "kernels/testing/triangle_pairs.h"
 
 #include <gtest/gtest.h>
 

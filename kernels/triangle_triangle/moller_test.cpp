@@ -1,6 +1,6 @@
 #include "kernels/triangle_triangle/moller.h"
 
-#include "kernels/triangle_triangle/triangle_pairs_for_test.h"
+#include "kernels/testing/triangle_pairs.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/float_mode.h"
+#include "kernels/arithmetic/float_mode.h"
 #include "kernels/triangle_triangle/sat_axes.h"
 #include "kernels/triangle_triangle/triangle_kernel.h"
 

@@ -1,7 +1,7 @@
 #include "kernels/triangle_triangle/sat.h"
 #include "kernels/triangle_triangle/sat_certified.h"
 
-#include "kernels/triangle_triangle/triangle_pairs_for_test.h"
+#include "kernels/testing/triangle_pairs.h"
 
 #include <gtest/gtest.h>
 

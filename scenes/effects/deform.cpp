@@ -1,4 +1,4 @@
-#include "scenes/moving/effect.h"
+#include "scenes/effects/effect.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
-#include "scenes/catalogue.h"
-#include "scenes/four_link.h"
+#include "scenes/registry.h"
+#include "scenes/robots/four_link.h"
 
 namespace boxwood {
 namespace {

@@ -1,4 +1,4 @@
-#include "scenes/catalogue.h"
+#include "scenes/registry.h"
 
 #include <fmt/format.h>
 

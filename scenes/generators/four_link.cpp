@@ -1,6 +1,6 @@
-#include "scenes/four_link.h"
+#include "scenes/robots/four_link.h"
 
-#include "scenes/catalogue.h"
+#include "scenes/registry.h"
 
 namespace boxwood {
 namespace {

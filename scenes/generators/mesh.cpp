@@ -1,5 +1,5 @@
-#include "scenes/catalogue.h"
-#include "scenes/mesh_file.h"
+#include "scenes/registry.h"
+#include "scenes/meshes/mesh_file.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
-#include "scenes/catalogue.h"
-#include "scenes/random.h"
+#include "scenes/registry.h"
+#include "scenes/sampling/random.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
-#include "scenes/catalogue.h"
-#include "scenes/scatter.h"
+#include "scenes/registry.h"
+#include "scenes/sampling/scatter.h"
 
 namespace boxwood {
 namespace {

@@ -1,6 +1,6 @@
 #include "scenes/hard_cases/hard_cases.h"
 
-#include "scenes/random.h"
+#include "scenes/sampling/random.h"
 
 #include <fmt/format.h>
 

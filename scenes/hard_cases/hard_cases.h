@@ -1,11 +1,11 @@
 #pragma once
 
-#include "kernels/aabb.h"
-#include "kernels/boxes/obb.h"
-#include "kernels/boxes/rigid_transform.h"
+#include "kernels/primitives/aabb.h"
+#include "kernels/primitives/obb.h"
+#include "kernels/primitives/rigid_transform.h"
 #include "kernels/continuous/continuous_kernel.h"
-#include "kernels/ray.h"
-#include "kernels/triangle.h"
+#include "kernels/primitives/ray.h"
+#include "kernels/primitives/triangle.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -98,7 +98,7 @@ class Random;
 /// A family of hard cases: `boxwood list families`. A word of BOXWOOD_FAMILIES in hard_cases.cpp
 /// and a function that makes this row.
 struct HardCaseFamily {
-    std::string_view name;    ///< catalogue word
+    std::string_view name;    ///< registry word
     std::string_view summary; ///< one line
     Panel panel = Panel::generic;
     std::string_view k_meaning{}; ///< what k is; empty if there is none
@@ -110,7 +110,7 @@ struct HardCaseFamily {
 };
 
 std::span<const HardCaseFamily> hard_case_families();
-/// The family by its catalogue word, or nullptr.
+/// The family by its registry word, or nullptr.
 const HardCaseFamily* find_hard_case_family(std::string_view name);
 
 /// Throws std::invalid_argument naming family, parameter and range for a bad spec.

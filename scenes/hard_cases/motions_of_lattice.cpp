@@ -196,13 +196,13 @@ LatticeMotion tangential_vertex_face(Draws& draws, std::int64_t size) {
 LatticeMotion tangential_edge_edge(Draws& draws, std::int64_t size) {
     const Rolling r = draw_rolling(draws, size);
     const std::int64_t x = draw_integer(draws, -size / 4, size / 4);
-    const std::int64_t lean = draw_integer(draws, -size / 8, size / 8);
+    const std::int64_t imbalance = draw_integer(draws, -size / 8, size / 8);
     const std::int64_t left = -draw_integer(draws, size, 2 * size);
     const std::int64_t right = draw_integer(draws, size, 2 * size);
     const auto at = [&](std::int64_t s) {
         return Four{LatticePoint{left, 0, 0}, LatticePoint{right, 0, 0},
-                    LatticePoint{x - lean, -r.y - r.b * s, -r.a * s + r.lift},
-                    LatticePoint{x + 3 * lean, 3 * r.y - r.b * s, 3 * r.a * s + r.lift}};
+                    LatticePoint{x - imbalance, -r.y - r.b * s, -r.a * s + r.lift},
+                    LatticePoint{x + 3 * imbalance, 3 * r.y - r.b * s, 3 * r.a * s + r.lift}};
     };
     return {at(-1), at(1), r.touch};
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scenes/hard_cases/hard_cases.h"
-#include "scenes/random.h"
+#include "scenes/sampling/random.h"
 
 namespace boxwood {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "kernels/aabb.h"
-#include "kernels/boxes/rigid_transform.h"
-#include "kernels/triangle.h"
+#include "kernels/primitives/aabb.h"
+#include "kernels/primitives/rigid_transform.h"
+#include "kernels/primitives/triangle.h"
 
 #include <cstdint>
 #include <limits>

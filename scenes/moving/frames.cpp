@@ -132,7 +132,7 @@ std::string effect_words(const SceneFile& file) {
 
 std::string ask_words(const SceneFile& file) {
     std::vector<std::string> words;
-    for (const SceneAsk& ask : file.asks)
+    for (const SceneQuery& ask : file.queries)
         words.push_back(ask.name);
     return fmt::format("{}", fmt::join(words, ","));
 }

@@ -1,6 +1,6 @@
 #include "scenes/moving/frames.h"
 
-#include "scenes/moving/effect_scene.h"
+#include "scenes/effects/effect_scene.h"
 #include "scenes/scene.h"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 #include "scenes/moving/moving_scene.h"
 
-#include "kernels/rounding.h"
+#include "kernels/arithmetic/rounding.h"
 #include "scenes/scene.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenes/moving/effect.h"
+#include "scenes/effects/effect.h"
 #include "scenes/moving/scene_file.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "scenes/moving/moving_scene.h"
 
 #include "kernels/boxes/fit.h"
-#include "scenes/four_link.h"
+#include "scenes/robots/four_link.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 #include "scenes/moving/scene_file.h"
 
-#include "scenes/moving/read_effect.h"
+#include "scenes/effects/read_effect.h"
 #include "scenes/scene.h"
 #include "scenes/suggest.h"
-#include "scenes/toml_reader.h"
+#include "scenes/moving/toml_reader.h"
 
 #include <fmt/format.h>
 
@@ -20,14 +20,14 @@ constexpr std::int64_t most_bodies = 100'000'000;
 constexpr std::int64_t most_queries = 10'000'000;
 
 /// "pairs", or {name = "regions", n = 100, kind = "flying"}.
-SceneAsk read_ask(const TomlReader& reader, const toml::node& node) {
+SceneQuery read_ask(const TomlReader& reader, const toml::node& node) {
     const toml::table* table = node.as_table();
     const toml::node* name = table ? table->get("name") : &node;
     if (!name || (!table && !node.is_string()))
         reader.fail(node.source(), "an ask is a word, or {name = \"WORD\", n = NUMBER, ...}");
-    const std::string word = reader.word(*name, "asks", names_of(scene_asks()));
-    const SceneAskEntry& entry = *std::ranges::find(scene_asks(), word, &SceneAskEntry::name);
-    SceneAsk ask = entry.defaults;
+    const std::string word = reader.word(*name, "queries", names_of(scene_queries()));
+    const SceneQueryEntry& entry = *std::ranges::find(scene_queries(), word, &SceneQueryEntry::name);
+    SceneQuery ask = entry.defaults;
     ask.name = word;
     if (!table)
         return ask;
@@ -45,15 +45,15 @@ SceneAsk read_ask(const TomlReader& reader, const toml::node& node) {
     return ask;
 }
 
-void read_asks(const TomlReader& reader, const toml::table& root, std::vector<SceneAsk>& asks) {
-    reader.list(root, "asks", asks, [&](const toml::node& node) {
-        SceneAsk ask = read_ask(reader, node);
-        if (std::ranges::find(asks, ask.name, &SceneAsk::name) != asks.end())
+void read_asks(const TomlReader& reader, const toml::table& root, std::vector<SceneQuery>& asks) {
+    reader.list(root, "queries", asks, [&](const toml::node& node) {
+        SceneQuery ask = read_ask(reader, node);
+        if (std::ranges::find(asks, ask.name, &SceneQuery::name) != asks.end())
             reader.fail(node.source(), fmt::format("'{}' is asked twice", ask.name));
         return ask;
     });
     if (asks.empty())
-        reader.fail(root.get("asks")->source(), "asks must name something, such as \"pairs\"");
+        reader.fail(root.get("queries")->source(), "queries must name something, such as \"pairs\"");
 }
 
 bool read_flag(const TomlReader& reader, const toml::table& table, std::string_view key) {
@@ -129,7 +129,7 @@ SceneFile parse_scene_file(std::string_view text, const std::string& file) {
     const toml::table root = reader.parse(text);
     reader.require_known_keys(
         root, "a scene file",
-        {"summary", "n", "seed", "frames", "frames_per_second", "view", "asks", "bodies"});
+        {"summary", "n", "seed", "frames", "frames_per_second", "view", "queries", "bodies"});
     SceneFile scene;
     scene.name = std::filesystem::path(file).stem().string();
     if (const toml::node* summary = root.get("summary"))
@@ -144,7 +144,7 @@ SceneFile parse_scene_file(std::string_view text, const std::string& file) {
         scene.frames_per_second = reader.number(*fps, "frames_per_second", 1e-3, 1e6);
     if (const toml::node* view = root.get("view"))
         scene.view = reader.word(*view, "view", {"xy", "xz", "yz"});
-    read_asks(reader, root, scene.asks);
+    read_asks(reader, root, scene.queries);
     const toml::node* bodies = root.get("bodies");
     const toml::array* groups = bodies ? bodies->as_array() : nullptr;
     if (!groups || groups->empty())
@@ -157,9 +157,9 @@ SceneFile parse_scene_file(std::string_view text, const std::string& file) {
     return scene;
 }
 
-const SceneAsk* ask_of(const SceneFile& file, std::string_view word) {
-    const auto found = std::ranges::find(file.asks, word, &SceneAsk::name);
-    return found == file.asks.end() ? nullptr : &*found;
+const SceneQuery* ask_of(const SceneFile& file, std::string_view word) {
+    const auto found = std::ranges::find(file.queries, word, &SceneQuery::name);
+    return found == file.queries.end() ? nullptr : &*found;
 }
 
 std::span<const BuiltInScene> built_in_scenes() {

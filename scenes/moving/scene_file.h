@@ -1,8 +1,8 @@
 #pragma once
 
 #include "kernels/settings.h"
-#include "kernels/vec3.h"
-#include "scenes/moving/ask.h"
+#include "kernels/primitives/vec3.h"
+#include "scenes/moving/query.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -46,11 +46,11 @@ struct SceneFile {
     double frames_per_second = 30;
     std::string view = "xy"; ///< the plane in which it is drawn: xy, xz or yz
     std::vector<BodyGroup> groups;
-    std::vector<SceneAsk> asks{{.name = "pairs"}}; ///< each word once
+    std::vector<SceneQuery> queries{{.name = "pairs"}}; ///< each word once
 };
 
 /// The ask of this word, or nullptr.
-const SceneAsk* ask_of(const SceneFile& file, std::string_view word);
+const SceneQuery* ask_of(const SceneFile& file, std::string_view word);
 
 /// Throws std::invalid_argument, "file:line: what and how to fix it", for what is no scene.
 SceneFile parse_scene_file(std::string_view text, const std::string& file);

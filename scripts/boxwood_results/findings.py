@@ -92,7 +92,7 @@ def findings(run):
     are one Holm family, as in `boxwood sweep`."""
     found, floor = [], run.noise_floor
     for job in run.jobs:
-        if job.ask == SCENE_ASKS:
+        if job.task == SCENE_ASKS:
             continue
         cells = run.of(job)
         wrong = [c for c in run.cells if c.job == job and c.status == "wrong"]  # timed or not
@@ -107,7 +107,7 @@ def findings(run):
 def in_lane(job, lane, ranked, floor):
     best = {
         phase: min((c for c in ranked if c.ours and c.rounds(phase)), key=lambda c: c.median(phase), default=None)
-        for phase in ((TOTAL,) if job.ask in WHOLE_FRAMES else (TOTAL, "query"))
+        for phase in ((TOTAL,) if job.task in WHOLE_FRAMES else (TOTAL, "query"))
     }
     peers = sorted((c for c in ranked if not c.ours), key=lambda c: c.label)
     comparisons = []

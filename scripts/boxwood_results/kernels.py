@@ -1,4 +1,4 @@
-"""Kernels on hard cases: what each rung costs and how often it is wrong."""
+"""Kernels on hard cases: what each kernel costs and how often it is wrong."""
 
 import math
 from collections import defaultdict
@@ -11,15 +11,15 @@ LEAST_ERROR = 2.0**-53  # a relative error below half an ulp of a double is none
 
 @dataclass
 class KernelPoint:
-    """One rung, ours or a peer's, on one family of hard cases."""
+    """One kernel, ours or a peer's, on one family of hard cases."""
 
     row: object
     cell: object
     conditions: list  # rows of the table `conditions`
 
     @property
-    def kernel_family(self):
-        return self.row["kernel_family"]
+    def task(self):
+        return self.row["task"]
 
     @property
     def panel(self):
@@ -31,10 +31,10 @@ class KernelPoint:
         return self.cell.job.scene
 
     @property
-    def rung(self):
+    def kernel(self):
         """As a label; a peer that has one name in both precisions says which."""
-        rung, precision = self.row["rung"], self.cell.precision
-        return rung if self.ours or precision == "f64" or precision in rung else f"{rung} {precision}"
+        kernel, precision = self.row["kernel"], self.cell.precision
+        return kernel if self.ours or precision == "f64" or precision in kernel else f"{kernel} {precision}"
 
     @property
     def ours(self):
@@ -68,7 +68,7 @@ class KernelPoint:
 
     @property
     def breaks_promise(self):
-        """Whether one of ours did what its rung promises not to do."""
+        """Whether one of ours did what its kernel promises not to do."""
         row, promise = self.row, self.row["promise"]
         misses = promise in ("never-miss", "certified", "exact") and row["false_neg"]
         falsehoods = promise in ("never-false", "certified", "exact") and row["false_pos"]
@@ -80,8 +80,8 @@ class KernelPoint:
 
 
 @dataclass
-class Rung:
-    """One rung over all families of one panel."""
+class Kernel:
+    """One kernel over all families of one panel."""
 
     name: str
     ours: bool
@@ -98,17 +98,17 @@ class Rung:
         return 1e6 * self.wrong / self.n
 
 
-def rungs(points):
-    """The rungs of some points of one kernel family, those of ours first, by rising time."""
+def kernels(points):
+    """The kernels of some points of one kernel family, those of ours first, by rising time."""
     groups = defaultdict(list)
     for point in points:
         if point.supported and point.ns == point.ns:
-            groups[point.ours, point.library, point.rung].append(point)
+            groups[point.ours, point.library, point.kernel].append(point)
     made = []
     for (ours, library, name), members in groups.items():
         errors = [p.error for p in members if p.error == p.error]
         made.append(
-            Rung(name, ours, library, members[0].row["promise"], sum(p.ns for p in members) / len(members),
+            Kernel(name, ours, library, members[0].row["promise"], sum(p.ns for p in members) / len(members),
                  sum(p.n for p in members), sum(p.wrong for p in members),
                  sum(int(p.row["maybe"]) for p in members), max(errors, default=math.nan))
         )
@@ -118,32 +118,32 @@ def rungs(points):
 def by_kernel_family(run):
     groups = defaultdict(list)
     for point in run.kernels:
-        groups[point.kernel_family].append(point)
+        groups[point.task].append(point)
     return dict(groups)
 
 
-def is_measured(kernel_family):
-    """Whether a rung is judged by its error (distances), not by yes or no."""
-    return kernel_family in DISTANCES
+def is_measured(task):
+    """Whether a kernel is judged by its error (distances), not by yes or no."""
+    return task in DISTANCES
 
 
 def take_home(run):
-    """A sentence per kernel family and panel: the cheapest of our rungs without a wrong answer."""
+    """A sentence per kernel family and panel: the cheapest of our kernels without a wrong answer."""
     lines = []
-    for kernel_family, points in by_kernel_family(run).items():
+    for task, points in by_kernel_family(run).items():
         for panel in PANELS:
-            ours = [r for r in rungs([p for p in points if p.panel == panel]) if r.ours]
+            ours = [r for r in kernels([p for p in points if p.panel == panel]) if r.ours]
             if not ours:
                 continue
             fastest = ours[0]
             right = [r for r in ours if r.wrong == 0 and r.maybe == 0]
-            start = f"{kernel_family}, {panel} input: "
+            start = f"{task}, {panel} input: "
             if not right:
-                lines.append(start + f"no rung without a wrong answer; the fastest is {fastest.name}")
+                lines.append(start + f"no kernel without a wrong answer; the fastest is {fastest.name}")
                 continue
             best = right[0]
             lines.append(
-                start + f"cheapest rung with no wrong answer: {best.name}, {best.ns:,.{0 if best.ns >= 100 else 1}f} ns, at "
+                start + f"cheapest kernel with no wrong answer: {best.name}, {best.ns:,.{0 if best.ns >= 100 else 1}f} ns, at "
                 f"{best.ns / fastest.ns:,.2f} times the fastest ({fastest.name})"
             )
     return lines

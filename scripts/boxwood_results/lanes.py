@@ -4,13 +4,13 @@ RAYS = ("rays_closest", "rays_any", "rays_all")
 PACKETS = ("sect8", "sect16", "occluded8", "occluded16")
 SINGLE_LANE, BATCH_LANE, PACKET_LANE = "against single rays", "batches against single rays", "against packets"
 WATERTIGHT = ", watertight"
-EVERY = ""  # the one lane of all other asks
+EVERY = ""  # the one lane of all other tasks
 
 
 def lanes_of(cell):
-    """As in `boxwood show`. Ours asks one ray in a call, or all in one: as a batch it is held against single rays
+    """As in `boxwood show`. Ours tasks one ray in a call, or all in one: as a batch it is held against single rays
     and packets, sorted against packets alone, and of any kernel against peers that are not watertight."""
-    if cell.job.ask not in RAYS:
+    if cell.job.task not in RAYS:
         return [EVERY]
     if not cell.ours:
         packets = any(part in cell.contender for part in PACKETS)

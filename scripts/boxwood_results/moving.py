@@ -9,7 +9,7 @@ from .findings import ratio_text, time_text
 from .run import SCENE_ASKS, TOTAL
 from .selection import largest_jobs
 
-CALLED_FOR, EVERYTHING, WITHOUT = "called_for", "everything", "called_for.without_"
+CALLED_FOR, EVERYTHING, WITHOUT = "required", "all_stages", "required.without_"
 SCREEN_NS = 1e9 / 60
 
 
@@ -29,39 +29,39 @@ def percentile(values, part):
 
 @dataclass
 class PlayedScene:
-    """A scene with everything it asks, on one number of threads, and the ways it was played."""
+    """A scene with everything it tasks, on one number of threads, and the ways it was played."""
 
     job: object
-    called_for: object = None
+    required: object = None
     everything: object = None
     without: dict = field(default_factory=dict)  # effect -> cell
 
     def ratio(self, cell):
         """Time of a frame of `cell` over that of what is called for."""
-        return stats.paired_ratio(cell.rounds(TOTAL), self.called_for.rounds(TOTAL))
+        return stats.paired_ratio(cell.rounds(TOTAL), self.required.rounds(TOTAL))
 
     def price(self, effect):
         """Time of a frame with the effect over the same without it."""
-        return stats.paired_ratio(self.called_for.rounds(TOTAL), self.without[effect].rounds(TOTAL))
+        return stats.paired_ratio(self.required.rounds(TOTAL), self.without[effect].rounds(TOTAL))
 
 
 def played_scenes(run, largest=True):
     """What was played as it is called for and answered rightly; of each scene its largest size."""
     played = {}
     for job in largest_jobs(run.jobs) if largest else run.jobs:
-        if job.ask != SCENE_ASKS:
+        if job.task != SCENE_ASKS:
             continue
         for cell in run.of(job):
             if cell.status == "wrong":
                 continue
             scene = played.setdefault((job, cell.executor), PlayedScene(job))
             if cell.contender == CALLED_FOR:
-                scene.called_for = cell
+                scene.required = cell
             elif cell.contender == EVERYTHING:
                 scene.everything = cell
             elif cell.contender.startswith(WITHOUT):
                 scene.without[cell.contender.removeprefix(WITHOUT)] = cell
-    return [scene for scene in played.values() if scene.called_for]
+    return [scene for scene in played.values() if scene.required]
 
 
 def moved_share(cell):
@@ -97,7 +97,7 @@ def take_home(run):
     """Sentences: only what is called for against everything on, and what effects cost."""
     lines = []
     for scene in played_scenes(run):
-        said = f"{scene.job}: a frame of what the scene calls for takes {time_text(frame_ns(scene.called_for))}"
+        said = f"{scene.job}: a frame of what the scene calls for takes {time_text(frame_ns(scene.required))}"
         if scene.everything:
             said += f"; with everything on {interval_text(scene.ratio(scene.everything))} as long"
         lines.append(said)

@@ -85,10 +85,10 @@ def kernels_html(run):
     if not run.kernels:
         return ""
     lines = "".join(f"<li>{escape(line)}.</li>" for line in take_home(run))
-    columns = ("kernels", "cases", "rung", "library", "promise", "status", "n", "ns", "false pos", "false neg", "maybe",
+    columns = ("kernels", "cases", "kernel", "library", "promise", "status", "n", "ns", "false pos", "false neg", "maybe",
                "out of bound", "worst relative error", "witness")
     rows = [
-        (p.kernel_family, p.cases, p.rung, p.library, p.row["promise"], p.row["status"], p.n, p.ns,
+        (p.task, p.cases, p.kernel, p.library, p.row["promise"], p.row["status"], p.n, p.ns,
          int(p.row["false_pos"]), int(p.row["false_neg"]), int(p.row["maybe"]), int(p.row["bound_violations"]), p.error,
          p.row["witness"])
         for p in run.kernels

@@ -15,7 +15,7 @@ REQUIRED = {
     "scenes": ("scene_id", "name", "n_items", "seed"),
     "variants": ("variant_id", "name", "library", "builder", "traversal", "kernel", "notes"),
     "cells": (
-        "cell_id", "name", "scene_id", "variant_id", "ask", "n_items", "n_queries", "precision",
+        "cell_id", "name", "scene_id", "variant_id", "task", "n_items", "n_queries", "precision",
         "executor", "threads",
     ),
     "shards": ("shard_id", "round", "env_id", "load1"),
@@ -26,12 +26,12 @@ OPTIONAL = {
     "counters": ("cell_id", "counter", "value"),
     "trees": ("cell_id", "sah_cost", "epo", "depth_max", "bytes"),
     "kernels": (
-        "cell_id", "family", "panel", "kernel_family", "rung", "promise", "n", "ns_per_call", "false_pos",
+        "cell_id", "family", "panel", "task", "kernel", "promise", "n", "ns_per_call", "false_pos",
         "false_neg", "maybe", "max_ulp", "max_rel_err", "bound_violations", "tier_0", "tier_1", "tier_2",
         "tier_3", "status", "witness",
     ),
     "frames": ("cell_id", "shard_id", "frame", "update_ns", "query_ns"),
-    "effects": ("cell_id", "shard_id", "stage", "called_for", "calls", "items", "total_ns", "bytes"),
+    "effects": ("cell_id", "shard_id", "stage", "required", "calls", "items", "total_ns", "bytes"),
     "conditions": ("cell_id", "log10_condition", "n", "max_rel_err", "bound"),
 }
 

@@ -13,7 +13,7 @@ AA_TWIN, WRONG_ANSWER, DISTURBED = 4, 8, 1 | 2
 RANKED = ("exact", "conservative", "within_bound")
 STATUSES = ("wrong", "unsupported", "within_bound", "conservative", "exact")  # the worst first
 OURS = "boxwood"
-SCENE_ASKS = "scene_asks"  # frames of a moving scene with all that it asks: ways to play it, not rivals
+SCENE_ASKS = "scene_queries"  # frames of a moving scene with all that it tasks: ways to play it, not rivals
 ORDERS_OF_RAYS = ("sorted_rays", "single_rays")  # other than one call in the order given
 WHOLE_QUERY = "typical"  # a kernel row about a whole query, whose cell stays among the others
 TOTAL = "build+query"  # within a round: what one use costs; of moving boxes update and query, of trees the build
@@ -31,19 +31,19 @@ class Job:
     scene: str
     n: int
     seed: int
-    ask: str
+    task: str
     threads: int
 
     def __str__(self):
         threads = "1 thread" if self.threads == 1 else f"{self.threads} threads"
-        return f"{self.scene} {self.n:,} · {self.ask} · {threads}"
+        return f"{self.scene} {self.n:,} · {self.task} · {threads}"
 
 
 @dataclass
 class Stage:
     """One stage of a cell's plan: sums over the frames of one pass, times by round."""
 
-    called_for: bool
+    required: bool
     calls: int
     items: int
     bytes: int
@@ -86,13 +86,13 @@ class Cell:
     @property
     def family(self):
         """What colour stands for: our builder or policy, how a scene is played, or the peer's library."""
-        if self.job.ask == SCENE_ASKS and self.ours:
+        if self.job.task == SCENE_ASKS and self.ours:
             return self.contender
         return self.builder if self.ours and self.builder else self.library
 
     @property
     def label(self):
-        """Short, for use within one job: a traversal that follows from the ask is left out."""
+        """Short, for use within one job: a traversal that follows from the task is left out."""
         if not self.ours:
             return self.contender
         shown = self.traversal in ORDERS_OF_RAYS
@@ -170,7 +170,7 @@ def read_cells(source):
     for row in source["cells"]:
         scene, variant = scenes[row["scene_id"]], variants[row["variant_id"]]
         job = Job(
-            scene["name"], int(row["n_items"]), int(scene["seed"]), row["ask"],
+            scene["name"], int(row["n_items"]), int(scene["seed"]), row["task"],
             int(row["threads"]),
         )
         cells[row["cell_id"]] = Cell(
@@ -225,7 +225,7 @@ def add_stages(cells, table):
     for row in table:
         stages = cells[row["cell_id"]].stages
         stage = stages.setdefault(row["stage"], Stage(
-            bool(row["called_for"]), int(row["calls"]), int(row["items"]), int(row["bytes"])))
+            bool(row["required"]), int(row["calls"]), int(row["items"]), int(row["bytes"])))
         stage.times.append(float(row["total_ns"]))
 
 
@@ -262,6 +262,6 @@ def read(path):
     ordered = list(cells.values())
     jobs = sorted(
         {cell.job for cell in ordered if cell.rounds(TOTAL)},
-        key=lambda job: (job.ask, job.scene, job.n, job.threads, job.seed),
+        key=lambda job: (job.task, job.scene, job.n, job.threads, job.seed),
     )
     return Run(source, ordered, jobs, missing, kernels)

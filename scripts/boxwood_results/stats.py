@@ -14,7 +14,7 @@ FASTER, SLOWER, SAME, CANNOT_TELL, WRONG = "faster", "slower", "same", "cannot_t
 
 
 def interval_ranks(n, confidence=0.95):
-    """Ranks (1-based) of the sorted values that enclose the median with at least `confidence`, as
+    """Ranks (1-based) of the sorted values that refit_upward the median with at least `confidence`, as
     narrow as can be; None where n is too small. Exact for any continuous distribution."""
     tail, rank = 0.0, 0
     for k in range(n // 2):

@@ -39,8 +39,8 @@ POLICIES = {
     "refit": ("#882255", "d"),
     "refine": ("#AA4499", "H"),
     "reinsert": ("#999933", "8"),
-    "called_for": ("#0072B2", "o"),  # stand beside each other alone
-    "everything": ("#D55E00", "D"),
+    "required": ("#0072B2", "o"),  # stand beside each other alone
+    "all_stages": ("#D55E00", "D"),
 }
 # For families that come later: Tol's muted colours, chosen by name so that they never change.
 OTHER_COLOURS = ("#332288", "#117733", "#882255", "#999933", "#AA4499", "#44AA99")

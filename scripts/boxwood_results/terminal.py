@@ -14,7 +14,7 @@ def machine_line(run):
 
 def rate_text(cell):
     """Queries per second where one query holds many, as rays do."""
-    if not cell.job.ask.startswith("rays") or not 0 < cell.n_queries < 2**63:
+    if not cell.job.task.startswith("rays") or not 0 < cell.n_queries < 2**63:
         return ""
     return f", {cell.n_queries / cell.median('query') * 1e3:.3g} M rays/s"
 
@@ -72,7 +72,7 @@ def summary(run):
         lines += [f"    {cell.label}: not checked, not ranked" for cell in finding.unchecked]
     scenes = moving.take_home(run)
     if scenes:
-        lines += ["", "Scenes that move, with what they ask:", *(f"  {line}" for line in scenes)]
+        lines += ["", "Scenes that move, with what they task:", *(f"  {line}" for line in scenes)]
     if run.kernels:
         lines += ["", *kernel_lines(run)]
     return lines + ["", *closing_lines(run)]
@@ -80,7 +80,7 @@ def summary(run):
 
 def kernel_lines(run):
     broken = [
-        f"  BROKEN PROMISE: {p.rung} ({p.row['promise']}) on {p.cases}, {p.kernel_family}: {p.row['witness']}"
+        f"  BROKEN PROMISE: {p.kernel} ({p.row['promise']}) on {p.cases}, {p.task}: {p.row['witness']}"
         for p in run.kernels
         if p.breaks_promise
     ]

@@ -17,7 +17,7 @@ COLUMNS = {
                ("n_frames", U8), ("content_hash", U8), ("params_json", TEXT)],
     "variants": [("variant_id", U4), ("name", NAME), ("library", WORD), ("builder", WORD), ("layout", WORD),
                  ("traversal", WORD), ("kernel", WORD), ("is_peer", U4), ("notes", TEXT)],
-    "cells": [("cell_id", U4), ("name", "S320"), ("scene_id", U4), ("variant_id", U4), ("ask", WORD),
+    "cells": [("cell_id", U4), ("name", "S320"), ("scene_id", U4), ("variant_id", U4), ("task", WORD),
               ("n_items", U8), ("n_queries", U8), ("precision", WORD), ("executor", WORD), ("threads", U4),
               ("isa", WORD), ("iterations", U8)],
     "shards": [("shard_id", U4), ("round", U4), ("env_id", U4), ("pid", U4), ("order_seed", U8), ("t0_utc_ns", U8),
@@ -26,12 +26,12 @@ COLUMNS = {
                 ("cpu_ns", F8), ("iterations", U8), ("nvcsw", U8), ("nivcsw", U8), ("minflt", U8), ("flags", U4)],
     "frames": [("cell_id", U4), ("shard_id", U4), ("round", U4), ("frame", U4), ("update_ns", F8), ("query_ns", F8),
                ("pairs", U8), ("box_tests", U8), ("sah", F8)],
-    "effects": [("cell_id", U4), ("shard_id", U4), ("round", U4), ("stage", WORD), ("called_for", U4), ("calls", U8),
+    "effects": [("cell_id", U4), ("shard_id", U4), ("round", U4), ("stage", WORD), ("required", U4), ("calls", U8),
                 ("items", U8), ("total_ns", F8), ("bytes", U8)],
     "counters": [("cell_id", U4), ("counter", WORD), ("value", U8)],
     "checks": [("cell_id", U4), ("oracle", WORD), ("status", WORD), ("n_checked", U8), ("n_expected", U8),
                ("n_got", U8), ("missing", U8), ("extra", U8), ("max_ulp", F8), ("witness", TEXT)],
-    "kernels": [("cell_id", U4), ("family", WORD), ("panel", WORD), ("kernel_family", WORD), ("rung", WORD),
+    "kernels": [("cell_id", U4), ("family", WORD), ("panel", WORD), ("task", WORD), ("kernel", WORD),
                 ("promise", WORD), ("n", U8), ("ns_per_call", F8), ("false_pos", U8), ("false_neg", U8), ("maybe", U8),
                 ("max_ulp", F8), ("max_rel_err", F8), ("bound_violations", U8), ("escalation_rate", F8), ("tier_0", U8),
                 ("tier_1", U8), ("tier_2", U8), ("tier_3", U8), ("status", WORD), ("witness", TEXT)],
@@ -86,7 +86,7 @@ STAGES = {
                        "pairs": (6e3, 25e3, 1), "filter": (1e3, 1e3, 0), "transform": (30e3, 60e3, 2),
                        "mesh_trees": (0, 0, 3), "triangle_pairs": (80e3, 80e3, 1), "rays": (0, 0, 0)},
 }
-# rung -> (library, promise, ns, wrong share on touching input, share that goes beyond tier 0 there)
+# kernel -> (library, promise, ns, wrong share on touching input, share that goes beyond tier 0 there)
 TRIANGLE_RUNGS = {
     "moller_f32": ("boxwood", "no promise", 5.1, 0.3, 0),
     "guigue_devillers_f64": ("boxwood", "no promise", 9.4, 0.2, 0),
@@ -96,7 +96,7 @@ TRIANGLE_RUNGS = {
     "fcl.intersect_triangle": ("fcl", "", 161.0, 0.25, 0),
     "cgal.epick.do_intersect": ("cgal", "", 93.0, 0, 0),
 }
-DISTANCE_RUNGS = {  # rung -> (library, promise, ns, error at condition 1, power of the condition)
+DISTANCE_RUNGS = {  # kernel -> (library, promise, ns, error at condition 1, power of the condition)
     "features_f64": ("boxwood", "no promise", 90.0, 1e-16, 2),
     "cross_product_f64": ("boxwood", "no promise", 110.0, 1e-16, 1),
     "certified": ("boxwood", "certified", 160.0, 1e-16, 1),
@@ -130,22 +130,22 @@ class Maker:
             self.rows[table].append({**row, table[:-1] + "_id": ids[key]})
         return ids[key]
 
-    def cell(self, scene, n, ask, contender, spec, threads, factor=1.0, status="exact", twin=False, queries=0, kernel=""):
+    def cell(self, scene, n, task, contender, spec, threads, factor=1.0, status="exact", twin=False, queries=0, kernel=""):
         library, builder, build, query, tests = spec
-        traversal = {"pairs": "self_pairs", "rays_closest": "rays", "triangle_pairs": "self_pairs", "tree": ""}[ask]
+        traversal = {"pairs": "self_pairs", "rays_closest": "rays", "triangle_pairs": "self_pairs", "tree": ""}[task]
         traversal = traversal if builder else ""
-        name = f"{contender}.{traversal or ask}" if builder else contender
+        name = f"{contender}.{traversal or task}" if builder else contender
         name = f"{name}.{kernel}" if kernel else name
         executor = "serial" if threads == 1 else "tbb"
         scene_id = self.id_of("scenes", (scene, n), name=scene, n_items=n, seed=1)
         variant_id = self.id_of("variants", name, name=name, library=library, builder=builder, traversal=traversal,
                                 kernel=kernel, is_peer=not builder, notes="double precision" if library == "fcl" else "")
-        full = f"{scene}/n{n}-s1/{ask}/{name}/f32/{executor}-{threads}"
-        cell_id = self.id_of("cells", full, name=full, scene_id=scene_id, variant_id=variant_id, ask=ask, n_items=n,
+        full = f"{scene}/n{n}-s1/{task}/{name}/f32/{executor}-{threads}"
+        cell_id = self.id_of("cells", full, name=full, scene_id=scene_id, variant_id=variant_id, task=task, n_items=n,
                              n_queries=queries, precision="f32", executor=executor, threads=threads)
         gain = threads**0.8
         grow = math.log2(n) / 16
-        phases = [("query", query * (queries or n) * grow * factor / gain)] if ask != "tree" else []
+        phases = [("query", query * (queries or n) * grow * factor / gain)] if task != "tree" else []
         if build is not None:
             phases.append(("build", build * n * grow / gain))
         for phase, ns in phases:
@@ -154,7 +154,7 @@ class Maker:
                                         n_expected=10, n_got=10 - 2 * (status == "wrong"),
                                         missing=2 * (status == "wrong"),
                                         witness="pair 3,8" if status == "wrong" else ""))
-        if ask == "tree":
+        if task == "tree":
             self.rows["trees"].append(dict(cell_id=cell_id, n_nodes=2 * n - 1, sah_cost=tests * 2.5))
         elif builder:
             items = queries or n
@@ -164,14 +164,14 @@ class Maker:
                                            sah_cost=tests * 2.5, epo=0.1))
         return cell_id
 
-    def moving_cell(self, scene, n, ask, contender, builder, update, query, growth=0.0, frames=20, params="", status="exact"):
+    def moving_cell(self, scene, n, task, contender, builder, update, query, growth=0.0, frames=20, params="", status="exact"):
         """A cell of frames: update and query take so many ns in frame 0, and the query grows."""
         library = "boxwood" if builder else contender.split(".")[0]
         scene_id = self.id_of("scenes", (scene, n), name=scene, n_items=n, seed=1, n_frames=frames, params_json=params)
         variant_id = self.id_of("variants", contender, name=contender, library=library, is_peer=library != "boxwood",
-                                builder="" if ask == "scene_asks" else builder)
-        full = f"{scene}/n{n}-s1/{ask}/{contender}/f32/serial-1"
-        cell_id = self.id_of("cells", full, name=full, scene_id=scene_id, variant_id=variant_id, ask=ask, n_items=n,
+                                builder="" if task == "scene_queries" else builder)
+        full = f"{scene}/n{n}-s1/{task}/{contender}/f32/serial-1"
+        cell_id = self.id_of("cells", full, name=full, scene_id=scene_id, variant_id=variant_id, task=task, n_items=n,
                              precision="f32", executor="serial", threads=1)
         middle = 1 + growth * (frames - 1) / 2
         for phase, ns in (("build", 80.0 * n), ("update", update), ("query", query * middle)):
@@ -182,18 +182,18 @@ class Maker:
                 self.rows["frames"].append(dict(
                     cell_id=cell_id, shard_id=round_, round=round_, frame=frame, update_ns=update * slow * self.speed[round_],
                     query_ns=query * (1 + growth * frame) * self.speed[round_], pairs=7,
-                    **self.frame_counts(ask, builder, round_, n, 1 + 2 * growth * frame)))
+                    **self.frame_counts(task, builder, round_, n, 1 + 2 * growth * frame)))
         self.rows["checks"].append(dict(cell_id=cell_id, oracle="sweep", status=status, n_checked=n, n_expected=n, n_got=n))
         return cell_id
 
-    def frame_counts(self, ask, builder, round_, n, grown):
+    def frame_counts(self, task, builder, round_, n, grown):
         """What round 0 counts of ours: 40 box tests per item and 200 of a ray, times how far it has grown."""
-        if ask != "moving_pairs" or not builder or round_:
+        if task != "moving_pairs" or not builder or round_:
             return dict(box_tests=2**64 - 1, sah=math.nan)
         return dict(box_tests=round(40 * n * grown), sah=200 * grown)
 
     def moving(self, n=10000):
-        """Every policy on one scene with several shares that move, and two scenes with what they ask."""
+        """Every policy on one scene with several shares that move, and two scenes with what they task."""
         for share in SHARES:
             name = "uniform_drift" + ("" if share == 1 else f"_share{share:g}".replace(".", "_"))
             params = json.dumps({"frames_per_second": 30, "groups": [
@@ -203,17 +203,17 @@ class Maker:
                 self.moving_cell(name, n, "moving_pairs", contender, builder, update, n * query, growth, params=params)
         for scene, stages in STAGES.items():
             effects = [stage.removeprefix("advance_") for stage in stages if stage.startswith("advance_")]
-            for contender in ("called_for", "everything", *(f"called_for.without_{effect}" for effect in effects)):
-                everything = contender == "everything"
+            for contender in ("required", "all_stages", *(f"required.without_{effect}" for effect in effects)):
+                everything = contender == "all_stages"
                 took = {stage: ns[everything] for stage, ns in stages.items()}
                 if "without" in contender:
                     took["advance_" + contender.split("without_")[1]] = 0
                     took["update"] *= 0.6
                 query = sum(took[stage] for stage in ("pairs", "filter", "triangle_pairs") if stage in took)
-                cell_id = self.moving_cell(scene, n, "scene_asks", contender, "ours", sum(took.values()) - query, query)
+                cell_id = self.moving_cell(scene, n, "scene_queries", contender, "ours", sum(took.values()) - query, query)
                 for round_ in range(self.rounds):
                     self.rows["effects"] += [
-                        dict(cell_id=cell_id, shard_id=round_, round=round_, stage=stage, called_for=ns[0] > 0,
+                        dict(cell_id=cell_id, shard_id=round_, round=round_, stage=stage, required=ns[0] > 0,
                              calls=20 * (took[stage] > 0), items=20 * n * (took[stage] > 0),
                              total_ns=20 * took[stage] * self.speed[round_],
                              bytes=(ns[2] << 20) if took[stage] else 0)
@@ -228,18 +228,18 @@ class Maker:
                                                  wall_ns=wall, cpu_ns=wall, iterations=3,
                                                  flags=flags | (2 if disturbed else 0)))
 
-    def kernel(self, cases, kernel_family, rung, library, promise, ns, n=4000, **row):
+    def kernel(self, cases, task, kernel, library, promise, ns, n=4000, **row):
         """A kernel on a family of hard cases, as its cell, its samples and its row."""
         scene_id = self.id_of("scenes", (cases, n), name=cases, n_items=n, seed=1)
-        variant_id = self.id_of("variants", (kernel_family, rung), name=rung, library=library, kernel=rung,
+        variant_id = self.id_of("variants", (task, kernel), name=kernel, library=library, kernel=kernel,
                                 is_peer=library != "boxwood")
-        full = f"{cases}/n{n}-s1/{kernel_family}/{rung}/f64/serial-1"
-        cell_id = self.id_of("cells", full, name=full, scene_id=scene_id, variant_id=variant_id, ask=kernel_family,
+        full = f"{cases}/n{n}-s1/{task}/{kernel}/f64/serial-1"
+        cell_id = self.id_of("cells", full, name=full, scene_id=scene_id, variant_id=variant_id, task=task,
                              n_items=n, n_queries=n, precision="f64", executor="serial", threads=1)
         self.samples(cell_id, "query", ns * n)
         wrong = row.get("false_pos", 0) + row.get("false_neg", 0)
         self.rows["kernels"].append({**dict(cell_id=cell_id, family=cases.split("_k")[0], panel=CASES[cases],
-                                            kernel_family=kernel_family, rung=rung, promise=promise, n=n,
+                                            task=task, kernel=kernel, promise=promise, n=n,
                                             ns_per_call=1.1 * ns, max_ulp=math.nan, max_rel_err=math.nan, tier_0=n,
                                             status="wrong" if wrong else "exact"), **row})
         return cell_id
@@ -248,13 +248,13 @@ class Maker:
         """The ladder of two kernel families on all cases."""
         for cases, panel in CASES.items():
             hard = panel != "generic"
-            for rung, (library, promise, ns, share, up) in TRIANGLE_RUNGS.items():
+            for kernel, (library, promise, ns, share, up) in TRIANGLE_RUNGS.items():
                 wrong, tier_1 = round(4000 * share * hard), round(4000 * up * hard)
-                self.kernel(cases, "triangle_triangle", rung, library, promise, ns * (1 + hard * up * 20),
+                self.kernel(cases, "triangle_triangle", kernel, library, promise, ns * (1 + hard * up * 20),
                             false_pos=wrong // 3, false_neg=0 if promise == "never-miss" else wrong - wrong // 3,
-                            maybe=9 * hard if rung == "sat_certified" else 0, tier_0=4000 - tier_1, tier_1=tier_1)
-            for rung, (library, promise, ns, error, power) in DISTANCE_RUNGS.items():
-                cell_id = self.kernel(cases, "triangle_distance", rung, library, promise, ns,
+                            maybe=9 * hard if kernel == "sat_certified" else 0, tier_0=4000 - tier_1, tier_1=tier_1)
+            for kernel, (library, promise, ns, error, power) in DISTANCE_RUNGS.items():
+                cell_id = self.kernel(cases, "triangle_distance", kernel, library, promise, ns,
                                       max_rel_err=error * 10.0 ** (power * (6 if hard else 1)))
                 for decade in range(7 if hard else 2):
                     self.rows["conditions"].append(dict(
@@ -323,7 +323,7 @@ def full(rounds=15, wrong=True):
     made.kernels()
     made.id_of("variants", "fcl.dynamic_aabb_tree_2", name="fcl.dynamic_aabb_tree", library="fcl", is_peer=1)
     lost = made.id_of("cells", "lost", name="uniform/n1000-s1/pairs/fcl.dynamic_aabb_tree/f64/serial-2", scene_id=0,
-                      variant_id=made.ids["variants"]["fcl.dynamic_aabb_tree"], ask="pairs", n_items=1000, threads=2,
+                      variant_id=made.ids["variants"]["fcl.dynamic_aabb_tree"], task="pairs", n_items=1000, threads=2,
                       precision="f64", executor="serial")
     made.rows["checks"].append(dict(cell_id=lost, status="unsupported", witness="FCL's manager runs on one thread"))
     return made

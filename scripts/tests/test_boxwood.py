@@ -40,8 +40,8 @@ def complaint(*arguments, stdin=""):
     return done.stderr
 
 
-def words(catalogue):
-    return [row["name"] for row in json.loads(answer("list", catalogue, "--json"))]
+def words(registry):
+    return [row["name"] for row in json.loads(answer("list", registry, "--json"))]
 
 
 def choices():
@@ -215,18 +215,18 @@ def test_scene_describes_and_draws(tmp_path):
 
 def test_scene_draws_a_strip(tmp_path):
     svg = tmp_path / "strip.svg"
-    assert "asks: rays (4096 flying), " in answer("scene", "fly_through", "--n", "50", "--strip", str(svg))
+    assert "tasks: rays (4096 flying), " in answer("scene", "fly_through", "--n", "50", "--strip", str(svg))
     assert [f"frame {k}: 50 bodies" in svg.read_text() for k in (0, 33, 66, 100)] == [True] * 4
     own = tmp_path / "own.toml"
-    own.write_text('asks = {name = "rays", kind = "flyng"}\n[[bodies]]\ngenerator = "cubes"\n')
+    own.write_text('tasks = {name = "rays", kind = "flyng"}\n[[bodies]]\ngenerator = "cubes"\n')
     done = boxwood("scene", str(own))
     assert done.returncode == 2 and f"{own}:1: " in done.stderr and "did you mean 'flying'?" in done.stderr
 
 
 def test_plan_says_what_is_called_for():
     plan = json.loads(answer("plan", "still_life", "--json"))
-    assert [row["stage"] for row in plan["stages"] if row["called_for"]] == ["fit", "tree", "pairs"]
-    assert all(row["why"] and row["runs"] == row["called_for"] for row in plan["stages"])
+    assert [row["stage"] for row in plan["stages"] if row["required"]] == ["fit", "tree", "pairs"]
+    assert all(row["why"] and row["runs"] == row["required"] for row in plan["stages"])
     everything = json.loads(answer("plan", "still_life", "--everything", "--json"))
     assert "filter" in [row["stage"] for row in everything["stages"] if row["runs"]]
     assert "the same answers" in answer("plan", "tumbling_rocks", "--n", "100", "--play", "5", "--threads", "2")
@@ -242,7 +242,7 @@ def test_version_says_how_it_was_built():
 def test_list_is_the_same_whole_and_in_parts():
     whole = json.loads(answer("list", "--json"))
     assert list(whole) == (
-        "builders stages layouts updates traversals kernels scenes moving_scenes effects scene_asks query_kinds asks executors peers families".split()
+        "builders stages layouts updates traversals kernels scenes moving_scenes effects scene_queries query_kinds tasks executors peers families".split()
     )
     for name, rows in whole.items():
         assert json.loads(answer("list", name, "--json")) == rows

@@ -58,7 +58,7 @@ def test_frames_grow_by_update_and_query(tmp_path):
         made.cell("uniform_drift", n, "pairs", "auto.packed", ("boxwood", "auto", 100, 50, 0), 1)
     results = run.read(made.write(tmp_path / "a.h5"))
     for cell in results.cells:  # as a run of frames has them
-        cell.job = dataclasses.replace(cell.job, ask="moving_pairs")
+        cell.job = dataclasses.replace(cell.job, task="moving_pairs")
         cell.times["update"] = {shard: 3 * ns for shard, ns in cell.times["query"].items()}
     results.jobs = sorted({cell.job for cell in results.cells}, key=lambda job: job.n)
     made = registry.draw("scaling", results).pictures[0]
@@ -137,7 +137,7 @@ def rows_of(name, results, place=0):
 
 
 def test_accuracy_counts_wrong_answers_per_million(results):
-    rows = {(r["panel"], r["rung"]): r for r in rows_of("accuracy", results)}
+    rows = {(r["panel"], r["kernel"]): r for r in rows_of("accuracy", results)}
     assert rows["touching", "moller_f32"]["per_million"] == pytest.approx(300000)
     assert rows["touching", "guigue_devillers_exact"]["wrong"] == 0
     assert rows["generic", "moller_f32"]["ns"] == pytest.approx(5.1, rel=0.1)  # the samples, not the check's own time
@@ -151,7 +151,7 @@ def test_the_zero_lane_has_a_bar_up_to_three_over_n(results):
 
 
 def test_kernels_stay_out_of_the_other_figures(results):
-    assert results.kernels and not any(cell.job.ask == "triangle_triangle" for cell in results.cells)
+    assert results.kernels and not any(cell.job.task == "triangle_triangle" for cell in results.cells)
 
 
 def test_robustness_shows_each_kernel_and_family(results):
@@ -183,10 +183,10 @@ def test_texts_beside_bars_do_not_overlap(results, name):
 
 def test_the_ledger_has_every_stage_called_for_or_not(results):
     rows = [row for row in rows_of("ledger", results) if row["scene"] == "warehouse"]
-    ours = {row["stage"]: row for row in rows if row["played"] == "called_for"}
+    ours = {row["stage"]: row for row in rows if row["played"] == "required"}
     everything = {row["stage"]: row for row in rows if row["played"] == "everything_on"}
     assert set(ours) == set(everything) == set(synthetic.STAGES["warehouse"])
-    assert ours["pairs"]["ns_a_frame"] == pytest.approx(210e3, rel=0.05) and ours["pairs"]["called_for"] == 1
+    assert ours["pairs"]["ns_a_frame"] == pytest.approx(210e3, rel=0.05) and ours["pairs"]["required"] == 1
     assert ours["transform"]["ns_a_frame"] == ours["transform"]["calls"] == ours["transform"]["bytes"] == 0
     assert everything["transform"]["ns_a_frame"] == pytest.approx(600e3, rel=0.05)
     assert sum(row["share"] for row in ours.values()) == pytest.approx(1)
@@ -261,7 +261,7 @@ def test_the_moved_share_comes_from_the_scene(results):
 
 def test_ways_to_play_a_scene_are_no_rivals(results):
     made = [picture for name in ("forest", "speedup", "scaling") for picture in registry.draw(name, results).pictures]
-    assert made and not any("without" in str(row) or "called_for" in str(row) for p in made for row in p.rows)
+    assert made and not any("without" in str(row) or "required" in str(row) for p in made for row in p.rows)
 
 
 def test_watertight_peers_are_held_against_watertight_kernels(results):

@@ -8,7 +8,7 @@ import synthetic
 
 from boxwood_results import labels, registry, run, selection, style
 from boxwood_results.figures import accuracy, effect_price, work
-from boxwood_results.kernels import Rung
+from boxwood_results.kernels import Kernel
 
 
 @pytest.fixture(scope="module")
@@ -16,13 +16,13 @@ def results(full):
     return run.read(full)
 
 
-def rung(name, ns, wrong=0, error=math.nan):
-    return Rung(name, True, "boxwood", "no promise", ns, 1000, wrong, 0, error)
+def kernel(name, ns, wrong=0, error=math.nan):
+    return Kernel(name, True, "boxwood", "no promise", ns, 1000, wrong, 0, error)
 
 
 def test_the_axis_of_wrong_answers_ends_at_all():
     figure, (ax,) = style.panels(1)
-    accuracy.draw_panel(ax, "generic", [rung("always_wrong", 5, 1000), rung("right", 9)], False)
+    accuracy.draw_panel(ax, "generic", [kernel("always_wrong", 5, 1000), kernel("right", 9)], False)
     ticks = [text.get_text() for text in ax.get_yticklabels()]
     assert ticks[0] == "0" and ticks[-1] == "1 M"
     assert 1e6 < ax.get_ylim()[1] < 2.5e6  # room for the mark and no further number
@@ -32,7 +32,7 @@ def test_the_axis_of_wrong_answers_ends_at_all():
 @pytest.mark.parametrize("error", [7.0, 1e20, math.inf])
 def test_an_error_without_a_right_digit_stands_in_the_lane_at_the_top(error):
     figure, (ax,) = style.panels(1)
-    accuracy.draw_panel(ax, "generic", [rung("far_off", 5, 10, error), rung("near", 9, 0, 1e-12)], True)
+    accuracy.draw_panel(ax, "generic", [kernel("far_off", 5, 10, error), kernel("near", 9, 0, 1e-12)], True)
     marks = {line.get_xdata()[0]: line.get_ydata()[0] for line in ax.lines if line.get_marker() == "o"}
     assert 1 < marks[5] < ax.get_ylim()[1] < 1e6 and marks[9] == 1e-12
     tick = dict(zip(ax.get_yticks(), (text.get_text() for text in ax.get_yticklabels())))

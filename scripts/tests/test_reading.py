@@ -43,7 +43,7 @@ def test_findings_know_what_was_put_in(full):
 
 
 def test_builders_alone_have_no_query(full):
-    tree = next(f for f in findings.findings(run.read(full)) if f.job.ask == "tree")
+    tree = next(f for f in findings.findings(run.read(full)) if f.job.task == "tree")
     assert tree.ours.label == "lbvh" and tree.quickest is None
     assert [c.phase for c in tree.comparisons] == [run.TOTAL]
     assert abs(tree.comparisons[0].ratio.mid / (100 / 30) - 1) < 0.05
@@ -79,7 +79,7 @@ def test_nan_samples_are_left_out_and_counted(tmp_path):
     results = run.read(made.write(tmp_path / "a.h5"))
     assert results.missing_samples == 4
     assert all(math.isfinite(t) for c in results.cells for phase in c.times.values() for t in phase.values())
-    assert min(len(c.rounds("query")) for c in results.cells if c.job.ask != "tree") == 5
+    assert min(len(c.rounds("query")) for c in results.cells if c.job.task != "tree") == 5
 
 
 def test_one_round_claims_nothing(small):

@@ -115,9 +115,9 @@ def test_summary(full, script):
 def test_summary_says_what_accuracy_costs_and_who_broke_a_promise(tmp_path, script):
     made = synthetic.full()
     said = script("summary", made.write(tmp_path / "a.h5")).stdout
-    assert "touching input: cheapest rung with no wrong answer: guigue_devillers_exact" in said
+    assert "touching input: cheapest kernel with no wrong answer: guigue_devillers_exact" in said
     assert "BROKEN PROMISE" not in said
-    row = next(row for row in made.rows["kernels"] if row["rung"] == "guigue_devillers_exact")
+    row = next(row for row in made.rows["kernels"] if row["kernel"] == "guigue_devillers_exact")
     row.update(false_neg=1, witness="replay me")
     said = script("summary", made.write(tmp_path / "b.h5")).stdout
     assert "BROKEN PROMISE: guigue_devillers_exact (exact) on generic_pairs" in said and "replay me" in said
@@ -164,4 +164,4 @@ def test_scenes_are_told_and_shown_without_running_anything(tmp_path, script):
     kind, data = images[0]["src"].split(",")
     assert kind == "data:image/svg+xml;base64" and base64.b64decode(data).decode() == svg
     assert not parsed.named("script") and "alert(1)" not in " ".join(parsed.text)
-    assert "warehouse 1,000 · scene_asks · 1 thread: a frame of what the scene calls for takes" in " ".join(parsed.text)
+    assert "warehouse 1,000 · scene_queries · 1 thread: a frame of what the scene calls for takes" in " ".join(parsed.text)

@@ -22,7 +22,7 @@ def test_too_few_rounds_give_no_interval(n):
 
 @pytest.mark.parametrize("n", range(6, 13))
 def test_coverage_by_enumeration(n):
-    """Each value is below the true median or not, with one half: count how often the ranks enclose it."""
+    """Each value is below the true median or not, with one half: count how often the ranks refit_upward it."""
     lo, hi = stats.interval_ranks(n)
     below = [sum(signs) for signs in itertools.product((0, 1), repeat=n)]
     inside = sum(lo <= count < hi for count in below) / len(below)

@@ -24,7 +24,7 @@ seed = 1
 [[cells]]
 scene = "uniform"
 n = 200
-ask = "pairs"
+task = "pairs"
 builders = ["median", "binned_sah"]
 peers = "all"
 """

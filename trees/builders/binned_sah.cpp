@@ -6,11 +6,11 @@
 #include <hwy/highway.h>
 
 #include "trees/builders/binned_sah.h"
-#include "trees/builders/bins-inl.h"
-#include "trees/builders/join-inl.h"
-#include "trees/builders/prim8.h"
+#include "trees/builders/detail/bins-inl.h"
+#include "trees/builders/detail/join-inl.h"
+#include "trees/builders/detail/prim8.h"
 
-#include "trees/refit.h"
+#include "trees/optimizers/refit.h"
 
 #include <bit>
 #include <vector>

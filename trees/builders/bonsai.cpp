@@ -1,7 +1,7 @@
 #include "trees/builders/bonsai.h"
 
 #include "trees/builders/sweep_sah.h"
-#include "trees/curve_order.h"
+#include "trees/ordering/curve_order.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,7 +1,7 @@
-#include "trees/box_families_for_test.h"
+#include "trees/testing/box_families.h"
 #include "trees/builder.h"
-#include "trees/quality.h"
-#include "trees/validate.h"
+#include "trees/inspect/quality.h"
+#include "trees/inspect/validate.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "trees/builder.h"
-#include "trees/curve_order.h"
+#include "trees/ordering/curve_order.h"
 
 namespace boxwood {
 

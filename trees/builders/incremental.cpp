@@ -1,6 +1,6 @@
 #include "trees/builders/incremental.h"
 
-#include "trees/dynamic_tree.h"
+#include "trees/dynamic/dynamic_tree.h"
 
 namespace boxwood {
 

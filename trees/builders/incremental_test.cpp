@@ -1,7 +1,7 @@
 #include "trees/builders/incremental.h"
 
-#include "trees/box_families_for_test.h"
-#include "trees/validate.h"
+#include "trees/testing/box_families.h"
+#include "trees/inspect/validate.h"
 
 #include <gtest/gtest.h>
 

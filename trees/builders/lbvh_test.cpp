@@ -1,11 +1,11 @@
 #include "trees/builders/lbvh.h"
 
-#include "kernels/every_target_for_test.h"
-#include "trees/box_families_for_test.h"
-#include "trees/every_executor_for_test.h"
-#include "trees/quality.h"
-#include "trees/same_tree_for_test.h"
-#include "trees/validate.h"
+#include "kernels/testing/every_target.h"
+#include "trees/testing/box_families.h"
+#include "trees/testing/every_executor.h"
+#include "trees/inspect/quality.h"
+#include "trees/testing/same_tree.h"
+#include "trees/inspect/validate.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <hwy/highway.h>
 
 #include "trees/builders/median.h"
-#include "trees/builders/prim8-inl.h"
-#include "trees/refit.h"
+#include "trees/builders/detail/prim8-inl.h"
+#include "trees/optimizers/refit.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,5 +1,5 @@
 #include "trees/builders/ploc.h"
-#include "trees/builders/ploc_tile.h"
+#include "trees/builders/detail/ploc_tile.h"
 
 #include <algorithm>
 #include <memory>

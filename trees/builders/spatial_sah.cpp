@@ -1,7 +1,7 @@
 #include "trees/builders/spatial_sah.h"
 
 #include "trees/builders/binned_sah.h"
-#include "trees/builders/clip_triangle.h"
+#include "trees/builders/detail/clip_triangle.h"
 
 #include <algorithm>
 #include <bit>

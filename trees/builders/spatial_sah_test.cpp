@@ -1,15 +1,15 @@
 #include "trees/builders/spatial_sah.h"
 
-#include "kernels/catalogue.h"
-#include "kernels/ray_triangle/closed_meshes_for_test.h"
-#include "trees/builders/clip_triangle.h"
-#include "trees/every_executor_for_test.h"
+#include "kernels/registry.h"
+#include "kernels/testing/closed_meshes.h"
+#include "trees/builders/detail/clip_triangle.h"
+#include "trees/testing/every_executor.h"
 #include "trees/layout.h"
-#include "trees/quality.h"
-#include "trees/same_tree_for_test.h"
-#include "trees/traversals/brute_force_rays_for_test.h"
-#include "trees/triangle_soup_for_test.h"
-#include "trees/validate.h"
+#include "trees/inspect/quality.h"
+#include "trees/testing/same_tree.h"
+#include "trees/testing/brute_force_rays.h"
+#include "trees/testing/triangle_soup.h"
+#include "trees/inspect/validate.h"
 
 #include <gtest/gtest.h>
 

@@ -5,9 +5,9 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
-#include "trees/builders/prim8-inl.h"
+#include "trees/builders/detail/prim8-inl.h"
 #include "trees/builders/sweep_sah.h"
-#include "trees/refit.h"
+#include "trees/optimizers/refit.h"
 
 #include <array>
 #include <limits>

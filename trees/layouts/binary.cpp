@@ -1,6 +1,6 @@
 #include "trees/layouts/binary.h"
-#include "trees/layouts/exact_boxes.h"
-#include "trees/layouts/model.h"
+#include "trees/layouts/detail/exact_boxes.h"
+#include "trees/layouts/detail/model.h"
 
 #include <algorithm>
 #include <vector>

@@ -1,10 +1,10 @@
-#include "kernels/rounding.h"
-#include "trees/box_families_for_test.h"
+#include "kernels/arithmetic/rounding.h"
+#include "trees/testing/box_families.h"
 #include "trees/builder.h"
 #include "trees/layouts/binary.h"
 #include "trees/layouts/quantised8.h"
 #include "trees/layouts/wide.h"
-#include "trees/traversals/self_pairs.h"
+#include "trees/queries/self_pairs.h"
 
 #include <gtest/gtest.h>
 

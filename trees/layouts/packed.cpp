@@ -1,7 +1,7 @@
 #include "trees/layouts/packed.h"
-#include "trees/layouts/model.h"
-#include "trees/layouts/packed_blocks.h"
-#include "trees/radix_sort.h"
+#include "trees/layouts/detail/model.h"
+#include "trees/layouts/detail/packed_blocks.h"
+#include "trees/ordering/radix_sort.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #include "trees/layouts/quantised8.h"
-#include "trees/layouts/collapse.h"
-#include "trees/layouts/model.h"
+#include "trees/layouts/detail/collapse.h"
+#include "trees/layouts/detail/model.h"
 
 #include <algorithm>
 #include <cmath>

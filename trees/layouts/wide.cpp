@@ -1,7 +1,7 @@
 #include "trees/layouts/wide.h"
-#include "trees/layouts/collapse.h"
-#include "trees/layouts/exact_boxes.h"
-#include "trees/layouts/model.h"
+#include "trees/layouts/detail/collapse.h"
+#include "trees/layouts/detail/exact_boxes.h"
+#include "trees/layouts/detail/model.h"
 
 #include <algorithm>
 

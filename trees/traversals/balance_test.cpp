@@ -1,4 +1,4 @@
-#include "trees/box_families_for_test.h"
+#include "trees/testing/box_families.h"
 #include "trees/builder.h"
 #include "trees/layout.h"
 

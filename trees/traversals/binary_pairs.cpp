@@ -1,7 +1,7 @@
 #include "trees/layouts/binary.h"
 #include "trees/traversals/pair_walk.h"
-#include "trees/traversals/self_pairs.h"
-#include "trees/traversals/tree_pairs.h"
+#include "trees/queries/self_pairs.h"
+#include "trees/queries/tree_pairs.h"
 
 namespace boxwood {
 namespace {

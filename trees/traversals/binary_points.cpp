@@ -1,5 +1,5 @@
 #include "trees/layouts/binary.h"
-#include "trees/traversals/points.h"
+#include "trees/queries/points.h"
 
 namespace boxwood {
 namespace {

@@ -1,6 +1,6 @@
 #include "kernels/ray_box/slabs.h"
-#include "kernels/rounding.h"
-#include "trees/traversals/rays.h"
+#include "kernels/arithmetic/rounding.h"
+#include "trees/queries/rays.h"
 
 namespace boxwood {
 namespace {

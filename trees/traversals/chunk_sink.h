@@ -1,7 +1,7 @@
 #pragma once
 
-#include "trees/pairs.h"
-#include "trees/work.h"
+#include "trees/queries/pairs.h"
+#include "trees/inspect/work.h"
 
 #include <atomic>
 

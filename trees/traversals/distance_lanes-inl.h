@@ -6,7 +6,7 @@
 #define BOXWOOD_DISTANCE_LANES_INL_H
 #endif
 
-#include "trees/layouts/lanes-inl.h"
+#include "trees/layouts/detail/lanes-inl.h"
 #include "trees/traversals/box_distance.h"
 
 #include <limits>

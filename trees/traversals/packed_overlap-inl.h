@@ -8,7 +8,7 @@
 
 #include <hwy/highway.h>
 
-#include "trees/compress-inl.h"
+#include "trees/traversals/compress-inl.h"
 #include "trees/traversals/packed_walk.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
-#include "kernels/every_target_for_test.h"
-#include "trees/box_families_for_test.h"
-#include "trees/curve_order.h"
+#include "kernels/testing/every_target.h"
+#include "trees/testing/box_families.h"
+#include "trees/ordering/curve_order.h"
 #include "trees/layouts/packed.h"
-#include "trees/traversals/self_pairs.h"
-#include "trees/traversals/tree_pairs.h"
+#include "trees/queries/self_pairs.h"
+#include "trees/queries/tree_pairs.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "trees/layouts/packed.h"
-#include "trees/radix_sort.h"
+#include "trees/ordering/radix_sort.h"
 #include "trees/traversals/chunk_sink.h"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
-#include "kernels/every_target_for_test.h"
-#include "trees/box_families_for_test.h"
+#include "kernels/testing/every_target.h"
+#include "trees/testing/box_families.h"
 #include "trees/builder.h"
-#include "trees/every_executor_for_test.h"
+#include "trees/testing/every_executor.h"
 #include "trees/layout.h"
-#include "trees/pairs.h"
-#include "trees/same_tree_for_test.h"
+#include "trees/queries/pairs.h"
+#include "trees/testing/same_tree.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "kernels/ray_triangle/closed_meshes_for_test.h"
+#include "kernels/testing/closed_meshes.h"
 #include "trees/builder.h"
 #include "trees/layout.h"
-#include "trees/traversals/single_rays.h"
-#include "trees/triangle_soup_for_test.h"
+#include "trees/queries/single_rays.h"
+#include "trees/testing/triangle_soup.h"
 
 #include <gtest/gtest.h>
 

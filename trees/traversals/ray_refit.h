@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/triangle.h"
+#include "kernels/primitives/triangle.h"
 #include "trees/layout.h"
 #include "trees/traversals/ray_tree.h"
 

@@ -2,9 +2,9 @@
 
 #include "kernels/ray_triangle/watertight.h"
 #include "trees/builder.h"
-#include "trees/every_executor_for_test.h"
-#include "trees/traversals/brute_force_rays_for_test.h"
-#include "trees/triangle_soup_for_test.h"
+#include "trees/testing/every_executor.h"
+#include "trees/testing/brute_force_rays.h"
+#include "trees/testing/triangle_soup.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include "kernels/rounding.h"
-#include "trees/traversals/rays.h"
+#include "kernels/arithmetic/rounding.h"
+#include "trees/queries/rays.h"
 
 #include <stdexcept>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/catalogue.h"
+#include "kernels/registry.h"
 #include "trees/layout.h"
 
 #include <algorithm>

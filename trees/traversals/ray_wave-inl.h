@@ -10,7 +10,7 @@
 
 #include "kernels/ray_triangle/moller_trumbore_block-inl.h"
 #include "kernels/ray_triangle/watertight_block-inl.h"
-#include "trees/compress-inl.h"
+#include "trees/traversals/compress-inl.h"
 #include "trees/traversals/node_clip-inl.h"
 #include "trees/traversals/ray_walk.h"
 

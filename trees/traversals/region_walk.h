@@ -1,9 +1,9 @@
 #pragma once
 
-#include "kernels/sphere.h"
+#include "kernels/primitives/sphere.h"
 #include "trees/buffer.h"
 #include "trees/executor.h"
-#include "trees/pairs.h"
+#include "trees/queries/pairs.h"
 #include "trees/traversals/chunk_sink.h"
 #include "trees/tree.h"
 

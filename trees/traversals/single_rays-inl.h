@@ -7,7 +7,7 @@
 #endif
 
 #include "trees/traversals/ray_wave-inl.h"
-#include "trees/traversals/single_rays.h"
+#include "trees/queries/single_rays.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::HWY_NAMESPACE {

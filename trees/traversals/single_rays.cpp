@@ -1,4 +1,4 @@
-#include "trees/traversals/single_rays.h"
+#include "trees/queries/single_rays.h"
 
 namespace boxwood {
 

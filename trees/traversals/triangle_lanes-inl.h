@@ -8,7 +8,7 @@
 
 #include <hwy/highway.h>
 
-#include "kernels/triangle.h"
+#include "kernels/primitives/triangle.h"
 
 #include <limits>
 

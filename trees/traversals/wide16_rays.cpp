@@ -6,7 +6,7 @@
 #include <hwy/highway.h>
 
 #include "trees/traversals/node_rays-inl.h"
-#include "trees/traversals/rays.h"
+#include "trees/queries/rays.h"
 #include "trees/traversals/single_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();

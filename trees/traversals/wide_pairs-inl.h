@@ -8,8 +8,8 @@
 
 #include <hwy/highway.h>
 
-#include "trees/compress-inl.h"
-#include "trees/layouts/lanes-inl.h"
+#include "trees/traversals/compress-inl.h"
+#include "trees/layouts/detail/lanes-inl.h"
 #include "trees/traversals/pair_walk.h"
 
 #include <bit>

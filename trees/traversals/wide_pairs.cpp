@@ -5,8 +5,8 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
-#include "trees/traversals/self_pairs.h"
-#include "trees/traversals/tree_pairs.h"
+#include "trees/queries/self_pairs.h"
+#include "trees/queries/tree_pairs.h"
 #include "trees/traversals/wide_pairs-inl.h"
 
 #define BOXWOOD_WIDE_LAYOUTS(X)                                                                    \

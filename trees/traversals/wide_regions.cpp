@@ -5,9 +5,9 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
-#include "trees/compress-inl.h"
+#include "trees/traversals/compress-inl.h"
 #include "trees/traversals/distance_lanes-inl.h"
-#include "trees/traversals/points.h"
+#include "trees/queries/points.h"
 
 #include <bit>
 

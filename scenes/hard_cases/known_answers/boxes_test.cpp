@@ -1,5 +1,5 @@
 // Entries of the list of hard cases that several libraries get wrong, asked of the box kernels.
-#include "kernels/catalogue.h"
+#include "kernels/registry.h"
 #include "kernels/oracle/oracle.h"
 #include "scenes/hard_cases/hard_cases.h"
 #include "scenes/hard_cases/known_answers/kept_promises_for_test.h"

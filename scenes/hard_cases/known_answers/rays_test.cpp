@@ -1,6 +1,6 @@
 // Entries of the list of hard cases that several libraries get wrong, asked of the ray kernels.
-#include "kernels/catalogue.h"
-#include "kernels/oracle/catalogue.h"
+#include "kernels/registry.h"
+#include "kernels/oracle/registry.h"
 #include "scenes/hard_cases/known_answers/kept_promises_for_test.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Entries of the list of hard cases that several libraries get wrong, asked of every triangle
 // kernel.
-#include "kernels/catalogue.h"
-#include "kernels/oracle/catalogue.h"
+#include "kernels/registry.h"
+#include "kernels/oracle/registry.h"
 #include "kernels/oracle/oracle.h"
 #include "scenes/hard_cases/hard_cases.h"
 #include "scenes/hard_cases/known_answers/kept_promises_for_test.h"

@@ -1,34 +1,34 @@
-"""What accuracy costs: time of each rung against how wrong it is, by kind of input."""
+"""What accuracy costs: time of each kernel against how wrong it is, by kind of input."""
 
 import math
 
 from matplotlib.ticker import FixedFormatter, FixedLocator, NullLocator
 
 from .. import labels, style
-from ..kernels import LEAST_ERROR, PANELS, by_kernel_family, is_measured, rungs
+from ..kernels import LEAST_ERROR, PANELS, by_kernel_family, is_measured, kernels
 from ..picture import Picture, Skip
 
 NAME = "accuracy"
 TITLE = "What accuracy costs"
 HOW_TO_READ = (
-    "Lower left is better. The line joins our rungs that no faster one of ours betters; hollow marks are peers. "
-    "A rung in the zero lane at the bottom gave no wrong answer; its bar reaches up to 3/N, the rate that so "
+    "Lower left is better. The line joins our kernels that no faster one of ours betters; hollow marks are peers. "
+    "A kernel in the zero lane at the bottom gave no wrong answer; its bar reaches up to 3/N, the rate that so "
     "many right answers cannot exclude (95 %). Distances are drawn by their worst relative error; their zero lane "
     "is half an ulp or less, their lane at the top all above 1, where no digit is right. Times are means over the "
     "families of a panel."
 )
 NO_DIGIT = 1.0
-COLUMNS = ("kernel_family", "panel", "rung", "library", "promise", "ns", "n", "wrong", "per_million", "maybe",
+COLUMNS = ("task", "panel", "kernel", "library", "promise", "ns", "n", "wrong", "per_million", "maybe",
            "max_rel_err")
 
 
-def value(rung, measured):
+def value(kernel, measured):
     """What is on the y axis; 0 in the lane at the bottom, infinity in that at the top."""
     if not measured:
-        return rung.per_million
-    if rung.error > NO_DIGIT:
+        return kernel.per_million
+    if kernel.error > NO_DIGIT:
         return math.inf
-    return rung.error if rung.error > LEAST_ERROR else 0.0
+    return kernel.error if kernel.error > LEAST_ERROR else 0.0
 
 
 def y_axis(ax, values, bars, measured):
@@ -64,20 +64,20 @@ def draw_panel(ax, panel, found, measured):
 
     style.time_axis(ax.xaxis, min(r.ns for r in found), max(r.ns for r in found), room=0.15)
     marks, lines = [], []
-    for rung, v, bar in zip(found, values, bars):
-        colour, marker = style.look(rung.library if not rung.ours else "binned_sah")
+    for kernel, v, bar in zip(found, values, bars):
+        colour, marker = style.look(kernel.library if not kernel.ours else "binned_sah")
         y = height(v)
         if not v and bar:
-            ax.plot([rung.ns, rung.ns], [lane, bar], color=colour, linewidth=1, alpha=0.45, zorder=2)
-            lines.append([(rung.ns, lane), (rung.ns, bar)])
-        ax.plot([rung.ns], [y], marker=marker, markersize=7, linestyle="", zorder=5, markeredgewidth=1.3,
-                markeredgecolor=colour if not rung.ours else "white",
-                markerfacecolor="white" if not rung.ours else colour)
-        marks.append((rung.ns, y, rung.name, style.text_colour(rung.library if not rung.ours else "binned_sah")))
-    best = []  # no other rung of ours is both faster and less wrong
-    for rung, v in zip(found, values):
-        if rung.ours and (not best or v < best[-1][2]):
-            best.append((rung.ns, height(v), v))
+            ax.plot([kernel.ns, kernel.ns], [lane, bar], color=colour, linewidth=1, alpha=0.45, zorder=2)
+            lines.append([(kernel.ns, lane), (kernel.ns, bar)])
+        ax.plot([kernel.ns], [y], marker=marker, markersize=7, linestyle="", zorder=5, markeredgewidth=1.3,
+                markeredgecolor=colour if not kernel.ours else "white",
+                markerfacecolor="white" if not kernel.ours else colour)
+        marks.append((kernel.ns, y, kernel.name, style.text_colour(kernel.library if not kernel.ours else "binned_sah")))
+    best = []  # no other kernel of ours is both faster and less wrong
+    for kernel, v in zip(found, values):
+        if kernel.ours and (not best or v < best[-1][2]):
+            best.append((kernel.ns, height(v), v))
     ax.plot([x for x, _, _ in best], [y for _, y, _ in best], color=style.FAINT, linewidth=1.1, zorder=1)
     style.title(ax, f"{panel} input, {max(r.n for r in found):,} cases")
     ax.set_xlabel("time per call (lower is better)")
@@ -88,9 +88,9 @@ def draw_panel(ax, panel, found, measured):
 
 def draw(run):
     pictures = []
-    for kernel_family, points in by_kernel_family(run).items():
-        measured = is_measured(kernel_family)
-        panels = [(p, rungs([q for q in points if q.panel == p])) for p in PANELS]
+    for task, points in by_kernel_family(run).items():
+        measured = is_measured(task)
+        panels = [(p, kernels([q for q in points if q.panel == p])) for p in PANELS]
         panels = [(panel, found) for panel, found in panels if found]
         if not panels:
             continue
@@ -98,12 +98,12 @@ def draw(run):
         rows = []
         for ax, (panel, found) in zip(axes, panels):
             draw_panel(ax, panel, found, measured)
-            rows += [(kernel_family, panel, r.name, r.library, r.promise, r.ns, r.n, r.wrong, r.per_million, r.maybe,
+            rows += [(task, panel, r.name, r.library, r.promise, r.ns, r.n, r.wrong, r.per_million, r.maybe,
                       r.error) for r in found]
         said = "; ".join(
             f"{row[2]} on {row[1]} input: {row[5]:.3g} ns, {row[7]} of {row[6]} wrong" for row in rows
         )
-        pictures.append(Picture(f"{NAME}_{kernel_family}", figure, f"{TITLE}: {kernel_family}",
+        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {task}",
                                 f"Time per call against wrong answers. {said}.", COLUMNS, rows))
     if not pictures:
         raise Skip("no kernel was run on hard cases (bench/configs/accuracy.toml and boxwood check do)")

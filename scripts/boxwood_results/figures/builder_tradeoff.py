@@ -17,7 +17,7 @@ HOW_TO_READ = (
     "without a build of its own stands at the left edge: its query holds all the work. What the long names "
     "of ours have in common stands in the title."
 )
-COLUMNS = ("ask", "scene", "n", "threads", "variant", "library", "status", "build_ns", "query_ns", "break_even_queries")
+COLUMNS = ("task", "scene", "n", "threads", "variant", "library", "status", "build_ns", "query_ns", "break_even_queries")
 
 
 def break_even(cheap, dear):
@@ -64,7 +64,7 @@ def draw_panel(ax, job, cells, rows):
     ax.set_ylabel(METRICS["query"].axis)
     for cell in shown:
         rows.append(
-            (job.ask, job.scene, job.n, job.threads, cell.label, cell.library, cell.status,
+            (job.task, job.scene, job.n, job.threads, cell.label, cell.library, cell.status,
              cell.median("build"), cell.median("query"), pays.get(id(cell)))
         )
     labels.beside_points(ax, marks, later=joints, lines=[line, stripe] if len(builds) < len(shown) else [line])
@@ -77,11 +77,11 @@ def draw(run):
         cells = run.of(job)
         cells = [cell for cell in cells if cell.rounds("query") and not cell.rounds("update")]
         if sum(cell.has_build for cell in cells) >= 2:
-            by_ask.setdefault(job.ask, []).append((job, cells))
+            by_ask.setdefault(job.task, []).append((job, cells))
     if not by_ask:
         raise Skip("it takes at least two variants with a build time on one job")
     pictures = []
-    for ask, jobs in by_ask.items():
+    for task, jobs in by_ask.items():
         crowded = max(len(cell.label) for _, cells in jobs for cell in cells) > VERY_LONG
         figure, axes = style.panels(len(jobs), **style.pair_of_panels(crowded))
         rows, notes = [], []
@@ -97,7 +97,7 @@ def draw(run):
             for job, cells in jobs
         )
         pictures.append(
-            Picture(f"{NAME}_{ask}", figure, f"{TITLE}: {ask}",
+            Picture(f"{NAME}_{task}", figure, f"{TITLE}: {task}",
                     f"Build time against query time. {alt}.", COLUMNS, rows, notes)
         )
     return pictures

@@ -14,15 +14,15 @@ HOW_TO_READ = (
     "dashed lines are peers. Dots and dashes: the bound that a certified kernel itself gave there, which its error may "
     "not pass. Dotted: u times the condition and u times its square, u = 2^-53."
 )
-COLUMNS = ("kernel_family", "rung", "library", "log10_condition", "n", "max_rel_err", "bound")
+COLUMNS = ("task", "kernel", "library", "log10_condition", "n", "max_rel_err", "bound")
 FLOOR, CEILING = LEAST_ERROR, 20.0
 
 
 def lines_of(points):
-    """{(ours, library, rung, promise): {decade: (n, error, bound)}}, the worst over the families."""
+    """{(ours, library, kernel, promise): {decade: (n, error, bound)}}, the worst over the families."""
     lines = {}
     for point in points:
-        line = lines.setdefault((point.ours, point.library, point.rung, point.row["promise"]), {})
+        line = lines.setdefault((point.ours, point.library, point.kernel, point.row["promise"]), {})
         for row in point.conditions:
             decade, error, bound = (float(row[k]) for k in ("log10_condition", "max_rel_err", "bound"))
             n, worst, wide = line.get(decade, (0, 0.0, 0.0))
@@ -32,7 +32,7 @@ def lines_of(points):
 
 def draw(run):
     pictures = []
-    for kernel_family, points in by_kernel_family(run).items():
+    for task, points in by_kernel_family(run).items():
         lines = lines_of([p for p in points if p.supported])
         if not lines:
             continue
@@ -46,9 +46,9 @@ def draw(run):
             ys = [FLOOR * 10 ** (power * d) for d in decades]
             ax.plot(decades, ys, color="#888888", linestyle=":", linewidth=1)
         rows, ends = [], []
-        looks = style.looks({rung for ours, _, rung, _ in lines if ours})
-        for (ours, library, rung, promise), line in sorted(lines.items(), key=lambda item: (not item[0][0], item[0][2])):
-            colour, marker = looks[rung] if ours else style.look(library)
+        looks = style.looks({kernel for ours, _, kernel, _ in lines if ours})
+        for (ours, library, kernel, promise), line in sorted(lines.items(), key=lambda item: (not item[0][0], item[0][2])):
+            colour, marker = looks[kernel] if ours else style.look(library)
             xs = sorted(line)
             ys = [min(max(line[x][1], FLOOR), CEILING) for x in xs]
             ax.plot(xs, ys, color=colour, marker=marker, markersize=4, linewidth=1.3, linestyle="-" if ours else "--",
@@ -56,16 +56,16 @@ def draw(run):
             if promise == "certified":
                 bound = [max(line[x][2], FLOOR) for x in xs]
                 ax.plot(xs, bound, color=colour, linewidth=1, linestyle="-.")
-                ends.append((xs[-1], bound[-1], f"{rung}: its bound", style.readable(colour)))
-            ends.append((xs[-1], ys[-1], rung, style.readable(colour)))
-            rows += [(kernel_family, rung, library, x, *line[x]) for x in xs]
-        style.title(ax, kernel_family)
+                ends.append((xs[-1], bound[-1], f"{kernel}: its bound", style.readable(colour)))
+            ends.append((xs[-1], ys[-1], kernel, style.readable(colour)))
+            rows += [(task, kernel, library, x, *line[x]) for x in xs]
+        style.title(ax, task)
         ax.set_xlabel("log10 of the condition number L/d")
         ax.set_ylabel("worst relative error")
         labels.at_line_ends(ax, ends)
-        said = "; ".join(f"{rung} reaches {max(e for _, e, _ in line.values()):.1g}" for (_, _, rung, _), line in
+        said = "; ".join(f"{kernel} reaches {max(e for _, e, _ in line.values()):.1g}" for (_, _, kernel, _), line in
                          lines.items() if all(math.isfinite(e) for _, e, _ in line.values()))
-        pictures.append(Picture(f"{NAME}_{kernel_family}", figure, f"{TITLE}: {kernel_family}",
+        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {task}",
                                 f"Worst relative error by decade of the condition number. {said}.", COLUMNS, rows))
     if not pictures:
         raise Skip("no distance kernel was judged over more than one decade of condition numbers")

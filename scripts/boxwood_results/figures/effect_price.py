@@ -16,16 +16,16 @@ HOW_TO_READ = (
 )
 COLUMNS = ("scene", "n", "threads", "what", "with_ns", "without_ns", "rounds", "ratio", "ratio_lo", "ratio_hi")
 ROW, GAP = 0.23, 0.12  # inches
-EFFECT, ALL = style.look("called_for"), style.look("everything")
+EFFECT, ALL = style.look("required"), style.look("all_stages")
 TALL = 8  # inches from which the axis is told at the top, too
 
 
 def entries_of(scene):
     """[(words, with, without, ratio, look)] of one scene, the dearest effect first."""
-    found = [(effect, scene.called_for, cell, scene.price(effect), EFFECT) for effect, cell in scene.without.items()]
+    found = [(effect, scene.required, cell, scene.price(effect), EFFECT) for effect, cell in scene.without.items()]
     found.sort(key=lambda entry: -entry[3].mid)
     if scene.everything:
-        found.append(("everything on", scene.everything, scene.called_for, scene.ratio(scene.everything), ALL))
+        found.append(("everything on", scene.everything, scene.required, scene.ratio(scene.everything), ALL))
     return [entry for entry in found if entry[3].n]
 
 
@@ -52,7 +52,7 @@ def draw(run):
     for scene, entries in scenes:
         job = scene.job
         y += GAP + ROW / 2
-        ax.text(-left / panel + 0.02, y, f"{job}".replace(f" · {job.ask}", ""), transform=ax.get_yaxis_transform(),
+        ax.text(-left / panel + 0.02, y, f"{job}".replace(f" · {job.task}", ""), transform=ax.get_yaxis_transform(),
                 va="center", fontsize=8.5, weight="bold",
                 bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5})
         y += ROW / 2

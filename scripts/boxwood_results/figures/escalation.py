@@ -10,15 +10,15 @@ HOW_TO_READ = (
     "Each bar is one family of hard cases: which share of its calls each tier decided. Tier 0 is the cheapest; the "
     "more of the darker colours, the dearer the input."
 )
-COLUMNS = ("kernel_family", "rung", "cases", "n", "tier_0", "tier_1", "tier_2", "tier_3")
+COLUMNS = ("task", "kernel", "cases", "n", "tier_0", "tier_1", "tier_2", "tier_3")
 COLOURS = ("#CFE3F1", "#56B4E9", "#0072B2", "#00314D")
 
 
 def draw(run):
     pictures = []
-    for kernel_family, points in by_kernel_family(run).items():
+    for task, points in by_kernel_family(run).items():
         ours = [p for p in points if p.ours and p.supported]
-        adaptive = sorted({p.rung for p in ours if sum(p.tiers[1:])
+        adaptive = sorted({p.kernel for p in ours if sum(p.tiers[1:])
                            and p.tiers[0]})
         if not adaptive:
             continue
@@ -27,10 +27,10 @@ def draw(run):
         width = 2.3 + panel * len(adaptive)
         figure = style.plt.figure(figsize=(width, height))
         rows = []
-        for place, rung in enumerate(adaptive):
+        for place, kernel in enumerate(adaptive):
             ax = figure.add_axes(((2.2 + panel * place) / width, 0.55 / height, (panel - 0.2) / width,
                                   0.17 * len(families) / height))
-            shares = {p.cases: p for p in ours if p.rung == rung}
+            shares = {p.cases: p for p in ours if p.kernel == kernel}
             for y, cases in enumerate(families):
                 if cases not in shares:
                     continue
@@ -39,7 +39,7 @@ def draw(run):
                 for count, colour in zip(tiers, COLOURS):
                     ax.barh(y, 100 * count / total, left=left, height=0.78, color=colour)
                     left += 100 * count / total
-                rows.append((kernel_family, rung, cases, shares[cases].n, *tiers))
+                rows.append((task, kernel, cases, shares[cases].n, *tiers))
             ax.set_xlim(0, 100)
             ax.set_ylim(len(families) - 0.4, -0.6)
             ax.set_yticks(range(len(families)), families if place == 0 else [""] * len(families), fontsize=6.5)
@@ -47,15 +47,15 @@ def draw(run):
             ax.grid(False)
             ax.set_xlabel("% of the calls", fontsize=7.5)
             ax.tick_params(axis="x", labelsize=7)
-            style.title(ax, rung)
+            style.title(ax, kernel)
             ax.title.set_fontsize(8)
         handles = [style.plt.Rectangle((0, 0), 1, 1, color=colour) for colour in COLOURS]
         figure.legend(handles, ["tier 0", "tier 1", "tier 2", "tier 3"], loc="lower left", fontsize=6.5, frameon=False,
                       ncols=2, handlelength=1, columnspacing=0.8, borderaxespad=0.1)
         said = "; ".join(
-            f"{rung}: {100 * (1 - sum(r[4] for r in rows if r[1] == rung) / max(1, sum(sum(r[4:]) for r in rows if r[1] == rung))):.2g} % of all calls went beyond tier 0"
-            for rung in adaptive)
-        pictures.append(Picture(f"{NAME}_{kernel_family}", figure, f"{TITLE}: {kernel_family}", f"{said}.",
+            f"{kernel}: {100 * (1 - sum(r[4] for r in rows if r[1] == kernel) / max(1, sum(sum(r[4:]) for r in rows if r[1] == kernel))):.2g} % of all calls went beyond tier 0"
+            for kernel in adaptive)
+        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {task}", f"{said}.",
                                 COLUMNS, rows))
     if not pictures:
         raise Skip("no adaptive kernel went beyond its first tier")

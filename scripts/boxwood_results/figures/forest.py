@@ -16,7 +16,7 @@ HOW_TO_READ = (
     "the line Boxwood is faster, left of it the peer. Bars are intervals of at least 95 %. The "
     "shaded band is the A/A noise floor, within which nothing is claimed; marks without a verdict are pale."
 )
-COLUMNS = ("ask", "lane", "scene", "n", "threads", "ours", "peer", "peer_library", "phase", "rounds", "ratio", "ratio_lo",
+COLUMNS = ("task", "lane", "scene", "n", "threads", "ours", "peer", "peer_library", "phase", "rounds", "ratio", "ratio_lo",
            "ratio_hi", "verdict")
 TALL = 8  # inches from which the axis is told at the top, too
 ROW, GAP, OURS = 0.23, 0.34, 0.17  # inches; the last: a line for our variant below a long heading
@@ -64,7 +64,7 @@ def heading(finding, column):
     return (f"{head}, {finding.lane}", ours) if finding.lane else (f"{head}   {ours}", "")
 
 
-def draw_one(run, ask, threads, found, floor):
+def draw_one(run, task, threads, found, floor):
     """One picture: a block of rows per scene, a column for build + query and one for the query."""
     entries, y = [], 0.0
     for finding in found:
@@ -76,7 +76,7 @@ def draw_one(run, ask, threads, found, floor):
             entries.append((y, finding, peer))
     height = -y + 0.12
     names, panel, texts, top, bottom = 2.5, 2.9, 2.35, 0.35, 0.8
-    phases = (TOTAL,) if ask in WHOLE_FRAMES else (TOTAL, "query")
+    phases = (TOTAL,) if task in WHOLE_FRAMES else (TOTAL, "query")
     size = (names + len(phases) * (panel + texts), height + top + bottom)
     figure = style.plt.figure(figsize=size)
     rows = []
@@ -89,7 +89,7 @@ def draw_one(run, ask, threads, found, floor):
         ax.tick_params(axis="x", labeltop=height > TALL)
         ax.set_ylim(y - 0.12, 0)
         ax.set_yticks([])
-        ax.set_title(TOTAL_WORDS.get(ask, "build and one query") if phase == TOTAL else "query alone", fontsize=10,
+        ax.set_title(TOTAL_WORDS.get(task, "build and one query") if phase == TOTAL else "query alone", fontsize=10,
                      weight="bold")
         for (at, finding, peer), comparison in zip(entries, comparisons):
             if peer is None:
@@ -110,7 +110,7 @@ def draw_one(run, ask, threads, found, floor):
                 continue
             said = f"{comparison.text}  {said_of(comparison.verdict)}"
             ax.text(1.03, at, said, transform=ax.get_yaxis_transform(), va="center", fontsize=7.5)
-            rows.append((ask, finding.lane, finding.job.scene, finding.job.n, threads, comparison.ours.label, peer.label,
+            rows.append((task, finding.lane, finding.job.scene, finding.job.n, threads, comparison.ours.label, peer.label,
                          peer.library, phase, comparison.ratio.n, comparison.ratio.mid, comparison.ratio.lo,
                          comparison.ratio.hi, comparison.verdict))
     said = "; ".join(
@@ -119,18 +119,18 @@ def draw_one(run, ask, threads, found, floor):
     figure.text(0.02 / size[0], 0.06 / size[1], f"{rounds_text(run)}. {floor_text(run)}.", fontsize=7.5, color="#666666")
     notes = [note for finding in found for note in wrong_notes(finding.wrong)]
     words = "1 thread" if threads == 1 else f"{threads} threads"
-    return Picture(f"{NAME}_{ask}_{threads}", figure, f"{TITLE}: {ask}, {words}",
+    return Picture(f"{NAME}_{task}_{threads}", figure, f"{TITLE}: {task}, {words}",
                    f"Peer's time over Boxwood's. {said}.", COLUMNS, rows, notes)
 
 
 def draw(run):
-    ranked = [f for f in findings(run) if f.comparisons and f.job.ask != "tree"]  # builds alone: see tree_quality
+    ranked = [f for f in findings(run) if f.comparisons and f.job.task != "tree"]  # builds alone: see tree_quality
     shown = set(largest_jobs(f.job for f in ranked))
     groups = {}
     for finding in ranked:
         if finding.job in shown:
-            groups.setdefault((finding.job.ask, finding.job.threads), []).append(finding)
+            groups.setdefault((finding.job.task, finding.job.threads), []).append(finding)
     if not groups:
         raise Skip("no job has both a ranked variant of ours and a ranked peer")
     floor = run.noise_floor
-    return [draw_one(run, ask, threads, found, floor) for (ask, threads), found in groups.items()]
+    return [draw_one(run, task, threads, found, floor) for (task, threads), found in groups.items()]

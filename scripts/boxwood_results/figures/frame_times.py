@@ -14,7 +14,7 @@ HOW_TO_READ = (
     "and 99th percentile, the ring is the worst frame. A frame is one update and one query, and counts by its "
     "median over the rounds. Dashed: 1 ms and 16.6 ms, a frame of a screen at 60 Hz."
 )
-COLUMNS = ("ask", "scene", "n", "threads", "contender", "library", "status", "frames", "p50_ns", "p95_ns", "p99_ns",
+COLUMNS = ("task", "scene", "n", "threads", "contender", "library", "status", "frames", "p50_ns", "p95_ns", "p99_ns",
            "worst_ns", "over_1_ms", "over_16_6_ms")
 LIMITS = ((1e6, "1 ms"), (SCREEN_NS, "16.6 ms"))
 ROW, LEFT, PANEL, RIGHT = 0.24, 2.35, 3.3, 0.95  # inches
@@ -51,7 +51,7 @@ def draw_panel(ax, job, cells, rows):
                 fontsize=7)
         times = frame_medians(cell)
         over = [sum(time > at for time in times) / len(times) for at, _ in LIMITS]
-        rows.append((job.ask, job.scene, job.n, job.threads, cell.label, cell.library, cell.status, len(times), *marks,
+        rows.append((job.task, job.scene, job.n, job.threads, cell.label, cell.library, cell.status, len(times), *marks,
                      *over))
     ax.set_ylim(len(found) - 0.4, -0.6)
     ax.set_yticks([])
@@ -62,7 +62,7 @@ def draw_panel(ax, job, cells, rows):
     ax.set_title(f"{job.scene} {job.n:,} · {words}", fontsize=9.5 * min(1, 50 / len(job.scene)), pad=14)
 
 
-def draw_all(ask, threads, jobs):
+def draw_all(task, threads, jobs):
     columns = min(2, len(jobs))
     lines = [jobs[start:start + columns] for start in range(0, len(jobs), columns)]
     heights = [1.15 + ROW * max(len(cells) for _, cells, *_ in line) for line in lines]
@@ -79,7 +79,7 @@ def draw_all(ask, threads, jobs):
         top -= height
     said = "; ".join(f"{row[4]} on {row[1]} {time_text(row[8])}, worst {time_text(row[11])}" for row in rows)
     words = "1 thread" if threads == 1 else f"{threads} threads"
-    return Picture(f"{NAME}_{ask}_{threads}", figure, f"{TITLE}: {ask}, {words}",
+    return Picture(f"{NAME}_{task}_{threads}", figure, f"{TITLE}: {task}, {words}",
                    f"Median and worst frame: {said}.", COLUMNS, rows, notes)
 
 
@@ -89,7 +89,7 @@ def draw(run):
         cells = [c for c in run.of(job) if c.frames and not c.contender.startswith(WITHOUT)]
         if cells:
             shown, left_out = choose(cells)
-            groups.setdefault((job.ask, job.threads), []).append((job, shown, left_out, wrong_notes(cells)))
+            groups.setdefault((job.task, job.threads), []).append((job, shown, left_out, wrong_notes(cells)))
     if not groups:
         raise Skip("no scene was timed frame by frame (bench/configs/dynamic.toml does)")
-    return [draw_all(ask, threads, jobs) for (ask, threads), jobs in groups.items()]
+    return [draw_all(task, threads, jobs) for (task, threads), jobs in groups.items()]

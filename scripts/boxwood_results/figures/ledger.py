@@ -12,7 +12,7 @@ HOW_TO_READ = (
     "stage on. A piece is the time of one stage in a mean frame; pieces too narrow for their name stand below "
     "the bar. What neither calls for is named: it has no call, no time and no memory."
 )
-COLUMNS = ("scene", "n", "threads", "played", "stage", "called_for", "calls", "items", "ns_a_frame", "share", "bytes")
+COLUMNS = ("scene", "n", "threads", "played", "stage", "required", "calls", "items", "ns_a_frame", "share", "bytes")
 COLOURS = {
     "advance": "#999933", "move": "#DDCC77", "fit": "#44AA99", "tree": "#88CCEE", "update": "#0072B2",
     "box_tree": "#6699CC", "pairs": "#56B4E9", "filter": "#332288", "aim": "#AA4499", "transform": "#882255", "mesh_trees": "#CC79A7", "triangle_pairs": "#D55E00",
@@ -74,7 +74,7 @@ def narrow_lines(narrow):
 def idle_lines(scene):
     """What neither way to play the scene runs, in lines."""
     both = scene.everything.stages if scene.everything else {}
-    idle = [name for name, stage in scene.called_for.stages.items()
+    idle = [name for name, stage in scene.required.stages.items()
             if not stage.calls and not both.get(name, stage).calls]
     effects = [name.removeprefix("advance_") for name in idle if name.startswith("advance_")]
     stages = [name for name in idle if not name.startswith("advance_")]
@@ -83,7 +83,7 @@ def idle_lines(scene):
 
 
 def sides_of(scene):
-    sides = [("called for", scene.called_for), ("everything on", scene.everything)]
+    sides = [("called for", scene.required), ("everything on", scene.everything)]
     return [(words, cell) for words, cell in sides if cell and cell.stages]
 
 
@@ -107,11 +107,11 @@ def draw_scene(ax, scene, rows):
             ax.text(0, y + BAR / 2 + 0.02 + LINE * place, line.strip(), va="top", fontsize=6.8, color="#555555")
         top += STEP + LINE * len(narrow_lines(narrow))
         rows += [(scene.job.scene, scene.job.n, scene.job.threads, words.replace(" ", "_"), name,
-                  int(stage.called_for), stage.calls, stage.items, stage.ns / cell.n_frames if stage.calls else 0.0,
+                  int(stage.required), stage.calls, stage.items, stage.ns / cell.n_frames if stage.calls else 0.0,
                   stage.ns / cell.n_frames / total if stage.calls and total else 0.0, stage.bytes)
                  for name, stage in cell.stages.items()]
     ratio = f": everything on takes {interval_text(scene.ratio(scene.everything))} as long" if scene.everything else ""
-    ax.set_title(f"{scene.job}".replace(f" · {scene.job.ask}", "") + ratio, fontsize=9.5)
+    ax.set_title(f"{scene.job}".replace(f" · {scene.job.task}", "") + ratio, fontsize=9.5)
     ax.set_yticks([])
     ax.spines["left"].set_visible(False)
     ax.grid(axis="y", visible=False)
@@ -124,9 +124,9 @@ def draw_scene(ax, scene, rows):
 
 
 def draw(run):
-    scenes = [scene for scene in played_scenes(run) if scene.called_for.stages]
+    scenes = [scene for scene in played_scenes(run) if scene.required.stages]
     if not scenes:
-        raise Skip("no scene was played with what it asks (bench/configs/effects.toml does)")
+        raise Skip("no scene was played with what it tasks (bench/configs/effects.toml does)")
     heights = [HEAD + FOOT + height_of(scene) for scene in scenes]
     figure = style.plt.figure(figsize=(WIDTH, sum(heights)))
     rows, top = [], sum(heights)
@@ -136,7 +136,7 @@ def draw(run):
         draw_scene(ax, scene, rows)
         top -= height
     said = "; ".join(
-        f"{s.job}: {time_text(frame_ns(s.called_for))} a frame for what is called for"
+        f"{s.job}: {time_text(frame_ns(s.required))} a frame for what is called for"
         + (f", everything on {interval_text(s.ratio(s.everything))} as long" if s.everything else "")
         for s in scenes
     )

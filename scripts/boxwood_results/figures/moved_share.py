@@ -18,7 +18,7 @@ COLUMNS = ("scene", "n", "threads", "contender", "library", "status", "moved_sha
 
 
 def groups_of(run):
-    """{(ask, scene and effects, n, threads, seed): {contender: {share: cell}}}."""
+    """{(task, scene and effects, n, threads, seed): {contender: {share: cell}}}."""
     groups = {}
     for cell in run.cells:
         if not cell.rounds(TOTAL) or cell.contender.startswith(WITHOUT):
@@ -27,7 +27,7 @@ def groups_of(run):
         if found:
             words, share = found
             job = cell.job
-            lines = groups.setdefault((job.ask, words, job.n, job.threads, job.seed), {})
+            lines = groups.setdefault((job.task, words, job.n, job.threads, job.seed), {})
             lines.setdefault((cell.contender, cell.executor), {})[share] = cell
     return groups
 

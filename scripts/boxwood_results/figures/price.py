@@ -13,7 +13,7 @@ HOW_TO_READ = (
     "time over that of the fastest of its tree. A hollow bar answered wrongly: how many answers are missing or too many "
     "stands beside it."
 )
-COLUMNS = ("ask", "scene", "n", "threads", "tree", "kernel", "status", "query_ns", "times_the_fastest", "missing", "extra")
+COLUMNS = ("task", "scene", "n", "threads", "tree", "kernel", "status", "query_ns", "times_the_fastest", "missing", "extra")
 ASKS = ("triangle_pairs", "rays_closest", "rays_any")
 
 
@@ -21,7 +21,7 @@ def groups(run):
     """{(job, tree): cells that differ by kernel alone}."""
     found = {}
     for job in largest_jobs(run.jobs):
-        if job.ask not in ASKS:
+        if job.task not in ASKS:
             continue
         for cell in run.of(job):
             if cell.ours and cell.kernel:
@@ -33,11 +33,11 @@ def groups(run):
 def draw(run):
     by_ask = {}
     for (job, tree), cells in groups(run).items():
-        by_ask.setdefault(job.ask, []).append((job, tree, sorted(cells, key=lambda c: c.median("query"))))
+        by_ask.setdefault(job.task, []).append((job, tree, sorted(cells, key=lambda c: c.median("query"))))
     if not by_ask:
         raise Skip("no whole query was run with two kernels under the same tree")
     pictures = []
-    for ask, jobs in by_ask.items():
+    for task, jobs in by_ask.items():
         most = max(len(cells) for *_, cells in jobs)
         figure, axes = style.panels(len(jobs), width=6.0, height=1.25 + 0.26 * most)
         rows = []
@@ -49,7 +49,7 @@ def draw(run):
                 ax.barh(y, time, height=0.7, color="white" if wrong else colour, edgecolor=colour, linewidth=1.2)
                 lost = f"  {int(cell.check['missing']):,} missing, {int(cell.check['extra']):,} extra" if wrong else ""
                 ax.text(time, y, f" {time / fastest:.2f}x{lost}", va="center", fontsize=7.5)
-                rows.append((job.ask, job.scene, job.n, job.threads, tree, cell.kernel, cell.status, time,
+                rows.append((job.task, job.scene, job.n, job.threads, tree, cell.kernel, cell.status, time,
                              time / fastest, int(cell.check["missing"]) if cell.check is not None else None,
                              int(cell.check["extra"]) if cell.check is not None else None))
             ax.set_yticks(range(len(cells)), [cell.kernel for cell in cells], fontsize=7.5)
@@ -63,5 +63,5 @@ def draw(run):
             box = ax.get_position()
             ax.set_position([box.x0 + 0.28 * box.width, box.y0, 0.72 * box.width, box.height])
         said = "; ".join(f"{row[5]} on {row[1]}: {row[8]:.2f} times the fastest" for row in rows)
-        pictures.append(Picture(f"{NAME}_{ask}", figure, f"{TITLE}: {ask}", f"{said}.", COLUMNS, rows))
+        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {task}", f"{said}.", COLUMNS, rows))
     return pictures

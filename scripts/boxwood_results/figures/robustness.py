@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.colors import LinearSegmentedColormap
 
 from .. import style
-from ..kernels import LEAST_ERROR, by_kernel_family, is_measured, rungs
+from ..kernels import LEAST_ERROR, by_kernel_family, is_measured, kernels
 from ..picture import Picture, Skip
 
 NAME = "robustness"
@@ -17,7 +17,7 @@ HOW_TO_READ = (
     "below 1e-9, and \"out\" counts answers beyond the bound that was given. The darker the worse. A number in brackets "
     "counts what was left undecided per million. A dash: not supported."
 )
-COLUMNS = ("kernel_family", "cases", "rung", "library", "n", "wrong", "maybe", "max_rel_err")
+COLUMNS = ("task", "cases", "kernel", "library", "n", "wrong", "maybe", "max_rel_err")
 WIDE = 0.72  # inches of a column
 COLOURS = LinearSegmentedColormap.from_list("wrong", ["#FFF3D6", "#F5B971", "#D55E00", "#6E1A00"])
 RIGHT = "#D9EFDD"
@@ -44,13 +44,13 @@ def entry(point, measured):
 
 def draw(run):
     pictures = []
-    for kernel_family, points in by_kernel_family(run).items():
-        measured = is_measured(kernel_family)
-        columns = [(r.ours, r.library, r.name) for r in rungs(points)]
+    for task, points in by_kernel_family(run).items():
+        measured = is_measured(task)
+        columns = [(r.ours, r.library, r.name) for r in kernels(points)]
         families = list(dict.fromkeys(p.cases for p in points))
         if not columns:
             continue
-        at = {(p.cases, (p.ours, p.library, p.rung)): p for p in points if p.supported}
+        at = {(p.cases, (p.ours, p.library, p.kernel)): p for p in points if p.supported}
         width, height = 2.6 + WIDE * len(columns), 1.9 + 0.2 * len(families)
         figure = style.plt.figure(figsize=(width, height))
         ax = figure.add_axes((2.4 / width, 0.1 / height, WIDE * len(columns) / width, 0.2 * len(families) / height))
@@ -66,7 +66,7 @@ def draw(run):
                 ax.add_patch(style.plt.Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=colour, edgecolor="white"))
                 ax.text(x, y, text, ha="center", va="center", fontsize=6.2 if len(text) < 8 else 5.4,
                         color="white" if dark is not None and dark > 0.7 else style.INK)
-                rows.append((kernel_family, cases, point.rung, point.library, point.n, point.wrong,
+                rows.append((task, cases, point.kernel, point.library, point.n, point.wrong,
                              int(point.row["maybe"]), point.error))
         ours = sum(column[0] for column in columns)
         if 0 < ours < len(columns):
@@ -81,9 +81,9 @@ def draw(run):
         for side in ax.spines.values():
             side.set_visible(False)
         clean = [name for ours_, _, name in columns
-                 if ours_ and all(not p.wrong for p in points if p.rung == name and p.ours)]
+                 if ours_ and all(not p.wrong for p in points if p.kernel == name and p.ours)]
         pictures.append(Picture(
-            f"{NAME}_{kernel_family}", figure, f"{TITLE}: {kernel_family}",
+            f"{NAME}_{task}", figure, f"{TITLE}: {task}",
             f"{len(families)} families of hard cases by {len(columns)} kernels. Never wrong: {', '.join(clean) or 'none'}.",
             COLUMNS, rows))
     if not pictures:

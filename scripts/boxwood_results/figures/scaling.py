@@ -17,18 +17,18 @@ HOW_TO_READ = (
     "guide grows as n log n. The column off_line says how far the farthest time is from the fit."
 )
 LEAST_SIZES = 3
-PHASES = {"moving_pairs": (TOTAL,), SCENE_ASKS: (TOTAL,), "tree": ("build",)}  # of the other asks all three
+PHASES = {"moving_pairs": (TOTAL,), SCENE_ASKS: (TOTAL,), "tree": ("build",)}  # of the other tasks all three
 TOTALS = {"moving_pairs": "update+query", SCENE_ASKS: "update+query"}  # what TOTAL is, where not build and query
-COLUMNS = ("ask", "scene", "threads", "phase", "variant", "library", "status", "n", "median_ns", "exponent",
+COLUMNS = ("task", "scene", "threads", "phase", "variant", "library", "status", "n", "median_ns", "exponent",
            "exponent_lo", "exponent_hi", "off_line")
 
 
-def lines_of(run, ask, scene, seed, threads):
+def lines_of(run, task, scene, seed, threads):
     """{(contender, precision, executor): [cells by rising n]} with enough sizes."""
     lines = {}
     for cell in run.cells:
         job = cell.job
-        if (job.ask, job.scene, job.seed, job.threads) == (ask, scene, seed, threads) and cell.rounds(TOTAL) \
+        if (job.task, job.scene, job.seed, job.threads) == (task, scene, seed, threads) and cell.rounds(TOTAL) \
                 and not cell.contender.startswith(WITHOUT):
             lines.setdefault((cell.contender, cell.precision, cell.executor), []).append(cell)
     return [sorted(line, key=lambda c: c.job.n) for line in lines.values() if len(line) >= LEAST_SIZES]
@@ -50,8 +50,8 @@ def exponent_text(fit):
     return f"n^{fit.mid:.2f} ({fit.lo:.2f} to {fit.hi:.2f})"
 
 
-def phase_name(ask, phase):
-    return TOTALS.get(ask, phase) if phase == TOTAL else phase
+def phase_name(task, phase):
+    return TOTALS.get(task, phase) if phase == TOTAL else phase
 
 
 def draw_panel(ax, lines, phase, rows):
@@ -69,7 +69,7 @@ def draw_panel(ax, lines, phase, rows):
         for size, time, at in zip(x, y, line):
             if at.status == "wrong":
                 style.cross_out(ax, size, time)
-            rows.append((at.job.ask, at.job.scene, at.job.threads, phase_name(at.job.ask, phase), at.label, at.library, at.status, size,
+            rows.append((at.job.task, at.job.scene, at.job.threads, phase_name(at.job.task, phase), at.label, at.library, at.status, size,
                          time, fit.mid, fit.lo, fit.hi, off))
         ends.append((x[-1], y[-1], f"{cell.label}  {exponent_text(fit)}", style.text_colour(cell.family)))
     low, high = min(sizes), max(sizes)
@@ -81,14 +81,14 @@ def draw_panel(ax, lines, phase, rows):
     style.time_axis(ax.yaxis, min([*all_times, *guide]), max([*all_times, *guide]))
     job = lines[0][-1].job
     threads = "1 thread" if job.threads == 1 else f"{job.threads} threads"
-    style.title(ax, f"{job.scene} · {job.ask} · {threads} · {phase_name(job.ask, phase)}")
+    style.title(ax, f"{job.scene} · {job.task} · {threads} · {phase_name(job.task, phase)}")
     ax.set_xlabel(METRICS["n"].axis)
-    ax.set_ylabel(METRICS["frame" if phase_name(job.ask, phase) == "update+query" else phase].axis)
+    ax.set_ylabel(METRICS["frame" if phase_name(job.task, phase) == "update+query" else phase].axis)
     return ends, fits
 
 
 def draw(run):
-    groups = sorted({(job.ask, job.scene, job.seed, job.threads) for job in run.jobs})
+    groups = sorted({(job.task, job.scene, job.seed, job.threads) for job in run.jobs})
     by_ask = {}
     for group in groups:
         lines = lines_of(run, *group)
@@ -100,16 +100,16 @@ def draw(run):
     if not by_ask:
         raise Skip(f"no scene was timed with {LEAST_SIZES} or more sizes")
     pictures = []
-    for ask, all_panels in by_ask.items():
+    for task, all_panels in by_ask.items():
         figure, axes = style.panels(len(all_panels), width=4.1, labels_right=2.75)
         rows, said = [], []
         for ax, (lines, phase) in zip(axes, all_panels):
             ends, fits = draw_panel(ax, lines, phase, rows)
             labels.at_line_ends(ax, ends)
-            said += [f"{cell.label} {phase_name(ask, phase)} on {cell.job.scene} {exponent_text(fit)}" for cell, fit in fits]
+            said += [f"{cell.label} {phase_name(task, phase)} on {cell.job.scene} {exponent_text(fit)}" for cell, fit in fits]
         cells = [cell for lines, _ in all_panels for line in lines for cell in line]
         pictures.append(
-            Picture(f"{NAME}_{ask}", figure, f"{TITLE}: {ask}",
+            Picture(f"{NAME}_{task}", figure, f"{TITLE}: {task}",
                     f"Time against n on log axes, fitted: {'; '.join(said)}.", COLUMNS, rows,
                     sorted(set(wrong_notes(cells))))
         )

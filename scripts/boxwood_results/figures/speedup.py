@@ -15,7 +15,7 @@ HOW_TO_READ = (
     "Higher is better; the dotted line is ideal. Each point is a contender's time with one thread over "
     "its time with t, paired within rounds; bars are intervals of at least 95 %."
 )
-COLUMNS = ("ask", "scene", "n", "variant", "library", "status", "threads", "speedup", "speedup_lo", "speedup_hi",
+COLUMNS = ("task", "scene", "n", "variant", "library", "status", "threads", "speedup", "speedup_lo", "speedup_hi",
            "rounds")
 
 
@@ -59,7 +59,7 @@ def draw_panel(ax, job, lines, rows):
             ratio = stats.paired_ratio(base.rounds(TOTAL), cell.rounds(TOTAL))
             threads.append(cell.job.threads)
             ratios.append(ratio)
-            rows.append((job.ask, job.scene, job.n, cell.label, cell.library, cell.status, cell.job.threads,
+            rows.append((job.task, job.scene, job.n, cell.label, cell.library, cell.status, cell.job.threads,
                          ratio.mid, ratio.lo, ratio.hi, ratio.n))
         last = line[-1]
         ax.plot(threads, [r.mid for r in ratios], **style.point_style(last, 5.5), linewidth=1.4, zorder=3)
@@ -79,7 +79,7 @@ def draw_panel(ax, job, lines, rows):
     ax.set_xlim(1 - 0.04 * most, most * 1.03)
     ax.set_ylim(min(0.9, lowest * 0.95), max(highest, most) * 1.05)
     ax.set_xticks(sorted({1, *(cell.job.threads for _, line in lines for cell in line)}))
-    style.title(ax, f"{job.scene} {job.n:,} · {job.ask} · {TOTAL_WORDS.get(job.ask, 'build and one query')}")
+    style.title(ax, f"{job.scene} {job.n:,} · {job.task} · {TOTAL_WORDS.get(job.task, 'build and one query')}")
     ax.set_xlabel(METRICS["threads"].axis)
     ax.set_ylabel(METRICS["speedup"].axis)
     return ends
@@ -89,23 +89,23 @@ def draw(run):
     groups = {}
     for cell in run.cells:
         if cell.rounds(TOTAL) and not cell.contender.startswith(WITHOUT):
-            groups.setdefault((cell.job.ask, cell.job.scene, cell.job.seed), {}).setdefault(cell.job.n, []).append(cell)
+            groups.setdefault((cell.job.task, cell.job.scene, cell.job.seed), {}).setdefault(cell.job.n, []).append(cell)
     by_ask = {}
-    for (ask, _, _), sizes in sorted(groups.items()):
+    for (task, _, _), sizes in sorted(groups.items()):
         cells = sizes[max(sizes)]
         lines = best_lines(lines_of(cells))
         if lines:
-            by_ask.setdefault(ask, []).append((lines[0][0].job, lines, cells))
+            by_ask.setdefault(task, []).append((lines[0][0].job, lines, cells))
     if not by_ask:
         raise Skip("no contender was timed with one thread and with more")
     pictures = []
-    for ask, groups_of_ask in by_ask.items():
+    for task, groups_of_ask in by_ask.items():
         figure, axes = style.panels(len(groups_of_ask), width=4.1, labels_right=2.1)
         rows, notes = [], []
         for ax, (job, lines, cells) in zip(axes, groups_of_ask):
             labels.at_line_ends(ax, draw_panel(ax, job, lines, rows))
             notes += wrong_notes(cells)
         said = "; ".join(f"{row[3]} on {row[1]} with {row[6]} threads {row[7]:.2f}x" for row in rows)
-        pictures.append(Picture(f"{NAME}_{ask}", figure, f"{TITLE}: {ask}", f"Speed-up by threads: {said}.",
+        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {task}", f"Speed-up by threads: {said}.",
                                 COLUMNS, rows, notes))
     return pictures

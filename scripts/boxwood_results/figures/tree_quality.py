@@ -49,11 +49,11 @@ def draw_panel(ax, job, cells, rows):
 def draw(run):
     jobs = []
     for job in largest_jobs(run.jobs):
-        cells = [c for c in run.of(job) if job.ask == "tree" and c.rounds("build") and sah(c) > 0]
+        cells = [c for c in run.of(job) if job.task == "tree" and c.rounds("build") and sah(c) > 0]
         if len(cells) >= 2:
             jobs.append((job, cells))
     if not jobs:
-        raise Skip("no two builders were timed alone (the ask tree)")
+        raise Skip("no two builders were timed alone (the task tree)")
     figure, axes = style.panels(len(jobs), width=5.4, height=3.9)
     rows, notes, said = [], [], []
     for ax, (job, cells) in zip(axes, jobs):

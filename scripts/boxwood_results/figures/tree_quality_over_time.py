@@ -121,7 +121,7 @@ def draw(run):
     panels = []
     for job in largest_jobs(run.jobs):
         cells = [c for c in run.of(job) if len(c.frames) >= LEAST_FRAMES and not c.builder.startswith("keep")]
-        if job.ask == "moving_pairs" and len(cells) >= 2 and job.threads == 1:
+        if job.task == "moving_pairs" and len(cells) >= 2 and job.threads == 1:
             fresh = next((c for c in cells if c.builder == FRESH and c.status != "wrong"), None)
             shown, left_out = choose(cells, keep=[fresh] if fresh else (), limit=9)
             panels.append((job, shown, fresh, left_out_note(left_out, f"ways to play {job}") + wrong_notes(cells)))

@@ -16,7 +16,7 @@ HOW_TO_READ = (
     "one slanted line spend the same time per box test. Counts come from a separate pass and carry no noise. "
     "What the long names of ours have in common stands in the title."
 )
-COLUMNS = ("ask", "scene", "n", "variant", "status", "sah_cost", "node_visits_each", "box_tests_each",
+COLUMNS = ("task", "scene", "n", "variant", "status", "sah_cost", "node_visits_each", "box_tests_each",
            "query_ns_each")
 
 
@@ -63,12 +63,12 @@ def draw(run):
     by_ask = {}
     for job in largest_jobs(run.jobs):
         counted = [c for c in run.of(job) if not math.isnan(measures(c)[2]) and c.executor == "serial"]
-        if job.threads == 1 and len(counted) >= 2 and job.ask not in WHOLE_FRAMES:
-            by_ask.setdefault(job.ask, []).append((job, counted))
+        if job.threads == 1 and len(counted) >= 2 and job.task not in WHOLE_FRAMES:
+            by_ask.setdefault(job.task, []).append((job, counted))
     if not by_ask:
         raise Skip("no job has two variants with work counters")
     pictures = []
-    for ask, jobs in by_ask.items():
+    for task, jobs in by_ask.items():
         rows, notes, panels = [], [], []
         for job, counted in jobs:
             shown, left_out = choose(counted)
@@ -77,13 +77,13 @@ def draw(run):
             if len({(sah, visits) for _, sah, visits in with_tree}) >= 2:
                 panels.append((job, with_tree, "sah_cost", "node_visits", False))
             panels.append((job, [(c, tests, ns) for c, _, _, tests, ns in values], "box_tests", "query_each", True))
-            rows += [(ask, job.scene, job.n, c.label, c.status, *rest) for c, *rest in values]
+            rows += [(task, job.scene, job.n, c.label, c.status, *rest) for c, *rest in values]
             notes += left_out_note(left_out, f"variants of {job}") + wrong_notes(counted)
         crowded = max(len(cell.label) for _, points, *_ in panels for cell, *_ in points) > VERY_LONG
         figure, axes = style.panels(len(panels), **style.pair_of_panels(crowded))
         for ax, panel in zip(axes, panels):
             scatter(ax, *panel)
         said = "; ".join(f"{row[3]} on {row[1]}: {row[7]:.3g} box tests and {row[8]:.3g} ns each" for row in rows)
-        pictures.append(Picture(f"{NAME}_{ask}", figure, f"{TITLE}: {ask}", f"Work against time. {said}.",
+        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {task}", f"Work against time. {said}.",
                                 COLUMNS, rows, notes))
     return pictures

@@ -1,0 +1,130 @@
+#include "bench/analysis/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace boxwood::bench {
+namespace {
+
+/// The probability of k heads in n throws; through logarithms, as n may be thousands.
+double binomial(std::size_t k, std::size_t n) {
+    const auto log_factorial = [](std::size_t i) {
+        return std::lgamma(static_cast<double>(i) + 1);
+    };
+    return std::exp(log_factorial(n) - log_factorial(k) - log_factorial(n - k) -
+                    static_cast<double>(n) * std::log(2.0));
+}
+
+} // namespace
+
+double median_of_sorted(std::span<const double> sorted) {
+    const std::size_t n = sorted.size();
+    return n % 2 == 1 ? sorted[n / 2] : std::midpoint(sorted[n / 2 - 1], sorted[n / 2]);
+}
+
+double percentile_of_sorted(std::span<const double> sorted, double q) {
+    const double place = q * static_cast<double>(sorted.size() - 1);
+    const auto below = static_cast<std::size_t>(place);
+    const std::size_t above = std::min(below + 1, sorted.size() - 1);
+    return std::lerp(sorted[below], sorted[above], place - std::floor(place));
+}
+
+std::optional<Ranks> median_ranks(std::size_t n) {
+    // The interval from rank k misses the median if fewer than k values lie below it, or above it.
+    std::size_t k = 0;
+    for (double misses = 0; k < n / 2; ++k) {
+        misses += 2 * binomial(k, n);
+        if (misses > 0.05)
+            break;
+    }
+    if (k == 0)
+        return std::nullopt;
+    return Ranks{k, n + 1 - k};
+}
+
+double sign_test(std::span<const double> log_ratios) {
+    const auto below = std::ranges::count_if(log_ratios, [](double x) { return x < 0; });
+    const auto above = std::ranges::count_if(log_ratios, [](double x) { return x > 0; });
+    double p = 0;
+    for (std::ptrdiff_t k = 0; k <= std::min(below, above); ++k)
+        p += 2 * binomial(static_cast<std::size_t>(k), static_cast<std::size_t>(below + above));
+    return std::min(1.0, p);
+}
+
+std::vector<double> holm(std::span<const double> p) {
+    std::vector<std::size_t> order(p.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return p[i]; });
+    std::vector<double> adjusted(p.size());
+    double running = 0;
+    for (std::size_t place = 0; place < order.size(); ++place) {
+        const auto claims_left = static_cast<double>(p.size() - place);
+        running = std::max(running, std::min(1.0, claims_left * p[order[place]]));
+        adjusted[order[place]] = running;
+    }
+    return adjusted;
+}
+
+std::size_t rounds_needed(std::size_t family_size) {
+    std::size_t n = least_pairs_verdict;
+    while (static_cast<double>(family_size) * std::ldexp(1.0, 1 - static_cast<int>(n)) >
+           family_error)
+        ++n;
+    return n;
+}
+
+MedianInterval median_interval(std::vector<double> values) {
+    if (values.empty())
+        return {};
+    std::ranges::sort(values);
+    MedianInterval result{values.size(), median_of_sorted(values)};
+    if (const auto ranks = median_ranks(values.size())) {
+        result.lo = values[ranks->lo - 1];
+        result.hi = values[ranks->hi - 1];
+    }
+    return result;
+}
+
+Line fitted_line(std::span<const double> x, std::span<const double> y) {
+    const auto n = static_cast<double>(x.size());
+    const double mean_x = std::accumulate(x.begin(), x.end(), 0.0) / n;
+    const double mean_y = std::accumulate(y.begin(), y.end(), 0.0) / n;
+    double xx = 0, xy = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        xx += (x[i] - mean_x) * (x[i] - mean_x);
+        xy += (x[i] - mean_x) * (y[i] - mean_y);
+    }
+    return {xy / xx, mean_y - xy / xx * mean_x};
+}
+
+PairedRatio paired_ratio(std::span<const double> log_ratios) {
+    PairedRatio result;
+    result.n_pairs = log_ratios.size();
+    if (log_ratios.empty())
+        return result;
+    const MedianInterval logs = median_interval({log_ratios.begin(), log_ratios.end()});
+    result.ratio = std::exp(logs.mid);
+    result.ci_lo = std::exp(logs.lo);
+    result.ci_hi = std::exp(logs.hi);
+    result.p = sign_test(log_ratios);
+    result.is_identical = std::ranges::all_of(log_ratios, [](double x) { return x == 0; });
+    return result;
+}
+
+std::string verdict(const PairedRatio& ratio, double p_adj, double delta, double floor) {
+    if (ratio.is_identical)
+        return "same";
+    if (ratio.n_pairs < least_pairs_verdict)
+        return "cannot_tell";
+    const auto is_within = [](double value, double band) {
+        return 1 / (1 + band) <= value && value <= 1 + band;
+    };
+    if (is_within(ratio.ci_lo, delta) && is_within(ratio.ci_hi, delta) && !(floor > delta))
+        return "same"; // which a machine noisier than delta cannot tell
+    if (p_adj > family_error || is_within(ratio.ratio, floor))
+        return "cannot_tell";
+    return ratio.ci_hi < 1 ? "faster" : ratio.ci_lo > 1 ? "slower" : "cannot_tell";
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,158 @@
+#include "bench/io/csv.h"
+
+#include "bench/io/bad_input.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <optional>
+
+namespace boxwood::bench {
+namespace {
+
+constexpr std::size_t most_columns = 32;
+
+std::string_view trim(std::string_view text) {
+    const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+    while (!text.empty() && is_space(text.front()))
+        text.remove_prefix(1);
+    while (!text.empty() && is_space(text.back()))
+        text.remove_suffix(1);
+    return text;
+}
+
+/// A piece of the input fit for a message: short and printable.
+std::string quoted(std::string_view text) {
+    std::string out = "'";
+    for (const char c : text.substr(0, 40))
+        out += c >= ' ' && c <= '~' ? c : '?';
+    return out + (text.size() > 40 ? "...'" : "'");
+}
+
+enum class Fault { none, not_a_number, too_large };
+
+Fault parse(std::string_view text, double& value) {
+    bool negative = false;
+    if (!text.empty() && (text.front() == '+' || text.front() == '-')) {
+        negative = text.front() == '-';
+        text.remove_prefix(1);
+    }
+    const bool hex = text.size() > 2 && text[0] == '0' && (text[1] == 'x' || text[1] == 'X');
+    if (hex)
+        text.remove_prefix(2);
+    if (text.empty() || text.front() == '+' || text.front() == '-') // from_chars would take -
+        return Fault::not_a_number;
+
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(
+        text.data(), end, value, hex ? std::chars_format::hex : std::chars_format::general);
+    if (error == std::errc::invalid_argument || stop != end)
+        return Fault::not_a_number;
+    if (error == std::errc::result_out_of_range) {
+        // from_chars leaves the value alone, be it too large or too small; strtod tells which, and
+        // rounds what is small to a subnormal or zero. No locale is ever set.
+        value = std::strtod(((hex ? "0x" : "") + std::string(text)).c_str(), nullptr);
+        if (std::isinf(value))
+            return Fault::too_large;
+    }
+    if (negative)
+        value = -value;
+    return Fault::none;
+}
+
+/// Cuts the text up to the next `mark` off its front.
+std::string_view cut(std::string_view& text, char mark) {
+    const std::size_t at = text.find(mark);
+    const std::string_view piece = text.substr(0, at);
+    text.remove_prefix(at == std::string_view::npos ? text.size() : at + 1);
+    return piece;
+}
+
+} // namespace
+
+void throw_bad_row(const std::string& source, std::size_t line, const std::string& what) {
+    throw BadInput(fmt::format("{}:{}: {}", source, line, what));
+}
+
+void read_csv(std::string_view text, const std::string& source, const CsvFormat& format,
+              FunctionRef<void(std::span<const double>, std::size_t)> row) {
+    if (text.starts_with("\xef\xbb\xbf")) // a byte order mark
+        text.remove_prefix(3);
+    std::array<double, most_columns> numbers;
+    for (std::size_t line = 1; !text.empty(); ++line) {
+        const std::string_view whole = trim(cut(text, '\n'));
+        if (whole.empty() || whole.front() == '#')
+            continue;
+
+        std::size_t n = 0;
+        std::string_view rest = whole;
+        for (bool more = true; more; ++n) {
+            more = rest.find(',') != std::string_view::npos;
+            const std::string_view field = trim(cut(rest, ','));
+            if (n >= format.most)
+                continue; // only counted
+            switch (parse(field, numbers[n])) {
+            case Fault::none:
+                break;
+            case Fault::not_a_number:
+                throw_bad_row(
+                    source, line,
+                    fmt::format("column {} is {}; expected numbers {}, with commas "
+                                "between (put # before a header line)",
+                                n + 1, field.empty() ? "empty" : quoted(field) + ", not a number",
+                                format.columns));
+            case Fault::too_large:
+                throw_bad_row(
+                    source, line,
+                    fmt::format("column {} is {}, larger than every double", n + 1, quoted(field)));
+            }
+        }
+        if (n < format.least || n > format.most)
+            throw_bad_row(source, line,
+                          fmt::format("{} column{}, expected {}: {}", n, n == 1 ? "" : "s",
+                                      format.least == format.most
+                                          ? fmt::format("{}", format.least)
+                                          : fmt::format("{} to {}", format.least, format.most),
+                                      format.columns));
+        row({numbers.data(), n}, line);
+    }
+}
+
+std::string source_name(const std::string& path) { return path == "-" ? "standard input" : path; }
+
+std::string read_text(const std::string& path) {
+    struct Close {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
+    std::unique_ptr<std::FILE, Close> owned;
+    std::FILE* file = stdin;
+    const auto fail = [&] {
+        throw BadInput(
+            fmt::format("{}: cannot read it: {}", source_name(path), std::strerror(errno)));
+    };
+    if (path != "-") {
+        owned.reset(std::fopen(path.c_str(), "rb"));
+        if (!owned)
+            fail();
+        file = owned.get();
+    }
+    std::string text;
+    for (std::size_t got = 1; got != 0;) {
+        const std::size_t size = text.size();
+        text.resize(size + (std::size_t{1} << 20));
+        got = std::fread(text.data() + size, 1, text.size() - size, file);
+        text.resize(size + got);
+    }
+    if (std::ferror(file))
+        fail();
+    return text;
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace boxwood::bench {
+
+/// The parts of a cell's name
+/// `<scene>/n<items>-s<seed>/<ask>/<contender>/<precision>/<executor>-<threads>`.
+/// Words are [a-z0-9_]+; a contender is words joined by dots.
+struct CellName {
+    std::string scene;
+    std::uint64_t n_items = 0, seed = 0;
+    std::string task, contender, precision, executor;
+    unsigned threads = 1;
+
+    bool operator==(const CellName&) const = default;
+};
+
+/// Throws std::invalid_argument naming the part that is not made of words.
+std::string format_cell_name(const CellName& name);
+
+/// The inverse of format_cell_name; nothing for any text that it cannot have written.
+std::optional<CellName> parse_cell_name(std::string_view text);
+
+} // namespace boxwood::bench

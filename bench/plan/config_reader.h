@@ -1,0 +1,96 @@
+#pragma once
+
+#include "bench/plan/config.h"
+#include "scenes/effects/read_effect.h"
+#include "scenes/scene.h"
+#include "trees/dynamic/update.h"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+namespace boxwood::bench {
+
+using Words = TomlReader::Words;
+
+/// What sweep files hold beyond words and numbers.
+class ConfigReader : public TomlReader {
+  public:
+    using TomlReader::TomlReader;
+
+    unsigned threads(const toml::node& node) const {
+        if (node.is_string()) {
+            word(node, "threads", {"all"});
+            return std::max(1u, std::thread::hardware_concurrency());
+        }
+        return static_cast<unsigned>(whole(node, "threads", 1, 1024));
+    }
+
+    /// A builder: its words, or `{name = "binned_sah", bins = 16}`.
+    BuilderChoice builder(const toml::node& node) const {
+        return choice(
+            node, "a builder", [&](const toml::node& name) { return builder_words(name); },
+            [](const std::string& name, const Settings& settings) {
+                make_builder(name, settings);
+            });
+    }
+
+    /// "refit", or `{name = "rebuild", trigger = 1.3}`.
+    BuilderChoice update(const toml::node& node) const {
+        return choice(
+            node, "an update",
+            [&](const toml::node& name) {
+                return word(name, "updates", names_of(boxwood::updates()));
+            },
+            [](const std::string& name, const Settings& settings) {
+                find_update(name)->make(settings);
+            });
+    }
+
+    /// Effects that are laid together: one, or a list of them.
+    std::vector<EffectChoice> effects(const toml::node& node) const {
+        if (const toml::array* together = node.as_array()) {
+            std::vector<EffectChoice> all;
+            for (const toml::node& effect : *together)
+                all.push_back(read_effect(*this, effect));
+            return all;
+        }
+        return {read_effect(*this, node)};
+    }
+
+    /// A generator, a built-in moving scene, or the path of a scene file.
+    std::string moving_scene(const toml::node& node) const {
+        const std::string name = node.value_or(std::string());
+        if (node.is_string() && name.ends_with(".toml"))
+            return name;
+        Words known = names_of(built_in_scenes());
+        for (const std::string_view generator : names_of(scene_generators()))
+            if (generator != "mesh")
+                known.push_back(generator);
+        return word(node, "scene", known);
+    }
+
+  private:
+    template <class Read, class TryOut>
+    BuilderChoice choice(const toml::node& node, std::string_view what, Read read,
+                         TryOut try_out) const {
+        auto [name, settings] = with_settings(node, what, read, try_out,
+                                              [](std::string_view, const auto&) { return false; });
+        return {std::move(name), std::move(settings)};
+    }
+
+    /// "ploc", or with a stage after it "ploc+reinsertion".
+    std::string builder_words(const toml::node& node) const {
+        const std::string words = node.value_or(std::string());
+        const std::size_t plus = words.find('+');
+        if (!node.is_string() || plus == std::string::npos)
+            return word(node, "builders", names_of(builders()));
+        word(toml::value<std::string>(words.substr(0, plus)), "builders", names_of(builders()));
+        word(toml::value<std::string>(words.substr(plus + 1)), "stages", names_of(stages()));
+        return words;
+    }
+};
+
+} // namespace boxwood::bench

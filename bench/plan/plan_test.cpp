@@ -1,0 +1,242 @@
+#include "bench/plan/plan.h"
+
+#include "bench/plan/cell_name.h"
+#include "bench/io/bad_input.h"
+#include "bench/io/csv.h"
+#include "bench/plan/families.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+namespace boxwood::bench {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string config = R"(
+rounds = 9
+[[cells]]
+scene = "uniform"
+n = [10, 20]
+task = "pairs"
+threads = [1, 2]
+builders = ["median", "binned_sah"]
+layouts = ["binary", "wide8"]
+peers = "brute_force"
+)";
+
+Plan plan_of(const std::string& text, const Overrides& overrides = {}) {
+    return make_plan(text, "x.toml", overrides);
+}
+
+std::set<std::string> names_of(const Plan& plan) {
+    std::set<std::string> names;
+    for (const PlannedCell& cell : plan.cells)
+        names.insert(cell.name);
+    return names;
+}
+
+TEST(Plan, IsTheCrossProductWithNamesThatParse) {
+    const Plan plan = plan_of(config);
+    EXPECT_EQ(plan.cells.size(), 2u * 2 * (4 + 1));
+    EXPECT_EQ(names_of(plan).size(), plan.cells.size());
+    for (const PlannedCell& cell : plan.cells) {
+        const auto name = parse_cell_name(cell.name);
+        ASSERT_TRUE(name) << cell.name;
+        EXPECT_EQ(name->threads, cell.threads);
+        EXPECT_EQ(name->executor, cell.threads == 1 ? "serial" : "tbb");
+        EXPECT_EQ(name->n_items, cell.scene.n);
+        EXPECT_EQ(name->contender, cell.contender.name);
+    }
+    EXPECT_TRUE(
+        names_of(plan).contains("uniform/n20-s1/pairs/binned_sah.wide8.self_pairs/f32/tbb-2"));
+}
+
+TEST(Plan, EqualCellsCollapse) {
+    const std::string block = config.substr(config.find("[[cells]]"));
+    EXPECT_EQ(names_of(plan_of(config + block)), names_of(plan_of(config)));
+    EXPECT_EQ(plan_of(config + block).sweep_hash, plan_of(config).sweep_hash);
+}
+
+TEST(Plan, RefusesOneNameForTwoScenes) {
+    const std::string rays = "[[cells]]\nscene = \"sphere_mesh\"\ntask = \"rays_any\"\n"
+                             "rays = \"random\"\nbuilders = \"median\"\n";
+    try {
+        plan_of(rays + "n_rays = 10\n" + rays + "n_rays = 20\n");
+        FAIL() << "accepted";
+    } catch (const BadInput& error) {
+        EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("x.toml:7"), HasSubstr("n_rays 10")));
+    }
+}
+
+TEST(Plan, SerialStaysOnOneThread) {
+    const Plan plan = plan_of("[[cells]]\nscene = \"uniform\"\nn = 10\ntask = \"pairs\"\n"
+                              "threads = [1, 2]\nexecutors = [\"serial\", \"tbb\"]\n"
+                              "builders = \"median\"\n");
+    ASSERT_EQ(plan.cells.size(), 3u);
+    for (const PlannedCell& cell : plan.cells)
+        EXPECT_TRUE(cell.executor == "tbb" || cell.threads == 1);
+}
+
+TEST(Plan, PeersThatCannotAnswerAreLeftOutUnlessNamed) {
+    const std::string rays = "[[cells]]\nscene = \"sphere_mesh\"\nn = 20\ntask = \"rays_any\"\n"
+                             "rays = \"random\"\nbuilders = \"median\"\npeers = ";
+    for (const PlannedCell& cell : plan_of(rays + "\"all\"\n").cells)
+        EXPECT_NE(cell.contender.library, "bullet");
+    // One that is named in full is planned, so that the results say that it cannot.
+    const bool has_bullet = std::ranges::find(peers(), "bullet", &Peer::name) != peers().end();
+    EXPECT_EQ(plan_of(rays + "\"bullet\"\n").cells.size(), 1u);
+    if (has_bullet) {
+        EXPECT_EQ(plan_of(rays + "\"bullet.dbvt\"\n").cells.size(), 2u);
+    }
+}
+
+TEST(Plan, OverridesReplace) {
+    Overrides overrides;
+    overrides.rounds = 30;
+    overrides.threads = {1};
+    overrides.seed = 5;
+    overrides.only = "n20.*wide8";
+    const Plan plan = plan_of(config, overrides);
+    EXPECT_EQ(plan.rounds, 30u);
+    EXPECT_EQ(names_of(plan),
+              (std::set<std::string>{"uniform/n20-s5/pairs/median.wide8.self_pairs/f32/serial-1",
+                                     "uniform/n20-s5/pairs/binned_sah.wide8.self_pairs/f32/"
+                                     "serial-1"}));
+}
+
+TEST(Plan, HashIsOfWhatIsMeasured) {
+    const std::string hash = plan_of(config).sweep_hash;
+    EXPECT_EQ(hash.size(), 32u);
+    EXPECT_EQ(plan_of("# a comment\n" + config).sweep_hash, hash);
+    Overrides rounds;
+    rounds.rounds = 100; // more rounds extend a sweep
+    EXPECT_EQ(plan_of(config, rounds).sweep_hash, hash);
+    Overrides seed;
+    seed.seed = 2;
+    EXPECT_NE(plan_of(config, seed).sweep_hash, hash);
+    Overrides only;
+    only.only = "wide8";
+    EXPECT_NE(plan_of(config, only).sweep_hash, hash);
+    EXPECT_NE(plan_of("min_time_ms = 1\n" + config).sweep_hash, hash);
+    EXPECT_NE(sweep_hash_of(plan_of(config), 1), hash);
+}
+
+TEST(Plan, ABlockMayHaveFewerRounds) {
+    const Plan all = plan_of(config), few = plan_of(config + "rounds = 3\n");
+    EXPECT_EQ(names_of(all), names_of(few));
+    EXPECT_NE(all.sweep_hash, few.sweep_hash);
+    EXPECT_EQ(few.rounds, 9u);
+    for (const PlannedCell& cell : few.cells) {
+        EXPECT_TRUE(cell.is_in(2));
+        EXPECT_FALSE(cell.is_in(3));
+    }
+    EXPECT_TRUE(all.cells[0].is_in(100));
+    // A cell of two blocks has the rounds of the one with more.
+    const std::string block = config.substr(config.find("[[cells]]"));
+    const Plan more = plan_of(config + "rounds = 3\n" + block + "rounds = 5\n");
+    EXPECT_EQ(more.cells[0].rounds, 5u);
+    EXPECT_FALSE(plan_of(config + "rounds = 3\n" + block).cells[0].rounds);
+}
+
+TEST(Plan, MeshBlocksNeedAMesh) {
+    const std::string mesh =
+        "[[cells]]\nscene = \"mesh\"\ntask = \"pairs\"\nbuilders = \"median\"\n";
+    EXPECT_EQ(names_of(plan_of(config + mesh)), names_of(plan_of(config)));
+    EXPECT_THROW(plan_of(mesh), BadInput);
+    Overrides overrides;
+    overrides.mesh = "there/is/no/such.obj";
+    EXPECT_THROW(plan_of(config + mesh, overrides), BadInput);
+    EXPECT_THROW(plan_of(config, overrides), BadInput); // nothing would use it
+}
+
+TEST(Plan, MeshCellsAreNamedBySizeAndHashedByContent) {
+    const auto file = std::filesystem::temp_directory_path() / "boxwood_plan_test.obj";
+    Overrides overrides;
+    overrides.mesh = file;
+    const std::string mesh = "[[cells]]\nscene = \"mesh\"\ntask = \"pairs\"\n"
+                             "builders = \"median\"\n";
+    const auto plan_with = [&](const char* last) {
+        std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n" << last;
+        return plan_of(mesh, overrides);
+    };
+    const Plan two = plan_with(""), three = plan_with("f 1 3 4\n"), moved = plan_with("# x\n");
+    std::filesystem::remove(file);
+    ASSERT_EQ(two.cells.size(), 1u);
+    EXPECT_EQ(parse_cell_name(two.cells[0].name)->n_items, 2u);
+    EXPECT_EQ(parse_cell_name(three.cells[0].name)->n_items, 3u);
+    EXPECT_NE(two.sweep_hash, three.sweep_hash);
+    EXPECT_EQ(names_of(two), names_of(moved));
+    EXPECT_NE(two.sweep_hash, moved.sweep_hash); // other bytes
+}
+
+TEST(Plan, RefusesAPatternThatIsNoneOrLeavesNothing) {
+    Overrides overrides;
+    overrides.only = "(";
+    EXPECT_THROW(plan_of(config, overrides), BadInput);
+    overrides.only = "no such cell";
+    EXPECT_THROW(plan_of(config, overrides), BadInput);
+}
+
+TEST(Plan, ShippedSweepFilesAreGood) {
+    for (const char* name :
+         {"quick", "default", "pairs", "builders", "rays", "dynamic", "effects", "queries"}) {
+        const std::string file = std::string("bench/configs/") + name + ".toml";
+        const Plan plan = make_plan(read_text(file), file, {});
+        EXPECT_GE(plan.rounds, 9u);
+        EXPECT_FALSE(plan.cells.empty());
+    }
+}
+
+TEST(Order, IsASeededPermutationOfAllCells) {
+    const auto first = shuffled_order(100, order_seed_of(1, 0));
+    EXPECT_EQ(first, shuffled_order(100, order_seed_of(1, 0)));
+    auto sorted = first;
+    std::ranges::sort(sorted);
+    for (std::size_t i = 0; i < sorted.size(); ++i)
+        EXPECT_EQ(sorted[i], i);
+    EXPECT_NE(first, sorted);
+    EXPECT_NE(first, shuffled_order(100, order_seed_of(1, 1)));
+    EXPECT_NE(first, shuffled_order(100, order_seed_of(2, 0)));
+    EXPECT_TRUE(shuffled_order(0, 1).empty());
+}
+
+TEST(Plan, KernelCellsRunOnOneThreadAndSayKAndScale) {
+    const Plan plan = plan_of(R"(
+threads = [1, 2]
+[[cells]]
+scene = "slivers"
+task = "triangle_triangle"
+n = 50
+k = [3, 5]
+scale = [0, -4]
+kernels = "rational"
+)");
+    EXPECT_EQ(names_of(plan),
+              (std::set<std::string>{
+                  "slivers/n50-s1/triangle_triangle/rational/f64/serial-1",
+                  "slivers_k5/n50-s1/triangle_triangle/rational/f64/serial-1",
+                  "slivers_scalem4/n50-s1/triangle_triangle/rational/f64/serial-1",
+                  "slivers_k5_scalem4/n50-s1/triangle_triangle/rational/f64/serial-1"}));
+    for (const PlannedCell& cell : plan.cells)
+        EXPECT_TRUE(parse_cell_name(cell.name));
+}
+
+TEST(Plan, GroupsOfFamiliesPassOverAScaleOutOfRange) {
+    const std::string text = "[[cells]]\nscene = \"all\"\ntask = \"triangle_triangle\"\n"
+                             "kernels = \"rational\"\nscale = ";
+    const std::size_t all = plan_of(text + "0\n").cells.size();
+    EXPECT_EQ(all, families_of("all", Ask::triangle_triangle).size());
+    EXPECT_LT(plan_of(text + "1000\n").cells.size(), all);
+    EXPECT_THROW(plan_of("[[cells]]\nscene = \"slivers\"\ntask = \"triangle_triangle\"\n"
+                         "scale = 1000\n"),
+                 BadInput);
+}
+
+} // namespace
+} // namespace boxwood::bench

@@ -1,0 +1,74 @@
+#include "bench/running/calibration.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace boxwood::bench {
+namespace {
+
+TEST(Calibration, RepeatsUntilTheTargetIsReached) {
+    EXPECT_EQ(iterations_for(1e6, 1e6), 1u);
+    EXPECT_EQ(iterations_for(1e6, 5e8), 1u); // slower than a sample: once
+    EXPECT_EQ(iterations_for(1e6, 0.4e6), 3u);
+    EXPECT_EQ(iterations_for(1e6, 10), 100'000u);
+    EXPECT_EQ(iterations_for(1e9, 1e-3), 10'000'000u);
+    EXPECT_EQ(iterations_for(1e6, 0), 10'000'000u);
+    EXPECT_EQ(iterations_for(1e6, std::numeric_limits<double>::infinity()), 1u);
+}
+
+TEST(Calibration, ARoundWarmsUpOnce) { EXPECT_EQ(round_ns({2, 3, 10, 100}), 3 * 10 + 4 * 100); }
+
+TEST(Calibration, TextRoundTrips) {
+    const Calibrations calibrations{{"a/b", {1, 10'000'000, 0.1, 1.0 / 3}}, {"c", {7, 1, 1e12, 0}}};
+    EXPECT_EQ(calibrations_of(to_text(calibrations)), calibrations);
+    EXPECT_TRUE(calibrations_of(to_text({})).empty());
+    EXPECT_THROW(calibrations_of(""), std::runtime_error);
+    EXPECT_THROW(calibrations_of(to_text(calibrations) + "x\n"), std::runtime_error);
+}
+
+/// Cells "c0", "c1", ... each of a variant of its own.
+struct Cells {
+    results::Results prepared;
+    Calibrations calibrations;
+
+    void add(bool is_peer, double query_ns, const char* status) {
+        const auto id = static_cast<std::uint32_t>(prepared.cells.size());
+        results::Variant variant;
+        variant.variant_id = id;
+        variant.is_peer = is_peer;
+        prepared.variants.push_back(variant);
+        results::Cell cell;
+        cell.cell_id = cell.variant_id = id;
+        cell.name = "c" + std::to_string(id);
+        prepared.cells.push_back(cell);
+        results::Check check;
+        check.cell_id = id;
+        check.status = status;
+        prepared.checks.push_back(check);
+        calibrations[cell.name] = {1, 1, 1, query_ns};
+    }
+    std::string aa() const { return choose_aa(prepared, calibrations); }
+};
+
+TEST(ChooseAa, TakesTheCheapestOfOursThatIsLongEnough) {
+    Cells cells;
+    EXPECT_EQ(cells.aa(), "");
+    cells.add(true, 2e6, "exact");
+    EXPECT_EQ(cells.aa(), "c0"); // nothing of ours
+    cells.add(false, 1e4, "exact");
+    cells.add(false, 1e5, "exact");
+    EXPECT_EQ(cells.aa(), "c2"); // all of ours are short: the longest
+    cells.add(false, 9e6, "exact");
+    cells.add(false, 3e6, "exact");
+    EXPECT_EQ(cells.aa(), "c4"); // the cheapest from 1 ms on
+    cells.add(false, 2e6, "wrong");
+    EXPECT_EQ(cells.aa(), "c4");
+    cells.calibrations.erase("c4"); // not timed
+    EXPECT_EQ(cells.aa(), "c3");
+}
+
+} // namespace
+} // namespace boxwood::bench

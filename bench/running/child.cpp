@@ -1,0 +1,175 @@
+#include "bench/running/child.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <sstream>
+#include <system_error>
+
+namespace boxwood::bench {
+namespace {
+
+/// libgomp's threads spin for milliseconds after a region unless told not to; google-benchmark
+/// reads BENCHMARK_* variables as if they were options.
+std::vector<std::string> child_environment(unsigned max_threads) {
+    std::vector<std::string> variables;
+    for (char** variable = environ; *variable; ++variable) {
+        const std::string_view text = *variable;
+        if (!text.starts_with("OMP_") && !text.starts_with("GOMP_") &&
+            !text.starts_with("BENCHMARK_"))
+            variables.emplace_back(text);
+    }
+    variables.push_back("OMP_WAIT_POLICY=passive");
+    variables.push_back("OMP_DYNAMIC=false");
+    variables.push_back(fmt::format("OMP_NUM_THREADS={}", max_threads));
+    return variables;
+}
+
+std::vector<char*> pointers_to(std::vector<std::string>& texts) {
+    std::vector<char*> pointers;
+    pointers.reserve(texts.size() + 1);
+    for (std::string& text : texts)
+        pointers.push_back(text.data());
+    pointers.push_back(nullptr);
+    return pointers;
+}
+
+/// Lines that a ChildReport wrote.
+class Conversation {
+  public:
+    Conversation(const Report& report, ChildEnd& end) : report_(report), end_(end) {}
+
+    void take(std::string_view bytes) {
+        pending_ += bytes;
+        for (std::size_t line; (line = pending_.find('\n')) != std::string::npos;) {
+            read_line(pending_.substr(0, line));
+            pending_.erase(0, line + 1);
+        }
+    }
+
+  private:
+    void read_line(const std::string& line) {
+        std::istringstream words(line);
+        std::string word, text;
+        words >> word;
+        if (word == "at") {
+            std::size_t done = 0, total = 0;
+            words >> done >> total >> end_.cell;
+            report_(done, total, end_.cell);
+            return;
+        }
+        words.ignore(1);
+        std::getline(words, text);
+        if (word == "finishing")
+            end_.cell.clear();
+        else
+            end_.cause = text;
+        if (word == "failed")
+            end_.kind = ChildEnd::Kind::failed;
+        if (word == "threw")
+            end_.kind = ChildEnd::Kind::crashed;
+    }
+
+    const Report& report_;
+    ChildEnd& end_;
+    std::string pending_;
+};
+
+/// Until the child closes its end of the pipe, by exit at the latest. False if interrupted.
+bool listen(int pipe, Interrupt& interrupt, Conversation& conversation) {
+    std::array<char, 4096> bytes;
+    std::array<pollfd, 2> waiting{pollfd{pipe, POLLIN, 0},
+                                  pollfd{interrupt.descriptor(), POLLIN, 0}};
+    while (true) {
+        if (poll(waiting.data(), waiting.size(), -1) < 0 && errno != EINTR)
+            throw std::system_error(errno, std::generic_category(), "poll");
+        if (interrupt.requested())
+            return false;
+        if (waiting[0].revents == 0)
+            continue;
+        const ssize_t got = read(pipe, bytes.data(), bytes.size());
+        if (got > 0)
+            conversation.take({bytes.data(), static_cast<std::size_t>(got)});
+        else if (got == 0 || errno != EINTR)
+            return true;
+    }
+}
+
+[[noreturn]] void become_child(pid_t parent, const sigset_t& mask, char* const* arguments,
+                               char* const* variables) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) // it died before the line above
+        _exit(127);
+    signal(SIGINT, SIG_IGN); // Ctrl-C goes to the whole group; only the parent answers it
+    pthread_sigmask(SIG_SETMASK, &mask, nullptr);
+    execve("/proc/self/exe", arguments, variables);
+    _exit(127);
+}
+
+} // namespace
+
+ChildEnd run_child(std::vector<std::string> arguments, unsigned max_threads, Interrupt& interrupt,
+                   const Report& report) {
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0)
+        throw std::system_error(errno, std::generic_category(), "pipe");
+    arguments.insert(arguments.end(), {"--report-fd", std::to_string(ends[1])});
+    std::vector<std::string> variables = child_environment(max_threads);
+    const std::vector<char*> argument_pointers = pointers_to(arguments);
+    const std::vector<char*> variable_pointers = pointers_to(variables);
+
+    const pid_t parent = getpid();
+    const pid_t child = fork();
+    if (child < 0)
+        throw std::system_error(errno, std::generic_category(), "fork");
+    if (child == 0) {
+        fcntl(ends[1], F_SETFD, 0); // the one descriptor that outlives exec
+        become_child(parent, interrupt.mask_before(), argument_pointers.data(),
+                     variable_pointers.data());
+    }
+    close(ends[1]);
+
+    ChildEnd end;
+    Conversation conversation(report, end);
+    const bool finished = listen(ends[0], interrupt, conversation);
+    if (!finished)
+        kill(child, SIGKILL);
+    close(ends[0]);
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    if (!finished || interrupt.requested()) {
+        end.kind = ChildEnd::Kind::interrupted;
+    } else if (WIFSIGNALED(status)) {
+        end.kind = ChildEnd::Kind::crashed;
+        end.cause = fmt::format("signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
+    } else if (WEXITSTATUS(status) != 0 && end.kind == ChildEnd::Kind::done) {
+        end.kind = ChildEnd::Kind::crashed;
+        end.cause = fmt::format("exit code {}", WEXITSTATUS(status));
+    }
+    return end;
+}
+
+void ChildReport::at(std::size_t done, std::size_t total, const std::string& cell) {
+    send("at", fmt::format("{} {} {}", done, total, cell));
+}
+
+/// A line is shorter than PIPE_BUF, so it arrives whole. If nobody listens the process ends by
+/// SIGPIPE, as it should.
+void ChildReport::send(const char* word, std::string text) {
+    std::ranges::replace(text, '\n', ' ');
+    const std::string line = fmt::format("{} {:.500}\n", word, text);
+    while (write(descriptor_, line.data(), line.size()) < 0 && errno == EINTR) {
+    }
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "bench/running/interrupt.h"
+#include "bench/io/progress.h"
+
+#include <exception>
+#include <string>
+#include <vector>
+
+namespace boxwood::bench {
+
+/// How a child process ended.
+struct ChildEnd {
+    enum class Kind {
+        done,
+        interrupted, ///< Ctrl-C reached the parent; the child was stopped
+        crashed,     ///< by a signal, by exit(n), or by an exception within a cell
+        failed       ///< it said why it cannot go on: no space left, a broken file
+    };
+    Kind kind = Kind::done;
+    std::string cell;  ///< the one it was in, if any
+    std::string cause; ///< "signal 11 (Segmentation fault)", or its own words
+};
+
+/// Runs this executable again with other arguments and waits for its end. The child's environment
+/// is fit for timing (idle OpenMP threads sleep; no google-benchmark settings from outside). It
+/// does not see Ctrl-C, and dies with its parent.
+/// `--report-fd N` is added to the arguments: where a ChildReport writes. `report` gets what it
+/// says; between two cells the parent sleeps, so as to take no time from what is measured. Throws
+/// std::system_error if no process can be started.
+ChildEnd run_child(std::vector<std::string> arguments, unsigned max_threads, Interrupt& interrupt,
+                   const Report& report);
+
+/// The child's side.
+class ChildReport {
+  public:
+    explicit ChildReport(int descriptor) : descriptor_(descriptor) {}
+    void at(std::size_t done, std::size_t total, const std::string& cell);
+    /// No cell is at work any more: what goes wrong from here on is no cell's fault.
+    void finishing() { send("finishing", ""); }
+    void threw(const std::exception& error) { send("threw", error.what()); }
+    void failed(const std::exception& error) { send("failed", error.what()); }
+
+  private:
+    void send(const char* word, std::string text);
+
+    int descriptor_;
+};
+
+} // namespace boxwood::bench

@@ -1,0 +1,164 @@
+#include "bench/running/environment.h"
+
+#include "bench/tasks/contender.h"
+#include "bench/running/machine.h"
+#include "build_info.h"
+#include "cmake_cache.h"
+#include "git_commit.h"
+
+#include <CLI/Version.hpp>
+#include <fmt/format.h>
+#include <hwy/highway.h>
+#include <tbb/version.h>
+#include <toml++/toml.h>
+#include <xxhash.h>
+
+#include <cstdio>
+#include <memory>
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
+namespace boxwood::bench {
+namespace {
+
+std::string peer_version(std::string_view name) {
+    for (const Peer& peer : peers())
+        if (peer.name == name)
+            return peer.version;
+    return "absent";
+}
+
+std::string highway_version() { return fmt::format("{}.{}.{}", HWY_MAJOR, HWY_MINOR, HWY_PATCH); }
+
+/// Names of the targets in a mask, best (lowest bit) first.
+std::vector<std::string> target_names(std::int64_t targets) {
+    std::vector<std::string> names;
+    for (; targets != 0; targets &= targets - 1)
+        names.emplace_back(hwy::TargetName(targets & -targets));
+    return names;
+}
+
+std::string hash_of(const results::Env& e) {
+    // A separator that no field holds keeps ("ab", "c") and ("a", "bc") apart.
+    std::string text;
+    const auto add = [&](const auto&... fields) { ((text += fmt::format("{}\x1f", fields)), ...); };
+    add(e.host, e.cpu, e.ncpu, e.l1d_bytes, e.l2_bytes, e.l3_bytes, e.isa_max, e.isa_used);
+    add(e.governor, e.thp, e.virt, e.kernel, e.mxcsr);
+    add(e.compiler, e.flags, e.build_type, e.git_commit, e.git_dirty);
+    add(e.embree_version, e.fcl_version, e.cgal_version, e.bullet_version, e.tbb_version);
+    add(e.eigen_version, e.hdf5_version, e.gbench_version, e.highway_version);
+    return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size()));
+}
+
+} // namespace
+
+std::vector<std::string> isas_supported() { return target_names(hwy::SupportedTargets()); }
+
+std::string isa_used() { return target_names(hwy::SupportedTargets() & HWY_TARGETS).at(0); }
+
+std::string cmake_cache_text() { return cmake_cache; }
+
+std::string lscpu_text() {
+    struct Close {
+        void operator()(std::FILE* pipe) const { pclose(pipe); }
+    };
+    const std::unique_ptr<std::FILE, Close> pipe(popen("LC_ALL=C lscpu 2>/dev/null", "r"));
+    std::string text;
+    char part[4096];
+    for (std::size_t got = 1; pipe && got != 0;) {
+        got = std::fread(part, 1, sizeof part, pipe.get());
+        text.append(part, got);
+    }
+    return text;
+}
+
+std::string_view build_type() { return BOXWOOD_BUILD_TYPE; }
+std::string_view sanitizers() { return BOXWOOD_SANITIZERS; }
+std::string_view version() { return BOXWOOD_VERSION; }
+
+std::string git_commit() {
+    return BOXWOOD_GIT_COMMIT + std::string(BOXWOOD_GIT_DIRTY ? "-dirty" : "");
+}
+
+std::string compiler() {
+#if defined(__clang__)
+    return "clang++ " __clang_version__;
+#else
+    return "g++ " __VERSION__;
+#endif
+}
+
+std::vector<std::pair<std::string, std::string>> packages() {
+    std::vector<std::pair<std::string, std::string>> list{
+        {"highway", highway_version()},
+        {"tbb", TBB_VERSION_STRING},
+        {"hdf5", BOXWOOD_HDF5_VERSION},
+        {"google-benchmark", BOXWOOD_GBENCH_VERSION},
+        {"assimp", BOXWOOD_ASSIMP_VERSION},
+        {"xxhash", BOXWOOD_XXHASH_VERSION},
+        {"fmt",
+         fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
+        {"cli11", CLI11_VERSION},
+        {"tomlplusplus", fmt::format("{}.{}.{}", TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH)}};
+    for (const Peer& peer : peers())
+        if (peer.name != "brute_force")
+            list.emplace_back(peer.name, peer.version);
+    for (const std::string_view name : absent_peers())
+        list.emplace_back(name, "absent");
+    return list;
+}
+
+std::uint32_t mxcsr() {
+#if defined(__SSE__)
+    return _mm_getcsr();
+#else
+    return 0;
+#endif
+}
+
+bool ieee_arithmetic() {
+    // Rounding control (bits 13, 14), flush to zero (15) and denormals are zero (6).
+    return (mxcsr() & 0xe040u) == 0;
+}
+
+results::Env environment(bool measure_bandwidth) {
+    const Machine machine = read_machine(lscpu_text());
+    results::Env e;
+    e.host = machine.host;
+    e.cpu = machine.cpu;
+    e.ncpu = machine.cores;
+    e.l1d_bytes = machine.l1d_bytes.value_or(results::no_count);
+    e.l2_bytes = machine.l2_bytes.value_or(results::no_count);
+    e.l3_bytes = machine.l3_bytes.value_or(results::no_count);
+    e.isa_max = isas_supported().at(0);
+    e.isa_used = isa_used();
+    e.governor = machine.governor;
+    e.thp = machine.thp;
+    e.virt = machine.virt;
+    e.kernel = machine.kernel;
+    e.mxcsr = mxcsr() & ~0x3fu; // without the sticky exception flags
+    e.compiler = compiler();
+    e.flags = BOXWOOD_CXX_FLAGS;
+    e.build_type = BOXWOOD_BUILD_TYPE;
+    e.git_commit = BOXWOOD_GIT_COMMIT;
+    e.git_dirty = BOXWOOD_GIT_DIRTY;
+    e.embree_version = peer_version("embree");
+    e.fcl_version = peer_version("fcl");
+    e.cgal_version = peer_version("cgal");
+    e.bullet_version = peer_version("bullet");
+    e.tbb_version = TBB_VERSION_STRING;
+    e.eigen_version = BOXWOOD_EIGEN_VERSION;
+    e.hdf5_version = BOXWOOD_HDF5_VERSION;
+    e.gbench_version = BOXWOOD_GBENCH_VERSION;
+    e.highway_version = highway_version();
+    if (measure_bandwidth) {
+        e.stream_triad_gbs_1 = triad_gbs(machine, 1);
+        e.stream_triad_gbs_all = triad_gbs(machine, machine.cores);
+        e.core_ghz = core_ghz();
+    }
+    e.env_hash = hash_of(e);
+    return e;
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,115 @@
+#include "bench/running/record.h"
+
+#include "scenes/moving/frames.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <random>
+
+namespace boxwood::bench {
+namespace {
+
+std::string random_uuid() {
+    std::random_device device;
+    const auto bits = [&](unsigned mask, unsigned set) { return (device() & mask) | set; };
+    return fmt::format("{:08x}-{:04x}-{:04x}-{:04x}-{:08x}{:04x}", bits(~0u, 0), bits(0xffff, 0),
+                       bits(0x0fff, 0x4000), bits(0x3fff, 0x8000), bits(~0u, 0), bits(0xffff, 0));
+}
+
+std::string library_version(const ContenderEntry& contender, const results::Env& env) {
+    for (const Peer& peer : peers())
+        if (peer.name == contender.library)
+            return peer.version;
+    return env.git_commit;
+}
+
+} // namespace
+
+Record::Record(const results::Env& env, std::string generator) {
+    out.run_uuid = random_uuid();
+    out.created_utc =
+        fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::now()));
+    out.generator = std::move(generator);
+    out.env.push_back(env);
+}
+
+std::uint32_t Record::add_scene(const Scene& scene, std::string asks) {
+    results::SceneRow row;
+    row.scene_id = static_cast<std::uint32_t>(out.scenes.size());
+    row.name = scene.name;
+    row.generator = scene.spec.generator;
+    row.n_items = items_of(scene);
+    row.n_triangles = scene.mesh.triangles.size();
+    if (scene.spec.moving) {
+        row.n_frames = scene.spec.moving->frames;
+        row.effects = effect_words(*scene.spec.moving);
+    }
+    row.seed = scene.spec.seed;
+    row.queries = std::move(asks);
+    if (scene.spec.moving)
+        row.queries += ',' + ask_words(*scene.spec.moving);
+    row.content_hash = scene.content_hash;
+    row.params_json = scene.params_json;
+    out.scenes.push_back(row);
+    return row.scene_id;
+}
+
+results::Cell Record::cell(std::string name, const Scene& scene, std::uint32_t scene_id, Ask ask,
+                           const ContenderEntry& contender, const std::string& executor,
+                           unsigned threads) {
+    results::Cell row;
+    row.cell_id = static_cast<std::uint32_t>(out.cells.size());
+    row.name = std::move(name);
+    row.scene_id = scene_id;
+    row.variant_id = variant_id_of(contender);
+    row.task = to_string(ask);
+    row.n_items = items_of(scene);
+    row.n_queries = is_kernel_ask(ask) ? row.n_items : scene.rays.size();
+    row.precision = contender.precision;
+    row.executor = executor;
+    row.threads = threads;
+    row.isa = contender.is_peer ? "" : out.env.front().isa_used;
+    return row;
+}
+
+void Record::add(Judgement judgement, std::uint32_t cell_id) {
+    judgement.kernel.cell_id = cell_id;
+    out.kernels.push_back(std::move(judgement.kernel));
+    for (results::ConditionRow& row : judgement.conditions) {
+        row.cell_id = cell_id;
+        out.conditions.push_back(row);
+    }
+}
+
+std::uint32_t Record::variant_id_of(const ContenderEntry& contender) {
+    for (const results::Variant& variant : out.variants)
+        if (variant.name == contender.name && variant.library == contender.library &&
+            variant.params_json == contender.params_json)
+            return variant.variant_id;
+    results::Variant row;
+    row.variant_id = static_cast<std::uint32_t>(out.variants.size());
+    row.name = contender.name;
+    row.library = contender.library;
+    row.lib_version = library_version(contender, out.env.front());
+    row.builder = contender.builder;
+    row.layout = contender.layout;
+    row.traversal = contender.traversal;
+    row.kernel = contender.kernel;
+    row.is_peer = contender.is_peer;
+    row.params_json = contender.params_json;
+    row.notes = contender.notes;
+    out.variants.push_back(row);
+    return row.variant_id;
+}
+
+std::uint64_t items_of(const Scene& scene) {
+    const std::size_t cases = n_cases(scene.cases);
+    return cases > 0 ? cases : scene.boxes.size();
+}
+
+KeepFloatingPointMode::KeepFloatingPointMode() { std::fegetenv(&saved_); }
+KeepFloatingPointMode::~KeepFloatingPointMode() { std::fesetenv(&saved_); }
+
+} // namespace boxwood::bench

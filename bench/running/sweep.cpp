@@ -1,0 +1,303 @@
+#include "bench/running/sweep.h"
+
+#include "bench/running/calibration.h"
+#include "bench/running/child.h"
+#include "bench/io/bad_input.h"
+#include "bench/analysis/compare.h"
+#include "bench/io/csv.h"
+#include "bench/running/environment.h"
+#include "bench/analysis/findings.h"
+#include "bench/running/prepare.h"
+#include "bench/running/shards.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <optional>
+
+namespace boxwood::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a cell takes in a round beside its timed loops and their warm-up: contender, answers, hash.
+constexpr double set_up_ns = 1e6;
+
+double cell_s(const Calibration& calibration) { return (round_ns(calibration) + set_up_ns) * 1e-9; }
+
+/// Before anything was measured: a microsecond per item, ray, point and region for each phase.
+double guessed_cell_s(const PlannedCell& cell, double min_time_ms) {
+    const double call =
+        1e-6 * static_cast<double>(cell.scene.n + cell.scene.n_rays + cell.scene.n_points);
+    return 2 * (call + std::max(call, min_time_ms * 1e-3)) + set_up_ns * 1e-9;
+}
+
+/// A sweep as its parent process sees it: children work, it waits, keeps and joins.
+class Sweep {
+  public:
+    explicit Sweep(const SweepOptions& options)
+        : options_(options), plan_(make_plan(read_text(options.config.string()),
+                                             options.config.string(), options.overrides)),
+          shards_(options.out, plan_.sweep_hash, environment(false).env_hash) {}
+
+    int run() {
+        if (options_.shard >= plan_.rounds)
+            throw BadInput(fmt::format("--shard {}/{} has none of the {} rounds", options_.shard,
+                                       options_.shards, plan_.rounds));
+        read_earlier_output();
+        shards_.open();
+        write_sweep_file();
+        if (!get_prepared() || !run_rounds())
+            return stop();
+        return finish();
+    }
+
+  private:
+    using Cost = std::function<double(const std::string& cell)>;
+
+    /// OUT may hold this sweep already, whole or in part; any other file is left alone.
+    void read_earlier_output() {
+        if (!fs::exists(options_.out))
+            return;
+        const std::string advice = "choose another --out, or remove the file";
+        try {
+            earlier_ = results::read(options_.out);
+        } catch (const std::runtime_error& error) {
+            throw BadInput(fmt::format("--out: {}; {}", error.what(), advice));
+        }
+        if (earlier_->sweep_hash != plan_.sweep_hash)
+            throw BadInput(fmt::format("--out: {} holds another sweep (other cells, seed or "
+                                       "times); {}",
+                                       options_.out.string(), advice));
+        if (!shards_.belongs(*earlier_))
+            throw BadInput(fmt::format("--out: {} was measured on another machine or by another "
+                                       "build; {} (boxwood merge joins files)",
+                                       options_.out.string(), advice));
+    }
+
+    /// Children read this copy: the original may be edited while the sweep runs.
+    void write_sweep_file() const {
+        std::ofstream file(shards_.sweep_file(), std::ios::binary);
+        file << plan_.config_text << std::flush;
+        if (!file)
+            throw BadInput(fmt::format("cannot write {}", shards_.sweep_file().string()));
+    }
+
+    /// False if it was interrupted.
+    bool get_prepared() {
+        std::optional<results::Results> found = shards_.prepared();
+        if (!found && earlier_) {
+            found = without_rounds(*earlier_);
+            results::write(shards_.prepared_file(), *found);
+        }
+        while (!found) {
+            std::vector<std::string> arguments = child_arguments(shards_.prepared_file());
+            arguments.push_back("--prepare");
+            for (const auto& [cell, witness] : crashed_)
+                arguments.insert(arguments.end(), {"--skip", cell});
+            Eta eta(static_cast<double>(plan_.cells.size()));
+            const ChildEnd end =
+                run_child_process("preparing", arguments, eta, [](const auto&) { return 1.0; });
+            if (end.kind == ChildEnd::Kind::interrupted)
+                return false;
+            note_crash(end, "the preparation");
+            found = shards_.prepared();
+            if (!found && end.kind == ChildEnd::Kind::done)
+                throw BadInput(
+                    fmt::format("{} cannot be read back", shards_.prepared_file().string()));
+        }
+        prepared_ = std::move(*found);
+        take_out_crashed();
+        return true;
+    }
+
+    /// False if it was interrupted.
+    bool run_rounds() {
+        std::set<unsigned> done = earlier_ ? rounds_in(*earlier_) : std::set<unsigned>{};
+        for (const auto& [round, results] : shards_.rounds())
+            done.insert(round);
+        std::vector<unsigned> wanted;
+        for (unsigned round = options_.shard; round < plan_.rounds; round += options_.shards)
+            if (!done.contains(round))
+                wanted.push_back(round);
+        if (!done.empty())
+            progress_.say(fmt::format("{} rounds are there from an earlier start; {} to go",
+                                      done.size(), wanted.size()));
+
+        Calibrations calibrations = calibrations_of(prepared_.texts["calibration"]);
+        double all_s = 0;
+        for (const PlannedCell& cell : plan_.cells)
+            if (const auto found = calibrations.find(cell.name); found != calibrations.end())
+                all_s += cell_s(found->second) *
+                         static_cast<double>(std::ranges::count_if(
+                             wanted, [&](unsigned round) { return cell.is_in(round); }));
+        Eta eta(all_s);
+        start_ = std::chrono::steady_clock::now();
+        for (auto round = wanted.begin(); round != wanted.end();) {
+            std::vector<std::string> arguments = child_arguments(shards_.round_file(*round));
+            arguments.insert(arguments.end(), {"--round", std::to_string(*round), "--prepared",
+                                               shards_.prepared_file().string()});
+            const ChildEnd end = run_child_process(
+                fmt::format("round {}/{}", *round + 1, plan_.rounds), arguments, eta,
+                [&](const std::string& cell) { return cell_s(calibrations[cell]); });
+            if (end.kind == ChildEnd::Kind::interrupted)
+                return false;
+            note_crash(end, fmt::format("round {}", *round + 1));
+            take_out_crashed();
+            if (!fs::exists(shards_.round_file(*round)))
+                continue;
+            if (!progress_.is_terminal())
+                progress_.say(fmt::format("round {}/{} done, {} left", *round + 1, plan_.rounds,
+                                          duration_text(eta.left_s(elapsed_s()))));
+            ++round;
+        }
+        return true;
+    }
+
+    ChildEnd run_child_process(const std::string& stage, const std::vector<std::string>& arguments,
+                               Eta& eta, const Cost& cost) {
+        double at_work = 0; // expected cost of the cell that runs now
+        const Report report = [&](std::size_t, std::size_t, const std::string& cell) {
+            eta.done(at_work);
+            at_work = cost(cell);
+            progress_.show({stage, eta.fraction(), eta.left_s(elapsed_s()), cell});
+        };
+        progress_.show({stage, eta.fraction(), -1, ""});
+        ChildEnd end = run_child(arguments, max_threads(), interrupt_, report);
+        eta.done(at_work);
+        if (end.kind == ChildEnd::Kind::failed)
+            throw BadInput(fmt::format("{}; what is finished is kept in {}: mend this and start "
+                                       "the same command again",
+                                       end.cause, shards_.folder().string()));
+        return end;
+    }
+
+    /// A cell that brings its process down twice is out.
+    void note_crash(const ChildEnd& end, const std::string& where) {
+        if (end.kind != ChildEnd::Kind::crashed)
+            return;
+        const unsigned times = ++crashes_[end.cell];
+        if (end.cell.empty() && times >= 2)
+            throw BadInput(
+                fmt::format("{} failed twice outside of any cell: {}", where, end.cause));
+        if (times >= 2)
+            crashed_[end.cell] = fmt::format("crashed: {} in {}", end.cause, where);
+        progress_.say(fmt::format(
+            "{} crashed in {}: {}; {}", where, end.cell.empty() ? "no cell" : end.cell, end.cause,
+            times >= 2 ? "that cell is left out from here on" : "it is run again"));
+    }
+
+    void take_out_crashed() {
+        bool is_new = false;
+        for (const auto& [cell, witness] : crashed_)
+            is_new |= mark_crashed(prepared_, cell, witness);
+        if (is_new)
+            results::write(shards_.prepared_file(), prepared_);
+    }
+
+    std::vector<std::string> child_arguments(const fs::path& out) const {
+        const Overrides& o = options_.overrides;
+        std::vector<std::string> arguments{"boxwood",      "round",
+                                           "--config",     shards_.sweep_file().string(),
+                                           "--sweep-hash", plan_.sweep_hash,
+                                           "--shard-out",  out.string(),
+                                           "--seed",       std::to_string(plan_.seed)};
+        if (!o.threads.empty())
+            arguments.insert(arguments.end(),
+                             {"--threads", fmt::format("{}", fmt::join(o.threads, ","))});
+        if (!o.only.empty())
+            arguments.insert(arguments.end(), {"--only", o.only});
+        if (!o.mesh.empty())
+            arguments.insert(arguments.end(), {"--mesh", o.mesh.string()});
+        return arguments;
+    }
+
+    /// Joins what is there and puts it in place of OUT. False if there is no round yet.
+    bool write_output() {
+        std::vector<results::Results> parts{prepared_};
+        std::set<unsigned> done;
+        if (earlier_) {
+            done = rounds_in(*earlier_);
+            parts.push_back(*earlier_);
+            parts.back().texts.clear(); // those of the preparation hold
+        }
+        for (auto& [round, results] : shards_.rounds())
+            if (done.insert(round).second)
+                parts.push_back(std::move(results));
+        if (done.empty())
+            return false;
+        merged_ = results::merge(parts);
+        merged_.texts["argv"] = options_.command_line;
+        merged_.texts["lscpu"] = lscpu_text();
+        merged_.texts["cmake_cache"] = cmake_cache_text();
+        merged_.compare = compare_to_peers(merged_, plan_.delta);
+        const fs::path merged_file = shards_.folder() / "merged.h5";
+        results::write(merged_file, merged_);
+        fs::rename(merged_file, options_.out);
+        return true;
+    }
+
+    int stop() {
+        const bool has_output = write_output();
+        progress_.say(
+            fmt::format("interrupted; {}. The same command goes on from here.",
+                        has_output ? fmt::format("{} rounds are in {}", rounds_in(merged_).size(),
+                                                 options_.out.string())
+                                   : std::string("no round was finished")));
+        return exit_interrupted;
+    }
+
+    int finish() {
+        progress_.show({"joining", 1, -1, ""});
+        write_output();
+        shards_.remove();
+        progress_.say("");
+        fmt::print("{}", findings_text(merged_));
+        fmt::print("\nresults: {}\n", options_.out.string());
+        return is_promise_broken(merged_) ? exit_failed : exit_success;
+    }
+
+    unsigned max_threads() const {
+        return std::ranges::max(plan_.cells, {}, &PlannedCell::threads).threads;
+    }
+    double elapsed_s() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+    const SweepOptions& options_;
+    Plan plan_;
+    Shards shards_;
+    Interrupt interrupt_;
+    Progress progress_{stderr};
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    std::optional<results::Results> earlier_; ///< what OUT held before
+    results::Results prepared_, merged_;
+    std::map<std::string, unsigned> crashes_;    ///< how often, by cell
+    std::map<std::string, std::string> crashed_; ///< cells that are out, and their witness
+};
+
+} // namespace
+
+void list_cells(const SweepOptions& options) {
+    const Plan plan =
+        make_plan(read_text(options.config.string()), options.config.string(), options.overrides);
+    const unsigned rounds = (plan.rounds + options.shards - 1 - options.shard) / options.shards;
+    double guess_s = 0; // the preparation takes about as long as a round
+    for (const PlannedCell& cell : plan.cells) {
+        fmt::print("{}\n", cell.name);
+        guess_s += guessed_cell_s(cell, plan.min_time_ms) *
+                   (std::min(rounds, cell.rounds.value_or(rounds)) + 1);
+    }
+    fmt::print(stderr,
+               "{} cells, {} rounds, sweep {}: about {} (a guess; the preparation "
+               "measures)\n",
+               plan.cells.size(), rounds, plan.sweep_hash, duration_text(guess_s));
+}
+
+int run_sweep(const SweepOptions& options) { return Sweep(options).run(); }
+
+} // namespace boxwood::bench

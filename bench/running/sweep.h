@@ -1,0 +1,41 @@
+#pragma once
+
+#include "bench/plan/plan.h"
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace boxwood::bench {
+
+struct SweepOptions {
+    std::filesystem::path config, out;
+    Overrides overrides;
+    unsigned shard = 0, shards = 1; ///< only the rounds with round % shards == shard
+    std::string command_line;       ///< recorded
+};
+
+/// Prints the cells of a sweep and how long it may take.
+void list_cells(const SweepOptions& options);
+
+/// Plans, prepares, runs every round in a process of its own, merges, compares and prints the
+/// findings. Rounds that are already there, in OUT or beside it, are not run again. Gives an exit
+/// code; throws BadInput for bad input and for a place that takes no data.
+int run_sweep(const SweepOptions& options);
+
+/// What one child process does: the preparation, or one round.
+struct ChildOptions {
+    std::filesystem::path config, prepared, out;
+    Overrides overrides;
+    std::string sweep_hash; ///< that of the parent's plan
+    bool is_preparation = false;
+    unsigned round = 0;
+    std::set<std::string> skip; ///< cells that the preparation leaves out
+    int report_fd = -1;
+};
+
+/// Gives an exit code; what goes wrong is told to the parent.
+int run_sweep_child(const ChildOptions& options);
+
+} // namespace boxwood::bench

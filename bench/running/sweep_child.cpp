@@ -1,0 +1,55 @@
+#include "bench/running/child.h"
+#include "bench/io/bad_input.h"
+#include "bench/io/csv.h"
+#include "bench/running/environment.h"
+#include "bench/running/prepare.h"
+#include "bench/running/round.h"
+#include "bench/running/sweep.h"
+
+#include <fmt/format.h>
+
+namespace boxwood::bench {
+namespace {
+
+results::Results work(const ChildOptions& options, const Report& report) {
+    const Plan plan =
+        make_plan(read_text(options.config.string()), options.config.string(), options.overrides);
+    if (plan.sweep_hash != options.sweep_hash)
+        throw BadInput("what is to be measured changed while the sweep ran: was the mesh file "
+                       "edited, or boxwood built again?");
+    if (options.is_preparation) {
+        results::Env env = environment(true);
+        env.seed = plan.seed;
+        return prepare(plan, env, options.skip, report);
+    }
+    const results::Results prepared = results::read(options.prepared);
+    if (environment(false).env_hash != prepared.env.at(0).env_hash)
+        throw BadInput("the machine or the build changed while the sweep ran");
+    return run_round(plan, prepared, options.round, report);
+}
+
+} // namespace
+
+int run_sweep_child(const ChildOptions& options) {
+    ChildReport report(options.report_fd);
+    bool in_cell = false;
+    try {
+        const results::Results results =
+            work(options, [&](std::size_t done, std::size_t total, const std::string& cell) {
+                in_cell = !options.is_preparation; // which handles what cells throw by itself
+                report.at(done, total, cell);
+            });
+        in_cell = false;
+        report.finishing();
+        results::write(options.out, results);
+        return exit_success;
+    } catch (const std::exception& error) {
+        if (in_cell)
+            report.threw(error);
+        else
+            report.failed(error);
+        return in_cell ? exit_failed : exit_bad_input;
+    }
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,26 @@
+#include "bench/stages/playing.h"
+
+#include "trees/queries/points.h"
+
+namespace boxwood::bench {
+namespace {
+
+class Nearest final : public SceneStage {
+  public:
+    std::size_t run(Playing& playing) override {
+        const std::size_t k = ask_of(playing.scene.file(), "nearest")->k;
+        playing.answers.nearest.resize(k * playing.places.size());
+        boxwood::nearest(*playing.box_tree, playing.places, k, playing.executor,
+                         playing.answers.nearest, nullptr);
+        for (Neighbour& found : playing.answers.nearest) // a body that is absent is nobody's
+            if (!(found.squared_distance < std::numeric_limits<double>::infinity()))
+                found = {};
+        return playing.places.size();
+    }
+};
+
+} // namespace
+
+std::unique_ptr<SceneStage> nearest_ask() { return std::make_unique<Nearest>(); }
+
+} // namespace boxwood::bench

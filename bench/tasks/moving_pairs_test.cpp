@@ -1,0 +1,224 @@
+#include "bench/tasks/moving_pairs.h"
+
+#include "bench/truth/column_sweep.h"
+#include "bench/io/bad_input.h"
+#include "bench/plan/plan.h"
+#include "scenes/effects/effect_scene.h"
+#include "scenes/scene.h"
+#include "trees/dynamic/update.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+namespace boxwood::bench {
+namespace {
+
+std::shared_ptr<const SceneFile> uniform(std::vector<EffectChoice> effects, std::size_t n,
+                                         std::size_t n_frames = 6) {
+    SceneFile file = effect_scene({.generator = "uniform", .n = n, .seed = 5}, effects);
+    file.frames = n_frames;
+    return std::make_shared<const SceneFile>(std::move(file));
+}
+
+Scene start_of(const std::shared_ptr<const SceneFile>& file) {
+    SceneSpec spec{.generator = "uniform", .n = file->n, .seed = file->seed};
+    spec.moving = file;
+    return make_scene(spec);
+}
+
+/// The check of all frames, after one pass and after another from a new build.
+results::Check check_of(Contender& contender, Frames& frames, const MovingTruth& truth) {
+    Answers answers;
+    std::vector<FrameTime> times(frames.size());
+    results::Check check;
+    std::uint64_t hashes[2];
+    for (std::uint64_t& value : hashes) {
+        FramesHash hash;
+        check = {};
+        contender.build();
+        play(contender, frames, answers, times, [&](std::size_t index, const Frame& frame) {
+            hash.add(answers.pairs);
+            truth.check(index, frame, answers, check);
+        });
+        value = hash.value();
+    }
+    EXPECT_EQ(hashes[0], hashes[1]);
+    EXPECT_GT(times.back().query_ns, 0);
+    return check;
+}
+
+TEST(MovingPairs, EveryPolicyAndPeerFollowsEveryEffect) {
+    const EffectChoice come{"spawn", {{"often", .2}}, 1}, go{"despawn", {{"often", .2}}, 1};
+    const std::vector<std::vector<EffectChoice>> scenes{
+        {{"drift", {}, 1}},
+        {{"drift", {}, .01}},
+        {{"teleport", {}, 1}},
+        {come, go},
+        {come, go, {"teleport", {}, .5}, {"drift", {}, .5}},
+        {{"spawn", {{"absent", 1}, {"often", .3}}, 1}}, // at first there is nobody
+        {{"despawn", {{"often", 1}}, 1}},               // and here, from the first frame on
+    };
+    for (const auto& effects : scenes) {
+        const auto file = uniform(effects, 1500);
+        const Scene scene = start_of(file);
+        Frames frames(file);
+        const MovingTruth truth(frames, 2);
+        std::vector<ContenderEntry> all = peers_that_answer(Ask::moving_pairs);
+        EXPECT_EQ(all.empty(), peers().size() < 2);
+        for (const UpdateEntry& update : updates())
+            all.push_back(moving_contender({std::string(update.name), {}}));
+        for (const ContenderEntry& entry : all)
+            for (const unsigned threads : {1u, 2u}) {
+                const Job job{&scene, Ask::moving_pairs, threads == 1 ? "serial" : "tbb", threads};
+                if (entry.unsupported(job))
+                    continue;
+                const results::Check check = check_of(*entry.make(job), frames, truth);
+                EXPECT_EQ(check.status, "exact")
+                    << entry.name << ", " << file->name << ": " << check.witness;
+                EXPECT_GT(check.n_got + (effects[0].settings.contains("absent") ||
+                                         effects[0].name == "despawn"),
+                          0u);
+            }
+    }
+}
+
+TEST(MovingPairs, APeerThatCannotSaysWhy) {
+    const Scene comers = start_of(uniform({{"spawn", {}, 1}}, 10)),
+                stayers = start_of(uniform({{"drift", {}, 1}}, 10));
+    for (const ContenderEntry& entry : peers_that_answer(Ask::moving_pairs)) {
+        EXPECT_EQ(entry.unsupported({&stayers, Ask::moving_pairs, "serial", 1}), std::nullopt);
+        EXPECT_EQ(entry.unsupported({&comers, Ask::moving_pairs, "serial", 1}).has_value(),
+                  entry.name == "embree.rtc_collide.refit");
+    }
+}
+
+TEST(MovingPairs, WrongAnswersAreSeen) {
+    Frames frames(uniform({{"teleport", {}, 1}}, 200));
+    const MovingTruth truth(frames, 1);
+    const MovingTruth without(frames, 1, [](Pair p) { return p.a % 2 == 0; });
+    Answers answers;
+    results::Check check;
+    answers.pairs = {{0, 0}};
+    const Frame& frame = *frames.next();
+    truth.check(0, frame, answers, check);
+    EXPECT_EQ(check.status, "wrong");
+    EXPECT_EQ(check.extra, 1u);
+    EXPECT_EQ(check.missing, check.n_expected);
+    EXPECT_THAT(check.witness, testing::HasSubstr("frame 0: missing"));
+
+    answers.pairs = ColumnSweep(frame.boxes, 1).pairs();
+    check = {};
+    truth.check(0, frame, answers, check);
+    EXPECT_EQ(check.status, "exact");
+    check = {};
+    without.check(0, frame, answers, check);
+    EXPECT_EQ(check.status, "wrong");
+    EXPECT_EQ(check.missing, 0u);
+    std::erase_if(answers.pairs, [](Pair p) { return p.a % 2 == 0; });
+    check = {};
+    without.check(0, frame, answers, check);
+    EXPECT_EQ(check.status, "exact");
+    EXPECT_GT(check.n_got, 0u);
+
+    const std::vector<Pair> pairs{{1, 2}, {3, 4}}, turned{{3, 4}, {1, 2}}, other{{1, 2}, {3, 5}};
+    EXPECT_EQ(digest_of(pairs), digest_of(turned));
+    EXPECT_NE(digest_of(pairs), digest_of(other));
+    FramesHash forth, back;
+    for (const auto* list : {&pairs, &other})
+        forth.add(*list);
+    for (const auto* list : {&other, &pairs})
+        back.add(*list);
+    EXPECT_NE(forth.value(), back.value());
+}
+
+Plan plan_of(const std::string& keys) {
+    return make_plan("[[cells]]\ntask = \"moving_pairs\"\nupdates = \"auto\"\n" + keys, "test.toml",
+                     {});
+}
+
+std::string error_of(const std::string& keys) {
+    try {
+        plan_of(keys);
+    } catch (const BadInput& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(MovingPairs, ASweepFileLaysEffectsOnGenerators) {
+    const Plan plan = plan_of("scene = \"uniform\"\nn = 50\nframes = 3\n"
+                              "effects = [\"drift\", {name = \"drift\", share = 0.01}, "
+                              "[\"spin\", {name = \"teleport\", often = 0.5}]]\n");
+    ASSERT_EQ(plan.cells.size(), 3u);
+    EXPECT_EQ(plan.cells[0].name,
+              "uniform_drift_frames3/n50-s1/moving_pairs/auto.packed.self_pairs/f32/serial-1");
+    EXPECT_THAT(plan.cells[1].name, testing::StartsWith("uniform_drift_share0_01_frames3/"));
+    EXPECT_THAT(plan.cells[2].name, testing::StartsWith("uniform_spin_teleport_often0_5_frames3/"));
+    EXPECT_EQ(plan.cells[2].scene.moving->frames, 3u);
+    EXPECT_EQ(plan.cells[2].scene.moving->n, 50u);
+
+    using testing::HasSubstr;
+    EXPECT_THAT(error_of("scene = \"uniform\"\n"), HasSubstr("effects"));
+    EXPECT_THAT(error_of("scene = \"uniform\"\neffects = \"drfit\"\n"), HasSubstr("'drift'"));
+    EXPECT_THAT(error_of("scene = \"uniform\"\neffects = {name = \"drift\", sped = 1}\n"),
+                HasSubstr("speed"));
+    EXPECT_THAT(error_of("scene = \"sphere_mesh\"\neffects = \"drift\"\n"),
+                HasSubstr("one body of triangles"));
+    EXPECT_THAT(error_of("scene = \"uniform\"\nmotion = \"drift\"\n"), HasSubstr("motion"));
+}
+
+TEST(MovingPairs, ASweepFileNamesMovingScenes) {
+    const Plan plan = plan_of("scene = [\"broadmark_free_fall\", \"warehouse\"]\nn = 100\n");
+    ASSERT_EQ(plan.cells.size(), 2u);
+    EXPECT_EQ(plan.cells[0].name,
+              "broadmark_free_fall/n100-s1/moving_pairs/auto.packed.self_pairs/f32/serial-1");
+    const Plan own = plan_of("scene = \"four_link_arm\"\nframes = 5\n");
+    EXPECT_THAT(own.cells[0].name, testing::StartsWith("four_link_arm_frames5/n4-s1/"));
+
+    const auto path = std::filesystem::path(testing::TempDir()) / "My-scene.toml";
+    const auto write = [&](const char* effect) {
+        std::ofstream(path) << "n = 20\n[[bodies]]\ngenerator = \"uniform\"\neffects = \"" << effect
+                            << "\"\n";
+    };
+    write("drift");
+    const std::string keys = "scene = \"" + path.string() + "\"\n";
+    const Plan mine = plan_of(keys);
+    EXPECT_THAT(mine.cells[0].name, testing::StartsWith("my_scene/n20-s1/"));
+    write("spin");
+    EXPECT_NE(plan_of(keys).sweep_hash, mine.sweep_hash) << "another scene under the same name";
+
+    using testing::HasSubstr;
+    EXPECT_THAT(error_of("scene = \"warehuose\"\n"), HasSubstr("'warehouse'"));
+    EXPECT_THAT(error_of("scene = \"warehouse\"\neffects = \"drift\"\n"), HasSubstr("has its own"));
+    EXPECT_THAT(error_of("scene = \"nowhere.toml\"\n"), HasSubstr("nowhere.toml"));
+    EXPECT_THAT(error_of("scene = \"warehouse\"\nbuilders = \"median\"\n"),
+                HasSubstr("stand still"));
+    EXPECT_THAT(error_of("scene = \"warehouse\"\nstages = \"everything\"\n"),
+                HasSubstr("scene_queries"));
+}
+
+TEST(MovingPairs, ASweepFileNamesPolicies) {
+    const std::string scene = "scene = \"popcorn\"\n";
+    const auto with = [&](const std::string& keys) {
+        try {
+            return make_plan("[[cells]]\ntask = \"moving_pairs\"\n" + scene + keys, "test.toml", {})
+                .cells.at(0)
+                .name;
+        } catch (const BadInput& error) {
+            return std::string(error.what());
+        }
+    };
+    using testing::HasSubstr;
+    EXPECT_THAT(with("updates = {name = \"rebuild\", trigger = 1.5}\n"),
+                HasSubstr("rebuild_trigger1_5.packed.self_pairs"));
+    EXPECT_THAT(with("updates = \"atuo\"\n"), HasSubstr("auto"));
+    EXPECT_THAT(with("updates = {name = \"auto\", trigger = 1}\n"), HasSubstr("trigger"));
+    EXPECT_THAT(with(""), HasSubstr("updates, peers"));
+}
+
+} // namespace
+} // namespace boxwood::bench

@@ -1,0 +1,264 @@
+#include "bench/tasks/contender.h"
+#include "bench/plan/families.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
+/// FCL 0.7's array tree never frees the leaves of a bulk registration.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() { return "leak:libfcl.so\n"; }
+
+namespace boxwood::bench {
+namespace {
+
+using Box = Aabb<float>;
+
+Scene scene_of(std::vector<Box> boxes) {
+    Scene scene;
+    scene.boxes = std::move(boxes);
+    return scene;
+}
+
+std::vector<Box> random_boxes(std::size_t n, float size, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> unit(0, 1);
+    std::vector<Box> boxes(n);
+    for (Box& b : boxes) {
+        b.min = {unit(random), unit(random), unit(random)};
+        b.max = b.min + size * Vec3<float>{unit(random), unit(random), unit(random)};
+    }
+    return boxes;
+}
+
+/// Boxes with integer corners: faces, edges and corners touch, and many are flat or points.
+std::vector<Box> lattice_boxes(std::size_t n, unsigned seed) {
+    std::mt19937 random(seed);
+    const auto number = [&](unsigned most) { return static_cast<float>(random() % (most + 1)); };
+    std::vector<Box> boxes(n);
+    for (Box& b : boxes) {
+        b.min = {number(9), number(9), number(9)};
+        b.max = b.min + Vec3<float>{number(2), number(2), number(2)};
+    }
+    return boxes;
+}
+
+struct NamedBoxes {
+    const char* name;
+    std::vector<Box> boxes;
+};
+
+std::vector<NamedBoxes> box_scenes() {
+    const float tiny = std::numeric_limits<float>::denorm_min();
+    const Box unit{{0, 0, 0}, {1, 1, 1}};
+    std::vector<NamedBoxes> scenes{
+        {"none", {}},
+        {"one", {unit}},
+        {"two_touching", {unit, {{1, 1, 1}, {2, 2, 2}}}},
+        {"two_apart", {unit, {{std::nextafter(1.0f, 2.0f), 0, 0}, {2, 1, 1}}}},
+        {"denormal_gap", {{{0, 0, 0}, {tiny, 1, 1}}, {{2 * tiny, 0, 0}, {3 * tiny, 1, 1}}}},
+        {"random", random_boxes(1500, 0.15f, 1)},
+        {"sparse", random_boxes(3001, 0.01f, 2)},
+        {"touching", lattice_boxes(1200, 3)},
+        {"identical", std::vector<Box>(300, unit)},
+        {"one_point", std::vector<Box>(200, Box{{1, 2, 3}, {1, 2, 3}})},
+        {"flat", {}},
+        {"far", {}},
+    };
+    for (Box b : random_boxes(400, 0.1f, 6)) {
+        b.min.z = b.max.z = 0.5f;
+        scenes[scenes.size() - 2].boxes.push_back(b);
+    }
+    for (Box b : random_boxes(400, 0.3f, 4)) { // coordinates far from 0: a margin would show
+        b.min = b.min + Vec3<float>{1e6f, -1e6f, 1e6f};
+        b.max = b.max + Vec3<float>{1e6f, -1e6f, 1e6f};
+        scenes.back().boxes.push_back(b);
+    }
+    return scenes;
+}
+
+std::vector<Pair> expected_pairs(const std::vector<Box>& boxes, Ask ask) {
+    std::vector<Pair> pairs;
+    const std::size_t n = boxes.size(), split = tree_pairs_split(n);
+    for (std::uint32_t i = 0; i < (ask == Ask::pairs ? n : split); ++i)
+        for (auto j = static_cast<std::uint32_t>(ask == Ask::pairs ? i + 1 : split); j < n; ++j) {
+            bool apart = false;
+            for (int axis = 0; axis < 3; ++axis)
+                apart |= static_cast<double>(boxes[i].min[axis]) >
+                             static_cast<double>(boxes[j].max[axis]) ||
+                         static_cast<double>(boxes[j].min[axis]) >
+                             static_cast<double>(boxes[i].max[axis]);
+            if (!apart)
+                pairs.push_back({i, j});
+        }
+    return pairs;
+}
+
+/// Calls f(entry, job) for each contender and each way it can run.
+template <class F> void for_each_way(const Scene& scene, Ask ask, F f) {
+    for (const Peer& peer : peers())
+        for (const ContenderEntry& entry : peer.contenders)
+            for (const auto& [executor, threads] :
+                 {std::pair{"serial", 1u}, std::pair{"tbb", 1u}, std::pair{"tbb", 2u}}) {
+                const Job job{&scene, ask, executor, threads};
+                if (!entry.unsupported(job))
+                    f(entry, job);
+            }
+}
+
+class PeersOnBoxes : public testing::TestWithParam<Ask> {};
+
+TEST_P(PeersOnBoxes, AgreeWithTwoLoops) {
+    for (const NamedBoxes& named : box_scenes()) {
+        const Scene scene = scene_of(named.boxes);
+        const std::vector<Pair> expected = expected_pairs(scene.boxes, GetParam());
+        int ways = 0;
+        for_each_way(scene, GetParam(), [&](const ContenderEntry& entry, const Job& job) {
+            SCOPED_TRACE(entry.name + " on " + named.name + ", " + job.executor + " " +
+                         std::to_string(job.threads));
+            ++ways;
+            const auto contender = entry.make(job);
+            Answers answers;
+            answers.pairs.push_back({7, 8}); // what an earlier query left
+            for (int again = 0; again < 2; ++again) {
+                contender->build();
+                for (int query = 0; query < 2; ++query) {
+                    contender->query(answers);
+                    std::ranges::sort(answers.pairs);
+                    EXPECT_EQ(answers.pairs, expected);
+                }
+            }
+        });
+        EXPECT_GT(ways, 0);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Asks, PeersOnBoxes, testing::Values(Ask::pairs, Ask::tree_pairs),
+                         [](const auto& p) { return std::string(to_string(p.param)); });
+
+TEST(Peers, CatalogueIsWellFormed) {
+    std::vector<std::string> names;
+    ASSERT_FALSE(peers().empty());
+    EXPECT_EQ(peers()[0].name, "brute_force");
+    for (const Peer& peer : peers()) {
+        EXPECT_FALSE(peer.summary.empty());
+        EXPECT_FALSE(peer.version.empty());
+        EXPECT_FALSE(peer.build.empty());
+        for (const std::string_view absent : absent_peers())
+            EXPECT_NE(peer.name, absent);
+        for (const ContenderEntry& entry : peer.contenders) {
+            EXPECT_EQ(entry.library, peer.name);
+            EXPECT_TRUE(entry.name.starts_with(peer.name)) << entry.name;
+            EXPECT_EQ(entry.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_."),
+                      std::string::npos);
+            EXPECT_FALSE(entry.summary.empty() || entry.notes.empty());
+            EXPECT_TRUE(entry.precision == "f32" || entry.precision == "f64");
+            EXPECT_TRUE(entry.is_peer);
+            names.push_back(entry.name);
+        }
+    }
+    std::ranges::sort(names);
+    EXPECT_EQ(std::ranges::adjacent_find(names), names.end());
+}
+
+TEST(Peers, SayWhatTheyCannotDo) {
+    const Scene scene = scene_of(random_boxes(2, 1, 1));
+    for (const Peer& peer : peers())
+        for (const ContenderEntry& entry : peer.contenders) {
+            int asks_answered = 0;
+            for (const AskEntry& ask : asks()) {
+                EXPECT_TRUE(entry.unsupported({&scene, ask.task, "openmp", 2})) << entry.name;
+                asks_answered += !entry.unsupported({nullptr, ask.task, "serial", 1});
+            }
+            EXPECT_GT(asks_answered, 0) << entry.name;
+        }
+}
+
+TEST(Asks, WordsGoBothWays) {
+    for (const AskEntry& entry : asks()) {
+        EXPECT_EQ(to_string(entry.task), entry.name);
+        EXPECT_EQ(ask_of(entry.name), entry.task);
+    }
+    EXPECT_EQ(ask_of("pears"), std::nullopt);
+}
+
+TEST(Peers, GiveTheThreadsBack) {
+    using tbb::global_control;
+    const Scene scene = scene_of(random_boxes(10, 1, 1));
+    const auto before = global_control::active_value(global_control::max_allowed_parallelism);
+    for_each_way(scene, Ask::pairs, [&](const ContenderEntry& entry, const Job& job) {
+        Answers answers;
+        {
+            const auto contender = entry.make(job);
+            contender->build();
+            contender->query(answers);
+        }
+        EXPECT_EQ(global_control::active_value(global_control::max_allowed_parallelism), before)
+            << entry.name;
+    });
+}
+
+#if defined(__SSE2__)
+TEST(Peers, LeaveTheFloatingPointModeAlone) {
+    Scene scene = scene_of(random_boxes(500, 0.1f, 5));
+    scene.mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    scene.mesh.triangles = {{0, 1, 2}};
+    scene.rays.assign(1000, {{0.2f, 0.2f, -1}, {0, 0, 1}});
+    const unsigned before = _mm_getcsr() & ~0x3fu; // without the sticky exception flags
+    for (const AskEntry& ask : asks()) {
+        if (is_kernel_ask(ask.task))
+            scene.cases = sample_of(*families_of("all", ask.task).front());
+        for_each_way(scene, ask.task, [&](const ContenderEntry& entry, const Job& job) {
+            Answers answers;
+            {
+                const auto contender = entry.make(job);
+                contender->build();
+                contender->query(answers);
+            }
+            EXPECT_EQ(_mm_getcsr() & ~0x3fu, before) << entry.name;
+            volatile float tiny = std::numeric_limits<float>::min();
+            EXPECT_GT(tiny / 4, 0.0f) << entry.name;
+        });
+    }
+}
+#endif
+
+TEST(PeersOnRays, AgreeOnOneTriangle) {
+    Scene scene;
+    scene.mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 5}, {1, 0, 5}, {0, 1, 5}};
+    scene.mesh.triangles = {{3, 4, 5}, {0, 1, 2}};
+    scene.rays = {{{0.25f, 0.5f, -1}, {0, 0, 2}},           // both: the nearer
+                  {{0.25f, 0.5f, 6}, {0, 0, -1}},           // from behind
+                  {{0.75f, 0.75f, -1}, {0, 0, 1}},          // beside
+                  {{0.25f, 0.5f, -1}, {0, 0, 1}, 2, 10},    // starts after the first
+                  {{0.25f, 0.5f, -1}, {0, 0, 1}, 0, 0.5f},  // ends before the first
+                  {{0.25f, 0.5f, -1}, {0, 0, 1}, 2, 5.5f}}; // between the two
+    const std::vector<RayHit> expected{
+        {0.5f, 0.25f, 0.5f, 1}, {1, 0.25f, 0.5f, 0}, {}, {6, 0.25f, 0.5f, 0}, {}, {}};
+    for (const Ask ask : {Ask::rays_closest, Ask::rays_any})
+        for_each_way(scene, ask, [&](const ContenderEntry& entry, const Job& job) {
+            SCOPED_TRACE(entry.name);
+            const auto contender = entry.make(job);
+            Answers answers;
+            contender->build();
+            contender->build();
+            contender->query(answers);
+            ASSERT_EQ(answers.hits.size(), expected.size());
+            for (std::size_t i = 0; i < expected.size(); ++i)
+                if (ask == Ask::rays_any)
+                    EXPECT_EQ(answers.hits[i].hit(), expected[i].hit()) << i;
+                else
+                    EXPECT_EQ(answers.hits[i], expected[i]) << i;
+        });
+}
+
+} // namespace
+} // namespace boxwood::bench

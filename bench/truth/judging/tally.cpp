@@ -1,0 +1,108 @@
+#include "bench/truth/judging/tally.h"
+
+#include <algorithm>
+
+namespace boxwood::bench {
+namespace {
+
+std::string_view status_of(Worth worst) {
+    switch (worst) {
+    case Worth::exact:
+        return "exact";
+    case Worth::conservative:
+        return "conservative";
+    case Worth::within_bound:
+        return "within_bound";
+    case Worth::wrong:
+    case Worth::broken_promise:
+        break;
+    }
+    return "wrong";
+}
+
+/// The greater one; a missing one is less than any.
+double larger(double a, double b) { return std::isnan(a) ? b : std::isnan(b) ? a : std::max(a, b); }
+
+} // namespace
+
+Worth worth_of(Promise promise, Answer said, bool truth) {
+    if (said == Answer::maybe)
+        return promise == Promise::exact ? Worth::broken_promise : Worth::conservative;
+    if ((said == Answer::yes) == truth)
+        return Worth::exact;
+    switch (promise) {
+    case Promise::none:
+        return Worth::wrong;
+    case Promise::never_miss:
+        return truth ? Worth::broken_promise : Worth::conservative;
+    case Promise::never_false:
+        return truth ? Worth::conservative : Worth::broken_promise;
+    case Promise::certified:
+    case Promise::exact:
+        break;
+    }
+    return Worth::broken_promise;
+}
+
+void Tally::called(std::uint8_t tier) {
+    ++row_.n;
+    ++(tier == 0 ? row_.tier_0 : tier == 1 ? row_.tier_1 : tier == 2 ? row_.tier_2 : row_.tier_3);
+}
+
+void Tally::answered(std::size_t i, Answer said, bool truth) {
+    row_.maybe += said == Answer::maybe;
+    const bool yes =
+        said == Answer::yes || (said == Answer::maybe && promise_ == Promise::never_miss);
+    const bool no =
+        said == Answer::no || (said == Answer::maybe && promise_ == Promise::never_false);
+    row_.false_pos += yes && !truth;
+    row_.false_neg += no && truth;
+    is_yes_no_ = true;
+    true_yes_ += truth;
+    said_yes_ += yes;
+    note(i, worth_of(promise_, said, truth));
+}
+
+void Tally::error(double ulp, double relative) {
+    row_.max_ulp = larger(row_.max_ulp, ulp);
+    row_.max_rel_err = larger(row_.max_rel_err, relative);
+}
+
+void Tally::note(std::size_t i, Worth worth) {
+    if (worth <= worst_)
+        return;
+    worst_ = worth;
+    worst_case_ = i;
+}
+
+Judgement Tally::rows(std::string witness) const {
+    constexpr std::size_t column_width = 1024; // of the schema
+    witness.resize(std::min(witness.size(), column_width));
+
+    if (row_.n == 0)
+        witness = "no case has only finite numbers in this precision";
+    Judgement all;
+    all.breaks_promise = worst_ == Worth::broken_promise;
+    all.kernel = row_;
+    all.kernel.promise = to_string(promise_);
+    all.kernel.status = row_.n > 0 ? status_of(worst_) : "unsupported";
+    all.kernel.witness = witness;
+    all.kernel.escalation_rate =
+        row_.n > 0 ? 1 - static_cast<double>(row_.tier_0) / static_cast<double>(row_.n)
+                   : results::missing;
+    results::Check& check = all.check;
+    check.oracle = "rational";
+    check.status = all.kernel.status;
+    check.n_checked = row_.n;
+    check.n_expected = is_yes_no_ ? true_yes_ : row_.n;
+    check.n_got = is_yes_no_ ? said_yes_ : row_.n;
+    check.missing = row_.false_neg;
+    check.extra = row_.false_pos;
+    check.max_ulp = row_.max_ulp;
+    check.max_rel_err = row_.max_rel_err;
+    check.bound_violations = row_.bound_violations;
+    check.witness = std::move(witness);
+    return all;
+}
+
+} // namespace boxwood::bench

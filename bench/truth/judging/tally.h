@@ -1,0 +1,52 @@
+#pragma once
+
+#include "bench/truth/judging/judge.h"
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+namespace boxwood::bench {
+
+/// What one answer is worth, worst last.
+enum class Worth { exact, conservative, within_bound, wrong, broken_promise };
+
+/// A yes/no answer against the truth, by what its rung promises.
+Worth worth_of(Promise promise, Answer said, bool truth);
+
+/// Counts over the cases of one contender, and the first of its worst cases.
+class Tally {
+  public:
+    explicit Tally(const ContenderEntry& contender) : promise_(contender.promise) {}
+
+    Promise promise() const { return promise_; }
+
+    /// One call more, by the tier that decided it.
+    void called(std::uint8_t tier);
+    /// A yes/no answer.
+    void answered(std::size_t i, Answer said, bool truth);
+    void too_small() { ++row_.false_pos; }
+    void too_large() { ++row_.false_neg; }
+    void undecided() { ++row_.maybe; }
+    void violated() { ++row_.bound_violations; }
+    void error(double ulp, double relative);
+    /// Notes what case `i` is worth; NaN and zero errors do not matter here.
+    void note(std::size_t i, Worth worth);
+
+    /// The rows. `witness` says in words what was asked and answered in a case.
+    template <class Witness> Judgement finish(const Witness& witness) {
+        return rows(worst_ >= Worth::wrong ? witness(worst_case_) : std::string());
+    }
+
+  private:
+    Judgement rows(std::string witness) const;
+
+    Promise promise_;
+    results::KernelRow row_;
+    bool is_yes_no_ = false;
+    std::uint64_t true_yes_ = 0, said_yes_ = 0;
+    Worth worst_ = Worth::exact;
+    std::size_t worst_case_ = 0;
+};
+
+} // namespace boxwood::bench

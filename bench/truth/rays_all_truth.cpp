@@ -1,0 +1,96 @@
+#include "bench/truth/rays_all_truth.h"
+
+#include "bench/truth/ray_truth.h"
+#include "trees/executor.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+
+namespace boxwood::bench {
+namespace {
+
+class AllHitsTruth final : public Truth {
+  public:
+    AllHitsTruth(const Scene& scene, unsigned threads)
+        : n_rays_(scene.rays.size()), n_triangles_(scene.mesh.triangles.size()),
+          sample_(sampled_rays(scene)), truths_(sample_.size()) {
+        const RayOracle oracle(scene.mesh);
+        make_executor("tbb", threads)->for_each(sample_.size(), [&](std::size_t k) {
+            truths_[k] = oracle.all(scene.rays[sample_[k]]);
+        });
+    }
+
+    results::Check check(const Answers& answers) const override {
+        results::Check check;
+        check.oracle = "brute_force_f64";
+        check.result_hash = answer_hash(answers, Ask::rays_all);
+        check.n_checked = sample_.size();
+        std::vector<Pair> got = answers.pairs;
+        std::ranges::sort(got);
+        const auto tell = [&](const char* what, Pair p) {
+            if (check.witness.empty())
+                check.witness = fmt::format("{} (ray {}, triangle {})", what, p.a, p.b);
+        };
+        for (const Pair& p : got)
+            if (p.a >= n_rays_ || p.b >= n_triangles_) {
+                ++check.extra;
+                tell("no such answer", p);
+            }
+        bool all_certain = true;
+        for (std::size_t k = 0; k < sample_.size(); ++k) {
+            const auto ray = static_cast<std::uint32_t>(sample_[k]);
+            const auto own = std::ranges::equal_range(got, ray, {}, &Pair::a);
+            check.n_got += own.size();
+            for (const RayTruth::Candidate& c : truths_[k]) {
+                all_certain = all_certain && c.certain;
+                check.n_expected += c.certain;
+                if (c.certain && !std::ranges::binary_search(own, Pair{ray, c.triangle})) {
+                    ++check.missing;
+                    tell("missing", {ray, c.triangle});
+                }
+            }
+            for (auto p = own.begin(); p != own.end(); ++p) {
+                const bool twice = p != own.begin() && p[-1] == *p;
+                if (p->b < n_triangles_ &&
+                    (twice || !std::ranges::binary_search(truths_[k], p->b, {},
+                                                          &RayTruth::Candidate::triangle))) {
+                    ++check.extra;
+                    tell(twice ? "twice" : "extra", *p);
+                }
+            }
+        }
+        check.status = check.missing || check.extra ? "wrong"
+                       : all_certain                ? "exact"
+                                                    : "within_bound";
+        return check;
+    }
+
+  private:
+    std::size_t n_rays_, n_triangles_;
+    std::vector<std::size_t> sample_;
+    std::vector<std::vector<RayTruth::Candidate>> truths_; ///< by triangle
+};
+
+} // namespace
+
+std::vector<std::size_t> sampled_rays(const Scene& scene) {
+    const std::size_t n_rays = scene.rays.size();
+    const std::size_t triangles = std::max<std::size_t>(1, scene.mesh.triangles.size());
+    const std::size_t m =
+        std::min(n_rays, std::clamp<std::size_t>(20'000'000 / triangles, 64, 1024));
+    std::vector<std::size_t> sample;
+    for (std::size_t k = 0; k < m; ++k) {
+        const std::size_t first = k * n_rays / m, last = (k + 1) * n_rays / m;
+        sample.push_back(first +
+                         XXH3_64bits_withSeed(&k, sizeof k, scene.spec.seed) % (last - first));
+    }
+    return sample;
+}
+
+std::unique_ptr<Truth> make_all_hits_truth(const Scene& scene, unsigned threads) {
+    return std::make_unique<AllHitsTruth>(scene, threads);
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,57 @@
+/// The registry of effects. To add one: write effects/NAME.cpp, which defines
+/// `EffectEntry NAME_effect()`, and add its word here.
+
+#include "scenes/effects/effect.h"
+
+#include "scenes/suggest.h"
+
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#define BOXWOOD_EFFECTS(X)                                                                         \
+    X(drift)                                                                                       \
+    X(gravity)                                                                                     \
+    X(brownian) X(swarm) X(orbit) X(spin) X(teleport) X(spawn) X(despawn) X(deform) X(joint_motion)
+
+namespace boxwood {
+
+#define X(word) EffectEntry word##_effect();
+BOXWOOD_EFFECTS(X)
+#undef X
+
+std::span<const EffectEntry> effects() {
+#define X(word) word##_effect(),
+    static const EffectEntry entries[] = {BOXWOOD_EFFECTS(X)};
+#undef X
+    return entries;
+}
+
+const EffectEntry& effect_of(std::string_view word) {
+    return entry_named(word, effects(), "effect");
+}
+
+double wave(double quarters) {
+    const double x = quarters - 4 * std::floor(quarters / 4);
+    return x < 2 ? x * (2 - x) : (x - 2) * (x - 4);
+}
+
+std::array<Vec3<double>, 3> cayley_rotation(Vec3<double> axis, double t) {
+    // of the quaternion (1, t axis) / sqrt(1 + t^2)
+    const double scale = 1 / (1 + t * t);
+    const double c = (1 - t * t) * scale, s = 2 * t * scale, k = 2 * t * t * scale;
+    const auto [x, y, z] = axis;
+    return {{{c + k * x * x, k * x * y - s * z, k * x * z + s * y},
+             {k * x * y + s * z, c + k * y * y, k * y * z - s * x},
+             {k * x * z - s * y, k * y * z + s * x, c + k * z * z}}};
+}
+
+std::array<Vec3<double>, 3> product(const std::array<Vec3<double>, 3>& a,
+                                    const std::array<Vec3<double>, 3>& b) {
+    std::array<Vec3<double>, 3> rows;
+    for (std::size_t i = 0; i < 3; ++i)
+        rows[i] = a[i].x * b[0] + a[i].y * b[1] + a[i].z * b[2];
+    return rows;
+}
+
+} // namespace boxwood

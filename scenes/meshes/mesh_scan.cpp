@@ -1,0 +1,46 @@
+#include "scenes/meshes/mesh_scan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+
+namespace boxwood {
+
+float coordinate(std::string_view token, std::size_t line) {
+    std::string_view digits = token;
+    if (digits.starts_with('+') && !digits.starts_with("+-"))
+        digits.remove_prefix(1);
+    float value = 0;
+    const auto [end, error] = std::from_chars(digits.begin(), digits.end(), value);
+    if (digits.empty() || error == std::errc::invalid_argument || end != digits.end())
+        throw MeshError(fmt::format("line {}: '{}' is not a number", line, token));
+    // Out of range is above the largest float, or below the smallest, which rounds to 0.
+    const bool tiny = error == std::errc::result_out_of_range &&
+                      std::abs(std::strtod(std::string(digits).c_str(), nullptr)) < 1;
+    if ((error != std::errc{} && !tiny) || !std::isfinite(value))
+        throw MeshError(
+            fmt::format("line {}: the coordinate '{}' is not a finite float", line, token));
+    return tiny ? 0 : value;
+}
+
+std::string_view take_token(std::string_view& text) {
+    constexpr std::string_view blanks = " \t\r\v\f";
+    text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+    const std::string_view token = text.substr(0, text.find_first_of(blanks));
+    text.remove_prefix(token.size());
+    return token;
+}
+
+std::string_view take_line(std::string_view& text) {
+    const std::size_t end = text.find('\n');
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(end == text.npos ? text.size() : end + 1);
+    if (line.ends_with('\r'))
+        line.remove_suffix(1);
+    return line;
+}
+
+} // namespace boxwood

@@ -1,0 +1,114 @@
+#include "scenes/meshes/mesh_scan.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <charconv>
+#include <cstdint>
+#include <vector>
+
+namespace boxwood {
+namespace {
+
+struct Token {
+    std::string_view text;
+    std::size_t line;
+};
+
+/// The next statement's words, without its comment. A line that ends in '\' goes on in the next
+/// one.
+void take_statement(std::string_view& text, std::size_t& line, std::vector<Token>& words) {
+    words.clear();
+    for (bool continued = true; continued && !text.empty();) {
+        std::string_view rest = take_line(text);
+        ++line;
+        rest = rest.substr(0, rest.find('#'));
+        continued = rest.ends_with('\\');
+        if (continued)
+            rest.remove_suffix(1);
+        for (std::string_view word; !(word = take_token(rest)).empty();)
+            words.push_back({word, line});
+    }
+}
+
+/// The vertex of a face's corner, counted from 1: "7", "7/1", "7//3", "7/1/3", or negative, counted
+/// back from the last vertex before it.
+std::int64_t vertex_of(Token corner, std::int64_t n_vertices) {
+    const auto& [text, line] = corner;
+    const std::string_view digits = text.substr(0, text.find('/'));
+    std::int64_t index = 0;
+    const auto [end, error] = std::from_chars(digits.begin(), digits.end(), index);
+    if (digits.empty() || error != std::errc{} || end != digits.end())
+        throw MeshError(fmt::format("line {}: '{}' is not a vertex index", line, text));
+    if (index == 0)
+        throw MeshError(fmt::format("line {}: vertex index 0; OBJ counts from 1", line));
+    if (index < -n_vertices)
+        throw MeshError(fmt::format("line {}: vertex index {} is out of range; {} vertices come "
+                                    "before it",
+                                    line, index, n_vertices));
+    return index > 0 ? index : n_vertices + index + 1;
+}
+
+void put(std::string& bytes, const void* value, std::size_t size) {
+    bytes.append(static_cast<const char*>(value), size);
+}
+
+std::string binary_ply(std::int64_t n_vertices, std::string_view vertices, std::int64_t n_faces,
+                       std::string_view faces) {
+    static_assert(std::endian::native == std::endian::little);
+    return fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n"
+                       "property float x\nproperty float y\nproperty float z\nelement face {}\n"
+                       "property list uint uint vertex_indices\nend_header\n{}{}",
+                       n_vertices, n_faces, vertices, faces);
+}
+
+} // namespace
+
+std::string scan_obj(std::string_view text) {
+    std::string vertices, faces;
+    std::vector<Token> words;
+    std::int64_t n_vertices = 0, n_faces = 0;
+    std::int64_t farthest = 0; // an index may refer to a vertex that comes later
+    std::size_t farthest_line = 0;
+    for (std::size_t line = 0; !text.empty();) {
+        take_statement(text, line, words);
+        if (words.empty())
+            continue;
+        if (words[0].text == "v") {
+            if (words.size() < 4)
+                throw MeshError(
+                    fmt::format("line {}: a vertex needs three coordinates, here are {}", line,
+                                words.size() - 1));
+            for (std::size_t k = 1; k < 4; ++k) {
+                const float x = coordinate(words[k].text, words[k].line);
+                put(vertices, &x, sizeof x);
+            }
+            ++n_vertices;
+        } else if (words[0].text == "f") {
+            const auto n_corners = static_cast<std::uint32_t>(words.size() - 1);
+            const bool polygon = n_corners >= 3; // else a point or a line
+            n_faces += polygon;
+            if (polygon)
+                put(faces, &n_corners, sizeof n_corners);
+            for (std::size_t k = 1; k < words.size(); ++k) {
+                const std::int64_t number = vertex_of(words[k], n_vertices);
+                if (number > farthest) {
+                    farthest = number;
+                    farthest_line = words[k].line;
+                }
+                const auto index = static_cast<std::uint32_t>(number - 1);
+                if (polygon)
+                    put(faces, &index, sizeof index);
+            }
+        }
+    }
+    if (farthest > n_vertices)
+        throw MeshError(fmt::format("line {}: vertex index {} is out of range; the file has {} "
+                                    "vertices",
+                                    farthest_line, farthest, n_vertices));
+    if (n_faces == 0)
+        throw MeshError("holds no triangles");
+    return binary_ply(n_vertices, vertices, n_faces, faces);
+}
+
+} // namespace boxwood

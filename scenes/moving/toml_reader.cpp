@@ -1,0 +1,79 @@
+#include "scenes/moving/toml_reader.h"
+
+#include "scenes/suggest.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace boxwood {
+
+toml::table TomlReader::parse(std::string_view text) const {
+    try {
+        return toml::parse(text);
+    } catch (const toml::parse_error& error) {
+        fail(error.source(), fmt::format("not TOML: {}", error.description()));
+    }
+}
+
+std::string TomlReader::place(const toml::source_region& source) const {
+    return fmt::format("{}:{}", file_, source.begin.line);
+}
+
+void TomlReader::fail(const toml::source_region& source, const std::string& message) const {
+    throw std::invalid_argument(place(source) + ": " + message);
+}
+
+void TomlReader::require_known_keys(const toml::table& table, std::string_view where,
+                                    const Words& known) const {
+    for (const auto& [key, value] : table)
+        if (std::ranges::find(known, key.str()) == known.end())
+            fail(key.source(), unknown_word(fmt::format("key of {}", where), key.str(), known));
+}
+
+double TomlReader::number(const toml::node& node, std::string_view key, double least,
+                          double most) const {
+    const auto value = node.value<double>();
+    if (!value || !node.is_number())
+        fail(node.source(), fmt::format("{} must be a number", key));
+    if (!(*value >= least && *value <= most))
+        fail(node.source(), fmt::format("{} = {} is out of range: it must lie between {} and {}",
+                                        key, *value, least, most));
+    return *value;
+}
+
+std::uint64_t TomlReader::whole(const toml::node& node, std::string_view key, std::int64_t least,
+                                std::int64_t most) const {
+    if (!node.is_integer())
+        fail(node.source(), fmt::format("{} must be a whole number", key));
+    const std::int64_t value = *node.value<std::int64_t>();
+    if (value < least || value > most)
+        fail(node.source(), fmt::format("{} = {} is out of range: it must lie between {} and {}",
+                                        key, value, least, most));
+    return static_cast<std::uint64_t>(value);
+}
+
+std::string TomlReader::text(const toml::node& node, std::string_view key) const {
+    const auto value = node.value<std::string>();
+    if (!value)
+        fail(node.source(), fmt::format("{} must be a text in quotes", key));
+    return *value;
+}
+
+std::string TomlReader::word(const toml::node& node, std::string_view key,
+                             const Words& known) const {
+    const auto value = node.value<std::string>();
+    if (!value)
+        fail(node.source(), fmt::format("{} must be a word in quotes", key));
+    if (std::ranges::find(known, *value) == known.end())
+        fail(node.source(), fmt::format("{}: {}", key, unknown_word("word", *value, known)));
+    return *value;
+}
+
+void TomlReader::words(const toml::table& table, std::string_view key,
+                       std::vector<std::string>& out, const Words& known) const {
+    list(table, key, out, [&](const toml::node& node) { return word(node, key, known); });
+}
+
+} // namespace boxwood

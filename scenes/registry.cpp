@@ -1,0 +1,46 @@
+#include "scenes/registry.h"
+
+#include "scenes/suggest.h"
+
+#include <stdexcept>
+
+#define BOXWOOD_SCENES(X)                                                                          \
+    X(uniform)                                                                                     \
+    X(clusters)                                                                                    \
+    X(bars)                                                                                        \
+    X(planks)                                                                                      \
+    X(needles)                                                                                     \
+    X(cubes)                                                                                       \
+    X(assorted)                                                                                    \
+    X(sphere_mesh)                                                                                 \
+    X(triangle_soup)                                                                               \
+    X(sliver_mesh)                                                                                 \
+    X(cloth)                                                                                       \
+    X(four_link)                                                                                   \
+    X(chain)                                                                                       \
+    X(mesh)
+
+namespace boxwood {
+
+#define BOXWOOD_DECLARE(word) SceneEntry word##_scene();
+BOXWOOD_SCENES(BOXWOOD_DECLARE)
+#undef BOXWOOD_DECLARE
+
+std::span<const SceneEntry> scene_generators() {
+#define BOXWOOD_ROW(word) word##_scene(),
+    static const SceneEntry entries[] = {BOXWOOD_SCENES(BOXWOOD_ROW)};
+#undef BOXWOOD_ROW
+    return entries;
+}
+
+const SceneEntry& scene_generator(std::string_view name) {
+    for (const SceneEntry& entry : scene_generators())
+        if (entry.name == name)
+            return entry;
+    std::vector<std::string_view> known = names_of(scene_generators());
+    for (const HardCaseFamily& family : hard_case_families())
+        known.push_back(family.name);
+    throw std::invalid_argument(unknown_word("scene", name, known));
+}
+
+} // namespace boxwood

@@ -1,0 +1,91 @@
+#include "trees/dynamic/detail/order_age.h"
+
+#include "trees/queries/points.h"
+#include "trees/dynamic/detail/item_sample.h"
+#include "trees/dynamic/detail/survey.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace boxwood {
+
+void OrderAge::start(double price, const PackedLayout& layout, Boxes boxes) {
+    start(price, 0);
+    measure(layout, boxes);
+}
+
+void OrderAge::start(double price, double query) {
+    const double kept = patience;
+    *this = {};
+    patience = kept;
+    price_ = price;
+    fresh_query_ = query;
+}
+
+/// Some of the boxes ask as regions. All pairs together take about a quarter of as many box tests:
+/// each found once, and by whole blocks.
+void OrderAge::measure(const PackedLayout& layout, Boxes boxes) {
+    constexpr std::size_t few = 16, most = 256;
+    constexpr double per_test = .3, share = .28;
+    std::vector<Box> asked;
+    for (const std::uint32_t item :
+         sampled_items(boxes.size(), std::clamp(boxes.size() / 64, few, most)))
+        if (!is_absent(boxes[item]))
+            asked.push_back(boxes[item]);
+    fresh_query_ = 0;
+    if (asked.empty())
+        return;
+    Work work;
+    CountPairs ignored;
+    regions(layout, Boxes(asked), serial(), ignored, &work);
+    fresh_query_ =
+        per_test * share * static_cast<double>(work.box_tests) / static_cast<double>(asked.size());
+}
+
+void OrderAge::renewed(double price, const PackedLayout& layout, Boxes boxes) {
+    constexpr std::size_t between_measures = 16;
+    renewed(price, fresh_query_);
+    if (renewals_ % between_measures == 0)
+        measure(layout, boxes);
+}
+
+void OrderAge::renewed(double price, double query) {
+    fresh_query_ = query;
+    ++renewals_;
+    in_a_row_ = frames_ == 0 ? in_a_row_ + 1 : 0;
+    price_ = price;
+    before_ = newest_ = 0;
+    frames_ = 0;
+}
+
+/// Box tests grow with the surface a little more than in proportion: by powers of 1.05 to 1.5 in
+/// scenes of boxes of one size and of many.
+double OrderAge::excess(double looseness) const {
+    return looseness > 1 ? fresh_query_ * (std::pow(looseness, 1.3) - 1) : 0;
+}
+
+void OrderAge::aged(double looseness) {
+    before_ += newest_;
+    newest_ = excess(looseness);
+    if (++frames_ == 1)
+        first_ = newest_;
+}
+
+/// In the frame that is number `age` since the order.
+bool OrderAge::is_due(double excess, std::size_t age, double before) const {
+    return excess * static_cast<double>(age) >= price_ + before ||
+           excess + before >= patience * price_;
+}
+
+bool OrderAge::is_due() const { return is_due(newest_, frames_, before_); }
+
+bool OrderAge::is_due_next() const {
+    constexpr std::size_t most_in_a_row = 8; // then what a frame costs is looked at once more
+    if (frames_ == 0)
+        return in_a_row_ < most_in_a_row && is_due(first_, 1, 0);
+    const auto age = static_cast<double>(frames_);
+    return is_due(newest_ * (age + 1) / age, frames_ + 1, before_ + newest_);
+}
+
+} // namespace boxwood

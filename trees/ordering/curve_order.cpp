@@ -1,0 +1,247 @@
+#include "trees/ordering/curve_order.h"
+#include "trees/ordering/bucket_sort.h"
+#include "trees/ordering/radix_sort.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace boxwood {
+namespace {
+
+/// Throws as `require_valid`.
+Box bounds_of_centres(Boxes boxes, const Executor& executor) {
+    const std::size_t chunks = chunks_for(boxes.size(), executor);
+    std::vector<CentreBounds> parts(chunks);
+    executor.for_each(chunks, [&](std::size_t c) {
+        const ChunkRange range(boxes.size(), chunks, c);
+        parts[c] = measure_centres(boxes.subspan(range.begin, range.end - range.begin));
+    });
+    Box centres;
+    bool valid = boxes.size() <= max_items;
+    for (const CentreBounds& part : parts) {
+        centres.extend(part.box);
+        valid = valid && part.valid;
+    }
+    if (!valid)
+        require_valid(boxes); // finds which
+    return centres;
+}
+
+/// The cube around the centres, cut into 2^bits cells along each axis.
+CurveGrid make_grid(const Box& centres, int bits) {
+    const Vec3<double> extent = Vec3<double>(centres.max) - Vec3<double>(centres.min);
+    const double side = std::max({extent.x, extent.y, extent.z});
+    CurveGrid grid;
+    if (!(side > 0))
+        return grid;
+    // A side below 2^-60 has all coordinates below 2^-36 (else the centres would be the same).
+    grid.power = side > 0x1p100 ? 0x1p-30f : side < 0x1p-60 ? 0x1p80f : 1.f;
+    grid.low = grid.power * centres.min;
+    grid.scale = static_cast<float>(std::ldexp(1, bits) / (side * double{grid.power}));
+    return grid;
+}
+
+/// What is sorted, in eight bytes: the leading bits of the code above, the item below.
+using Records = Buffer<std::uint64_t>;
+std::uint32_t item_of(std::uint64_t record) { return static_cast<std::uint32_t>(record); }
+
+/// Calls f(begin, end) for parts of the items, one part at a time in each thread.
+template <class F> void for_parts(std::size_t n, const Executor& executor, const F& f) {
+    const std::size_t chunks = chunks_for(n, executor);
+    executor.for_each(chunks, [&](std::size_t c) {
+        const ChunkRange range(n, chunks, c);
+        f(range.begin, range.end);
+    });
+}
+
+constexpr std::size_t quickly_sorted = 64; ///< the longest run that is no trouble to sort
+
+/// Items in long runs that may be dealt with run by run.
+std::size_t few(std::size_t n) { return n / 8; }
+
+/// Runs of two or more records that agree in all bits from `low` up: for each chunk those that
+/// begin in it.
+struct Runs {
+    /// Runs of more than `longest` count as long.
+    Runs(const Records& records, int low, std::size_t longest, const Executor& executor)
+        : parts(chunks_for(records.size(), executor)) {
+        const std::size_t n = records.size();
+        executor.for_each(parts.size(), [&](std::size_t c) {
+            const ChunkRange range(n, parts.size(), c);
+            const auto continues = [&](std::size_t i) {
+                return i > 0 && i < n && (records[i - 1] ^ records[i]) >> low == 0;
+            };
+            std::size_t i = range.begin;
+            while (i < range.end && continues(i))
+                ++i;
+            for (++i; i <= range.end; ++i)
+                if (continues(i)) {
+                    const std::size_t begin = i - 1;
+                    while (continues(i))
+                        ++i;
+                    parts[c].emplace_back(begin, i);
+                }
+        });
+        for (const auto& part : parts)
+            for (const auto& run : part) {
+                const std::size_t length = run.second - run.first;
+                items += length;
+                in_long += length > longest ? length : 0;
+            }
+    }
+    template <class Less>
+    void sort(Records& records, const Less& less, const Executor& executor) const {
+        executor.for_each(parts.size(), [&](std::size_t c) {
+            for (const auto& run : parts[c])
+                std::sort(records.begin() + run.first, records.begin() + run.second, less);
+        });
+    }
+    std::vector<std::vector<std::pair<std::size_t, std::size_t>>> parts;
+    std::size_t items = 0, in_long = 0;
+};
+
+/// Sorts records that come with their items ascending by their `bits` leading bits (those from 32
+/// up), then by `less`: by as many digits as tell most items apart if they are spread out, then the
+/// runs that still agree if they are short; else by all bits first. False if then many items are in
+/// long runs that agree in all bits.
+template <class Less>
+bool sort_records(Records& records, int bits, const Less& less, const Executor& executor) {
+    const std::size_t n = records.size();
+    Records spare(n);
+    const int enough = (static_cast<int>(std::bit_width(n)) + 4 + 7) / 8 * 8;
+    const int low = 32 + std::max(0, bits - enough);
+    radix_sort(records, spare, low, 32 + bits, executor);
+    const Runs runs(records, low, quickly_sorted, executor);
+    if (runs.in_long <= few(n)) {
+        runs.sort(records, less, executor);
+        if (low == 32 || runs.items <= few(n))
+            return true;
+    } else {
+        radix_sort(records, spare, 32, 32 + bits, executor);
+    }
+    const Runs rest(records, 32, quickly_sorted, executor);
+    if (rest.in_long > few(n))
+        return false;
+    rest.sort(records, less, executor);
+    return true;
+}
+
+} // namespace
+
+CurveOrder curve_order(Boxes boxes, Curve curve, const Executor& executor) {
+    const std::size_t n = boxes.size();
+    const CurveGrid grid = make_grid(bounds_of_centres(boxes, executor), 21);
+    Buffer<std::uint64_t> codes(n);
+    Records records(n);
+    constexpr int upper = 32, lower = 31; // bits of a code, sorted in two rounds if need be
+    for_parts(n, executor, [&](std::size_t begin, std::size_t end) {
+        fine_codes(boxes.subspan(begin, end - begin), curve, grid, codes.data() + begin);
+        for (std::size_t i = begin; i < end; ++i)
+            records[i] = codes[i] >> lower << 32 | i;
+    });
+    const auto less = [&](std::uint64_t a, std::uint64_t b) {
+        const std::uint64_t code_a = codes[item_of(a)], code_b = codes[item_of(b)];
+        return code_a < code_b || (code_a == code_b && item_of(a) < item_of(b));
+    };
+    if (!sort_records(records, upper, less, executor)) {
+        Records spare(n);
+        for_parts(n, executor, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                records[i] = codes[i] << 32 | i; // the bit above the lower ones is not sorted by
+        });
+        radix_sort(records, spare, 32, 32 + lower, executor);
+        for_parts(n, executor, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                records[i] = codes[item_of(records[i])] >> lower << 32 | item_of(records[i]);
+        });
+        radix_sort(records, spare, 32, 32 + upper, executor);
+    }
+    CurveOrder result{Buffer<std::uint64_t>(n), Buffer<std::uint32_t>(n)};
+    for_parts(n, executor, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            result.order[i] = item_of(records[i]);
+            result.codes[i] = codes[result.order[i]];
+        }
+    });
+    return result;
+}
+
+namespace {
+
+void grouped_codes(Boxes boxes, Curve curve, const CurveGrid& grid, GroupOfBox group,
+                   std::uint32_t* codes) {
+    coarse_codes(boxes, curve, grid, codes);
+    if (group)
+        for (std::size_t i = 0; i < boxes.size(); ++i)
+            codes[i] |= group(boxes[i]) << 30;
+}
+
+/// Sorts by group and by 10 bits per axis. False if many items are in the same cells.
+bool coarse_sort(Boxes boxes, Curve curve, const CurveGrid& grid, GroupOfBox group, Sorted how,
+                 const Executor& executor, PutRecords put) {
+    const auto codes = [&](std::size_t first, std::span<std::uint32_t> to) {
+        grouped_codes(boxes.subspan(first, to.size()), curve, grid, group, to.data());
+    };
+    return bucket_sort(boxes.size(), group ? 32 : 30, codes, how, executor, put) <=
+           few(boxes.size());
+}
+
+CurveGrid coarse_grid(Boxes boxes, const Executor& executor, const Box* centres) {
+    return make_grid(centres ? *centres : bounds_of_centres(boxes, executor), 10);
+}
+
+Buffer<std::uint32_t> order_by(Boxes boxes, Curve curve, GroupOfBox group, Sorted how,
+                               const Executor& executor, const Box* centres) {
+    Buffer<std::uint32_t> order(boxes.size());
+    const auto put = [&](std::size_t first, std::span<const std::uint64_t> records) {
+        std::ranges::transform(records, order.data() + first, item_of);
+    };
+    const CurveGrid grid = coarse_grid(boxes, executor, centres);
+    if (!coarse_sort(boxes, curve, grid, group, how, executor, put)) {
+        order = curve_order(boxes, curve, executor).order;
+        if (group)
+            std::ranges::stable_sort(order, std::less<>(),
+                                     [&](std::uint32_t item) { return group(boxes[item]); });
+    }
+    return order;
+}
+
+} // namespace
+
+KeptOrder kept_curve_order(Boxes boxes, Curve curve, GroupOfBox group, const Executor& executor,
+                           const Box* centres) {
+    KeptOrder kept{coarse_grid(boxes, executor, centres), group, Records(boxes.size())};
+    const auto put = [&](std::size_t first, std::span<const std::uint64_t> records) {
+        std::ranges::copy(records, kept.records.data() + first);
+    };
+    if (!coarse_sort(boxes, curve, kept.grid, group, Sorted::exactly, executor, put))
+        kept.records = {};
+    return kept;
+}
+
+void curve_records(Boxes boxes, Curve curve, const CurveGrid& grid, GroupOfBox group,
+                   std::uint64_t* records) {
+    constexpr std::size_t batch = 1024;
+    std::uint32_t codes[batch];
+    for (std::size_t first = 0; first < boxes.size(); first += batch) {
+        const std::size_t some = std::min(batch, boxes.size() - first);
+        grouped_codes(boxes.subspan(first, some), curve, grid, group, codes);
+        for (std::size_t i = 0; i < some; ++i)
+            records[first + i] = std::uint64_t{codes[i]} << 32 | (first + i);
+    }
+}
+
+Buffer<std::uint32_t> coarse_curve_order(Boxes boxes, Curve curve, const Executor& executor) {
+    return order_by(boxes, curve, nullptr, Sorted::exactly, executor, nullptr);
+}
+
+Buffer<std::uint32_t> block_curve_order(Boxes boxes, Curve curve, GroupOfBox group,
+                                        const Executor& executor, const Box* centres) {
+    return order_by(boxes, curve, group, Sorted::in_blocks, executor, centres);
+}
+
+} // namespace boxwood

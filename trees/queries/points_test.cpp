@@ -1,0 +1,272 @@
+#include "kernels/testing/every_target.h"
+#include "kernels/features/point_triangle.h"
+#include "trees/testing/box_families.h"
+#include "trees/builder.h"
+#include "trees/testing/every_executor.h"
+#include "trees/layout.h"
+#include "trees/testing/triangle_soup.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+namespace boxwood {
+namespace {
+
+constexpr float inf = std::numeric_limits<float>::infinity();
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+/// Points, boxes and balls to ask a family about: at corners of items, around them, anywhere, and
+/// such as hold nothing or everything.
+struct Queries {
+    std::vector<Vec3<float>> points;
+    std::vector<Box> boxes;
+    std::vector<Sphere<float>> balls;
+};
+
+Queries queries_for(Boxes items) {
+    std::mt19937 random(31);
+    std::uniform_real_distribution<float> unit(0, 1);
+    Queries q;
+    q.points = {{0, 0, 0}, {nan, 0, 0}, {0, inf, 0}, {1e30f, -1e30f, 1e-30f}, {.5f, .5f, .5f}};
+    for (int i = 0; i < 40 && !items.empty(); ++i) {
+        const Box& item = items[random() % items.size()];
+        const Box& other = items[random() % items.size()];
+        q.points.push_back(i % 4 == 0 ? item.min : i % 4 == 1 ? item.max : other.min);
+        if (i % 4 == 3)
+            for (int axis = 0; axis < 3; ++axis)
+                q.points.back()[axis] =
+                    item.min[axis] * (1 - unit(random)) + other.max[axis] * unit(random);
+    }
+    for (const Vec3<float> p : q.points) {
+        const Vec3<float> half{unit(random) * .1f, unit(random) * .1f, unit(random) * .1f};
+        q.boxes.push_back({p - half, p + half});
+        q.balls.push_back({p, half.x});
+        const Vec3<float> other = q.points[random() % q.points.size()];
+        q.boxes.push_back({min(p, other), max(p, other)});
+        q.balls.push_back({p, length(p - other)});
+    }
+    for (const Box& box : std::initializer_list<Box>{{{-inf, -inf, -inf}, {inf, inf, inf}},
+                                                     {{-inf, 0, 0}, {.3f, inf, .7f}},
+                                                     {{inf, 0, 0}, {inf, inf, 1}},
+                                                     {{1, 1, 1}, {0, 0, 0}},
+                                                     {{0, nan, 0}, {1, 1, 1}},
+                                                     {{0, 0, 0}, {1, 1, nan}}})
+        q.boxes.push_back(box);
+    for (const Sphere<float>& ball : std::initializer_list<Sphere<float>>{
+             {{0, 0, 0}, inf}, {{0, 0, 0}, 0}, {{0, 0, 0}, -1}, {{0, 0, 0}, nan}, {{nan, 0, 0}, 1}})
+        q.balls.push_back(ball);
+    return q;
+}
+
+/// The same formula as the contract's, on its own.
+double distance_to(Vec3<float> point, const Box& box) {
+    double sum = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double p = static_cast<double>(point[axis]);
+        double d = 0;
+        if (p < static_cast<double>(box.min[axis]))
+            d = static_cast<double>(box.min[axis]) - p;
+        else if (p > static_cast<double>(box.max[axis]))
+            d = p - static_cast<double>(box.max[axis]);
+        sum += d * d;
+    }
+    return sum;
+}
+
+bool is_inverted(const Box& b) {
+    return !(b.min.x <= b.max.x && b.min.y <= b.max.y && b.min.z <= b.max.z);
+}
+
+struct Expected {
+    std::vector<Pair> points, boxes, balls;
+    std::vector<Neighbour> nearest; ///< k = 5
+};
+constexpr std::size_t k = 5;
+
+Expected brute_force(Boxes items, const Queries& q) {
+    Expected e;
+    for (std::uint32_t i = 0; i < q.points.size(); ++i) {
+        std::vector<Neighbour> all;
+        for (std::uint32_t j = 0; j < items.size(); ++j) {
+            if (items[j].contains(q.points[i]))
+                e.points.push_back({i, j});
+            if (is_finite(q.points[i]))
+                all.push_back({j, distance_to(q.points[i], items[j])});
+        }
+        std::ranges::stable_sort(all, {}, &Neighbour::squared_distance);
+        all.resize(k);
+        e.nearest.insert(e.nearest.end(), all.begin(), all.end());
+    }
+    for (std::uint32_t i = 0; i < q.boxes.size(); ++i)
+        for (std::uint32_t j = 0; j < items.size(); ++j)
+            if (!is_inverted(q.boxes[i]) && overlaps(q.boxes[i], items[j]))
+                e.boxes.push_back({i, j});
+    for (std::uint32_t i = 0; i < q.balls.size(); ++i) {
+        const double r = static_cast<double>(q.balls[i].radius);
+        for (std::uint32_t j = 0; j < items.size(); ++j)
+            if (is_finite(q.balls[i].centre) && r >= 0 &&
+                distance_to(q.balls[i].centre, items[j]) <= r * r)
+                e.balls.push_back({i, j});
+    }
+    return e;
+}
+
+void expect_answers(const AnyLayout& layout, const Queries& q, const Expected& e,
+                    const Executor& executor, Work* work = nullptr) {
+    std::vector<Pair> pairs;
+    AppendPairs sink(pairs);
+    layout.points(q.points, executor, sink, work);
+    ASSERT_EQ(pairs, e.points);
+    pairs.clear();
+    layout.regions(q.boxes, executor, sink, work);
+    ASSERT_EQ(pairs, e.boxes);
+    pairs.clear();
+    layout.regions(q.balls, executor, sink, work);
+    ASSERT_EQ(pairs, e.balls);
+    std::vector<Neighbour> near(k * q.points.size());
+    layout.nearest(q.points, k, executor, near, work);
+    ASSERT_EQ(near, e.nearest);
+    near.resize(q.points.size());
+    layout.nearest(q.points, 1, executor, near, work);
+    for (std::size_t i = 0; i < near.size(); ++i)
+        ASSERT_EQ(near[i], e.nearest[k * i]) << i;
+}
+
+TEST(Points, RegionsAndNeighboursAgreeWithBruteForce) {
+    for (const BoxFamily& family : box_families()) {
+        SCOPED_TRACE(family.name);
+        const Queries q = queries_for(family.boxes);
+        const Expected e = brute_force(family.boxes, q);
+        for (const BuilderEntry& builder : builders()) {
+            const Tree tree = builder.make({})(family.boxes, serial());
+            for (const LayoutEntry& entry : layouts()) {
+                SCOPED_TRACE(std::string(builder.name) + "." + std::string(entry.name));
+                const auto layout = entry.make(tree, serial());
+                Work work;
+                expect_answers(*layout, q, e, serial(), &work);
+                const auto found = static_cast<std::uint64_t>(std::ranges::count_if(
+                    e.nearest, [](const Neighbour& n) { return n.item != Neighbour::none; }));
+                const auto any = static_cast<std::uint64_t>(
+                    family.boxes.empty() ? 0 : std::ranges::count_if(q.points, [](Vec3<float> p) {
+                        return is_finite(p);
+                    }));
+                EXPECT_EQ(work.answers,
+                          e.points.size() + e.boxes.size() + e.balls.size() + found + any);
+                EXPECT_EQ(work.box_tests > 0, !family.boxes.empty());
+                if (&builder == &builders().front())
+                    on_every_target([&] { expect_answers(*layout, q, e, serial()); });
+            }
+        }
+    }
+}
+
+/// Many more queries than one chunk.
+TEST(Points, AnswerInOneOrderOnEveryExecutor) {
+    const std::vector<Box> items = random_boxes(3000, .1f, 3);
+    std::mt19937 random(4);
+    std::uniform_real_distribution<float> unit(0, 1);
+    Queries q;
+    for (int i = 0; i < 2000; ++i) {
+        q.points.push_back({unit(random), unit(random), unit(random)});
+        q.balls.push_back({q.points.back(), .1f * unit(random)});
+        q.boxes.push_back({q.points.back(), q.points.back() + Vec3<float>{.1f, .2f, .1f}});
+    }
+    const Expected e = brute_force(items, q);
+    ASSERT_GT(e.points.size(), 500u);
+    for (const LayoutEntry& entry : layouts()) {
+        SCOPED_TRACE(entry.name);
+        const auto layout = entry.make(builders().front().make({})(items, serial()), serial());
+        for (const auto& [name, executor] : every_executor()) {
+            SCOPED_TRACE(name);
+            expect_answers(*layout, q, e, *executor);
+        }
+        std::size_t taken = 0;
+        ForEachPair stop([&](Pair) { return ++taken < 10; });
+        layout->regions(q.boxes, serial(), stop);
+        EXPECT_EQ(taken, 10u);
+    }
+}
+
+TEST(Points, RefuseAnswersOfTheWrongSize) {
+    const std::vector<Box> items = random_boxes(10, .1f, 3);
+    const std::vector<Vec3<float>> points(4);
+    std::vector<Neighbour> near(7);
+    std::vector<SurfacePoint> surface(3);
+    for (const LayoutEntry& entry : layouts()) {
+        const auto layout = entry.make(builders().front().make({})(items, serial()), serial());
+        EXPECT_THROW(layout->nearest(points, 2, serial(), near), std::invalid_argument);
+        EXPECT_THROW(layout->closest_points(points, {}, serial(), surface), std::invalid_argument);
+        layout->nearest(points, 0, serial(), {});
+    }
+}
+
+TriangleMesh soup(std::size_t n, float size, float scale) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> place(-1, 1);
+    TriangleMesh mesh;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const Vec3<float> p{place(random), place(random), place(random)};
+        for (int corner = 0; corner < 3; ++corner)
+            mesh.vertices.push_back(
+                scale * (p + size * Vec3<float>{place(random), place(random), place(random)}));
+        mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + (i % 10 == 0 ? 1 : 2)}); // some flat
+    }
+    return mesh;
+}
+
+/// The kernel on every triangle.
+SurfacePoint closest_of_all(const TriangleMesh& mesh, Vec3<float> point) {
+    SurfacePoint best;
+    for (std::uint32_t i = 0; is_finite(point) && i < mesh.triangles.size(); ++i) {
+        const Triangle<float> t = mesh.triangle(i);
+        const auto at = point_triangle::Regions::nearest(
+            Vec3<double>(point),
+            Triangle<double>{Vec3<double>(t.a), Vec3<double>(t.b), Vec3<double>(t.c)});
+        const double squared = dot(at.offset, at.offset);
+        if (squared < best.squared_distance)
+            best = {Vec3<float>(at.b), i, squared};
+    }
+    return best;
+}
+
+TEST(ClosestPoints, AgreeWithTheKernelOnEveryTriangle) {
+    for (const TriangleMesh& mesh :
+         {soup(2000, .1f, 1), soup(300, 1, 1e30f), soup(300, .5f, 1e-38f), soup(5, 1, 1),
+          soup(1, 1, 1), TriangleMesh{}}) {
+        SCOPED_TRACE(std::to_string(mesh.triangles.size()));
+        const std::vector<Box> items = triangle_boxes(mesh);
+        std::vector<Vec3<float>> points = queries_for(items).points;
+        for (std::size_t i = 0; i < std::min<std::size_t>(mesh.vertices.size(), 600); ++i)
+            points.push_back(.9f * mesh.vertices[(7 * i) % mesh.vertices.size()]);
+        std::vector<SurfacePoint> expected;
+        for (const Vec3<float> p : points)
+            expected.push_back(closest_of_all(mesh, p));
+        for (const BuilderEntry& builder : builders())
+            for (const LayoutEntry& entry : layouts()) {
+                SCOPED_TRACE(std::string(builder.name) + "." + std::string(entry.name));
+                const auto layout = entry.make(builder.make({})(items, serial()), serial());
+                const auto expect = [&](const Executor& executor, Work* work) {
+                    std::vector<SurfacePoint> got(points.size());
+                    layout->closest_points(points, mesh, executor, got, work);
+                    for (std::size_t i = 0; i < got.size(); ++i) {
+                        ASSERT_EQ(got[i].triangle, expected[i].triangle) << i;
+                        ASSERT_EQ(got[i].squared_distance, expected[i].squared_distance) << i;
+                        ASSERT_EQ(got[i].point, expected[i].point) << i;
+                    }
+                };
+                Work work;
+                expect(serial(), &work);
+                EXPECT_EQ(work.triangle_tests > 0, !items.empty());
+                if (&builder != &builders().front())
+                    continue;
+                on_every_target([&] { expect(serial(), nullptr); });
+                for (const ExecutorEntry& executor : executors())
+                    expect(*executor.make(executor.name == "serial" ? 1 : 4), nullptr);
+            }
+    }
+}
+
+} // namespace
+} // namespace boxwood

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "trees/executor.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace boxwood {
+
+/// An executor, with its word and threads for messages.
+struct ExecutorToTry {
+    std::string name;
+    std::unique_ptr<Executor> run;
+};
+
+/// Each executor of the registry with 1, 2 and 4 threads, serial with 1 alone.
+inline std::vector<ExecutorToTry> every_executor() {
+    std::vector<ExecutorToTry> all;
+    for (const ExecutorEntry& entry : executors())
+        for (const unsigned threads : {1u, 2u, 4u})
+            if (entry.name != "serial" || threads == 1)
+                all.push_back({std::string(entry.name) + " on " + std::to_string(threads),
+                               entry.make(threads)});
+    return all;
+}
+
+/// Those of more than one thread.
+inline std::vector<ExecutorToTry> parallel_executors() {
+    std::vector<ExecutorToTry> all = every_executor();
+    std::erase_if(all, [](const ExecutorToTry& e) { return e.run->threads() == 1; });
+    return all;
+}
+
+} // namespace boxwood
