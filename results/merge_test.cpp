@@ -1,5 +1,5 @@
-#include "results/example_for_test.h"
 #include "results/results.h"
+#include "results/testing/example.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ Results part(const std::string& machine, std::uint32_t round, std::uint32_t firs
         sample.cell_id = cell.cell_id;
         sample.shard_id = first_id + 2;
         sample.round = round;
-        sample.phase = "query";
+        sample.phase = Phase::query;
         sample.wall_ns = 100.0 * (i + 1) + round;
         p.samples.push_back(sample);
         FrameRow frame;
@@ -88,7 +88,7 @@ Results part(const std::string& machine, std::uint32_t round, std::uint32_t firs
     Comparison comparison;
     comparison.cell_a = first_id + 39;
     comparison.cell_b = first_id + 40;
-    comparison.phase = "query";
+    comparison.phase = Phase::query;
     p.compare.push_back(comparison);
     return p;
 }

@@ -1,5 +1,6 @@
 #include "bench/running/record.h"
 
+#include "bench/running/environment.h"
 #include "scenes/moving/frames.h"
 
 #include <fmt/chrono.h>
@@ -33,6 +34,7 @@ Record::Record(const results::Env& env, std::string generator) {
         fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::now()));
     out.generator = std::move(generator);
     out.env.push_back(env);
+    out.packages = package_rows();
 }
 
 std::uint32_t Record::add_scene(const Scene& scene, std::string asks) {

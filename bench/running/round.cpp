@@ -42,7 +42,7 @@ class Round final : public benchmark::BenchmarkReporter {
     /// One contender at a time is alive: from the start of its build to the end of its query.
     void build(benchmark::State& state, const Timing& timing) {
         make(timing);
-        start_sample(timing, "build");
+        start_sample(timing, results::Phase::build);
         contender_->build(); // warms caches and allocator
         time(state, [&] { contender_->build(); });
         if (timing.cell->task == Ask::tree)
@@ -55,7 +55,7 @@ class Round final : public benchmark::BenchmarkReporter {
             make(timing);
             contender_->build();
         }
-        start_sample(timing, "query");
+        start_sample(timing, results::Phase::query);
         answers_ = {};
         if (timing.cell->task == Ask::pairs || timing.cell->task == Ask::tree_pairs ||
             timing.cell->task == Ask::triangle_pairs || timing.cell->task == Ask::points ||
@@ -153,7 +153,7 @@ class Round final : public benchmark::BenchmarkReporter {
     void time_passes(benchmark::State& state, const Timing& timing, std::span<FrameTime> times,
                      Pass pass) {
         std::ranges::fill(times, FrameTime{});
-        for (const char* phase : {"update", "query"})
+        for (const results::Phase phase : {results::Phase::update, results::Phase::query})
             start_sample(timing, phase);
         const Usage before;
         for ([[maybe_unused]] auto iteration : state) {
@@ -203,7 +203,7 @@ class Round final : public benchmark::BenchmarkReporter {
         ++done_;
     }
 
-    void start_sample(const Timing& timing, const char* phase) {
+    void start_sample(const Timing& timing, results::Phase phase) {
         results::Sample sample;
         sample.cell_id = timing.cell_id;
         sample.round = round_;

@@ -177,7 +177,7 @@ TEST_F(RoundTest, ARoundTimesEveryCellOnceAndTheAaCellTwice) {
             const results::Sample& s = r.samples[i];
             EXPECT_EQ(s.position, i);
             EXPECT_EQ(s.round, round);
-            EXPECT_EQ(s.phase, i % 2 ? "query" : "build");
+            EXPECT_EQ(s.phase, i % 2 ? results::Phase::query : results::Phase::build);
             EXPECT_EQ(s.cell_id, r.samples[i & ~std::size_t{1}].cell_id);
             EXPECT_FALSE(s.flags & results::wrong_answer);
             const std::string& name = r.cells[s.cell_id].name;
@@ -205,7 +205,7 @@ TEST_F(RoundTest, AnotherAnswerThanTheCheckedOneIsFlagged) {
     const results::Results p = prepared();
     Made::is_late = true;
     for (const results::Sample& s : run_round(plan, p, 0, report()).samples)
-        EXPECT_EQ((s.flags & results::wrong_answer) != 0, s.cell_id == 1 && s.phase == "query");
+        EXPECT_EQ((s.flags & results::wrong_answer) != 0, s.cell_id == 1 && s.phase == results::Phase::query);
 }
 
 TEST_F(RoundTest, ACrashedCellIsOutAndSaysWhy) {
@@ -260,8 +260,8 @@ TEST_F(RoundTest, KernelsAreJudgedAndHaveAQueryAlone) {
     const results::Results round = run_round(plan, r, 0, report());
     std::multiset<std::string> phases;
     for (const results::Sample& sample : round.samples) {
-        phases.insert(fmt::format("{} {}", sample.cell_id, sample.phase));
-        EXPECT_EQ(sample.flags & results::wrong_answer, 0u) << sample.phase;
+        phases.insert(fmt::format("{} {}", sample.cell_id, to_string(sample.phase)));
+        EXPECT_EQ(sample.flags & results::wrong_answer, 0u) << to_string(sample.phase);
     }
     // The A/A cell, one of ours, is there twice.
     EXPECT_EQ(phases.count("0 build") + phases.count("1 build"), 0u);
@@ -354,7 +354,7 @@ TEST_F(RoundTest, Round0CountsTheFramesOfMovingScenes) {
         for (const results::Sample& sample : round->samples)
             EXPECT_EQ((sample.flags & results::wrong_answer) != 0,
                       round == &counted && sample.cell_id == policies.size() + 1 &&
-                          sample.phase != "build" && !(sample.flags & results::aa_twin));
+                          sample.phase != results::Phase::build && !(sample.flags & results::aa_twin));
 }
 
 TEST_F(RoundTest, ACellWithFewerRoundsIsNotInTheLaterOnes) {

@@ -182,8 +182,11 @@ TEST_F(SweepTest, MeasuresChecksAndCleansUp) {
     EXPECT_EQ(r.trees.size(), 2u);
     EXPECT_EQ(r.env.size(), 1u);
     EXPECT_FALSE(r.compare.empty());
+    EXPECT_EQ(r.health.size(), 1u);
+    EXPECT_FALSE(r.medians.empty());
+    EXPECT_FALSE(r.packages.empty());
     EXPECT_FALSE(fs::exists(out().string() + ".shards"));
-    EXPECT_THAT(text_of(log()), HasSubstr("brute_force"));
+    EXPECT_THAT(text_of(log()), HasSubstr("brute force"));
     EXPECT_THAT(text_of(log()), testing::Not(HasSubstr("DEBUG")));
 }
 
@@ -200,13 +203,14 @@ TEST_F(SweepTest, KernelsAreTimedWhereTheyErrAndJudgedByTheirPromise) {
         if (row.status == "wrong")
             wrong.insert(row.cell_id);
     for (const results::Sample& sample : r.samples) {
-        EXPECT_EQ(sample.phase, "query");
+        EXPECT_EQ(sample.phase, results::Phase::query);
         timed.insert(sample.cell_id);
     }
     EXPECT_FALSE(wrong.empty()); // plain doubles do not get these right
     EXPECT_TRUE(std::ranges::includes(timed, wrong));
-    EXPECT_THAT(text_of(log()), HasSubstr("cheapest rung with no wrong answer on these cases: "));
-    EXPECT_THAT(text_of(log()), HasSubstr("Every promise is kept."));
+    EXPECT_THAT(text_of(log()), HasSubstr("kernels on hard cases"));
+    EXPECT_FALSE(r.kernel_costs.empty());
+    EXPECT_EQ(r.health.at(0).broken_promises, 0u);
 }
 
 TEST_F(SweepTest, MoreRoundsExtendAndShardsShareThem) {

@@ -1,0 +1,111 @@
+#include "bench/analysis/screen.h"
+
+#include "bench/analysis/statistics.h"
+#include "bench/io/text_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+namespace boxwood::bench {
+namespace {
+
+using results::Finding;
+using results::Health;
+using results::Topic;
+
+constexpr std::size_t columns = 100;
+
+std::string cut(const std::string& line) {
+    return line.size() <= columns ? line : line.substr(0, columns - 3) + "...";
+}
+
+std::string trust_text(const Health& health) {
+    std::string text = fmt::format("{} rounds, {:.1f} % of the samples disturbed; ", health.rounds,
+                                   health.samples ? 100.0 * static_cast<double>(health.disturbed) /
+                                                        static_cast<double>(health.samples)
+                                                  : 0.0);
+    if (std::isnan(health.floor))
+        text += "noise floor not known";
+    else
+        text += fmt::format("noise floor {:.1f} %", 100 * health.floor);
+    if (health.is_too_noisy)
+        return text + ": too noisy";
+    if (health.rounds < min_pairs_verdict)
+        return text + fmt::format(": {} rounds give verdicts", min_pairs_verdict);
+    return text + (std::isnan(health.floor) ? ": no cell was timed twice" : ": quiet enough");
+}
+
+std::string answers_text(const Health& health) {
+    std::string text = fmt::format("{} answers checked: {} of ours wrong, {} of the peers' wrong",
+                                   health.answers, health.wrong_ours, health.wrong_peers);
+    if (health.broken_promises > 0)
+        text += fmt::format("; {} BROKEN PROMISES", health.broken_promises);
+    return text;
+}
+
+/// The headings of the four columns of a topic.
+std::vector<std::string> headings_of(Topic topic) {
+    switch (topic) {
+    case Topic::kernel:
+        return {"kernels on hard cases", "cheapest, a call", "against our fastest", "errors"};
+    case Topic::scene:
+        return {"moving scenes", "what they require", "with everything on", "interval"};
+    default:
+        return {"rival's time / ours", "build + query", "query alone", "interval"};
+    }
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);)
+        lines.push_back(cut(line));
+    return lines;
+}
+
+} // namespace
+
+std::string screen_text(const results::Results& results, std::size_t max_lines) {
+    const Health health = results.health.empty() ? Health{} : results.health.front();
+    std::string text = cut(trust_text(health)) + "\n" + cut(answers_text(health)) + "\n";
+    if (health.is_too_noisy)
+        return text + "\nREPEAT THIS: the same work timed twice differed by more than 20 %, so no "
+                      "time here means anything.\nClose other programs (`boxwood doctor` says "
+                      "which settings disturb) and measure again.\n";
+    std::vector<std::vector<const Finding*>> topics;
+    for (const Topic topic : {Topic::race, Topic::kernel, Topic::scene}) {
+        std::vector<const Finding*> headlines;
+        for (const Finding& finding : results.findings)
+            if (finding.topic == topic && finding.is_headline)
+                headlines.push_back(&finding);
+        if (!headlines.empty())
+            topics.push_back(std::move(headlines));
+    }
+    // Two lines are taken, each topic takes two more, and the last may say that there is more.
+    std::size_t left = max_lines - 3 - 2 * topics.size(), topics_left = topics.size(), shown = 0;
+    for (const auto& headlines : topics) {
+        std::size_t others = 0; // lines that later topics need at least
+        for (std::size_t later = topics.size() - topics_left + 1; later < topics.size(); ++later)
+            others += std::min<std::size_t>(topics[later].size(), left / topics.size());
+        const std::size_t n = std::min(headlines.size(), left - others);
+        TextTable table(headings_of(headlines.front()->topic));
+        for (std::size_t i = 0; i < n; ++i)
+            table.add({headlines[i]->question, headlines[i]->together, headlines[i]->alone,
+                       headlines[i]->certainty});
+        text += "\n";
+        for (const std::string& line : lines_of(table.text()))
+            text += line + "\n";
+        left -= n;
+        shown += n;
+        --topics_left;
+    }
+    if (const std::size_t more = results.findings.size() - shown; more > 0)
+        text += fmt::format("and {} more: boxwood show FILE.h5 --all\n", more);
+    return text;
+}
+
+} // namespace boxwood::bench
