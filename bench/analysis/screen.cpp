@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 namespace boxwood::bench {
@@ -19,8 +21,8 @@ using results::Topic;
 
 constexpr std::size_t columns = 100;
 
-std::string cut(const std::string& line) {
-    return line.size() <= columns ? line : line.substr(0, columns - 3) + "...";
+std::string cut(const std::string& text, std::size_t width = columns) {
+    return text.size() <= width ? text : text.substr(0, width - 3) + "...";
 }
 
 std::string trust_text(const Health& health) {
@@ -59,12 +61,27 @@ std::vector<std::string> headings_of(Topic topic) {
     }
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
-    std::vector<std::string> lines;
-    std::istringstream in(text);
+/// The rows of one topic; the questions are cut so that all answers are seen.
+std::string table_text(std::span<const Finding* const> findings) {
+    const auto headings = headings_of(findings.front()->topic);
+    std::size_t answers = 0;
+    for (const auto& [column, heading] :
+         {std::pair{&Finding::together, 1}, {&Finding::alone, 2}, {&Finding::certainty, 3}}) {
+        std::size_t width = headings[static_cast<std::size_t>(heading)].size();
+        for (const Finding* finding : findings)
+            width = std::max(width, (finding->*column).size());
+        answers += 2 + width;
+    }
+    const std::size_t room = answers + 20 < columns ? columns - answers : 20;
+    TextTable table(headings);
+    for (const Finding* finding : findings)
+        table.add(
+            {cut(finding->question, room), finding->together, finding->alone, finding->certainty});
+    std::string text;
+    std::istringstream in(table.text());
     for (std::string line; std::getline(in, line);)
-        lines.push_back(cut(line));
-    return lines;
+        text += cut(line) + "\n";
+    return text;
 }
 
 } // namespace
@@ -86,22 +103,15 @@ std::string screen_text(const results::Results& results, std::size_t max_lines) 
             topics.push_back(std::move(headlines));
     }
     // Two lines are taken, each topic takes two more, and the last may say that there is more.
-    std::size_t left = max_lines - 3 - 2 * topics.size(), topics_left = topics.size(), shown = 0;
-    for (const auto& headlines : topics) {
+    std::size_t left = max_lines - 3 - 2 * topics.size(), shown = 0;
+    for (std::size_t topic = 0; topic < topics.size(); ++topic) {
         std::size_t others = 0; // lines that later topics need at least
-        for (std::size_t later = topics.size() - topics_left + 1; later < topics.size(); ++later)
-            others += std::min<std::size_t>(topics[later].size(), left / topics.size());
-        const std::size_t n = std::min(headlines.size(), left - others);
-        TextTable table(headings_of(headlines.front()->topic));
-        for (std::size_t i = 0; i < n; ++i)
-            table.add({headlines[i]->question, headlines[i]->together, headlines[i]->alone,
-                       headlines[i]->certainty});
-        text += "\n";
-        for (const std::string& line : lines_of(table.text()))
-            text += line + "\n";
+        for (std::size_t later = topic + 1; later < topics.size(); ++later)
+            others += std::min(topics[later].size(), left / topics.size());
+        const std::size_t n = std::min(topics[topic].size(), left - others);
+        text += "\n" + table_text(std::span(topics[topic]).first(n));
         left -= n;
         shown += n;
-        --topics_left;
     }
     if (const std::size_t more = results.findings.size() - shown; more > 0)
         text += fmt::format("and {} more: boxwood show FILE.h5 --all\n", more);

@@ -100,15 +100,15 @@ TRIANGLE_KERNELS = {
     "sat_certified": ("boxwood", "never-miss", 71.0, 0.05, 0),
     "guigue_devillers_exact": ("boxwood", "exact", 22.0, 0, 0.14),
     "rational": ("boxwood", "exact", 36000.0, 0, 0),
-    "fcl.intersect_triangle": ("fcl", "", 161.0, 0.25, 0),
-    "cgal.epick.do_intersect": ("cgal", "", 93.0, 0, 0),
+    "fcl.intersect_triangle": ("fcl", "no promise", 161.0, 0.25, 0),
+    "cgal.epick.do_intersect": ("cgal", "no promise", 93.0, 0, 0),
 }
 DISTANCE_KERNELS = {  # kernel -> (library, promise, ns, error at condition 1, power of the condition)
     "features_f64": ("boxwood", "no promise", 90.0, 1e-16, 2),
     "cross_product_f64": ("boxwood", "no promise", 110.0, 1e-16, 1),
     "certified": ("boxwood", "certified", 160.0, 1e-16, 1),
     "rational": ("boxwood", "exact", 150000.0, 0, 0),
-    "fcl.tri_distance": ("fcl", "", 216.0, 1e-16, 2),
+    "fcl.tri_distance": ("fcl", "no promise", 216.0, 1e-16, 2),
 }
 CASES = {"generic_pairs": "generic", "parallel_planes": "generic", "vertex_on_face": "touching",
          "shared_edge": "touching", "slivers_k6": "degenerate", "zero_area": "degenerate"}
