@@ -141,7 +141,7 @@ const Cell* reference_in(const Index& index, const Cell& judged) {
     int best_fit = -1;
     for (const Cell& cell : index.results().cells) {
         if (cell.scene_id != judged.scene_id || cell.task != judged.task ||
-            cell.threads != judged.threads || index.is_peer(cell) ||
+            cell.threads != judged.threads || index.is_peer(cell) || !is_right(cell.status) ||
             cell.executor != judged.executor || cell.precision != judged.precision ||
             cell.classes != judged.classes)
             continue;

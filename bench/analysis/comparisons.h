@@ -25,7 +25,7 @@ namespace boxwood::bench {
 std::vector<results::Comparison> comparisons_of(const results::Results& results, const Times& times,
                                                 double delta);
 
-/// The cell of ours that `judged` is held against: of its job, executor, precision and classes the
+/// The cell of ours that `judged` is held against: of the right ones of its job, executor, precision and classes the
 /// builder hilbert with the same layout and kernel, else its first hilbert, else its first. Null
 /// if that is itself, or it is a kernel on hard cases or a way to play a scene.
 const results::Cell* reference_of(const results::Results& results, const results::Cell& judged);

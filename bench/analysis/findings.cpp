@@ -63,7 +63,7 @@ std::string class_words(const std::string& name) {
     if (name.starts_with(tight))
         return "watertight " + class_words(name.substr(tight.size()));
     return name == "single rays"                   ? "one by one"
-           : name == "batches against single rays" ? "in batches"
+           : name == "batches against single rays" ? "batches"
                                                    : name;
 }
 
@@ -83,20 +83,29 @@ Outcome outcome_of(const Comparison& row) {
     }
 }
 
-/// "LOSES 0.73x to Embree"; the ratio is the rival's time over ours.
+/// "0.73", "12.3", "120": short enough for a screen.
+std::string short_ratio(double ratio) {
+    return fmt::format("{:.{}f}", ratio, ratio >= 100 ? 0 : ratio >= 10 ? 1 : 2);
+}
+
+/// "LOSES 0.73x to Embree"; the ratio is the rival's time over ours. No rival: the one named
+/// before.
 std::string outcome_text(const Comparison& row, const std::string& rival) {
-    const std::string ratio = ratio_text(1 / row.ratio) + "x";
+    const std::string ratio = short_ratio(1 / row.ratio) + "x";
+    const auto said = [&](std::string_view start, std::string_view link) {
+        return rival.empty() ? std::string(start) : fmt::format("{} {}{}", start, link, rival);
+    };
     switch (outcome_of(row)) {
     case Outcome::loses:
-        return fmt::format("LOSES {} to {}", ratio, rival);
+        return said("LOSES " + ratio, "to ");
     case Outcome::wins:
-        return fmt::format("wins {} over {}", ratio, rival);
+        return said("wins " + ratio, "over ");
     case Outcome::even:
-        return fmt::format("even with {}", rival);
+        return said("even", "with ");
     case Outcome::open:
         break;
     }
-    return fmt::format("{} {}, unsure", ratio, rival);
+    return "unsure, " + said(ratio, "");
 }
 
 std::string reason_text(results::Reason reason) {
@@ -121,7 +130,7 @@ std::string certainty_text(const Comparison& row) {
         return reason_text(row.reason);
     if (std::isnan(row.ci_lo))
         return "";
-    return fmt::format("{}-{}", ratio_text(1 / row.ci_hi), ratio_text(1 / row.ci_lo));
+    return fmt::format("{}-{}", short_ratio(1 / row.ci_hi), short_ratio(1 / row.ci_lo));
 }
 
 /// A finding before the order is known.
@@ -228,9 +237,12 @@ class Findings {
                 std::pair(outcome_of(*side), 1 / side->ratio) < std::pair(told.outcome, told.ratio))
                 std::tie(told.outcome, told.ratio) = std::tuple(outcome_of(*side), 1 / side->ratio);
         if (together)
-            row.together = outcome_text(*together, rival_words(row.rival));
-        if (alone)
-            row.alone = outcome_text(*alone, rival_words(row.rival_alone));
+            row.together = outcome_text(*together, rival_words(row.rival, row.ours));
+        if (alone) {
+            const std::string rival = rival_words(row.rival_alone, row.ours_alone);
+            const bool is_named = together && rival == rival_words(row.rival, row.ours);
+            row.alone = outcome_text(*alone, is_named ? "" : rival);
+        }
         row.certainty = certainty_text(together ? *together : *alone);
         describe(told, *scenes_.at(scene), sides.ours.front()->n_items);
         told_.push_back(std::move(told));
@@ -282,9 +294,14 @@ class Findings {
         return found == compare_.end() ? nullptr : found->second;
     }
 
-    std::string rival_words(std::uint32_t cell_id) const {
-        const results::Variant& rival = variant(*cells_.at(cell_id));
-        return rival.is_peer ? library_words(rival.library) : rival.builder;
+    /// A peer's library; of ours what tells it from our best.
+    std::string rival_words(std::uint32_t rival_id, std::uint32_t ours_id) const {
+        const results::Variant& rival = variant(*cells_.at(rival_id));
+        const results::Variant& ours = variant(*cells_.at(ours_id));
+        return rival.is_peer                   ? library_words(rival.library)
+               : rival.builder != ours.builder ? rival.builder
+               : rival.layout != ours.layout   ? rival.layout
+                                               : rival.kernel;
     }
 
     /// The kind of rays ends the name of their scene.
@@ -299,10 +316,10 @@ class Findings {
         told.n_items = n_items;
         told.where =
             scene.human_name.empty() ? spaced(base) + " " + count_words(n_items) : scene.human_name;
-        if (told.finding.threads > 1)
-            told.how += fmt::format(", {} threads", told.finding.threads);
         if (!told.finding.contender_class.empty())
             told.how += ", " + class_words(told.finding.contender_class);
+        if (told.finding.threads > 1)
+            told.how += fmt::format(", {} threads", told.finding.threads);
     }
 
     void kernels() {
@@ -329,13 +346,12 @@ class Findings {
                 told.outcome = Outcome::wins;
                 told.ratio = fastest.ns / (*right)->ns;
                 row.together = fmt::format("{}, {}", (*right)->kernel, time_text((*right)->ns));
-                row.alone = *right == &fastest
-                                ? "the fastest of ours"
-                                : fmt::format("{}x the time of {}", ratio_text(1 / told.ratio),
-                                              fastest.kernel);
-                row.certainty = fmt::format("0 of {} wrong", (*right)->n);
+                row.alone = *right == &fastest ? "the fastest of ours"
+                                               : fmt::format("{}x {}", short_ratio(1 / told.ratio),
+                                                             fastest.kernel);
+                row.certainty = fmt::format("{} right", (*right)->n);
             }
-            row.question = fmt::format("{}, {} input", spaced(key.first), key.second);
+            row.question = fmt::format("{}, {}", spaced(key.first), key.second);
             told_.push_back(std::move(told));
         }
     }
@@ -357,11 +373,11 @@ class Findings {
             for (const Comparison& other : results_.compare)
                 if (other.cell_a == cell.cell_id && other.family == results::Family::stages &&
                     other.phase == Phase::update_and_query) {
-                    row.alone = fmt::format("all stages {}x the time", ratio_text(other.ratio));
+                    row.alone = fmt::format("{}x the time", short_ratio(other.ratio));
                     row.certainty = std::isnan(other.ci_lo)
                                         ? reason_text(other.reason)
-                                        : fmt::format("{}-{}", ratio_text(other.ci_lo),
-                                                      ratio_text(other.ci_hi));
+                                        : fmt::format("{}-{}", short_ratio(other.ci_lo),
+                                                      short_ratio(other.ci_hi));
                     row.rival = other.cell_b;
                 }
             describe(told, *scenes_.at(cell.scene_id), cell.n_items);
@@ -400,7 +416,9 @@ class Findings {
             }
         }
         for (Told& told : told_)
-            if (told.finding.topic != Topic::kernel) {
+            if (told.finding.topic == Topic::scene) {
+                told.finding.question = told.where + told.how;
+            } else if (told.finding.topic == Topic::race) {
                 const bool is_known = told.finding.is_headline &&
                                       places[told.finding.task].size() == 1 &&
                                       told.finding.task.starts_with("rays_");

@@ -49,7 +49,7 @@ TEST_F(Findings, HoldTheBestOfOursAgainstTheBestRival) {
     EXPECT_EQ(row.ours, ours);
     EXPECT_EQ(row.rival, rival);
     EXPECT_EQ(row.together, "wins 3.00x over FCL"); // 1200 / 400
-    EXPECT_EQ(row.alone, "wins 3.67x over FCL");    // 1100 / 300
+    EXPECT_EQ(row.alone, "wins 3.67x");             // 1100 / 300, over the same
     EXPECT_EQ(row.certainty, "3.00-3.00");
     EXPECT_EQ(row.question, "overlapping pairs, uniform 10");
     EXPECT_FALSE(is_promise_broken(run.results));
@@ -63,7 +63,7 @@ TEST_F(Findings, ChooseTheBestOfEachMeasureByItself) {
     EXPECT_EQ(row.ours, builds);
     EXPECT_EQ(row.ours_alone, queries);
     EXPECT_EQ(row.together, "wins 3.25x over FCL"); // 1300 / 400
-    EXPECT_EQ(row.alone, "wins 3.00x over FCL");    // 600 / 200
+    EXPECT_EQ(row.alone, "wins 3.00x");             // 600 / 200
 }
 
 TEST_F(Findings, RankUpdatesWithTheirQueriesAndBuildsThatNothingFollows) {
@@ -77,7 +77,7 @@ TEST_F(Findings, RankUpdatesWithTheirQueriesAndBuildsThatNothingFollows) {
     run = {};
     for (const auto& [name, build] : {std::pair{"hilbert", 1000.}, {"embree.low", 700.}})
         run.time(run.cell("uniform", 10, "tree", name), Phase::build, build);
-    EXPECT_EQ(only().together, "LOSES 0.700x to Embree");
+    EXPECT_EQ(only().together, "LOSES 0.70x to Embree");
 }
 
 TEST_F(Findings, LossesComeFirstAndOneRowStandsForAQuestion) {
@@ -93,7 +93,7 @@ TEST_F(Findings, LossesComeFirstAndOneRowStandsForAQuestion) {
     for (const Finding& row : run.results.findings)
         if (row.is_headline)
             headlines.push_back(row.question + ": " + row.together);
-    EXPECT_THAT(headlines, ElementsAre("overlapping pairs, uniform 1k, 2 threads: LOSES 0.762x to "
+    EXPECT_THAT(headlines, ElementsAre("overlapping pairs, uniform 1k, 2 threads: LOSES 0.76x to "
                                        "FCL",
                                        "overlapping pairs, bars 10: even with Embree"));
     EXPECT_EQ(run.results.findings.size(), 5u);
@@ -104,7 +104,7 @@ TEST_F(Findings, WithoutPeersOursStandAgainstTheirReference) {
     add("uniform", "pairs", "hilbert.packed", 100, 300);
     add("uniform", "pairs", "mine.packed", 100, 100);
     EXPECT_EQ(only().together, "wins 2.00x over hilbert");
-    EXPECT_EQ(only().alone, "wins 3.00x over hilbert");
+    EXPECT_EQ(only().alone, "wins 3.00x");
 }
 
 TEST_F(Findings, SayWhyNothingCanBeTold) {
@@ -112,7 +112,7 @@ TEST_F(Findings, SayWhyNothingCanBeTold) {
     add("uniform", "pairs", "ours.packed", 100, 300);
     add("uniform", "pairs", "fcl.tree", 100, 900);
     const Finding& row = only();
-    EXPECT_EQ(row.together, "2.50x FCL, unsure");
+    EXPECT_EQ(row.together, "unsure, 2.50x FCL");
     EXPECT_EQ(row.certainty, "too few rounds");
     EXPECT_THAT(screen(), Not(HasSubstr("wins")));
 }
@@ -168,9 +168,9 @@ TEST_F(Findings, AKernelWithoutAPromiseMayErrAndOneWithMayNot) {
     EXPECT_EQ(only().certainty, "3 of 100 wrong");
     add_kernel("sure", "exact", 0, 25);
     EXPECT_FALSE((analyse(run.results), is_promise_broken(run.results)));
-    EXPECT_EQ(only().question, "triangle triangle, degenerate input");
+    EXPECT_EQ(only().question, "triangle triangle, degenerate");
     EXPECT_EQ(only().together, "sure, 25.0 ns");
-    EXPECT_EQ(only().alone, "2.50x the time of plain");
+    EXPECT_EQ(only().alone, "2.50x plain");
     EXPECT_EQ(promises_text(run.results), "Every promise is kept.\n");
     EXPECT_EQ(run.results.health[0].wrong_ours, 0u);
     add_kernel("liar", "never-miss", 1, 5);
@@ -189,7 +189,7 @@ TEST_F(Findings, AScenePlayedSaysItsFrameAndWhatEverythingWouldTake) {
     const Finding& row = only();
     EXPECT_EQ(row.topic, results::Topic::scene);
     EXPECT_EQ(row.together, "3.00 ms a frame");
-    EXPECT_EQ(row.alone, "all stages 2.00x the time"); // 6 / 3
+    EXPECT_EQ(row.alone, "2.00x the time"); // 6 / 3
 }
 
 TEST_F(Findings, ANoisyRunSaysRepeatThisInstead) {

@@ -55,7 +55,7 @@ std::vector<std::string> headings_of(Topic topic) {
     case Topic::kernel:
         return {"kernels on hard cases", "cheapest, a call", "against our fastest", "errors"};
     case Topic::scene:
-        return {"moving scenes", "what they require", "with everything on", "interval"};
+        return {"moving scenes", "what they require", "with all stages", "interval"};
     default:
         return {"rival's time / ours", "build + query", "query alone", "interval"};
     }
