@@ -15,10 +15,4 @@ namespace boxwood::bench {
 /// Needs all other derived tables.
 std::vector<results::Finding> findings_of(const results::Results& results);
 
-/// "faster", "can't tell (too few rounds)": the verdict of a comparison, with its reason.
-std::string verdict_text(const results::Comparison& row);
-
-/// "3.12 [3.01, 3.20]": a ratio with its interval, where it has one; "-" for no ratio.
-std::string interval_text(double ratio, double lo, double hi);
-
 } // namespace boxwood::bench

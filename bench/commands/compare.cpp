@@ -1,6 +1,6 @@
 #include "bench/commands/compare.h"
 
-#include "bench/analysis/findings.h"
+#include "bench/analysis/wording.h"
 #include "bench/commands/command.h"
 #include "bench/io/json.h"
 #include "bench/io/text_table.h"

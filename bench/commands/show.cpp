@@ -1,10 +1,10 @@
 #include "bench/commands/show.h"
 
 #include "bench/analysis/comparisons.h"
-#include "bench/analysis/findings.h"
 #include "bench/analysis/kernel_costs.h"
 #include "bench/analysis/promises.h"
 #include "bench/analysis/screen.h"
+#include "bench/analysis/wording.h"
 #include "bench/commands/command.h"
 #include "bench/io/json.h"
 #include "bench/io/text_table.h"
