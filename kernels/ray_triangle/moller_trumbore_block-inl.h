@@ -8,34 +8,13 @@
 
 #include "kernels/ray_triangle/block-inl.h"
 #include "kernels/ray_triangle/moller_trumbore.h"
+#include "kernels/simd/vec3-inl.h"
 
 #include <cmath>
 #include <limits>
 
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::HWY_NAMESPACE {
-
-/// Three components, a register each.
-template <class V> struct Vector {
-    V x, y, z;
-
-    HWY_INLINE Vector operator-(const Vector& b) const {
-        return {hwy::HWY_NAMESPACE::Sub(x, b.x), hwy::HWY_NAMESPACE::Sub(y, b.y),
-                hwy::HWY_NAMESPACE::Sub(z, b.z)};
-    }
-};
-
-/// `cross` and `dot` of kernels/primitives/vec3.h.
-template <class V> HWY_INLINE Vector<V> Cross(const Vector<V>& a, const Vector<V>& b) {
-    namespace hn = hwy::HWY_NAMESPACE;
-    return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
-            hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-            hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
-}
-template <class V> HWY_INLINE V Dot(const Vector<V>& a, const Vector<V>& b) {
-    namespace hn = hwy::HWY_NAMESPACE;
-    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
 
 /// MollerTrumbore::intersect operation for operation, a register at a time.
 template <class Real, std::size_t lanes>
@@ -49,7 +28,7 @@ HWY_INLINE std::uint32_t IntersectBlock(std::type_identity<MollerTrumbore<Real>>
     using V = hn::Vec<decltype(dr)>;
     const V zero = hn::Zero(dr);
     const auto everywhere = [&](Vec3<Real> p) HWY_ATTR {
-        return Vector<V>{hn::Set(dr, p.x), hn::Set(dr, p.y), hn::Set(dr, p.z)};
+        return LaneVec3<V>{hn::Set(dr, p.x), hn::Set(dr, p.y), hn::Set(dr, p.z)};
     };
     const auto to_float = [&](V x) HWY_ATTR {
         if constexpr (std::is_same_v<Real, float>)
@@ -57,8 +36,8 @@ HWY_INLINE std::uint32_t IntersectBlock(std::type_identity<MollerTrumbore<Real>>
         else
             return hn::DemoteTo(df, x);
     };
-    const Vector<V> direction = everywhere(per_ray.direction);
-    const Vector<V> origin = everywhere(per_ray.origin);
+    const LaneVec3<V> direction = everywhere(per_ray.direction);
+    const LaneVec3<V> origin = everywhere(per_ray.origin);
     // Bounds of t around the exact ones, so that most triangles need no division: 2^-20 is more
     // than all roundings, FLT_MIN and 2^-120 are more than what underflows.
     constexpr Real slack = Real(0x1p-20f), least = std::numeric_limits<float>::min();
@@ -74,15 +53,15 @@ HWY_INLINE std::uint32_t IntersectBlock(std::type_identity<MollerTrumbore<Real>>
                 return hn::PromoteTo(dr, hn::Load(df, block.corner[k][axis] + i));
         };
         const auto corner = [&](int k) HWY_ATTR {
-            return Vector<V>{load(k, 0), load(k, 1), load(k, 2)};
+            return LaneVec3<V>{load(k, 0), load(k, 1), load(k, 2)};
         };
-        const Vector<V> a = corner(0), e1 = corner(1) - a, e2 = corner(2) - a;
-        const Vector<V> p = Cross(direction, e2);
-        const V det = Dot(e1, p), size = hn::Abs(det);
-        const Vector<V> s = origin - a, q = Cross(s, e1);
+        const LaneVec3<V> a = corner(0), e1 = corner(1) - a, e2 = corner(2) - a;
+        const LaneVec3<V> p = cross(direction, e2);
+        const V det = dot(e1, p), size = hn::Abs(det);
+        const LaneVec3<V> s = origin - a, q = cross(s, e1);
         const V sign = hn::And(hn::SignBit(dr), det);
-        const V u = hn::Xor(sign, Dot(s, p)), v = hn::Xor(sign, Dot(direction, q));
-        const V t_det = Dot(e2, q), t_size = hn::Xor(sign, t_det);
+        const V u = hn::Xor(sign, dot(s, p)), v = hn::Xor(sign, dot(direction, q));
+        const V t_det = dot(e2, q), t_size = hn::Xor(sign, t_det);
         const auto about = hn::And(hn::Le(t_size, hn::MulAdd(size, far_t, underflow)),
                                    hn::Ge(t_size, hn::MulSub(size, near_t, underflow)));
         const auto inside = hn::And(hn::And(hn::And(hn::Ge(u, zero), hn::Ge(v, zero)), about),

@@ -14,13 +14,11 @@ namespace boxwood {
 namespace {
 
 using Search = NearestPairSearch<double, false>;
-using Vector = one_lane::Vector<double>;
 using Pair = one_lane::PointPair<double>;
 
 constexpr double u = 0x1p-53;
 constexpr double underflow = 0x1p-1060; ///< of all products below, and of coordinates scaled down
 
-Vec3<double> point(const Vector& v) { return {v.x, v.y, v.z}; }
 Vec3<double> abs(Vec3<double> v) { return {std::abs(v.x), std::abs(v.y), std::abs(v.z)}; }
 
 bool tight(const DistanceBounds& b) { return b.lo >= b.hi * (1 - 0x1p-32); }
@@ -37,7 +35,7 @@ bool tight(const DistanceBounds& b) { return b.lo >= b.hi * (1 - 0x1p-32); }
 ///           sum to 1 at most, and the edges of b are at most twice its E_k apart); weights that
 ///           are off the triangle by rounding 6u E_k: 20u E_k with what is O(u^2)
 DistanceBounds bounds_from(const Pair& pair, const Triangle<double>& a, const Triangle<double>& b) {
-    const Vec3<double> n = point(pair.offset), x1 = a.b - a.a, x2 = a.c - a.a;
+    const Vec3<double> n = pair.offset, x1 = a.b - a.a, x2 = a.c - a.a;
     const Vec3<double> y0 = b.a - a.a, y1 = b.b - a.a, y2 = b.c - a.a;
     const Vec3<double> extent = max(abs(x1), abs(x2)) + max(max(abs(y0), abs(y1)), abs(y2));
     const double squared = dot(n, n), length = std::sqrt(squared);
@@ -48,14 +46,13 @@ DistanceBounds bounds_from(const Pair& pair, const Triangle<double>& a, const Tr
     const double gap = (near_a - near_b) - (6 * u * dot(abs(n), extent) + underflow);
     const double lo = gap / length * (1 - 8 * u);
     // Below, squares underflow.
-    return {squared > 0x1p-900 && lo > 0 ? lo : 0, hi, std::sqrt(pair.squared), point(pair.a),
-            point(pair.b)};
+    return {squared > 0x1p-900 && lo > 0 ? lo : 0, hi, std::sqrt(pair.squared), pair.a, pair.b};
 }
 
 Distance between(const DistanceBounds& b, std::uint8_t tier) {
     return {std::clamp(b.distance, b.lo, b.hi), b.lo, b.hi, b.point_a, b.point_b, tier};
 }
-DistanceBounds touching(const Pair& pair) { return {0, 0, 0, point(pair.a), point(pair.b)}; }
+DistanceBounds touching(const Pair& pair) { return {0, 0, 0, pair.a, pair.b}; }
 
 /// x * 2^exponent, rounded down, or up.
 double scaled_down(double x, int exponent) {

@@ -29,19 +29,15 @@ template <class RealOf, bool by_cross> struct FeatureDistance {
   private:
     using Pair = one_lane::PointPair<Real>;
 
-    static Vec3<double> point(const one_lane::Vector<Real>& v) {
-        return Vec3<double>(Vec3<Real>{v.x, v.y, v.z});
-    }
     static Distance of(const Pair& found) {
         const auto d = static_cast<double>(std::sqrt(found.squared));
-        return {d, d, d, point(found.a), point(found.b), 0};
+        return {d, d, d, Vec3<double>(found.a), Vec3<double>(found.b), 0};
     }
     template <auto find>
     [[gnu::noinline]] static Distance rescaled(const Triangle<Real>& a, const Triangle<Real>& b) {
         const std::array points{a.a, a.b, a.c, b.a, b.b, b.c};
         return at_unit_size(points, a, b, [](const auto& ua, const auto& ub) {
-            const Vec3<Real>&p = ua.a, &q = ub.a; // where all is one point
-            Pair found{0, {}, {p.x, p.y, p.z}, {q.x, q.y, q.z}};
+            Pair found{0, {}, ua.a, ub.a}; // where all is one point
             find(ua, ub, found);
             return of(found);
         });

@@ -5,6 +5,7 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
+#include "kernels/simd/vec3-inl.h"
 #include "kernels/triangle_distance/features_batch.h"
 
 #include <algorithm>
@@ -66,7 +67,7 @@ constexpr std::size_t lanes = hn::MaxLanes(df);
 template <std::size_t stride> using Rows = double[2][3][3][stride];
 
 template <std::size_t stride>
-HWY_INLINE Vector<Lanes> LoadCorner(const double (&corner)[3][stride], std::size_t lane) {
+HWY_INLINE LaneVec3<Lanes> LoadCorner(const double (&corner)[3][stride], std::size_t lane) {
     return {hn::LoadU(df, corner[0] + lane), hn::LoadU(df, corner[1] + lane),
             hn::LoadU(df, corner[2] + lane)};
 }
@@ -82,11 +83,11 @@ HWY_INLINE std::uint32_t Bits(Mask m) {
 
 /// The corners of a triangle from the one that is least along a way on, counted round.
 struct Turned {
-    Vector<Lanes> c0, c1, c2;
-    HWY_INLINE Turned(const Shape<Lanes>& t, const Vector<Lanes>& way) : c0(), c1(), c2() {
+    LaneVec3<Lanes> c0, c1, c2;
+    HWY_INLINE Turned(const Shape<Lanes>& t, const LaneVec3<Lanes>& way) : c0(), c1(), c2() {
         const Lanes zero = constant<Lanes>(0), x = dot(way, t.edge[0]), y = dot(way, t.edge[1]);
         const Mask third = y < min(x, zero), second = hn::AndNot(third, x < zero);
-        const Vector<Lanes>(&c)[3] = t.corner;
+        const LaneVec3<Lanes>(&c)[3] = t.corner;
         c0 = select(third, c[2], select(second, c[1], c[0]));
         c1 = select(third, c[0], select(second, c[2], c[1]));
         c2 = select(third, c[1], select(second, c[0], c[2]));
@@ -98,7 +99,7 @@ struct Turned {
 template <std::size_t stride>
 HWY_INLINE Mask Guess(const Rows<stride>& rows, std::size_t lane, PointPair<Lanes>& pair) {
     const Shape<Lanes> a = LoadShape(rows[0], lane), b = LoadShape(rows[1], lane);
-    const Vector<Lanes> way =
+    const LaneVec3<Lanes> way =
         way_between(b.corner[0] - a.corner[0], a.edge[0], a.edge[1], b.edge[0], b.edge[1]);
     const Turned ta(a, way), tb(b, -way);
     return facing_edges<false>(ta.c0, ta.c1, ta.c2, tb.c0, tb.c1, tb.c2, pair);

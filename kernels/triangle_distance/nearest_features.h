@@ -2,6 +2,8 @@
 
 #include <hwy/base.h>
 
+#include "kernels/primitives/vec3.h"
+
 #include <cmath>
 #include <concepts>
 
@@ -53,6 +55,8 @@ HWY_INLINE void reciprocals(float (&x)[3]) {
     for (float& each : x)
         each = 1 / each;
 }
+
+template <class V> using LaneVec3 = Vec3<V>;
 
 #include "kernels/triangle_distance/nearest_features.inc"
 

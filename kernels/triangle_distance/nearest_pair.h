@@ -25,22 +25,17 @@ template <class Real, bool by_cross> class NearestPairSearch {
     }
 
   private:
-    using Vector = one_lane::Vector<Real>;
-
-    static Vector lane(const Vec3<Real>& p) { return {p.x, p.y, p.z}; }
-
     /// The pairs of edges that face each other along some way: at first from centre to centre, then
     /// between the points that were found.
     struct Guess {
         const Vec3<Real>*a[5], *b[5]; ///< the corners, twice round
-        Vector a1, a2, b1, b2, way;
+        Vec3<Real> a1, a2, b1, b2, way;
         int last = -1;
 
         Guess(const Triangle<Real>& ta, const Triangle<Real>& tb)
             : a{&ta.a, &ta.b, &ta.c, &ta.a, &ta.b}, b{&tb.a, &tb.b, &tb.c, &tb.a, &tb.b},
-              a1(lane(ta.b) - lane(ta.a)), a2(lane(ta.c) - lane(ta.a)), b1(lane(tb.b) - lane(tb.a)),
-              b2(lane(tb.c) - lane(tb.a)),
-              way(one_lane::way_between(lane(tb.a) - lane(ta.a), a1, a2, b1, b2)) {}
+              a1(ta.b - ta.a), a2(ta.c - ta.a), b1(tb.b - tb.a), b2(tb.c - tb.a),
+              way(one_lane::way_between(tb.a - ta.a, a1, a2, b1, b2)) {}
 
         bool next(Pair& found) {
             const int i = least(dot(way, a1), dot(way, a2));
@@ -50,8 +45,7 @@ template <class Real, bool by_cross> class NearestPairSearch {
             if (last == before)
                 return false;
             const bool nearest = one_lane::facing_edges<by_cross>(
-                lane(*a[i]), lane(*a[i + 1]), lane(*a[i + 2]), lane(*b[j]), lane(*b[j + 1]),
-                lane(*b[j + 2]), found);
+                *a[i], *a[i + 1], *a[i + 2], *b[j], *b[j + 1], *b[j + 2], found);
             way = -found.offset;
             return nearest;
         }
@@ -66,8 +60,8 @@ template <class Real, bool by_cross> class NearestPairSearch {
     /// If they cross, a common point; else another guess, if given, then all features.
     [[gnu::noinline]] static bool look_closer(const Triangle<Real>& a, const Triangle<Real>& b,
                                               Guess* guess, Pair& found) {
-        const one_lane::Shape<Real> shape_a(lane(a.a), lane(a.b), lane(a.c));
-        const one_lane::Shape<Real> shape_b(lane(b.a), lane(b.b), lane(b.c));
+        const one_lane::Shape<Real> shape_a(a.a, a.b, a.c);
+        const one_lane::Shape<Real> shape_b(b.a, b.b, b.c);
         const one_lane::Facing<Real> facing(shape_a, shape_b);
         if (!facing.in_range())
             return false;

@@ -6,6 +6,7 @@
 #include <hwy/highway.h>
 
 #include "kernels/arithmetic/float_mode.h"
+#include "kernels/simd/vec3-inl.h"
 #include "kernels/triangle_triangle/guigue_devillers_batch.h"
 
 #include <algorithm>
@@ -62,18 +63,6 @@ namespace boxwood::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-template <class V> struct Vector { V x, y, z; };
-template <class V> HWY_INLINE Vector<V> Sub(const Vector<V>& a, const Vector<V>& b) {
-    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-template <class V> HWY_INLINE Vector<V> Cross(const Vector<V>& a, const Vector<V>& b) {
-    return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
-            hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-            hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
-}
-template <class V> HWY_INLINE V Dot(const Vector<V>& a, const Vector<V>& b) {
-    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
 template <class V> HWY_INLINE V LargestSize(V least, V a, V b, V c, V d, V e) {
     const V ab = hn::Max(hn::Abs(a), hn::Abs(b)), cd = hn::Max(hn::Abs(c), hn::Abs(d));
     return hn::Max(hn::Max(ab, cd), hn::Max(hn::Abs(e), least));
@@ -121,19 +110,15 @@ template <class D> struct Lone {
 };
 
 /// The corners of both triangles as seen from a's first one.
-template <class D> struct Seen { Vector<hn::Vec<D>> a1, a2, b0, b1, b2; };
+template <class D> struct Seen { LaneVec3<hn::Vec<D>> a1, a2, b0, b1, b2; };
 
 /// Lanes [i, i + Lanes(d)) of a block.
 template <class D, class Real>
 HWY_INLINE Seen<D> See(D d, const TrianglePairBlock<Real>& block, std::size_t i) {
-    const auto corner = [&](int side, int k) HWY_ATTR {
-        const auto& axes = block.corner[side][k];
-        return Vector<hn::Vec<D>>{hn::Load(d, axes[0] + i), hn::Load(d, axes[1] + i),
-                                  hn::Load(d, axes[2] + i)};
-    };
-    const auto origin = corner(0, 0);
-    return {Sub(corner(0, 1), origin), Sub(corner(0, 2), origin), Sub(corner(1, 0), origin),
-            Sub(corner(1, 1), origin), Sub(corner(1, 2), origin)};
+    const auto& [a, b] = block.corner;
+    const auto origin = load3(d, a[0], i);
+    return {load3(d, a[1], i) - origin, load3(d, a[2], i) - origin, load3(d, b[0], i) - origin,
+            load3(d, b[1], i) - origin, load3(d, b[2], i) - origin};
 }
 
 template <class D> struct Judgement {
@@ -145,19 +130,19 @@ template <bool proven, class D> HWY_INLINE Judgement<D> Judge(D d, const Seen<D>
     using Real = hn::TFromD<D>;
     const auto& [a1, a2, b0, b1, b2] = seen;
     // Heights of b's corners above a's plane, times its normal.
-    const Vector<V> normal = Cross(a1, a2);
-    const V above_a0 = Dot(normal, b0), above_a1 = Dot(normal, b1), above_a2 = Dot(normal, b2);
+    const LaneVec3<V> normal = cross(a1, a2);
+    const V above_a0 = dot(normal, b0), above_a1 = dot(normal, b1), above_a2 = dot(normal, b2);
     // The sides on which the lines of edges pass each other, e . moment(f) + f . moment(e): s01_02
     // is a's edge 01 and b's edge 02. The moments of a's edges are 0, 0 and `normal`; the last
     // three sides have f . normal for differences of heights.
-    const Vector<V> moment01 = Cross(b0, b1), moment02 = Cross(b0, b2), moment12 = Cross(b1, b2);
-    const V s01_01 = Dot(a1, moment01), s01_02 = Dot(a1, moment02), s01_12 = Dot(a1, moment12);
-    const V s02_01 = Dot(a2, moment01), s02_02 = Dot(a2, moment02), s02_12 = Dot(a2, moment12);
+    const LaneVec3<V> moment01 = cross(b0, b1), moment02 = cross(b0, b2), moment12 = cross(b1, b2);
+    const V s01_01 = dot(a1, moment01), s01_02 = dot(a1, moment02), s01_12 = dot(a1, moment12);
+    const V s02_01 = dot(a2, moment01), s02_02 = dot(a2, moment02), s02_12 = dot(a2, moment12);
     const V s12_01 = hn::Add(hn::Sub(s02_01, s01_01), hn::Sub(above_a1, above_a0));
     const V s12_02 = hn::Add(hn::Sub(s02_02, s01_02), hn::Sub(above_a2, above_a0));
     const V s12_12 = hn::Add(hn::Sub(s02_12, s01_12), hn::Sub(above_a2, above_a1));
     // b's normal is moment01 + moment12 - moment02.
-    const V above_b0 = hn::Neg(Dot(b0, moment12));
+    const V above_b0 = hn::Neg(dot(b0, moment12));
     const V above_b1 = hn::Add(hn::Sub(hn::Add(s01_01, s01_12), s01_02), above_b0);
     const V above_b2 = hn::Add(hn::Sub(hn::Add(s02_01, s02_12), s02_02), above_b0);
 
@@ -293,15 +278,13 @@ struct alignas(64) RoundedPairs {
         }
     }
     template <class D> HWY_INLINE Seen<D> see(D d, std::size_t i) const {
-        const auto get = [&](int k) HWY_ATTR {
-            return Vector<hn::Vec<D>>{hn::Load(d, corner[k][0] + i), hn::Load(d, corner[k][1] + i),
-                                      hn::Load(d, corner[k][2] + i)};
-        };
-        return {get(0), get(1), get(2), get(3), get(4)};
+        return {load3(d, corner[0], i), load3(d, corner[1], i), load3(d, corner[2], i),
+                load3(d, corner[3], i), load3(d, corner[4], i)};
     }
 
   private:
-    template <class D> HWY_INLINE void put(D, int k, std::size_t at, const Vector<hn::Vec<D>>& v) {
+    template <class D>
+    HWY_INLINE void put(D, int k, std::size_t at, const LaneVec3<hn::Vec<D>>& v) {
         const hn::Rebind<float, D> df;
         hn::StoreU(hn::DemoteTo(df, v.x), df, corner[k][0] + at);
         hn::StoreU(hn::DemoteTo(df, v.y), df, corner[k][1] + at);
