@@ -1,17 +1,17 @@
 #include "bench/commands/list.h"
 
 #include "bench/commands/command.h"
-#include "bench/tasks/contender.h"
 #include "bench/io/json.h"
+#include "bench/tasks/contender.h"
 #include "bench/tasks/kernels/kernels.h"
 #include "kernels/registry.h"
-#include "scenes/hard_cases/hard_cases.h"
 #include "scenes/effects/effect.h"
+#include "scenes/hard_cases/hard_cases.h"
 #include "scenes/moving/scene_file.h"
 #include "scenes/suggest.h"
 #include "trees/builder.h"
-#include "trees/layout.h"
 #include "trees/dynamic/update.h"
+#include "trees/layout.h"
 
 #include <algorithm>
 #include <array>
@@ -113,9 +113,9 @@ Rows family_rows() {
         const bool has_k = !family.k_meaning.empty();
         const std::string k = fmt::format(
             "{{\"meaning\":{},\"default\":{},\"least\":{},\"most\":{}}}",
-            json_string(family.k_meaning), family.k_default, family.k_least, family.k_most);
+            json_string(family.k_meaning), family.k_default, family.k_min, family.k_max);
         const std::string scale =
-            fmt::format("{{\"least\":{},\"most\":{}}}", family.scale_least, family.scale_most);
+            fmt::format("{{\"least\":{},\"most\":{}}}", family.scale_min, family.scale_max);
         Row& row =
             rows.emplace_back(Row{std::string(family.name),
                                   fmt::format("{}: {}", to_string(family.panel), family.summary),
@@ -125,11 +125,11 @@ Rows family_rows() {
                                    {"reads_file", family.reads_file ? "true" : "false"}},
                                   {}});
         if (has_k)
-            row.notes.push_back(fmt::format("k = {} ({} to {}): {}", family.k_default,
-                                            family.k_least, family.k_most, family.k_meaning));
-        if (family.scale_least != family.scale_most)
+            row.notes.push_back(fmt::format("k = {} ({} to {}): {}", family.k_default, family.k_min,
+                                            family.k_max, family.k_meaning));
+        if (family.scale_min != family.scale_max)
             row.notes.push_back(fmt::format("scale = {} to {} (coordinates times 2^scale)",
-                                            family.scale_least, family.scale_most));
+                                            family.scale_min, family.scale_max));
     }
     return rows;
 }

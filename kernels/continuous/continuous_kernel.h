@@ -1,7 +1,7 @@
 #pragma once
 
+#include "kernels/decision.h"
 #include "kernels/primitives/vec3.h"
-#include "kernels/verdict.h"
 
 #include <array>
 #include <concepts>
@@ -22,7 +22,7 @@ struct LinearMotion {
 
 /// Whether and when two moving features first touch, 0 <= t <= 1, the ends included.
 /// t_free: no touch at any t < t_free (1 if they never touch).
-/// t_hit:  a touch at some t <= t_hit (+inf if they never touch; a never-miss rung's upper end).
+/// t_hit:  a touch at some t <= t_hit (+inf if they never touch; a never-miss kernel's upper end).
 /// The first touch of a `yes` lies in [t_free, t_hit].
 struct Impact {
     Answer answer = Answer::no;

@@ -1,9 +1,9 @@
 #include "kernels/triangle_distance/certified.h"
 
 #include "kernels/arithmetic/float_mode.h"
-#include "kernels/triangle_distance/nearest_pair.h"
-#include "kernels/triangle_distance/refined_bounds.h"
-#include "kernels/triangle_distance/rescale.h"
+#include "kernels/detail/rescale.h"
+#include "kernels/triangle_distance/detail/nearest_pair.h"
+#include "kernels/triangle_distance/detail/refined_bounds.h"
 #include "kernels/triangle_triangle/exact.h"
 
 #include <algorithm>
@@ -12,6 +12,8 @@
 
 namespace boxwood {
 namespace {
+
+using namespace detail;
 
 using Search = NearestPairSearch<double, false>;
 using Pair = one_lane::PointPair<double>;
@@ -86,13 +88,13 @@ double scaled_up(double x, int exponent) {
     }
     if (tier == 2)
         bounds = refined_bounds(ua, ub);
-    if (tier != 1 && bounds.distance == 0) // too small to tell
+    if (tier != 1 && bounds.distance == 0) // too small to decide
         bounds.distance = bounds.hi;
     bounds = {scaled_down(bounds.lo, e), scaled_up(bounds.hi, e),
               scaled_up(bounds.distance, e), // not to 0
               times_power_of_two(bounds.point_a, e), times_power_of_two(bounds.point_b, e)};
     if (tier == 2 && !(bounds.lo > 0)) {
-        bounds.lo = std::min(least_separation(coordinate_grid(a, b), e), bounds.hi);
+        bounds.lo = std::min(min_separation(coordinate_grid(a, b), e), bounds.hi);
         tier = 3;
     }
     return between(bounds, tier);
