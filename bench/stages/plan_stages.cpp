@@ -21,7 +21,7 @@ struct Wants {
                 box_asks.push_back(ask.name);
         }
         moves = !scene.effects().empty();
-        pairs = queries("pairs") || (asks("triangle_pairs") && meshed >= 2);
+        pairs = queries("pairs") || (queries("triangle_pairs") && meshed >= 2);
         triangles = queries("triangle_pairs") && meshed >= 2;
         filters = scene.ignored().size();
     }
