@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <string_view>
+#include <type_traits>
 
 namespace boxwood {
 
@@ -37,6 +38,8 @@ concept ContinuousKernel = std::default_initializable<K> &&
     { K::name } -> std::convertible_to<std::string_view>;
     { K::vertex_face_info } -> std::convertible_to<KernelInfo>;
     { K::edge_edge_info } -> std::convertible_to<KernelInfo>;
+    typename std::integral_constant<Promise, K::vertex_face_info.promise>;
+    typename std::integral_constant<Promise, K::edge_edge_info.promise>;
     { kernel.vertex_face(motion) } -> std::same_as<Impact>;
     { kernel.edge_edge(motion) } -> std::same_as<Impact>;
 };

@@ -86,7 +86,8 @@ TYPED_TEST(FeaturePairs, PowersOfTwoChangeNothing) {
         const auto b = testing::as<Real>(make.triangle(make.inside()));
         const int k = make.below(2 * reach) - reach;
         const Distance one = this->measure(a, b);
-        const Distance other = this->measure(detail::times_power_of_two(a, k), detail::times_power_of_two(b, k));
+        const Distance other =
+            this->measure(detail::times_power_of_two(a, k), detail::times_power_of_two(b, k));
         ASSERT_EQ(other.distance, std::ldexp(one.distance, k)) << k;
         ASSERT_EQ(other.point_a, detail::times_power_of_two(one.point_a, k)) << k;
     }

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/primitives/triangle.h"
 #include "kernels/decision.h"
+#include "kernels/primitives/triangle.h"
 
 #include <gtest/gtest.h>
 
