@@ -1,5 +1,6 @@
 #include "kernels/triangle_distance/features.h"
 
+#include "kernels/detail/rescale.h"
 #include "kernels/testing/distance_pairs.h"
 #include "kernels/testing/every_target.h"
 #include "kernels/triangle_distance/features_batch.h"
