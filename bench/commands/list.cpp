@@ -114,9 +114,9 @@ Rows family_rows() {
         const bool has_k = !family.k_meaning.empty();
         const std::string k = fmt::format("{{\"meaning\":{},\"default\":{},\"min\":{},\"max\":{}}}",
                                           json_string(family.k_meaning), family.k_default,
-                                          family.k_least, family.k_most);
+                                          family.k_min, family.k_max);
         const std::string scale =
-            fmt::format("{{\"min\":{},\"max\":{}}}", family.scale_least, family.scale_most);
+            fmt::format("{{\"min\":{},\"max\":{}}}", family.scale_min, family.scale_max);
         Row& row =
             rows.emplace_back(Row{std::string(family.name),
                                   fmt::format("{}: {}", to_string(family.panel), family.summary),
@@ -126,11 +126,11 @@ Rows family_rows() {
                                    {"reads_file", family.reads_file ? "true" : "false"}},
                                   {}});
         if (has_k)
-            row.notes.push_back(fmt::format("k = {} ({} to {}): {}", family.k_default,
-                                            family.k_least, family.k_most, family.k_meaning));
-        if (family.scale_least != family.scale_most)
+            row.notes.push_back(fmt::format("k = {} ({} to {}): {}", family.k_default, family.k_min,
+                                            family.k_max, family.k_meaning));
+        if (family.scale_min != family.scale_max)
             row.notes.push_back(fmt::format("scale = {} to {} (coordinates times 2^scale)",
-                                            family.scale_least, family.scale_most));
+                                            family.scale_min, family.scale_max));
     }
     return rows;
 }

@@ -4,6 +4,7 @@
 #include "bench/commands/query.h"
 #include "bench/io/ccd_file.h"
 #include "bench/io/csv.h"
+#include "kernels/oracle/rational.h"
 #include "kernels/registry.h"
 #include "scenes/suggest.h"
 
