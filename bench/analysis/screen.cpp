@@ -118,4 +118,16 @@ std::string screen_text(const results::Results& results, std::size_t max_lines) 
     return text;
 }
 
+std::string paths_text(const std::filesystem::path& file) {
+    std::string text = fmt::format("\nresults  {}\n", file.string());
+    const auto add = [&](const char* what, const std::string& ending, const char* mark) {
+        const std::filesystem::path path = file.parent_path() / (file.stem().string() + ending);
+        if (std::filesystem::exists(path))
+            text += fmt::format("{}  {}{}\n", what, path.string(), mark);
+    };
+    add("report ", ".html", "");
+    add("figures", "-figures", "/");
+    return text;
+}
+
 } // namespace boxwood::bench

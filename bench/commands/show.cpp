@@ -349,9 +349,10 @@ void add_show(CLI::App& app, int&) {
             std::cout << csv_text(results);
         else if (options->json)
             std::cout << json_text(results);
+        else if (options->all)
+            std::cout << all_text(results);
         else
-            std::cout << options->file << ": "
-                      << (options->all ? all_text(results) : screen_text(results));
+            std::cout << screen_text(results) << paths_text(options->file);
     });
 }
 

@@ -257,7 +257,7 @@ class Sweep {
         write_output();
         shards_.remove();
         progress_.say("");
-        fmt::print("{}\nresults  {}\n", screen_text(merged_), options_.out.string());
+        fmt::print("{}{}", screen_text(merged_), paths_text(options_.out));
         return is_promise_broken(merged_) ? exit_failed : exit_success;
     }
 
