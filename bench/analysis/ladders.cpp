@@ -2,7 +2,7 @@
 
 #include "bench/analysis/compare.h"
 #include "bench/tasks/contender.h"
-#include "bench/truth/judging/judge.h"
+#include "bench/truth/judging/case_truths.h"
 #include "bench/io/text_table.h"
 
 #include <fmt/format.h>
@@ -23,9 +23,8 @@ constexpr std::array panels{"generic", "touching", "degenerate"};
 
 /// Whether false_pos and false_neg are of distances.
 bool is_measured(std::string_view task) {
-    const std::optional<Ask> ask = ask_of(task);
-    return ask == Ask::triangle_distance || ask == Ask::segment_segment ||
-           ask == Ask::point_triangle || ask == Ask::point_segment;
+    return task == "triangle_distance" || task == "segment_segment" ||
+           task == "point_triangle" || task == "point_segment";
 }
 
 /// A row and the time of a call.

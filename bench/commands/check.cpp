@@ -2,7 +2,7 @@
 
 #include "bench/commands/command.h"
 #include "bench/running/environment.h"
-#include "bench/truth/judging/judge.h"
+#include "bench/truth/judging/case_truths.h"
 #include "bench/analysis/ladders.h"
 
 #include <fmt/format.h>
@@ -39,11 +39,11 @@ int run(const CheckOptions& options, const std::filesystem::path& out) {
     const auto start = std::chrono::steady_clock::now();
     for (const SceneSpec& spec : specs) {
         const Scene scene = checked_scene(spec, options);
-        check.judge(scene, [&](Ask ask) {
+        check.judge(scene, [&](const Task& task) {
             const double elapsed =
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
             progress.show({"checking", eta.fraction(), eta.left_s(elapsed),
-                           fmt::format("{}/{}", scene.name, to_string(ask))});
+                           fmt::format("{}/{}", scene.name, task.name())});
         });
         eta.done(1);
     }
@@ -66,7 +66,7 @@ void add_check(CLI::App& app, int& exit_code) {
     CLI::App* check = app.add_subcommand(
         "check", "hold every kernel, ours and the peers', against the truth on the hard cases");
     check->add_option("--only", options->only,
-                      "only what this regular expression is found in: family/task/rung");
+                      "only what this regular expression is found in: family/task/kernel");
     check->add_option("--out", *out, "a result file to write (HDF5), for scripts/plot");
     check->add_option("--n", *n, "cases of each family (1000; with --quick 300)")
         ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}));

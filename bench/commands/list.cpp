@@ -1,9 +1,8 @@
 #include "bench/commands/list.h"
 
 #include "bench/commands/command.h"
-#include "bench/tasks/contender.h"
 #include "bench/io/json.h"
-#include "bench/tasks/kernels/kernels.h"
+#include "bench/tasks/task.h"
 #include "kernels/registry.h"
 #include "scenes/hard_cases/hard_cases.h"
 #include "scenes/effects/effect.h"
@@ -68,16 +67,22 @@ Row kernel_row(const KernelInfo& kernel) {
             {fmt::format("bound: {}", kernel.bound), fmt::format("cost: {}", kernel.cost)}};
 }
 
-/// Family by family, the rational rungs last; first what no question of its own asks for.
+/// Family by family, the rational kernels last; first the families that are no task.
 Rows kernel_rows() {
     Rows rows;
     for (const KernelInfo& kernel : kernels())
-        if (!ask_of(kernel.family))
+        if (!find_task(kernel.family))
             rows.push_back(kernel_row(kernel));
-    for (const AskEntry& entry : asks())
-        if (is_kernel_ask(entry.task))
-            for (const KernelInfo& kernel : rungs(entry.task))
-                rows.push_back(kernel_row(kernel));
+    for (const Task* task : tasks())
+        for (const KernelInfo& kernel : task->kernels())
+            rows.push_back(kernel_row(kernel));
+    return rows;
+}
+
+Rows task_rows() {
+    Rows rows;
+    for (const Task* task : tasks())
+        rows.push_back({std::string(task->name()), std::string(task->summary()), {}, {}});
     return rows;
 }
 
@@ -169,7 +174,7 @@ constexpr std::array registries{
               [] { return plain(scene_queries()); }},
     Catalogue{"query_kinds", "how the queries of a moving scene go through it",
               [] { return plain(query_kinds()); }},
-    Catalogue{"tasks", "what is wanted of a scene", [] { return plain(asks()); }},
+    Catalogue{"tasks", "what is wanted of a scene", task_rows},
     Catalogue{"executors", "where work runs", [] { return plain(executors()); }},
     Catalogue{"peers", "libraries that are timed and checked beside ours", peer_rows},
     Catalogue{"families", "hard cases for kernels; each is a scene too", family_rows},

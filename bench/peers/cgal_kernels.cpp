@@ -64,17 +64,17 @@ std::vector<ContenderEntry> cgal_kernels() {
                               "one pair per call";
     using Pair = TrianglePairCase;
     return {
-        each_case<Pair, TrianglePair<Inexact>, intersect<Inexact>, &Answers::verdicts>(
-            Ask::triangle_triangle, "cgal", "epick.do_intersect", "f64",
+        each_case<Pair, TrianglePair<Inexact>, intersect<Inexact>>(
+            "triangle_triangle", "cgal", "epick.do_intersect", "f64",
             "CGAL's do_intersect, exact predicates and inexact constructions", notes),
-        each_case<Pair, TrianglePair<Exact>, intersect<Exact>, &Answers::verdicts>(
-            Ask::triangle_triangle, "cgal", "epeck.do_intersect", "f64",
+        each_case<Pair, TrianglePair<Exact>, intersect<Exact>>(
+            "triangle_triangle", "cgal", "epeck.do_intersect", "f64",
             "CGAL's do_intersect, exact predicates and exact constructions", notes),
-        each_case<Pair, TrianglePair<Inexact>, distance<Inexact>, &Answers::distances>(
-            Ask::triangle_distance, "cgal", "epick.squared_distance", "f64",
+        each_case<Pair, TrianglePair<Inexact>, distance<Inexact>>(
+            "triangle_distance", "cgal", "epick.squared_distance", "f64",
             "CGAL's squared_distance in doubles", notes + "; the root is taken of its answer"),
-        each_case<Pair, TrianglePair<Exact>, distance<Exact>, &Answers::distances>(
-            Ask::triangle_distance, "cgal", "epeck.squared_distance", "f64",
+        each_case<Pair, TrianglePair<Exact>, distance<Exact>>(
+            "triangle_distance", "cgal", "epeck.squared_distance", "f64",
             "CGAL's squared_distance, exact", notes + "; the root is taken of its answer"),
     };
 }
