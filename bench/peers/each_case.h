@@ -3,7 +3,7 @@
 #include "bench/tasks/detail/one_by_one.h"
 
 #include "kernels/triangle_distance/distance_kernel.h"
-#include "kernels/verdict.h"
+#include "kernels/decision.h"
 
 #include <cstddef>
 #include <memory>
@@ -40,7 +40,7 @@ ContenderEntry each_case(std::string task, std::string library, std::string name
     return e;
 }
 
-inline Verdict yes_or_no(bool yes) { return {yes ? Answer::yes : Answer::no, 0}; }
+inline Decision yes_or_no(bool yes) { return {yes ? Answer::yes : Answer::no, 0}; }
 
 /// A distance without a bound, and without witnesses, which nobody judges.
 inline Distance plain_distance(double d) {

@@ -126,7 +126,7 @@ TEST(Config, PoliciesTakeTheirSettings) {
     EXPECT_EQ(each(plan, [](const PlannedCell& c) { return c.contender.builder; }),
               (std::set<std::string>{"merge_margin2", "refine_share0_2"}));
     EXPECT_THAT(complaint(moving + "{name = \"refine\", margin = 2}\n"), HasSubstr("margin"));
-    EXPECT_THAT(complaint(moving + "{margin = 2}\n"), HasSubstr("an update is a word"));
+    EXPECT_THAT(complaint(moving + "{margin = 2}\n"), HasSubstr("an update is a name"));
 }
 
 TEST(Config, RefusesBlocksThatMeanNothing) {

@@ -38,7 +38,7 @@ const Cases& sample_of(const HardCaseFamily& family) {
         for (const HardCaseFamily& f : hard_case_families()) {
             HardCaseSpec spec;
             spec.n = 1;
-            spec.scale = std::clamp(0, f.scale_least, f.scale_most);
+            spec.scale = std::clamp(0, f.scale_min, f.scale_max);
             all.emplace(f.name, f.reads_file ? Cases() : make_cases(f, spec));
         }
         return all;
@@ -91,7 +91,7 @@ std::vector<SceneSpec> case_scenes(const BlockReader& block, const Task& task) {
                 for (const std::optional<int> k : parameters)
                     for (const std::int64_t scale : scales) {
                         if (is_group(name) &&
-                            (scale < family->scale_least || scale > family->scale_most))
+                            (scale < family->scale_min || scale > family->scale_max))
                             continue;
                         spec.generator = family->name;
                         spec.n = n;

@@ -202,7 +202,7 @@ Frames& CellTimer::frames_of(const SceneSpec& spec) {
         std::size_t bytes = 0;
         for (const auto& [other, held] : frames_)
             bytes += held.bytes();
-        if (bytes + Frames::most_baked > max_frame_bytes)
+        if (bytes + Frames::max_baked > max_frame_bytes)
             frames_.clear();
         frames_.emplace(key, Frames(spec.moving));
     }

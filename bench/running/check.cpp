@@ -96,16 +96,16 @@ std::vector<SceneSpec> check_scenes(const CheckOptions& options) {
         spec.k = options.k;
         if (family.reads_file)
             spec.file = options.ccd;
-        const int middle = std::clamp(0, family.scale_least, family.scale_most);
+        const int middle = std::clamp(0, family.scale_min, family.scale_max);
         std::set<int> scales{options.scale.value_or(middle)};
         if (!options.scale && !options.is_quick)
-            scales.insert({family.scale_least, family.scale_most});
+            scales.insert({family.scale_min, family.scale_max});
         const bool has_k =
-            !options.k || (!family.k_meaning.empty() && *options.k >= family.k_least &&
-                           *options.k <= family.k_most);
+            !options.k || (!family.k_meaning.empty() && *options.k >= family.k_min &&
+                           *options.k <= family.k_max);
         for (const int scale : scales) {
             spec.scale = scale;
-            if (has_k && scale >= family.scale_least && scale <= family.scale_most)
+            if (has_k && scale >= family.scale_min && scale <= family.scale_max)
                 scenes.push_back(spec);
         }
     }

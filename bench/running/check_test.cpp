@@ -79,7 +79,7 @@ results::Results checked(const Scene& scene, std::string_view task,
 /// All answers the same.
 MadeUp::Answer always(Answer answer) {
     return [answer](const Scene& scene, Answers& answers) {
-        list_of<Verdict>(answers).assign(n_cases(scene.cases), {answer, 0});
+        list_of<Decision>(answers).assign(n_cases(scene.cases), {answer, 0});
     };
 }
 
@@ -182,9 +182,9 @@ TEST(CheckScenes, HoldTheEndsOfEveryFamilysScale) {
     const std::vector<SceneSpec> scenes = check_scenes(options);
     const HardCaseFamily& family = *find_hard_case_family("slivers");
     ASSERT_EQ(scenes.size(), 3u);
-    EXPECT_EQ(scenes.front().scale, family.scale_least);
+    EXPECT_EQ(scenes.front().scale, family.scale_min);
     EXPECT_EQ(scenes[1].scale, 0);
-    EXPECT_EQ(scenes.back().scale, family.scale_most);
+    EXPECT_EQ(scenes.back().scale, family.scale_max);
     options.is_quick = true;
     EXPECT_EQ(check_scenes(options).size(), 1u);
     options.k = 5;

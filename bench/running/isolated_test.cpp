@@ -3,7 +3,7 @@
 #include "kernels/continuous/continuous_kernel.h"
 #include "kernels/primitives/ray.h"
 #include "kernels/triangle_distance/distance_kernel.h"
-#include "kernels/verdict.h"
+#include "kernels/decision.h"
 #include "trees/queries/pairs.h"
 
 #include <gmock/gmock.h>
@@ -41,7 +41,7 @@ TEST(Isolated, BringsEveryAnswerBack) {
     expect_back(std::vector<Pair>(100'000, {1, 2})); // more than a pipe holds
     expect_back(std::vector<Pair>{});
     expect_back(std::vector<RayHit>{{.5f, 0, 0, 3}});
-    expect_back(std::vector<Verdict>{{Answer::maybe, 2}});
+    expect_back(std::vector<Decision>{{Answer::maybe, 2}});
     expect_back(std::vector<Distance>(2));
     expect_back(std::vector<Impact>{{Answer::yes, .25, .5, 1}});
     expect_back(std::vector<Aabb<double>>{{{0, 0, 0}, {1, 2, 3}}});

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bench/tasks/answers.h"
-#include "kernels/verdict.h"
+#include "kernels/decision.h"
 #include "scenes/scene.h"
 #include "trees/inspect/work.h"
 #include "trees/tree.h"

@@ -2,7 +2,7 @@
 
 #include "bench/tasks/detail/kernel_task.h"
 #include "bench/truth/judging/verdict_truth.h"
-#include "kernels/oracle/oracle.h"
+#include "kernels/oracle/exact_answers.h"
 #include "kernels/registry.h"
 
 namespace boxwood::bench {
@@ -21,7 +21,7 @@ template <class Real> struct Input {
 };
 
 bool do_touch(const ObbPairCase& c) {
-    if (c.touch != Known::ask)
+    if (c.touch != Known::unknown)
         return c.touch == Known::yes;
     const auto pose = [](const Obb<double>& box) {
         return std::array{box.centre, box.axis[0], box.axis[1], box.axis[2]};
@@ -29,7 +29,7 @@ bool do_touch(const ObbPairCase& c) {
     return oracle::boxes_touch(pose(c.a), c.a.half, pose(c.b), c.b.half);
 }
 
-class ObbObb final : public KernelTaskOf<Verdict, std::vector<ObbPairCase>> {
+class ObbObb final : public KernelTaskOf<Decision, std::vector<ObbPairCase>> {
   public:
     std::string_view name() const override { return "obb_obb"; }
     std::string_view summary() const override {

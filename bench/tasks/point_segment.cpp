@@ -2,7 +2,7 @@
 
 #include "bench/tasks/detail/kernel_task.h"
 #include "bench/truth/judging/distance_truth.h"
-#include "kernels/oracle/oracle.h"
+#include "kernels/oracle/exact_answers.h"
 #include "kernels/oracle/registry.h"
 #include "kernels/registry.h"
 

@@ -2,14 +2,14 @@
 
 #include "bench/tasks/detail/kernel_task.h"
 #include "bench/truth/judging/verdict_truth.h"
-#include "kernels/oracle/oracle.h"
+#include "kernels/oracle/exact_answers.h"
 #include "kernels/registry.h"
 
 namespace boxwood::bench {
 namespace {
 
 bool do_meet(const RayBoxCase& c) {
-    return c.hit == Known::ask ? oracle::ray_box(c.ray, c.box) : c.hit == Known::yes;
+    return c.hit == Known::unknown ? oracle::ray_box(c.ray, c.box) : c.hit == Known::yes;
 }
 
 /// Every case has its own ray, so each call makes what the kernel needs of it.
@@ -19,12 +19,12 @@ template <class K> CaseKernel kernel() {
                 return one_by_one(
                     std::get<std::vector<RayBoxCase>>(cases), [](const RayBoxCase& c) {
                         const RaySpan span = clip(K(c.ray), c.box, c.ray.t_min, c.ray.t_max);
-                        return Verdict{span.hit() ? Answer::yes : Answer::no, 0};
+                        return Decision{span.hit() ? Answer::yes : Answer::no, 0};
                     });
             }};
 }
 
-class RayBox final : public KernelTaskOf<Verdict, std::vector<RayBoxCase>> {
+class RayBox final : public KernelTaskOf<Decision, std::vector<RayBoxCase>> {
   public:
     std::string_view name() const override { return "ray_box"; }
     std::string_view summary() const override {

@@ -2,7 +2,7 @@
 
 #include "bench/tasks/detail/pair_blocks.h"
 #include "bench/truth/judging/verdict_truth.h"
-#include "kernels/oracle/oracle.h"
+#include "kernels/oracle/exact_answers.h"
 #include "kernels/oracle/registry.h"
 #include "kernels/registry.h"
 
@@ -16,7 +16,7 @@ template <class Real> struct Input {
 
 template <class K> CaseKernel kernel() {
     if constexpr (TriangleBatchKernel<K>)
-        return block_kernel<K, Verdict>(
+        return block_kernel<K, Decision>(
             [](auto blocks, auto verdicts) { K::intersect(blocks, verdicts); });
     else
         return scalar_kernel<K, Input<typename K::Real>, TrianglePairCase>(
@@ -24,10 +24,10 @@ template <class K> CaseKernel kernel() {
 }
 
 bool do_touch(const TrianglePairCase& c) {
-    return c.touch == Known::ask ? oracle::intersect(c.a, c.b) : c.touch == Known::yes;
+    return c.touch == Known::unknown ? oracle::intersect(c.a, c.b) : c.touch == Known::yes;
 }
 
-class TriangleTriangle final : public KernelTaskOf<Verdict, std::vector<TrianglePairCase>> {
+class TriangleTriangle final : public KernelTaskOf<Decision, std::vector<TrianglePairCase>> {
   public:
     std::string_view name() const override { return "triangle_triangle"; }
     std::string_view summary() const override {

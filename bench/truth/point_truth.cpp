@@ -1,7 +1,7 @@
 #include "bench/truth/point_truth.h"
 
 #include "kernels/features/point_triangle.h"
-#include "kernels/oracle/oracle.h"
+#include "kernels/oracle/exact_answers.h"
 #include "trees/executor.h"
 #include "trees/layout.h"
 

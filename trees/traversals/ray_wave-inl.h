@@ -8,8 +8,8 @@
 
 #include <hwy/cache_control.h>
 
-#include "kernels/ray_triangle/moller_trumbore_block-inl.h"
-#include "kernels/ray_triangle/watertight_block-inl.h"
+#include "kernels/simd/moller_trumbore_block-inl.h"
+#include "kernels/simd/watertight_block-inl.h"
 #include "trees/traversals/compress-inl.h"
 #include "trees/traversals/node_clip-inl.h"
 #include "trees/traversals/ray_walk.h"
@@ -184,8 +184,8 @@ template <class Node, RayKernel K, RayMode mode, bool Counted> class RayWave {
         BlockHits<ray_lanes<Node>> hits;
         do {
             const std::uint32_t bits =
-                IntersectBlock(std::type_identity<K>{}, walker.state->per_ray, *walker.ray, *block,
-                               walker.state->t_max(), hits);
+                intersect_block(std::type_identity<K>{}, walker.state->per_ray, *walker.ray, *block,
+                                walker.state->t_max(), hits);
             if (!Counted && bits == 0)
                 continue;
             walker.state->tested(*block, bits, hits);

@@ -93,7 +93,7 @@ std::uint64_t word_of(Answer answer, std::uint8_t tier) {
 
 } // namespace
 
-void append_words(std::vector<std::uint64_t>& words, const Verdict& verdict) {
+void append_words(std::vector<std::uint64_t>& words, const Decision& verdict) {
     words.push_back(word_of(verdict.answer, verdict.tier));
 }
 void append_words(std::vector<std::uint64_t>& words, const Distance& distance) {

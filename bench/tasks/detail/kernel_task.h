@@ -59,7 +59,7 @@ class KernelTask : public Task {
 };
 
 // Answers as words, to be hashed: of numbers the bits, padding left out.
-void append_words(std::vector<std::uint64_t>& words, const Verdict& verdict);
+void append_words(std::vector<std::uint64_t>& words, const Decision& verdict);
 void append_words(std::vector<std::uint64_t>& words, const Distance& distance);
 void append_words(std::vector<std::uint64_t>& words, const Impact& impact);
 void append_words(std::vector<std::uint64_t>& words, const Aabb<double>& box);

@@ -53,7 +53,7 @@ TEST(KernelTasks, AnswerEveryCaseTheSameTwice) {
             continue;
         HardCaseSpec spec;
         spec.n = 21; // not a multiple of any number of lanes
-        spec.scale = std::clamp(0, family.scale_least, family.scale_most);
+        spec.scale = std::clamp(0, family.scale_min, family.scale_max);
         Scene scene;
         scene.cases = make_cases(family, spec);
         for (const Task* task : tasks())

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bench/tasks/detail/kernel_task.h"
-#include "kernels/oracle/continuous.h"
+#include "kernels/oracle/rational.h"
 #include "kernels/registry.h"
 
 namespace boxwood::bench {

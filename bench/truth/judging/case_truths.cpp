@@ -31,7 +31,7 @@ Panel panel_of(const Scene& scene) {
         return Panel::generic;
     const int scale = scene.spec.scale;
     const bool is_extreme =
-        scale != 0 && (scale == family->scale_least || scale == family->scale_most);
+        scale != 0 && (scale == family->scale_min || scale == family->scale_max);
     return is_extreme ? Panel::degenerate : family->panel;
 }
 
@@ -68,7 +68,7 @@ std::string text_of(Answer answer) {
     return answer == Answer::yes ? "yes" : answer == Answer::no ? "no" : "maybe";
 }
 
-std::string text_of(const Verdict& verdict) {
+std::string text_of(const Decision& verdict) {
     return verdict.tier == 0 ? text_of(verdict.answer)
                              : fmt::format("{} (tier {})", text_of(verdict.answer), verdict.tier);
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bench/truth/truth.h"
-#include "kernels/verdict.h"
+#include "kernels/decision.h"
 #include "scenes/scene.h"
 
 #include <memory>
@@ -57,6 +57,6 @@ void require_one_per_case(const Answers& answers, std::size_t cases);
 
 std::string text_of(Answer answer);
 inline std::string text_of(bool truth) { return truth ? "yes" : "no"; }
-std::string text_of(const Verdict& verdict);
+std::string text_of(const Decision& verdict);
 
 } // namespace boxwood::bench

@@ -59,7 +59,7 @@ template <class T> AnswerList<T> answers_of(std::vector<T> list) {
     answers.list = std::move(list);
     return answers;
 }
-AnswerList<Verdict> verdicts(std::vector<Verdict> list) { return answers_of(std::move(list)); }
+AnswerList<Decision> verdicts(std::vector<Decision> list) { return answers_of(std::move(list)); }
 
 AnswerList<Distance> distances(const std::vector<std::array<double, 3>>& list) {
     AnswerList<Distance> answers;
@@ -95,11 +95,11 @@ TEST(Tally, EveryPromiseAllowsItsOwnErrors) {
 
 TEST(CaseTruth, CountsFalseAnswersAndTiers) {
     // Touching by the oracle; apart, known; apart by the oracle; not finite.
-    const Scene scene = pairs_of_triangles({{at(0), at(0), Known::ask},
+    const Scene scene = pairs_of_triangles({{at(0), at(0), Known::unknown},
                                             {at(0), at(1), Known::no},
-                                            {at(0), at(1), Known::ask},
-                                            {at(0), at(nan), Known::ask}});
-    const AnswerList<Verdict> answers =
+                                            {at(0), at(1), Known::unknown},
+                                            {at(0), at(nan), Known::unknown}});
+    const AnswerList<Decision> answers =
         verdicts({{Answer::no, 0}, {Answer::yes, 2}, {Answer::maybe, 5}, {Answer::yes, 0}});
     const Judgement none = judged(scene, "triangle_triangle", answers, named(Promise::none));
     EXPECT_EQ(none.kernel->n, 3u);
@@ -142,12 +142,12 @@ TEST(CaseTruth, AKernelOfFloatsIsJudgedOnWhatItReads) {
     const double h = 0x1p-60; // a float, but not beside 1
     Triangle<double> tilted{{0, 0, 1}, {1, 0, 1}, {0, 1, 1 + 0x1p-40}};
     const Scene scene =
-        pairs_of_triangles({{at(0), at(h), Known::no}, {tilted, at(1 + 0x1p-41), Known::ask}});
-    const AnswerList<Verdict> rounded = verdicts({{Answer::no, 0}, {Answer::yes, 0}});
+        pairs_of_triangles({{at(0), at(h), Known::no}, {tilted, at(1 + 0x1p-41), Known::unknown}});
+    const AnswerList<Decision> rounded = verdicts({{Answer::no, 0}, {Answer::yes, 0}});
     EXPECT_EQ(
         judged(scene, "triangle_triangle", rounded, named(Promise::exact, "f32")).status, Status::exact);
     const Scene apart = pairs_of_triangles({{at(1), at(1 + 0x1p-40), Known::no}});
-    const AnswerList<Verdict> touch = verdicts({{Answer::yes, 0}});
+    const AnswerList<Decision> touch = verdicts({{Answer::yes, 0}});
     EXPECT_FALSE(
         judged(apart, "triangle_triangle", touch, named(Promise::exact, "f32")).breaks_promise);
     EXPECT_TRUE(

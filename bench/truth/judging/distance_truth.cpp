@@ -3,7 +3,7 @@
 #include "bench/truth/judging/case_text.h"
 #include "bench/truth/judging/tally.h"
 #include "bench/truth/judging/truths.h"
-#include "kernels/oracle/oracle.h"
+#include "kernels/oracle/exact_answers.h"
 #include "kernels/triangle_distance/distance_kernel.h"
 
 #include <fmt/format.h>

@@ -25,7 +25,7 @@ template <class Case> class VerdictTruth final : public CaseTruth {
 
     Judgement judge(const Answers& answers, const ContenderEntry& contender) override {
         require_one_per_case(answers, cases_.size());
-        const std::vector<Verdict>& verdicts = list_of<Verdict>(answers);
+        const std::vector<Decision>& verdicts = list_of<Decision>(answers);
         const auto& truths = truths_.of(contender.precision);
         Tally tally(scene_, contender);
         for (std::size_t i = 0; i < cases_.size(); ++i) {
@@ -49,7 +49,7 @@ template <class Case> class VerdictTruth final : public CaseTruth {
         return truth ? text_of(*truth) : "none: not finite";
     }
     std::string answer_text(const Answers& answers, std::size_t i) const override {
-        return text_of(list_of<Verdict>(answers)[i]);
+        return text_of(list_of<Decision>(answers)[i]);
     }
 
   private:
