@@ -2,7 +2,7 @@
 
 #include "bench/tasks/detail/kernel_task.h"
 #include "bench/truth/judging/verdict_truth.h"
-#include "kernels/oracle/exact_answers.h"
+#include "kernels/oracle/oracle.h"
 #include "kernels/registry.h"
 
 namespace boxwood::bench {

@@ -4,7 +4,7 @@
 #include "bench/tasks/detail/halves.h"
 #include "bench/truth/column_sweep.h"
 #include "bench/truth/pairs_digest.h"
-#include "kernels/oracle/exact_answers.h"
+#include "kernels/oracle/oracle.h"
 #include "trees/executor.h"
 
 #include <algorithm>
