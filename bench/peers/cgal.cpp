@@ -1,4 +1,4 @@
-// The CMake target of CGAL asks for -frounding-math: this file alone is compiled with it.
+// The CMake target of CGAL sets -frounding-math: this file alone is compiled with it.
 #define CGAL_LINKED_WITH_TBB
 #include "bench/peers/answering.h"
 #include "bench/peers/kernel_peers.h"

@@ -1,4 +1,4 @@
-// Compiled with -frounding-math, which CGAL's target asks for.
+// Compiled with -frounding-math, which CGAL's target sets.
 #include "bench/peers/each_case.h"
 #include "bench/peers/kernel_peers.h"
 
@@ -14,7 +14,7 @@ namespace {
 using Inexact = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 
-/// CGAL asks for triangles that are not degenerate, and segments likewise: `valid` is found before
+/// CGAL requires triangles that are not degenerate, and segments likewise: `valid` is found before
 /// timing, and other cases are answered `maybe` or NaN.
 template <class K> struct TrianglePair {
     typename K::Triangle_3 a, b;

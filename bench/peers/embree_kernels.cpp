@@ -69,7 +69,7 @@ ContenderEntry entry(bool robust) {
     e.summary = robust ? "Embree's triangle test in a ROBUST scene (watertight)"
                        : "Embree's triangle test in a default scene";
     e.notes = "a scene per triangle or fan, made before timing; the time holds rtcIntersect1 with "
-              "its traversal of that scene; denormals flushed, as Embree asks";
+              "its traversal of that scene; denormals flushed, as Embree wants";
     e.precision = "f32";
     e.runs_on = RunsOn::one_thread;
     e.answers = {answering<RayCasesContender>("ray_triangle", robust ? RTC_SCENE_FLAG_ROBUST

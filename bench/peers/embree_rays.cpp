@@ -209,7 +209,7 @@ ContenderEntry rays(Wanted wanted, int width, bool robust) {
                     robust ? "ROBUST scene (watertight)" : "default scene (not watertight)");
     e.notes = fmt::format(
         "{}, build quality medium; rays are converted to Embree's struct in the query; denormals "
-        "flushed during the query, as Embree asks; vertex and index buffers shared; a build also "
+        "flushed during the query, as Embree wants; vertex and index buffers shared; a build also "
         "frees the scene before it",
         wanted == Wanted::all ? "single rays, whose intersection filter takes each hit down and "
                                "refuses it"

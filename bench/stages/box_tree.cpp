@@ -1,4 +1,4 @@
-/// The tree that points, regions and nearest are asked of: over the boxes as they are.
+/// The tree that answers points, regions and nearest: over the boxes as they are.
 
 #include "bench/stages/playing.h"
 

@@ -13,7 +13,7 @@ namespace boxwood::bench {
 /// How much of what could be done for a scene is done. The answers are the same.
 enum class Extent : std::uint8_t {
     required, ///< what the scene calls for, for the bodies that it calls for
-    all_stages  ///< every stage that its asks could need, for every body in every frame
+    all_stages  ///< every stage that its queries could need, for every body in every frame
 };
 
 /// One stage of the plan of a scene.

@@ -55,7 +55,7 @@ class SceneStage {
     virtual ~SceneStage() = default;
     virtual std::size_t start(Playing&) { return 0; }
     virtual std::size_t run(Playing&) { return 0; }
-    /// For a stage that runs when something is asked, and must know what frames before have
+    /// For a stage that runs with the queries, and must know what frames before have
     /// changed.
     virtual void note_changes(const Playing&) {}
     /// Memory that the stage holds; what it answers does not count.
@@ -80,7 +80,7 @@ std::unique_ptr<SceneStage> mesh_trees_stage();
 std::unique_ptr<SceneStage> surface_stage();
 std::unique_ptr<SceneStage> aim_stage();
 
-/// The stage of a word of `scene_queries()`: bench/stages/queries/WORD.cpp.
-std::unique_ptr<SceneStage> ask_stage(std::string_view word);
+/// The stage of a name of `scene_queries()`: bench/stages/queries/NAME.cpp.
+std::unique_ptr<SceneStage> query_stage(std::string_view name);
 
 } // namespace boxwood::bench

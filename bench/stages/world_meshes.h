@@ -10,7 +10,7 @@
 namespace boxwood::bench {
 
 /// A mesh as a body carries it, in the scene, and a tree of its triangles. Vertices are rounded to
-/// floats: these are what all asks are about. Made when it is first wanted.
+/// floats: these are what all queries are about. Made when it is first wanted.
 struct WorldMesh {
     static constexpr std::uint64_t never = ~std::uint64_t{0};
 

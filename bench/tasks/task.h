@@ -47,7 +47,7 @@ struct Choice {
 using AddCell = FunctionRef<void(const SceneSpec& scene, const ContenderEntry& contender,
                                  const std::string& executor, unsigned threads)>;
 
-/// One thing that the bench asks of a scene. A task is one file of bench/tasks/ and one name in
+/// One thing that the bench wants of a scene. A task is one file of bench/tasks/ and one name in
 /// registry.cpp: the file owns everything that is said of it here, and no other code knows it.
 class Task {
   public:

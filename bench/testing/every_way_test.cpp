@@ -38,7 +38,7 @@ struct Question {
     std::string_view task;
 };
 
-/// All that can be asked of a scene of boxes or triangles, with n points, regions and rays of each
+/// All tasks on a scene of boxes or triangles, with n points, regions and rays of each
 /// kind.
 std::vector<Question> questions_of(Scene scene, std::size_t n) {
     std::vector<Question> all{{scene, "pairs"}, {scene, "tree_pairs"}};
@@ -250,7 +250,7 @@ std::string title(const Question& q) {
 
 TEST(EveryWay, AnswersEveryQuestionOfEveryScene) {
     const auto parallel = parallel_executors();
-    std::size_t turn = 0, asked = 0;
+    std::size_t turn = 0, answered = 0;
     for (const std::size_t n : {1u, 2u, 140u})
         for (const Scene& scene : every_scene(n)) {
             const std::vector<Question> questions = questions_of(scene, 40);
@@ -276,12 +276,12 @@ TEST(EveryWay, AnswersEveryQuestionOfEveryScene) {
                         ASSERT_TRUE(same(answers_to(q, built, executor), answers))
                             << way << "." << layout.name << ", " << title(q) << ", "
                             << executor.threads() << " threads";
-                        ++asked;
+                        ++answered;
                     }
                 }
             }
         }
-    EXPECT_GT(asked, 3 * 10 * builders().size() * layouts().size());
+    EXPECT_GT(answered, 3 * 10 * builders().size() * layouts().size());
 }
 
 /// Large enough for every query to be cut into chunks.
