@@ -35,15 +35,15 @@ template <class K> Decision intersect(const TrianglePair<K>& p) {
 
 /// The root of an exact square, also where the square itself is beyond the doubles.
 double root(const Exact::FT& squared) {
-    constexpr double usual_least = 0x1p-900, usual_most = 0x1p900;
+    constexpr double usual_min = 0x1p-900, usual_max = 0x1p900;
     squared.exact(); // else a double within 1e-5 would do for CGAL
     const double nearest = CGAL::to_double(squared);
-    if ((nearest > usual_least && nearest < usual_most) || CGAL::is_zero(squared))
+    if ((nearest > usual_min && nearest < usual_max) || CGAL::is_zero(squared))
         return std::sqrt(nearest);
-    const bool small = nearest <= usual_least;
+    const bool small = nearest <= usual_min;
     Exact::FT scaled = squared;
     int exponent = 0;
-    for (double x = nearest; !(x > usual_least && x < usual_most); x = CGAL::to_double(scaled)) {
+    for (double x = nearest; !(x > usual_min && x < usual_max); x = CGAL::to_double(scaled)) {
         scaled *= small ? Exact::FT(0x1p600) : Exact::FT(0x1p-600);
         exponent += small ? -300 : 300;
     }

@@ -33,17 +33,17 @@ std::string address(std::string_view family, const Task& task, const std::string
 }
 
 /// The least time of a query: the first one if it takes the whole budget, else of as many as fit.
-double least_ns(Contender& contender, Answers& answers, double budget_ns) {
+double min_query_ns(Contender& contender, Answers& answers, double budget_ns) {
     using Clock = std::chrono::steady_clock;
-    double least = results::missing, spent = 0;
+    double min_ns = results::missing, spent = 0;
     do {
         const auto start = Clock::now();
         contender.query(answers);
         const double ns = std::chrono::duration<double, std::nano>(Clock::now() - start).count();
-        least = std::fmin(least, ns);
+        min_ns = std::fmin(min_ns, ns);
         spent += ns;
     } while (spent < budget_ns);
-    return least;
+    return min_ns;
 }
 
 /// Builds, answers, and times the query. Peers in a process of their own: some crash on such input.
@@ -54,7 +54,7 @@ Outcome outcome_of(const ContenderEntry& contender, const Job& job, double budge
         const std::unique_ptr<Contender> instance = contender.make(job);
         instance->build();
         instance->query(to);
-        return least_ns(*instance, to, budget_ns);
+        return min_query_ns(*instance, to, budget_ns);
     };
     if (contender.is_peer)
         return isolated(answers, work);

@@ -25,14 +25,14 @@ namespace {
 /// What a made-up contender does wrong.
 enum class Fault { none, loses_a_pair, loses_a_pair_later, throws, cannot, counts_otherwise };
 
-int alive = 0, most_alive = 0;
+int alive = 0, max_alive = 0;
 
 /// All pairs of four boxes by comparing each with each.
 class Made final : public Contender {
   public:
     Made(const Job& job, Fault fault, int& queries)
         : scene_(*job.scene), fault_(fault), queries_(queries) {
-        most_alive = std::max(most_alive, ++alive);
+        max_alive = std::max(max_alive, ++alive);
     }
     ~Made() override { --alive; }
     void build() override { std::this_thread::sleep_for(std::chrono::microseconds(50)); }
@@ -76,7 +76,7 @@ struct RoundTest : testing::Test {
         plan.sweep_hash = "hash";
         env.env_hash = "machine";
         Made::is_late = false;
-        alive = most_alive = 0;
+        alive = max_alive = 0;
     }
 
     void add(const std::string& name, Fault fault, bool is_peer = false) {
@@ -164,7 +164,7 @@ TEST_F(RoundTest, ARoundTimesEveryCellOnceAndTheAaCellTwice) {
     add("throws", Fault::throws);
     const results::Results p = prepared();
     const std::string aa = choose_aa(p, calibrations_of(p.texts.at("calibration")));
-    most_alive = 0;
+    max_alive = 0;
     std::set<std::vector<std::uint32_t>> orders;
     for (const unsigned round : {0u, 1u, 2u, 0u}) {
         reported.clear();
@@ -198,7 +198,7 @@ TEST_F(RoundTest, ARoundTimesEveryCellOnceAndTheAaCellTwice) {
         orders.insert(order);
     }
     EXPECT_EQ(orders.size(), 3u); // another order in each round, the same one again for round 0
-    EXPECT_EQ(most_alive, 1);
+    EXPECT_EQ(max_alive, 1);
     EXPECT_EQ(alive, 0);
 }
 

@@ -56,17 +56,17 @@ TEST(Answers, EverythingOnGivesTheSameFrameByFrame) {
             if (all)
                 file = with_all_queries(file);
             ScenePlayer some(MovingScene(file), Extent::required, serial());
-            ScenePlayer everything(MovingScene(file), Extent::all_stages, serial());
+            ScenePlayer full(MovingScene(file), Extent::all_stages, serial());
             some.start();
-            everything.start();
+            full.start();
             for (int frame = 0; frame < 20; ++frame) {
-                const FrameAnswers &a = some.query(), &b = everything.query();
+                const FrameAnswers &a = some.query(), &b = full.query();
                 EXPECT_EQ(answers_hash(a), answers_hash(b));
                 expect_same(sorted(a), sorted(b));
                 if (testing::Test::HasFailure())
                     return;
                 some.advance();
-                everything.advance();
+                full.advance();
             }
         }
 }
@@ -317,7 +317,7 @@ TEST(Answers, OfRaysAreThoseOfBruteForceInOneTreeAndInTwo) {
 }
 
 // An arm that rests and one that moves lie in the same place: a ray that meets both at the same t
-// is told of the one that comes first, whichever tree it is in.
+// reports the one that comes first, whichever tree it is in.
 TEST(Answers, OfRaysThatMeetTwoBodiesAtOnceNameTheFirst) {
     const std::string arm = "[[bodies]]\ngenerator = \"four_link\"\nn = 4\n";
     const std::string moves = "effects = \"drift\"\n";
@@ -347,12 +347,12 @@ TEST(Answers, OfOneBodyAndOfNobody) {
         SCOPED_TRACE(text);
         const SceneFile file = with_all_queries(parse_scene_file(text, "mine.toml"));
         ScenePlayer some(MovingScene(file), Extent::required, serial());
-        ScenePlayer everything(MovingScene(file), Extent::all_stages, serial());
+        ScenePlayer full(MovingScene(file), Extent::all_stages, serial());
         some.start();
-        everything.start();
+        full.start();
         for (int frame = 0; frame < 4; ++frame) {
             const FrameAnswers answers = sorted(some.query());
-            expect_same(answers, sorted(everything.query()));
+            expect_same(answers, sorted(full.query()));
             EXPECT_EQ(answers.pairs, true_body_pairs(some.scene()));
             EXPECT_EQ(answers.rays.size(), 60u);
             std::vector<Vec3<float>> points;
@@ -360,7 +360,7 @@ TEST(Answers, OfOneBodyAndOfNobody) {
             EXPECT_EQ(answers.nearest,
                       true_nearest(some.scene(), points, query_named(file, "nearest")->k));
             some.advance();
-            everything.advance();
+            full.advance();
         }
         if (text.find("despawn") != std::string::npos) {
             EXPECT_TRUE(some.query().pairs.empty());

@@ -9,7 +9,7 @@
 namespace boxwood::bench {
 namespace {
 
-/// Refitted where bodies have changed; ordered anew once the excess of the blocks' surface, added
+/// Refitted where bodies have changed; ordered again once the excess of the blocks' surface, added
 /// up over frames, is that of the policy `auto`.
 class BoxTree final : public SceneStage {
   public:

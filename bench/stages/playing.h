@@ -25,7 +25,7 @@ struct Playing {
     const Executor& executor;
     Extent extent;
 
-    /// Of the present frame; of all bodies if everything is on.
+    /// Of the present frame; of the extent all_stages, of all bodies.
     std::span<const std::uint32_t> changed{};
     std::uint64_t last_change = 0; ///< the last frame that changed a body; 0: none has
 
@@ -42,10 +42,10 @@ struct Playing {
     std::vector<Box> regions{};                  ///< aim
     FrameAnswers answers{};
 
-    bool is_everything() const { return extent == Extent::all_stages; }
+    bool is_full() const { return extent == Extent::all_stages; }
     std::span<const Box> pair_boxes() const { return wide_boxes.empty() ? boxes : wide_boxes; }
-    /// Whether what was made in that frame is still so: never if everything is on.
-    bool still_holds(std::uint64_t frame) const { return !is_everything() && last_change <= frame; }
+    /// Whether what was made in that frame is still so: never of the extent all_stages.
+    bool still_holds(std::uint64_t frame) const { return !is_full() && last_change <= frame; }
 };
 
 /// A stage of the plan. Each gives the number of items that it handled. Stages that make something

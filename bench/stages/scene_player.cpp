@@ -12,8 +12,8 @@ ScenePlayer::ScenePlayer(MovingScene scene, Extent extent, const Executor& execu
       plan_(plan_stages(playing_->scene, extent)), ledger_(plan_) {
     const auto runs = [&](std::string_view name) { return stage_of(plan_, name).runs; };
     const MovingScene& played = playing_->scene;
-    const bool everything = extent == Extent::all_stages;
-    const bool moves = everything || !played.effects().empty();
+    const bool full = extent == Extent::all_stages;
+    const bool moves = full || !played.effects().empty();
 
     for (std::size_t i = 0; i < played.effects().size(); ++i)
         add("advance_" + std::string(played.effects()[i].entry->name),

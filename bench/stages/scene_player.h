@@ -35,7 +35,7 @@ class ScenePlayer {
     const FrameAnswers& query();
     /// What the last query gave.
     const FrameAnswers& answers() const;
-    /// The work of the walk for pairs in the present frame; zero if no pairs are wanted.
+    /// The work of the traversal for pairs in the present frame; zero if no pairs are wanted.
     Work counted_pairs() const;
 
     const MovingScene& scene() const;

@@ -81,7 +81,7 @@ class TrianglePairs final : public SceneStage {
         const WorldMeshes& meshes = *playing.meshes;
         std::unordered_map<std::uint64_t, std::size_t> before;
         const bool may_keep =
-            !playing.is_everything() && playing.changed.size() < playing.scene.bodies().size();
+            !playing.is_full() && playing.changed.size() < playing.scene.bodies().size();
         const auto key = [](Pair p) { return std::uint64_t{p.a} << 32 | p.b; };
         if (may_keep)
             for (std::size_t i = 0; i < meetings_.size(); ++i)
