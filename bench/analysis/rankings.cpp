@@ -72,9 +72,8 @@ std::map<Task, Best> best_of(const RunIndex& index, const Measure& measure) {
     const Phases phases = phases_of(index);
     for (const Cell& cell : index.results().cells) {
         const double total = total_ns(index, cell, measure);
-        if (cell.task == "build" || cell.task == scene_queries_word ||
-            !index.is_right(cell) || std::isinf(total) ||
-            !phases.contains({cell.scene_id, cell.task, cell.threads}))
+        if (cell.task == "build" || cell.task == scene_queries_word || !index.is_right(cell) ||
+            std::isinf(total) || !phases.contains({cell.scene_id, cell.task, cell.threads}))
             continue;
         const auto& timed = phases.at({cell.scene_id, cell.task, cell.threads});
         for (const std::string& lane : lanes_of(cell, index.variant(cell))) {

@@ -37,8 +37,8 @@ std::string speed_ups_text(const RunIndex& index) {
         });
         if (one == index.results().cells.end() || (!is_shown(*one) && !is_shown(many)))
             continue;
-        std::vector<std::string> row{index.scene(many).name, std::to_string(many.n_items), many.task,
-                                     index.variant(many).name,
+        std::vector<std::string> row{index.scene(many).name, std::to_string(many.n_items),
+                                     many.task, index.variant(many).name,
                                      fmt::format("{}-{}", many.executor, many.threads)};
         const bool moves = index.times().rounds(many.cell_id, "update") != nullptr;
         for (const std::string& phase : phases) {

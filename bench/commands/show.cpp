@@ -1,13 +1,13 @@
 #include "bench/commands/show.h"
 
-#include "bench/commands/command.h"
 #include "bench/analysis/compare.h"
-#include "bench/tasks/task.h"
 #include "bench/analysis/ladders.h"
 #include "bench/analysis/limits.h"
 #include "bench/analysis/run_index.h"
 #include "bench/analysis/sections.h"
+#include "bench/commands/command.h"
 #include "bench/io/text_table.h"
+#include "bench/tasks/task.h"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 #define HWY_TARGET_INCLUDE "bench/peers/brute_force.cpp"
 #include <hwy/foreach_target.h> // compiles this file once per instruction set
 
-#include "bench/peers/brute_force.h"
 #include "bench/peers/answering.h"
+#include "bench/peers/brute_force.h"
 
 #include <fmt/format.h>
 #include <hwy/highway.h>

@@ -125,7 +125,8 @@ Peer cgal_peer() {
                answering<BoxIntersection>("moving_pairs", Sides::all)},
               "cgal.box_self_intersection_d",
               "CGAL's box_self_intersection_d (Zomorodian and Edelsbrunner)"));
-    peer.contenders.push_back(entry({answering<BoxIntersection>("tree_pairs", Sides::two_halves)}, "cgal.box_intersection_d",
+    peer.contenders.push_back(entry({answering<BoxIntersection>("tree_pairs", Sides::two_halves)},
+                                    "cgal.box_intersection_d",
                                     "CGAL's box_intersection_d between two sets of boxes"));
     for (ContenderEntry& e : cgal_points())
         peer.contenders.push_back(std::move(e));

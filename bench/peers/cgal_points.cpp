@@ -44,8 +44,8 @@ class ClosestPoint final : public Contender {
             const Kernel::Point_3 p = point_of(scene_.points[i]);
             const auto [at, triangle] = tree_.closest_point_and_primitive(p);
             nearest[i] = {Vec3<float>(Vec3<double>{at.x(), at.y(), at.z()}),
-                                         static_cast<std::uint32_t>(triangle - triangles_.cbegin()),
-                                         CGAL::squared_distance(p, at)};
+                          static_cast<std::uint32_t>(triangle - triangles_.cbegin()),
+                          CGAL::squared_distance(p, at)};
         };
         if (threads_ == 1)
             for (std::size_t i = 0; i < scene_.points.size(); ++i)

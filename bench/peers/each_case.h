@@ -2,8 +2,8 @@
 
 #include "bench/tasks/detail/one_by_one.h"
 
-#include "kernels/triangle_distance/distance_kernel.h"
 #include "kernels/decision.h"
+#include "kernels/triangle_distance/distance_kernel.h"
 
 #include <cstddef>
 #include <memory>

@@ -28,8 +28,9 @@ class EmbreePoints final : public Contender {
 
     void build() override {
         arena_.execute([&] {
-            embree_scene_ = commit(device_.get(), query_ == PointQuery::surface_point ? mesh() : items(),
-                                   RTC_BUILD_QUALITY_HIGH, RTC_SCENE_FLAG_NONE);
+            embree_scene_ =
+                commit(device_.get(), query_ == PointQuery::surface_point ? mesh() : items(),
+                       RTC_BUILD_QUALITY_HIGH, RTC_SCENE_FLAG_NONE);
         });
     }
 
@@ -153,8 +154,8 @@ class EmbreePoints final : public Contender {
     static bool take_nearest(RTCPointQueryFunctionArguments* args) {
         const Current& current = *static_cast<const Current*>(args->userPtr);
         const Scene& scene = current.self->scene_;
-        current.nearest->offer(
-            {args->primID, squared_distance(scene.points[current.query], scene.boxes[args->primID])});
+        current.nearest->offer({args->primID, squared_distance(scene.points[current.query],
+                                                               scene.boxes[args->primID])});
         return shrink(args, current.nearest->worst());
     }
     static bool take_triangle(RTCPointQueryFunctionArguments* args) {

@@ -212,9 +212,9 @@ ContenderEntry rays(Wanted wanted, int width, bool robust) {
         "flushed during the query, as Embree wants; vertex and index buffers shared; a build also "
         "frees the scene before it",
         wanted == Wanted::all ? "single rays, whose intersection filter takes each hit down and "
-                               "refuses it"
-        : width == 1         ? "single rays"
-                             : "packets of rays in the order given, context flag INCOHERENT");
+                                "refuses it"
+        : width == 1          ? "single rays"
+                              : "packets of rays in the order given, context flag INCOHERENT");
     e.runs_on = RunsOn::tbb;
     e.answers = {answering<Rays>(wanted == Wanted::closest ? "rays_closest"
                                  : wanted == Wanted::any   ? "rays_any"

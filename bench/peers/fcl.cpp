@@ -149,9 +149,10 @@ ContenderEntry entry(std::string name, std::string summary, bool moved_alone = f
                            : "; a frame: boxes of the moved, update() of all";
     e.notes += "; bodies that come and go: registerObject, unregisterObject";
     e.runs_on = RunsOn::one_thread;
-    e.answers = moved_alone ? std::vector{answering<FclContender<Manager>>("moving_pairs",
-                                                                           Sides::all, true)}
-                            : answering_all_pairs<FclContender<Manager>>(false);
+    e.answers =
+        moved_alone
+            ? std::vector{answering<FclContender<Manager>>("moving_pairs", Sides::all, true)}
+            : answering_all_pairs<FclContender<Manager>>(false);
     return e;
 }
 

@@ -106,9 +106,9 @@ std::vector<ContenderEntry> fcl_kernels() {
         each_case<MotionCase, Motion, vertex_face>(
             "vertex_face", "fcl", "intersect_vf", "f64",
             "FCL's Intersect::intersect_VF: cubic with Newton", "one query per call"),
-        each_case<MotionCase, Motion, edge_edge>(
-            "edge_edge", "fcl", "intersect_ee", "f64",
-            "FCL's Intersect::intersect_EE: cubic with Newton", "one query per call"),
+        each_case<MotionCase, Motion, edge_edge>("edge_edge", "fcl", "intersect_ee", "f64",
+                                                 "FCL's Intersect::intersect_EE: cubic with Newton",
+                                                 "one query per call"),
         each_case<ObbPairCase, ObbPair, obbs>(
             "obb_obb", "fcl", "obb_overlap", "f64",
             "FCL's OBB::overlap: 15 separating axes with an absolute margin of 1e-6",

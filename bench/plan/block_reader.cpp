@@ -56,7 +56,9 @@ Words BlockReader::keys() const {
 bool BlockReader::has(std::string_view key) const { return table_->toml.get(key) != nullptr; }
 
 bool BlockReader::takes_mesh() const {
-    const auto is_mesh = [](const toml::node& node) { return node.value_or(std::string()) == "mesh"; };
+    const auto is_mesh = [](const toml::node& node) {
+        return node.value_or(std::string()) == "mesh";
+    };
     const toml::node* scene = table_->toml.get("scene");
     const toml::array* all = scene ? scene->as_array() : nullptr;
     return all ? std::ranges::any_of(*all, is_mesh) : scene && is_mesh(*scene);
@@ -172,8 +174,8 @@ std::vector<ContenderEntry> BlockReader::peers(std::string_view task) const {
     std::vector<ContenderEntry> chosen;
     for (const Peer& peer : bench::peers())
         for (const ContenderEntry& contender : peer.contenders)
-            if (is_named(contender.name) || ((is_named("all") || is_named(peer.name)) &&
-                                             contender.answers_task(task)))
+            if (is_named(contender.name) ||
+                ((is_named("all") || is_named(peer.name)) && contender.answers_task(task)))
                 chosen.push_back(contender);
     return chosen;
 }

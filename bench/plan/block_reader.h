@@ -26,10 +26,10 @@ struct BuilderChoice {
 /// What holds for all blocks of a sweep.
 struct SweepInputs {
     std::uint64_t seed = 1;
-    std::vector<unsigned> threads;       ///< of blocks that name none
-    bool overrides_threads = false;      ///< also of those that do
-    std::filesystem::path mesh;          ///< the file of the scene `mesh`, or none
-    std::size_t mesh_items = 0;          ///< its triangles
+    std::vector<unsigned> threads;  ///< of blocks that name none
+    bool overrides_threads = false; ///< also of those that do
+    std::filesystem::path mesh;     ///< the file of the scene `mesh`, or none
+    std::size_t mesh_items = 0;     ///< its triangles
 };
 
 /// Where a contender of a block runs.

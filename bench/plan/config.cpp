@@ -58,7 +58,9 @@ std::string_view text_of(SceneKind kind) {
 Block read_block(const std::shared_ptr<const ConfigReader>& reader,
                  const std::shared_ptr<const toml::table>& root, const toml::table& table) {
     Block block{
-        {reader, std::make_shared<const BlockReader::Table>(BlockReader::Table{root, table})}, {}, {}};
+        {reader, std::make_shared<const BlockReader::Table>(BlockReader::Table{root, table})},
+        {},
+        {}};
     reader->list(table, "task", block.tasks, [&](const toml::node& node) {
         return find_task(reader->word(node, "task", task_names()));
     });

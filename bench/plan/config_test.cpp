@@ -120,9 +120,9 @@ TEST(Config, RefusesNumbersOutOfRangeAndOfTheWrongKind) {
 TEST(Config, PoliciesTakeTheirSettings) {
     const std::string moving = "[[cells]]\nscene = \"uniform\"\ntask = \"moving_pairs\"\n"
                                "effects = \"teleport\"\nupdates = ";
-    const Plan plan = make_plan(
-        moving + "[{name = \"merge\", margin = 2}, {name = \"refine\", share = 0.2}]\n", "x.toml",
-        {});
+    const Plan plan =
+        make_plan(moving + "[{name = \"merge\", margin = 2}, {name = \"refine\", share = 0.2}]\n",
+                  "x.toml", {});
     EXPECT_EQ(each(plan, [](const PlannedCell& c) { return c.contender.builder; }),
               (std::set<std::string>{"merge_margin2", "refine_share0_2"}));
     EXPECT_THAT(complaint(moving + "{name = \"refine\", margin = 2}\n"), HasSubstr("margin"));

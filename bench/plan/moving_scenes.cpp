@@ -56,9 +56,9 @@ std::vector<SceneSpec> moving_scenes(const BlockReader& block) {
         }
         for (const char* key : {"effects", "overlaps"})
             if (block.has(key))
-                block.fail(fmt::format("{} is for generators; the moving scene {} has its own",
-                                       key, name),
-                           key);
+                block.fail(
+                    fmt::format("{} is for generators; the moving scene {} has its own", key, name),
+                    key);
         const SceneFile file = load_scene(name);
         spec.file = name.ends_with(".toml") ? name : "";
         for (const std::size_t n : sizes.empty() ? std::vector{file.n} : sizes) {

@@ -1,8 +1,8 @@
 #include "bench/plan/plan.h"
 
-#include "bench/plan/cell_name.h"
 #include "bench/io/bad_input.h"
 #include "bench/io/csv.h"
+#include "bench/plan/cell_name.h"
 #include "bench/plan/config.h"
 
 #include <fmt/format.h>
@@ -96,11 +96,8 @@ Plan make_plan(const std::string& config_text, const std::string& config_file,
     plan.delta = config.delta;
     plan.seed = overrides.seed.value_or(config.seed);
 
-    SweepInputs inputs{plan.seed,
-                       overrides.threads.empty() ? config.threads : overrides.threads,
-                       !overrides.threads.empty(),
-                       overrides.mesh,
-                       0};
+    SweepInputs inputs{plan.seed, overrides.threads.empty() ? config.threads : overrides.threads,
+                       !overrides.threads.empty(), overrides.mesh, 0};
     std::uint64_t mesh_hash = 0;
     if (!overrides.mesh.empty()) {
         if (std::ranges::none_of(config.blocks,

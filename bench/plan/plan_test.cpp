@@ -1,8 +1,8 @@
 #include "bench/plan/plan.h"
 
-#include "bench/plan/cell_name.h"
 #include "bench/io/bad_input.h"
 #include "bench/io/csv.h"
+#include "bench/plan/cell_name.h"
 #include "bench/plan/families.h"
 
 #include <gmock/gmock.h>

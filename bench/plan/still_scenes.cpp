@@ -18,8 +18,8 @@ std::vector<SceneSpec> still_scenes(const BlockReader& block, std::string_view m
     if (!mesh_is_for.empty())
         for (const std::string& name : names)
             if (!entry_named(name, scene_generators(), "scene").has_mesh)
-                block.fail(fmt::format("the scene \"{}\" has no triangles to {}", name,
-                                       mesh_is_for));
+                block.fail(
+                    fmt::format("the scene \"{}\" has no triangles to {}", name, mesh_is_for));
     std::vector<std::size_t> sizes = block.sizes({SceneSpec{}.n});
     const std::vector<double> overlaps = block.numbers("overlaps", 0, 1e6, {SceneSpec{}.overlaps});
     if (is_mesh && block.inputs().mesh.empty())

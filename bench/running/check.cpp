@@ -1,7 +1,7 @@
 #include "bench/running/check.h"
 
-#include "bench/plan/cell_name.h"
 #include "bench/io/bad_input.h"
+#include "bench/plan/cell_name.h"
 #include "bench/running/isolated.h"
 #include "bench/truth/judging/case_truths.h"
 #include "bench/truth/truth.h"
@@ -100,9 +100,8 @@ std::vector<SceneSpec> check_scenes(const CheckOptions& options) {
         std::set<int> scales{options.scale.value_or(middle)};
         if (!options.scale && !options.is_quick)
             scales.insert({family.scale_min, family.scale_max});
-        const bool has_k =
-            !options.k || (!family.k_meaning.empty() && *options.k >= family.k_min &&
-                           *options.k <= family.k_max);
+        const bool has_k = !options.k || (!family.k_meaning.empty() && *options.k >= family.k_min &&
+                                          *options.k <= family.k_max);
         for (const int scale : scales) {
             spec.scale = scale;
             if (has_k && scale >= family.scale_min && scale <= family.scale_max)
@@ -202,10 +201,10 @@ Judgement CheckRun::judged(const Job& job, Truth& truth, const ContenderEntry& c
         judgement = truth.judge(*answers, contender);
         judgement.check.result_hash = job.task->hash(*answers);
         if (auto* cases = dynamic_cast<CaseTruth*>(&truth); options_.one && cases)
-            said_ += fmt::format("  {} ({}): {}; truth {}: {}\n", contender.name,
-                                 contender.precision, cases->answer_text(*answers, 0),
-                                 cases->truth_text(0, contender.precision),
-                                 to_string(judgement.status));
+            said_ +=
+                fmt::format("  {} ({}): {}; truth {}: {}\n", contender.name, contender.precision,
+                            cases->answer_text(*answers, 0),
+                            cases->truth_text(0, contender.precision), to_string(judgement.status));
     } catch (const InvalidBox& error) { // the promised answer to a box that is none
         fail(Status::unsupported, error.what());
     } catch (const std::exception& error) {

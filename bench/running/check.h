@@ -61,7 +61,7 @@ class CheckRun {
     const CheckOptions& options_;
     ContendersOf contenders_;
     std::regex only_;
-    double budget_ns_;       ///< of one timing
+    double budget_ns_; ///< of one timing
     std::string said_; ///< what everybody answered to the one case
     Record record_;
     std::string details_;

@@ -2,12 +2,12 @@
 
 #include "bench/running/check.h"
 
+#include "bench/analysis/findings.h"
+#include "bench/analysis/ladders.h"
 #include "bench/io/bad_input.h"
 #include "bench/plan/families.h"
-#include "bench/analysis/findings.h"
-#include "bench/truth/judging/case_truths.h"
-#include "bench/analysis/ladders.h"
 #include "bench/tasks/task.h"
+#include "bench/truth/judging/case_truths.h"
 #include "kernels/triangle_distance/distance_kernel.h"
 #include "trees/queries/pairs.h"
 
@@ -235,9 +235,8 @@ TEST_F(CheckCommand, WritesAResultFileWithARowPerKernelAndScale) {
     EXPECT_EQ(r.scenes.size(), 3u);
     EXPECT_EQ(r.kernels.size(), r.cells.size());
     EXPECT_EQ(r.checks.size(), r.cells.size());
-    EXPECT_GE(r.cells.size(),
-              3 * (find_task("triangle_triangle")->kernels().size() +
-                   find_task("triangle_distance")->kernels().size()));
+    EXPECT_GE(r.cells.size(), 3 * (find_task("triangle_triangle")->kernels().size() +
+                                   find_task("triangle_distance")->kernels().size()));
     EXPECT_FALSE(r.conditions.empty());
     for (const results::KernelRow& row : r.kernels) {
         EXPECT_EQ(row.family, "slivers");

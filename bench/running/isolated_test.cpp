@@ -1,9 +1,9 @@
 #include "bench/running/isolated.h"
 
 #include "kernels/continuous/continuous_kernel.h"
+#include "kernels/decision.h"
 #include "kernels/primitives/ray.h"
 #include "kernels/triangle_distance/distance_kernel.h"
-#include "kernels/decision.h"
 #include "trees/queries/pairs.h"
 
 #include <gmock/gmock.h>

@@ -144,8 +144,7 @@ class Preparation {
             calibration.query_iterations = iterations_for(target_ns_, calibration.query_ns);
 
         judgement = truth.judge(*answers, cell.contender);
-        judgement.check.result_hash =
-            task.phases() == Phases::frames ? hash : task.hash(*answers);
+        judgement.check.result_hash = task.phases() == Phases::frames ? hash : task.hash(*answers);
         count(task, *contender, *answers, cell_id, judgement);
         if (const auto structure = contender->structure()) {
             out_.counters.push_back({cell_id, "bytes", structure->bytes});

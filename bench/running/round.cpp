@@ -59,10 +59,9 @@ std::size_t add_benchmarks(CellTimer& timer, const Timing& timing) {
     const auto add = [&](const char* phase, std::uint64_t iterations,
                          void (CellTimer::*run)(benchmark::State&, const Timing&)) {
         const std::string name = timing.cell->name + phase;
-        benchmark::RegisterBenchmark(name.c_str(),
-                                     [&timer, &timing, run](benchmark::State& state) {
-                                         (timer.*run)(state, timing);
-                                     })
+        benchmark::RegisterBenchmark(
+            name.c_str(),
+            [&timer, &timing, run](benchmark::State& state) { (timer.*run)(state, timing); })
             ->Iterations(static_cast<benchmark::IterationCount>(iterations))
             ->Repetitions(1)
             ->UseRealTime()

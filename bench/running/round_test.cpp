@@ -6,8 +6,8 @@
 #include "bench/running/prepare.h"
 #include "bench/tasks/task.h"
 #include "scenes/moving/frames.h"
-#include "trees/queries/pairs.h"
 #include "trees/dynamic/update.h"
+#include "trees/queries/pairs.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -78,7 +78,7 @@ class Move final : public SceneStage {
     }
     std::size_t run(Playing& playing) override {
         const auto moving = playing.is_full() ? std::span<const std::uint32_t>(all_)
-                                                    : playing.scene.with_velocity();
+                                              : playing.scene.with_velocity();
         playing.scene.move(moving);
         end_.end(playing);
         if (playing.is_full())

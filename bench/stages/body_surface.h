@@ -1,9 +1,9 @@
 #pragma once
 
 #include "scenes/moving/bodies.h"
+#include "trees/dynamic/detail/order_age.h"
 #include "trees/layout.h"
 #include "trees/traversals/ray_refit.h"
-#include "trees/dynamic/detail/order_age.h"
 
 #include <array>
 #include <cstdint>

@@ -21,8 +21,7 @@ class Transform final : public SceneStage {
         if (!playing.pairs_are_new)
             return 0;
         meshes_->want(*playing.pairs, playing.is_full());
-        return meshes_->transform(playing.scene.bodies(), playing.is_full(),
-                                  playing.executor);
+        return meshes_->transform(playing.scene.bodies(), playing.is_full(), playing.executor);
     }
     std::size_t bytes(const Playing&) const override {
         return meshes_ ? meshes_->vertex_bytes() : 0;

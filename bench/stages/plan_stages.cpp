@@ -126,7 +126,8 @@ class Plan {
             wants_.triangles ? "made when a mesh is first in a pair, refitted when it has changed"
                              : no_triangles);
         add_only("triangle_pairs", wants_.triangles,
-                 wants_.triangles ? "queried; those of two bodies at rest are cached" : no_triangles);
+                 wants_.triangles ? "queried; those of two bodies at rest are cached"
+                                  : no_triangles);
     }
 
     void queries() {

@@ -53,7 +53,7 @@ TEST(PlanStages, EachEffectBringsItsOwnStageAndNoOther) {
 TEST(PlanStages, AnEffectOnNobodyIsNotThere) {
     for (const EffectEntry& effect : effects())
         EXPECT_THAT(required(scene_of(meshes + "effects = {name = \"" + std::string(effect.name) +
-                                        "\", share = 0}\n")),
+                                      "\", share = 0}\n")),
                     ElementsAre("fit", "tree", "pairs"));
     // and what has no vertices is not deformed
     EXPECT_THAT(required(scene_of(uniform + "effects = \"deform\"\n")),

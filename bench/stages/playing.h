@@ -3,9 +3,9 @@
 #include "bench/stages/frame_answers.h"
 #include "bench/stages/plan_stages.h"
 #include "scenes/moving/moving_scene.h"
+#include "trees/dynamic/update.h"
 #include "trees/executor.h"
 #include "trees/layouts/packed.h"
-#include "trees/dynamic/update.h"
 
 #include <cstddef>
 #include <cstdint>

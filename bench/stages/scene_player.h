@@ -31,7 +31,8 @@ class ScenePlayer {
     void start();
     /// To the next frame: effects, boxes and trees.
     void advance();
-    /// The answers to all queries of the scene in the present frame; good until the next advance or start.
+    /// The answers to all queries of the scene in the present frame; good until the next advance or
+    /// start.
     const FrameAnswers& query();
     /// What the last query gave.
     const FrameAnswers& answers() const;

@@ -71,8 +71,8 @@ ContenderEntry stages_contender(Extent extent, std::string_view without_effect) 
     }
     entry.notes = "build makes what frame 0 needs; update advances the scene itself, so that the "
                   "cost of its effects is in it";
-    entry.cannot =
-        [without = std::string(without_effect)](const Job& job) -> std::optional<std::string> {
+    entry.cannot = [without =
+                        std::string(without_effect)](const Job& job) -> std::optional<std::string> {
         if (!without.empty() && !has_effect(*job.scene->spec.moving, without))
             return fmt::format("the scene has no {}", without);
         return std::nullopt;

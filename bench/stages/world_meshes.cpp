@@ -57,8 +57,7 @@ std::span<const std::uint32_t> WorldMeshes::want(std::span<const Pair> pairs, bo
     return wanted_;
 }
 
-std::size_t WorldMeshes::transform(const Bodies& bodies, bool full,
-                                   const Executor& executor) {
+std::size_t WorldMeshes::transform(const Bodies& bodies, bool full, const Executor& executor) {
     stale_.clear();
     std::size_t moved = 0;
     for (const std::uint32_t i : wanted_)
@@ -79,8 +78,7 @@ std::size_t WorldMeshes::transform(const Bodies& bodies, bool full,
     return moved;
 }
 
-std::size_t WorldMeshes::update_trees(const Bodies& bodies, bool full,
-                                      const Executor& executor) {
+std::size_t WorldMeshes::update_trees(const Bodies& bodies, bool full, const Executor& executor) {
     stale_.clear();
     std::size_t moved = 0;
     for (const std::uint32_t i : wanted_)

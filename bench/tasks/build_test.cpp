@@ -51,8 +51,7 @@ TEST(Build, AreExactForOursAndPeersAlsoWhenBuiltAgain) {
 }
 
 TEST(Build, AreNamedByBuilderAlone) {
-    const ContenderEntry entry =
-        task().contender({"binned_sah", {{"bins", 8}}, "binary", "", ""});
+    const ContenderEntry entry = task().contender({"binned_sah", {{"bins", 8}}, "binary", "", ""});
     EXPECT_EQ(entry.name, "binned_sah_bins8.tree");
     EXPECT_EQ(entry.builder, "binned_sah_bins8");
     EXPECT_TRUE(entry.layout.empty() && entry.traversal.empty());

@@ -8,9 +8,8 @@ namespace {
 
 /// Settings have their defaults.
 template <class K> CaseKernel kernel() {
-    return motion_kernel<K>(K::edge_edge_info, [kernel = K{}](const LinearMotion& m) {
-        return kernel.edge_edge(m);
-    });
+    return motion_kernel<K>(K::edge_edge_info,
+                            [kernel = K{}](const LinearMotion& m) { return kernel.edge_edge(m); });
 }
 
 class EdgeEdge final : public KernelTaskOf<Impact, MotionCases> {
@@ -19,9 +18,7 @@ class EdgeEdge final : public KernelTaskOf<Impact, MotionCases> {
     std::string_view summary() const override {
         return "of each case: whether and when two moving edges touch";
     }
-    bool fits(const Cases& cases) const override {
-        return is_motion(cases, MotionKind::edge_edge);
-    }
+    bool fits(const Cases& cases) const override { return is_motion(cases, MotionKind::edge_edge); }
 
   protected:
     std::vector<CaseKernel> make_kernels() const override {

@@ -77,8 +77,8 @@ class MovingPairs final : public PairAnswers<Task> {
         return "frame after frame: the new boxes taken, then every overlapping pair";
     }
     std::vector<std::string_view> keys() const override {
-        return {"scene", "n", "overlaps", "effects", "frames", "updates", "executors", "threads",
-                "peers"};
+        return {"scene",   "n",         "overlaps", "effects", "frames",
+                "updates", "executors", "threads",  "peers"};
     }
     SceneKind scenes() const override { return SceneKind::moving; }
     Phases phases() const override { return Phases::frames; }
@@ -121,10 +121,9 @@ ContenderEntry moving_contender(const BuilderChoice& policy) {
     entry.notes = "update: the frame's boxes and the list of those that moved; answers in the same "
                   "order for any number of threads";
     entry.params_json = settings_json(policy.settings);
-    entry.answers = {
-        {"moving_pairs", [&update, settings = policy.settings](const Job& job) {
-             return std::make_unique<Follower>(job, update.make(settings));
-         }}};
+    entry.answers = {{"moving_pairs", [&update, settings = policy.settings](const Job& job) {
+                          return std::make_unique<Follower>(job, update.make(settings));
+                      }}};
     return entry;
 }
 

@@ -1,4 +1,5 @@
-/// The least distance of a point and a segment: a corner of one triangle of a case, an edge of the other.
+/// The least distance of a point and a segment: a corner of one triangle of a case, an edge of the
+/// other.
 
 #include "bench/tasks/detail/kernel_task.h"
 #include "bench/truth/judging/distance_truth.h"

@@ -34,7 +34,8 @@ class PointTriangle final : public KernelTaskOf<Distance, std::vector<TrianglePa
 
   protected:
     std::vector<CaseKernel> make_kernels() const override {
-        return all_kernels<Concatenated<PointTriangleKernels, oracle::RationalPointTriangleKernels>>(
+        return all_kernels<
+            Concatenated<PointTriangleKernels, oracle::RationalPointTriangleKernels>>(
             []<class K>(std::type_identity<K>) { return kernel<K>(); });
     }
     std::unique_ptr<CaseTruth> make_case_truth(const CaseScene& scene) const override {

@@ -21,7 +21,9 @@ class Points final : public PairAnswers<PointTask> {
   public:
     Points() : PairAnswers(PointQuery::containing) {}
     std::string_view name() const override { return "points"; }
-    std::string_view summary() const override { return "for each point every box that contains it"; }
+    std::string_view summary() const override {
+        return "for each point every box that contains it";
+    }
 
   protected:
     Way way(const Choice&) const override {

@@ -27,9 +27,7 @@ template <class K> CaseKernel kernel() {
 class RayBox final : public KernelTaskOf<Decision, std::vector<RayBoxCase>> {
   public:
     std::string_view name() const override { return "ray_box"; }
-    std::string_view summary() const override {
-        return "of each case: whether a ray meets a box";
-    }
+    std::string_view summary() const override { return "of each case: whether a ray meets a box"; }
 
   protected:
     std::vector<CaseKernel> make_kernels() const override {

@@ -51,8 +51,8 @@ class RayTriangle final : public KernelTaskOf<RayHit, RayCases> {
     std::vector<CaseKernel> make_kernels() const override {
         return all_kernels<Concatenated<RayKernels, oracle::RationalRayKernels>>(
             []<class K>(std::type_identity<K>) -> CaseKernel {
-                return {K::info, precision_of<typename RealOf<K, float>::type>(),
-                        called_one_by_one, [](const Cases& cases) {
+                return {K::info, precision_of<typename RealOf<K, float>::type>(), called_one_by_one,
+                        [](const Cases& cases) {
                             return std::make_unique<Fans<K>>(std::get<RayCases>(cases));
                         }};
             });

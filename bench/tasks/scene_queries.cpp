@@ -64,8 +64,8 @@ class SceneTruth final : public Truth {
             return;
         judgement_.status = Status::wrong;
         if (judgement_.check.witness.empty())
-            judgement_.check.witness = fmt::format(
-                "frame {}: other answers than the first contender of the scene", index);
+            judgement_.check.witness =
+                fmt::format("frame {}: other answers than the first contender of the scene", index);
     }
     Judgement judge(const Answers&, const ContenderEntry&) override { return judgement_; }
 
@@ -148,8 +148,8 @@ class SceneQueries final : public Task {
                 ours.push_back(stages_contender(extent == "all_stages" ? Extent::all_stages
                                                                        : Extent::required));
             for (const std::string& name : left_out)
-                for (const std::string& effect : name == "each" ? effects_of(*scene.moving)
-                                                                : std::vector<std::string>{name})
+                for (const std::string& effect :
+                     name == "each" ? effects_of(*scene.moving) : std::vector<std::string>{name})
                     ours.push_back(stages_contender(Extent::required, effect));
             add_cells(block, scene, ours, {}, add);
         }

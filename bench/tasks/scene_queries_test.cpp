@@ -20,7 +20,8 @@ using testing::HasSubstr;
 const Report silent = [](std::size_t, std::size_t, const std::string&) {};
 
 Plan plan_of(const std::string& keys) {
-    return make_plan("min_time_ms = 0.1\n[[cells]]\ntask = \"scene_queries\"\n" + keys, "x.toml", {});
+    return make_plan("min_time_ms = 0.1\n[[cells]]\ntask = \"scene_queries\"\n" + keys, "x.toml",
+                     {});
 }
 
 TEST(SceneQueries, ASweepChecksEveryFrameAndKeepsTheLedger) {

@@ -35,7 +35,8 @@ class SegmentSegment final : public KernelTaskOf<Distance, std::vector<TriangleP
 
   protected:
     std::vector<CaseKernel> make_kernels() const override {
-        return all_kernels<Concatenated<SegmentDistanceKernels, oracle::RationalSegmentDistanceKernels>>(
+        return all_kernels<
+            Concatenated<SegmentDistanceKernels, oracle::RationalSegmentDistanceKernels>>(
             []<class K>(std::type_identity<K>) { return kernel<K>(); });
     }
     std::unique_ptr<CaseTruth> make_case_truth(const CaseScene& scene) const override {

@@ -121,11 +121,11 @@ class TrianglePairs final : public PairAnswers<TreeTask> {
     Way way(const Choice& choice) const override {
         const KernelInfo& kernel =
             entry_named(choice.kernel, triangle_kernels(), "triangle kernel");
-        return {"self_pairs", choice.kernel, kernel.promise,
-                [name = choice.kernel](const Job& job, BuildFunction build,
-                                       const LayoutEntry& layout) {
-                    return make_touching(job, std::move(build), layout, name);
-                }};
+        return {
+            "self_pairs", choice.kernel, kernel.promise,
+            [name = choice.kernel](const Job& job, BuildFunction build, const LayoutEntry& layout) {
+                return make_touching(job, std::move(build), layout, name);
+            }};
     }
 };
 

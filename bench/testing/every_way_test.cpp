@@ -204,7 +204,8 @@ Found answers_to(const Question& q, const Built& built, const Executor& executor
         built.all->nearest(scene.points, k, executor, answers.neighbours.list, work);
     } else if (q.task == "closest_points") {
         answers.surface_points.list.resize(scene.points.size());
-        surface.closest_points(scene.points, scene.mesh, executor, answers.surface_points.list, work);
+        surface.closest_points(scene.points, scene.mesh, executor, answers.surface_points.list,
+                               work);
     } else if (q.task == "rays_all") {
         HitsAsPairs hits(answers.pairs.list);
         surface.rays_all(scene.rays, "watertight", built.triangles, executor, hits);
@@ -218,14 +219,16 @@ Found answers_to(const Question& q, const Built& built, const Executor& executor
             sorted_rays(surface, scene.rays, query, "watertight", built.triangles, executor,
                         answers.hits.list);
         else
-            surface.rays(scene.rays, query, "watertight", built.triangles, executor, answers.hits.list);
+            surface.rays(scene.rays, query, "watertight", built.triangles, executor,
+                         answers.hits.list);
     }
     return answers;
 }
 
 /// Bit for bit and in the same order.
 bool same(const Found& a, const Found& b) {
-    return a.pairs.list == b.pairs.list && a.neighbours.list == b.neighbours.list && a.hits.list == b.hits.list &&
+    return a.pairs.list == b.pairs.list && a.neighbours.list == b.neighbours.list &&
+           a.hits.list == b.hits.list &&
            std::ranges::equal(a.surface_points.list, b.surface_points.list,
                               [](const SurfacePoint& x, const SurfacePoint& y) {
                                   return x.point == y.point && x.triangle == y.triangle &&
@@ -244,8 +247,7 @@ std::uint64_t number_of(const Found& answers) {
 }
 
 std::string title(const Question& q) {
-    return q.scene.name + " n " + std::to_string(q.scene.boxes.size()) + " " +
-           std::string(q.task);
+    return q.scene.name + " n " + std::to_string(q.scene.boxes.size()) + " " + std::string(q.task);
 }
 
 TEST(EveryWay, AnswersEveryQuestionOfEveryScene) {

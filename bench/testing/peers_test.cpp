@@ -123,8 +123,7 @@ TEST_P(PeersOnBoxes, AgreeWithTwoLoops) {
     for (const NamedBoxes& named : box_scenes()) {
         const Scene scene = scene_of(named.boxes);
         const Task& task = *find_task(GetParam());
-        const std::vector<Pair> expected =
-            expected_pairs(scene.boxes, task.name() == "tree_pairs");
+        const std::vector<Pair> expected = expected_pairs(scene.boxes, task.name() == "tree_pairs");
         int ways = 0;
         for_each_way(scene, task, [&](const ContenderEntry& entry, const Job& job) {
             SCOPED_TRACE(entry.name + " on " + named.name + ", " + job.executor + " " +

@@ -70,8 +70,8 @@ void ColumnSweep::cut(double max_entries) {
         extent[axis] = quantile(places, .99) - low_[axis];
         const double columns = extent[axis] / (2 * quantile(sides, .5)); // NaN or inf if flat
         wanted[axis] = columns >= max_along_axis ? max_along_axis
-                       : columns > 1              ? static_cast<std::uint32_t>(columns)
-                                                  : 1;
+                       : columns > 1             ? static_cast<std::uint32_t>(columns)
+                                                 : 1;
         if (!(extent[axis] > 0))
             wanted[axis] = 1;
     }

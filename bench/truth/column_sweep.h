@@ -14,8 +14,8 @@ namespace boxwood::bench {
 
 /// Every unordered pair of overlapping boxes, by an oracle that uses no tree: the y-z plane is cut
 /// into columns, each box is listed in every column that it reaches, and the boxes of a column,
-/// sorted by their least x, meet those that begin before they end. A pair is reported in the column of
-/// the lower corner of its overlap alone. A box that is none (empty, or with NaN) is left out.
+/// sorted by their least x, meet those that begin before they end. A pair is reported in the column
+/// of the lower corner of its overlap alone. A box that is none (empty, or with NaN) is left out.
 class ColumnSweep {
   public:
     /// The boxes must outlive it. `threads` may be used.

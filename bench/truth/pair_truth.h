@@ -10,9 +10,9 @@ enum class PairsOf : std::uint8_t {
     triangles   ///< of its mesh that share a point
 };
 
-/// The right pairs, by an oracle that uses no tree: brute force, or a sweep by columns beyond 20,000
-/// boxes; rational arithmetic for triangles. Holds number and hash of the pairs; which they are is
-/// found again where an answer differs.
+/// The right pairs, by an oracle that uses no tree: brute force, or a sweep by columns beyond
+/// 20,000 boxes; rational arithmetic for triangles. Holds number and hash of the pairs; which they
+/// are is found again where an answer differs.
 std::unique_ptr<Truth> make_pair_truth(const Scene& scene, PairsOf what, unsigned threads);
 
 } // namespace boxwood::bench

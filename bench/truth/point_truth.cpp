@@ -89,10 +89,12 @@ class PointTruth final : public Truth {
     }
 
   private:
-    bool is_pairs() const { return query_ == PointQuery::containing || query_ == PointQuery::overlapping; }
+    bool is_pairs() const {
+        return query_ == PointQuery::containing || query_ == PointQuery::overlapping;
+    }
     std::size_t n_queries() const {
         return query_ == PointQuery::overlapping ? scene_.regions.size() + scene_.spheres.size()
-                                    : scene_.points.size();
+                                                 : scene_.points.size();
     }
 
     /// One query of each of m equal runs, picked by a hash of the scene's seed.

@@ -1,8 +1,8 @@
 #include "bench/truth/rays_all_truth.h"
 
 #include "bench/truth/ray_truth.h"
-#include "trees/queries/pairs.h"
 #include "trees/executor.h"
+#include "trees/queries/pairs.h"
 
 #include <fmt/format.h>
 #include <xxhash.h>

@@ -23,9 +23,9 @@ struct Judgement {
     results::Check check;
     std::optional<results::KernelRow> kernel; ///< of the kernel that decided, if it is one's doing
     std::vector<results::ConditionRow> conditions;
-    std::uint64_t calls = 0;        ///< of that kernel in one query; 0: not known
-    bool breaks_promise = false;    ///< a kernel of ours does not keep what it states
-    bool has_faulty_tree = false;   ///< its tree is not to be measured
+    std::uint64_t calls = 0;      ///< of that kernel in one query; 0: not known
+    bool breaks_promise = false;  ///< a kernel of ours does not keep what it states
+    bool has_faulty_tree = false; ///< its tree is not to be measured
 };
 
 /// The right answers to one task on one scene, by an oracle that uses no tree. Computed once,

@@ -100,8 +100,8 @@ void append_words(std::vector<std::uint64_t>& words, const Distance& distance) {
     words.insert(words.end(), {bits(distance.distance), bits(distance.lo), bits(distance.hi)});
 }
 void append_words(std::vector<std::uint64_t>& words, const Impact& impact) {
-    words.insert(words.end(), {word_of(impact.answer, impact.tier), bits(impact.t_free),
-                               bits(impact.t_hit)});
+    words.insert(words.end(),
+                 {word_of(impact.answer, impact.tier), bits(impact.t_free), bits(impact.t_hit)});
 }
 void append_words(std::vector<std::uint64_t>& words, const Aabb<double>& box) {
     for (int k = 0; k < 3; ++k)

@@ -24,8 +24,8 @@ namespace boxwood::bench {
 /// A kernel of ours and what makes it a contender on cases.
 struct CaseKernel {
     KernelInfo info;
-    std::string precision;        ///< f32 | f64: what the kernel reads
-    std::string_view how_called;  ///< for the notes
+    std::string precision;       ///< f32 | f64: what the kernel reads
+    std::string_view how_called; ///< for the notes
     std::function<std::unique_ptr<Contender>(const Cases&)> make;
 };
 

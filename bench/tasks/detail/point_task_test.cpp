@@ -18,8 +18,8 @@ std::vector<Question> questions() {
     std::vector<Question> all;
     for (const auto& [generator, regions, task, k] :
          {std::tuple{"uniform", "", "points", 1}, std::tuple{"uniform", "boxes", "regions", 1},
-          std::tuple{"clusters", "spheres", "regions", 1},
-          std::tuple{"uniform", "", "nearest", 1}, std::tuple{"clusters", "", "nearest", 7},
+          std::tuple{"clusters", "spheres", "regions", 1}, std::tuple{"uniform", "", "nearest", 1},
+          std::tuple{"clusters", "", "nearest", 7},
           std::tuple{"sphere_mesh", "", "closest_points", 1},
           std::tuple{"triangle_soup", "", "closest_points", 1}}) {
         SceneSpec spec{.generator = generator, .n = 1500};
@@ -108,7 +108,9 @@ TEST(PointQueries, TheTruthSeesWhatIsWrong) {
         else
             expect_wrong<Pair>(
                 question, [](auto& x) { x.pop_back(); }, [](auto& x) { x.push_back(x.front()); },
-                [](auto& x) { x.push_back({100'000, 0}); });
+                [](auto& x) {
+                    x.push_back({100'000, 0});
+                });
 }
 
 TEST(PointQueries, SayWhatASceneLacks) {

@@ -21,9 +21,9 @@ std::vector<ContenderEntry> ours(std::string_view task, std::string_view kernel 
     for (const BuilderEntry& builder : builders())
         for (const LayoutEntry& layout : layouts())
             all.push_back(find_task(task)->contender({.builder = std::string(builder.name),
-                                         .settings = {},
-                                         .layout = std::string(layout.name),
-                                         .kernel = std::string(kernel)}));
+                                                      .settings = {},
+                                                      .layout = std::string(layout.name),
+                                                      .kernel = std::string(kernel)}));
     return all;
 }
 

@@ -81,9 +81,8 @@ ContenderEntry TreeTask::contender(const Choice& choice) const {
     entry.notes = "build: boxes to tree to layout; answers in the same order for any number of "
                   "threads";
     entry.params_json = settings_json(choice.settings);
-    entry.answers = {{std::string(name()),
-                      [build = make_builder(choice.builder, choice.settings), &layout,
-                       make = std::move(way.make)](const Job& job) {
+    entry.answers = {{std::string(name()), [build = make_builder(choice.builder, choice.settings),
+                                            &layout, make = std::move(way.make)](const Job& job) {
                           return make(job, build, layout);
                       }}};
     return entry;

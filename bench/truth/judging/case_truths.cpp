@@ -48,8 +48,8 @@ std::string replay_command(const CaseScene& scene, const std::string& kernel, st
         fmt::format("boxwood check --only '^{}/{}/{}$'", spec.generator, scene.task, pattern);
     if (spec.k)
         command += fmt::format(" --k {}", *spec.k);
-    command += fmt::format(" --scale {} --n {} --seed {} --case {}", spec.scale, spec.n, spec.seed,
-                           i);
+    command +=
+        fmt::format(" --scale {} --n {} --seed {} --case {}", spec.scale, spec.n, spec.seed, i);
     return command;
 }
 

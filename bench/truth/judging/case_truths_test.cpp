@@ -119,8 +119,7 @@ TEST(CaseTruth, CountsFalseAnswersAndTiers) {
     EXPECT_EQ(none.kernel->kernel, "made_up");
 
     // never-miss reads maybe as yes: two false yes. Its miss is what the witness shows.
-    const Judgement miss =
-        judged(scene, "triangle_triangle", answers, named(Promise::never_miss));
+    const Judgement miss = judged(scene, "triangle_triangle", answers, named(Promise::never_miss));
     EXPECT_EQ(miss.kernel->false_pos, 2u);
     EXPECT_TRUE(miss.breaks_promise);
     EXPECT_TRUE(breaks_promise(row_of(miss)));
@@ -144,8 +143,8 @@ TEST(CaseTruth, AKernelOfFloatsIsJudgedOnWhatItReads) {
     const Scene scene =
         pairs_of_triangles({{at(0), at(h), Known::no}, {tilted, at(1 + 0x1p-41), Known::unknown}});
     const AnswerList<Decision> rounded = verdicts({{Answer::no, 0}, {Answer::yes, 0}});
-    EXPECT_EQ(
-        judged(scene, "triangle_triangle", rounded, named(Promise::exact, "f32")).status, Status::exact);
+    EXPECT_EQ(judged(scene, "triangle_triangle", rounded, named(Promise::exact, "f32")).status,
+              Status::exact);
     const Scene apart = pairs_of_triangles({{at(1), at(1 + 0x1p-40), Known::no}});
     const AnswerList<Decision> touch = verdicts({{Answer::yes, 0}});
     EXPECT_FALSE(
@@ -209,9 +208,9 @@ TEST(CaseTruth, TheOtherDistancesTakePartsOfThePair) {
     const Triangle<double> a{{0, 0, 0}, {1, 0, 0}, {0, -9, 0}}, b{{5, 0, 3}, {4, 0, 3}, {0, 0, 1}};
     const Scene scene = pairs_of_triangles({{a, b}});
     const std::array<std::pair<const char*, double>, 4> known{{{"triangle_distance", 1},
-                                                       {"segment_segment", std::sqrt(18)},
-                                                       {"point_triangle", 1},
-                                                       {"point_segment", 5}}};
+                                                               {"segment_segment", std::sqrt(18)},
+                                                               {"point_triangle", 1},
+                                                               {"point_segment", 5}}};
     for (const auto& [task, d] : known) {
         const Judgement right = judged(scene, task, distances({{d, d, d}}), named(Promise::none));
         EXPECT_EQ(right.status, Status::exact) << task;
@@ -232,8 +231,7 @@ TEST(CaseTruth, RaysAtFansMustHitOneOfThem) {
     scene.cases = cases;
     AnswerList<RayHit> answers;
     answers.list = {{1, 0, 0, 0}, {}};
-    EXPECT_EQ(judged(scene, "ray_triangle", answers, named(Promise::none)).status,
-              Status::exact);
+    EXPECT_EQ(judged(scene, "ray_triangle", answers, named(Promise::none)).status, Status::exact);
     answers.list[0].t = std::nextafter(1.f, 2.f);
     EXPECT_EQ(judged(scene, "ray_triangle", answers, named(Promise::none)).kernel->max_ulp, 1);
     answers.list = {{}, {3, 0, 0, 1}};
@@ -288,8 +286,7 @@ TEST(CaseTruth, ObbsAndRayBoxesHaveTheirOracles) {
     Obb<double> box{{0, 0, 0}, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {1, 1, 1}}, other = box;
     other.centre.x = 2;
     scene.cases = std::vector<ObbPairCase>{{box, other}};
-    EXPECT_EQ(judged(scene, "obb_obb", verdicts({{Answer::yes, 0}}), named(Promise::exact))
-                  .status,
+    EXPECT_EQ(judged(scene, "obb_obb", verdicts({{Answer::yes, 0}}), named(Promise::exact)).status,
               Status::exact);
     scene.cases = std::vector<RayBoxCase>{{{{0, 0, 0}, {1, 0, 0}}, {{2, 0, 0}, {3, 1, 1}}},
                                           {{{0, 0, 0}, {1, 0, 0}}, {}}};

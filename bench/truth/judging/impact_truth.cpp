@@ -67,8 +67,8 @@ class ImpactTruth final : public CaseTruth {
     }
 
   private:
-    /// The error is that of t, relative to the step. A kernel with a promise must not call free what
-    /// is not, nor end before the first touch.
+    /// The error is that of t, relative to the step. A kernel with a promise must not call free
+    /// what is not, nor end before the first touch.
     static void judge_time(Tally& tally, std::size_t i, const Impact& said, const Impact& first) {
         if (said.answer == Answer::yes && std::isfinite(said.t_hit))
             tally.error(results::missing, std::max(std::abs(said.t_free - first.t_free),

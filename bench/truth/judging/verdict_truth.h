@@ -19,8 +19,7 @@ template <class Case> class VerdictTruth final : public CaseTruth {
     using Command = std::string (*)(const ContenderEntry&);
 
     VerdictTruth(const CaseScene& scene, Oracle oracle, Command command)
-        : scene_(scene), command_(command),
-          cases_(std::get<std::vector<Case>>(scene.scene.cases)),
+        : scene_(scene), command_(command), cases_(std::get<std::vector<Case>>(scene.scene.cases)),
           truths_(cases_, scene.threads, oracle) {}
 
     Judgement judge(const Answers& answers, const ContenderEntry& contender) override {
