@@ -1,7 +1,6 @@
 #include "bench/running/round.h"
 
 #include "bench/running/cell_timer.h"
-#include "bench/running/reporter.h"
 #include "bench/running/usage.h"
 
 #include <benchmark/benchmark.h>
@@ -10,11 +9,30 @@
 #include <array>
 #include <chrono>
 #include <cstdlib>
+#include <functional>
 #include <map>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace boxwood::bench {
 namespace {
+
+/// Receives google-benchmark's numbers, one run at a time, and hands them on.
+class Reporter final : public benchmark::BenchmarkReporter {
+  public:
+    explicit Reporter(std::function<void(const Run&)> take) : take_(std::move(take)) {}
+
+    bool ReportContext(const Context&) override { return true; }
+    void ReportRuns(const std::vector<Run>& runs) override {
+        if (runs.size() != 1 || runs.front().error_occurred)
+            throw std::runtime_error("google-benchmark did not report one run per sample");
+        take_(runs.front());
+    }
+
+  private:
+    std::function<void(const Run&)> take_;
+};
 
 std::vector<Timing> timings_of(const Plan& plan, const results::Results& prepared, unsigned round) {
     const Calibrations calibrations = calibrations_of(prepared.texts.at("calibration"));
