@@ -23,7 +23,7 @@ template <class Read> auto refusing(const Read& read) -> decltype(read()) {
 }
 
 /// "all", every peer library (found or not), and every contender of those that were found.
-Words peer_words() {
+Words peer_names() {
     Words words{"all"};
     for (const Peer& peer : peers()) {
         words.push_back(peer.name);
@@ -167,7 +167,7 @@ std::vector<std::string> BlockReader::kernels(const Words& known,
 }
 
 std::vector<ContenderEntry> BlockReader::peers(std::string_view task) const {
-    const std::vector<std::string> names = words("peers", peer_words());
+    const std::vector<std::string> names = words("peers", peer_names());
     const auto is_named = [&](std::string_view name) {
         return std::ranges::find(names, name) != names.end();
     };

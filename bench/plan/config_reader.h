@@ -31,7 +31,7 @@ class ConfigReader : public TomlReader {
     /// A builder: its names, or `{name = "binned_sah", bins = 16}`.
     BuilderChoice builder(const toml::node& node) const {
         return choice(
-            node, "a builder", [&](const toml::node& name) { return builder_words(name); },
+            node, "a builder", [&](const toml::node& name) { return builder_name(name); },
             [](const std::string& name, const Settings& settings) {
                 make_builder(name, settings);
             });
@@ -71,7 +71,7 @@ class ConfigReader : public TomlReader {
 
   private:
     /// "ploc", or with an optimizer after it "ploc+reinsertion".
-    std::string builder_words(const toml::node& node) const {
+    std::string builder_name(const toml::node& node) const {
         const std::string words = node.value_or(std::string());
         const std::size_t plus = words.find('+');
         if (!node.is_string() || plus == std::string::npos)

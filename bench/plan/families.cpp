@@ -46,7 +46,7 @@ const Cases& sample_of(const HardCaseFamily& family) {
     return samples.at(family.name);
 }
 
-std::vector<std::string_view> family_words() {
+std::vector<std::string_view> family_names() {
     std::vector<std::string_view> words{"all"};
     for (const Panel panel : panels)
         words.push_back(to_string(panel));
@@ -84,7 +84,7 @@ std::vector<SceneSpec> case_scenes(const BlockReader& block, const Task& task) {
     std::vector<SceneSpec> all;
     SceneSpec spec;
     spec.seed = block.inputs().seed;
-    for (const std::string& name : block.words("scene", family_words())) {
+    for (const std::string& name : block.words("scene", family_names())) {
         require_cases(block, name, task);
         for (const HardCaseFamily* family : families_of(name, task))
             for (const std::size_t n : sizes)

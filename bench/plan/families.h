@@ -13,7 +13,7 @@ namespace boxwood::bench {
 const Cases& sample_of(const HardCaseFamily& family);
 
 /// What the scene key of a sweep file may say: families, "all", and the panels.
-std::vector<std::string_view> family_words();
+std::vector<std::string_view> family_names();
 /// Whether a name stands for several families.
 bool is_group(std::string_view name);
 

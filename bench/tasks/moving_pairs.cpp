@@ -113,7 +113,7 @@ ContenderEntry moving_contender(const BuilderChoice& policy) {
     entry.library = "boxwood";
     entry.is_peer = false;
     entry.precision = "f32";
-    entry.builder = word_with_settings(policy.name, policy.settings);
+    entry.builder = name_with_settings(policy.name, policy.settings);
     entry.layout = "packed";
     entry.traversal = "self_pairs";
     entry.name = fmt::format("{}.{}.{}", entry.builder, entry.layout, entry.traversal);

@@ -9,7 +9,7 @@
 
 namespace boxwood::bench {
 
-std::string word_with_settings(std::string word, const Settings& settings) {
+std::string name_with_settings(std::string word, const Settings& settings) {
     std::ranges::replace(word, '+', '_');
     for (const auto& [name, value] : settings) {
         word += fmt::format("_{}", name);
@@ -69,7 +69,7 @@ ContenderEntry TreeTask::contender(const Choice& choice) const {
     entry.library = "boxwood";
     entry.is_peer = false;
     entry.precision = layout.precision;
-    entry.builder = word_with_settings(choice.builder, choice.settings);
+    entry.builder = name_with_settings(choice.builder, choice.settings);
     entry.layout = choice.layout;
     entry.traversal = way.traversal;
     entry.kernel = way.kernel;

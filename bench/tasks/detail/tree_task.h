@@ -11,7 +11,7 @@
 namespace boxwood::bench {
 
 /// "binned_sah_bins16": words [a-z0-9_], so 1.5 is written 1_5, a minus m and a plus _.
-std::string word_with_settings(std::string word, const Settings& settings);
+std::string name_with_settings(std::string word, const Settings& settings);
 /// As one JSON object.
 std::string settings_json(const Settings& settings);
 
