@@ -101,9 +101,9 @@ FileComparison compare_files(const Results& base, const Results& head, double de
     for (const auto& [name, timed] : in_head)
         result.only_head.push_back(name);
     result.family_size = claims.size();
-    const auto decisions = decide(logs, delta, result.floor.value_or(0));
+    const auto rulings = decide(logs, delta, result.floor.value_or(0));
     for (std::size_t i = 0; i < claims.size(); ++i)
-        set_decision(result.rows[claims[i]].comparison, decisions[i]);
+        set_ruling(result.rows[claims[i]].comparison, rulings[i]);
     return result;
 }
 

@@ -76,8 +76,8 @@ class Judge {
         if (a.status == Status::wrong || b.status == Status::wrong) {
             row.verdict = Verdict::wrong;
         } else if (!is_right(a.status) || !is_right(b.status)) {
-            set_decision(row, {paired_ratio(logs), results::missing, Verdict::cannot_tell,
-                               Reason::unchecked});
+            set_ruling(row, {paired_ratio(logs), results::missing, Verdict::cannot_tell,
+                             Reason::unchecked});
         } else {
             open_.push_back(rows_.size());
             logs_.push_back(std::move(logs));
@@ -85,9 +85,9 @@ class Judge {
         rows_.push_back(row);
     }
     void close(Family family) {
-        const auto decisions = decide(logs_, delta_, floor_.value_or(0));
+        const auto rulings = decide(logs_, delta_, floor_.value_or(0));
         for (std::size_t i = 0; i < open_.size(); ++i)
-            set_decision(rows_[open_[i]], decisions[i]);
+            set_ruling(rows_[open_[i]], rulings[i]);
         for (; closed_ < rows_.size(); ++closed_)
             rows_[closed_].family = family;
         open_.clear();
@@ -228,14 +228,14 @@ void against_fewer_stages(const Index& index, const Times& times, Judge& judge) 
 
 } // namespace
 
-void set_decision(Comparison& row, const Decision& decision) {
-    row.n_pairs = decision.ratio.n_pairs;
-    row.ratio = decision.ratio.ratio;
-    row.ci_lo = decision.ratio.ci_lo;
-    row.ci_hi = decision.ratio.ci_hi;
-    row.p_adj = decision.p_adj;
-    row.verdict = decision.verdict;
-    row.reason = decision.reason;
+void set_ruling(Comparison& row, const Ruling& ruling) {
+    row.n_pairs = ruling.ratio.n_pairs;
+    row.ratio = ruling.ratio.ratio;
+    row.ci_lo = ruling.ratio.ci_lo;
+    row.ci_hi = ruling.ratio.ci_hi;
+    row.p_adj = ruling.p_adj;
+    row.verdict = ruling.verdict;
+    row.reason = ruling.reason;
 }
 
 std::vector<Comparison> comparisons_of(const Results& results, const Times& times, double delta) {

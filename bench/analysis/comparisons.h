@@ -25,9 +25,10 @@ namespace boxwood::bench {
 std::vector<results::Comparison> comparisons_of(const results::Results& results, const Times& times,
                                                 double delta);
 
-/// The cell of ours that `judged` is held against: of the right ones of its job, executor, precision and classes the
-/// builder hilbert with the same layout and kernel, else its first hilbert, else its first. Null
-/// if that is itself, or it is a kernel on hard cases or a way to play a scene.
+/// The cell of ours that `judged` is held against: of the right ones of its job, executor,
+/// precision and classes the builder hilbert with the same layout and kernel, else its first
+/// hilbert, else its first. Null if that is itself, or it is a kernel on hard cases or a way to
+/// play a scene.
 const results::Cell* reference_of(const results::Results& results, const results::Cell& judged);
 
 /// Contenders of the task that plays a scene: with the stages that its queries require, with all,
@@ -35,7 +36,7 @@ const results::Cell* reference_of(const results::Results& results, const results
 inline constexpr std::string_view required_stages = "required", all_stages = "all_stages",
                                   without_effect = "required.without_";
 
-void set_decision(results::Comparison& row, const Decision& decision);
+void set_ruling(results::Comparison& row, const Ruling& ruling);
 
 /// What two files say of one cell. cell_a is an id of the base, cell_b one of the head.
 struct FileRow {

@@ -76,7 +76,7 @@ TEST_F(Findings, RankUpdatesWithTheirQueriesAndBuildsThatNothingFollows) {
     EXPECT_EQ(only().alone, "");
     run = {};
     for (const auto& [name, build] : {std::pair{"hilbert", 1000.}, {"embree.low", 700.}})
-        run.time(run.cell("uniform", 10, "tree", name), Phase::build, build);
+        run.time(run.cell("uniform", 10, "build", name), Phase::build, build);
     EXPECT_EQ(only().together, "LOSES 0.70x to Embree");
 }
 

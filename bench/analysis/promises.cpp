@@ -1,6 +1,6 @@
 #include "bench/analysis/promises.h"
 
-#include "bench/truth/judging/judge.h"
+#include "bench/truth/judging/case_truths.h"
 
 #include <fmt/format.h>
 

@@ -110,10 +110,10 @@ namespace {
 
 bool is_within(double value, double band) { return 1 / (1 + band) <= value && value <= 1 + band; }
 
-Decision decide_one(std::span<const double> logs, double p_adj, double level, double delta,
-                    double floor) {
+Ruling decide_one(std::span<const double> logs, double p_adj, double level, double delta,
+                  double floor) {
     using results::Reason, results::Verdict;
-    Decision claim{paired_ratio(logs), p_adj};
+    Ruling claim{paired_ratio(logs), p_adj};
     if (!logs.empty() && std::ranges::all_of(logs, [](double x) { return x == 0; })) {
         claim.verdict = Verdict::same;
         return claim;
@@ -143,17 +143,17 @@ Decision decide_one(std::span<const double> logs, double p_adj, double level, do
 
 } // namespace
 
-std::vector<Decision> decide(std::span<const std::vector<double>> family, double delta,
-                             double floor) {
+std::vector<Ruling> decide(std::span<const std::vector<double>> family, double delta,
+                           double floor) {
     std::vector<double> p;
     for (const std::vector<double>& logs : family)
         p.push_back(sign_test(logs));
     const Holm corrected = holm(p);
-    std::vector<Decision> decisions;
+    std::vector<Ruling> rulings;
     for (std::size_t i = 0; i < family.size(); ++i)
-        decisions.push_back(
+        rulings.push_back(
             decide_one(family[i], corrected.p_adj[i], corrected.level[i], delta, floor));
-    return decisions;
+    return rulings;
 }
 
 } // namespace boxwood::bench

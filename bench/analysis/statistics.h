@@ -64,7 +64,7 @@ struct PairedRatio {
 PairedRatio paired_ratio(std::span<const double> log_ratios, double error = 0.05);
 
 /// What is said of one claim of a family, with the interval that decided.
-struct Decision {
+struct Ruling {
     PairedRatio ratio;
     double p_adj = 1;
     results::Verdict verdict = results::Verdict::cannot_tell;
@@ -75,7 +75,6 @@ struct Decision {
 /// "faster", "slower": the interval at the claim's level within the family excludes 1, and the
 /// ratio is beyond the noise floor. Else "cannot_tell", as for fewer than 9 pairs. Identical data
 /// are the same whatever their number.
-std::vector<Decision> decide(std::span<const std::vector<double>> family, double delta,
-                             double floor);
+std::vector<Ruling> decide(std::span<const std::vector<double>> family, double delta, double floor);
 
 } // namespace boxwood::bench

@@ -98,7 +98,7 @@ Logs logs_of(std::initializer_list<double> ratios) {
 
 TEST(Decide, CaseByCase) {
     const auto of = [](std::initializer_list<double> ratios, double floor = 0) {
-        const Decision one = decide(std::vector<Logs>{logs_of(ratios)}, 0.05, floor)[0];
+        const Ruling one = decide(std::vector<Logs>{logs_of(ratios)}, 0.05, floor)[0];
         return std::pair{one.verdict, one.reason};
     };
     const auto open = [](Reason reason) { return std::pair{Verdict::cannot_tell, reason}; };
@@ -120,7 +120,7 @@ TEST(Decide, TheIntervalIsTheOneThatDecided) {
     // One bad round of nine: alone a claim stands, beside another it does not, and its interval
     // says so.
     const Logs bad = logs_of({.5, 1.2, 1.3, 1.3, 1.3, 1.3, 1.3, 1.4, 1.5}), good(9, std::log(1.3));
-    const Decision alone = decide(std::vector<Logs>{bad}, 0.05, 0)[0];
+    const Ruling alone = decide(std::vector<Logs>{bad}, 0.05, 0)[0];
     EXPECT_EQ(alone.verdict, Verdict::slower);
     EXPECT_NEAR(alone.ratio.ci_lo, 1.2, 1e-12);
     const auto both = decide(std::vector{bad, bad, good}, 0.05, 0);
@@ -142,7 +142,7 @@ TEST(Decide, VerdictAndCorrectedPAgree) {
             for (std::size_t below = 0; below < n / 2; ++below) {
                 Logs logs(n, 0.5);
                 std::fill_n(logs.begin(), below, -0.25);
-                for (const Decision& claim : decide(std::vector(claims, logs), 0.05, 0))
+                for (const Ruling& claim : decide(std::vector(claims, logs), 0.05, 0))
                     EXPECT_EQ(claim.verdict == Verdict::slower, claim.p_adj <= family_error)
                         << claims << " claims, " << below << " of " << n << " below";
             }

@@ -18,7 +18,7 @@ std::string task_words(const std::string& task) {
         {"pairs", "overlapping pairs"},    {"tree_pairs", "pairs of two sets"},
         {"rays_closest", "nearest hit"},   {"rays_any", "any hit"},
         {"rays_all", "all hits"},          {"triangle_pairs", "touching triangles"},
-        {"moving_pairs", "moving boxes"},  {"tree", "tree build"},
+        {"moving_pairs", "moving boxes"},  {"build", "tree build"},
         {"points", "boxes at a point"},    {"regions", "boxes in a region"},
         {"nearest", "nearest boxes"},      {"closest_points", "nearest surface point"},
         {"scene_queries", "a whole scene"}};

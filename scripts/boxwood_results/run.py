@@ -13,11 +13,12 @@ AA_TWIN, DISTURBED = 4, 1 | 2
 RANKED = ("exact", "conservative", "within_bound")
 OURS = "boxwood"
 SCENE_QUERIES = "scene_queries"  # frames of a moving scene with all that it requires: ways to play it, not rivals
+BUILDS = "build"  # the task of builders alone
 ORDERS_OF_RAYS = ("sorted_rays", "single_rays")  # other than one call in the order given
 WHOLE_QUERY = "typical"  # a kernel row about a whole query, whose cell stays among the others
 TOTALS = ("update+query", "build+query", "query", "build")  # what one use costs: the first that was timed
 TOTAL = "total"
-TOTAL_WORDS = {"moving_pairs": "update and one query", "tree": "build", SCENE_QUERIES: "update and queries of a frame"}
+TOTAL_WORDS = {"moving_pairs": "update and one query", BUILDS: "build", SCENE_QUERIES: "update and queries of a frame"}
 # Of these an update may have done the work of the query: its time alone says nothing.
 WHOLE_FRAMES = ("moving_pairs", SCENE_QUERIES)
 

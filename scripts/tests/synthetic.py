@@ -141,7 +141,7 @@ class Maker:
 
     def cell(self, scene, n, task, contender, spec, threads, factor=1.0, status="exact", twin=False, queries=0, kernel=""):
         library, builder, build, query, tests = spec
-        traversal = {"pairs": "self_pairs", "rays_closest": "rays", "triangle_pairs": "self_pairs", "tree": ""}[task]
+        traversal = {"pairs": "self_pairs", "rays_closest": "rays", "triangle_pairs": "self_pairs", "build": ""}[task]
         traversal = traversal if builder else ""
         name = f"{contender}.{traversal or task}" if builder else contender
         name = f"{name}.{kernel}" if kernel else name
@@ -154,7 +154,7 @@ class Maker:
                              n_queries=queries, precision="f32", executor=executor, threads=threads)
         gain = threads**0.8
         grow = math.log2(n) / 16
-        phases = [("query", query * (queries or n) * grow * factor / gain)] if task != "tree" else []
+        phases = [("query", query * (queries or n) * grow * factor / gain)] if task != "build" else []
         if build is not None:
             phases.append(("build", build * n * grow / gain))
         for phase, ns in phases:
@@ -163,7 +163,7 @@ class Maker:
                                         n_expected=10, n_got=10 - 2 * (status == "wrong"),
                                         missing=2 * (status == "wrong"),
                                         witness="pair 3,8" if status == "wrong" else ""))
-        if task == "tree":
+        if task == "build":
             self.rows["trees"].append(dict(cell_id=cell_id, n_nodes=2 * n - 1, sah_cost=tests * 2.5))
         elif builder:
             items = queries or n
@@ -341,7 +341,7 @@ def full(rounds=15, wrong=True):
                           (*spec[:3], 1000 * spec[3], spec[4]), threads, factor, queries=100000, kernel=kernel)
     made.moving()
     for contender, spec in TREE_CONTENDERS.items():
-        made.cell("uniform", 100000, "tree", contender, spec, 1)
+        made.cell("uniform", 100000, "build", contender, spec, 1)
     for kernel, factor in (("moller_f32", 1.0), ("guigue_devillers_f64", 1.1), ("guigue_devillers_exact", 1.3)):
         made.cell("triangle_soup", 20000, "triangle_pairs", "median.wide8", PAIR_CONTENDERS["median.wide8"], 1, factor,
                   "wrong" if kernel == "moller_f32" else "exact", kernel=kernel)

@@ -60,7 +60,7 @@ def test_losses_come_first(full):
 
 
 def test_builders_alone_have_no_query(full):
-    tree = race(run.read(full), "tree")
+    tree = race(run.read(full), run.BUILDS)
     assert tree.ours.label == "lbvh" and tree.ours_alone is None and tree.alone == ""
     assert tree.together.startswith("wins 3.3") and tree.together.endswith("over Embree")
 
@@ -96,7 +96,7 @@ def test_nan_samples_are_left_out_and_counted(tmp_path):
         row["wall_ns"] = math.nan
     results = run.read(made.write(tmp_path / "a.h5"))
     assert results.missing_samples == 4
-    assert min(int(c.medians["query"]["n"]) for c in results.cells if c.job.task != "tree") == 5
+    assert min(int(c.medians["query"]["n"]) for c in results.cells if c.job.task != run.BUILDS) == 5
 
 
 def test_one_round_claims_nothing(small):

@@ -7,7 +7,7 @@ from .. import style
 from ..findings import PEERS, RACE, floor_text, rounds_text
 from ..metrics import METRICS
 from ..picture import Picture, Skip
-from ..run import TOTAL, TOTAL_WORDS, WHOLE_FRAMES
+from ..run import BUILDS, TOTAL, TOTAL_WORDS, WHOLE_FRAMES
 from ..selection import largest_jobs, wrong_notes
 from ..words import VERDICTS, ratio_text
 
@@ -57,7 +57,7 @@ def blocks(run):
             rows.setdefault((row.b.cell_id, row.phase, row.contender_class), {})[row.a.cell_id] = row
     found = []
     for finding in run.findings:
-        if finding.topic != RACE or finding.task == "tree" or not (finding.rival or finding.rival_alone):
+        if finding.topic != RACE or finding.task == BUILDS or not (finding.rival or finding.rival_alone):
             continue
         sides = [rows.get((ours.cell_id, ours.total if phase == TOTAL else phase, finding.contender_class), {})
                  if ours else {} for ours, phase in ((finding.ours, TOTAL), (finding.ours_alone, "query"))]

@@ -7,7 +7,7 @@ from .. import labels, style
 from ..metrics import METRICS
 from ..picture import Picture, Skip
 from ..moving import WITHOUT
-from ..run import SCENE_QUERIES, TOTAL
+from ..run import BUILDS, SCENE_QUERIES, TOTAL
 from ..selection import MOST_LINES, wrong_notes
 
 NAME = "size_scaling"
@@ -18,7 +18,7 @@ HOW_TO_READ = (
     "guide grows as n log n. The column off_line says how far the farthest time is from the fit."
 )
 MIN_SIZES = 3
-PHASES = {"moving_pairs": (TOTAL,), SCENE_QUERIES: (TOTAL,), "tree": ("build",)}  # of the other tasks all three
+PHASES = {"moving_pairs": (TOTAL,), SCENE_QUERIES: (TOTAL,), BUILDS: ("build",)}  # of the other tasks all three
 TOTALS = {"moving_pairs": "update+query", SCENE_QUERIES: "update+query"}  # what TOTAL is, where not build and query
 COLUMNS = ("task", "scene", "threads", "phase", "variant", "library", "status", "n", "median_ns", "exponent",
            "exponent_lo", "exponent_hi", "off_line")
