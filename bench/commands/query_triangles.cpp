@@ -80,7 +80,7 @@ void answer_touch(std::span<const TrianglePair> pairs, const Format& format, Blo
     text << head<K>(format, pairs.size(), "touch");
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         using Real = typename K::Real;
-        const Verdict v = K::intersect(rounded<Real>(pairs[i][0]), rounded<Real>(pairs[i][1]));
+        const Decision v = K::intersect(rounded<Real>(pairs[i][0]), rounded<Real>(pairs[i][1]));
         if (v.answer == Answer::maybe)
             undecided.push_back(i);
         const std::string_view separator = i ? "," : "";
