@@ -27,7 +27,7 @@ using FourBoxes = std::array<Box, 4>;
 
 std::string name_of(Pair p) { return fmt::format("({}, {})", names[p.a], names[p.b]); }
 
-std::string names_of(const std::vector<Pair>& pairs) {
+std::string pair_names(const std::vector<Pair>& pairs) {
     if (pairs.empty())
         return "none";
     std::string text;
@@ -129,7 +129,8 @@ Traversal confirmed_traversal(const Tree& tree) {
     std::sort(found.begin(), found.end());
     if (found != traversal.pairs)
         throw std::logic_error("demo four-link: the traversal shown finds " +
-                               names_of(traversal.pairs) + ", self_pairs finds " + names_of(found));
+                               pair_names(traversal.pairs) + ", self_pairs finds " +
+                               pair_names(found));
     return traversal;
 }
 
@@ -161,7 +162,7 @@ std::string refit_text(Tree& tree, const FourBoxes& boxes) {
 std::string pair_step(const Tree& tree, const AllowedCollisions& allowed) {
     const Traversal traversal = confirmed_traversal(tree);
     return fmt::format("{}   Overlapping: {}.\n   Not allowed, so reported: {}.\n", traversal.text,
-                       names_of(traversal.pairs), names_of(reported_pairs(tree, allowed)));
+                       pair_names(traversal.pairs), pair_names(reported_pairs(tree, allowed)));
 }
 
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
@@ -219,7 +220,7 @@ std::string four_link_demo() {
         "   is everything inside them: all pairs across are pruned by that one test.\n\n"
         "{}\n   Pairs found: {}.\n   {} box tests instead of {}; {} of {} pairs were never looked "
         "at.\n{}\n",
-        traversal.text, names_of(traversal.pairs), traversal.tests, all_pairs,
+        traversal.text, pair_names(traversal.pairs), traversal.tests, all_pairs,
         all_pairs - std::min(all_pairs, traversal.tests), all_pairs, large_case());
 
     const AllowedCollisions allowed = allow_neighbours(n);
@@ -233,7 +234,7 @@ std::string four_link_demo() {
         "   Links that share a joint always touch; that is no collision. An allowed collision\n"
         "   matrix marks the {} adjacent pairs, and a filter drops them from what is found.\n"
         "   Dropped: {}. Left to report: {}.\n\n",
-        allowed.size(), names_of(filtered), reported.size());
+        allowed.size(), pair_names(filtered), reported.size());
 
     const FourBoxes bent = four_link_boxes(four_link_bent);
     text += fmt::format(
