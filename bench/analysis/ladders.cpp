@@ -1,9 +1,9 @@
 #include "bench/analysis/ladders.h"
 
 #include "bench/analysis/compare.h"
-#include "bench/tasks/contender.h"
-#include "bench/truth/judging/judge.h"
 #include "bench/io/text_table.h"
+#include "bench/tasks/contender.h"
+#include "bench/truth/judging/case_truths.h"
 
 #include <fmt/format.h>
 
@@ -23,9 +23,8 @@ constexpr std::array panels{"generic", "touching", "degenerate"};
 
 /// Whether false_pos and false_neg are of distances.
 bool is_measured(std::string_view task) {
-    const std::optional<Ask> ask = ask_of(task);
-    return ask == Ask::triangle_distance || ask == Ask::segment_segment ||
-           ask == Ask::point_triangle || ask == Ask::point_segment;
+    return task == "triangle_distance" || task == "segment_segment" || task == "point_triangle" ||
+           task == "point_segment";
 }
 
 /// A row and the time of a call.
@@ -251,8 +250,7 @@ std::string ladders_text(const results::Results& results) {
                               : row.ns_per_call;
         if (!ladders.contains(row.task))
             order.push_back(row.task);
-        ladders.try_emplace(row.task, row.task)
-            .first->second.add(row, ns, label, is_peer);
+        ladders.try_emplace(row.task, row.task).first->second.add(row, ns, label, is_peer);
     }
     std::string text;
     for (const std::string& name : order)

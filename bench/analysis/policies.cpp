@@ -1,6 +1,5 @@
 #include "bench/analysis/policies.h"
 
-#include "bench/tasks/contender.h"
 #include "bench/io/text_table.h"
 
 #include <fmt/format.h>
@@ -51,8 +50,8 @@ void add_row(TextTable& table, const RunIndex& index, const std::vector<const Ce
 std::string policies_text(const RunIndex& index) {
     std::map<std::tuple<std::uint32_t, std::uint32_t>, std::vector<const Cell*>> tasks;
     for (const Cell& cell : index.results().cells) // by scene and threads
-        if (cell.task == to_string(Ask::moving_pairs) && !index.variant(cell).is_peer &&
-            index.is_right(cell) && index.times().rounds(cell.cell_id, frame_phase))
+        if (cell.task == "moving_pairs" && !index.variant(cell).is_peer && index.is_right(cell) &&
+            index.times().rounds(cell.cell_id, frame_phase))
             tasks[{cell.scene_id, cell.threads}].push_back(&cell);
     TextTable table({"scene", ">n", ">threads", "policy", ">its frame", "best other", ">its frame",
                      ">policy/best", "within 10 %"});

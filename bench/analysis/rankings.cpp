@@ -1,6 +1,5 @@
 #include "bench/analysis/rankings.h"
 
-#include "bench/tasks/contender.h"
 #include "bench/analysis/ledgers.h"
 #include "bench/analysis/limits.h"
 #include "bench/io/text_table.h"
@@ -73,9 +72,8 @@ std::map<Task, Best> best_of(const RunIndex& index, const Measure& measure) {
     const Phases phases = phases_of(index);
     for (const Cell& cell : index.results().cells) {
         const double total = total_ns(index, cell, measure);
-        if (cell.task == to_string(Ask::tree) || cell.task == scene_queries_word ||
-            !index.is_right(cell) || std::isinf(total) ||
-            !phases.contains({cell.scene_id, cell.task, cell.threads}))
+        if (cell.task == "build" || cell.task == scene_queries_word || !index.is_right(cell) ||
+            std::isinf(total) || !phases.contains({cell.scene_id, cell.task, cell.threads}))
             continue;
         const auto& timed = phases.at({cell.scene_id, cell.task, cell.threads});
         for (const std::string& lane : lanes_of(cell, index.variant(cell))) {
@@ -189,8 +187,7 @@ std::string table_text(const RunIndex& index, std::span<const Comparison> compar
 } // namespace
 
 std::vector<std::string> lanes_of(const Cell& cell, const results::Variant& variant) {
-    const auto ask = ask_of(cell.task);
-    if (!ask || !is_ray_ask(*ask))
+    if (!cell.task.starts_with("rays_"))
         return {""};
     std::vector<std::string> lanes;
     if (variant.is_peer) {

@@ -1,6 +1,5 @@
 #include "bench/analysis/speed_ups.h"
 
-#include "bench/tasks/contender.h"
 #include "bench/analysis/rankings.h"
 #include "bench/io/text_table.h"
 
@@ -16,7 +15,7 @@ std::string speed_ups_text(const RunIndex& index) {
     using results::Cell;
     const std::set<std::uint32_t> ranked = ranked_cells(index);
     const auto is_shown = [&](const Cell& cell) {
-        return ranked.contains(cell.cell_id) || cell.task == to_string(Ask::tree);
+        return ranked.contains(cell.cell_id) || cell.task == "build";
     };
     std::vector<std::string> phases;
     for (const char* phase : {"build", "update", "query", "build+query", "update+query"})
@@ -38,8 +37,8 @@ std::string speed_ups_text(const RunIndex& index) {
         });
         if (one == index.results().cells.end() || (!is_shown(*one) && !is_shown(many)))
             continue;
-        std::vector<std::string> row{index.scene(many).name, std::to_string(many.n_items), many.task,
-                                     index.variant(many).name,
+        std::vector<std::string> row{index.scene(many).name, std::to_string(many.n_items),
+                                     many.task, index.variant(many).name,
                                      fmt::format("{}-{}", many.executor, many.threads)};
         const bool moves = index.times().rounds(many.cell_id, "update") != nullptr;
         for (const std::string& phase : phases) {

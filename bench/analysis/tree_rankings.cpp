@@ -1,6 +1,5 @@
 #include "bench/analysis/tree_rankings.h"
 
-#include "bench/tasks/contender.h"
 #include "bench/analysis/rankings.h"
 #include "bench/io/text_table.h"
 
@@ -38,7 +37,7 @@ std::string tree_rankings_text(const RunIndex& index) {
     std::map<Task, std::vector<const Cell*>> tasks;
     std::vector<std::string> peers;
     for (const Cell& cell : index.results().cells) {
-        if (cell.task != to_string(Ask::tree) || !is_timed(index, cell))
+        if (cell.task != "build" || !is_timed(index, cell))
             continue;
         tasks[{cell.scene_id, cell.threads}].push_back(&cell);
         const std::string& name = index.variant(cell).name;

@@ -3,7 +3,7 @@
 #include "bench/analysis/ladders.h"
 #include "bench/commands/command.h"
 #include "bench/running/environment.h"
-#include "bench/truth/judging/judge.h"
+#include "bench/truth/judging/case_truths.h"
 
 #include <fmt/format.h>
 
@@ -39,11 +39,11 @@ int run(const CheckOptions& options, const std::filesystem::path& out) {
     const auto start = std::chrono::steady_clock::now();
     for (const SceneSpec& spec : specs) {
         const Scene scene = checked_scene(spec, options);
-        check.judge(scene, [&](Ask ask) {
+        check.judge(scene, [&](const Task& task) {
             const double elapsed =
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
             progress.show({"checking", eta.fraction(), eta.left_s(elapsed),
-                           fmt::format("{}/{}", scene.name, to_string(ask))});
+                           fmt::format("{}/{}", scene.name, task.name())});
         });
         eta.done(1);
     }

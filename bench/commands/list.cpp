@@ -3,8 +3,7 @@
 #include "bench/commands/command.h"
 #include "bench/io/json.h"
 #include "bench/io/text_table.h"
-#include "bench/tasks/contender.h"
-#include "bench/tasks/kernels/kernels.h"
+#include "bench/tasks/task.h"
 #include "kernels/registry.h"
 #include "scenes/effects/effect.h"
 #include "scenes/hard_cases/hard_cases.h"
@@ -73,12 +72,18 @@ Row kernel_row(const KernelInfo& kernel) {
 Rows kernel_rows() {
     Rows rows;
     for (const KernelInfo& kernel : kernels())
-        if (!ask_of(kernel.family))
+        if (!find_task(kernel.family))
             rows.push_back(kernel_row(kernel));
-    for (const AskEntry& entry : asks())
-        if (is_kernel_ask(entry.task))
-            for (const KernelInfo& kernel : rungs(entry.task))
-                rows.push_back(kernel_row(kernel));
+    for (const Task* task : tasks())
+        for (const KernelInfo& kernel : task->kernels())
+            rows.push_back(kernel_row(kernel));
+    return rows;
+}
+
+Rows task_rows() {
+    Rows rows;
+    for (const Task* task : tasks())
+        rows.push_back({std::string(task->name()), std::string(task->summary()), {}, {}});
     return rows;
 }
 
@@ -170,7 +175,7 @@ constexpr std::array registries{
     Registry{"scene_queries", "what a scene wants of each frame",
              [] { return plain(scene_queries()); }},
     Registry{"query_kinds", "where its queries lie", [] { return plain(query_kinds()); }},
-    Registry{"tasks", "what the bench times", [] { return plain(asks()); }},
+    Registry{"tasks", "what the bench times", task_rows},
     Registry{"peers", "libraries compared with ours", peer_rows},
 };
 

@@ -1,13 +1,13 @@
 #include "bench/commands/show.h"
 
-#include "bench/commands/command.h"
 #include "bench/analysis/compare.h"
-#include "bench/tasks/contender.h"
 #include "bench/analysis/ladders.h"
 #include "bench/analysis/limits.h"
 #include "bench/analysis/run_index.h"
 #include "bench/analysis/sections.h"
+#include "bench/commands/command.h"
 #include "bench/io/text_table.h"
+#include "bench/tasks/task.h"
 
 #include <fmt/format.h>
 
@@ -341,8 +341,8 @@ std::string show_text(const Results& results, bool with_kernels, bool brief) {
     std::vector<Work> order;
     std::size_t passed_over = 0;
     for (const Cell& cell : results.cells) {
-        const auto ask = ask_of(cell.task);
-        if (ask && is_kernel_ask(*ask) && !with_kernels) {
+        const Task* task = find_task(cell.task);
+        if (task && task->scenes() == SceneKind::cases && !with_kernels) {
             ++passed_over; // summed up in the ladders
             continue;
         }

@@ -4,9 +4,10 @@
 
 #include "bench/running/calibration.h"
 #include "bench/running/prepare.h"
-#include "bench/tasks/kernels/kernels.h"
+#include "bench/tasks/task.h"
 #include "scenes/moving/frames.h"
 #include "trees/dynamic/update.h"
+#include "trees/queries/pairs.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -24,14 +25,14 @@ namespace {
 /// What a made-up contender does wrong.
 enum class Fault { none, loses_a_pair, loses_a_pair_later, throws, cannot, counts_otherwise };
 
-int alive = 0, most_alive = 0;
+int alive = 0, max_alive = 0;
 
 /// All pairs of four boxes by comparing each with each.
 class Made final : public Contender {
   public:
     Made(const Job& job, Fault fault, int& queries)
         : scene_(*job.scene), fault_(fault), queries_(queries) {
-        most_alive = std::max(most_alive, ++alive);
+        max_alive = std::max(max_alive, ++alive);
     }
     ~Made() override { --alive; }
     void build() override { std::this_thread::sleep_for(std::chrono::microseconds(50)); }
@@ -39,19 +40,20 @@ class Made final : public Contender {
         ++queries_;
         if (fault_ == Fault::throws)
             throw std::runtime_error("no more\nmemory");
-        answers.pairs.clear();
+        std::vector<Pair>& pairs = list_of<Pair>(answers);
+        pairs.clear();
         for (std::uint32_t b = 0; b < scene_.boxes.size(); ++b)
             for (std::uint32_t a = 0; a < b; ++a)
                 if (overlaps(scene_.boxes[a], scene_.boxes[b]))
-                    answers.pairs.push_back({a, b});
+                    pairs.push_back({a, b});
         if (fault_ == Fault::loses_a_pair || (fault_ == Fault::loses_a_pair_later && is_late))
-            answers.pairs.pop_back();
+            pairs.pop_back();
     }
     std::optional<Work> counted_query(Answers& answers) override {
         query(answers);
         if (fault_ == Fault::counts_otherwise)
-            answers.pairs.pop_back();
-        return Work{5, 6, 0, answers.pairs.size(), 2};
+            list_of<Pair>(answers).pop_back();
+        return Work{5, 6, 0, answers.size(), 2};
     }
     std::optional<StructureInfo> structure() const override { return StructureInfo{123, nullptr}; }
 
@@ -74,7 +76,7 @@ struct RoundTest : testing::Test {
         plan.sweep_hash = "hash";
         env.env_hash = "machine";
         Made::is_late = false;
-        alive = most_alive = 0;
+        alive = max_alive = 0;
     }
 
     void add(const std::string& name, Fault fault, bool is_peer = false) {
@@ -85,12 +87,13 @@ struct RoundTest : testing::Test {
         cell.contender.name = name;
         cell.contender.library = is_peer ? "brute_force" : "boxwood";
         cell.contender.is_peer = is_peer;
-        cell.contender.unsupported = [fault](const Job&) -> std::optional<std::string> {
+        cell.contender.cannot = [fault](const Job&) -> std::optional<std::string> {
             return fault == Fault::cannot ? std::optional("has no arms") : std::nullopt;
         };
-        cell.contender.make = [this, name, fault](const Job& job) {
-            return std::make_unique<Made>(job, fault, queries[name]);
-        };
+        cell.contender.answers = {{"pairs", [this, name, fault](const Job& job) {
+                                       return std::make_unique<Made>(job, fault, queries[name]);
+                                   }}};
+        cell.task = find_task("pairs");
         cell.executor = "serial";
         plan.cells.push_back(cell);
     }
@@ -161,7 +164,7 @@ TEST_F(RoundTest, ARoundTimesEveryCellOnceAndTheAaCellTwice) {
     add("throws", Fault::throws);
     const results::Results p = prepared();
     const std::string aa = choose_aa(p, calibrations_of(p.texts.at("calibration")));
-    most_alive = 0;
+    max_alive = 0;
     std::set<std::vector<std::uint32_t>> orders;
     for (const unsigned round : {0u, 1u, 2u, 0u}) {
         reported.clear();
@@ -195,7 +198,7 @@ TEST_F(RoundTest, ARoundTimesEveryCellOnceAndTheAaCellTwice) {
         orders.insert(order);
     }
     EXPECT_EQ(orders.size(), 3u); // another order in each round, the same one again for round 0
-    EXPECT_EQ(most_alive, 1);
+    EXPECT_EQ(max_alive, 1);
     EXPECT_EQ(alive, 0);
 }
 
@@ -226,7 +229,7 @@ TEST_F(RoundTest, ACrashedCellIsOutAndSaysWhy) {
 TEST_F(RoundTest, WhatAContenderThrowsInARoundComesOut) {
     add("a", Fault::none);
     const results::Results p = prepared();
-    plan.cells[0].contender.make = [this](const Job& job) {
+    plan.cells[0].contender.answers[0].make = [this](const Job& job) {
         return std::make_unique<Made>(job, Fault::throws, queries["a"]);
     };
     EXPECT_THROW(run_round(plan, p, 0, report()), std::runtime_error);
@@ -237,10 +240,10 @@ TEST_F(RoundTest, KernelsAreJudgedAndHaveAQueryAlone) {
     cell.scene.generator = "generic_triangles";
     cell.scene.n = 20;
     cell.executor = "serial";
-    for (const Ask ask : {Ask::triangle_triangle, Ask::triangle_distance}) {
-        cell.task = ask;
-        cell.contender = rung_contender(ask, "rational");
-        cell.name = std::string(to_string(ask));
+    for (const char* name : {"triangle_triangle", "triangle_distance"}) {
+        cell.task = find_task(name);
+        cell.contender = cell.task->kernel_contender("rational");
+        cell.name = name;
         plan.cells.push_back(cell);
     }
     add("tree", Fault::none);
@@ -287,7 +290,7 @@ class Follower final : public Contender {
             return std::nullopt;
         const std::optional<Work> work = policy_->counted_query(answers);
         if (fault_ == Fault::counts_otherwise && Made::is_late && frame_ == 2)
-            answers.pairs.pop_back();
+            list_of<Pair>(answers).pop_back();
         return work;
     }
     std::optional<StructureInfo> structure() const override {
@@ -312,8 +315,8 @@ TEST_F(RoundTest, Round0CountsTheFramesOfMovingScenes) {
     for (const Fault fault : {Fault::cannot, Fault::counts_otherwise}) {
         PlannedCell cell = plan.cells[1];
         cell.name = fault == Fault::cannot ? "cannot" : "counts_otherwise";
-        cell.contender.make = [fault, make = plan.cells[1].contender.make](const Job& job) {
-            return std::make_unique<Follower>(make(job), fault);
+        cell.contender.answers[0].make = [fault, policy = plan.cells[1].contender](const Job& job) {
+            return std::make_unique<Follower>(policy.make(job), fault);
         };
         plan.cells.push_back(cell);
     }

@@ -21,14 +21,14 @@ struct RunForTest {
     }
 
     /// Of a scene with n items and a variant, both made where they are new; right when checked.
-    std::uint32_t cell(const std::string& scene, std::uint64_t n, const std::string& ask,
+    std::uint32_t cell(const std::string& scene, std::uint64_t n, const std::string& task,
                        const std::string& variant, std::uint32_t threads = 1) {
         results::Cell cell;
         cell.cell_id = static_cast<std::uint32_t>(results.cells.size());
         cell.name = scene + "/" + variant;
         cell.scene_id = scene_id(scene, n);
         cell.variant_id = variant_id(variant);
-        cell.task = ask;
+        cell.task = task;
         cell.n_items = n;
         cell.executor = threads == 1 ? "serial" : "tbb";
         cell.threads = threads;
