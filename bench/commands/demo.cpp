@@ -22,10 +22,10 @@
 namespace boxwood::bench {
 namespace {
 
-const std::vector<std::string> names(four_link_names.begin(), four_link_names.end());
+const std::vector<std::string> link_names(four_link_names.begin(), four_link_names.end());
 using FourBoxes = std::array<Box, 4>;
 
-std::string name_of(Pair p) { return fmt::format("({}, {})", names[p.a], names[p.b]); }
+std::string name_of(Pair p) { return fmt::format("({}, {})", link_names[p.a], link_names[p.b]); }
 
 std::string pair_names(const std::vector<Pair>& pairs) {
     if (pairs.empty())
@@ -53,7 +53,7 @@ std::string sketch(const FourBoxes& boxes) {
             char mark = ' ';
             for (std::size_t i = 0; i < boxes.size(); ++i)
                 if (boxes[i].contains(p))
-                    mark = mark == ' ' ? names[i][0] : '#';
+                    mark = mark == ' ' ? link_names[i][0] : '#';
             line += mark;
         }
         text += "     " + line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
@@ -64,8 +64,9 @@ std::string sketch(const FourBoxes& boxes) {
 std::string box_lines(const FourBoxes& boxes) {
     std::string text;
     for (std::size_t i = 0; i < boxes.size(); ++i)
-        text += fmt::format("     {:<9} x [{:5.2f}, {:5.2f}]  y [{:5.2f}, {:5.2f}]\n", names[i],
-                            boxes[i].min.x, boxes[i].max.x, boxes[i].min.y, boxes[i].max.y);
+        text +=
+            fmt::format("     {:<9} x [{:5.2f}, {:5.2f}]  y [{:5.2f}, {:5.2f}]\n", link_names[i],
+                        boxes[i].min.x, boxes[i].max.x, boxes[i].min.y, boxes[i].max.y);
     return text;
 }
 
@@ -95,8 +96,8 @@ struct Traversal {
     void across(std::size_t a, std::size_t b) {
         const TreeNode &x = tree.nodes[a], &y = tree.nodes[b];
         const std::size_t below = std::size_t{x.count} * y.count;
-        text += fmt::format("     test {}: {} against {}: ", ++tests, describe(tree, a, names),
-                            describe(tree, b, names));
+        text += fmt::format("     test {}: {} against {}: ", ++tests, describe(tree, a, link_names),
+                            describe(tree, b, link_names));
         if (!overlaps(x.box, y.box)) {
             pruned += below;
             text += below == 1 ? "apart\n"
@@ -153,7 +154,8 @@ std::string refit_text(Tree& tree, const FourBoxes& boxes) {
     std::vector<std::string> changed, unchanged;
     for (std::size_t i = tree.nodes.size();
          i-- > 0;) // children before their parents, as refit goes
-        (tree.nodes[i].box == before[i] ? unchanged : changed).push_back(describe(tree, i, names));
+        (tree.nodes[i].box == before[i] ? unchanged : changed)
+            .push_back(describe(tree, i, link_names));
     return fmt::format("   {} of {} nodes changed, bottom-up: {}.\n   As before: {}.\n",
                        changed.size(), tree.nodes.size(), fmt::join(changed, ", "),
                        unchanged.empty() ? "none" : fmt::format("{}", fmt::join(unchanged, ", ")));
@@ -211,7 +213,7 @@ std::string four_link_demo() {
         "3. The tree, built by median split\n"
         "   Sort the links by their centres along the axis of largest spread (x), cut the row in\n"
         "   the middle, and do the same with each half. A node's box holds all boxes below it.\n\n";
-    text += draw(tree, names) + "\n";
+    text += draw(tree, link_names) + "\n";
 
     const Traversal traversal = confirmed_traversal(tree);
     text += fmt::format(
@@ -253,7 +255,7 @@ std::string four_link_demo() {
                         degrees(four_link_folded[2] - four_link_bent[2]), box_lines(folded),
                         sketch(folded));
     text += refit_text(tree, folded) + "\n";
-    text += draw(tree, names) + "\n";
+    text += draw(tree, link_names) + "\n";
 
     text += "8. Pairs again\n" + pair_step(tree, allowed);
     const std::size_t tests = confirmed_traversal(tree).tests;
@@ -263,7 +265,7 @@ std::string four_link_demo() {
             "the\n"
             "   traversal finds them, since it tests the two sides of every node against each "
             "other.\n",
-            names[p.b], names[p.a]);
+            link_names[p.b], link_names[p.a]);
     text += fmt::format("   It took {} box tests, {} than the {} of brute force: nodes that "
                         "overlap must be opened.\n"
                         "   A tree pays where boxes are many and most pairs are far apart.\n",
