@@ -18,4 +18,4 @@
 #include "scenes/sampling/rays.h"                // camera, random, ambient and occlusion rays at a mesh
 #include "scenes/sampling/scatter.h"             // boxes that overlap as often as wanted
 #include "scenes/scene.h"   // the contract: SceneSpec, Scene, make_scene, the registries
-#include "scenes/suggest.h" // "did you mean ...?"
+#include "kernels/suggest.h" // "did you mean ...?"

@@ -114,7 +114,7 @@ void* allocate_lines(std::size_t bytes) {
     const Header header{whole, bytes};
     std::memcpy(memory - sizeof(Header), &header, sizeof(Header));
 #if defined(__linux__)
-    // Only advice: without it walks through a large tree miss the TLB at every step.
+    // Only advice: without it traversals of a large tree miss the TLB at every step.
     if (alignment == huge_page)
         madvise(memory, bytes / huge_page * huge_page, MADV_HUGEPAGE);
 #endif

@@ -5,7 +5,7 @@
 ///   boxes --builder--> Tree --layout--> BinaryLayout, WideLayout ... --traversal--> sink
 ///
 /// A builder makes the canonical binary tree, a layout is a function of that tree alone, and a
-/// traversal walks layouts and hands what it finds to a sink; an executor says on which threads.
+/// traversal visits layouts and hands what it finds to a sink; an executor says on which threads.
 /// Trees, answers and their order do not depend on the threads. README.md tells how to add one.
 
 #include "trees/queries/allowed_collisions.h"
@@ -23,7 +23,7 @@
 #include "trees/dynamic/dynamic_tree.h"
 #include "trees/executor.h"
 #include "trees/queries/filtered_pairs.h"
-#include "trees/dynamic/cached_pairs.h"
+#include "trees/dynamic/detail/cached_pairs.h"
 #include "trees/layout.h"
 #include "trees/layouts/binary.h"
 #include "trees/layouts/packed.h"

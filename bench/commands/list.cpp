@@ -8,7 +8,7 @@
 #include "scenes/hard_cases/hard_cases.h"
 #include "scenes/effects/effect.h"
 #include "scenes/moving/scene_file.h"
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 #include "trees/builder.h"
 #include "trees/layout.h"
 #include "trees/dynamic/update.h"

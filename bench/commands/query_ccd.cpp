@@ -5,7 +5,7 @@
 #include "bench/commands/query.h"
 #include "bench/io/csv.h"
 #include "kernels/registry.h"
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include "scenes/moving/bodies.h"
 #include "trees/layout.h"
 #include "trees/traversals/ray_refit.h"
-#include "trees/dynamic/detail/order_age.h"
+#include "trees/dynamic/detail/order_degradation.h"
 
 #include <array>
 #include <cstdint>

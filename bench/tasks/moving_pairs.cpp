@@ -2,7 +2,7 @@
 
 #include "bench/truth/column_sweep.h"
 #include "bench/tasks/ours.h"
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 #include "trees/dynamic/update.h"
 
 #include <fmt/format.h>

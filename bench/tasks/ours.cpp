@@ -6,7 +6,7 @@
 #include "bench/tasks/tree_contender.h"
 #include "bench/tasks/triangle_pairs.h"
 #include "kernels/registry.h"
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 #include "trees/layout.h"
 
 #include <fmt/format.h>

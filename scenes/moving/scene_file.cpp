@@ -2,7 +2,7 @@
 
 #include "scenes/effects/read_effect.h"
 #include "scenes/scene.h"
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 #include "scenes/moving/toml_reader.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "scenes/moving/toml_reader.h"
 
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 
 #include <fmt/format.h>
 

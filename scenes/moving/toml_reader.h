@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/settings.h"
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 
 #include <toml++/toml.h>
 

@@ -54,7 +54,7 @@ struct FineItems {
 #endif
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -137,13 +137,17 @@ void WriteFine(const FineItems& items, const Box* boxes, const RadixPart& part, 
     Write(items, boxes, part, tree);
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace boxwood {
+namespace boxwood::detail {
 HWY_EXPORT(WriteCoarse);
 HWY_EXPORT(WriteFine);
+}
+
+namespace boxwood {
+using namespace detail;
 
 namespace {
 
@@ -203,7 +207,7 @@ Tree radix_tree(const Items& items, Boxes boxes, const Write& write, const Execu
 Tree LbvhBuilder::build(Boxes boxes, const Executor& executor) const {
     if (boxes.empty())
         return {};
-    const KeptOrder coarse = kept_curve_order(boxes, curve(), nullptr, executor);
+    const KeptOrder coarse = kept_curve_order(boxes, curve, nullptr, executor);
     if (!coarse.records.empty())
         return radix_tree(
             CoarseItems{coarse.records.data()}, boxes,
@@ -212,7 +216,7 @@ Tree LbvhBuilder::build(Boxes boxes, const Executor& executor) const {
                 (of...);
             },
             executor);
-    const CurveOrder fine = curve_order(boxes, curve(), executor);
+    const CurveOrder fine = curve_order(boxes, curve, executor);
     return radix_tree(
         FineItems{fine.codes.data(), fine.order.data()}, boxes,
         [](auto&&... of) {
@@ -223,7 +227,7 @@ Tree LbvhBuilder::build(Boxes boxes, const Executor& executor) const {
 }
 
 Buffer<std::uint32_t> LbvhBuilder::order(Boxes boxes, const Executor& executor) const {
-    return coarse_curve_order(boxes, curve(), executor);
+    return coarse_curve_order(boxes, curve, executor);
 }
 
 BuilderEntry lbvh_builder() { return builder_entry<LbvhBuilder>(); }

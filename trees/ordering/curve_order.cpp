@@ -1,6 +1,7 @@
 #include "trees/ordering/curve_order.h"
-#include "trees/ordering/bucket_sort.h"
-#include "trees/ordering/radix_sort.h"
+#include "trees/ordering/detail/bucket_sort.h"
+#include "trees/executors/chunks.h"
+#include "trees/ordering/detail/radix_sort.h"
 
 #include <algorithm>
 #include <bit>
@@ -10,6 +11,7 @@
 #include <vector>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 /// Throws as `require_valid`.

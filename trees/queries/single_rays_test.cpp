@@ -137,7 +137,7 @@ TEST(SingleRays, AreAnsweredOnManyThreadsAtATime) {
     }
 }
 
-TEST(SingleRays, WalkTreesThatAreTooDeepForTheirStack) {
+TEST(SingleRays, TraverseTreesThatAreTooDeepForTheirStack) {
     // A row of triangles along x, one split off after the other: as deep as a layout can be.
     constexpr std::uint32_t n = 2000;
     TriangleMesh mesh;
@@ -163,19 +163,19 @@ TEST(SingleRays, WalkTreesThatAreTooDeepForTheirStack) {
         const TriangleBlocks triangles = layout->triangles(mesh);
         expect_answers(SingleRays(*layout, "watertight", triangles), rays, expected);
     }
-    EXPECT_EQ(find_layout("wide8")->make(tree, serial())->single_ray_walks("watertight").closest,
+    EXPECT_EQ(find_layout("wide8")->make(tree, serial())->single_ray_functions("watertight").closest,
               nullptr);
 }
 
-TEST(SingleRays, HaveWalksOfTheirOwnForTheKernelsOfTheBench) {
+TEST(SingleRays, HaveFunctionsOfTheirOwnForTheKernelsOfTheBench) {
     const TriangleMesh mesh = triangle_soup(100, 21);
     const Tree tree = make_builder("median")(triangle_boxes(mesh), serial());
     for (const LayoutEntry& entry : layouts()) {
         const auto layout = entry.make(tree, serial());
         for (const char* kernel : {"moller_trumbore_f32", "moller_trumbore_f64", "watertight"}) {
-            const SingleRayWalks walks = layout->single_ray_walks(kernel);
-            EXPECT_EQ(walks.closest != nullptr, !entry.name.starts_with("binary")) << entry.name;
-            EXPECT_EQ(walks.any != nullptr, walks.closest != nullptr);
+            const SingleRayFunctions functions = layout->single_ray_functions(kernel);
+            EXPECT_EQ(functions.closest != nullptr, !entry.name.starts_with("binary")) << entry.name;
+            EXPECT_EQ(functions.any != nullptr, functions.closest != nullptr);
         }
     }
 }

@@ -9,6 +9,7 @@
 /// Work is cut by the input alone, so its balance is a matter of counting: what the heaviest chunk
 /// holds of all answers.
 namespace boxwood {
+using namespace detail;
 namespace {
 
 /// Counts the answers of each chunk.

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// The square of the distance from a point to a closed box, 0 inside; all finite. The differences
 /// are rounded once, to double, so that the result is off by less than 5 * 2^-53 of itself; it is
@@ -59,4 +59,4 @@ struct DistanceScale {
     }
 };
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -5,7 +5,7 @@
 
 #include <atomic>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// The way of one chunk's answers to the sink, and the word to all other chunks that it has had
 /// enough.
@@ -34,4 +34,4 @@ class ChunkSink {
     Work* work_;
 };
 
-} // namespace boxwood
+} // namespace boxwood::detail

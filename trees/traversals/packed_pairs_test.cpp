@@ -12,6 +12,7 @@
 #include <random>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 std::vector<std::uint32_t> shuffled(std::size_t n) {
@@ -66,7 +67,7 @@ TEST(PackedLayout, BoundsEveryBlockExactly) {
                  std::invalid_argument);
 }
 
-TEST(PackedLayout, ShowsItsBlocksToWalks) {
+TEST(PackedLayout, ShowsItsBlocksToTraversals) {
     for (const std::size_t n : {1u, 16u, 17u, 300u, 5000u}) {
         SCOPED_TRACE(n);
         const std::vector<Box> boxes = random_boxes(n, .1f, 5);

@@ -13,6 +13,7 @@
 #include <string>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 void for_all_ways(const std::function<void(const BuilderEntry&, const LayoutEntry&)>& test) {
@@ -129,7 +130,7 @@ TEST(SelfPairs, TreesAreTheSameOnEveryExecutor) {
     }
 }
 
-TEST(SelfPairs, EarlyExitStopsTheWalk) {
+TEST(SelfPairs, EarlyExitStopsTheTraversal) {
     const std::vector<Box> boxes(500, Box{{0, 0, 0}, {1, 1, 1}});
     for_all_ways([&](const BuilderEntry& builder, const LayoutEntry& entry) {
         const auto layout = entry.make(builder.make({})(boxes, serial()), serial());
@@ -151,7 +152,7 @@ TEST(SelfPairs, WorkOnIdenticalBoxesIsThatOfTheOutput) {
     });
 }
 
-TEST(SelfPairs, WalkATreeThatIsAChain) {
+TEST(SelfPairs, TraverseATreeThatIsAChain) {
     constexpr std::uint32_t n = 30000;
     Tree tree(n);
     for (std::uint32_t k = 0; k < n; ++k) {

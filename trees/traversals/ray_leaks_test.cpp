@@ -12,6 +12,7 @@
 #include <string>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 using Point = Vec3<float>;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace boxwood {
+namespace boxwood::detail {
 namespace {
 
 /// By halves, in loops without branches. n is a power of two.
@@ -175,4 +175,4 @@ std::size_t RayRefit::bytes() const {
            is_noted_.capacity() + is_stale_.capacity();
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail

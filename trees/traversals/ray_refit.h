@@ -1,14 +1,14 @@
 #pragma once
 
 #include "kernels/primitives/triangle.h"
-#include "trees/layout.h"
+#include "trees/queries/rays.h"
 #include "trees/traversals/ray_tree.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// Keeps what rays read of a layout true to a mesh whose vertices move: triangles stay in their
 /// leaves, the boxes above them are made exact anew where they change. Answers are then those of a
@@ -42,4 +42,4 @@ class RayRefit {
     std::vector<std::uint32_t> leaves_;     ///< those noted
 };
 
-} // namespace boxwood
+} // namespace boxwood::detail

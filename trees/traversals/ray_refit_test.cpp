@@ -12,6 +12,7 @@
 #include <random>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 std::vector<Ray<float>> some_rays() {

@@ -13,7 +13,7 @@
 #include <limits>
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
 
 /// Up to 16 triangles side by side, seen from a point: corner a, and the edges from a to b and c,
 /// all times a power of two. Edges are differences of corners, so that they are off by their own
@@ -91,7 +91,7 @@ HWY_INLINE hwy::HWY_NAMESPACE::Vec<D> TriangleBounds(D d, const SeenTriangles& s
     return hn::IfThenElseZero(sure, hn::Max(bound, hn::Zero(d)));
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

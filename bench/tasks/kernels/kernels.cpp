@@ -1,7 +1,7 @@
 #include "bench/tasks/kernels/kernels.h"
 
 #include "bench/tasks/kernels/kernel.h"
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 
 #include <fmt/format.h>
 

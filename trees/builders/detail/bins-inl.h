@@ -14,7 +14,7 @@
 #include <limits>
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
 
 /// One bin on each axis: 128 bytes, so that 32 of them fill 4 KiB and no two share their low
 /// address bits.
@@ -227,7 +227,7 @@ HWY_INLINE Plane CheapestPlane(const Bin* bins, const Binning& binning, std::uin
 /// Copies the items to `to`, those that go left from `left` on and the others from `right` on, each
 /// in their old order, and grows the bounds of the doubled centres of each side. Without a branch,
 /// which would be mispredicted half the time.
-HWY_INLINE void Part(const Prim8* prims, std::size_t n, const Binning& binning, Plane plane,
+HWY_INLINE void Partition(const Prim8* prims, std::size_t n, const Binning& binning, Plane plane,
                      Prim8* to, std::size_t left, std::size_t right, float (&left_centres)[8],
                      float (&right_centres)[8]) {
     F8 l = LoadF8(left_centres), r = LoadF8(right_centres);
@@ -270,7 +270,7 @@ HWY_INLINE void Part(const Prim8* prims, std::size_t n, const Binning& binning, 
     StoreF8(r, right_centres);
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

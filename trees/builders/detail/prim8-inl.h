@@ -13,7 +13,7 @@
 #include <algorithm>
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
 
 // One register where there are registers of eight floats, else a plain array: the same numbers.
 #if HWY_MAX_BYTES >= 32 && !HWY_HAVE_SCALABLE
@@ -88,7 +88,7 @@ HWY_INLINE F8 BoundsOfBoxes(const Prim8* prims, std::size_t n) {
     return bounds;
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

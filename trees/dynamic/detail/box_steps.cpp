@@ -11,7 +11,7 @@
 #include <cfloat>
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -70,11 +70,11 @@ std::size_t FollowBlocks(Boxes now, Box* HWY_RESTRICT kept, std::size_t begin, s
     return n_far;
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace boxwood {
+namespace boxwood::detail {
 HWY_EXPORT(AreAscending);
 HWY_EXPORT(FollowBlocks);
 
@@ -87,5 +87,5 @@ std::size_t follow_blocks(Boxes now, Box* kept, std::size_t begin, std::size_t e
     return HWY_DYNAMIC_DISPATCH(FollowBlocks)(now, kept, begin, end, most, steps, far);
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail
 #endif

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <span>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// Whether each is greater than the one before.
 bool are_ascending(std::span<const std::uint32_t> items);
@@ -38,4 +38,4 @@ inline constexpr std::size_t follow_block = 16;
 std::size_t follow_blocks(Boxes now, Box* kept, std::size_t begin, std::size_t end, float most,
                           float* steps, std::uint32_t* far);
 
-} // namespace boxwood
+} // namespace boxwood::detail

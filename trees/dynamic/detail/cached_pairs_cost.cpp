@@ -1,6 +1,6 @@
 /// What keeping pairs costs, and when it pays.
 
-#include "trees/dynamic/cached_pairs.h"
+#include "trees/dynamic/detail/cached_pairs.h"
 #include "trees/dynamic/detail/box_steps.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 double CachedPairs::spent_anew() const { return n() * per_item_anew + pairs_ * per_pair_anew; }
 
@@ -63,4 +63,4 @@ void CachedPairs::forecast_by_frame() {
     forecast(std::move(steps), 1, follow_block * steps_.size() + out_.size());
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail

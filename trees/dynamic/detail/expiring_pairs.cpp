@@ -1,6 +1,6 @@
 #include "trees/dynamic/detail/expiring_pairs.h"
 
-namespace boxwood {
+namespace boxwood::detail {
 namespace {
 
 /// With room for n, what it held lost.
@@ -173,4 +173,4 @@ std::string ExpiringPairs::fault(const Box* boxes) const {
     return "";
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// Candidate pairs, each looked at again no sooner than motion can have changed whether they
 /// overlap. Motion is counted in `used`: twice the most that any face can have moved since `start`.
@@ -74,4 +74,4 @@ class ExpiringPairs {
     std::vector<Unsure> hot_, todo_; ///< hot: to be looked at whenever anything moves
 };
 
-} // namespace boxwood
+} // namespace boxwood::detail

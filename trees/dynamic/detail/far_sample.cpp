@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 void FarSample::start(Boxes boxes, double reach) {
     constexpr std::size_t most = 1024, few = 32;
@@ -61,4 +61,4 @@ void FarSample::start_far(Boxes boxes) {
         boxes_[k] = boxes[items_[k]];
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail

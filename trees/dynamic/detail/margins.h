@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// A fat box around each item: while its box stays inside, the item keeps its place in the tree. An
 /// absent box is inside any, and around it no other is: who comes back to his place still has it.
@@ -34,4 +34,4 @@ class Margins {
     std::vector<std::uint32_t> left_;
 };
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -1,12 +1,12 @@
 #include "trees/dynamic/detail/moving_tree.h"
 
 #include "trees/builders/hilbert.h"
-#include "trees/ordering/radix_sort.h"
+#include "trees/ordering/detail/radix_sort.h"
 
 #include <algorithm>
 #include <limits>
 
-namespace boxwood {
+namespace boxwood::detail {
 namespace {
 
 std::uint32_t item_of(std::uint64_t record) { return static_cast<std::uint32_t>(record); }
@@ -220,4 +220,4 @@ std::string MovingTree::fault() const {
     return layout_.fault();
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail

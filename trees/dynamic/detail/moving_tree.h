@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// The order of HilbertBuilder, and after it the absent items.
 Buffer<std::uint32_t> present_order(Boxes boxes, const Survey& survey, const Executor& executor);
@@ -50,7 +50,7 @@ class MovingTree {
     /// To boxes of another kind, such as wider ones: the looseness stays.
     void exchange(Boxes boxes, const Executor& executor);
 
-    /// Sum of the surface areas of all blocks over that of the root: what a walk has to pass.
+    /// Sum of the surface areas of all blocks over that of the root: what a traversal has to pass.
     double surface() const { return layout_.surface(); }
     /// That over what it was when the order was last made or changed.
     double looseness() const;
@@ -80,4 +80,4 @@ class MovingTree {
     std::vector<std::uint32_t> moved_slots_;
 };
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -1,7 +1,7 @@
 #include "trees/dynamic/detail/policy.h"
 #include "trees/dynamic/detail/box_steps.h"
 
-namespace boxwood {
+namespace boxwood::detail {
 namespace {
 
 [[noreturn]] void throw_bad_list(std::span<const std::uint32_t> moved, std::size_t size) {
@@ -34,4 +34,4 @@ std::optional<Survey> survey_frame(Boxes boxes, std::span<const std::uint32_t> m
     return {};
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail

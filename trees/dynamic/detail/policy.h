@@ -1,6 +1,6 @@
 #pragma once
 
-#include "trees/dynamic/cached_pairs.h"
+#include "trees/dynamic/detail/cached_pairs.h"
 #include "trees/queries/self_pairs.h"
 #include "trees/dynamic/detail/moving_tree.h"
 
@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// A policy says how a MovingTree follows its boxes. Its settings are documented data members with
 /// defaults, listed by `settings()`; it may keep a state of its own. It sees good frames only. One
@@ -107,4 +107,4 @@ template <UpdatePolicy P> UpdateEntry update_entry() {
             }};
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail

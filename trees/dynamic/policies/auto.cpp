@@ -1,7 +1,7 @@
-#include "trees/dynamic/cached_pairs.h"
+#include "trees/dynamic/detail/cached_pairs.h"
 #include "trees/dynamic/detail/far_sample.h"
 #include "trees/dynamic/detail/margins.h"
-#include "trees/dynamic/detail/order_age.h"
+#include "trees/dynamic/detail/order_degradation.h"
 #include "trees/dynamic/detail/policy.h"
 #include "trees/dynamic/detail/step_sample.h"
 
@@ -10,6 +10,7 @@
 #include <utility>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 /// Picks by what moved, never by the clock, so that the answers and their order are the same

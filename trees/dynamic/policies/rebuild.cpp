@@ -3,6 +3,7 @@
 #include <array>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 /// Refits until the surface of the blocks has grown too far, then orders anew.

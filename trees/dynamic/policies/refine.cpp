@@ -4,6 +4,7 @@
 #include <array>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 /// Refits, and in each frame sorts one part of the order anew, going round. Parts overlap by half,

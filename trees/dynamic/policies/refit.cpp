@@ -1,6 +1,7 @@
 #include "trees/dynamic/detail/policy.h"
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 /// The order of the start stays; bounds follow the boxes. Cheapest while boxes stay near their

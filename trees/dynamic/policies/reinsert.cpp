@@ -7,6 +7,7 @@
 #include <array>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 /// A dynamic tree of fat boxes gives the order: an item whose box leaves its fat box is removed and

@@ -8,6 +8,7 @@
 #include <vector>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 constexpr std::uint32_t width = 4;

@@ -1,12 +1,14 @@
 #include "trees/queries/single_rays.h"
 
+#include "trees/layout.h"
+
 namespace boxwood {
 
 SingleRays::SingleRays(const AnyLayout& layout, std::string_view kernel,
                        const TriangleBlocks& triangles)
     : tree_{triangles.nodes.data(), triangles.blocks.data(), triangles.root,
             SlabBounds(triangles.bounds)},
-      walks_(layout.single_ray_walks(kernel)), layout_(layout), triangles_(triangles),
+      functions_(layout.single_ray_functions(kernel)), layout_(layout), triangles_(triangles),
       kernel_(kernel) {
     layout.rays({}, RayQuery::closest, kernel, triangles, serial(),
                 {}); // refuses an unknown kernel

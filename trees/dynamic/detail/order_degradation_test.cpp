@@ -1,4 +1,4 @@
-#include "trees/dynamic/detail/order_age.h"
+#include "trees/dynamic/detail/order_degradation.h"
 
 #include "trees/testing/box_families.h"
 #include "trees/builders/hilbert.h"
@@ -11,6 +11,7 @@
 #include <limits>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 /// Boxes that never move: how loose they are is made up.

@@ -1,4 +1,4 @@
-#include "trees/dynamic/detail/order_age.h"
+#include "trees/dynamic/detail/order_degradation.h"
 
 #include "trees/queries/points.h"
 #include "trees/dynamic/detail/item_sample.h"
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 void OrderAge::start(double price, const PackedLayout& layout, Boxes boxes) {
     start(price, 0);
@@ -88,4 +88,4 @@ bool OrderAge::is_due_next() const {
     return is_due(newest_ * (age + 1) / age, frames_ + 1, before_ + newest_);
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail

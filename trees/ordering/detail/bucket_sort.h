@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// Codes of the items that follow `first`, as many as fit.
 using CodesOfItems = FunctionRef<void(std::size_t first, std::span<std::uint32_t> codes)>;
@@ -28,4 +28,4 @@ enum class Sorted : std::uint8_t {
 std::size_t bucket_sort(std::size_t n, int bits, CodesOfItems codes, Sorted how,
                         const Executor& executor, PutRecords put);
 
-} // namespace boxwood
+} // namespace boxwood::detail

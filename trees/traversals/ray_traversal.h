@@ -1,7 +1,9 @@
 #pragma once
 
+#include "kernels/ray_triangle/triangle_block.h"
 #include "kernels/registry.h"
-#include "trees/layout.h"
+#include "trees/queries/rays.h"
+#include "trees/queries/single_rays.h"
 
 #include <algorithm>
 #include <atomic>
@@ -11,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 enum class RayMode : std::uint8_t { closest, any, all };
 
@@ -30,9 +32,9 @@ struct RayJob {
 };
 
 /// One ray on its way through a tree: the nearest hit so far, or all of them.
-template <RayKernel K, RayMode mode, bool Counted> class RayWalk {
+template <RayKernel K, RayMode mode, bool Counted> class RayState {
   public:
-    RayWalk(const Ray<float>& ray, Work* work, std::vector<RayHit>& found)
+    RayState(const Ray<float>& ray, Work* work, std::vector<RayHit>& found)
         : per_ray(K::prepare(ray)), ray_(ray), work_(work), found_(found) {
         best_.t = ray.t_max;
     }
@@ -97,15 +99,15 @@ template <RayKernel K, RayMode mode, bool Counted> class RayWalk {
     RayHit best_;
 };
 
-/// Walks every ray of a job by `walk(ray, found)`, which gives a RayWalk's result. Kernels miss
-/// whatever is not finite, so such rays have no walk.
-template <RayMode mode, class Walk> void walk_each(const RayJob& job, const Walk& walk) {
+/// Answers every ray of a job by `trace(ray, found)`, which gives a RayState's result. Kernels miss
+/// whatever is not finite, so such rays are not traced.
+template <RayMode mode, class Trace> void for_each_ray(const RayJob& job, const Trace& trace) {
     std::vector<RayHit> found;
     for (std::size_t i = 0; i < job.rays.size(); ++i) {
         const Ray<float>& ray = job.rays[i];
         RayHit hit;
         if (job.depth != 0 && is_finite(ray.origin) && is_finite(ray.direction))
-            hit = walk(ray, found);
+            hit = trace(ray, found);
         if constexpr (mode == RayMode::all) {
             // A triangle that stands in several leaves was found the same each time.
             std::ranges::sort(found, [](const RayHit& a, const RayHit& b) {
@@ -124,7 +126,7 @@ template <RayMode mode, class Walk> void walk_each(const RayJob& job, const Walk
     }
 }
 
-/// Calls f(K, mode, Counted), each as a type, for what a job asks.
+/// Calls f(K, mode, Counted), each as a type, for what a job wants.
 template <class F> void with_job_types(const RayJob& job, const F& f) {
     with_kernel<RayKernels>(job.kernel, [&]<class K>(std::type_identity<K> k) {
         using enum RayMode;
@@ -145,8 +147,8 @@ template <class F> void with_job_types(const RayJob& job, const F& f) {
     });
 }
 
-/// Calls walk(part) for chunks of the job's rays.
-template <class F> void for_ray_chunks(RayJob job, const Executor& executor, const F& walk) {
+/// Calls traverse(part) for chunks of the job's rays.
+template <class F> void for_ray_chunks(RayJob job, const Executor& executor, const F& traverse) {
     if (job.mode != RayMode::all && job.hits.size() != job.rays.size())
         throw std::invalid_argument("rays: one hit per ray is wanted");
     if (!with_kernel<RayKernels>(job.kernel, [](auto) {}))
@@ -168,10 +170,21 @@ template <class F> void for_ray_chunks(RayJob job, const Executor& executor, con
             part.hits = job.hits.subspan(c * chunk, n);
         part.chunk = c;
         part.first_ray = c * chunk;
-        walk(part);
+        traverse(part);
     });
     if (job.sink)
         job.sink->end();
 }
 
-} // namespace boxwood
+/// Answers the rays of one chunk.
+#define X(name, L) void traverse_rays(const L& layout, const RayJob& job);
+BOXWOOD_TRAVERSED_LAYOUTS(X)
+#undef X
+
+/// The same for the nodes that rays visit in a layout of lanes, and the functions for one ray at a
+/// time; depth: of the layout.
+template <class Node> void traverse_nodes(const RayJob& job);
+template <class Node>
+SingleRayFunctions single_ray_functions_of(std::size_t depth, std::string_view kernel);
+
+} // namespace boxwood::detail

@@ -8,18 +8,18 @@
 #include <atomic>
 #include <vector>
 
-namespace boxwood {
+namespace boxwood::detail {
 
-/// What one chunk of a walk for pairs holds: the stack of node pairs still to open (a pair of equal
+/// What one chunk of a traversal for pairs holds: the stack of node pairs still to open (a pair of equal
 /// nodes, within one tree, stands for that subtree against itself) and the answers not yet handed
 /// over.
-class PairWalk {
+class PairTraversal {
   public:
     /// A step opens one pair of nodes and pushes or emits at most this many (16 x 16, or 16 + 120),
     /// and a SIMD store may touch this many more entries beyond.
     static constexpr std::size_t step_room = 256 + 16;
 
-    PairWalk(PairSink& sink, std::size_t chunk, std::atomic<bool>& stop, Work* work)
+    PairTraversal(PairSink& sink, std::size_t chunk, std::atomic<bool>& stop, Work* work)
         : to_(sink, chunk, stop, work), work_(work) {}
 
     /// The next pair of nodes, with room made for what its step pushes and emits; false at the
@@ -73,13 +73,13 @@ class PairWalk {
     Buffer<Pair> stack_{1024}, out_{4096};
 };
 
-/// Splits a walk that starts at `root` into tasks, by the trees alone: opens the heaviest until
+/// Splits a traversal that starts at `root` into tasks, by the trees alone: opens the heaviest until
 /// there are enough to balance threads even if some are heavier than their items tell, or until all
 /// are light. `weight(nodes)` is the number of items below both, 0 for a pair of nodes whose step
 /// might emit answers. `open(nodes, tasks)` appends what a step would push.
 template <class Weight, class Open>
 std::vector<Pair> share_out(Pair root, const Weight& weight, const Open& open) {
-    constexpr std::size_t small = 4096; // a walk of fewer items is not worth sharing out
+    constexpr std::size_t small = 4096; // a traversal of fewer items is not worth sharing out
     constexpr std::size_t light = 128, enough = 256, most = 8 * enough;
     std::vector<Pair> tasks{root}, next;
     std::size_t heaviest = weight(root);
@@ -103,10 +103,10 @@ std::vector<Pair> share_out(Pair root, const Weight& weight, const Open& open) {
     return tasks;
 }
 
-/// Runs `walk(PairWalk&)` on each task as one chunk.
-template <class Walk>
+/// Runs `traverse(PairTraversal&)` on each task as one chunk.
+template <class Traverse>
 void run_tasks(const std::vector<Pair>& tasks, const Executor& executor, PairSink& sink, Work* work,
-               const Walk& walk) {
+               const Traverse& traverse) {
     std::atomic<bool> stop = false;
     std::atomic<std::size_t> next = 0; // in order: then a sink can put the pairs in place at once
     sink.begin(tasks.size(), executor.threads() == 1);
@@ -114,13 +114,13 @@ void run_tasks(const std::vector<Pair>& tasks, const Executor& executor, PairSin
         const std::size_t chunk = next++;
         if (stop.load(std::memory_order_relaxed))
             return;
-        PairWalk state(sink, chunk, stop, work);
+        PairTraversal state(sink, chunk, stop, work);
         state.push(tasks[chunk]);
-        walk(state);
+        traverse(state);
         state.flush();
         sink.finish(chunk);
     });
     sink.end();
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail

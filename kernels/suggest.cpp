@@ -1,11 +1,8 @@
-#include "scenes/suggest.h"
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include "kernels/suggest.h"
 
 #include <algorithm>
 #include <numeric>
-#include <vector>
+#include <utility>
 
 namespace boxwood {
 namespace {
@@ -42,10 +39,13 @@ std::string suggest(std::string_view word, std::span<const std::string_view> can
 
 std::string unknown_word(std::string_view what, std::string_view word,
                          std::span<const std::string_view> candidates) {
-    const std::string near = suggest(word, candidates);
-    return near.empty() ? fmt::format("unknown {} '{}'; known are: {}", what, word,
-                                      fmt::join(candidates, ", "))
-                        : fmt::format("unknown {} '{}'; did you mean '{}'?", what, word, near);
+    std::string text = "unknown " + std::string(what) + " '" + std::string(word) + "'; ";
+    if (const std::string near = suggest(word, candidates); !near.empty())
+        return text + "did you mean '" + near + "'?";
+    text += "known are: ";
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+        text += (i == 0 ? "" : ", ") + std::string(candidates[i]);
+    return text;
 }
 
 } // namespace boxwood

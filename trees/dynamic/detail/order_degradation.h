@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// When a new order of moving boxes pays. As boxes move, blocks loosen and queries meet more of
 /// them; a new order ends that, at a price. Both are estimated by what was counted, never by the
@@ -51,4 +51,4 @@ class OrderAge {
     std::size_t in_a_row_ = 0; ///< of them without a frame between
 };
 
-} // namespace boxwood
+} // namespace boxwood::detail

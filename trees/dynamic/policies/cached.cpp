@@ -1,9 +1,10 @@
-#include "trees/dynamic/cached_pairs.h"
+#include "trees/dynamic/detail/cached_pairs.h"
 #include "trees/dynamic/detail/policy.h"
 
 #include <array>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 /// Keeps the overlapping pairs themselves and looks at a pair again only when motion may have

@@ -1,4 +1,4 @@
-#include "trees/dynamic/cached_pairs.h"
+#include "trees/dynamic/detail/cached_pairs.h"
 
 #include "trees/testing/box_families.h"
 #include "trees/dynamic/update.h"
@@ -12,6 +12,7 @@
 #include <random>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 Box shifted(const Box& box, Vec3<float> by) { return {box.min + by, box.max + by}; }

@@ -1,6 +1,6 @@
-#include "trees/dynamic/cached_pairs.h"
+#include "trees/dynamic/detail/cached_pairs.h"
 
-#include "trees/ordering/radix_sort.h"
+#include "trees/executors/chunks.h"
 #include "trees/traversals/chunk_sink.h"
 #include "trees/queries/points.h"
 #include "trees/queries/self_pairs.h"
@@ -15,9 +15,9 @@
 #include <limits>
 #include <numeric>
 
-namespace boxwood {
+namespace boxwood::detail {
 
-/// What the renewal's walk finds, by chunk, up to a limit.
+/// What the search of a rebuild finds, by chunk, up to a limit.
 class CachedPairs::Candidates final : public PairSink {
   public:
     Candidates(std::vector<std::vector<Pair>>& chunks, std::size_t limit)
@@ -343,4 +343,4 @@ std::string CachedPairs::fault() const {
     return "";
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -3,6 +3,7 @@
 #include "kernels/primitives/sphere.h"
 #include "trees/buffer.h"
 #include "trees/executor.h"
+#include "trees/layouts/layouts.h"
 #include "trees/queries/pairs.h"
 #include "trees/traversals/chunk_sink.h"
 #include "trees/tree.h"
@@ -14,7 +15,7 @@
 #include <optional>
 #include <span>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// Queries of one kind: the others are empty.
 struct RegionQueries {
@@ -25,7 +26,7 @@ struct RegionQueries {
     std::size_t size() const { return points.size() + boxes.size() + spheres.size(); }
 };
 
-/// A region as walks take it: a finite closed box that finite boxes overlap if and only if they
+/// A region as traversals take it: a finite closed box that finite boxes overlap if and only if they
 /// share a point with the region. Nothing if no finite box does: a NaN, or min > max.
 inline std::optional<Box> finite_region(const Box& region) {
     constexpr float most = std::numeric_limits<float>::max();
@@ -58,14 +59,14 @@ void for_query_chunks(std::size_t n, const Executor& executor, const Body& body)
     });
 }
 
-/// The answers of one chunk on their way to a sink, and the memory that its walks share.
-class RegionWalk {
+/// The answers of one chunk on their way to a sink, and the memory that its traversals share.
+class RegionTraversal {
   public:
     /// A SIMD store may touch so many entries beyond those that count.
     static constexpr std::size_t spare = 16;
 
-    /// stack_room: the most references that wait on the stack of one walk.
-    RegionWalk(PairSink& sink, std::size_t chunk, std::size_t stack_room, std::atomic<bool>& stop,
+    /// stack_room: the most references that wait on the stack of one traversal.
+    RegionTraversal(PairSink& sink, std::size_t chunk, std::size_t stack_room, std::atomic<bool>& stop,
                Work* work)
         : to_(sink, chunk, stop, work), work_(work), stack_(stack_room + spare) {}
 
@@ -131,20 +132,35 @@ class RegionWalk {
     std::size_t n_items_ = 0, n_out_ = 0;
 };
 
-/// Runs `walk(RegionWalk&, first, last)` on the n queries, chunk by chunk, into the sink.
-template <class Walk>
+/// Runs `traverse(RegionTraversal&, first, last)` on the n queries, chunk by chunk, into the sink.
+template <class Traverse>
 void run_regions(std::size_t n, std::size_t stack_room, const Executor& executor, PairSink& sink,
-                 Work* work, const Walk& walk) {
+                 Work* work, const Traverse& traverse) {
     std::atomic<bool> stop = false;
     sink.begin((n + queries_per_chunk - 1) / queries_per_chunk, executor.threads() == 1);
     for_query_chunks(n, executor, [&](std::size_t chunk, std::size_t first, std::size_t last) {
         if (stop.load(std::memory_order_relaxed))
             return;
-        RegionWalk state(sink, chunk, stack_room, stop, work);
-        walk(state, first, last);
+        RegionTraversal state(sink, chunk, stack_room, stop, work);
+        traverse(state, first, last);
         state.flush();
     });
     sink.end();
 }
 
-} // namespace boxwood
+/// The most references that wait in one traversal: opening a node leaves all but one of its children.
+template <class L> std::size_t stack_room(const L& layout) {
+    if constexpr (requires { L::width; })
+        return layout.depth() * L::width + L::width;
+    else
+        return 2 * layout.depth() + 2;
+}
+
+/// Answers the queries [first, last) of one chunk, over a layout that is not empty.
+#define X(name, L)                                                                                 \
+    void traverse_regions(const L& layout, const RegionQueries& queries,                           \
+                          RegionTraversal& traversal, std::size_t first, std::size_t last);
+BOXWOOD_TRAVERSED_LAYOUTS(X)
+#undef X
+
+} // namespace boxwood::detail

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// x, y, z and a lane that holds something else (GCC and Clang vector types).
 using Float4 = float __attribute__((vector_size(16), may_alias));
@@ -85,4 +85,4 @@ class LinkedTree {
     void write(std::uint32_t root, std::uint32_t node, std::uint32_t slot, Tree& made) const;
 };
 
-} // namespace boxwood
+} // namespace boxwood::detail

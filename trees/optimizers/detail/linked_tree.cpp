@@ -1,11 +1,11 @@
-#include "trees/optimizers/linked_tree.h"
+#include "trees/optimizers/detail/linked_tree.h"
 
-#include "trees/ordering/radix_sort.h"
+#include "trees/executors/chunks.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 LinkedTree::LinkedTree(const Tree& tree, const Executor& executor)
     : tree_(tree), executor_(executor), links_(2 * tree.size()) {
@@ -158,4 +158,4 @@ Tree LinkedTree::canonical() const {
     return made;
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -1,4 +1,4 @@
-#include "trees/ordering/bucket_sort.h"
+#include "trees/ordering/detail/bucket_sort.h"
 #include "trees/testing/every_executor.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +10,7 @@
 #include <vector>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 struct CodeFamily {

@@ -1,4 +1,4 @@
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,15 @@
 #pragma once
 
 #include "kernels/features/point_triangle.h"
-#include "trees/layout.h"
+#include "trees/queries/nearest.h"
 #include "trees/traversals/box_distance.h"
-#include "trees/traversals/region_walk.h"
+#include "trees/traversals/region_traversal.h"
 
 #include <algorithm>
 #include <bit>
 #include <vector>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// The k nearest items of one point so far: a heap with the farthest at its front, in the memory of
 /// the answer. An item is offered once.
@@ -78,11 +78,11 @@ class NearestSurface {
     SurfacePoint best_;
 };
 
-/// The memory that the walks of one chunk share, and what they did.
-class NearestWalk {
+/// The memory that the traversals of one chunk share, and what they did.
+class NearestTraversal {
   public:
-    NearestWalk(std::size_t stack_room, Work* work)
-        : stack_(stack_room + RegionWalk::spare), work_(work) {}
+    NearestTraversal(std::size_t stack_room, Work* work)
+        : stack_(stack_room + RegionTraversal::spare), work_(work) {}
 
     /// References that wait, each below the bits of a float bound from below of its squared
     /// distance: in order as numbers, they are in order of distance.
@@ -117,14 +117,23 @@ class NearestWalk {
     Work* work_;
 };
 
-/// Runs `walk(NearestWalk&, first, last)` on the n queries, chunk by chunk.
-template <class Walk>
+/// Runs `traverse(NearestTraversal&, first, last)` on the n queries, chunk by chunk.
+template <class Traverse>
 void run_nearest(std::size_t n, std::size_t stack_room, const Executor& executor, Work* work,
-                 const Walk& walk) {
+                 const Traverse& traverse) {
     for_query_chunks(n, executor, [&](std::size_t, std::size_t first, std::size_t last) {
-        NearestWalk state(stack_room, work);
-        walk(state, first, last);
+        NearestTraversal state(stack_room, work);
+        traverse(state, first, last);
     });
 }
 
-} // namespace boxwood
+/// Answers one finite point, over a layout that is not empty.
+#define X(name, L)                                                                                 \
+    void traverse_nearest(const L& layout, Vec3<float> point, NearestItems& best,                  \
+                          NearestTraversal& traversal);                                            \
+    void traverse_closest_point(const L& layout, Vec3<float> point, NearestSurface& best,          \
+                                NearestTraversal& traversal);
+BOXWOOD_TRAVERSED_LAYOUTS(X)
+#undef X
+
+} // namespace boxwood::detail

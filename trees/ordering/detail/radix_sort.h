@@ -1,7 +1,7 @@
 #pragma once
 
 #include "trees/buffer.h"
-#include "trees/executor.h"
+#include "trees/executors/chunks.h"
 
 #include <algorithm>
 #include <array>
@@ -9,22 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace boxwood {
-
-/// The range [begin, end) of chunk c when n entries are cut into `chunks` parts of about equal
-/// size.
-struct ChunkRange {
-    ChunkRange(std::size_t n, std::size_t chunks, std::size_t c)
-        : begin(n * c / chunks), end(n * (c + 1) / chunks) {}
-    std::size_t begin, end;
-};
-
-/// Parts for a pass over n entries whose result does not depend on how it is cut: one per thread,
-/// and one alone where handing out work would cost more than the pass.
-inline std::size_t chunks_for(std::size_t n, const Executor& executor) {
-    constexpr std::size_t least = 8192;
-    return std::clamp<std::size_t>(n / least, 1, executor.threads());
-}
+namespace boxwood::detail {
 
 /// Sorts records by their bits [low, high), least digit first. Stable, so the result is the same
 /// for any number of threads. `spare` is of the same size; what it holds afterwards is of no use.
@@ -68,4 +53,4 @@ inline void radix_sort(Buffer<std::uint64_t>& records, Buffer<std::uint64_t>& sp
     }
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail

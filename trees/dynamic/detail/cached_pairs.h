@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// The overlapping pairs of boxes that move, kept from frame to frame and looked at again only when
 /// motion may have changed them.
@@ -126,4 +126,4 @@ class CachedPairs {
     std::size_t examined_ = 0; ///< in the newest frame
 };
 
-} // namespace boxwood
+} // namespace boxwood::detail

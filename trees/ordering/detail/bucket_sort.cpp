@@ -1,6 +1,6 @@
-#include "trees/ordering/bucket_sort.h"
+#include "trees/ordering/detail/bucket_sort.h"
 #include "trees/buffer.h"
-#include "trees/ordering/radix_sort.h"
+#include "trees/executors/chunks.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <numeric>
 #include <vector>
 
-namespace boxwood {
+namespace boxwood::detail {
 namespace {
 
 constexpr std::uint32_t block = 16; ///< buckets of fewer items are not split any further
@@ -189,4 +189,4 @@ std::size_t bucket_sort(std::size_t n, int bits, CodesOfItems codes_of, Sorted h
     return in_long;
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -1,13 +1,13 @@
 #pragma once
 
 #include "trees/layouts/packed.h"
-#include "trees/ordering/radix_sort.h"
+#include "trees/executors/chunks.h"
 #include "trees/traversals/chunk_sink.h"
 
 #include <algorithm>
 #include <atomic>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// A growing list of blocks or slots, uninitialised beyond its end. Most stay where the list itself
 /// is, and take no memory from the heap.
@@ -100,4 +100,4 @@ struct PackedChunk {
     std::size_t level, begin, end;
 };
 
-} // namespace boxwood
+} // namespace boxwood::detail
