@@ -5,16 +5,22 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 
 namespace boxwood {
 namespace {
 
-/// The shortest text that reads back as x: "32", "0.5", "1e+300".
-template <class Number> std::string number_text(Number x) {
+std::string number_text(std::int64_t x) { return std::to_string(x); }
+
+/// The shortest text that reads back as x: "32", "0.5", "1000000", "1e+300".
+std::string number_text(double x) {
+    const double size = std::abs(x);
+    const auto format = size == 0 || (size >= 1e-4 && size < 1e16) ? std::chars_format::fixed
+                                                                   : std::chars_format::scientific;
     std::array<char, 32> digits;
-    return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), x).ptr};
+    return {digits.data(), std::to_chars(digits.begin(), digits.end(), x, format).ptr};
 }
 
 /// The value as a number, if it is one.

@@ -90,6 +90,8 @@ TEST(Settings, RefuseOtherTypesRangesAndNamesWithAReason) {
 TEST(Settings, HaveShortTexts) {
     EXPECT_EQ(to_text(16), "16");
     EXPECT_EQ(to_text(.5), "0.5");
+    EXPECT_EQ(to_text(1e6), "1000000");
+    EXPECT_EQ(to_text(2e300), "2e+300");
     EXPECT_EQ(to_text(true), "true");
     EXPECT_EQ(to_text("red"), "red");
 }

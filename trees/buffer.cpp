@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t line = 64, huge_page = std::size_t{1} << 21;
 
 /// From this size on malloc gives freed memory back to the system each time, and to have it cleared
-/// anew, page by page in the middle of a build, takes as long as to fill it.
+/// again, page by page in the middle of a build, takes as long as to fill it.
 constexpr std::size_t given_back = std::size_t{24} << 20;
 
 /// Stands just before the memory that is handed out.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "kernels/primitives/sphere.h"
+#include "trees/builder.h"
 #include "trees/executor.h"
 #include "trees/inspect/work.h"
 #include "trees/queries/nearest.h"
@@ -16,8 +18,6 @@
 
 namespace boxwood {
 
-template <class Real> struct Sphere;
-struct BuildFunction;
 struct SingleRayFunctions;
 
 /// A layout owns a copy of a tree in the form that some traversal likes best. It is a function of

@@ -39,7 +39,7 @@ std::vector<std::vector<const Cell*>> tasks_of(const RunIndex& index) {
 /// and the policies that it need not choose.
 bool is_default(const results::Variant& variant) {
     return variant.name == required_word || variant.builder == "auto" ||
-           variant.builder == "keep";
+           variant.builder == "cached";
 }
 
 /// The quickest of each library, by the median round.

@@ -19,7 +19,7 @@ struct FrameStats {
 std::map<std::uint32_t, FrameStats> frame_stats(const results::Results& results);
 
 /// The frame times of every moving scene: of all that was timed, or in brief of the best of each
-/// library, of the policies auto and keep, and of what a scene calls for.
+/// library, of the policies auto and cached, and of what a scene calls for.
 std::string frame_times_text(const RunIndex& index, bool brief);
 
 /// The best of ours against the best peer of each moving scene, by update and query of a frame.

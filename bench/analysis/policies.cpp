@@ -57,7 +57,7 @@ std::string policies_text(const RunIndex& index) {
     TextTable table({"scene", ">n", ">threads", "policy", ">its frame", "best other", ">its frame",
                      ">policy/best", "within 10 %"});
     for (const auto& [task, cells] : tasks)
-        for (const char* policy : {"auto", "keep"})
+        for (const char* policy : {"auto", "cached"})
             add_row(table, index, cells, policy);
     return table.empty() ? "" : table.text();
 }

@@ -40,14 +40,14 @@ TEST(Policies, KeepIsHeldAgainstThoseThatFindAnew) {
     for (const auto& [variant, ns] : {std::pair{"auto.packed", 50.0},
                                       {"refit.packed", 300},
                                       {"keep_margin3.packed", 10},
-                                      {"keep.packed", 100}}) {
+                                      {"cached.packed", 100}}) {
         const auto cell = run.cell("uniform_drift", 1000, "moving_pairs", variant);
         run.time(cell, "update", ns);
         run.time(cell, "query", 100);
     }
     const std::string text = policies_text(RunIndex(run.results));
     EXPECT_THAT(text, ContainsRegex("auto +150 ns +keep_margin3 +110 ns +1.36 .* no\n"));
-    EXPECT_THAT(text, ContainsRegex("keep +200 ns +refit +400 ns +0.500 .* yes\n"));
+    EXPECT_THAT(text, ContainsRegex("cached +200 ns +refit +400 ns +0.500 .* yes\n"));
 }
 
 TEST(Policies, NothingIsSaidWithoutAFixedPolicy) {

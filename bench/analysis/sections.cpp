@@ -30,7 +30,7 @@ std::string sections_text(const results::Results& results,
          frame_peers_text(index)},
         {"Frame by frame, each frame by its median over the rounds",
          frame_times_text(index, brief)},
-        {"The policies auto and keep against the best of the other fixed ones: update and query of "
+        {"The policies auto and cached against the best of the other fixed ones: update and query of "
          "a frame",
          policies_text(index)},
         {"How trees age, counted: the last frame over the first", ageing_text(index, brief)},

@@ -2,7 +2,7 @@
 
 #include "bench/peers/capability.h"
 #include "bench/tasks/points.h"
-#include "trees/traversals/box_distance.h"
+#include "trees/queries/box_distance.h"
 
 #include <vector>
 

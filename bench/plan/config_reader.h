@@ -81,14 +81,14 @@ class ConfigReader : public TomlReader {
         return {std::move(name), std::move(settings)};
     }
 
-    /// "ploc", or with a stage after it "ploc+reinsertion".
+    /// "ploc", or with an optimizer after it "ploc+reinsertion".
     std::string builder_words(const toml::node& node) const {
         const std::string words = node.value_or(std::string());
         const std::size_t plus = words.find('+');
         if (!node.is_string() || plus == std::string::npos)
             return word(node, "builders", names_of(builders()));
         word(toml::value<std::string>(words.substr(0, plus)), "builders", names_of(builders()));
-        word(toml::value<std::string>(words.substr(plus + 1)), "stages", names_of(stages()));
+        word(toml::value<std::string>(words.substr(plus + 1)), "optimizers", names_of(optimizers()));
         return words;
     }
 };

@@ -57,7 +57,7 @@ builders = "median"
     EXPECT_EQ(pairs.n, (std::vector<std::size_t>{10, 20}));
     EXPECT_EQ(pairs.overlaps, std::vector<double>{1});
     EXPECT_EQ(pairs.queries, (std::vector<Ask>{Ask::pairs, Ask::tree_pairs}));
-    EXPECT_EQ(pairs.builders[1].settings.at("bins"), 16);
+    EXPECT_EQ(pairs.builders[1].settings.at("bins"), SettingValue(16));
     EXPECT_EQ(pairs.threads, (std::vector<unsigned>{1, 2}));
     EXPECT_EQ(config.blocks[1].threads, std::vector<unsigned>{3});
     EXPECT_EQ(config.blocks[1].n_rays, 5u);

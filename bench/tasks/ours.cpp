@@ -75,13 +75,34 @@ std::string_view traversal_of(Ask ask, const RayOrderEntry& order) {
     return is_ray_ask(ask) ? order.traversal : ask == Ask::tree_pairs ? "tree_pairs" : "self_pairs";
 }
 
+/// What a task asks of a layout.
+Query query_of(Ask ask) {
+    switch (ask) {
+    case Ask::pairs:
+    case Ask::triangle_pairs:
+        return Query::self_pairs;
+    case Ask::tree_pairs:
+        return Query::tree_pairs;
+    case Ask::points:
+        return Query::points;
+    case Ask::regions:
+        return Query::regions;
+    case Ask::nearest:
+        return Query::nearest;
+    case Ask::closest_points:
+        return Query::closest_points;
+    default:
+        return Query::rays;
+    }
+}
+
 } // namespace
 
 std::string word_with_settings(std::string word, const Settings& settings) {
     std::ranges::replace(word, '+', '_');
     for (const auto& [name, value] : settings) {
         word += fmt::format("_{}", name);
-        for (const char c : fmt::format("{}", value))
+        for (const char c : to_text(value))
             if (c != '+')
                 word += c == '.' ? '_' : c == '-' ? 'm' : c;
     }
@@ -91,7 +112,10 @@ std::string word_with_settings(std::string word, const Settings& settings) {
 std::string settings_json(const Settings& settings) {
     std::string all;
     for (const auto& [name, value] : settings)
-        all += fmt::format("{}\"{}\": {}", all.empty() ? "" : ", ", name, value);
+        all += fmt::format("{}\"{}\": {}", all.empty() ? "" : ", ", name,
+                           std::holds_alternative<std::string>(value)
+                               ? '"' + std::get<std::string>(value) + '"'
+                               : to_text(value));
     return "{" + all + "}";
 }
 
@@ -128,7 +152,9 @@ ContenderEntry our_contender(const Choice& choice, Ask ask) {
                   "threads";
     entry.params_json = settings_json(choice.settings);
 
-    entry.unsupported = [](const Job& job) -> std::optional<std::string> {
+    entry.unsupported = [&layout](const Job& job) -> std::optional<std::string> {
+        if (const Query query = query_of(job.task); !layout.answers(query))
+            return fmt::format("the layout {} does not answer {}", layout.name, to_string(query));
         if (takes_kernel(job.task) && job.scene->mesh.triangles.empty())
             return "the scene has no triangles";
         if (is_point_ask(job.task))

@@ -7,7 +7,7 @@ namespace boxwood::bench {
 
 /// One way of ours to do a job, by registry words.
 struct Choice {
-    std::string builder = "binned_sah"; ///< or with a stage: "ploc+reinsertion"
+    std::string builder = "binned_sah"; ///< or with an optimizer: "ploc+reinsertion"
     Settings settings;                  ///< of the builder and the stage
     std::string layout = "wide8";
     std::string kernel = "watertight"; ///< a ray or triangle kernel, where the ask takes one

@@ -14,7 +14,7 @@ namespace {
 class Curved {
   public:
     Curved(Boxes boxes, const Executor& executor)
-        : coarse_(kept_curve_order(boxes, Curve::morton, nullptr, executor).records) {
+        : coarse_(mergeable_curve_order(boxes, Curve::morton, nullptr, executor).records) {
         if (coarse_.empty())
             fine_ = curve_order(boxes, Curve::morton, executor);
     }

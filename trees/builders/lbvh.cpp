@@ -22,7 +22,7 @@ struct RadixPart {
     std::uint32_t count() const { return end - begin; }
 };
 
-/// Items by slot, sorted by codes and told apart by their numbers where these are equal: a code
+/// Items by slot, sorted by codes and distinguished by their numbers where these are equal: a code
 /// above an item in each record.
 struct CoarseItems {
     const std::uint64_t* records;
@@ -207,7 +207,7 @@ Tree radix_tree(const Items& items, Boxes boxes, const Write& write, const Execu
 Tree LbvhBuilder::build(Boxes boxes, const Executor& executor) const {
     if (boxes.empty())
         return {};
-    const KeptOrder coarse = kept_curve_order(boxes, curve, nullptr, executor);
+    const MergeableOrder coarse = mergeable_curve_order(boxes, curve, nullptr, executor);
     if (!coarse.records.empty())
         return radix_tree(
             CoarseItems{coarse.records.data()}, boxes,

@@ -16,9 +16,10 @@
 #include <memory>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
-Tree ploc(Boxes boxes, double radius = PlocBuilder{}.radius, const Executor& executor = serial()) {
+Tree ploc(Boxes boxes, int radius = PlocBuilder{}.radius, const Executor& executor = serial()) {
     PlocBuilder builder;
     builder.radius = radius;
     return builder.build(boxes, executor);

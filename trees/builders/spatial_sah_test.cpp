@@ -9,6 +9,7 @@
 #include "trees/testing/same_tree.h"
 #include "trees/testing/brute_force_rays.h"
 #include "trees/testing/triangle_soup.h"
+#include "trees/testing/layouts_answering.h"
 #include "trees/inspect/validate.h"
 
 #include <gtest/gtest.h>
@@ -19,6 +20,7 @@
 #include <random>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 using Point = Vec3<float>;
@@ -226,7 +228,7 @@ TEST(SpatialSah, RaysThroughTheSeamsHitWhatTheyHitWithoutATree) {
         const auto n_hits = static_cast<std::size_t>(std::ranges::count_if(expected, &RayHit::hit));
         EXPECT_GT(n_hits, rays.size() / 20);
         EXPECT_LT(n_hits, rays.size());
-        for (const LayoutEntry& entry : layouts()) {
+        for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
             SCOPED_TRACE(entry.name);
             const auto layout = entry.make(tree, serial());
             const TriangleBlocks triangles = layout->triangles(mesh);
@@ -253,7 +255,7 @@ TEST(SpatialSah, NoRayLeaksFromAClosedMesh) {
         const Point from{place(random), place(random), place(random)};
         rays.push_back({from, a + along(random) * (b - a) - from});
     }
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
         const auto layout = entry.make(tree, serial());
         const TriangleBlocks triangles = layout->triangles(mesh);
         std::vector<RayHit> hits(rays.size());
@@ -267,7 +269,7 @@ TEST(SpatialSah, ASplitTreeRefusesPairs) {
     const Tree tree = build(mesh);
     std::vector<Pair> pairs;
     AppendPairs sink(pairs);
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::self_pairs, Query::tree_pairs})) {
         const auto layout = entry.make(tree, serial());
         EXPECT_THROW(layout->self_pairs(serial(), sink), std::invalid_argument) << entry.name;
         EXPECT_THROW(layout->tree_pairs(*layout, serial(), sink), std::invalid_argument);

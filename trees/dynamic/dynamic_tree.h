@@ -28,7 +28,7 @@ class DynamicTree {
     void remove(std::uint32_t item);
 
     /// Gives the item a new box: in its place while the bounds of its grandparent hold that, else
-    /// by insertion anew. Throws as `insert` and `remove` do.
+    /// by insertion again. Throws as `insert` and `remove` do.
     void move(std::uint32_t item, Box box);
 
     /// Gives the item a box that holds its old one; the shape stays, bounds above grow. Cheaper
@@ -69,7 +69,7 @@ class DynamicTree {
     using Slot = std::uint32_t;
 
     /// The two children of an inner node: 64 bytes. NodePair 0 is the exception: its side 0 holds the
-    /// root, which has no sibling. A free fork keeps the next free one in `parent`.
+    /// root, which has no sibling. A free pair holds the number of the next free one in `parent`.
     struct alignas(64) NodePair {
         Box box[2];             ///< 48 bytes
         std::uint32_t link[2];  ///< 8 bytes: the fork of an inner node, or leaf_bit + item

@@ -1,4 +1,5 @@
 #include "kernels/arithmetic/rounding.h"
+#include "trees/layout.h"
 #include "trees/testing/box_families.h"
 #include "trees/builder.h"
 #include "trees/layouts/binary.h"

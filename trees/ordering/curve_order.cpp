@@ -214,9 +214,9 @@ Buffer<std::uint32_t> order_by(Boxes boxes, Curve curve, GroupOfBox group, Sorte
 
 } // namespace
 
-KeptOrder kept_curve_order(Boxes boxes, Curve curve, GroupOfBox group, const Executor& executor,
+MergeableOrder mergeable_curve_order(Boxes boxes, Curve curve, GroupOfBox group, const Executor& executor,
                            const Box* centres) {
-    KeptOrder kept{coarse_grid(boxes, executor, centres), group, Records(boxes.size())};
+    MergeableOrder kept{coarse_grid(boxes, executor, centres), group, Records(boxes.size())};
     const auto put = [&](std::size_t first, std::span<const std::uint64_t> records) {
         std::ranges::copy(records, kept.records.data() + first);
     };

@@ -23,13 +23,13 @@ CurveOrder curve_order(Boxes boxes, Curve curve, const Executor& executor);
 using GroupOfBox = std::uint32_t (*)(const Box&);
 
 /// A coarse order that other boxes can be put into later: by 10 bits per axis.
-struct KeptOrder {
+struct MergeableOrder {
     CurveGrid grid;
     GroupOfBox group = nullptr; ///< no function, one group
     /// In order: the code above the item. Empty if the cells do not tell nearly all items apart.
     Buffer<std::uint64_t> records;
 };
-KeptOrder kept_curve_order(Boxes boxes, Curve curve, GroupOfBox group, const Executor& executor,
+MergeableOrder mergeable_curve_order(Boxes boxes, Curve curve, GroupOfBox group, const Executor& executor,
                            const Box* centres = nullptr);
 
 /// Unsorted records of these boxes, numbered from 0: of 64 bits, the item in the lower 32.

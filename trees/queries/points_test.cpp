@@ -5,6 +5,7 @@
 #include "trees/testing/every_executor.h"
 #include "trees/layout.h"
 #include "trees/testing/triangle_soup.h"
+#include "trees/testing/layouts_answering.h"
 
 #include <gtest/gtest.h>
 
@@ -141,7 +142,7 @@ TEST(Points, RegionsAndNeighboursAgreeWithBruteForce) {
         const Expected e = brute_force(family.boxes, q);
         for (const BuilderEntry& builder : builders()) {
             const Tree tree = builder.make({})(family.boxes, serial());
-            for (const LayoutEntry& entry : layouts()) {
+            for (const LayoutEntry& entry : layouts_answering({Query::points, Query::regions, Query::nearest, Query::closest_points})) {
                 SCOPED_TRACE(std::string(builder.name) + "." + std::string(entry.name));
                 const auto layout = entry.make(tree, serial());
                 Work work;
@@ -175,7 +176,7 @@ TEST(Points, AnswerInOneOrderOnEveryExecutor) {
     }
     const Expected e = brute_force(items, q);
     ASSERT_GT(e.points.size(), 500u);
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::points, Query::regions, Query::nearest, Query::closest_points})) {
         SCOPED_TRACE(entry.name);
         const auto layout = entry.make(builders().front().make({})(items, serial()), serial());
         for (const auto& [name, executor] : every_executor()) {
@@ -194,7 +195,7 @@ TEST(Points, RefuseAnswersOfTheWrongSize) {
     const std::vector<Vec3<float>> points(4);
     std::vector<Neighbour> near(7);
     std::vector<SurfacePoint> surface(3);
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::nearest, Query::closest_points})) {
         const auto layout = entry.make(builders().front().make({})(items, serial()), serial());
         EXPECT_THROW(layout->nearest(points, 2, serial(), near), std::invalid_argument);
         EXPECT_THROW(layout->closest_points(points, {}, serial(), surface), std::invalid_argument);
@@ -244,7 +245,7 @@ TEST(ClosestPoints, AgreeWithTheKernelOnEveryTriangle) {
         for (const Vec3<float> p : points)
             expected.push_back(closest_of_all(mesh, p));
         for (const BuilderEntry& builder : builders())
-            for (const LayoutEntry& entry : layouts()) {
+            for (const LayoutEntry& entry : layouts_answering({Query::closest_points})) {
                 SCOPED_TRACE(std::string(builder.name) + "." + std::string(entry.name));
                 const auto layout = entry.make(builder.make({})(items, serial()), serial());
                 const auto expect = [&](const Executor& executor, Work* work) {

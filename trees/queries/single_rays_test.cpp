@@ -1,3 +1,4 @@
+#include "trees/layout.h"
 #include "trees/queries/single_rays.h"
 
 #include "kernels/registry.h"
@@ -6,6 +7,7 @@
 #include "trees/builder.h"
 #include "trees/testing/brute_force_rays.h"
 #include "trees/testing/triangle_soup.h"
+#include "trees/testing/layouts_answering.h"
 
 #include <gtest/gtest.h>
 
@@ -86,7 +88,7 @@ TEST(SingleRays, AgreeWithBruteForceForEveryWayAndInstructionSet) {
         const std::vector<RayHit> expected = brute_force<Watertight>(mesh, rays);
         const std::vector<Box> boxes = triangle_boxes(mesh);
         for (const char* builder : {"binned_sah", "ploc"})
-            for (const LayoutEntry& entry : layouts()) {
+            for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
                 SCOPED_TRACE(std::string(builder) + "." + std::string(entry.name));
                 const auto layout = entry.make(make_builder(builder)(boxes, serial()), serial());
                 const TriangleBlocks triangles = layout->triangles(mesh);
@@ -102,7 +104,7 @@ TEST(SingleRays, AnswerAsABatchForEveryKernel) {
     std::vector<RayHit> batch(rays.size());
     for (const TriangleMesh& mesh : {uv_sphere(40, 20), triangle_soup(3000, 21)}) {
         const Tree tree = make_builder("binned_sah")(triangle_boxes(mesh), serial());
-        for (const LayoutEntry& entry : layouts()) {
+        for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
             const auto layout = entry.make(tree, serial());
             const TriangleBlocks triangles = layout->triangles(mesh);
             for (const KernelInfo& kernel : ray_kernels()) {
@@ -118,7 +120,7 @@ TEST(SingleRays, AreAnsweredOnManyThreadsAtATime) {
     const TriangleMesh mesh = triangle_soup(2000, 21);
     const std::vector<Ray<float>> rays = test_rays();
     const std::vector<RayHit> expected = brute_force<Watertight>(mesh, rays);
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
         const auto layout =
             entry.make(make_builder("median")(triangle_boxes(mesh), serial()), serial());
         const TriangleBlocks triangles = layout->triangles(mesh);
@@ -157,7 +159,7 @@ TEST(SingleRays, TraverseTreesThatAreTooDeepForTheirStack) {
         rays.push_back({{static_cast<float>(k) + .25f, .25f, -1}, {0, 0, 1}});
     const std::vector<RayHit> expected = brute_force<Watertight>(mesh, rays);
     EXPECT_TRUE(expected.back().hit());
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
         SCOPED_TRACE(entry.name);
         const auto layout = entry.make(tree, serial());
         const TriangleBlocks triangles = layout->triangles(mesh);
@@ -170,7 +172,7 @@ TEST(SingleRays, TraverseTreesThatAreTooDeepForTheirStack) {
 TEST(SingleRays, HaveFunctionsOfTheirOwnForTheKernelsOfTheBench) {
     const TriangleMesh mesh = triangle_soup(100, 21);
     const Tree tree = make_builder("median")(triangle_boxes(mesh), serial());
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
         const auto layout = entry.make(tree, serial());
         for (const char* kernel : {"moller_trumbore_f32", "moller_trumbore_f64", "watertight"}) {
             const SingleRayFunctions functions = layout->single_ray_functions(kernel);
@@ -183,7 +185,7 @@ TEST(SingleRays, HaveFunctionsOfTheirOwnForTheKernelsOfTheBench) {
 TEST(SingleRays, RefuseAnUnknownKernel) {
     const TriangleMesh mesh = triangle_soup(10, 21);
     const Tree tree = make_builder("median")(triangle_boxes(mesh), serial());
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
         const auto layout = entry.make(tree, serial());
         EXPECT_THROW(SingleRays(*layout, "watertigth", layout->triangles(mesh)),
                      std::invalid_argument);

@@ -6,6 +6,7 @@
 #include "trees/testing/same_tree.h"
 #include "trees/inspect/validate.h"
 #include "trees/testing/ways_to_build.h"
+#include "trees/testing/layouts_answering.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -65,7 +66,7 @@ RC_GTEST_PROP(Properties, EveryLayoutOfAnyTreeFindsThePairs, ()) {
     const Executor& executor = any_executor();
     const std::string way = *rc::gen::elementOf(ways_to_build());
     const BuildFunction build = make_builder(way);
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::self_pairs})) {
         Tree tree;
         const auto layout = make_layout(entry, build, boxes, executor, tree);
         std::vector<Pair> pairs;
@@ -87,7 +88,7 @@ RC_GTEST_PROP(Properties, EveryLayoutOfAnyTreeFindsWhatRegionsMeet, ()) {
                 expected.push_back({r, i});
     const std::string way = *rc::gen::elementOf(ways_to_build());
     const Tree tree = make_builder(way)(boxes, serial());
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::regions})) {
         std::vector<Pair> found;
         AppendPairs sink(found);
         entry.make(tree, serial())->regions(regions, serial(), sink);

@@ -1,4 +1,5 @@
 #include "trees/testing/box_families.h"
+#include "trees/testing/layouts_answering.h"
 #include "trees/builder.h"
 #include "trees/layout.h"
 
@@ -9,7 +10,6 @@
 /// Work is cut by the input alone, so its balance is a matter of counting: what the heaviest chunk
 /// holds of all answers.
 namespace boxwood {
-using namespace detail;
 namespace {
 
 /// Counts the answers of each chunk.
@@ -51,7 +51,7 @@ TEST(Balance, NoChunkOfOneTreeHasMostOfTheWork) {
     for (const std::vector<Box>& boxes : {giant_cluster(5), same})
         for (const std::string_view builder : {"median", "binned_sah"}) {
             const Tree tree = find_builder(builder)->make({})(boxes, serial());
-            for (const LayoutEntry& entry : layouts()) {
+            for (const LayoutEntry& entry : layouts_answering({Query::self_pairs})) {
                 SCOPED_TRACE(std::string(builder) + "." + std::string(entry.name));
                 ChunkSizes chunks;
                 entry.make(tree, serial())->self_pairs(serial(), chunks);
@@ -70,7 +70,7 @@ TEST(Balance, NoChunkOfTwoTreesHasMostOfTheWork) {
         };
         const Tree tree_a = tree_of(a), tree_b = tree_of(b), tree_same = tree_of(same),
                    tree_few = tree_of(few), tree_many = tree_of(many);
-        for (const LayoutEntry& entry : layouts()) {
+        for (const LayoutEntry& entry : layouts_answering({Query::tree_pairs})) {
             SCOPED_TRACE(std::string(builder) + "." + std::string(entry.name));
             const auto heaviest = [&](const Tree& first, const Tree& second) {
                 ChunkSizes chunks;
@@ -92,7 +92,7 @@ TEST(Balance, NoChunkOfQueriesHasMostOfTheWork) {
     std::vector<Sphere<float>> balls;
     for (const Box& region : regions)
         balls.push_back({region.min, .1f});
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::regions})) {
         SCOPED_TRACE(entry.name);
         const auto layout = entry.make(find_builder("median")->make({})(items, serial()), serial());
         ChunkSizes chunks;

@@ -7,7 +7,7 @@
 #endif
 
 #include "trees/layouts/detail/lanes-inl.h"
-#include "trees/traversals/box_distance.h"
+#include "trees/queries/box_distance.h"
 
 #include <limits>
 

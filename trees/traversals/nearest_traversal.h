@@ -2,7 +2,7 @@
 
 #include "kernels/features/point_triangle.h"
 #include "trees/queries/nearest.h"
-#include "trees/traversals/box_distance.h"
+#include "trees/queries/box_distance.h"
 #include "trees/traversals/region_traversal.h"
 
 #include <algorithm>

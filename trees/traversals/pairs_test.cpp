@@ -5,6 +5,7 @@
 #include "trees/layout.h"
 #include "trees/queries/pairs.h"
 #include "trees/testing/same_tree.h"
+#include "trees/testing/layouts_answering.h"
 
 #include <gtest/gtest.h>
 
@@ -13,12 +14,11 @@
 #include <string>
 
 namespace boxwood {
-using namespace detail;
 namespace {
 
 void for_all_ways(const std::function<void(const BuilderEntry&, const LayoutEntry&)>& test) {
     for (const BuilderEntry& builder : builders())
-        for (const LayoutEntry& layout : layouts()) {
+        for (const LayoutEntry& layout : layouts_answering({Query::self_pairs, Query::tree_pairs})) {
             SCOPED_TRACE(std::string(builder.name) + "." + std::string(layout.name));
             test(builder, layout);
         }
@@ -94,7 +94,7 @@ TEST(SelfPairs, AgreeOnEveryInstructionSet) {
     const Tree half_a = find_builder("median")->make({})({boxes.data(), 3000}, serial());
     const Tree half_b = find_builder("binned_sah")->make({})({boxes.data() + 3000, 3000}, serial());
     on_every_target([&] {
-        for (const LayoutEntry& entry : layouts()) {
+        for (const LayoutEntry& entry : layouts_answering({Query::self_pairs, Query::tree_pairs})) {
             SCOPED_TRACE(entry.name);
             std::vector<Pair> pairs, halves;
             AppendPairs sink(pairs), sink_halves(halves);
@@ -162,7 +162,7 @@ TEST(SelfPairs, TraverseATreeThatIsAChain) {
             tree.nodes[2 * k] = {{{x, 0, 0}, {static_cast<float>(n), 1, 1}}, k, n - k};
         tree.nodes[k + 1 < n ? 2 * k + 1 : 2 * k] = {{{x, 0, 0}, {x + 1, 1, 1}}, k, 1};
     }
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::self_pairs, Query::tree_pairs})) {
         SCOPED_TRACE(entry.name);
         const auto layout = entry.make(tree, serial());
         CountPairs serial_count, count;

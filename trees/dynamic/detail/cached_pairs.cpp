@@ -2,7 +2,7 @@
 
 #include "trees/executors/chunks.h"
 #include "trees/traversals/chunk_sink.h"
-#include "trees/queries/points.h"
+#include "trees/queries/regions.h"
 #include "trees/queries/self_pairs.h"
 #include "trees/dynamic/detail/box_steps.h"
 #include "trees/dynamic/detail/survey.h"
@@ -40,16 +40,16 @@ class CachedPairs::Candidates final : public PairSink {
     std::size_t limit_;
 };
 
-/// Of (number of a restless item, item whose widened box it meets) those that overlap now.
-class CachedPairs::AgainstKept final : public PairSink {
+/// Of (number of a fast item, item whose widened box it meets) those that overlap now.
+class CachedPairs::AgainstSlow final : public PairSink {
   public:
-    AgainstKept(const CachedPairs& kept, PairSink& sink) : kept_(kept), sink_(sink) {}
+    AgainstSlow(const CachedPairs& cached, PairSink& sink) : cached_(cached), sink_(sink) {}
     void begin(std::size_t chunks, bool in_order) override { sink_.begin(chunks, in_order); }
     bool take(std::size_t chunk, std::span<const Pair> pairs) override {
         std::vector<Pair> passed;
         for (const Pair pair : pairs)
-            if (overlaps(kept_.restless_[pair.a], kept_.kept_[pair.b])) {
-                const std::uint32_t item = kept_.restless_items_[pair.a];
+            if (overlaps(cached_.fast_[pair.a], cached_.boxes_[pair.b])) {
+                const std::uint32_t item = cached_.fast_items_[pair.a];
                 passed.push_back({std::min(item, pair.b), std::max(item, pair.b)});
             }
         return passed.empty() || sink_.take(chunk, passed);
@@ -58,7 +58,7 @@ class CachedPairs::AgainstKept final : public PairSink {
     void end() override { sink_.end(); }
 
   private:
-    const CachedPairs& kept_;
+    const CachedPairs& cached_;
     PairSink& sink_;
 };
 
@@ -66,7 +66,7 @@ void CachedPairs::start(Boxes boxes, double expected_step) {
     holds_ = widened_before_ = false;
     side_ = median_side(boxes);
     pace_ = static_cast<float>(std::min(expected_step * side_, double{FLT_MAX} / 8));
-    kept_.resize(boxes.size());
+    boxes_.resize(boxes.size());
     pairs_ = 5 * n(); // a guess
     steps_.clear();
     out_.clear();
@@ -76,39 +76,39 @@ void CachedPairs::start(Boxes boxes, double expected_step) {
 }
 
 std::size_t CachedPairs::count_pairs() const {
-    std::size_t sum = restless_pairs_.size();
+    std::size_t sum = fast_pairs_.size();
     for (std::size_t p = 0; p < n_parts_; ++p)
         sum += parts_[p].sure().size() + parts_[p].now().size();
     return sum;
 }
 
-/// Widened by a margin, for calm items; the other boxes are empty.
-bool CachedPairs::renew(MovingTree& tree, Boxes boxes, const Executor& executor) {
+/// Widened by a margin, for slow items; the other boxes are empty.
+bool CachedPairs::rebuild(MovingTree& tree, Boxes boxes, const Executor& executor) {
     const std::size_t size = boxes.size();
-    most_ = static_cast<float>(std::max(1.25 * double{pace_}, 1e-3 * side_));
+    max_slow_step_ = static_cast<float>(std::max(1.25 * double{pace_}, 1e-3 * side_));
     const double reach = 2 * margin_for(double{pace_});
     reach_.per_used = ExpiringPairs::n_buckets / reach;
     used_ = waste_ = 0;
     holds_ = false;
 
-    kept_.assign(boxes.begin(), boxes.end());
-    std::erase_if(out_, [&](const Out& out) { return !(out.step > most_) || is_absent(out.box); });
+    boxes_.assign(boxes.begin(), boxes.end());
+    std::erase_if(out_, [&](const Out& out) { return !(out.step > max_slow_step_) || is_absent(out.box); });
     for (const Out& out : out_)
-        kept_[out.item] = Box{};
+        boxes_[out.item] = Box{};
     for (std::uint32_t i = 0; i < size; ++i)
         if (is_absent(boxes[i]))
             out_.push_back({i, 0, Box{}});
     std::ranges::sort(out_, {}, &Out::item);
 
-    widen_boxes(kept_, reach / 2, widened_, executor);
-    constexpr double too_loose = 1.15;
+    widen_boxes(boxes_, reach / 2, widened_, executor);
+    constexpr double max_area_ratio = 1.15;
     if (widened_before_)
         tree.refit(widened_, executor);
     else
         tree.exchange(widened_, executor);
     widened_before_ = true;
-    if (tree.looseness() > too_loose)
-        tree.order_anew(widened_, {}, executor);
+    if (tree.area_ratio() > max_area_ratio)
+        tree.reorder(widened_, {}, executor);
 
     Candidates candidates(found_, 64 * size + 65536);
     boxwood::self_pairs(tree.layout(), executor, candidates);
@@ -120,17 +120,17 @@ bool CachedPairs::renew(MovingTree& tree, Boxes boxes, const Executor& executor)
     executor.for_each(n_parts_, [&](std::size_t p) {
         const ChunkRange range(found_.size(), n_parts_, p);
         parts_[p].start(std::span(found_).subspan(range.begin, range.end - range.begin),
-                        kept_.data(), reach_);
+                        boxes_.data(), reach_);
     });
     examined_ = 0;
-    find_restless(tree, executor);
+    find_fast(tree, executor);
     pairs_ = static_cast<double>(count_pairs());
-    tree.step.renewed = holds_ = true;
-    spent_ = renewal_cost() + (tree.step.rebuilt ? 40 * n() : 0);
+    tree.step.pairs_rebuilt = holds_ = true;
+    spent_ = rebuild_cost() + (tree.step.rebuilt ? 40 * n() : 0);
     return true;
 }
 
-/// All boxes are looked at, sixteen at a time. Returns the largest step of the calm; +inf if they
+/// All boxes are looked at, sixteen at a time. Returns the largest step of slow items; +inf if they
 /// are too few.
 float CachedPairs::follow_all(Boxes boxes, const Executor& executor) {
     const std::size_t blocks = (boxes.size() + follow_block - 1) / follow_block;
@@ -140,10 +140,10 @@ float CachedPairs::follow_all(Boxes boxes, const Executor& executor) {
     std::vector<std::size_t> n_far(chunks);
     executor.for_each(chunks, [&](std::size_t c) {
         const ChunkRange range(blocks, chunks, c);
-        n_far[c] = follow_blocks(boxes, kept_.data(), range.begin, range.end, most_, steps_.data(),
+        n_far[c] = follow_blocks(boxes, boxes_.data(), range.begin, range.end, max_slow_step_, steps_.data(),
                                  far_.data() + range.begin);
     });
-    // Nearly everywhere somebody went far: that is too many, whoever they are.
+    // Nearly everywhere some item went far: those are too many, whichever they are.
     if (std::accumulate(n_far.begin(), n_far.end(), std::size_t{0}) > blocks / 4 * 3 + 16)
         return std::numeric_limits<float>::infinity();
     for (std::size_t c = 0; c < chunks; ++c) {
@@ -153,14 +153,14 @@ float CachedPairs::follow_all(Boxes boxes, const Executor& executor) {
             const std::size_t first = b * follow_block;
             steps_[b] = 0;
             for (std::size_t i = first; i < std::min(first + follow_block, boxes.size()); ++i) {
-                if (is_absent(kept_[i]))
+                if (is_absent(boxes_[i]))
                     continue;
-                const float step = box_step(boxes[i], kept_[i]);
-                if (step > most_) {
+                const float step = box_step(boxes[i], boxes_[i]);
+                if (step > max_slow_step_) {
                     fresh_.push_back({static_cast<std::uint32_t>(i), step, boxes[i]});
                     continue;
                 }
-                kept_[i] = boxes[i];
+                boxes_[i] = boxes[i];
                 steps_[b] = std::max(steps_[b], step);
             }
         }
@@ -172,15 +172,15 @@ float CachedPairs::follow_some(Boxes boxes, std::span<const std::uint32_t> moved
     steps_.assign((moved.size() + follow_block - 1) / follow_block, 0);
     for (std::size_t j = 0; j < moved.size(); ++j) {
         const std::uint32_t item = moved[j];
-        Box& kept = kept_[item];
-        if (is_absent(kept))
+        Box& before = boxes_[item];
+        if (is_absent(before))
             continue;
-        const float step = box_step(boxes[item], kept);
-        if (step > most_) {
+        const float step = box_step(boxes[item], before);
+        if (step > max_slow_step_) {
             fresh_.push_back({item, step, boxes[item]});
             continue;
         }
-        kept = boxes[item];
+        before = boxes[item];
         steps_[j / follow_block] = std::max(steps_[j / follow_block], step);
     }
     return steps_.empty() ? 0 : *std::ranges::max_element(steps_);
@@ -201,11 +201,11 @@ void CachedPairs::follow_out(Boxes boxes, std::span<const std::uint32_t> moved) 
     }
 }
 
-/// Makes those who went far restless, or absent.
+/// Marks the items that went far as fast, or absent.
 void CachedPairs::leave_out(const Executor& executor) {
-    marks_.resize(kept_.size());
+    marks_.resize(boxes_.size());
     for (const Out& out : fresh_) {
-        kept_[out.item] = Box{};
+        boxes_[out.item] = Box{};
         marks_[out.item] = 1;
     }
     executor.for_each(n_parts_, [&](std::size_t p) { parts_[p].leave_out(marks_.data()); });
@@ -219,7 +219,7 @@ bool CachedPairs::follow(MovingTree& tree, Boxes boxes, std::span<const std::uin
     spent_ = 0;
     examined_ = 0;
     searched_ = false;
-    tree.step.restless = restless_.size();
+    tree.step.fast = fast_.size();
     fresh_before_ = fresh_.size();
     fresh_.clear();
     if (moved.empty())
@@ -233,15 +233,15 @@ bool CachedPairs::follow(MovingTree& tree, Boxes boxes, std::span<const std::uin
     out_.insert(out_.end(), fresh_.begin(), fresh_.end());
     std::inplace_merge(out_.begin(), out_.begin() + middle, out_.end(),
                        [](const Out& a, const Out& b) { return a.item < b.item; });
-    std::size_t restless = 0;
+    std::size_t fast = 0;
     for (const Out& out : out_) {
-        restless += !is_absent(out.box);
-        waste_ += !is_absent(out.box) && out.step <= most_ ? per_restless : 0;
+        fast += !is_absent(out.box);
+        waste_ += !is_absent(out.box) && out.step <= max_slow_step_ ? per_fast_item : 0;
     }
     if (step > 0)
         used_ = std::nextafter(used_ + 2 * (double{step} * (1 + 0x1p-20) + 2 * double{FLT_MIN}),
                                HUGE_VAL);
-    if (restless > kept_.size() / 16 + 16 || reach_.used_up(used_) || waste_ > renewal_cost()) {
+    if (fast > boxes_.size() / 16 + 16 || reach_.used_up(used_) || waste_ > rebuild_cost()) {
         forecast_by_frame();
         return false;
     }
@@ -250,11 +250,11 @@ bool CachedPairs::follow(MovingTree& tree, Boxes boxes, std::span<const std::uin
     if (step > 0) {
         std::vector<std::size_t> examined(n_parts_);
         executor.for_each(
-            n_parts_, [&](std::size_t p) { examined[p] = parts_[p].examine(kept_.data(), used_); });
+            n_parts_, [&](std::size_t p) { examined[p] = parts_[p].examine(boxes_.data(), used_); });
         for (const std::size_t some : examined)
             examined_ += some;
     }
-    find_restless(tree, executor);
+    find_fast(tree, executor);
     holds_ = true;
     pairs_ = static_cast<double>(count_pairs());
     tree.step.examined = examined_;
@@ -262,32 +262,32 @@ bool CachedPairs::follow(MovingTree& tree, Boxes boxes, std::span<const std::uin
     return true;
 }
 
-void CachedPairs::find_restless(MovingTree& tree, const Executor& executor) {
-    restless_.clear();
-    restless_pairs_.clear();
+void CachedPairs::find_fast(MovingTree& tree, const Executor& executor) {
+    fast_.clear();
+    fast_pairs_.clear();
     for (const Out& out : out_)
         if (!is_absent(out.box))
-            restless_.push_back(out.box);
-    tree.step.restless = restless_.size();
-    if (restless_.empty())
+            fast_.push_back(out.box);
+    tree.step.fast = fast_.size();
+    if (fast_.empty())
         return;
     searched_ = true;
-    restless_items_.clear();
+    fast_items_.clear();
     for (const Out& out : out_)
         if (!is_absent(out.box))
-            restless_items_.push_back(out.item);
-    restless_tree_.take(restless_, coarse_curve_order(restless_, Curve::hilbert, executor),
+            fast_items_.push_back(out.item);
+    fast_tree_.take(fast_, coarse_curve_order(fast_, Curve::hilbert, executor),
                         executor);
-    AppendPairs sink(restless_pairs_);
-    boxwood::self_pairs(restless_tree_, executor, sink);
-    for (Pair& pair : restless_pairs_) // ascending, as they are listed
-        pair = {restless_items_[pair.a], restless_items_[pair.b]};
-    AgainstKept against(*this, sink);
-    boxwood::regions(tree.layout(), Boxes(restless_), executor, against, nullptr);
-    spent_ += static_cast<double>(restless_.size()) * per_restless;
+    AppendPairs sink(fast_pairs_);
+    boxwood::self_pairs(fast_tree_, executor, sink);
+    for (Pair& pair : fast_pairs_) // ascending, as they are listed
+        pair = {fast_items_[pair.a], fast_items_[pair.b]};
+    AgainstSlow against(*this, sink);
+    boxwood::regions(tree.layout(), Boxes(fast_), executor, against, nullptr);
+    spent_ += static_cast<double>(fast_.size()) * per_fast_item;
 }
 
-/// Parts in order, then the pairs of the restless; on the calling thread, as no more than memory is
+/// Parts in order, then the pairs of the fast items; on the calling thread, as no more than memory is
 /// copied.
 void CachedPairs::self_pairs(PairSink& sink) const {
     sink.begin(n_parts_ + 1, true);
@@ -297,7 +297,7 @@ void CachedPairs::self_pairs(PairSink& sink) const {
         if (to.stopped())
             break;
         if (c == n_parts_)
-            to.take(restless_pairs_);
+            to.take(fast_pairs_);
         else if (to.take(parts_[c].sure()))
             to.take(parts_[c].now());
         sink.finish(c);
@@ -309,8 +309,8 @@ Work CachedPairs::self_pairs_counted(const MovingTree& tree, PairSink& sink) con
     Work work;
     if (searched_) {
         CountPairs ignored;
-        work += boxwood::self_pairs_counted(restless_tree_, ignored);
-        boxwood::regions(tree.layout(), Boxes(restless_), serial(), ignored, &work);
+        work += boxwood::self_pairs_counted(fast_tree_, ignored);
+        boxwood::regions(tree.layout(), Boxes(fast_), serial(), ignored, &work);
     }
     work.box_tests += examined_;
     work.answers = count_pairs();
@@ -319,11 +319,11 @@ Work CachedPairs::self_pairs_counted(const MovingTree& tree, PairSink& sink) con
 }
 
 std::size_t CachedPairs::bytes() const {
-    std::size_t sum = (kept_.capacity() + widened_.capacity() + restless_.capacity()) * sizeof(Box);
-    sum += (steps_.capacity() + far_.capacity() + restless_items_.capacity()) * sizeof(float) +
+    std::size_t sum = (boxes_.capacity() + widened_.capacity() + fast_.capacity()) * sizeof(Box);
+    sum += (steps_.capacity() + far_.capacity() + fast_items_.capacity()) * sizeof(float) +
            marks_.capacity();
-    sum += (out_.capacity() + fresh_.capacity()) * sizeof(Out) + restless_tree_.bytes();
-    sum += restless_pairs_.capacity() * sizeof(Pair);
+    sum += (out_.capacity() + fresh_.capacity()) * sizeof(Out) + fast_tree_.bytes();
+    sum += fast_pairs_.capacity() * sizeof(Pair);
     for (const auto& chunk : found_)
         sum += chunk.capacity() * sizeof(Pair);
     for (const ExpiringPairs& part : parts_)
@@ -335,11 +335,11 @@ std::string CachedPairs::fault() const {
     if (!holds_)
         return "";
     for (std::size_t p = 0; p < n_parts_; ++p)
-        if (std::string found = parts_[p].fault(kept_.data()); !found.empty())
+        if (std::string found = parts_[p].fault(boxes_.data()); !found.empty())
             return found;
     for (const Out& out : out_)
-        if (!is_absent(kept_[out.item]))
-            return "item " + std::to_string(out.item) + " is both restless and kept";
+        if (!is_absent(boxes_[out.item]))
+            return "item " + std::to_string(out.item) + " is both fast and cached";
     return "";
 }
 

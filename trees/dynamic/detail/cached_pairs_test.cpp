@@ -17,13 +17,13 @@ namespace {
 
 Box shifted(const Box& box, Vec3<float> by) { return {box.min + by, box.max + by}; }
 
-/// Boxes of which all are said to move, kept by the policy `keep`.
-struct Keeping {
+/// Boxes of which all are said to move, under the policy `cached`.
+struct Caching {
     std::vector<Box> boxes;
     std::unique_ptr<Updater> updater;
     std::vector<std::uint32_t> all;
 
-    explicit Keeping(std::vector<Box> start, const char* policy = "keep", Settings settings = {})
+    explicit Caching(std::vector<Box> start, const char* policy = "cached", Settings settings = {})
         : boxes(std::move(start)), updater(find_update(policy)->make(settings)), all(boxes.size()) {
         std::iota(all.begin(), all.end(), 0u);
         updater->start(boxes, serial());
@@ -63,13 +63,13 @@ std::vector<Vec3<float>> directions(std::size_t n, unsigned seed) {
 
 TEST(CachedPairs, OverTenThousandFramesOfSlowDriftNothingDrifts) {
     const std::size_t n = 120;
-    Keeping keeping(random_boxes(n, .2f, 31));
-    const auto home = keeping.boxes;
+    Caching caching(random_boxes(n, .2f, 31));
+    const auto home = caching.boxes;
     auto by = directions(n, 32);
     std::vector<Vec3<float>> at(n);
-    std::size_t renewed = 0;
+    std::size_t pairs_rebuilt = 0;
     for (int frame = 0; frame < 10'000; ++frame) {
-        renewed += keeping
+        pairs_rebuilt += caching
                        .step([&](std::size_t i, const Box&) {
                            for (int axis = 0; axis < 3; ++axis) {
                                at[i][axis] += by[i][axis] * 2e-4f;
@@ -78,45 +78,45 @@ TEST(CachedPairs, OverTenThousandFramesOfSlowDriftNothingDrifts) {
                            }
                            return shifted(home[i], at[i]);
                        })
-                       .renewed;
-        ASSERT_TRUE(keeping.is_right()) << "frame " << frame;
+                       .pairs_rebuilt;
+        ASSERT_TRUE(caching.is_right()) << "frame " << frame;
     }
-    EXPECT_GT(renewed, 50u);
-    EXPECT_LT(renewed, 1000u);
+    EXPECT_GT(pairs_rebuilt, 50u);
+    EXPECT_LT(pairs_rebuilt, 1000u);
 }
 
 TEST(CachedPairs, FewAreExaminedInASlowDriftAndNoneAtRest) {
     const std::size_t n = 20'000;
-    Keeping keeping(random_boxes(n, .11f, 33));
-    const double pairs = static_cast<double>(keeping.pairs().size());
+    Caching caching(random_boxes(n, .11f, 33));
+    const double pairs = static_cast<double>(caching.pairs().size());
     ASSERT_GT(pairs, 3. * n);
     const auto by = directions(n, 34);
     double examined = 0;
-    std::size_t renewed = 0;
+    std::size_t pairs_rebuilt = 0;
     for (int frame = 0; frame < 40; ++frame) {
-        const UpdateStep step = keeping.step(
+        const UpdateStep step = caching.step(
             [&](std::size_t i, const Box& box) { return shifted(box, 2.5e-6f * by[i]); });
         examined += static_cast<double>(step.examined);
-        renewed += step.renewed;
-        EXPECT_EQ(step.restless, 0u);
+        pairs_rebuilt += step.pairs_rebuilt;
+        EXPECT_EQ(step.fast, 0u);
         CountPairs sink;
-        const Work work = keeping.updater->self_pairs_counted(sink);
+        const Work work = caching.updater->self_pairs_counted(sink);
         EXPECT_EQ(work.box_tests, step.examined);
         EXPECT_EQ(work.answers, sink.count());
     }
-    EXPECT_EQ(renewed, 0u);
+    EXPECT_EQ(pairs_rebuilt, 0u);
     EXPECT_GT(examined, 0);
     EXPECT_LT(examined / 40, .02 * pairs);
-    ASSERT_TRUE(keeping.is_right());
-    const UpdateStep still = keeping.step([](std::size_t, const Box& box) { return box; });
+    ASSERT_TRUE(caching.is_right());
+    const UpdateStep still = caching.step([](std::size_t, const Box& box) { return box; });
     EXPECT_EQ(still.examined, 0u);
-    keeping.updater->update(keeping.boxes, {}, serial());
+    caching.updater->update(caching.boxes, {}, serial());
     CountPairs sink;
-    EXPECT_EQ(keeping.updater->self_pairs_counted(sink).box_tests, 0u);
-    EXPECT_EQ(sink.count(), keeping.pairs().size());
+    EXPECT_EQ(caching.updater->self_pairs_counted(sink).box_tests, 0u);
+    EXPECT_EQ(sink.count(), caching.pairs().size());
 }
 
-/// Unit cubes in a lattice that all touch: the gap is 0, and each step decides it anew.
+/// Unit cubes in a lattice that all touch: the gap is 0, and each step decides it again.
 TEST(CachedPairs, TouchingBoxesPartAndMeet) {
     std::vector<Box> lattice;
     for (int x = 0; x < 6; ++x)
@@ -131,13 +131,13 @@ TEST(CachedPairs, TouchingBoxesPartAndMeet) {
             auto boxes = lattice;
             for (Box& box : boxes)
                 box = {size * box.min, size * box.max};
-            Keeping keeping(boxes);
+            Caching caching(boxes);
             const auto by = directions(boxes.size(), 35);
             for (int frame = 0; frame < 12; ++frame) {
                 const float way = frame % 4 < 2 ? step * size : -step * size;
-                keeping.step(
+                caching.step(
                     [&](std::size_t i, const Box& box) { return shifted(box, way * by[i]); });
-                ASSERT_TRUE(keeping.is_right()) << size << " " << step << " " << frame;
+                ASSERT_TRUE(caching.is_right()) << size << " " << step << " " << frame;
             }
         }
 }
@@ -156,60 +156,60 @@ TEST(CachedPairs, MeetInTheVeryFrame) {
                 boxes[i] = i % 2 == 0 ? Box{{x, 0, 0}, {x + 1, 1, 1}}
                                       : Box{{x + 1 + gap, 0, 0}, {x + 2 + gap, 1, 1}};
             }
-            Keeping keeping(boxes, "keep", {{"margin", margin}});
+            Caching caching(boxes, "cached", {{"margin", margin}});
             std::size_t met = 0;
             for (int frame = 0; frame < frames + 3; ++frame) {
-                keeping.step([&](std::size_t i, const Box& box) {
+                caching.step([&](std::size_t i, const Box& box) {
                     return shifted(box, {i % 2 == 0 ? way : -way, 0, 0});
                 });
-                ASSERT_TRUE(keeping.is_right()) << margin << " " << frames << " " << frame;
-                met = std::max(met, keeping.pairs().size());
+                ASSERT_TRUE(caching.is_right()) << margin << " " << frames << " " << frame;
+                met = std::max(met, caching.pairs().size());
             }
             EXPECT_EQ(met, n / 2);
         }
 }
 
-TEST(CachedPairs, AFastFewAreRestlessAndCalmDownWhenTheyStop) {
+TEST(CachedPairs, AFewFastItemsAreFoundEachFrameAndSlowAgainWhenTheyStop) {
     const std::size_t n = 5000, fast = 40;
-    Keeping keeping(random_boxes(n, .06f, 37));
+    Caching caching(random_boxes(n, .06f, 37));
     const auto by = directions(n, 38);
     std::mt19937 random(39);
     std::uniform_real_distribution<float> place(0, 1);
-    std::size_t renewed = 0;
+    std::size_t pairs_rebuilt = 0;
     UpdateStep step;
     for (int frame = 0; frame < 300; ++frame) {
-        step = keeping.step([&](std::size_t i, const Box& box) {
+        step = caching.step([&](std::size_t i, const Box& box) {
             if (i % (n / fast) != 0 || frame >= 10)
                 return shifted(box, 1e-6f * by[i]);
             const Vec3<float> to{place(random), place(random), place(random)};
             return shifted(box, to - box.min);
         });
-        renewed += step.renewed;
+        pairs_rebuilt += step.pairs_rebuilt;
         if (frame == 9) {
-            EXPECT_EQ(step.restless, fast);
+            EXPECT_EQ(step.fast, fast);
         }
         if (frame < 12 || frame % 50 == 0) {
-            ASSERT_TRUE(keeping.is_right()) << frame;
+            ASSERT_TRUE(caching.is_right()) << frame;
         }
     }
-    EXPECT_EQ(step.restless, 0u);
-    EXPECT_LT(renewed, 4u);
+    EXPECT_EQ(step.fast, 0u);
+    EXPECT_LT(pairs_rebuilt, 4u);
 }
 
-/// How many are restless in the fourth frame, where in each some items jump to and fro.
-std::size_t restless_in_the_fourth(const char* policy,
+/// How many are fast in the fourth frame, where in each some items jump to and fro.
+std::size_t fast_in_the_fourth(const char* policy,
                                    const std::function<bool(int, std::size_t)>& jumps) {
-    Keeping keeping(random_boxes(8000, .03f, 36), policy);
-    std::size_t restless = 0;
+    Caching caching(random_boxes(8000, .03f, 36), policy);
+    std::size_t fast = 0;
     for (int frame = 0; frame < 4; ++frame)
-        restless =
-            keeping
+        fast =
+            caching
                 .step([&](std::size_t i, const Box& box) {
                     return jumps(frame, i) ? shifted(box, {frame % 2 ? -.2f : .2f, 0, 0}) : box;
                 })
-                .restless;
-    EXPECT_TRUE(keeping.is_right());
-    return restless;
+                .fast;
+    EXPECT_TRUE(caching.is_right());
+    return fast;
 }
 
 TEST(CachedPairs, AutoGivesUpWhereOtherItemsJumpInEachFrame) {
@@ -217,23 +217,23 @@ TEST(CachedPairs, AutoGivesUpWhereOtherItemsJumpInEachFrame) {
         return i % 50 == static_cast<std::size_t>(frame);
     };
     const auto the_same = [](int, std::size_t i) { return i % 500 == 0; };
-    EXPECT_GE(restless_in_the_fourth("keep", others), 160u);
-    EXPECT_EQ(restless_in_the_fourth("auto", others), 0u);
-    EXPECT_EQ(restless_in_the_fourth("auto", the_same), 16u);
+    EXPECT_GE(fast_in_the_fourth("cached", others), 160u);
+    EXPECT_EQ(fast_in_the_fourth("auto", others), 0u);
+    EXPECT_EQ(fast_in_the_fourth("auto", the_same), 16u);
 }
 
 TEST(CachedPairs, WhereTheyAreTooManyTheTreeAnswers) {
     std::vector<Box> same(700, Box{{0, 0, 0}, {1, 1, 1}});
-    for (const char* policy : {"keep", "auto"}) {
-        Keeping keeping(same, policy);
+    for (const char* policy : {"cached", "auto"}) {
+        Caching caching(same, policy);
         for (int frame = 0; frame < 140; ++frame) {
-            const UpdateStep step = keeping.step([&](std::size_t i, const Box& box) {
+            const UpdateStep step = caching.step([&](std::size_t i, const Box& box) {
                 const float x = frame == 60 ? static_cast<float>(i) : 0;
                 return shifted(box, {x + 1e-5f * static_cast<float>(i % 3), 0, 0});
             });
             EXPECT_EQ(step.examined, 0u);
             if (frame % 20 == 0) {
-                ASSERT_TRUE(keeping.is_right()) << policy << frame;
+                ASSERT_TRUE(caching.is_right()) << policy << frame;
             }
             if (frame == 60)
                 break;
@@ -242,7 +242,7 @@ TEST(CachedPairs, WhereTheyAreTooManyTheTreeAnswers) {
 }
 
 TEST(CachedPairs, SameAnswersInTheSameOrderOnEveryExecutor) {
-    for (const char* policy : {"keep", "auto"}) {
+    for (const char* policy : {"cached", "auto"}) {
         std::vector<std::vector<Pair>> first;
         for (const auto& [name, threads] : {std::pair{"serial", 1u},
                                             {"openmp", 1u},
@@ -252,20 +252,20 @@ TEST(CachedPairs, SameAnswersInTheSameOrderOnEveryExecutor) {
                                             {"tbb", 2u},
                                             {"tbb", 4u}}) {
             const auto executor = make_executor(name, threads);
-            Keeping keeping(random_boxes(30'000, .03f, 40), policy);
-            const auto by = directions(keeping.boxes.size(), 41);
+            Caching caching(random_boxes(30'000, .03f, 40), policy);
+            const auto by = directions(caching.boxes.size(), 41);
             std::mt19937 random(42);
             for (std::size_t frame = 0; frame < 6; ++frame) {
-                for (std::size_t i = 0; i < keeping.boxes.size(); ++i)
-                    keeping.boxes[i] = shifted(keeping.boxes[i], 1e-5f * by[i]);
+                for (std::size_t i = 0; i < caching.boxes.size(); ++i)
+                    caching.boxes[i] = shifted(caching.boxes[i], 1e-5f * by[i]);
                 for (int jump = 0; jump < 20; ++jump)
-                    keeping.boxes[random() % keeping.boxes.size()] = keeping.boxes[7];
+                    caching.boxes[random() % caching.boxes.size()] = caching.boxes[7];
                 if (frame == 3)
-                    keeping.boxes[100] = Box{};
-                keeping.updater->update(keeping.boxes, keeping.all, *executor);
+                    caching.boxes[100] = Box{};
+                caching.updater->update(caching.boxes, caching.all, *executor);
                 if (first.size() <= frame)
-                    first.push_back(keeping.pairs());
-                ASSERT_EQ(keeping.pairs(*executor), first[frame])
+                    first.push_back(caching.pairs());
+                ASSERT_EQ(caching.pairs(*executor), first[frame])
                     << policy << ", " << name << " " << threads << ", frame " << frame;
             }
         }

@@ -144,7 +144,7 @@ std::size_t ExpiringPairs::bytes() const {
 
 std::string ExpiringPairs::fault(const Box* boxes) const {
     const auto name = [](Pair p) {
-        return "kept pair (" + std::to_string(p.a) + ", " + std::to_string(p.b) + ") ";
+        return "cached pair (" + std::to_string(p.a) + ", " + std::to_string(p.b) + ") ";
     };
     for (const auto list : {sure(), now()})
         for (const Pair pair : list)

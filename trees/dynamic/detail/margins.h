@@ -18,7 +18,7 @@ class Margins {
     void start_wide(Boxes boxes, double margin);
     /// The items of `moved` whose boxes are not inside their fat boxes; valid until the next call.
     std::span<const std::uint32_t> left(Boxes boxes, std::span<const std::uint32_t> moved);
-    /// Puts the fat boxes of these items around their boxes anew.
+    /// Puts the fat boxes of these items around their present boxes.
     void follow(Boxes boxes, std::span<const std::uint32_t> items);
     const Box& fat(std::uint32_t item) const { return fat_[item]; }
     std::size_t bytes() const {

@@ -24,7 +24,7 @@ std::optional<Survey> survey_frame(Boxes boxes, std::span<const std::uint32_t> m
     if (boxes.size() != size)
         throw std::invalid_argument("update: the tree holds " + std::to_string(size) +
                                     " items, but there are " + std::to_string(boxes.size()) +
-                                    " boxes; give one per item, or start anew");
+                                    " boxes; give one per item, or call start again");
     if (!are_ascending(moved) || (!moved.empty() && moved.back() >= size))
         throw_bad_list(moved, size);
     if (is_nearly_all(moved.size(), size))

@@ -12,7 +12,7 @@ struct Refit {
         "new bounds in the old order: of all blocks, or only above what moved";
 
     void start(MovingTree& tree, Boxes boxes, const Executor& executor) {
-        tree.order_anew(boxes, tree.survey, executor);
+        tree.reorder(boxes, tree.survey, executor);
     }
     void update(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
                 const Executor& executor) {

@@ -15,12 +15,12 @@ namespace {
 struct Reinsert {
     static constexpr std::string_view name = "reinsert";
     static constexpr std::string_view summary =
-        "what left its fat box is inserted anew into a dynamic tree, the rest refitted";
+        "what left its fat box is inserted again into a dynamic tree, the rest refitted";
 
     double margin = .5; ///< of the mean side of a box, on each side
 
     static std::array<Setting<Reinsert>, 1> settings() {
-        return {{{"margin", "how far a box may go before it is inserted anew, in mean sides",
+        return {{{"margin", "how far a box may go before it is inserted again, in mean sides",
                   &Reinsert::margin, 0, 1e6}}};
     }
 

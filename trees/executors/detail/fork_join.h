@@ -4,9 +4,9 @@
 #include <sanitizer/tsan_interface.h>
 #endif
 
-namespace boxwood {
+namespace boxwood::detail {
 
-/// What an executor promises, told to ThreadSanitizer: what came before the fork is seen by every
+/// What an executor promises, reported to ThreadSanitizer: what came before the fork is seen by every
 /// task, and what the tasks did by whoever waits for them; nothing between two tasks. Debian's
 /// libgomp and oneTBB are not instrumented, and the executors' own files are compiled without (or
 /// TBB's templates would tell half of it), so it learns of forks and joins here alone. An empty
@@ -40,4 +40,4 @@ class ForkJoin {
 #endif
 };
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace boxwood::detail {
+namespace boxwood {
 
 /// The square of the distance from a point to a closed box, 0 inside; all finite. The differences
 /// are rounded once, to double, so that the result is off by less than 5 * 2^-53 of itself; it is
@@ -22,6 +22,8 @@ template <class Real> double squared_distance(Vec3<float> point, const Aabb<Real
     }
     return sum;
 }
+
+namespace detail {
 
 /// A float below which distances in a tree are bounded: squares of lengths times the power of two
 /// `scale`, at which they neither over- nor underflow. A bound from below is taken smaller by the
@@ -59,4 +61,5 @@ struct DistanceScale {
     }
 };
 
-} // namespace boxwood::detail
+} // namespace detail
+} // namespace boxwood

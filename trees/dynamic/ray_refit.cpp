@@ -1,8 +1,9 @@
-#include "trees/traversals/ray_refit.h"
+#include "trees/dynamic/ray_refit.h"
 
 #include <algorithm>
 
-namespace boxwood::detail {
+namespace boxwood {
+using namespace detail;
 namespace {
 
 /// By halves, in loops without branches. n is a power of two.
@@ -175,4 +176,4 @@ std::size_t RayRefit::bytes() const {
            is_noted_.capacity() + is_stale_.capacity();
 }
 
-} // namespace boxwood::detail
+} // namespace boxwood

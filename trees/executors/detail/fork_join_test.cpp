@@ -10,6 +10,7 @@
 #include <vector>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 /// Two tasks that run at the same time, on two threads, and are not ordered by it. Where there is

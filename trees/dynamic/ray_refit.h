@@ -8,11 +8,11 @@
 #include <cstdint>
 #include <vector>
 
-namespace boxwood::detail {
+namespace boxwood {
 
 /// Keeps what rays read of a layout true to a mesh whose vertices move: triangles stay in their
-/// leaves, the boxes above them are made exact anew where they change. Answers are then those of a
-/// layout made anew. For layouts of sixteen lanes: packed and wide16.
+/// leaves, and the boxes above them are made exact again where they change. Answers are then those
+/// of a new layout. For layouts of sixteen lanes: packed and wide16.
 class RayRefit {
   public:
     /// Notes where each of so many triangles is: in one leaf each.
@@ -30,8 +30,8 @@ class RayRefit {
 
   private:
     static constexpr std::size_t W = 16;
-    using Node = RayNode<W>;
-    using Block = RayBlock<Node>;
+    using Node = detail::RayNode<W>;
+    using Block = detail::RayBlock<Node>;
     static constexpr std::uint32_t none = ~std::uint32_t{0};
 
     std::vector<std::uint32_t> leaf_of_;    ///< by triangle: the first block of its leaf
@@ -42,4 +42,4 @@ class RayRefit {
     std::vector<std::uint32_t> leaves_;     ///< those noted
 };
 
-} // namespace boxwood::detail
+} // namespace boxwood

@@ -1,4 +1,5 @@
-#include "trees/traversals/ray_refit.h"
+#include "trees/layout.h"
+#include "trees/dynamic/ray_refit.h"
 
 #include "kernels/ray_triangle/watertight.h"
 #include "trees/builder.h"
@@ -92,18 +93,18 @@ TEST(RayRefit, AnswersAreThoseOfBruteForce) {
 
 // Whatever changed and on whatever executor, the tree is byte for byte what the same order makes of
 // the mesh as it is.
-TEST(RayRefit, MakesTheTreeOfTheSameOrderAnew) {
+TEST(RayRefit, MakesTheTreeOfTheSameOrderAgain) {
     for (const auto& [name, run] : every_executor()) {
         SCOPED_TRACE(name);
         TriangleMesh mesh = triangle_soup(5000);
         const auto order = make_builder("hilbert").order(boxes_of(mesh), serial());
-        const auto anew = [&] {
+        const auto rebuilt = [&] {
             const std::vector<Box> boxes = boxes_of(mesh);
             return find_layout("packed")
                 ->make_of_order(boxes, order.span(), serial())
                 ->triangles(mesh);
         };
-        TriangleBlocks blocks = anew();
+        TriangleBlocks blocks = rebuilt();
         RayRefit refit;
         refit.start(blocks, 5000);
         std::mt19937 random(1);
@@ -111,7 +112,7 @@ TEST(RayRefit, MakesTheTreeOfTheSameOrderAnew) {
             const auto [first, last] = move_some(mesh, random);
             refit.note(first, last);
             refit.refit(blocks, mesh, *run);
-            const TriangleBlocks expected = anew();
+            const TriangleBlocks expected = rebuilt();
             EXPECT_TRUE(std::ranges::equal(blocks.nodes.span(), expected.nodes.span()));
             EXPECT_TRUE(std::ranges::equal(blocks.blocks.span(), expected.blocks.span()));
             EXPECT_EQ(blocks.bounds, expected.bounds);
