@@ -242,7 +242,7 @@ def test_version_says_how_it_was_built():
 def test_list_is_the_same_whole_and_in_parts():
     whole = json.loads(answer("list", "--json"))
     assert list(whole) == (
-        "builders stages layouts updates traversals kernels scenes moving_scenes effects scene_queries query_kinds tasks executors peers families".split()
+        "builders optimizers layouts updates traversals kernels scenes moving_scenes effects scene_queries query_kinds tasks executors peers families".split()
     )
     for name, rows in whole.items():
         assert json.loads(answer("list", name, "--json")) == rows

@@ -25,7 +25,7 @@ struct BinnedPart : Subtree {
     float centres[8];
 };
 
-HWY_INLINE void ClearCentres(BinnedPart& part) { StoreF8(SetF8(kLeast), part.centres); }
+HWY_INLINE void ClearCentres(BinnedPart& part) { StoreF8(SetF8(kLowest), part.centres); }
 
 class BinnedSplitter {
   public:
@@ -60,7 +60,7 @@ class BinnedSplitter {
         if (r.depth > max_depth_)
             return Halve(r, false);
         const Binning binning(r.centres, r.count, max_bins_);
-        Bin bins[kMostBins];
+        Bin bins[kMaxBins];
         if (binning.is_flat())
             return Halve(r, true);
         Clear(bins, binning.n_bins);
@@ -94,7 +94,7 @@ class BinnedSplitter {
             std::size_t range;
             std::uint32_t from, count, n_left;
             float left_centres[8], right_centres[8];
-            Bin bins[kMostBins];
+            Bin bins[kMaxBins];
         };
         struct Choice {
             Binning binning;
@@ -121,7 +121,7 @@ class BinnedSplitter {
         // the slice.
         for (std::size_t i = 0, next = 0; i < large.size(); ++i) {
             Choice& choice = choices[i];
-            Bin bins[kMostBins];
+            Bin bins[kMaxBins];
             Clear(bins, choice.binning.n_bins);
             std::size_t end = next;
             for (; end < slices.size() && slices[end].range == i; ++end)
@@ -148,8 +148,8 @@ class BinnedSplitter {
             Slice& s = slices[i];
             const Choice& choice = choices[s.range];
             Halves& h = children[s.range];
-            StoreF8(SetF8(kLeast), s.left_centres);
-            StoreF8(SetF8(kLeast), s.right_centres);
+            StoreF8(SetF8(kLowest), s.left_centres);
+            StoreF8(SetF8(kLowest), s.right_centres);
             if (choice.plane.axis >= 0)
                 Partition(Items(large[s.range]) + s.from, s.count, choice.binning, choice.plane,
                      Items(h.first), s.n_left,

@@ -149,8 +149,8 @@ TEST(Builders, RankByCostOnBoxesOfManySizes) {
     std::vector<Box> boxes = random_boxes(20000, .01f, 11);
     for (std::size_t i = 0; i < boxes.size(); i += 10)
         boxes[i].max = boxes[i].min + Vec3<float>{.1f, .3f, .02f};
-    const auto cost = [&](std::string_view words, const Settings& settings = {}) {
-        return quality(make_builder(words, settings)(boxes, serial()), boxes).sah_cost;
+    const auto cost = [&](std::string_view name, const Settings& settings = {}) {
+        return quality(make_builder(name, settings)(boxes, serial()), boxes).sah_cost;
     };
     const double sweep = cost("sweep_sah"), binned = cost("binned_sah", {{"agglomerate_below", 1}});
     EXPECT_LT(cost("binned_sah"), binned);

@@ -46,7 +46,7 @@ class MedianSplitter {
     /// Each side comes in its old order, into the other array.
     std::pair<Part, Part> split(const Part& r) {
         const Prim8* prims = Array(r.array) + r.first;
-        F8 box = SetF8(kLeast), centres = box;
+        F8 box = SetF8(kLowest), centres = box;
         for (std::uint32_t i = 0; i < r.count; ++i) {
             const F8 each = LoadF8(prims[i].v);
             box = MaxF8(box, each);

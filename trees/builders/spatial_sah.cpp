@@ -23,10 +23,10 @@ constexpr double empty = 8, large = 8;
 struct Grid {
     Vec3<float> low;
     double cell = 0;
-    double least_area; ///< half area of boxes worth cutting
+    double min_area; ///< half area of boxes worth cutting
 
     Grid(const Box& bounds, std::size_t n)
-        : low(bounds.min), least_area(large * bounds.half_area() / static_cast<double>(n)) {
+        : low(bounds.min), min_area(large * bounds.half_area() / static_cast<double>(n)) {
         for (int k = 0; k < 3; ++k)
             cell = std::max(cell, static_cast<double>(bounds.max[k]) -
                                       static_cast<double>(bounds.min[k]));
@@ -49,7 +49,7 @@ struct Cut {
 /// axes the one along which the box is longest. Cuts of neighbours so lie in the same planes.
 Cut coarsest_cut(const Grid& grid, const Box& box) {
     Cut cut;
-    if (!(box.half_area() > grid.least_area))
+    if (!(box.half_area() > grid.min_area))
         return cut;
     for (int k = 0; k < 3; ++k) {
         const std::uint32_t a = grid.index(box.min[k], k), b = grid.index(box.max[k], k);

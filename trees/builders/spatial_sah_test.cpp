@@ -49,8 +49,8 @@ TriangleMesh slivers(std::uint32_t n, float size, float centre, std::uint32_t se
 }
 
 Tree build(const TriangleMesh& mesh, const Settings& settings = {},
-           const Executor& executor = serial(), std::string_view words = "spatial_sah") {
-    return make_builder(words, settings).build_of_mesh(mesh, executor);
+           const Executor& executor = serial(), std::string_view name = "spatial_sah") {
+    return make_builder(name, settings).build_of_mesh(mesh, executor);
 }
 
 TEST(ClippedTriangle, PartsHoldTheirSideAndLittleMore) {

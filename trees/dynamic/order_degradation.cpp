@@ -82,9 +82,9 @@ bool OrderDegradation::is_due(double excess, std::size_t age, double before) con
 bool OrderDegradation::is_due() const { return is_due(newest_, frames_, before_); }
 
 bool OrderDegradation::is_due_next() const {
-    constexpr std::size_t most_in_a_row = 8; // then what a frame costs is looked at once more
+    constexpr std::size_t max_in_a_row = 8; // then what a frame costs is looked at once more
     if (frames_ == 0)
-        return in_a_row_ < most_in_a_row && is_due(first_, 1, 0);
+        return in_a_row_ < max_in_a_row && is_due(first_, 1, 0);
     const auto age = static_cast<double>(frames_);
     return is_due(newest_ * (age + 1) / age, frames_ + 1, before_ + newest_);
 }

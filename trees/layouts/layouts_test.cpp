@@ -106,9 +106,9 @@ TEST(WideLayouts, AreTheSameOnEveryExecutor) {
         std::vector<Pair> expected_pairs;
         AppendPairs expected_sink(expected_pairs);
         self_pairs(expected, serial(), expected_sink);
-        for (const std::string_view word : {"openmp", "tbb"})
+        for (const std::string_view name : {"openmp", "tbb"})
             for (const unsigned threads : {2u, 4u}) {
-                const auto executor = make_executor(word, threads);
+                const auto executor = make_executor(name, threads);
                 const L made(tree, *executor);
                 ASSERT_EQ(made.blocks().size(), expected.blocks().size());
                 EXPECT_EQ(made.bytes(), expected.bytes());

@@ -51,8 +51,8 @@ TEST(Reinsertion, KeepsEveryFamilyValidAndNeverCostsMore) {
 
 TEST(Reinsertion, IsReachedByItsWordWithItsSettings) {
     const std::vector<Box> boxes = random_boxes(2000, .05f, 3);
-    const auto cost = [&](std::string_view words, const Settings& settings) {
-        const Tree tree = make_builder(words, settings)(boxes, serial());
+    const auto cost = [&](std::string_view name, const Settings& settings) {
+        const Tree tree = make_builder(name, settings)(boxes, serial());
         EXPECT_EQ(validate(tree, boxes).value_or(""), "");
         return quality(tree, boxes).sah_cost;
     };
@@ -148,9 +148,9 @@ TEST(Reinsertion, EndsWhereNoSingleMoveHelps) {
         const std::uint32_t n = 3 + seed % 9;
         const std::vector<Box> boxes = random_boxes(n, .3f, 100 + seed);
         Tree tree = seed % 2 ? chain_of(boxes) : make_builder("median")(boxes, serial());
-        ReinsertionOptimizer stage;
-        stage.passes = 100;
-        stage.improve(tree, serial());
+        ReinsertionOptimizer optimizer;
+        optimizer.passes = 100;
+        optimizer.improve(tree, serial());
         ASSERT_EQ(validate(tree, boxes).value_or(""), "");
         const Nested reached = nested(tree, 0);
         double area = 0;
@@ -181,9 +181,9 @@ TEST(Reinsertion, TakesLittleTimeOnAChain) {
     const std::vector<Box> boxes = random_boxes(30000, .01f, 5);
     Tree tree = chain_of(boxes);
     const double before = inner_area(tree);
-    ReinsertionOptimizer stage;
-    stage.passes = 1;
-    stage.improve(tree, serial());
+    ReinsertionOptimizer optimizer;
+    optimizer.passes = 1;
+    optimizer.improve(tree, serial());
     EXPECT_FALSE(validate(tree, boxes));
     EXPECT_LT(inner_area(tree), .5 * before);
 }

@@ -13,6 +13,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::detail::HWY_NAMESPACE {
+namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -340,6 +341,7 @@ void CoarseCodes(Boxes boxes, Curve curve, const CurveGrid& grid,
 }
 #endif
 
+} // namespace
 } // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

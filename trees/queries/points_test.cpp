@@ -18,7 +18,7 @@ namespace {
 constexpr float inf = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-/// Points, boxes and balls to ask a family about: at corners of items, around them, anywhere, and
+/// Points, boxes and balls to query a family with: at corners of items, around them, anywhere, and
 /// such as hold nothing or everything.
 struct Queries {
     std::vector<Vec3<float>> points;

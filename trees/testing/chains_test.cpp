@@ -91,10 +91,10 @@ void expect_answers(const AnyLayout& layout, const TriangleMesh& mesh) {
         balls.push_back({points.back(), .125f});
         rays.push_back({{x, 1, 0}, {0, -1, 1}});
     }
-    const auto expect_own = [&](const auto& ask) {
+    const auto expect_own = [&](const auto& query) {
         std::vector<Pair> pairs;
         AppendPairs sink(pairs);
-        ask(sink);
+        query(sink);
         ASSERT_EQ(pairs.size(), points.size());
         for (std::uint32_t i = 0; i < pairs.size(); ++i)
             EXPECT_EQ(pairs[i], (Pair{i, static_cast<std::uint32_t>(points[i].x)}));

@@ -15,7 +15,7 @@
 #include <cmath>
 #include <random>
 
-/// What holds for any boxes, every builder, stage, layout and executor. RapidCheck prints the boxes
+/// What holds for any boxes, every builder, optimizer, layout and executor. RapidCheck prints the boxes
 /// that a failure shrinks to, and the RC_PARAMS that bring it back.
 namespace boxwood {
 namespace {

@@ -7,7 +7,7 @@
 
 namespace boxwood {
 
-/// Each builder of the registry, alone and with each optimizer after it: words of `make_builder`.
+/// Each builder of the registry, alone and with each optimizer after it: names for `make_builder`.
 inline std::vector<std::string> ways_to_build() {
     std::vector<std::string> ways;
     for (const BuilderEntry& builder : builders()) {

@@ -18,6 +18,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::detail::HWY_NAMESPACE {
+namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -337,6 +338,7 @@ void PackedChunkPairs(const PackedChunk& chunk, PackedPairs& pairs, bool self, W
              : RunChunk<false, false>(chunk, pairs, work);
 }
 
+} // namespace
 } // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

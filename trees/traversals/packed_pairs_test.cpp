@@ -148,13 +148,13 @@ TEST(PackedPairs, ComeInTheSameOrderOnAnyNumberOfThreads) {
     AppendPairs serially(expected);
     self_pairs(layout, serial(), serially);
     EXPECT_GT(expected.size(), 30000u);
-    for (const std::string_view word : {"openmp", "tbb"})
+    for (const std::string_view name : {"openmp", "tbb"})
         for (const unsigned threads : {2u, 4u}) {
             std::vector<Pair> pairs;
             AppendPairs sink(pairs);
             for (int again = 0; again < 3; ++again) {
                 pairs.clear();
-                self_pairs(layout, *make_executor(word, threads), sink);
+                self_pairs(layout, *make_executor(name, threads), sink);
                 EXPECT_EQ(pairs, expected);
             }
         }

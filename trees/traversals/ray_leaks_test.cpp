@@ -107,7 +107,7 @@ TEST(RayLeaks, NoneOfTheRaysThatLeakElsewhere) {
     for_each_tight_way(mesh, [&](std::string_view kernel, const AnyLayout& layout) {
         EXPECT_EQ(leaks(layout, mesh, kernel, rays), 0u);
     });
-    // The rung below is seen to leak, or nothing was tested.
+    // The kernel below is seen to leak, or nothing was tested.
     EXPECT_GT(leaks(*layout_of(mesh, *find_layout("binary")), mesh, "moller_trumbore_f32", rays), 10u);
 }
 

@@ -24,6 +24,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::detail::HWY_NAMESPACE {
 
+using boxwood::HWY_NAMESPACE::IntersectBlock;
+
 /// Each open node on a path leaves all but one of its children waiting; a whole node is stored
 /// beyond them, and one reference below them ends a traversal.
 template <class Node> constexpr std::size_t room_for(std::size_t depth) {
@@ -52,7 +54,7 @@ template <class Node, RayKernel K, RayMode mode, bool Counted> class RayWave {
     void run() {
         const std::size_t room = room_for<Node>(job_.depth);
         const std::size_t rays =
-            std::min({width, job_.rays.size(), std::max<std::size_t>(most_waiting / room, 1)});
+            std::min({width, job_.rays.size(), std::max<std::size_t>(max_waiting / room, 1)});
         Buffer<Waiting> stacks(room * rays);
         for (std::size_t i = 0; i < rays; ++i) {
             WaveRay& own = wave_[i];
@@ -80,7 +82,7 @@ template <class Node, RayKernel K, RayMode mode, bool Counted> class RayWave {
 
   private:
     static constexpr std::uint32_t over = ~std::uint32_t{0}; ///< no ray_refs
-    static constexpr std::size_t most_waiting = 1 << 18;     ///< of several rays together
+    static constexpr std::size_t max_waiting = 1 << 18;     ///< of several rays together
 
     struct alignas(64) WaveRay {
         FusedSlabs slabs;

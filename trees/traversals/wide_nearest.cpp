@@ -17,6 +17,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::detail::HWY_NAMESPACE {
+namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -177,6 +178,7 @@ HWY_INLINE void Search(const L& tree, Vec3<float> point, Best& best, NearestTrav
 BOXWOOD_LANE_LAYOUTS(X)
 #undef X
 
+} // namespace
 } // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -16,6 +16,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::detail::HWY_NAMESPACE {
+namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -185,6 +186,7 @@ void Answer(const L& tree, const RegionQueries& queries, RegionTraversal& traver
 BOXWOOD_LANE_LAYOUTS(X)
 #undef X
 
+} // namespace
 } // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -33,7 +33,7 @@ bool AreAscending(std::span<const std::uint32_t> items) {
 }
 
 std::size_t FollowBlocks(Boxes now, Box* HWY_RESTRICT before, std::size_t begin, std::size_t end,
-                         float most, float* HWY_RESTRICT steps, std::uint32_t* HWY_RESTRICT far) {
+                         float max_step, float* HWY_RESTRICT steps, std::uint32_t* HWY_RESTRICT far) {
     std::size_t n_far = 0;
     for (std::size_t b = begin; b < end; ++b) {
         const std::size_t first = b * follow_block,
@@ -56,7 +56,7 @@ std::size_t FollowBlocks(Boxes now, Box* HWY_RESTRICT before, std::size_t begin,
                 step = std::max(step, box_step(now[i], before[i]));
         }
         steps[b] = step;
-        if (!(step <= most)) {
+        if (!(step <= max_step)) {
             far[n_far++] = static_cast<std::uint32_t>(b);
         } else if (whole) {
             const float* const from = reinterpret_cast<const float*>(&now[first]);
@@ -82,9 +82,9 @@ bool are_ascending(std::span<const std::uint32_t> items) {
     return HWY_DYNAMIC_DISPATCH(AreAscending)(items);
 }
 
-std::size_t follow_blocks(Boxes now, Box* before, std::size_t begin, std::size_t end, float most,
+std::size_t follow_blocks(Boxes now, Box* before, std::size_t begin, std::size_t end, float max_step,
                           float* steps, std::uint32_t* far) {
-    return HWY_DYNAMIC_DISPATCH(FollowBlocks)(now, before, begin, end, most, steps, far);
+    return HWY_DYNAMIC_DISPATCH(FollowBlocks)(now, before, begin, end, max_step, steps, far);
 }
 
 } // namespace boxwood::detail

@@ -165,8 +165,8 @@ std::size_t bucket_sort(std::size_t n, int bits, CodesOfItems codes_of, Sorted h
         for (std::size_t i = range.begin; i < range.end; ++i)
             to[next[part_of[from[i] >> cell]]++] = record_of(from[i], i);
     });
-    constexpr std::size_t most_tasks = 64;
-    const std::size_t tasks = chunks == 1 ? 1 : std::min(parts.size(), most_tasks);
+    constexpr std::size_t max_tasks = 64;
+    const std::size_t tasks = chunks == 1 ? 1 : std::min(parts.size(), max_tasks);
     std::atomic<std::size_t> in_long = 0;
     executor.for_each(tasks, [&](std::size_t t) {
         const ChunkRange range(parts.size(), tasks, t);
