@@ -23,20 +23,24 @@ namespace boxwood::bench {
 namespace {
 
 constexpr const char* overview =
-    "AABB trees and triangle kernels, and an honest bench that shows what each one costs and how\n"
-    "right it is, beside FCL, Embree, CGAL and Bullet.";
+    "Trees of axis-aligned boxes (BVH) for broad phase and rays, triangle kernels for narrow "
+    "phase,\n"
+    "and a bench that times them and checks their answers beside FCL, Embree, CGAL and Bullet.";
 
 constexpr const char* examples =
     "Start here:\n"
-    "  boxwood demo four-link              a tree explained step by step on a small robot\n"
+    "  boxwood demo four-link              a tree explained step by step, on a small robot\n"
     "  boxwood query pairs boxes.csv       which of your own boxes overlap\n"
     "  boxwood check --quick               every kernel, ours and the peers', on hard cases\n"
     "  boxwood doctor                      what on this machine would spoil timings\n"
     "  boxwood sweep --config bench/configs/quick.toml --out quick.h5\n"
-    "                                      time and check everything in about a minute\n"
+    "                                      time trees and kernels and check their answers; a "
+    "minute\n"
+    "  boxwood list                        builders, layouts, kernels, scenes, peers ...\n"
     "\n"
-    "`boxwood COMMAND --help` explains a command. Exit codes: 0 success, 1 a check failed, 2 bad\n"
-    "usage or input, 3 compare cannot tell, 130 interrupted.";
+    "`boxwood COMMAND --help` explains a command with an example.\n"
+    "Exit codes: 0 success, 1 a check failed, 2 bad usage or input, 3 compare cannot tell,\n"
+    "130 interrupted.";
 
 std::string version_text() {
     std::string text =
@@ -52,7 +56,7 @@ std::string version_text() {
     return text;
 }
 
-/// The commands of a command. Those in no group are for the program itself and not shown.
+/// The commands of a command. Hidden ones, in no group, are for the program itself.
 std::vector<std::string_view> command_names(CLI::App& app, bool also_hidden = true) {
     std::vector<std::string_view> names;
     for (const CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
@@ -87,22 +91,21 @@ CLI::App* innermost(CLI::App& app, std::string& path) {
     return at;
 }
 
-/// What to say about a command line that CLI11 refuses.
+/// The error message for a command line that CLI11 refuses.
 std::string complaint(CLI::App& app, const CLI::ParseError& error) {
     std::string path, text = error.what();
     CLI::App* command = innermost(app, path);
     const auto below = command_names(*command);
     if (!below.empty() && command != &app)
-        return fmt::format("`{}` wants one of: {}", path, fmt::join(below, ", "));
+        return fmt::format("`{}` needs one of: {}", path, fmt::join(below, ", "));
     const std::vector<std::string> extra = app.remaining(true);
     if (!extra.empty() && extra.front().starts_with("-")) {
-        std::vector<std::string_view> words;
         std::vector<std::string> names;
         for (const CLI::Option* option : command->get_options())
             for (const std::string& name : option->get_lnames())
                 names.push_back("--" + name);
-        words.assign(names.begin(), names.end());
-        text = unknown_word("option", extra.front().substr(0, extra.front().find('=')), words);
+        const std::vector<std::string_view> known(names.begin(), names.end());
+        text = unknown_word("option", extra.front().substr(0, extra.front().find('=')), known);
     }
     return fmt::format("{} (`{} --help` explains it)", text, path);
 }
@@ -133,8 +136,8 @@ int run(int argc, char** argv) {
     require_known_commands(app, argc, argv);
     try {
         app.parse(argc, argv);
-    } catch (const CLI::Success& asked) { // --help, --version
-        return app.exit(asked);
+    } catch (const CLI::Success& success) { // --help, --version
+        return app.exit(success);
     } catch (const CLI::ParseError& error) {
         throw BadInput(complaint(app, error));
     }
@@ -147,13 +150,13 @@ int fail(const std::string& what) {
     return exit_bad_input;
 }
 
-/// Whether nobody reads what we write any more (`boxwood list | head -1`).
+/// Whether nobody reads our output any more (`boxwood list | head -1`).
 bool reader_has_left() {
     pollfd out{STDOUT_FILENO, POLLOUT, 0};
     return poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0;
 }
 
-/// What was printed must have arrived: a full disk is an error, a reader who has seen enough is
+/// What was printed must have been written: a full disk is an error, a reader who stops early is
 /// not.
 int finish(int exit_code) {
     std::cout.flush();
@@ -168,9 +171,9 @@ int finish(int exit_code) {
 
 int main(int argc, char** argv) {
     using namespace boxwood::bench;
-    // A closed pipe then is a failed write, which `finish` judges, and no sudden death.
+    // A write to a closed pipe then fails, and `finish` decides what that means.
     std::signal(SIGPIPE, SIG_IGN);
-    // A file over the limit of `ulimit -f` too: the write fails and says why.
+    // So does a write beyond the limit of `ulimit -f`.
     std::signal(SIGXFSZ, SIG_IGN);
     try {
         return finish(run(argc, argv));

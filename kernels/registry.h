@@ -4,6 +4,7 @@
 #include "kernels/boxes/sat.h"
 #include "kernels/continuous/cubic.h"
 #include "kernels/continuous/tight_inclusion.h"
+#include "kernels/decision.h"
 #include "kernels/features/point_segment.h"
 #include "kernels/features/point_triangle.h"
 #include "kernels/features/segment_segment.h"
@@ -24,7 +25,6 @@
 #include "kernels/triangle_triangle/moller.h"
 #include "kernels/triangle_triangle/sat.h"
 #include "kernels/triangle_triangle/sat_certified.h"
-#include "kernels/verdict.h"
 
 #include <span>
 #include <string_view>
@@ -33,7 +33,7 @@
 
 namespace boxwood {
 
-/// The rungs, one word each: to add a kernel, write its file and put its type here.
+/// The kernels of each family: to add one, write its file and put its type here.
 using RayBoxKernels = std::tuple<PlainSlabs, RaySlabs>;
 using RayKernels = std::tuple<MollerTrumbore<float>, BaldwinWeber, Plucker, Watertight,
                               MollerTrumbore<double>, ExactRayTriangle>;
@@ -57,7 +57,7 @@ using ContinuousKernels = std::tuple<CubicF64, TightInclusion>;
 /// Every kernel of every family: what `boxwood list kernels` prints.
 std::span<const KernelInfo> kernels();
 
-/// The rows of one family: a word of `--kernel` each.
+/// The rows of one family: a name for `--kernel` each.
 std::span<const KernelInfo> ray_box_kernels();
 std::span<const KernelInfo> ray_kernels();
 std::span<const KernelInfo> triangle_kernels();

@@ -9,17 +9,17 @@
 namespace boxwood {
 namespace {
 
-bool is_word(std::string_view s) {
+bool is_name(std::string_view s) {
     return !s.empty() && std::all_of(s.begin(), s.end(), [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
     });
 }
 
-TEST(Catalogue, RowsAreWordsOnceEachWithASummary) {
+TEST(Registry, RowsAreNamedOnceEachWithASummary) {
     std::set<std::string> names;
     for (const KernelInfo& info : kernels()) {
-        EXPECT_TRUE(is_word(info.family)) << info.family;
-        EXPECT_TRUE(is_word(info.name)) << info.name;
+        EXPECT_TRUE(is_name(info.family)) << info.family;
+        EXPECT_TRUE(is_name(info.name)) << info.name;
         EXPECT_FALSE(info.summary.empty()) << info.name;
         EXPECT_EQ(info.summary.find('\n'), std::string_view::npos);
         EXPECT_TRUE(names.insert(std::string(info.family) + '/' + std::string(info.name)).second);
@@ -27,7 +27,7 @@ TEST(Catalogue, RowsAreWordsOnceEachWithASummary) {
     EXPECT_EQ(kernels().size(), names.size());
 }
 
-TEST(Catalogue, EveryFamilyIsListed) {
+TEST(Registry, EveryFamilyIsListed) {
     std::set<std::string_view> families;
     for (const KernelInfo& info : kernels())
         families.insert(info.family);
@@ -37,7 +37,7 @@ TEST(Catalogue, EveryFamilyIsListed) {
                             "triangle_distance", "triangle_triangle", "vertex_face"}));
 }
 
-TEST(Catalogue, EveryWordFindsItsKernel) {
+TEST(Registry, EveryNameFindsItsKernel) {
     for (const KernelInfo& info : ray_kernels()) {
         EXPECT_EQ(info.family, "ray_triangle");
         std::string_view found;

@@ -28,10 +28,10 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string suggest(std::string_view word, std::span<const std::string_view> candidates) {
     std::string_view best;
-    std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
+    std::size_t nearest = std::max<std::size_t>(2, word.size() / 3) + 1;
     for (const std::string_view candidate : candidates)
-        if (const std::size_t distance = edit_distance(word, candidate); distance < least) {
-            least = distance;
+        if (const std::size_t distance = edit_distance(word, candidate); distance < nearest) {
+            nearest = distance;
             best = candidate;
         }
     return std::string(best);

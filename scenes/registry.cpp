@@ -22,12 +22,12 @@
 
 namespace boxwood {
 
-#define BOXWOOD_DECLARE(word) SceneEntry word##_scene();
+#define BOXWOOD_DECLARE(name) SceneEntry name##_scene();
 BOXWOOD_SCENES(BOXWOOD_DECLARE)
 #undef BOXWOOD_DECLARE
 
 std::span<const SceneEntry> scene_generators() {
-#define BOXWOOD_ROW(word) word##_scene(),
+#define BOXWOOD_ROW(name) name##_scene(),
     static const SceneEntry entries[] = {BOXWOOD_SCENES(BOXWOOD_ROW)};
 #undef BOXWOOD_ROW
     return entries;

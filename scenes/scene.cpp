@@ -1,8 +1,8 @@
 #include "scenes/scene.h"
 
 #include "scenes/atom.h"
-#include "scenes/registry.h"
 #include "scenes/moving/frames.h"
+#include "scenes/registry.h"
 #include "scenes/sampling/queries.h"
 #include "scenes/sampling/rays.h"
 
@@ -79,7 +79,7 @@ std::uint64_t hash_of(const Scene& scene) {
     return XXH3_64bits_digest(state.get());
 }
 
-/// What the spec's family is asked for. Throws std::invalid_argument for what does not go together.
+/// The spec of the family's cases. Throws std::invalid_argument for what does not go together.
 HardCaseSpec checked(const HardCaseFamily& family, const SceneSpec& spec) {
     if (!spec.rays.empty())
         throw std::invalid_argument(fmt::format(
@@ -90,14 +90,14 @@ HardCaseSpec checked(const HardCaseFamily& family, const SceneSpec& spec) {
     if (spec.n >= no_triangle)
         throw std::invalid_argument(fmt::format(
             "family {}: n = {} is too large; cases are numbered by 32 bits", family.name, spec.n));
-    const HardCaseSpec asked{spec.n, spec.seed, spec.k, spec.scale, spec.file};
-    check_hard_case_spec(family, asked);
-    return asked;
+    const HardCaseSpec wanted{spec.n, spec.seed, spec.k, spec.scale, spec.file};
+    check_hard_case_spec(family, wanted);
+    return wanted;
 }
 
 /// "k12", "km3" for -3.
-std::string signed_atom(std::string_view word, int value) {
-    return fmt::format("_{}{}{}", word, value < 0 ? "m" : "", std::abs(value));
+std::string signed_atom(std::string_view key, int value) {
+    return fmt::format("_{}{}{}", key, value < 0 ? "m" : "", std::abs(value));
 }
 
 std::string family_scene_name(const HardCaseFamily& family, const SceneSpec& spec) {
@@ -151,7 +151,7 @@ const SceneEntry& checked(const SceneSpec& spec) {
         check_region_kind(spec.regions);
         if (spec.n_points == 0)
             throw std::invalid_argument(
-                fmt::format("scene {}: regions are asked for, but n_points is 0", entry.name));
+                fmt::format("scene {}: regions are wanted, but n_points is 0", entry.name));
     }
     if (spec.n >= no_triangle)
         throw std::invalid_argument(fmt::format(
@@ -193,7 +193,7 @@ std::string scene_name(const SceneSpec& spec) {
 
 namespace {
 
-/// Fills in what is asked of the boxes, and says so among the parameters.
+/// Adds the points or regions of the spec, and says so among the parameters.
 void lay_queries(Scene& scene, const SceneSpec& spec) {
     if (spec.n_points == 0)
         return;
@@ -233,7 +233,7 @@ Scene make_scene(const SceneSpec& spec) {
     const SceneEntry& entry = checked(spec);
     if (!spec.rays.empty() && spec.n_rays == 0)
         throw std::invalid_argument(
-            fmt::format("scene {}: {} rays are asked for, but n_rays is 0", entry.name, spec.rays));
+            fmt::format("scene {}: {} rays are wanted, but n_rays is 0", entry.name, spec.rays));
     Scene scene = entry.generate(spec);
     scene.name = scene_name(spec);
     scene.spec = spec;

@@ -20,17 +20,17 @@ namespace boxwood {
 
 struct SceneFile; // scenes/moving/scene_file.h
 
-/// What a generator is asked for. The same spec gives the same bits on every machine.
+/// What a generator makes. The same spec gives the same bits on every machine.
 struct SceneSpec {
-    std::string generator{};      ///< a word of `scene_generators()` or `hard_case_families()`
+    std::string generator{};      ///< a name of `scene_generators()` or `hard_case_families()`
     std::size_t n = 1000;         ///< wanted number of items (boxes, or triangles of a mesh)
     std::uint64_t seed = 1;       ///< key of the counter-based random numbers
     double overlaps = 10;         ///< wanted mean number of boxes that overlap a box (box scenes)
-    std::string rays{};           ///< a word of `ray_kinds()`, or empty for no rays (mesh scenes)
+    std::string rays{};           ///< a name of `ray_kinds()`, or empty for no rays (mesh scenes)
     std::size_t n_rays = 0;       ///< number of rays
     std::filesystem::path file{}; ///< mesh file (`mesh` alone), or a family's cases
     std::size_t n_points = 0;     ///< number of points or regions
-    std::string regions{};        ///< a word of `region_kinds()`, or empty for no regions
+    std::string regions{};        ///< a name of `region_kinds()`, or empty for no regions
     /// A scene that moves, instead of a generator's: its n and seed are those of the spec, and
     /// what is made is its frame 0.
     std::shared_ptr<const SceneFile> moving{};
@@ -40,7 +40,7 @@ struct SceneSpec {
 
 /// One frame of things to test: boxes always; a mesh when they are boxes of its triangles.
 struct Scene {
-    std::string name; ///< words: generator or family, what differs from its defaults, rays
+    std::string name; ///< generator or family, what differs from its defaults, rays: `[a-z0-9_]+`
     SceneSpec spec;
     /// Scene units; box i bounds triangle i when there is a mesh. In a moving scene box i is that
     /// of body i in frame 0, empty if the body is not present.
@@ -56,11 +56,13 @@ struct Scene {
     std::uint64_t content_hash = 0;
 };
 
-/// A generator: name, summary and generate(spec) -> Scene with boxes or a mesh, and params_json;
+/// A generator: name, human_name, summary and generate(spec) -> Scene with boxes or a mesh, and
+/// params_json;
 /// `make_scene` fills in the rest, the boxes of a mesh too.
 template <class G>
 concept SceneGenerator = requires(const SceneSpec& spec) {
     { G::name } -> std::convertible_to<std::string_view>;
+    { G::human_name } -> std::convertible_to<std::string_view>;
     { G::summary } -> std::convertible_to<std::string_view>;
     { G::has_mesh } -> std::convertible_to<bool>;
     { G::uses_overlaps } -> std::convertible_to<bool>;
@@ -69,7 +71,9 @@ concept SceneGenerator = requires(const SceneSpec& spec) {
 
 /// A registry row.
 struct SceneEntry {
-    std::string_view name, summary;
+    std::string_view name;
+    std::string_view human_name; ///< "{n} uniform boxes"; {file}: the file's name
+    std::string_view summary;
     Scene (*generate)(const SceneSpec&);
     bool has_mesh;      ///< boxes of triangles, at which rays can be aimed
     bool uses_overlaps; ///< spec.overlaps steers the sizes

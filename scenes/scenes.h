@@ -1,6 +1,7 @@
 #pragma once
 
-/// Scenes: (name, n, seed) gives the same bits on every machine. This header shows the whole room.
+/// Scenes: (name, n, seed) gives the same bits on every machine. This header holds all that is
+/// public.
 ///
 ///     Scene scene = make_scene({.generator = "uniform", .n = 100000, .seed = 1});
 ///     scene.boxes         // what the trees are built of
@@ -9,13 +10,15 @@
 /// A generator draws item i from counter-based random numbers keyed by (seed, stream) and steers
 /// its sizes so that a box overlaps spec.overlaps others in the mean. It knows no tree.
 
+#include "scenes/effects/effect_scene.h" // effects laid on what a generator makes
+#include "scenes/human_name.h"           // "100,000 uniform boxes, 10 overlaps each"
+#include "scenes/meshes/mesh_file.h"     // the user's mesh through assimp, with what is wrong in it
+#include "scenes/moving/frames.h"        // a moving scene's boxes frame by frame, held or streamed
+#include "scenes/moving/moving_scene.h"  // bodies and what happens to them, played frame by frame
 #include "scenes/robots/four_link.h"     // the demo's robot: forward kinematics and its boxes
-#include "scenes/meshes/mesh_file.h"     // the user's mesh through assimp, with what is wrong in it said
-#include "scenes/moving/frames.h" // its boxes frame by frame, held or streamed
-#include "scenes/moving/moving_scene.h" // bodies and what happens to them, played frame by frame
-#include "scenes/sampling/queries.h"             // points and regions laid into a scene
-#include "scenes/sampling/random.h"              // Philox: item i is independent of n and of order
-#include "scenes/sampling/rays.h"                // camera, random, ambient and occlusion rays at a mesh
-#include "scenes/sampling/scatter.h"             // boxes that overlap as often as wanted
-#include "scenes/scene.h"   // the contract: SceneSpec, Scene, make_scene, the registries
-#include "kernels/suggest.h" // "did you mean ...?"
+#include "scenes/sampling/queries.h"     // points and regions laid into a scene
+#include "scenes/sampling/random.h"      // Philox: item i is independent of n and of order
+#include "scenes/sampling/rays.h"        // camera, random, ambient and occlusion rays at a mesh
+#include "scenes/sampling/scatter.h"     // boxes that overlap as often as wanted
+#include "scenes/scene.h"                // the contract: SceneSpec, Scene, make_scene, registries
+#include "kernels/suggest.h"              // "did you mean ...?"

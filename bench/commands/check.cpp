@@ -1,9 +1,9 @@
 #include "bench/running/check.h"
 
+#include "bench/analysis/ladders.h"
 #include "bench/commands/command.h"
 #include "bench/running/environment.h"
 #include "bench/truth/judging/judge.h"
-#include "bench/analysis/ladders.h"
 
 #include <fmt/format.h>
 
@@ -64,9 +64,9 @@ void add_check(CLI::App& app, int& exit_code) {
     auto out = std::make_shared<std::filesystem::path>();
     auto n = std::make_shared<std::optional<std::size_t>>();
     CLI::App* check = app.add_subcommand(
-        "check", "hold every kernel, ours and the peers', against the truth on the hard cases");
+        "check", "test every kernel, ours and the peers', against the truth on hard cases");
     check->add_option("--only", options->only,
-                      "only what this regular expression is found in: family/task/rung");
+                      "only what this regular expression is found in: family/task/kernel");
     check->add_option("--out", *out, "a result file to write (HDF5), for scripts/plot");
     check->add_option("--n", *n, "cases of each family (1000; with --quick 300)")
         ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}));
@@ -74,18 +74,20 @@ void add_check(CLI::App& app, int& exit_code) {
         ->check(
             CLI::Range(std::uint64_t{0}, std::uint64_t{std::numeric_limits<std::int64_t>::max()}));
     check->add_option("--k", options->k, "the families' own parameter (`boxwood list families`)");
-    check->add_option("--scale", options->scale,
-                      "every coordinate times 2^SCALE; without it 0 and both ends of the range");
-    check->add_option("--case", options->one, "only this case: prints it, the truth, each answer");
+    check->add_option(
+        "--scale", options->scale,
+        "multiply every coordinate by 2^SCALE; if not given, 0 and both ends of the range");
+    check->add_option("--case", options->one,
+                      "only the case of this number: print it, the truth and each answer");
     check->add_flag("--quick", options->is_quick, "fewer cases, one scale: some ten seconds");
     check->add_option("--ccd", options->ccd,
                       "a folder of query files for the families that read files, such as data/ccd");
     check->footer(
-        "A promise is what a rung states in `boxwood list kernels`: never-miss (no false no),\n"
+        "A promise is what a kernel states in `boxwood list kernels`: never-miss (no false no),\n"
         "never-false (no false yes), certified (sure answers and bounds hold), exact. Each family\n"
         "is judged at its default k; the truth comes by construction or from rational arithmetic.\n"
         "A broken promise is printed with its case in hex floats and the command that replays it.\n"
-        "Peers and rungs without a promise are judged on the same cases, and may err.\n\n"
+        "Peers and kernels without a promise are judged on the same cases, and may err.\n\n"
         "Examples:\n"
         "  boxwood check --quick\n"
         "  boxwood check --only triangle_distance --out check.h5\n"

@@ -3,11 +3,11 @@
 #include "bench/commands/command.h"
 #include "scenes/robots/four_link.h"
 #include "scenes/scene.h"
-#include "trees/queries/allowed_collisions.h"
 #include "trees/builder.h"
 #include "trees/inspect/draw.h"
 #include "trees/layout.h"
 #include "trees/optimizers/refit.h"
+#include "trees/queries/allowed_collisions.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -69,14 +69,14 @@ std::string box_lines(const FourBoxes& boxes) {
     return text;
 }
 
-/// The walk of traversals/self_pairs over a small tree, written to be watched: a line per box test.
-struct Walk {
+/// The traversal of self_pairs over a small tree, written to be watched: a line per box test.
+struct Traversal {
     const Tree& tree;
     std::string text;
     std::size_t tests = 0, pruned = 0;
     std::vector<Pair> pairs;
 
-    explicit Walk(const Tree& tree_) : tree(tree_) {
+    explicit Traversal(const Tree& tree_) : tree(tree_) {
         if (!tree.empty())
             within(0);
         std::sort(pairs.begin(), pairs.end());
@@ -120,17 +120,17 @@ struct Walk {
     }
 };
 
-/// The walk, after the library has confirmed what it found.
-Walk confirmed_walk(const Tree& tree) {
-    Walk walk(tree);
+/// The traversal, after the library has confirmed what it found.
+Traversal confirmed_traversal(const Tree& tree) {
+    Traversal traversal(tree);
     std::vector<Pair> found;
     AppendPairs sink(found);
     find_layout("binary")->make(tree, serial())->self_pairs(serial(), sink);
     std::sort(found.begin(), found.end());
-    if (found != walk.pairs)
-        throw std::logic_error("demo four-link: the walk shown finds " + names_of(walk.pairs) +
-                               ", self_pairs finds " + names_of(found));
-    return walk;
+    if (found != traversal.pairs)
+        throw std::logic_error("demo four-link: the traversal shown finds " +
+                               names_of(traversal.pairs) + ", self_pairs finds " + names_of(found));
+    return traversal;
 }
 
 /// The pairs of the tree that are worth reporting.
@@ -149,24 +149,24 @@ std::string refit_text(Tree& tree, const FourBoxes& boxes) {
     for (const TreeNode& node : tree.nodes)
         before.push_back(node.box);
     refit(tree, boxes);
-    std::vector<std::string> changed, kept;
+    std::vector<std::string> changed, unchanged;
     for (std::size_t i = tree.nodes.size();
          i-- > 0;) // children before their parents, as refit goes
-        (tree.nodes[i].box == before[i] ? kept : changed).push_back(describe(tree, i, names));
+        (tree.nodes[i].box == before[i] ? unchanged : changed).push_back(describe(tree, i, names));
     return fmt::format("   {} of {} nodes changed, bottom-up: {}.\n   As before: {}.\n",
                        changed.size(), tree.nodes.size(), fmt::join(changed, ", "),
-                       kept.empty() ? "none" : fmt::format("{}", fmt::join(kept, ", ")));
+                       unchanged.empty() ? "none" : fmt::format("{}", fmt::join(unchanged, ", ")));
 }
 
 std::string pair_step(const Tree& tree, const AllowedCollisions& allowed) {
-    const Walk walk = confirmed_walk(tree);
-    return fmt::format("{}   Overlapping: {}.\n   Not allowed, so reported: {}.\n", walk.text,
-                       names_of(walk.pairs), names_of(reported_pairs(tree, allowed)));
+    const Traversal traversal = confirmed_traversal(tree);
+    return fmt::format("{}   Overlapping: {}.\n   Not allowed, so reported: {}.\n", traversal.text,
+                       names_of(traversal.pairs), names_of(reported_pairs(tree, allowed)));
 }
 
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
-/// How the saving grows: the same walk over many boxes.
+/// How the saving grows: the same traversal over many boxes.
 std::string large_case() {
     const std::size_t n = 10'000;
     SceneSpec spec;
@@ -179,7 +179,7 @@ std::string large_case() {
     const Work work = find_layout("binary")->make(tree, serial())->self_pairs_counted(sink);
     return fmt::format(
         "   With many boxes the saving grows: for {} random boxes with {} overlapping\n"
-        "   pairs the same walk makes {} box tests, brute force {}: {:.0f} times more.\n",
+        "   pairs the same traversal makes {} box tests, brute force {}: {:.0f} times more.\n",
         n, sink.count(), work.box_tests, n * (n - 1) / 2,
         static_cast<double>(n * (n - 1) / 2) / static_cast<double>(work.box_tests));
 }
@@ -212,26 +212,26 @@ std::string four_link_demo() {
         "   the middle, and do the same with each half. A node's box holds all boxes below it.\n\n";
     text += draw(tree, names) + "\n";
 
-    const Walk walk = confirmed_walk(tree);
+    const Traversal traversal = confirmed_traversal(tree);
     text += fmt::format(
-        "4. The walk\n"
+        "4. The traversal\n"
         "   At each node, test its left side against its right side. If two boxes are apart, so\n"
         "   is everything inside them: all pairs across are pruned by that one test.\n\n"
         "{}\n   Pairs found: {}.\n   {} box tests instead of {}; {} of {} pairs were never looked "
         "at.\n{}\n",
-        walk.text, names_of(walk.pairs), walk.tests, all_pairs,
-        all_pairs - std::min(all_pairs, walk.tests), all_pairs, large_case());
+        traversal.text, names_of(traversal.pairs), traversal.tests, all_pairs,
+        all_pairs - std::min(all_pairs, traversal.tests), all_pairs, large_case());
 
     const AllowedCollisions allowed = allow_neighbours(n);
     std::vector<Pair> filtered;
-    for (const Pair p : walk.pairs)
+    for (const Pair p : traversal.pairs)
         if (allowed.allows(p.a, p.b))
             filtered.push_back(p);
     const auto reported = reported_pairs(tree, allowed);
     text += fmt::format(
         "5. Adjacent links are allowed to overlap\n"
         "   Links that share a joint always touch; that is no collision. An allowed collision\n"
-        "   matrix marks the {} adjacent pairs, and a filter drops them from what the walk finds.\n"
+        "   matrix marks the {} adjacent pairs, and a filter drops them from what is found.\n"
         "   Dropped: {}. Left to report: {}.\n\n",
         allowed.size(), names_of(filtered), reported.size());
 
@@ -242,7 +242,7 @@ std::string four_link_demo() {
         "links\n"
         "   and gives each a new box:\n\n{}\n{}\n"
         "   The tree keeps its shape. Refitting gives each leaf its new box, then each parent the\n"
-        "   box of its two children: one pass, much cheaper than building anew.\n",
+        "   box of its two children: one pass, much cheaper than building again.\n",
         degrees(four_link_bent[0]), degrees(four_link_bent[1]), box_lines(bent), sketch(bent));
     text += refit_text(tree, bent) + "\n";
     text += pair_step(tree, allowed) + "\n";
@@ -255,12 +255,13 @@ std::string four_link_demo() {
     text += draw(tree, names) + "\n";
 
     text += "8. Pairs again\n" + pair_step(tree, allowed);
-    const std::size_t tests = confirmed_walk(tree).tests;
+    const std::size_t tests = confirmed_traversal(tree).tests;
     for (const Pair p : reported_pairs(tree, allowed))
         text += fmt::format(
-            "   A real collision to look into: {} meets {}. They sit in different subtrees, yet "
+            "   A real collision to look into: {} meets {}. They are in different subtrees, and "
             "the\n"
-            "   walk finds them, since it tests the two sides of every node against each other.\n",
+            "   traversal finds them, since it tests the two sides of every node against each "
+            "other.\n",
             names[p.b], names[p.a]);
     text += fmt::format("   It took {} box tests, {} than the {} of brute force: nodes that "
                         "overlap must be opened.\n"
@@ -269,13 +270,30 @@ std::string four_link_demo() {
     return text;
 }
 
+namespace {
+
+/// A line per demo.
+std::string demos_text(const CLI::App& demo) {
+    std::string text = "The demos:\n";
+    for (const CLI::App* each : demo.get_subcommands([](const CLI::App*) { return true; }))
+        text +=
+            fmt::format("  boxwood demo {:<12} {}\n", each->get_name(), each->get_description());
+    return text;
+}
+
+} // namespace
+
 void add_demo(CLI::App& app, int&) {
     CLI::App* demo = app.add_subcommand("demo", "see how it works, step by step");
-    demo->require_subcommand(1);
+    demo->require_subcommand(0, 1);
     demo->footer("Example: boxwood demo four-link");
+    demo->callback([demo] {
+        if (demo->get_subcommands().empty())
+            std::cout << demos_text(*demo);
+    });
     CLI::App* four_link = demo->add_subcommand(
         "four-link",
-        "a robot of four links: the tree, the walk, allowed pairs, a joint that turns");
+        "a robot of four links: the tree, its traversal, allowed pairs, a joint that turns");
     four_link->footer("Example: boxwood demo four-link");
     four_link->callback([] { std::cout << four_link_demo(); });
 }

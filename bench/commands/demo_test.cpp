@@ -48,7 +48,7 @@ TEST(FourLinkDemo, TheFoldedWristMeetsTheBase) {
     EXPECT_THAT(step(8), HasSubstr("wrist meets base"));
 }
 
-TEST(FourLinkDemo, TheWalkShownCountsWhatTheLibraryCounts) {
+TEST(FourLinkDemo, TheTraversalShownCountsWhatTheLibraryCounts) {
     int at = 4;
     for (const auto& angles : {four_link_straight, four_link_bent, four_link_folded}) {
         // The tree is built straight and refitted in the demo; its shape is the same by hand here.

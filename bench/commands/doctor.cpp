@@ -1,9 +1,9 @@
 #include "bench/commands/doctor.h"
 
 #include "bench/commands/command.h"
-#include "bench/tasks/contender.h"
-#include "bench/running/environment.h"
 #include "bench/io/json.h"
+#include "bench/running/environment.h"
+#include "bench/tasks/contender.h"
 
 #include <fmt/format.h>
 
@@ -33,7 +33,7 @@ Finding cores(const Machine& m) {
                 "raise the container's CPU limit, or time with fewer threads than the limit"};
     if (m.cores < 4)
         return {Level::note, "cores", fmt::format("{}", m.cores),
-                "thread speed-up beyond that cannot be seen here"};
+                "how times scale to more threads cannot be measured here"};
     return {Level::ok, "cores", fmt::format("{}", m.cores), ""};
 }
 
@@ -64,9 +64,10 @@ Finding smt(const Machine& m) {
         return {Level::note, "hyper-threads", "not visible here", ""};
     if (!*m.smt)
         return {Level::ok, "hyper-threads", "none or off", ""};
-    return {Level::note, "hyper-threads", "on",
-            "two threads may share a core: read speed-ups beyond half the threads with care, or "
-            "write off to /sys/devices/system/cpu/smt/control"};
+    return {
+        Level::note, "hyper-threads", "on",
+        "two threads may share a core: read thread scaling beyond half the threads with care, or "
+        "write off to /sys/devices/system/cpu/smt/control"};
 }
 
 Finding virtualisation(const Machine& m) {
@@ -96,11 +97,11 @@ Finding steal(const Machine& m) {
 Finding huge_pages(const Machine& m) {
     if (m.thp == "always")
         return {Level::note, "transparent huge pages", m.thp,
-                "when pages are joined depends on the memory's history; madvise is steadier"};
+                "when pages are merged depends on the memory's history; madvise is steadier"};
     return {m.thp == "unknown" ? Level::note : Level::ok, "transparent huge pages", m.thp, ""};
 }
 
-/// Everything that was found out, to be written as text or JSON.
+/// All that was found, to be written as text or JSON.
 struct Report {
     Machine machine = read_machine(lscpu_text());
     double triad_one = triad_gbs(machine, 1), triad_all = triad_gbs(machine, machine.cores);

@@ -1,17 +1,18 @@
 #include "bench/commands/list.h"
 
 #include "bench/commands/command.h"
-#include "bench/tasks/contender.h"
 #include "bench/io/json.h"
+#include "bench/io/text_table.h"
+#include "bench/tasks/contender.h"
 #include "bench/tasks/kernels/kernels.h"
 #include "kernels/registry.h"
-#include "scenes/hard_cases/hard_cases.h"
 #include "scenes/effects/effect.h"
+#include "scenes/hard_cases/hard_cases.h"
 #include "scenes/moving/scene_file.h"
 #include "kernels/suggest.h"
 #include "trees/builder.h"
-#include "trees/layout.h"
 #include "trees/dynamic/update.h"
+#include "trees/layout.h"
 
 #include <algorithm>
 #include <array>
@@ -22,7 +23,7 @@
 namespace boxwood::bench {
 namespace {
 
-/// One line of a registry; `more` holds further JSON members, `notes` further indented lines.
+/// One name of a registry; `more` holds further JSON members, `notes` further indented lines.
 struct Row {
     std::string name, summary;
     std::vector<std::pair<std::string, std::string>> more;
@@ -30,7 +31,7 @@ struct Row {
 };
 using Rows = std::vector<Row>;
 
-/// The rows of a registry of which no more is said than name and summary.
+/// The rows of a registry whose entries have a name and a summary alone.
 template <class Entries> Rows plain(const Entries& entries) {
     Rows rows;
     for (const auto& entry : entries)
@@ -85,7 +86,7 @@ Row kernel_row(const KernelInfo& kernel) {
             {fmt::format("bound: {}", kernel.bound), fmt::format("cost: {}", kernel.cost)}};
 }
 
-/// Family by family, the rational rungs last; first what no question of its own asks for.
+/// First the kernels that have no task of their own; then family by family, the rational ones last.
 Rows kernel_rows() {
     Rows rows;
     for (const KernelInfo& kernel : kernels())
@@ -128,11 +129,11 @@ Rows family_rows() {
     Rows rows;
     for (const HardCaseFamily& family : hard_case_families()) {
         const bool has_k = !family.k_meaning.empty();
-        const std::string k = fmt::format(
-            "{{\"meaning\":{},\"default\":{},\"least\":{},\"most\":{}}}",
-            json_string(family.k_meaning), family.k_default, family.k_least, family.k_most);
+        const std::string k = fmt::format("{{\"meaning\":{},\"default\":{},\"min\":{},\"max\":{}}}",
+                                          json_string(family.k_meaning), family.k_default,
+                                          family.k_min, family.k_max);
         const std::string scale =
-            fmt::format("{{\"least\":{},\"most\":{}}}", family.scale_least, family.scale_most);
+            fmt::format("{{\"min\":{},\"max\":{}}}", family.scale_min, family.scale_max);
         Row& row =
             rows.emplace_back(Row{std::string(family.name),
                                   fmt::format("{}: {}", to_string(family.panel), family.summary),
@@ -142,11 +143,11 @@ Rows family_rows() {
                                    {"reads_file", family.reads_file ? "true" : "false"}},
                                   {}});
         if (has_k)
-            row.notes.push_back(fmt::format("k = {} ({} to {}): {}", family.k_default,
-                                            family.k_least, family.k_most, family.k_meaning));
-        if (family.scale_least != family.scale_most)
+            row.notes.push_back(fmt::format("k = {} ({} to {}): {}", family.k_default, family.k_min,
+                                            family.k_max, family.k_meaning));
+        if (family.scale_min != family.scale_max)
             row.notes.push_back(fmt::format("scale = {} to {} (coordinates times 2^scale)",
-                                            family.scale_least, family.scale_most));
+                                            family.scale_min, family.scale_max));
     }
     return rows;
 }
@@ -161,52 +162,54 @@ Rows moving_scene_rows() {
     return rows;
 }
 
-struct Catalogue {
+struct Registry {
     std::string_view name, summary;
     Rows (*rows)();
+    std::string_view if_empty = ""; ///< why it may have no rows
 };
 
 constexpr std::array registries{
-    Catalogue{"builders", "make the canonical tree from boxes",
-              [] { return with_settings(builders()); }},
-    Catalogue{"optimizers", "improve a finished tree: BUILDER+OPTIMIZER",
-              [] { return with_settings(optimizers()); }},
-    Catalogue{"layouts", "the tree in memory, as a traversal likes it", [] { return plain(layouts()); }},
-    Catalogue{"updates", "follow boxes that move", [] { return with_settings(updates()); }},
-    Catalogue{"traversals", "visit layouts and hand what they find to a sink",
-              [] { return plain(traversals()); }},
-    Catalogue{"kernels", "decide about one primitive or pair", kernel_rows},
-    Catalogue{"scenes", "make the same input on every machine",
-              [] { return plain(scene_generators()); }},
-    Catalogue{"moving_scenes", "bodies and what happens to them: `boxwood scene`",
-              moving_scene_rows},
-    Catalogue{"effects", "what may happen to the bodies of a moving scene",
-              [] { return with_settings(effects()); }},
-    Catalogue{"scene_queries", "what a moving scene may ask of each frame",
-              [] { return plain(scene_queries()); }},
-    Catalogue{"query_kinds", "how the queries of a moving scene go through it",
-              [] { return plain(query_kinds()); }},
-    Catalogue{"tasks", "what is wanted of a scene", [] { return plain(asks()); }},
-    Catalogue{"executors", "where work runs", [] { return plain(executors()); }},
-    Catalogue{"peers", "libraries that are timed and checked beside ours", peer_rows},
-    Catalogue{"families", "hard cases for kernels; each is a scene too", family_rows},
+    Registry{"builders", "build a tree from boxes", [] { return with_settings(builders()); }},
+    Registry{"optimizers", "improve a finished tree: BUILDER+OPTIMIZER",
+             [] { return with_settings(optimizers()); }},
+    Registry{"layouts", "store a tree in memory", [] { return plain(layouts()); }},
+    Registry{"queries", "what a layout can be searched for", [] { return plain(traversals()); }},
+    Registry{"updates", "follow boxes that move", [] { return with_settings(updates()); }},
+    Registry{"executors", "run work on threads", [] { return plain(executors()); }},
+    Registry{"devices", "run work on a GPU", [] { return Rows{}; },
+             "none: this build has no GPU code"},
+    Registry{"kernels", "decide one primitive or pair", kernel_rows},
+    Registry{"families", "hard cases for kernels; each is a scene too", family_rows},
+    Registry{"scenes", "generate the same input on every machine",
+             [] { return plain(scene_generators()); }},
+    Registry{"moving_scenes", "bodies that move: `boxwood scene`", moving_scene_rows},
+    Registry{"effects", "what happens to the bodies of a scene",
+             [] { return with_settings(effects()); }},
+    Registry{"scene_queries", "what a moving scene wants of each frame",
+             [] { return plain(scene_queries()); }},
+    Registry{"query_kinds", "where the queries of a moving scene lie",
+             [] { return plain(query_kinds()); }},
+    Registry{"tasks", "what the bench times", [] { return plain(asks()); }},
+    Registry{"peers", "libraries timed and checked beside ours", peer_rows},
 };
 
-std::string as_text(const Catalogue& registry, const std::string& indent) {
+std::string as_text(const Registry& registry) {
     const Rows rows = registry.rows();
+    if (rows.empty())
+        return fmt::format("{}\n", registry.if_empty);
     std::size_t width = 0;
     for (const Row& row : rows)
         width = std::max(width, row.name.size());
     std::string text;
     for (const Row& row : rows) {
-        text += fmt::format("{}{:<{}}  {}\n", indent, row.name, width, row.summary);
+        text += fmt::format("{:<{}}  {}\n", row.name, width, row.summary);
         for (const std::string& note : row.notes)
-            text += fmt::format("{}{:<{}}    {}\n", indent, "", width, note);
+            text += fmt::format("{:<{}}    {}\n", "", width, note);
     }
     return text;
 }
 
-std::string as_json(const Catalogue& registry) {
+std::string as_json(const Registry& registry) {
     std::string text;
     for (const Row& row : registry.rows()) {
         text += fmt::format("{}{{\"name\":{},\"summary\":{}", text.empty() ? "" : ",",
@@ -218,32 +221,52 @@ std::string as_json(const Catalogue& registry) {
     return "[" + text + "]";
 }
 
+/// The names from the first on, as many as fit; "..." where some are left out.
+std::string first_names(const Rows& rows, std::size_t width) {
+    std::string text;
+    for (const Row& row : rows) {
+        const std::string next = (text.empty() ? "" : ", ") + row.name;
+        const bool is_last = &row == &rows.back();
+        if (text.size() + next.size() + (is_last ? 0 : 5) > width)
+            return text + ", ...";
+        text += next;
+    }
+    return text;
+}
+
+/// A line per registry: how many names, what they are for, and the first of them.
+std::string summary_text() {
+    constexpr std::size_t names_width = 32;
+    TextTable table({"registry", ">names", "what they do", "the first"});
+    for (const Registry& registry : registries) {
+        const Rows rows = registry.rows();
+        table.add({std::string(registry.name), std::to_string(rows.size()),
+                   std::string(registry.summary),
+                   rows.empty() ? std::string(registry.if_empty) : first_names(rows, names_width)});
+    }
+    return table.text() + "\n`boxwood list builders` explains each name of a registry.\n";
+}
+
+std::string summary_json() {
+    std::string text;
+    for (const Registry& registry : registries)
+        text += fmt::format("{}{}:{}", text.empty() ? "{" : ",\n ", json_string(registry.name),
+                            as_json(registry));
+    return text + "}\n";
+}
+
 } // namespace
 
-std::span<const std::string_view> catalogue_names() {
-    static const std::vector<std::string_view> names = [] {
-        std::vector<std::string_view> list;
-        for (const Catalogue& registry : registries)
-            list.push_back(registry.name);
-        return list;
-    }();
+std::span<const std::string_view> registry_names() {
+    static const std::vector<std::string_view> names = names_of(registries);
     return names;
 }
 
-std::string list_catalogues(std::string_view name, bool json) {
-    if (!name.empty()) {
-        const auto found = std::ranges::find(registries, name, &Catalogue::name);
-        if (found == registries.end())
-            throw BadInput(unknown_word("registry", name, catalogue_names()));
-        return json ? as_json(*found) + "\n" : as_text(*found, "");
-    }
-    std::string text;
-    for (const Catalogue& registry : registries)
-        text += json ? fmt::format("{}{}:{}", text.empty() ? "{" : ",\n ",
-                                   json_string(registry.name), as_json(registry))
-                     : fmt::format("{}{}: {}\n{}", text.empty() ? "" : "\n", registry.name,
-                                   registry.summary, as_text(registry, "  "));
-    return json ? text + "}\n" : text;
+std::string list_text(std::string_view name, bool json) {
+    if (name.empty())
+        return json ? summary_json() : summary_text();
+    const Registry& registry = entry_named<Registry>(name, registries, "registry");
+    return json ? as_json(registry) + "\n" : as_text(registry);
 }
 
 void add_list(CLI::App& app, int&) {
@@ -252,14 +275,17 @@ void add_list(CLI::App& app, int&) {
         bool json = false;
     };
     auto options = std::make_shared<Options>();
-    CLI::App* list = app.add_subcommand("list", "print the registries: what boxwood is made of");
+    CLI::App* list = app.add_subcommand(
+        "list", "what boxwood is made of: a summary, or one registry with a line for each name");
     list->add_option(
         "registry", options->registry,
-        fmt::format("one of {}; all if not given", fmt::join(catalogue_names(), ", ")));
+        fmt::format("one of {}; a summary of all if not given", fmt::join(registry_names(), ", ")));
     list->add_flag("--json", options->json,
                    "a list of {\"name\",\"summary\"}; for all registries an object of such lists");
-    list->footer("Example: boxwood list builders");
-    list->callback([options] { std::cout << list_catalogues(options->registry, options->json); });
+    list->footer("Examples:\n"
+                 "  boxwood list                 how many names each registry has, and the first\n"
+                 "  boxwood list builders        every builder with its settings");
+    list->callback([options] { std::cout << list_text(options->registry, options->json); });
 }
 
 } // namespace boxwood::bench

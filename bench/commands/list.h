@@ -6,12 +6,13 @@
 
 namespace boxwood::bench {
 
-/// The words that `boxwood list` takes: "builders", "layouts", ...
-std::span<const std::string_view> catalogue_names();
+/// The names that `boxwood list` takes: "builders", "layouts", ...
+std::span<const std::string_view> registry_names();
 
-/// One registry, or all for an empty name. As text a line per entry; as JSON a list of objects
-/// with at least "name" and "summary", or for all registries one object of such lists. Throws
-/// BadInput for an unknown name.
-std::string list_catalogues(std::string_view name, bool json);
+/// For an empty name a summary of all registries that fits one screen, else one registry with a
+/// line or more for each name. As JSON a list of objects with at least "name" and "summary", or for
+/// all registries one object of such lists. Throws std::invalid_argument, with a suggestion, for an
+/// unknown name.
+std::string list_text(std::string_view name, bool json);
 
 } // namespace boxwood::bench

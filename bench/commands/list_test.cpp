@@ -1,60 +1,83 @@
 #include "bench/commands/list.h"
 
-#include "bench/commands/command.h"
-
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <sstream>
+#include <stdexcept>
 
 namespace boxwood::bench {
 namespace {
 
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
-TEST(List, EveryCatalogueStandsInTheWhole) {
-    const std::string text = list_catalogues("", false), json = list_catalogues("", true);
-    for (const std::string_view name : catalogue_names()) {
-        EXPECT_THAT(text, HasSubstr(std::string(name) + ": "));
-        EXPECT_THAT(json, HasSubstr("\"" + std::string(name) + "\":["));
+TEST(List, TheSummaryHasALinePerRegistryAndFitsOneScreen) {
+    const std::string text = list_text("", false), json = list_text("", true);
+    std::size_t n_lines = 0;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line); ++n_lines)
+        EXPECT_LE(line.size(), 100u) << line;
+    EXPECT_LE(n_lines, 24u);
+    for (const std::string_view name : registry_names()) {
+        EXPECT_THAT("\n" + text, HasSubstr(fmt::format("\n{} ", name)));
+        EXPECT_THAT(json, HasSubstr(fmt::format("\"{}\":[", name)));
     }
+    EXPECT_THAT(text, ContainsRegex("builders +[0-9]+ .*median, hilbert, .*, \\.\\.\\."));
+    EXPECT_THAT(text, ContainsRegex("executors +3 .*serial, openmp, tbb\n"));
+    EXPECT_THAT(text, HasSubstr("`boxwood list builders`"));
 }
 
-TEST(List, OneCatalogueHasALinePerEntry) {
-    EXPECT_THAT(list_catalogues("executors", false), HasSubstr("serial"));
-    EXPECT_THAT(list_catalogues("executors", true),
-                StartsWith("[{\"name\":\"serial\",\"summary\":"));
-    EXPECT_THAT(list_catalogues("tasks", false), HasSubstr("rays_closest"));
-    EXPECT_THAT(list_catalogues("kernels", true), HasSubstr("\"name\":\"watertight\""));
+TEST(List, OneRegistryHasALinePerEntry) {
+    EXPECT_THAT(list_text("executors", false), HasSubstr("serial"));
+    EXPECT_THAT(list_text("executors", true), StartsWith("[{\"name\":\"serial\",\"summary\":"));
+    EXPECT_THAT(list_text("tasks", false), HasSubstr("rays_closest"));
+    EXPECT_THAT(list_text("kernels", true), HasSubstr("\"name\":\"watertight\""));
 }
 
-TEST(List, ARungSaysPromiseBoundAndCost) {
-    const std::string text = list_catalogues("kernels", false);
+TEST(List, EveryEntryHasASummary) {
+    for (const std::string_view name : registry_names())
+        EXPECT_THAT(list_text(name, true), Not(HasSubstr("\"summary\":\"\""))) << name;
+}
+
+TEST(List, AnEmptyRegistrySaysWhy) {
+    EXPECT_EQ(list_text("devices", false), "none: this build has no GPU code\n");
+    EXPECT_EQ(list_text("devices", true), "[]\n");
+    EXPECT_THAT(list_text("", false),
+                ContainsRegex("devices +0 .*none: this build has no GPU code"));
+}
+
+TEST(List, AKernelSaysPromiseBoundAndCost) {
+    const std::string text = list_text("kernels", false);
     EXPECT_THAT(text, HasSubstr("triangle_triangle, exact: "));
     EXPECT_THAT(text, HasSubstr("bound: "));
     EXPECT_THAT(text, HasSubstr("cost: rational: microseconds, allocates"));
     EXPECT_THAT(text, HasSubstr("vertex_face, exact: "));
-    const std::string json = list_catalogues("kernels", true);
+    const std::string json = list_text("kernels", true);
     EXPECT_THAT(json, HasSubstr(R"("family":"triangle_triangle","promise":"certified","bound":)"));
 }
 
 TEST(List, AFamilySaysItsPanelAndItsParameters) {
-    const std::string text = list_catalogues("families", false);
+    const std::string text = list_text("families", false);
     EXPECT_THAT(text, HasSubstr("degenerate: triangles of two planes at an angle of 10^-k"));
     EXPECT_THAT(text, HasSubstr("k = 16 (1 to 18): the angle is 10^-k"));
     EXPECT_THAT(text, HasSubstr("scale = -860 to 860 ("));
-    const std::string json = list_catalogues("families", true);
+    const std::string json = list_text("families", true);
     EXPECT_THAT(json, HasSubstr(R"("panel":"degenerate","k":{"meaning":"the angle is 10^-k",)"
-                                R"("default":16,"least":1,"most":18},)"
-                                R"("scale":{"least":-860,"most":860},"reads_file":false})"));
+                                R"("default":16,"min":1,"max":18},)"
+                                R"("scale":{"min":-860,"max":860},"reads_file":false})"));
     EXPECT_THAT(json, HasSubstr(R"("k":null)"));
     EXPECT_THAT(json, HasSubstr(R"("reads_file":true)"));
 }
 
 TEST(List, AMisspeltNameGetsASuggestion) {
     try {
-        list_catalogues("bilders", false);
+        list_text("bilders", false);
         FAIL();
-    } catch (const BadInput& e) {
+    } catch (const std::invalid_argument& e) {
         EXPECT_THAT(e.what(), HasSubstr("'builders'"));
     }
 }

@@ -12,8 +12,8 @@ namespace boxwood::bench {
 /// The plan of a scene as a table, or as one JSON object.
 std::string plan_text(const MovingScene& scene, Extent extent, bool json);
 
-/// What the stages did in so many frames beyond the start: only what is called for beside
-/// everything on, with the shares of their times. The two are played in turns, frame by frame.
+/// What the stages did in so many frames beyond the start: only those required beside all of them,
+/// with the shares of their times. The two are played in turns, frame by frame.
 /// Throws std::runtime_error if their answers differ.
 std::string played_text(const SceneFile& file, std::size_t frames, const Executor& executor);
 

@@ -8,13 +8,13 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(Plan, IsToldAsATableAndAsJson) {
+TEST(Plan, IsPrintedAsATableAndAsJson) {
     const MovingScene scene(load_scene("warehouse"), 1000);
     const std::string text = plan_text(scene, Extent::required, false);
-    EXPECT_THAT(text, HasSubstr("warehouse: 10 of 27 stages are called for"));
+    EXPECT_THAT(text, HasSubstr("warehouse: the scene requires 10 of 27 stages"));
     EXPECT_THAT(text, HasSubstr("2 effects change bodies"));
     EXPECT_THAT(text, HasSubstr("no body has this effect"));
-    EXPECT_THAT(plan_text(scene, Extent::all_stages, false), HasSubstr("everything on 13 run"));
+    EXPECT_THAT(plan_text(scene, Extent::all_stages, false), HasSubstr("with all stages 13 run"));
     const std::string json = plan_text(scene, Extent::required, true);
     EXPECT_THAT(json, testing::StartsWith("{\"scene\":\"warehouse\",\"bodies\":1000,"));
     EXPECT_THAT(json, HasSubstr("{\"stage\":\"filter\",\"required\":false,\"runs\":false,"

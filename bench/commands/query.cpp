@@ -10,32 +10,32 @@
 namespace boxwood::bench {
 namespace {
 
-constexpr unsigned most_threads = 1024;
+constexpr unsigned max_threads = 1024;
 constexpr std::size_t block_bytes = std::size_t{1} << 20;
 
 } // namespace
 
-void add_tree_options(CLI::App& app, TreeChoice& choice) {
-    const char* group = "How (the answers are the same for every choice)";
-    app.add_option("--builder", choice.builder, "a word of `boxwood list builders`")
+void add_tree_options(CLI::App& app, TreeChoice& choice, const std::string& effect_on_answers) {
+    const std::string group = "Tree and threads (" + effect_on_answers + ")";
+    app.add_option("--builder", choice.builder, "a name of `boxwood list builders`")
         ->capture_default_str()
         ->group(group);
-    app.add_option("--layout", choice.layout, "a word of `boxwood list layouts`")
+    app.add_option("--layout", choice.layout, "a name of `boxwood list layouts`")
         ->capture_default_str()
         ->group(group);
-    app.add_option("--executor", choice.executor, "a word of `boxwood list executors`")
+    app.add_option("--executor", choice.executor, "a name of `boxwood list executors`")
         ->capture_default_str()
         ->group(group);
-    app.add_option("--threads", choice.threads, "number of threads; all cores if not given")
-        ->check(CLI::Range(1u, most_threads))
+    app.add_option("--threads", choice.threads, "number of threads; as many as cores if not given")
+        ->check(CLI::Range(1u, max_threads))
         ->group(group);
 }
 
 BuildFunction chosen_builder(const TreeChoice& choice) {
-    const std::string_view word =
+    const std::string_view name =
         std::string_view(choice.builder).substr(0, choice.builder.find('+'));
-    if (!find_builder(word))
-        throw BadInput(unknown_word("builder", word, names_of(builders())));
+    if (!find_builder(name))
+        throw BadInput(unknown_word("builder", name, names_of(builders())));
     try {
         return make_builder(choice.builder);
     } catch (const std::invalid_argument& error) {
@@ -56,7 +56,7 @@ std::unique_ptr<Executor> chosen_executor(const TreeChoice& choice) {
         throw BadInput(unknown_word("executor", choice.executor, known));
     const unsigned all = choice.executor == "serial"
                              ? 1
-                             : std::clamp(std::thread::hardware_concurrency(), 1u, most_threads);
+                             : std::clamp(std::thread::hardware_concurrency(), 1u, max_threads);
     return make_executor(choice.executor, choice.threads.value_or(all));
 }
 
@@ -90,10 +90,13 @@ void BlockWriter::flush() {
 }
 
 void add_query(CLI::App& app, int&) {
-    CLI::App* query = app.add_subcommand("query", "answer one question about your own data");
+    CLI::App* query =
+        app.add_subcommand("query", "answer a question about your own boxes, meshes or triangles");
     query->require_subcommand(1);
-    query->footer("Answers go to stdout, one line per item; everything else goes to stderr.\n"
-                  "Example: boxwood query pairs boxes.csv");
+    query->footer("Answers go to stdout, one line per item; everything else goes to stderr.\n\n"
+                  "Examples:\n"
+                  "  boxwood query pairs boxes.csv\n"
+                  "  boxwood query rays model.obj rays.csv");
     add_query_pairs(*query);
     add_query_rays(*query);
     add_query_triangles(*query);

@@ -12,16 +12,17 @@
 
 namespace boxwood::bench {
 
-/// How a query is to be answered; every choice gives the same answers.
+/// Which tree answers a query, on which threads.
 struct TreeChoice {
     std::string builder = "binned_sah", layout = "wide8", executor = "tbb";
     std::optional<unsigned> threads; ///< all cores if not given (`serial`: one)
 };
 
-/// The options --builder, --layout, --executor and --threads.
-void add_tree_options(CLI::App& app, TreeChoice& choice);
+/// The options --builder, --layout, --executor and --threads, under a heading that says how they
+/// change the answers.
+void add_tree_options(CLI::App& app, TreeChoice& choice, const std::string& effect_on_answers);
 
-/// What the words of a choice stand for. Throw BadInput, with a suggestion, for an unknown word.
+/// What the names of a choice stand for. Throw BadInput, with a suggestion, for an unknown name.
 BuildFunction chosen_builder(const TreeChoice& choice);
 const LayoutEntry& chosen_layout(const TreeChoice& choice);
 std::unique_ptr<Executor> chosen_executor(const TreeChoice& choice);

@@ -1,9 +1,10 @@
 /// `boxwood query ccd`: continuous collision of vertex-face or edge-edge pairs in linear motion.
 
-#include "bench/io/ccd_file.h"
 #include "bench/commands/command.h"
 #include "bench/commands/query.h"
+#include "bench/io/ccd_file.h"
 #include "bench/io/csv.h"
+#include "kernels/oracle/rational.h"
 #include "kernels/registry.h"
 #include "kernels/suggest.h"
 
@@ -35,7 +36,7 @@ template <class Kernel> Kernel with_settings(const CcdQuery& query) {
     return kernel;
 }
 
-/// The exact rung reads the rational points as they are, the others doubles.
+/// The exact kernel reads the rational points as they are, the others doubles.
 template <class Kernel>
 Answer answer_of(const Kernel& kernel, bool is_face, const CcdFileQuery& query,
                  const std::string& source) {
@@ -48,7 +49,7 @@ Answer answer_of(const Kernel& kernel, bool is_face, const CcdFileQuery& query,
     }
 }
 
-/// Whether the question is about a vertex and a face.
+/// Whether the query is about a vertex and a face.
 bool is_vertex_face(const std::string& kind) {
     constexpr std::array<std::string_view, 2> kinds{"vertex-face", "edge-edge"};
     if (std::ranges::find(kinds, kind) == kinds.end())
@@ -67,19 +68,19 @@ void run(const CcdQuery& query, std::ostream& out) {
     const bool known = with_kernel<Kernels>(query.kernel, [&]<class K>(std::type_identity<K>) {
         const K kernel = with_settings<K>(query);
         const std::string source = source_name(query.queries);
-        for (const CcdFileQuery& question : read_ccd_queries(read_text(query.queries), source)) {
+        for (const CcdFileQuery& row : read_ccd_queries(read_text(query.queries), source)) {
             // A maybe is never a miss.
-            const bool touches = answer_of(kernel, is_face, question, source) != Answer::no;
+            const bool touches = answer_of(kernel, is_face, row, source) != Answer::no;
             answers.push_back(touches);
-            false_positives += touches && !question.touches;
-            false_negatives += !touches && question.touches;
+            false_positives += touches && !row.touches;
+            false_negatives += !touches && row.touches;
         }
     });
     if (!known) {
-        const auto words = []<class... K>(std::type_identity<std::tuple<K...>>) {
+        const auto known_names = []<class... K>(std::type_identity<std::tuple<K...>>) {
             return std::array<std::string_view, sizeof...(K)>{K::name...};
         }(std::type_identity<Kernels>{});
-        throw BadInput(unknown_word("continuous kernel", query.kernel, words));
+        throw BadInput(unknown_word("continuous kernel", query.kernel, known_names));
     }
 
     BlockWriter text(out);
@@ -109,10 +110,11 @@ void add_query_ccd(CLI::App& query) {
         ->capture_default_str();
     ccd->add_option(
         "--tolerance", options->tolerance,
-        "tight_inclusion: nearer than this part of a query's size it says 1 rather than search "
-        "on (default 1e-6)");
-    ccd->add_option("--max-checks", options->max_checks,
-                    "tight_inclusion: work at most, after which it says 1 (default 100000)");
+        "tight_inclusion: features nearer than this part of the query's size count as touching "
+        "(default 1e-6)");
+    ccd->add_option(
+        "--max-checks", options->max_checks,
+        "tight_inclusion: most interval checks, after which it says 1 (default 100000)");
     add_format_options(*ccd, options->format);
     ccd->footer(
         "Rows: x_num,x_den,y_num,y_den,z_num,z_den,truth, whole numbers of any size; 8 rows a\n"

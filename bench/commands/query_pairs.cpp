@@ -3,8 +3,8 @@
 /// Each box is put into a float box f: down(min), up(max), then clamped to the finite floats. Both
 /// maps are monotone, and down(x) <= up(x) for every x, so from a.min <= b.max in double follows
 /// down(a.min) <= down(b.max) <= up(b.max): boxes that share a point share one as floats, also
-/// those beyond the range of floats. So the tree misses no pair; what it finds too much, the
-/// comparison of the double boxes drops. A layout of doubles finds nothing too much.
+/// those beyond the range of floats. So the tree misses no pair, and the comparison of the double
+/// boxes drops the pairs that only the floats make. A layout of doubles finds no such pairs.
 
 #include "bench/commands/command.h"
 #include "bench/commands/query.h"
@@ -46,8 +46,9 @@ std::vector<Aabb<double>> read_boxes(const std::string& path) {
 }
 
 Box to_float(const Aabb<double>& box) {
-    constexpr float most = std::numeric_limits<float>::max();
-    const Vec3<float> low{-most, -most, -most}, high{most, most, most};
+    constexpr float max_float = std::numeric_limits<float>::max();
+    const Vec3<float> low{-max_float, -max_float, -max_float},
+        high{max_float, max_float, max_float};
     const Box rounded = round_outward(box);
     return {min(max(rounded.min, low), high), min(max(rounded.max, low), high)};
 }
@@ -96,8 +97,8 @@ void run(const PairsQuery& query, std::ostream& out) {
             layout->self_pairs(*executor, sink);
             return;
         }
-        FilteredPairs kept([&](Pair p) { return overlaps(boxes[p.a], boxes[p.b]); }, sink);
-        layout->self_pairs(*executor, kept);
+        FilteredPairs exact([&](Pair p) { return overlaps(boxes[p.a], boxes[p.b]); }, sink);
+        layout->self_pairs(*executor, exact);
     };
 
     // Counting first is cheap beside printing, and makes sure that the list will fit.
@@ -140,10 +141,10 @@ void add_query_pairs(CLI::App& query) {
     pairs->add_option("BOXES.csv", options->boxes, "the boxes; - reads standard input")->required();
     pairs->add_flag("--count", options->count, "print only how many pairs there are");
     add_format_options(*pairs, options->format);
-    add_tree_options(*pairs, options->tree);
+    add_tree_options(*pairs, options->tree, "the answers are the same for every choice");
     pairs->footer(
         "Rows: min_x,min_y,min_z,max_x,max_y,max_z, decimal or hex float, read as doubles; blank\n"
-        "lines and lines with # in front are passed over. Boxes are closed (one shared point\n"
+        "lines and lines with # in front are skipped. Boxes are closed (one shared point\n"
         "counts) and numbered from 0. No pair is missed or added by rounding.\n\n"
         "Example, which prints 0,1:\n"
         "  printf '0,0,0,1,1,1\\n1,1,1,2,2,2\\n3,3,3,4,4,4\\n' | boxwood query pairs -");

@@ -18,7 +18,7 @@ namespace {
 
 constexpr CsvFormat row_format{"ox,oy,oz,dx,dy,dz[,tmax]", 6, 7};
 constexpr std::array names{"ox", "oy", "oz", "dx", "dy", "dz"};
-constexpr double most = 0x1p126; // beyond it the ray kernels make no promise
+constexpr double max_coordinate = 0x1p126; // beyond it the ray kernels make no promise
 
 /// Rays are rounded to floats, to nearest: the kernels' own numbers.
 std::vector<Ray<float>> read_rays(const std::string& path) {
@@ -26,7 +26,7 @@ std::vector<Ray<float>> read_rays(const std::string& path) {
     std::vector<Ray<float>> rays;
     read_csv(read_text(path), source, row_format, [&](std::span<const double> v, std::size_t line) {
         for (std::size_t i = 0; i < 6; ++i)
-            if (!(std::abs(v[i]) < most))
+            if (!(std::abs(v[i]) < max_coordinate))
                 throw_bad_row(source, line,
                               fmt::format("{} is {}; a ray needs finite numbers below 2^126 "
                                           "(8.5e37) in size",
@@ -50,10 +50,10 @@ std::vector<Ray<float>> read_rays(const std::string& path) {
     return rays;
 }
 
-void require_kernel(const std::string& word) {
+void require_kernel(const std::string& name) {
     const std::vector<std::string_view> known = names_of(ray_kernels());
-    if (std::find(known.begin(), known.end(), word) == known.end())
-        throw BadInput(unknown_word("ray kernel", word, known));
+    if (std::find(known.begin(), known.end(), name) == known.end())
+        throw BadInput(unknown_word("ray kernel", name, known));
 }
 
 void print_lines(std::span<const RayHit> hits, bool any, BlockWriter& text) {
@@ -124,10 +124,12 @@ void add_query_rays(CLI::App& query) {
     rays->add_option("--kernel", options->kernel, "a ray kernel of `boxwood list kernels`")
         ->capture_default_str();
     add_format_options(*rays, options->format);
-    add_tree_options(*rays, options->tree);
+    add_tree_options(*rays, options->tree,
+                     "the answers are the same for every choice, but for the rounding of plain "
+                     "float kernels");
     rays->footer(
         "Rows: ox,oy,oz,dx,dy,dz[,tmax], decimal or hex float, rounded to floats; blank lines and\n"
-        "lines with # in front are passed over. The hit is at origin + t * direction with\n"
+        "lines with # in front are skipped. The hit is at origin + t * direction with\n"
         "0 <= t <= tmax, which is (1 - u - v) a + u b + v c on the triangle (a, b, c). Of hits at\n"
         "the same t the lowest triangle is named; triangles are numbered from 0 in file order.\n\n"
         "Example:\n"

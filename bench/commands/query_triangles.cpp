@@ -1,11 +1,11 @@
-/// `boxwood query triangles`: pairs of triangles on any rung of the ladder.
+/// `boxwood query triangles`: pairs of triangles by any kernel.
 
 #include "bench/commands/command.h"
 #include "bench/commands/query.h"
 #include "bench/io/csv.h"
 #include "bench/io/json.h"
-#include "kernels/registry.h"
 #include "kernels/oracle/registry.h"
+#include "kernels/registry.h"
 #include "kernels/suggest.h"
 
 #include <fmt/format.h>
@@ -20,8 +20,8 @@ namespace boxwood::bench {
 namespace {
 
 template <class... Tuples> using Joined = decltype(std::tuple_cat(std::declval<Tuples>()...));
-using TouchRungs = Joined<TriangleKernels, oracle::RationalTriangleKernels>;
-using DistanceRungs = Joined<DistanceKernels, oracle::RationalTriangleDistanceKernels>;
+using TouchKernels = Joined<TriangleKernels, oracle::RationalTriangleKernels>;
+using AllDistanceKernels = Joined<DistanceKernels, oracle::RationalTriangleDistanceKernels>;
 
 constexpr CsvFormat row_format{"ax,ay,az,bx,by,bz,cx,cy,cz of A, then the same of B", 18, 18};
 
@@ -47,26 +47,26 @@ template <class Real> Triangle<Real> rounded(const Triangle<double>& t) {
     return {Vec3<Real>(t.a), Vec3<Real>(t.b), Vec3<Real>(t.c)};
 }
 
-template <class Rungs> std::vector<std::string_view> words() {
+template <class Kernels> std::vector<std::string_view> kernel_names() {
     return []<class... K>(std::type_identity<std::tuple<K...>>) {
         return std::vector<std::string_view>{K::name...};
-    }(std::type_identity<Rungs>{});
+    }(std::type_identity<Kernels>{});
 }
 
-/// Calls f with the rung of that name. Throws BadInput, with a suggestion, if there is none.
-template <class Rungs, class F>
-void with_rung(std::string_view what, const std::string& name, F f) {
-    if (!with_kernel<Rungs>(name, f))
-        throw BadInput(unknown_word(what, name, words<Rungs>()));
+/// Calls f with the kernel of that name. Throws BadInput, with a suggestion, if there is none.
+template <class Kernels, class F>
+void with_known_kernel(std::string_view what, const std::string& name, F f) {
+    if (!with_kernel<Kernels>(name, f))
+        throw BadInput(unknown_word(what, name, kernel_names<Kernels>()));
 }
 
-/// A maybe is printed as the promise allows: a rung that never answers yes falsely did not.
+/// A maybe is printed as the promise allows: as no by a kernel that never answers a false yes.
 std::string_view digit(Answer answer, Promise promise) {
     const bool read_as_yes = promise != Promise::never_false;
     return answer == Answer::yes || (answer == Answer::maybe && read_as_yes) ? "1" : "0";
 }
 
-/// What stands before the answers.
+/// What is printed before the answers.
 template <class K> std::string head(const Format& format, std::size_t n, std::string_view columns) {
     if (format.json)
         return fmt::format("{{\"n\":{},\"kernel\":{},\"answers\":[", n, json_string(K::name));
@@ -127,17 +127,17 @@ void answer_distance(std::span<const TrianglePair> pairs, const Format& format, 
 void run(const TrianglesQuery& query, std::ostream& out) {
     BlockWriter text(out);
     if (query.distance)
-        with_rung<DistanceRungs>(
+        with_known_kernel<AllDistanceKernels>(
             "triangle distance kernel", query.kernel.empty() ? "certified" : query.kernel,
             [&]<class K>(std::type_identity<K>) {
                 answer_distance<K>(read_pairs(query.pairs), query.format, text);
             });
     else
-        with_rung<TouchRungs>("triangle kernel",
-                              query.kernel.empty() ? "guigue_devillers_exact" : query.kernel,
-                              [&]<class K>(std::type_identity<K>) {
-                                  answer_touch<K>(read_pairs(query.pairs), query.format, text);
-                              });
+        with_known_kernel<TouchKernels>(
+            "triangle kernel", query.kernel.empty() ? "guigue_devillers_exact" : query.kernel,
+            [&]<class K>(std::type_identity<K>) {
+                answer_touch<K>(read_pairs(query.pairs), query.format, text);
+            });
 }
 
 void add_query_triangles(CLI::App& query) {
@@ -150,12 +150,12 @@ void add_query_triangles(CLI::App& query) {
                         "print distance,lo,hi instead: lo <= the true distance <= hi if the kernel "
                         "is certified or exact");
     triangles->add_option("--kernel", options->kernel,
-                          "a rung of `boxwood list kernels`, family triangle_triangle (default "
+                          "a kernel of `boxwood list kernels`, family triangle_triangle (default "
                           "guigue_devillers_exact) or triangle_distance (default certified)");
     add_format_options(*triangles, options->format);
     triangles->footer(
         "Rows: 18 numbers, three corners of A and three of B, decimal or hex float, read as "
-        "doubles;\nblank lines and lines with # in front are passed over. Triangles are closed: a "
+        "doubles;\nblank lines and lines with # in front are skipped. Triangles are closed: a "
         "shared point\nis a touch, and the distance is then 0. They may be degenerate. Kernels in "
         "f32 round the\nnumbers to floats first. What a kernel leaves undecided is printed as its "
         "promise allows,\nand counted on stderr.\n\nExample, which prints 1:\n"

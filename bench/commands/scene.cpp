@@ -16,8 +16,8 @@
 namespace boxwood::bench {
 namespace {
 
-constexpr std::size_t most_drawn = 2000; ///< bodies, unless --n asks for more
-constexpr std::uint64_t in_strip = 4;    ///< frames, unless --frame names them
+constexpr std::size_t max_drawn = 2000; ///< bodies, unless --n says otherwise
+constexpr std::uint64_t in_strip = 4;   ///< frames, unless --frame names them
 
 struct SceneOptions {
     std::string scene, svg, strip;
@@ -28,26 +28,26 @@ struct SceneOptions {
 };
 
 std::string effects_text(const BodyGroup& group) {
-    std::vector<std::string> words;
+    std::vector<std::string> texts;
     for (const auto& [name, settings, share] : group.effects) {
         std::vector<std::string> notes;
         if (share != 1)
             notes.push_back(fmt::format("on {:g} %", 100 * share));
         for (const auto& [setting, value] : settings)
             notes.push_back(fmt::format("{} {:g}", setting, value));
-        words.push_back(notes.empty() ? name
+        texts.push_back(notes.empty() ? name
                                       : fmt::format("{} ({})", name, fmt::join(notes, ", ")));
     }
-    return words.empty() ? "at rest" : fmt::format("{}", fmt::join(words, ", "));
+    return texts.empty() ? "at rest" : fmt::format("{}", fmt::join(texts, ", "));
 }
 
-std::string asks_text(const SceneFile& file) {
-    std::vector<std::string> words;
-    for (const SceneQuery& ask : file.queries)
-        words.push_back(ask.n == 0 ? ask.name
-                                   : fmt::format("{} ({} {}{})", ask.name, ask.n, ask.kind,
-                                                 ask.k ? fmt::format(", k {}", ask.k) : ""));
-    return fmt::format("{}", fmt::join(words, ", "));
+std::string queries_text(const SceneFile& file) {
+    std::vector<std::string> texts;
+    for (const SceneQuery& query : file.queries)
+        texts.push_back(query.n == 0 ? query.name
+                                     : fmt::format("{} ({} {}{})", query.name, query.n, query.kind,
+                                                   query.k ? fmt::format(", k {}", query.k) : ""));
+    return fmt::format("{}", fmt::join(texts, ", "));
 }
 
 std::string group_notes(const BodyGroup& group) {
@@ -72,7 +72,7 @@ void describe(const MovingScene& scene) {
         fmt::print("  {} ({}): {}{}\n", group.generator, size, effects_text(group),
                    group_notes(group));
     }
-    fmt::print("  asks: {}\n", asks_text(file));
+    fmt::print("  queries: {}\n", queries_text(file));
 }
 
 void show_scene(const SceneOptions& options) {
@@ -82,9 +82,9 @@ void show_scene(const SceneOptions& options) {
     const std::string& svg = options.svg.empty() ? options.strip : options.svg;
     const bool is_drawn = !svg.empty();
     std::optional<std::size_t> n = options.n;
-    if (is_drawn && !n && file.n > most_drawn) {
-        n = most_drawn;
-        fmt::print(stderr, "drawing {} instead of {} bodies; --n {} draws them all\n", most_drawn,
+    if (is_drawn && !n && file.n > max_drawn) {
+        n = max_drawn;
+        fmt::print(stderr, "drawing {} instead of {} bodies; --n {} draws them all\n", max_drawn,
                    file.n, file.n);
     }
     MovingScene scene(std::move(file), n);
@@ -133,16 +133,16 @@ void add_scene(CLI::App& app, int&) {
         scene->add_option("--svg", options->svg, "draw the frames side by side into this file");
     scene
         ->add_option("--strip", options->strip,
-                     "the same; without --frame, four frames spread over the scene's")
+                     "as --svg, but without --frame it draws four frames spread over the scene's")
         ->excludes(svg);
     scene->add_option("--depth", options->depth, "draw the tree's boxes of this depth too")
         ->check(CLI::Range(0, 64));
     scene->add_option("--n", options->n, "number of bodies instead of the scene's")
         ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}));
-    scene->add_option("--seed", options->seed, "instead of the scene's");
+    scene->add_option("--seed", options->seed, "the seed instead of the scene's");
     scene->footer(
-        "The built-in scenes: `boxwood list moving_scenes`; what may happen in a scene of your "
-        "own: `boxwood list effects`.\n"
+        "The built-in scenes: `boxwood list moving_scenes`; the effects for a scene of your own:\n"
+        "`boxwood list effects`.\n"
         "Example: boxwood scene warehouse --n 500 --frame 0,60 --svg warehouse.svg "
         "--depth 3");
     scene->callback([options] { show_scene(*options); });

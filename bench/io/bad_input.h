@@ -4,7 +4,7 @@
 
 namespace boxwood::bench {
 
-/// Bad usage or bad input: the message says what, where and how to fix it; exit code 2.
+/// Bad usage or bad input: the message says what, where and how to fix it. Exit code 2.
 class BadInput : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };

@@ -1,6 +1,7 @@
 #include "bench/io/ccd_file.h"
 
 #include "bench/io/csv.h"
+#include "bench/io/fields.h"
 #include "kernels/oracle/exact_vector.h"
 #include "kernels/oracle/roots.h"
 
@@ -16,7 +17,7 @@ constexpr std::string_view columns = "x_num,x_den,y_num,y_den,z_num,z_den,truth"
 constexpr std::array names{"x_num", "x_den", "y_num", "y_den", "z_num", "z_den", "truth"};
 constexpr std::size_t rows_per_query = 8;
 
-/// One line of a file, and what to say if it is wrong.
+/// The place of a row, for error messages.
 struct Row {
     const std::string& source;
     std::size_t line;
@@ -24,38 +25,14 @@ struct Row {
     [[noreturn]] void refuse(const std::string& what) const { throw_bad_row(source, line, what); }
 };
 
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view blanks = " \t\r";
-    const std::size_t from = text.find_first_not_of(blanks);
-    return from == std::string_view::npos
-               ? std::string_view{}
-               : text.substr(from, text.find_last_not_of(blanks) - from + 1);
-}
-
-/// The text up to the next mark, which is cut off with it.
-std::string_view take(std::string_view& text, char mark) {
-    const std::size_t at = text.find(mark);
-    const std::string_view piece = text.substr(0, at);
-    text = at == std::string_view::npos ? std::string_view{} : text.substr(at + 1);
-    return piece;
-}
-
-std::string shown(std::string_view text) {
-    std::string out;
-    for (const char c : text.substr(0, 40))
-        out += c >= ' ' && c <= '~' ? c : '?';
-    return "'" + out + (text.size() > 40 ? "...'" : "'");
-}
-
-mpz_class whole_number(std::string_view text, std::size_t column, const Row& row) {
+mpz_class integer(std::string_view text, std::size_t column, const Row& row) {
     std::string_view digits = text;
     if (!digits.empty() && (digits.front() == '-' || digits.front() == '+'))
         digits.remove_prefix(1);
     if (digits.empty() || !std::ranges::all_of(digits, [](char c) { return c >= '0' && c <= '9'; }))
-        row.refuse(
-            fmt::format("{} is {}; rows are whole numbers {} (write 0.5 as 1,2; put # before "
-                        "a header line)",
-                        names[column], text.empty() ? "empty" : shown(text), columns));
+        row.refuse(fmt::format("{} is {}; rows are integers {} (write 0.5 as 1,2; put # before "
+                               "a header line)",
+                               names[column], text.empty() ? "empty" : quoted(text), columns));
     mpz_class n(std::string(digits), 10);
     return text.front() == '-' ? mpz_class(-n) : n;
 }
@@ -72,7 +49,7 @@ Content parse(std::string_view text, const Row& row) {
                                names.size(), columns));
     std::array<mpz_class, names.size()> numbers;
     for (std::size_t i = 0; i < numbers.size(); ++i)
-        numbers[i] = whole_number(trimmed(take(text, ',')), i, row);
+        numbers[i] = integer(trimmed(take_until(text, ',')), i, row);
     Content content;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (numbers[2 * axis + 1] == 0)
@@ -84,7 +61,7 @@ Content parse(std::string_view text, const Row& row) {
     const mpz_class& truth = numbers.back();
     if (truth != 0 && truth != 1)
         row.refuse(fmt::format("truth is {}; it must be 0 (they never touch) or 1 (they do)",
-                               shown(truth.get_str())));
+                               quoted(truth.get_str())));
     content.touches = truth == 1;
     return content;
 }
@@ -92,13 +69,11 @@ Content parse(std::string_view text, const Row& row) {
 } // namespace
 
 std::vector<CcdFileQuery> read_ccd_queries(std::string_view text, const std::string& source) {
-    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-    if (text.starts_with(byte_order_mark))
-        text.remove_prefix(byte_order_mark.size());
+    text = without_byte_order_mark(text);
     std::vector<CcdFileQuery> queries;
     std::size_t n_rows = 0;
     for (std::size_t line = 1; !text.empty(); ++line) {
-        const std::string_view content = trimmed(take(text, '\n'));
+        const std::string_view content = trimmed(take_until(text, '\n'));
         if (content.empty() || content.front() == '#')
             continue;
         const Row row{source, line};
@@ -137,7 +112,7 @@ LinearMotion exact_doubles(const CcdFileQuery& query, const std::string& source)
                 throw_bad_row(source, query.lines[i],
                               fmt::format("{} = {} is not exactly a double, and this kernel reads "
                                           "doubles; use --kernel exact",
-                                          "xyz"[axis], shown(x.get_str())));
+                                          "xyz"[axis], quoted(x.get_str())));
             (i < 4 ? motion.start : motion.end)[i % 4][axis] = nearest;
         }
     return motion;

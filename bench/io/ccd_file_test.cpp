@@ -54,7 +54,7 @@ TEST(CcdFile, BadRowsAreNamed) {
                 HasSubstr("q.csv:2: 6 columns, expected 7: x_num,x_den"));
     EXPECT_THAT(complaint(row + ",1"), HasSubstr("q.csv:1: 8 columns"));
     EXPECT_THAT(complaint("# x\n1,2,3,0,5,6,0"), HasSubstr("q.csv:2: y_den is 0; a denominator"));
-    EXPECT_THAT(complaint("1,2,0.5,4,5,6,0"), HasSubstr("y_num is '0.5'; rows are whole numbers"));
+    EXPECT_THAT(complaint("1,2,0.5,4,5,6,0"), HasSubstr("y_num is '0.5'; rows are integers"));
     EXPECT_THAT(complaint("1,2,,4,5,6,0"), HasSubstr("y_num is empty"));
     EXPECT_THAT(complaint("1,2,-,4,5,6,0"), HasSubstr("y_num is '-'"));
     EXPECT_THAT(complaint("1,2,1 2,4,5,6,0"), HasSubstr("y_num is '1 2'"));

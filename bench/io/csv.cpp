@@ -1,6 +1,7 @@
 #include "bench/io/csv.h"
 
 #include "bench/io/bad_input.h"
+#include "bench/io/fields.h"
 
 #include <fmt/format.h>
 
@@ -17,24 +18,7 @@
 namespace boxwood::bench {
 namespace {
 
-constexpr std::size_t most_columns = 32;
-
-std::string_view trim(std::string_view text) {
-    const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-    while (!text.empty() && is_space(text.front()))
-        text.remove_prefix(1);
-    while (!text.empty() && is_space(text.back()))
-        text.remove_suffix(1);
-    return text;
-}
-
-/// A piece of the input fit for a message: short and printable.
-std::string quoted(std::string_view text) {
-    std::string out = "'";
-    for (const char c : text.substr(0, 40))
-        out += c >= ' ' && c <= '~' ? c : '?';
-    return out + (text.size() > 40 ? "...'" : "'");
-}
+constexpr std::size_t max_columns = 32;
 
 enum class Fault { none, not_a_number, too_large };
 
@@ -67,14 +51,6 @@ Fault parse(std::string_view text, double& value) {
     return Fault::none;
 }
 
-/// Cuts the text up to the next `mark` off its front.
-std::string_view cut(std::string_view& text, char mark) {
-    const std::size_t at = text.find(mark);
-    const std::string_view piece = text.substr(0, at);
-    text.remove_prefix(at == std::string_view::npos ? text.size() : at + 1);
-    return piece;
-}
-
 } // namespace
 
 void throw_bad_row(const std::string& source, std::size_t line, const std::string& what) {
@@ -83,11 +59,10 @@ void throw_bad_row(const std::string& source, std::size_t line, const std::strin
 
 void read_csv(std::string_view text, const std::string& source, const CsvFormat& format,
               FunctionRef<void(std::span<const double>, std::size_t)> row) {
-    if (text.starts_with("\xef\xbb\xbf")) // a byte order mark
-        text.remove_prefix(3);
-    std::array<double, most_columns> numbers;
+    text = without_byte_order_mark(text);
+    std::array<double, max_columns> numbers;
     for (std::size_t line = 1; !text.empty(); ++line) {
-        const std::string_view whole = trim(cut(text, '\n'));
+        const std::string_view whole = trimmed(take_until(text, '\n'));
         if (whole.empty() || whole.front() == '#')
             continue;
 
@@ -95,8 +70,8 @@ void read_csv(std::string_view text, const std::string& source, const CsvFormat&
         std::string_view rest = whole;
         for (bool more = true; more; ++n) {
             more = rest.find(',') != std::string_view::npos;
-            const std::string_view field = trim(cut(rest, ','));
-            if (n >= format.most)
+            const std::string_view field = trimmed(take_until(rest, ','));
+            if (n >= format.max)
                 continue; // only counted
             switch (parse(field, numbers[n])) {
             case Fault::none:
@@ -114,12 +89,12 @@ void read_csv(std::string_view text, const std::string& source, const CsvFormat&
                     fmt::format("column {} is {}, larger than every double", n + 1, quoted(field)));
             }
         }
-        if (n < format.least || n > format.most)
+        if (n < format.min || n > format.max)
             throw_bad_row(source, line,
                           fmt::format("{} column{}, expected {}: {}", n, n == 1 ? "" : "s",
-                                      format.least == format.most
-                                          ? fmt::format("{}", format.least)
-                                          : fmt::format("{} to {}", format.least, format.most),
+                                      format.min == format.max
+                                          ? fmt::format("{}", format.min)
+                                          : fmt::format("{} to {}", format.min, format.max),
                                       format.columns));
         row({numbers.data(), n}, line);
     }

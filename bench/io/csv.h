@@ -9,14 +9,14 @@
 
 namespace boxwood::bench {
 
-/// What stands in a row, for the reader and for its error messages.
+/// What a row holds, for the reader and for its error messages.
 struct CsvFormat {
-    std::string_view columns;        ///< "ox,oy,oz,dx,dy,dz[,tmax]"
-    std::size_t least = 0, most = 0; ///< numbers in a row
+    std::string_view columns;     ///< "ox,oy,oz,dx,dy,dz[,tmax]"
+    std::size_t min = 0, max = 0; ///< numbers in a row
 };
 
 /// Calls row(numbers, line) for each row of `text`, in order; lines count from 1. Blank lines and
-/// lines that start with # are passed over, as are spaces around numbers and CR before LF.
+/// lines that start with # are skipped, as are spaces around numbers and CR before LF.
 /// Numbers are decimal (1, -2.5, 1e-3, inf, nan) or hex floats (0x1.8p-3), rounded to nearest.
 /// Throws BadInput naming source:line for anything else, and for a number beyond all doubles.
 void read_csv(std::string_view text, const std::string& source, const CsvFormat& format,

@@ -11,7 +11,7 @@ TEST(Json, StringsAreEscaped) {
     EXPECT_EQ(json_string("plain"), "\"plain\"");
     EXPECT_EQ(json_string("a\"b\\c\nd\te"), "\"a\\\"b\\\\c\\nd\\te\"");
     EXPECT_EQ(json_string(std::string_view("\0\x1f\r", 3)), "\"\\u0000\\u001f\\u000d\"");
-    EXPECT_EQ(json_string("\xc3\xa9"), "\"\xc3\xa9\""); // UTF-8 stands as it is
+    EXPECT_EQ(json_string("\xc3\xa9"), "\"\xc3\xa9\""); // UTF-8 is left as it is
 }
 
 TEST(Json, NumbersRoundTripAndNonFiniteIsNull) {

@@ -98,27 +98,27 @@ void ScenePicture::add_outline(const Bodies& bodies, std::uint32_t i,
     to.push_back(hull(std::move(corners)));
 }
 
-/// At most `most_queries` of each kind: boxes, points as small squares, and rays as far as a third
+/// At most `max_queries` of each kind: boxes, points as small squares, and rays as far as a third
 /// of the room.
 void ScenePicture::add_queries(const MovingScene& scene, Frame& frame) const {
     const Bodies& bodies = scene.bodies();
     const auto some = [](auto& queries) {
-        constexpr std::size_t most_queries = 24;
-        const std::size_t step = (queries.size() + most_queries - 1) / most_queries;
+        constexpr std::size_t max_queries = 24;
+        const std::size_t step = (queries.size() + max_queries - 1) / max_queries;
         for (std::size_t i = 0; i * step < queries.size(); ++i)
             queries[i] = queries[i * step];
-        queries.resize(std::min(queries.size(), most_queries));
+        queries.resize(std::min(queries.size(), max_queries));
     };
-    for (const SceneQuery& ask : scene.file().queries) {
+    for (const SceneQuery& query : scene.file().queries) {
         std::vector<Box> regions;
         std::vector<Ray<float>> rays;
         std::vector<Vec3<float>> points;
-        if (ask.name == "regions")
-            regions_of_frame(scene, ask, regions);
-        else if (ask.name == "rays")
-            rays_of_frame(scene, ask, rays);
-        else if (ask.name == "points" || ask.name == "nearest")
-            points_of_frame(scene, ask, points);
+        if (query.name == "regions")
+            regions_of_frame(scene, query, regions);
+        else if (query.name == "rays")
+            rays_of_frame(scene, query, rays);
+        else if (query.name == "points" || query.name == "nearest")
+            points_of_frame(scene, query, points);
         some(regions);
         some(rays);
         some(points);
@@ -217,7 +217,7 @@ std::string ScenePicture::svg() const {
         "fill=\"none\" stroke=\"#d55e00\" stroke-opacity=\".4\" stroke-width=\".7\"";
     const std::string_view node =
         "fill=\"none\" stroke=\"#009e73\" stroke-width=\"1\" stroke-dasharray=\"5 3\"";
-    const std::string_view asked =
+    const std::string_view query =
         "fill=\"none\" stroke=\"#cc79a7\" stroke-opacity=\".8\" stroke-width=\"1\"";
     bool has_queries = false;
     double x = margin;
@@ -228,7 +228,7 @@ std::string ScenePicture::svg() const {
                            x, frame.title, head);
         out += path(frame.resting, scale, resting) + path(frame.changed, scale, changing) +
                path(frame.meeting, scale, meeting) + path(frame.lines, scale, line) +
-               path(frame.nodes, scale, node) + path(frame.queries, scale, asked) + "</g>\n";
+               path(frame.nodes, scale, node) + path(frame.queries, scale, query) + "</g>\n";
         x += width + margin;
     }
     const double y = head + height + margin + 8;
@@ -245,7 +245,7 @@ std::string ScenePicture::svg() const {
     if (depth_ >= 0)
         key(node, fmt::format("tree, depth {}", depth_));
     if (has_queries)
-        key(asked, "some of what is asked");
+        key(query, "some of the queries");
     return out + "</svg>\n";
 }
 

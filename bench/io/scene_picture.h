@@ -18,7 +18,7 @@ struct BoxedBodies {
 };
 BoxedBodies boxed(const Bodies& bodies);
 
-/// Every pair of present bodies whose boxes overlap, but for the expected ones; ascending.
+/// Every pair of present bodies whose boxes overlap, without the expected ones; ascending.
 std::vector<Pair> overlapping_bodies(const MovingScene& scene, const BoxedBodies& boxed);
 
 /// Draws frames of one scene side by side, all to one scale.
@@ -27,7 +27,7 @@ class ScenePicture {
     /// depth: of the tree's boxes to draw, the root's is 0; negative: none.
     ScenePicture(const MovingScene& scene, int depth);
 
-    /// The scene as it stands, with the bodies that its last step changed.
+    /// The scene as it is now, with the bodies that its last step changed.
     void add(const MovingScene& scene, std::span<const std::uint32_t> changed);
     std::string svg() const;
 
@@ -39,9 +39,9 @@ class ScenePicture {
     struct Frame {
         std::string title;
         std::vector<Polygon> resting, changed, meeting; ///< bodies; the last are in a pair
-        std::vector<Polygon> lines;                     ///< from middle to middle of each pair
+        std::vector<Polygon> lines;                     ///< from centre to centre of each pair
         std::vector<Polygon> nodes;                     ///< boxes of the tree at the wanted depth
-        std::vector<Polygon> queries;                   ///< some of what is asked there
+        std::vector<Polygon> queries;                   ///< some of the queries
     };
 
     Point seen(Vec3<double> p) const { return {p[across_], p[up_]}; }

@@ -27,9 +27,9 @@ std::string strip_of(const SceneFile& file, std::size_t n) {
 
 std::string scene_strip(const SceneFile& file) {
     std::string svg;
-    for (std::size_t n = std::min(file.n, most_in_strip); n > 0; n /= 2) {
+    for (std::size_t n = std::min(file.n, max_in_strip); n > 0; n /= 2) {
         svg = strip_of(file, n);
-        if (svg.size() <= longest_strip)
+        if (svg.size() <= max_strip_bytes)
             return svg;
     }
     return ""; // a mesh that no share of n makes smaller

@@ -7,11 +7,11 @@
 
 namespace boxwood::bench {
 
-inline constexpr std::size_t most_in_strip = 300;                  ///< bodies
-inline constexpr std::size_t longest_strip = std::size_t{1} << 20; ///< bytes
+inline constexpr std::size_t max_in_strip = 300;                     ///< bodies
+inline constexpr std::size_t max_strip_bytes = std::size_t{1} << 20; ///< bytes
 
 /// The first, the middle and the last frame of a scene side by side, as SVG for the report, drawn
-/// with `most_in_strip` bodies where the scene has more, fewer where that is too long a text. Empty
+/// with `max_in_strip` bodies where the scene has more, fewer where that is too long a text. Empty
 /// if nothing is short enough.
 std::string scene_strip(const SceneFile& file);
 

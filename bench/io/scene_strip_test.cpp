@@ -17,7 +17,7 @@ TEST(SceneStrip, ShowsTheFirstTheMiddleAndTheLastFrame) {
     EXPECT_THAT(svg, testing::StartsWith("<svg"));
     for (const char* title : {"frame 0", "frame 5", "frame 10"})
         EXPECT_THAT(svg, HasSubstr(title));
-    EXPECT_LT(svg.size(), longest_strip);
+    EXPECT_LT(svg.size(), max_strip_bytes);
     file.frames = 1;
     const std::string one = scene_strip(file);
     EXPECT_THAT(one, HasSubstr("frame 1"));

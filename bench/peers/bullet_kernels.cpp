@@ -32,7 +32,7 @@ btPrimitiveTriangle primitive(const Triangle<double>& t) {
     return triangle;
 }
 
-Verdict gimpact(const GimpactPair& p) {
+Decision gimpact(const GimpactPair& p) {
     btPrimitiveTriangle a = primitive(p.a), b = primitive(p.b);
     if (!a.overlap_test_conservative(b))
         return yes_or_no(false);

@@ -27,7 +27,7 @@ template <class K> struct TrianglePair {
     }
 };
 
-template <class K> Verdict intersect(const TrianglePair<K>& p) {
+template <class K> Decision intersect(const TrianglePair<K>& p) {
     if (!p.valid)
         return {Answer::maybe, 0};
     return yes_or_no(CGAL::do_intersect(p.a, p.b));

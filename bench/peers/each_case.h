@@ -42,7 +42,7 @@ ContenderEntry each_case(Ask ask, std::string library, std::string name, std::st
     return e;
 }
 
-inline Verdict yes_or_no(bool yes) { return {yes ? Answer::yes : Answer::no, 0}; }
+inline Decision yes_or_no(bool yes) { return {yes ? Answer::yes : Answer::no, 0}; }
 
 /// A distance without a bound, and without witnesses, which nobody judges.
 inline Distance plain_distance(double d) {

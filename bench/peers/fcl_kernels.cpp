@@ -23,7 +23,7 @@ template <class S> struct TrianglePair {
                                                                      vector<S>(c.b.c)} {}
 };
 
-template <class S> Verdict intersect(const TrianglePair<S>& p) {
+template <class S> Decision intersect(const TrianglePair<S>& p) {
     return yes_or_no(fcl::detail::Intersect<S>::intersect_Triangle(p.a[0], p.a[1], p.a[2], p.b[0],
                                                                    p.b[1], p.b[2]));
 }
@@ -80,7 +80,7 @@ struct ObbPair {
     }
 };
 
-Verdict obbs(const ObbPair& p) { return yes_or_no(p.a.overlap(p.b)); }
+Decision obbs(const ObbPair& p) { return yes_or_no(p.a.overlap(p.b)); }
 
 } // namespace
 

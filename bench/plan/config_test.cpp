@@ -99,7 +99,7 @@ TEST(Config, PoliciesTakeTheirSettings) {
     EXPECT_EQ(config.blocks[0].updates[0].settings, (Settings{{"margin", 2}}));
     EXPECT_EQ(config.blocks[0].updates[1].settings, (Settings{{"share", 0.2}}));
     EXPECT_THAT(complaint(moving + "{name = \"refine\", margin = 2}\n"), HasSubstr("margin"));
-    EXPECT_THAT(complaint(moving + "{margin = 2}\n"), HasSubstr("an update is a word"));
+    EXPECT_THAT(complaint(moving + "{margin = 2}\n"), HasSubstr("an update is a name"));
 }
 
 TEST(Config, RefusesBlocksThatMeanNothing) {

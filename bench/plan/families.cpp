@@ -19,7 +19,7 @@ const Cases& sample_of(const HardCaseFamily& family) {
         for (const HardCaseFamily& f : hard_case_families()) {
             HardCaseSpec spec;
             spec.n = 1;
-            spec.scale = std::clamp(0, f.scale_least, f.scale_most);
+            spec.scale = std::clamp(0, f.scale_min, f.scale_max);
             all.emplace(f.name, f.reads_file ? Cases() : make_cases(f, spec));
         }
         return all;

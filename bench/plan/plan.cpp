@@ -1,12 +1,12 @@
 #include "bench/plan/plan.h"
 
-#include "bench/plan/cell_name.h"
 #include "bench/io/bad_input.h"
 #include "bench/io/csv.h"
+#include "bench/plan/cell_name.h"
 #include "bench/plan/families.h"
+#include "bench/tasks/kernels/kernels.h"
 #include "bench/tasks/moving_pairs.h"
 #include "bench/tasks/ours.h"
-#include "bench/tasks/kernels/kernels.h"
 #include "bench/tasks/scene_queries.h"
 #include "scenes/effects/effect_scene.h"
 
@@ -150,7 +150,7 @@ void expand_families(const Block& block, std::uint64_t seed, Expansion& expansio
                     for (const std::optional<int> k : all_k)
                         for (const int scale : scales) {
                             if (is_group(word) &&
-                                (scale < family->scale_least || scale > family->scale_most))
+                                (scale < family->scale_min || scale > family->scale_max))
                                 continue;
                             spec.generator = family->name;
                             spec.n = n;

@@ -1,11 +1,11 @@
 #include "bench/running/check.h"
 
-#include "bench/plan/cell_name.h"
 #include "bench/io/bad_input.h"
+#include "bench/plan/cell_name.h"
 #include "bench/running/isolated.h"
-#include "bench/truth/judging/judge.h"
-#include "bench/tasks/ours.h"
 #include "bench/tasks/kernels/kernels.h"
+#include "bench/tasks/ours.h"
+#include "bench/truth/judging/judge.h"
 #include "bench/truth/truth.h"
 #include "trees/layout.h"
 #include "trees/tree.h"
@@ -78,7 +78,7 @@ std::vector<Ask> asks_of(const Cases& cases) {
     std::vector<Ask> fitting;
     for (const AskEntry& entry : asks())
         if (is_kernel_ask(entry.task) ? fits(cases, entry.task)
-                                     : entry.task == Ask::pairs && is_box_family(cases))
+                                      : entry.task == Ask::pairs && is_box_family(cases))
             fitting.push_back(entry.task);
     return fitting;
 }
@@ -127,16 +127,15 @@ std::vector<SceneSpec> check_scenes(const CheckOptions& options) {
         spec.k = options.k;
         if (family.reads_file)
             spec.file = options.ccd;
-        const int middle = std::clamp(0, family.scale_least, family.scale_most);
+        const int middle = std::clamp(0, family.scale_min, family.scale_max);
         std::set<int> scales{options.scale.value_or(middle)};
         if (!options.scale && !options.is_quick)
-            scales.insert({family.scale_least, family.scale_most});
-        const bool has_k =
-            !options.k || (!family.k_meaning.empty() && *options.k >= family.k_least &&
-                           *options.k <= family.k_most);
+            scales.insert({family.scale_min, family.scale_max});
+        const bool has_k = !options.k || (!family.k_meaning.empty() && *options.k >= family.k_min &&
+                                          *options.k <= family.k_max);
         for (const int scale : scales) {
             spec.scale = scale;
-            if (has_k && scale >= family.scale_least && scale <= family.scale_most)
+            if (has_k && scale >= family.scale_min && scale <= family.scale_max)
                 scenes.push_back(spec);
         }
     }

@@ -2,12 +2,12 @@
 
 #include "bench/running/check.h"
 
+#include "bench/analysis/findings.h"
+#include "bench/analysis/ladders.h"
 #include "bench/io/bad_input.h"
 #include "bench/plan/families.h"
-#include "bench/analysis/findings.h"
-#include "bench/truth/judging/judge.h"
-#include "bench/analysis/ladders.h"
 #include "bench/tasks/kernels/kernels.h"
+#include "bench/truth/judging/judge.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -173,9 +173,9 @@ TEST(CheckScenes, HoldTheEndsOfEveryFamilysScale) {
     const std::vector<SceneSpec> scenes = check_scenes(options);
     const HardCaseFamily& family = *find_hard_case_family("slivers");
     ASSERT_EQ(scenes.size(), 3u);
-    EXPECT_EQ(scenes.front().scale, family.scale_least);
+    EXPECT_EQ(scenes.front().scale, family.scale_min);
     EXPECT_EQ(scenes[1].scale, 0);
-    EXPECT_EQ(scenes.back().scale, family.scale_most);
+    EXPECT_EQ(scenes.back().scale, family.scale_max);
     options.is_quick = true;
     EXPECT_EQ(check_scenes(options).size(), 1u);
     options.k = 5;

@@ -29,7 +29,7 @@ TEST(Isolated, BringsEveryAnswerBack) {
     ASSERT_EQ(outcome.answers.pairs.size(), 100'000u);
     EXPECT_EQ(outcome.answers.pairs.back(), (Pair{1, 2}));
     EXPECT_EQ(outcome.answers.hits.at(0).triangle, 3u);
-    EXPECT_EQ(outcome.answers.verdicts.at(0), (Verdict{Answer::maybe, 2}));
+    EXPECT_EQ(outcome.answers.verdicts.at(0), (Decision{Answer::maybe, 2}));
     EXPECT_EQ(outcome.answers.distances.at(0).hi, 7);
     EXPECT_EQ(outcome.answers.impacts.at(0).t_hit, .5);
     EXPECT_EQ(outcome.answers.boxes.at(0).max.z, 3);

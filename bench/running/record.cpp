@@ -44,12 +44,12 @@ std::uint32_t Record::add_scene(const Scene& scene, std::string asks) {
     row.n_triangles = scene.mesh.triangles.size();
     if (scene.spec.moving) {
         row.n_frames = scene.spec.moving->frames;
-        row.effects = effect_words(*scene.spec.moving);
+        row.effects = effect_names(*scene.spec.moving);
     }
     row.seed = scene.spec.seed;
     row.queries = std::move(asks);
     if (scene.spec.moving)
-        row.queries += ',' + ask_words(*scene.spec.moving);
+        row.queries += ',' + query_names(*scene.spec.moving);
     row.content_hash = scene.content_hash;
     row.params_json = scene.params_json;
     out.scenes.push_back(row);

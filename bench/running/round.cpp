@@ -234,7 +234,7 @@ class Round final : public benchmark::BenchmarkReporter {
             std::size_t bytes = 0;
             for (const auto& [other, held] : frames_)
                 bytes += held.bytes();
-            if (bytes + Frames::most_baked > most_frame_bytes)
+            if (bytes + Frames::max_baked > most_frame_bytes)
                 frames_.clear();
             frames_.emplace(key, Frames(spec.moving));
         }

@@ -1,8 +1,8 @@
 /// What a scene asks, answered by its plan, against everything on and against brute force.
 
-#include "bench/truth/ray_truth.h"
 #include "bench/stages/body_surface.h"
 #include "bench/stages/scene_player.h"
+#include "bench/truth/ray_truth.h"
 #include "kernels/oracle/oracle.h"
 
 #include <gtest/gtest.h>
@@ -263,22 +263,22 @@ TEST(Answers, AreThoseOfBruteForce) {
             if (frame % 4 == 0) {
                 EXPECT_EQ(found.triangle_pairs, true_triangle_pairs(scene));
                 std::vector<Ray<float>> rays;
-                rays_of_frame(scene, *ask_of(file, "rays"), rays);
+                rays_of_frame(scene, *query_named(file, "rays"), rays);
                 expect_true_rays(scene, rays, found.rays);
             }
             std::vector<Vec3<float>> points;
-            points_of_frame(scene, *ask_of(file, "points"), points);
+            points_of_frame(scene, *query_named(file, "points"), points);
             EXPECT_EQ(found.points, true_meetings(scene, points, [](Vec3<float> p, const Box& box) {
                           return box.contains(p);
                       }));
             std::vector<Box> regions;
-            regions_of_frame(scene, *ask_of(file, "regions"), regions);
+            regions_of_frame(scene, *query_named(file, "regions"), regions);
             EXPECT_EQ(found.regions,
                       true_meetings(scene, regions, [](const Box& region, const Box& box) {
                           return overlaps(region, box);
                       }));
-            points_of_frame(scene, *ask_of(file, "nearest"), points);
-            EXPECT_EQ(found.nearest, true_nearest(scene, points, ask_of(file, "nearest")->k));
+            points_of_frame(scene, *query_named(file, "nearest"), points);
+            EXPECT_EQ(found.nearest, true_nearest(scene, points, query_named(file, "nearest")->k));
             if (testing::Test::HasFailure())
                 return;
             pairs += found.pairs.size();
@@ -307,7 +307,7 @@ TEST(Answers, OfRaysAreThoseOfBruteForceInOneTreeAndInTwo) {
             on_two.start();
             for (int frame = 0; frame < 8; ++frame) {
                 std::vector<Ray<float>> rays;
-                rays_of_frame(player.scene(), *ask_of(file, "rays"), rays);
+                rays_of_frame(player.scene(), *query_named(file, "rays"), rays);
                 expect_true_rays(player.scene(), rays, player.query().rays);
                 EXPECT_EQ(player.answers().rays, on_two.query().rays);
                 player.advance();
@@ -356,9 +356,9 @@ TEST(Answers, OfOneBodyAndOfNobody) {
             EXPECT_EQ(answers.pairs, true_body_pairs(some.scene()));
             EXPECT_EQ(answers.rays.size(), 60u);
             std::vector<Vec3<float>> points;
-            points_of_frame(some.scene(), *ask_of(file, "nearest"), points);
+            points_of_frame(some.scene(), *query_named(file, "nearest"), points);
             EXPECT_EQ(answers.nearest,
-                      true_nearest(some.scene(), points, ask_of(file, "nearest")->k));
+                      true_nearest(some.scene(), points, query_named(file, "nearest")->k));
             some.advance();
             everything.advance();
         }

@@ -25,7 +25,9 @@ struct Wants {
         triangles = queries("triangle_pairs") && meshed >= 2;
         filters = scene.ignored().size();
     }
-    bool queries(std::string_view word) const { return std::ranges::find(asked, word) != asked.end(); }
+    bool queries(std::string_view word) const {
+        return std::ranges::find(asked, word) != asked.end();
+    }
 
     std::size_t n = 0, meshed = 0, filters = 0;
     std::vector<std::string_view> asked, box_asks;
@@ -52,8 +54,7 @@ class Plan {
   private:
     /// A stage that everything on runs all the same.
     void add(std::string_view name, bool required, std::string why) {
-        stages_.push_back(
-            {std::string(name), required, required || everything_, std::move(why)});
+        stages_.push_back({std::string(name), required, required || everything_, std::move(why)});
     }
     /// One that cannot run unless it is called for.
     void add_only(std::string_view name, bool required, std::string why) {
@@ -136,7 +137,7 @@ class Plan {
                                 : "rays meet it; made once, as nothing moves");
         add_only("aim", aim, aim ? "queries go with the frame" : "no queries are asked");
         for (const std::string_view word : {"rays", "points", "regions", "nearest"}) {
-            const SceneQuery* ask = ask_of(scene_.file(), word);
+            const SceneQuery* ask = query_named(scene_.file(), word);
             add_only(word, ask != nullptr,
                      ask ? fmt::format("{} {} asked", ask->n, ask->kind) : "not asked");
         }

@@ -29,7 +29,7 @@ bool is_worth_care(const Playing& playing, std::span<const std::uint8_t> moves) 
         if (moves[i] == 0 && bodies.present[i] != 0)
             triangles += own_triangles(bodies, i).size();
     const SceneFile& file = playing.scene.file();
-    const std::size_t rays = ask_of(file, "rays")->n * (file.frames + 1);
+    const std::size_t rays = query_named(file, "rays")->n * (file.frames + 1);
     return triangles > 0 &&
            static_cast<double>(rays) >= rays_per_triangle * static_cast<double>(triangles);
 }
@@ -51,7 +51,7 @@ Surface::Surface(const Playing& playing) {
 }
 
 std::size_t Surface::follow(const Playing& playing, std::span<const std::uint32_t> changed) {
-    const std::size_t rays = ask_of(playing.scene.file(), "rays")->n;
+    const std::size_t rays = query_named(playing.scene.file(), "rays")->n;
     return parts_.front().follow(playing.scene.bodies(), changed, rays, playing.executor);
 }
 

@@ -2,7 +2,7 @@
 
 #include "kernels/continuous/continuous_kernel.h"
 #include "kernels/triangle_distance/distance_kernel.h"
-#include "kernels/verdict.h"
+#include "kernels/decision.h"
 #include "scenes/scene.h"
 #include "trees/layout.h"
 #include "trees/queries/pairs.h"
@@ -98,7 +98,7 @@ struct Answers {
     std::vector<SurfacePoint> surface_points; ///< closest_points
     std::vector<RayHit> hits; ///< resized to the number of rays; for rays_any only hit() counts
     // Of the kernel asks, one per case, resized by the contender.
-    std::vector<Verdict> verdicts;   ///< triangle_triangle, ray_box, obb_obb
+    std::vector<Decision> verdicts;   ///< triangle_triangle, ray_box, obb_obb
     std::vector<Distance> distances; ///< the four distances
     std::vector<Impact> impacts;     ///< vertex_face, edge_edge
     std::vector<Aabb<double>> boxes; ///< box_fit

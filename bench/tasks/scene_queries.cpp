@@ -64,7 +64,7 @@ SceneTruth::Played& SceneTruth::played_by(const std::string& contender_name) {
     const auto file = std::make_shared<const SceneFile>(without(*file_, effect));
     played.frames = std::make_unique<Frames>(file);
     played.first_hashes.reserve(file->frames);
-    if (!ask_of(*file, "pairs"))
+    if (!query_named(*file, "pairs"))
         return played;
     std::function<bool(Pair)> is_left_out;
     const auto scene = std::make_shared<const MovingScene>(*file);

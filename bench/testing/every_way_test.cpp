@@ -1,10 +1,10 @@
 #include "bench/truth/truth.h"
 #include "scenes/scenes.h"
 #include "trees/builder.h"
-#include "trees/testing/every_executor.h"
+#include "trees/inspect/validate.h"
 #include "trees/layout.h"
 #include "trees/queries/sorted_rays.h"
-#include "trees/inspect/validate.h"
+#include "trees/testing/every_executor.h"
 #include "trees/testing/ways_to_build.h"
 
 #include <gtest/gtest.h>
@@ -85,7 +85,7 @@ std::vector<Scene> every_scene(std::size_t n) {
         SceneSpec spec{.generator = std::string(family.name), .n = m};
         if (!std::holds_alternative<BoxCases>(make_scene(spec).cases))
             continue;
-        for (int k = family.k_least; k <= (counts ? family.k_least : family.k_most); ++k) {
+        for (int k = family.k_min; k <= (counts ? family.k_min : family.k_max); ++k) {
             spec.k = counts ? std::bit_width(m) - 1 : k;
             all.push_back(make_scene(spec));
         }

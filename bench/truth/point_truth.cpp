@@ -2,7 +2,7 @@
 
 #include "bench/tasks/points.h"
 #include "kernels/features/point_triangle.h"
-#include "kernels/oracle/oracle.h"
+#include "kernels/oracle/exact_answers.h"
 #include "trees/executor.h"
 
 #include <fmt/format.h>

@@ -266,7 +266,7 @@ std::uint64_t kernel_answer_hash(const Answers& answers) {
     const auto add_sure = [&](Answer answer, std::uint8_t tier) {
         words.push_back(static_cast<std::uint64_t>(answer) * 256 + tier);
     };
-    for (const Verdict& v : answers.verdicts)
+    for (const Decision& v : answers.verdicts)
         add_sure(v.answer, v.tier);
     for (const Distance& d : answers.distances)
         for (const double x : {d.distance, d.lo, d.hi})

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double tiny = 0x1p-1000;
 
-/// Read anew each time, so that nothing is folded or hoisted.
+/// Read again each time, so that nothing is folded or hoisted.
 double opaque(double x) {
     volatile double v = x;
     return v;

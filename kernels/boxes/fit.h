@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/boxes/box_fit_kernel.h"
 #include "kernels/arithmetic/float_mode.h"
+#include "kernels/boxes/box_fit_kernel.h"
 
 #include <algorithm>
 #include <cmath>

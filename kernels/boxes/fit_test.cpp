@@ -1,8 +1,8 @@
 #include "kernels/boxes/fit.h"
 
-#include "kernels/boxes/poses.h"
+#include "kernels/oracle/exact_answers.h"
 #include "kernels/oracle/exact_vector.h"
-#include "kernels/oracle/oracle.h"
+#include "kernels/testing/poses.h"
 
 #include <gtest/gtest.h>
 
@@ -36,8 +36,8 @@ template <class Real> bool contains(const Aabb<Real>& box, const oracle::Rationa
     return true;
 }
 
-template <class Real> class BoxFit : public testing::Test {};
-using Reals = testing::Types<float, double>;
+template <class Real> class BoxFit : public ::testing::Test {};
+using Reals = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(BoxFit, Reals);
 
 template <class Real> RigidTransform<Real> random_transform(RandomPoses& random, double far) {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/boxes/obb_kernel.h"
 #include "kernels/arithmetic/float_mode.h"
+#include "kernels/boxes/obb_kernel.h"
 
 #include <algorithm>
 #include <array>
@@ -74,7 +74,7 @@ template <class Number> struct PlainSat {
         "about 250 flops, fewer if apart"};
     static constexpr std::string_view name = info.name;
 
-    static Verdict overlap(const Obb<Real>& a, const Obb<Real>& b) {
+    static Decision overlap(const Obb<Real>& a, const Obb<Real>& b) {
         const ObbPair<Real> pair(a, b);
         Real sum = 0; // NaN or infinite if the input is
         for (int i = 0; i < 3; ++i)
@@ -122,7 +122,7 @@ template <class Number> struct CertifiedSat {
         "about 350 flops"};
     static constexpr std::string_view name = info.name;
 
-    static Verdict overlap(const Obb<Real>& a, const Obb<Real>& b) {
+    static Decision overlap(const Obb<Real>& a, const Obb<Real>& b) {
         return without_flushing([&] { return decided(a, b); });
     }
 
@@ -141,7 +141,7 @@ template <class Number> struct CertifiedSat {
                10 * u;
     }
 
-    static Verdict decided(const Obb<Real>& a, const Obb<Real>& b) {
+    static Decision decided(const Obb<Real>& a, const Obb<Real>& b) {
         const ObbPair<Real> pair(a, b);
         const Vec3<Real> between = b.centre - a.centre;
         const Real distance = std::abs(between.x) + std::abs(between.y) + std::abs(between.z);

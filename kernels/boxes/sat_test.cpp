@@ -1,7 +1,7 @@
 #include "kernels/boxes/sat.h"
 
-#include "kernels/boxes/poses.h"
 #include "kernels/oracle/oracle.h"
+#include "kernels/testing/poses.h"
 
 #include <gtest/gtest.h>
 
@@ -267,21 +267,21 @@ TEST(ObbSat, FlatBoxesAndPoorAxes) {
     counts.expect_kept();
 }
 
-// All lengths times a power of two: the same verdicts, down to the denormals and up to 2^1000.
+// All lengths times a power of two: the same decisions, down to the denormals and up to 2^1000.
 TEST(ObbSat, ScaledByPowersOfTwo) {
     RandomPoses random(7);
     for (int i = 0; i < 1500; ++i) {
         const Obb<double> a = random_box(random);
         Obb<double> b = random_box(random);
         set_apart(random, a, b, some_direction(random, a, b), random.any_size(-54, -20));
-        const Verdict verdict = CertifiedSat<double>::overlap(a, b);
+        const Decision decision = CertifiedSat<double>::overlap(a, b);
         for (const double scale : {0x1p-900, 0x1p+1000}) {
             Obb<double> c = a, d = b;
             for (Obb<double>* o : {&c, &d}) {
                 o->centre = o->centre * scale;
                 o->half = o->half * scale;
             }
-            ASSERT_EQ(CertifiedSat<double>::overlap(c, d), verdict) << i;
+            ASSERT_EQ(CertifiedSat<double>::overlap(c, d), decision) << i;
         }
         Obb<double> c = a, d = b; // here the coordinates themselves are rounded
         const double scale = std::exp2(random.real(-1074, -1015));
@@ -289,10 +289,10 @@ TEST(ObbSat, ScaledByPowersOfTwo) {
             o->centre = o->centre * scale;
             o->half = o->half * scale;
         }
-        const Verdict tiny = CertifiedSat<double>::overlap(c, d);
+        const Decision tiny = CertifiedSat<double>::overlap(c, d);
         ASSERT_NE(tiny.answer, truth(c, d) ? Answer::no : Answer::yes) << i;
         const DenormalFlushing on(true);
-        const Verdict flushed = CertifiedSat<double>::overlap(c, d);
+        const Decision flushed = CertifiedSat<double>::overlap(c, d);
         const DenormalFlushing off(false);
         ASSERT_EQ(flushed, tiny) << i;
     }

@@ -1,13 +1,14 @@
 #pragma once
 
+#include "kernels/decision.h"
 #include "kernels/primitives/vec3.h"
-#include "kernels/verdict.h"
 
 #include <array>
 #include <concepts>
 #include <cstdint>
 #include <limits>
 #include <string_view>
+#include <type_traits>
 
 namespace boxwood {
 
@@ -22,7 +23,7 @@ struct LinearMotion {
 
 /// Whether and when two moving features first touch, 0 <= t <= 1, the ends included.
 /// t_free: no touch at any t < t_free (1 if they never touch).
-/// t_hit:  a touch at some t <= t_hit (+inf if they never touch; a never-miss rung's upper end).
+/// t_hit:  a touch at some t <= t_hit (+inf if they never touch; a never-miss kernel's upper end).
 /// The first touch of a `yes` lies in [t_free, t_hit].
 struct Impact {
     Answer answer = Answer::no;
@@ -37,6 +38,8 @@ concept ContinuousKernel = std::default_initializable<K> &&
     { K::name } -> std::convertible_to<std::string_view>;
     { K::vertex_face_info } -> std::convertible_to<KernelInfo>;
     { K::edge_edge_info } -> std::convertible_to<KernelInfo>;
+    typename std::integral_constant<Promise, K::vertex_face_info.promise>;
+    typename std::integral_constant<Promise, K::edge_edge_info.promise>;
     { kernel.vertex_face(motion) } -> std::same_as<Impact>;
     { kernel.edge_edge(motion) } -> std::same_as<Impact>;
 };

@@ -1,6 +1,6 @@
 #include "kernels/continuous/cubic.h"
 
-#include "kernels/oracle/continuous.h"
+#include "kernels/oracle/rational.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 #include "kernels/continuous/tight_inclusion.h"
 
-#include "kernels/continuous/inclusion.h"
-#include "kernels/continuous/nearest_direction.h"
-#include "kernels/continuous/touch_proof.h"
 #include "kernels/arithmetic/float_mode.h"
+#include "kernels/continuous/detail/inclusion.h"
+#include "kernels/continuous/detail/nearest_direction.h"
+#include "kernels/continuous/detail/touch_proof.h"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@
 namespace boxwood {
 namespace {
 
-using namespace inclusion;
+using namespace detail::inclusion;
 using Vector = Vec3<double>;
 
 /// A patch and the time before which no touch is on it.
@@ -50,7 +50,7 @@ template <int n> class Search {
     /// Pieces at a time. A search 48 halvings deep needs at most 49 while it goes straight for one
     /// place; beyond the capacity pieces are advanced but not halved.
     static constexpr std::size_t capacity = 256;
-    static constexpr int most_halvings = 48;
+    static constexpr int max_halvings = 48;
     /// A step is poor if it covers less than this part of what the nearest point itself allows.
     static constexpr double good_part = 2.0 / 3;
 
@@ -137,7 +137,7 @@ template <int n> class Search {
             }
             const bool is_near = nearest.distance <= tolerance_ ||
                                  nearest.distance <= 4 * f_.margin(nearest.direction);
-            if (is_near || piece.depth == most_halvings) {
+            if (is_near || piece.depth == max_halvings) {
                 note_touch(piece.patch, nearest);
                 return Outcome::near;
             }

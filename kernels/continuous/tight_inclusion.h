@@ -11,7 +11,7 @@ namespace boxwood {
 /// guessed that separates it from the origin, and the time until which it does so is bounded with
 /// the rounding taken off; a patch whose bound is poor is halved. So no touch is missed at any
 /// scale, and even a `yes` is proven (Poincare-Miranda). `maybe`: nearer than the tolerance, or
-/// than rounding can tell, at t_free; then t_hit is 1. NaN or infinity: maybe.
+/// than rounding can decide, at t_free; then t_hit is 1. NaN or infinity: maybe.
 /// Tier 0: the boxes of the motions are apart. 1: no patch was halved. 2: some were. 3: a limit.
 /// Source: Wang et al. 2021 (inclusion function, tolerance); time is cut by separating planes, as
 /// in conservative advancement, where they halve it.
@@ -33,8 +33,9 @@ struct TightInclusion {
                                                vertex_face_info.bound,
                                                vertex_face_info.cost};
 
-    /// Scene units: what is nearer than this is not halved further. Smaller means fewer maybes and
-    /// a later t_free; 0 means as far as rounding can tell.
+    /// Relative: times the largest distance, along an axis, between a point of the one feature and
+    /// one of the other during the motion. What is nearer than that is not halved further. Smaller
+    /// means fewer maybes and a later t_free; 0 means as far as rounding can decide.
     double tolerance = 1e-6;
     /// Planes tried at most; after that maybe, with the time reached as t_free.
     std::size_t max_checks = 100'000;

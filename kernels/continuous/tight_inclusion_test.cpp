@@ -1,7 +1,7 @@
 #include "kernels/continuous/tight_inclusion.h"
 
 #include "kernels/arithmetic/float_mode.h"
-#include "kernels/oracle/continuous.h"
+#include "kernels/oracle/rational.h"
 
 #include <gtest/gtest.h>
 

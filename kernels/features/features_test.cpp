@@ -9,8 +9,8 @@
 namespace boxwood {
 namespace {
 
-using for_test::DistanceFamilies;
-using for_test::few;
+using testing::DistanceFamilies;
+using testing::few;
 
 // What a pair of triangles gives to each family: edges a.a a.b and b.a b.b, the corner a.a.
 template <class Real> Segment<Real> edge(const Triangle<Real>& t) { return {t.a, t.b}; }
@@ -31,30 +31,30 @@ template <class K> struct OfPointAndSegment {
     template <class Real> static auto second(const Triangle<Real>& b) { return edge(b); }
 };
 
-template <class Rung> class FeaturePairs : public testing::Test {
+template <class Level> class FeaturePairs : public ::testing::Test {
   protected:
-    using Number = typename Rung::Kernel::Real;
+    using Number = typename Level::Kernel::Real;
     static constexpr double u = sizeof(Number) == 4 ? 0x1p-24 : 0x1p-53;
 
     static Distance measure(const Triangle<Number>& a, const Triangle<Number>& b) {
-        return Rung::Kernel::distance(Rung::first(a), Rung::second(b));
+        return Level::Kernel::distance(Level::first(a), Level::second(b));
     }
     static double truth(const Triangle<Number>& a, const Triangle<Number>& b) {
         return oracle::nearest_sqrt(oracle::squared_distance(
-            Rung::first(for_test::as<double>(a)), Rung::second(for_test::as<double>(b))));
+            Level::first(testing::as<double>(a)), Level::second(testing::as<double>(b))));
     }
     /// Over the size of the two triangles.
     static double error(const Triangle<double>& a, const Triangle<double>& b) {
-        const auto ra = for_test::as<Number>(a), rb = for_test::as<Number>(b);
-        return std::abs(measure(ra, rb).distance - truth(ra, rb)) / for_test::size_of(a, b);
+        const auto ra = testing::as<Number>(a), rb = testing::as<Number>(b);
+        return std::abs(measure(ra, rb).distance - truth(ra, rb)) / testing::size_of(a, b);
     }
 };
-using Rungs =
-    testing::Types<OfSegments<SegmentSegmentF32>, OfSegments<SegmentSegmentF64>,
-                   OfSegments<SegmentSegmentCross>, OfPointAndTriangle<PointTriangleF32>,
-                   OfPointAndTriangle<PointTriangleF64>, OfPointAndTriangle<PointTriangleCross>,
-                   OfPointAndSegment<PointSegmentF32>, OfPointAndSegment<PointSegmentF64>>;
-TYPED_TEST_SUITE(FeaturePairs, Rungs);
+using Kernels =
+    ::testing::Types<OfSegments<SegmentSegmentF32>, OfSegments<SegmentSegmentF64>,
+                     OfSegments<SegmentSegmentCross>, OfPointAndTriangle<PointTriangleF32>,
+                     OfPointAndTriangle<PointTriangleF64>, OfPointAndTriangle<PointTriangleCross>,
+                     OfPointAndSegment<PointSegmentF32>, OfPointAndSegment<PointSegmentF64>>;
+TYPED_TEST_SUITE(FeaturePairs, Kernels);
 
 TYPED_TEST(FeaturePairs, SmallIntegersAndDegenerateOnes) {
     DistanceFamilies make;
@@ -62,7 +62,7 @@ TYPED_TEST(FeaturePairs, SmallIntegersAndDegenerateOnes) {
         for (int i = 0; i < few(2000); ++i) {
             const auto a = make.triangle(i % 2 == 0 ? make.grid(n) : make.degraded(make.grid(n)));
             const auto b = make.triangle(i % 3 == 0 ? make.grid(n) : make.degraded(make.grid(n)));
-            ASSERT_LT(this->error(a, b), 4 * this->u) << for_test::print({a, b, false});
+            ASSERT_LT(this->error(a, b), 4 * this->u) << testing::print({a, b, false});
         }
 }
 
@@ -73,7 +73,7 @@ TYPED_TEST(FeaturePairs, OrdinaryPairs) {
             const auto made = family.make();
             const auto a = make.triangle(made.a), b = make.triangle(made.b);
             ASSERT_LT(this->error(a, b), 16 * this->u)
-                << family.name << for_test::print({a, b, false});
+                << family.name << testing::print({a, b, false});
         }
 }
 
@@ -82,13 +82,14 @@ TYPED_TEST(FeaturePairs, PowersOfTwoChangeNothing) {
     DistanceFamilies make(3);
     const int reach = sizeof(Real) == 4 ? 100 : 900;
     for (int i = 0; i < few(1000); ++i) {
-        const auto a = for_test::as<Real>(make.triangle(make.inside()));
-        const auto b = for_test::as<Real>(make.triangle(make.inside()));
+        const auto a = testing::as<Real>(make.triangle(make.inside()));
+        const auto b = testing::as<Real>(make.triangle(make.inside()));
         const int k = make.below(2 * reach) - reach;
         const Distance one = this->measure(a, b);
-        const Distance other = this->measure(times_power_of_two(a, k), times_power_of_two(b, k));
+        const Distance other =
+            this->measure(detail::times_power_of_two(a, k), detail::times_power_of_two(b, k));
         ASSERT_EQ(other.distance, std::ldexp(one.distance, k)) << k;
-        ASSERT_EQ(other.point_a, times_power_of_two(one.point_a, k)) << k;
+        ASSERT_EQ(other.point_a, detail::times_power_of_two(one.point_a, k)) << k;
     }
 }
 
@@ -96,12 +97,12 @@ TYPED_TEST(FeaturePairs, WitnessesLieThatFarApart) {
     using Real = typename TypeParam::Kernel::Real;
     DistanceFamilies make(4);
     for (int i = 0; i < few(1000); ++i) {
-        const auto a = for_test::as<Real>(make.triangle(make.inside()));
-        const auto b = for_test::as<Real>(make.triangle(make.inside()));
+        const auto a = testing::as<Real>(make.triangle(make.inside()));
+        const auto b = testing::as<Real>(make.triangle(make.inside()));
         const Distance d = this->measure(a, b);
         ASSERT_NEAR(length(d.point_a - d.point_b), d.distance, 16 * this->u);
         ASSERT_LT(oracle::nearest_sqrt(oracle::squared_distance(
-                      d.point_b, TypeParam::second(for_test::as<double>(b)))),
+                      d.point_b, TypeParam::second(testing::as<double>(b)))),
                   16 * this->u);
     }
 }
@@ -143,7 +144,7 @@ TEST(PointTriangle, CrossProductKeepsItsDigitsInSlivers) {
             const Triangle<double> t = make.triangle(made.a);
             const Vec3<double> p = made.b[0];
             const double d = oracle::nearest_sqrt(oracle::squared_distance(p, t));
-            const double size = for_test::size_of(t, make.triangle(made.b));
+            const double size = testing::size_of(t, make.triangle(made.b));
             const auto error = [&](const Distance& got) {
                 return std::abs(got.distance - d) / size;
             };

@@ -20,9 +20,9 @@ template <class RealOf> struct PointSegmentDistance {
         const Real size = dot(e, e) + dot(r, r);
         if (size > smallest_squared_size<Real> && size < largest_squared_size<Real>) [[likely]]
             return nearest_on_segment(a, b).distance();
-        return at_unit_size(std::array{a, b.a, b.b}, a, b, [](const auto& ua, const auto& ub) {
-            return nearest_on_segment(ua, ub).distance();
-        });
+        return detail::at_unit_size(
+            std::array{a, b.a, b.b}, a, b,
+            [](const auto& ua, const auto& ub) { return nearest_on_segment(ua, ub).distance(); });
     }
 };
 

@@ -25,7 +25,7 @@ Points<Real> at(const Vec3<Real>& p, const Triangle<Real>& t, Real v, Real w) {
 }
 
 /// The Voronoi regions of corners, edges and inside by 6 dot products. Source: Ericson 2005,
-/// "Real-Time Collision Detection", 5.1.5. The products that tell the regions are off by about
+/// "Real-Time Collision Detection", 5.1.5. The products that decide the region are off by about
 /// u / sin^2 of the triangle's angle: where that is more than sin itself, it counts as its edges.
 struct Regions {
     template <class Real>
@@ -89,9 +89,9 @@ template <class RealOf, class Method> struct PointTriangleDistance {
         const Real size = dot(e, e) + dot(f, f) + dot(r, r);
         if (size > smallest_squared_size<Real> && size < largest_squared_size<Real>) [[likely]]
             return Method::nearest(a, b).distance();
-        return at_unit_size(std::array{a, b.a, b.b, b.c}, a, b, [](const auto& ua, const auto& ub) {
-            return Method::nearest(ua, ub).distance();
-        });
+        return detail::at_unit_size(
+            std::array{a, b.a, b.b, b.c}, a, b,
+            [](const auto& ua, const auto& ub) { return Method::nearest(ua, ub).distance(); });
     }
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "kernels/detail/rescale.h"
 #include "kernels/triangle_distance/distance_kernel.h"
-#include "kernels/triangle_distance/rescale.h"
 
 #include <array>
 #include <cmath>
@@ -63,10 +63,10 @@ template <class RealOf, bool by_cross> struct SegmentSegmentDistance {
         const Real size = dot(ea, ea) + dot(eb, eb) + dot(r, r);
         if (size > smallest_squared_size<Real> && size < largest_squared_size<Real>) [[likely]]
             return nearest_on_segments<by_cross>(a, b).distance();
-        return at_unit_size(std::array{a.a, a.b, b.a, b.b}, a, b,
-                            [](const auto& ua, const auto& ub) {
-                                return nearest_on_segments<by_cross>(ua, ub).distance();
-                            });
+        return detail::at_unit_size(std::array{a.a, a.b, b.a, b.b}, a, b,
+                                    [](const auto& ua, const auto& ub) {
+                                        return nearest_on_segments<by_cross>(ua, ub).distance();
+                                    });
     }
 };
 

@@ -1,5 +1,5 @@
+#include "kernels/oracle/exact_answers.h"
 #include "kernels/oracle/exact_vector.h"
-#include "kernels/oracle/oracle.h"
 
 #include <vector>
 

@@ -1,5 +1,5 @@
 // The oracle against CGAL's exact kernel, on input that is not degenerate: CGAL asks for that.
-#include "kernels/oracle/oracle.h"
+#include "kernels/oracle/exact_answers.h"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <gtest/gtest.h>

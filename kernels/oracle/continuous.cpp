@@ -1,4 +1,5 @@
 #include "kernels/oracle/continuous.h"
+#include "kernels/oracle/rational.h"
 
 #include "kernels/oracle/continuous_roots.h"
 

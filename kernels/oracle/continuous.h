@@ -1,6 +1,7 @@
 #pragma once
 
-#include "kernels/oracle/oracle.h"
+#include "kernels/continuous/continuous_kernel.h"
+#include "kernels/oracle/exact_answers.h"
 
 namespace boxwood::oracle {
 
@@ -18,26 +19,5 @@ struct RationalMotion {
 /// divisor.
 Impact vertex_face(const RationalMotion& motion);
 Impact edge_edge(const RationalMotion& motion);
-
-/// The same as a rung: a ContinuousKernel that is the truth for the others. NaN or infinity: maybe.
-struct ExactContinuous {
-    static constexpr std::string_view name = "exact";
-    static constexpr KernelInfo vertex_face_info{
-        "vertex_face",
-        name,
-        "coplanarity cubic over the integers, roots isolated, inside test by signs at the roots",
-        Promise::exact,
-        "no rounding; the touch is bracketed by neighbouring doubles",
-        "GMP integers: microseconds"};
-    static constexpr KernelInfo edge_edge_info{"edge_edge",
-                                               name,
-                                               vertex_face_info.summary,
-                                               vertex_face_info.promise,
-                                               vertex_face_info.bound,
-                                               vertex_face_info.cost};
-
-    Impact vertex_face(const LinearMotion& motion) const;
-    Impact edge_edge(const LinearMotion& motion) const;
-};
 
 } // namespace boxwood::oracle

@@ -40,7 +40,7 @@ Division divide(Polynomial f, const Polynomial& g) {
     Polynomial quotient;
     for (int n = f.degree(); n >= m; n = f.degree()) {
         const Integer top = f.c[at(n)];
-        for (int i = 0; i <= Polynomial::most; ++i) {
+        for (int i = 0; i <= Polynomial::max_degree; ++i) {
             f.c[at(i)] *= lead;
             quotient.c[at(i)] *= lead;
         }
@@ -90,7 +90,7 @@ double down(const mpq_class& x) {
 } // namespace
 
 int Polynomial::degree() const {
-    int d = most;
+    int d = max_degree;
     while (d >= 0 && c[at(d)] == 0)
         --d;
     return d;

@@ -6,13 +6,13 @@
 #include <vector>
 
 /// Polynomials of one variable over the integers and their roots in [0, 1], under the exact
-/// continuous rung. Nothing rounds.
+/// continuous kernel. Nothing rounds.
 namespace boxwood::oracle {
 
 /// c[0] + c[1] t + c[2] t^2 + c[3] t^3.
 struct Polynomial {
-    static constexpr int most = 3;
-    std::array<Integer, most + 1> c;
+    static constexpr int max_degree = 3;
+    std::array<Integer, max_degree + 1> c;
 
     int degree() const; ///< -1 for the polynomial 0
     bool is_zero() const { return degree() < 0; }
@@ -29,10 +29,10 @@ struct Cell {
 };
 
 /// Coefficients on a cell, up to a positive factor, in the Bernstein basis of the degree: on the
-/// open cell the sign changes among them (zeros passed over) bound the number of roots, counted
+/// open cell the sign changes among them (zeros skipped) bound the number of roots, counted
 /// with multiplicity, and differ from it by an even number (Descartes' rule).
 struct Bernstein {
-    std::array<Integer, Polynomial::most + 1> b;
+    std::array<Integer, Polynomial::max_degree + 1> b;
     int degree = -1;
 
     Bernstein(const Polynomial& f, const Cell& cell);

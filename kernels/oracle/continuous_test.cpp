@@ -1,4 +1,5 @@
 #include "kernels/oracle/continuous.h"
+#include "kernels/oracle/rational.h"
 
 #include "kernels/arithmetic/float_mode.h"
 #include "kernels/oracle/exact_vector.h"

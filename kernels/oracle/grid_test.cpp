@@ -10,14 +10,14 @@
 namespace boxwood::oracle {
 namespace {
 
-class OnGrid : public testing::TestWithParam<int> {
+class OnGrid : public ::testing::TestWithParam<int> {
   protected:
     std::vector<Grid> corners(std::size_t n) { return random_points(random_, n, GetParam()); }
 
   private:
     std::mt19937_64 random_{7};
 };
-INSTANTIATE_TEST_SUITE_P(Oracle, OnGrid, testing::Values(1, 2, 4, 20));
+INSTANTIATE_TEST_SUITE_P(Oracle, OnGrid, ::testing::Values(1, 2, 4, 20));
 
 TEST_P(OnGrid, TrianglesMeetAsTheirDifferencesSay) {
     int touching = 0;

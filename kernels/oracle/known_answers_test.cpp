@@ -1,6 +1,6 @@
 // Hard cases whose answers are known: several libraries get them wrong.
+#include "kernels/oracle/exact_answers.h"
 #include "kernels/oracle/exact_vector.h"
-#include "kernels/oracle/oracle.h"
 
 #include <gtest/gtest.h>
 

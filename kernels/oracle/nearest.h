@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/oracle/oracle.h"
+#include "kernels/oracle/exact_answers.h"
 
 namespace boxwood::oracle {
 

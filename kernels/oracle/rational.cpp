@@ -32,7 +32,7 @@ template <class A, class B> Distance distance(const A& a, const B& b) {
 
 } // namespace
 
-Verdict RationalTriangles::intersect(const Triangle<double>& a, const Triangle<double>& b) {
+Decision RationalTriangles::intersect(const Triangle<double>& a, const Triangle<double>& b) {
     if (!finite(a) || !finite(b))
         return {Answer::maybe};
     return {oracle::intersect(a, b) ? Answer::yes : Answer::no};

@@ -1,14 +1,16 @@
 #pragma once
 
+#include "kernels/continuous/continuous_kernel.h"
 #include "kernels/ray_triangle/ray_kernel.h"
 #include "kernels/triangle_distance/distance_kernel.h"
 #include "kernels/triangle_triangle/triangle_kernel.h"
 
-/// The oracle as the last rung of each ladder. Unlike the kernels it allocates. Finite input of any
-/// size gives the truth, in flush-to-zero modes too; NaN or infinity in: maybe, NaN, a miss.
+/// The oracle as kernels, the most accurate of each family. Unlike the kernels it allocates. Finite
+/// input of any size gives the truth, in flush-to-zero modes too; NaN or infinity in: maybe, NaN, a
+/// miss.
 namespace boxwood::oracle {
 
-constexpr KernelInfo rational_rung(std::string_view family, std::string_view summary) {
+constexpr KernelInfo rational_kernel(std::string_view family, std::string_view summary) {
     return {family,
             "rational",
             summary,
@@ -20,10 +22,10 @@ constexpr KernelInfo rational_rung(std::string_view family, std::string_view sum
 struct RationalTriangles {
     using Real = double;
     static constexpr KernelInfo info =
-        rational_rung("triangle_triangle", "edges against triangles in whole numbers (GMP)");
+        rational_kernel("triangle_triangle", "edges against triangles in whole numbers (GMP)");
     static constexpr std::string_view name = info.name;
 
-    static Verdict intersect(const Triangle<double>& a, const Triangle<double>& b);
+    static Decision intersect(const Triangle<double>& a, const Triangle<double>& b);
 };
 
 /// `distance` is the double nearest to the true one, lo and hi the two around it (all three the
@@ -31,8 +33,8 @@ struct RationalTriangles {
 struct RationalTriangleDistance {
     using Real = double;
     static constexpr KernelInfo info =
-        rational_rung("triangle_distance",
-                      "least of 42 pairs of features in whole numbers, 0 if an edge crosses");
+        rational_kernel("triangle_distance",
+                        "least of 42 pairs of features in whole numbers, 0 if an edge crosses");
     static constexpr std::string_view name = info.name;
 
     static Distance distance(const Triangle<double>& a, const Triangle<double>& b);
@@ -40,7 +42,7 @@ struct RationalTriangleDistance {
 struct RationalSegmentDistance {
     using Real = double;
     static constexpr KernelInfo info =
-        rational_rung("segment_segment", "least of 9 pairs of features in whole numbers");
+        rational_kernel("segment_segment", "least of 9 pairs of features in whole numbers");
     static constexpr std::string_view name = info.name;
 
     static Distance distance(const Segment<double>& a, const Segment<double>& b);
@@ -48,7 +50,7 @@ struct RationalSegmentDistance {
 struct RationalPointTriangle {
     using Real = double;
     static constexpr KernelInfo info =
-        rational_rung("point_triangle", "least of 7 pairs of features in whole numbers");
+        rational_kernel("point_triangle", "least of 7 pairs of features in whole numbers");
     static constexpr std::string_view name = info.name;
 
     static Distance distance(Vec3<double> a, const Triangle<double>& b);
@@ -56,7 +58,7 @@ struct RationalPointTriangle {
 struct RationalPointSegment {
     using Real = double;
     static constexpr KernelInfo info =
-        rational_rung("point_segment", "least of 3 pairs of features in whole numbers");
+        rational_kernel("point_segment", "least of 3 pairs of features in whole numbers");
     static constexpr std::string_view name = info.name;
 
     static Distance distance(Vec3<double> a, const Segment<double>& b);
@@ -66,13 +68,34 @@ struct RationalPointSegment {
 /// against the true t.
 struct RationalRays {
     static constexpr KernelInfo info =
-        rational_rung("ray_triangle", "plane and three edges in whole numbers (GMP)");
+        rational_kernel("ray_triangle", "plane and three edges in whole numbers (GMP)");
     static constexpr std::string_view name = info.name;
 
     struct PerRay {};
     static PerRay prepare(const Ray<float>&) { return {}; }
     static bool intersect(PerRay, const Ray<float>& ray, const Triangle<float>& triangle,
                           float t_max, RayHit& hit);
+};
+
+/// The ContinuousKernel that is the truth for the others (continuous.h). NaN or infinity: maybe.
+struct ExactContinuous {
+    static constexpr std::string_view name = "exact";
+    static constexpr KernelInfo vertex_face_info{
+        "vertex_face",
+        name,
+        "coplanarity cubic over the integers, roots isolated, inside test by signs at the roots",
+        Promise::exact,
+        "no rounding; the touch is bracketed by neighbouring doubles",
+        "GMP integers: microseconds"};
+    static constexpr KernelInfo edge_edge_info{"edge_edge",
+                                               name,
+                                               vertex_face_info.summary,
+                                               vertex_face_info.promise,
+                                               vertex_face_info.bound,
+                                               vertex_face_info.cost};
+
+    Impact vertex_face(const LinearMotion& motion) const;
+    Impact edge_edge(const LinearMotion& motion) const;
 };
 
 } // namespace boxwood::oracle

@@ -1,7 +1,7 @@
 #include "kernels/oracle/rational.h"
 
-#include "kernels/oracle/registry.h"
 #include "kernels/oracle/nearest.h"
+#include "kernels/oracle/registry.h"
 #include "kernels/oracle/roots.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ class Random {
     std::mt19937_64 bits_{17};
 };
 
-TEST(RationalRungs, ListedOncePerFamily) {
+TEST(RationalKernels, ListedOncePerFamily) {
     std::set<std::string_view> families;
     for (const KernelInfo& info : rational_kernels()) {
         EXPECT_EQ(info.name, "rational");
@@ -52,7 +52,7 @@ TEST(RationalRungs, ListedOncePerFamily) {
         EXPECT_TRUE(families.contains(family)) << family;
 }
 
-TEST(RationalRungs, DistanceIsEnclosedByNeighbours) {
+TEST(RationalKernels, DistanceIsEnclosedByNeighbours) {
     Random random;
     int inexact = 0;
     for (int i = 0; i < 200; ++i) {
@@ -71,7 +71,7 @@ TEST(RationalRungs, DistanceIsEnclosedByNeighbours) {
     EXPECT_GT(inexact, 40);
 }
 
-TEST(RationalRungs, WitnessesAreWhereTheDistanceIs) {
+TEST(RationalKernels, WitnessesAreWhereTheDistanceIs) {
     Random random;
     for (int i = 0; i < 200; ++i) {
         const Triangle<double> a = random.triangle(), b = random.triangle();
@@ -87,7 +87,7 @@ TEST(RationalRungs, WitnessesAreWhereTheDistanceIs) {
     }
 }
 
-TEST(RationalRungs, DistanceBeyondTheDoubles) {
+TEST(RationalKernels, DistanceBeyondTheDoubles) {
     const double most = std::numeric_limits<double>::max();
     const Distance d = RationalPointSegment::distance({-most, 0, 0}, {{most, 0, 0}, {most, 1, 0}});
     EXPECT_EQ(d.distance, inf);
@@ -95,7 +95,7 @@ TEST(RationalRungs, DistanceBeyondTheDoubles) {
     EXPECT_EQ(d.hi, inf);
 }
 
-TEST(RationalRungs, RayIsRoundedOnce) {
+TEST(RationalKernels, RayIsRoundedOnce) {
     const Ray<float> ray{{0, 0, 0}, {0, 0, 3}};
     const Triangle<float> t{{-1, -1, 1}, {2, -1, 1}, {-1, 2, 1}};
     RayHit hit;
@@ -111,7 +111,7 @@ TEST(RationalRungs, RayIsRoundedOnce) {
     EXPECT_EQ(hit, before);
 }
 
-TEST(RationalRungs, NothingIsSaidOfNaNAndInfinity) {
+TEST(RationalKernels, NothingIsSaidOfNaNAndInfinity) {
     for (const double bad : {nan, inf, -inf}) {
         const Triangle<double> good{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
             spoilt{{0, 0, 0}, {1, bad, 0}, {}};
@@ -132,7 +132,7 @@ TEST(RationalRungs, NothingIsSaidOfNaNAndInfinity) {
 }
 
 // Denormals are numbers to the oracle whatever the processor makes of them.
-TEST(RationalRungs, FlushToZeroChangesNothing) {
+TEST(RationalKernels, FlushToZeroChangesNothing) {
     Random random;
     const unsigned mode = _mm_getcsr();
     for (int i = 0; i < 100; ++i) {
@@ -140,10 +140,10 @@ TEST(RationalRungs, FlushToZeroChangesNothing) {
         for (Triangle<double>* t : {&a, &b})
             *t = {t->a * 0x1p-1020, t->b * 0x1p-1020, t->c * 0x1p-1020};
         const Distance plain = RationalTriangleDistance::distance(a, b);
-        const Verdict touch = RationalTriangles::intersect(a, b);
+        const Decision touch = RationalTriangles::intersect(a, b);
         _mm_setcsr(mode | 0x8040); // FTZ and DAZ
         const Distance flushed = RationalTriangleDistance::distance(a, b);
-        const Verdict touch_flushed = RationalTriangles::intersect(a, b);
+        const Decision touch_flushed = RationalTriangles::intersect(a, b);
         _mm_setcsr(mode);
         EXPECT_EQ(plain.distance, flushed.distance);
         EXPECT_EQ(plain.lo, flushed.lo);

@@ -1,5 +1,5 @@
+#include "kernels/oracle/exact_answers.h"
 #include "kernels/oracle/grid_hulls.h"
-#include "kernels/oracle/oracle.h"
 
 #include <gtest/gtest.h>
 

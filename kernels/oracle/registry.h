@@ -7,7 +7,7 @@
 
 namespace boxwood::oracle {
 
-/// The rational rungs, to be listed and run beside the kernels of the same family.
+/// The rational kernels, to be listed and run beside the kernels of the same family.
 using RationalTriangleKernels = std::tuple<RationalTriangles>;
 using RationalTriangleDistanceKernels = std::tuple<RationalTriangleDistance>;
 using RationalSegmentDistanceKernels = std::tuple<RationalSegmentDistance>;

@@ -1,7 +1,7 @@
 #include "kernels/oracle/roots.h"
 
+#include "kernels/oracle/exact_answers.h"
 #include "kernels/oracle/exact_vector.h"
-#include "kernels/oracle/oracle.h"
 
 #include <bit>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 template <class Real> constexpr int digits = std::numeric_limits<Real>::digits;
 /// Of the last bit among the denormals.
 template <class Real>
-constexpr int least_exponent = std::numeric_limits<Real>::min_exponent - digits<Real>;
+constexpr int min_exponent = std::numeric_limits<Real>::min_exponent - digits<Real>;
 
 /// x * 2^shift rounded down, and whether anything was cut off.
 struct Cut {
@@ -36,7 +36,7 @@ Cut cut(const mpq_class& x, long shift) {
 /// c.floor has more bits than a Real.
 template <class Real> Real rounded(const Cut& c, long exponent) {
     using Bits = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
-    constexpr long least = least_exponent<Real>, most = std::numeric_limits<Real>::max_exponent;
+    constexpr long least = min_exponent<Real>, most = std::numeric_limits<Real>::max_exponent;
     const long bits = static_cast<long>(mpz_sizeinbase(c.floor.get_mpz_t(), 2));
     if (exponent + bits > most)
         return std::numeric_limits<Real>::infinity();
@@ -114,8 +114,8 @@ double ulps_off(double d, const mpq_class& squared) {
     const double root = std::min(nearest_sqrt(squared), std::numeric_limits<double>::max());
     const auto biased =
         static_cast<int>(std::bit_cast<std::uint64_t>(root) >> (digits<double> - 1));
-    // In units of 2^-64 ulp, below which nothing is told.
-    const long shift = 64 - (std::max(biased, 1) - 1 + least_exponent<double>);
+    // In units of 2^-64 ulp, below which nothing is reported.
+    const long shift = 64 - (std::max(biased, 1) - 1 + min_exponent<double>);
     const Cut scaled_root = cut_root(squared, shift);
     const Integer difference = Integer(scaled(exact(d), shift)) - scaled_root.floor;
     long exponent = 0;

@@ -1,7 +1,7 @@
 #include "kernels/oracle/roots.h"
 
+#include "kernels/oracle/exact_answers.h"
 #include "kernels/oracle/exact_vector.h"
-#include "kernels/oracle/oracle.h"
 
 #include <gtest/gtest.h>
 #include <mpfr.h>

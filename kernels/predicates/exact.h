@@ -1,9 +1,9 @@
 #pragma once
 
 #include "kernels/arithmetic/float_mode.h"
-#include "kernels/predicates/accumulated.h"
+#include "kernels/predicates/detail/accumulated.h"
+#include "kernels/predicates/detail/grid.h"
 #include "kernels/predicates/filtered.h"
-#include "kernels/predicates/grid.h"
 
 namespace boxwood {
 
@@ -33,7 +33,8 @@ struct Exact {
     template <std::size_t n> static bool finite(const std::array<const Vec3<double>*, n>& points) {
         bool all = true;
         for (const Vec3<double>* p : points)
-            all &= is_finite_bits(p->x) && is_finite_bits(p->y) && is_finite_bits(p->z);
+            all &= detail::is_finite_bits(p->x) && detail::is_finite_bits(p->y) &&
+                   detail::is_finite_bits(p->z);
         return all;
     }
 
@@ -44,7 +45,7 @@ struct Exact {
             return undecided;
         return without_flushing([&] {
             const int sign = on_grids(points, [](auto& g) { return g.orient3d(0, 1, 2, 3); });
-            return sign != undecided ? sign : Accumulated::orient3d(a, b, c, d);
+            return sign != undecided ? sign : detail::Accumulated::orient3d(a, b, c, d);
         });
     }
     [[gnu::noinline]] static int in_integers(Point2<double> a, Point2<double> b, Point2<double> c) {
@@ -54,23 +55,23 @@ struct Exact {
             return undecided;
         return without_flushing([&] {
             const int sign = on_grids(points, [](auto& g) { return g.orient2d(0, 1, 0, 1, 2); });
-            return sign != undecided ? sign : Accumulated::orient2d(a, b, c);
+            return sign != undecided ? sign : detail::Accumulated::orient2d(a, b, c);
         });
     }
 
-    /// ask(grid) on the first that the points fit on.
-    template <std::size_t n, class Ask>
+    /// sign(grid) of the first that the points fit on.
+    template <std::size_t n, class Sign>
     [[gnu::noinline]] static int on_grids(const std::array<const Vec3<double>*, n>& points,
-                                          Ask ask) {
-        if (Grid<1, n> narrow; narrow.place(points))
-            return ask(narrow);
-        if (Grid<2, n> wide; wide.place(points))
-            return ask(wide);
+                                          Sign sign_on) {
+        if (detail::Grid<1, n> narrow; narrow.place(points))
+            return sign_on(narrow);
+        if (detail::Grid<2, n> wide; wide.place(points))
+            return sign_on(wide);
         return undecided;
     }
 };
 
 static_assert(OrientationPredicates<Exact> && OrientationPredicates<Filtered> &&
-              OrientationPredicates<Accumulated>);
+              OrientationPredicates<detail::Accumulated>);
 
 } // namespace boxwood

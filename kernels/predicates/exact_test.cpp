@@ -15,9 +15,11 @@
 namespace boxwood {
 namespace {
 
+using namespace detail;
+
 using Point = Vec3<double>;
 
-using for_test::thinned;
+using testing::thinned;
 
 std::array<mpq_class, 3> exact_difference(const Point& p, const Point& q) {
     return {mpq_class(p.x) - mpq_class(q.x), mpq_class(p.y) - mpq_class(q.y),
@@ -100,7 +102,7 @@ template <class Make> Tally run(int n, Make make) {
         std::array<Point, 4> p;
         make(random, p);
         judge(tally, p[0], p[1], p[2], p[3]);
-        if (testing::Test::HasFatalFailure()) {
+        if (::testing::Test::HasFatalFailure()) {
             ADD_FAILURE() << print({p[0], p[1], p[2], p[3]});
             break;
         }

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "kernels/decision.h"
 #include "kernels/primitives/vec3.h"
-#include "kernels/verdict.h"
 
 #include <concepts>
 #include <cstdint>
@@ -22,7 +22,7 @@ inline constexpr int undecided = 2;
 /// What decides triangle truth (`f32`, `f64`, `filtered`, `exact`), for points of P::Real:
 ///   orient3d(a, b, c, d): sign of (d - a) . ((b - a) x (c - a)), 1 if d sees a, b, c turn left
 ///   orient2d(a, b, c):    sign of (b - a) x (c - a), 1 if a, b, c turn left
-/// `promise` is what a kernel keeps that asks nothing but these signs.
+/// `promise` is what a kernel keeps that uses nothing but these signs.
 template <class P>
 concept OrientationPredicates = requires(Vec3<typename P::Real> p, Point2<typename P::Real> q) {
     { P::orient3d(p, p, p, p) } -> std::same_as<int>;

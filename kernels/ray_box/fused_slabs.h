@@ -10,11 +10,11 @@
 namespace boxwood {
 
 /// Axes x, y, z in lanes 0, 1, 2; lane 3 means nothing.
-using Lanes3 = float __attribute__((vector_size(16)));
+using Float4 = float __attribute__((vector_size(16)));
 
 /// What FusedSlabs needs of the bounds of all boxes to come, made once for many rays.
 struct SlabBounds {
-    Lanes3 min{}, max{}, widest{}; ///< widest: the larger of |min| and |max|
+    Float4 min{}, max{}, widest{}; ///< widest: the larger of |min| and |max|
     float coordinate = 0;          ///< the largest of `widest`
 
     explicit SlabBounds(const Aabb<float>& box) {
@@ -46,14 +46,14 @@ struct SlabBounds {
 /// `margin` is that of ray_margin (slabs.h) for float triangle kernels: entry is made earlier and
 /// exit later by it; of its 16u reach / largest they need 5u, the roundings of the shifts 4u.
 struct FusedSlabs {
-    Lanes3 entry_rdir, entry_shift, exit_rdir, exit_shift;
+    Float4 entry_rdir, entry_shift, exit_rdir, exit_shift;
 
     FusedSlabs() = default; ///< of no ray yet
     [[gnu::always_inline]] FusedSlabs(const Ray<float>& ray, const SlabBounds& bounds) {
-        const Lanes3 origin{ray.origin.x, ray.origin.y, ray.origin.z, 0};
-        const Lanes3 direction{ray.direction.x, ray.direction.y, ray.direction.z, 0};
-        const Lanes3 size = abs(direction);
-        const Lanes3 low = abs(bounds.min - origin), high = abs(bounds.max - origin);
+        const Float4 origin{ray.origin.x, ray.origin.y, ray.origin.z, 0};
+        const Float4 direction{ray.direction.x, ray.direction.y, ray.direction.z, 0};
+        const Float4 size = abs(direction);
+        const Float4 low = abs(bounds.min - origin), high = abs(bounds.max - origin);
         const float largest = largest_of(size);
         const float reach = largest_of(low > high ? low : high);
         const float coordinate = std::max(largest_of(abs(origin)), bounds.coordinate);
@@ -68,11 +68,11 @@ struct FusedSlabs {
         // 2^-146: what underflows in denormal coordinates.
         const float margin = (0x1p-20f * reach + 0x1p-147f) * per_largest + 0x1p-146f;
         const auto small = size < least;
-        const Lanes3 r = with_sign(1 / (small ? all(least) : size), direction);
+        const Float4 r = with_sign(1 / (small ? all(least) : size), direction);
         entry_rdir = r * (1 - 0x1.8p-21f);
         exit_rdir = r * (1 + 0x1.8p-21f);
-        const Lanes3 in = origin * entry_rdir, out = origin * exit_rdir;
-        const Lanes3 pad = 0x1p-22f * (abs(out) + bounds.widest * abs(exit_rdir));
+        const Float4 in = origin * entry_rdir, out = origin * exit_rdir;
+        const Float4 pad = 0x1p-22f * (abs(out) + bounds.widest * abs(exit_rdir));
         entry_shift = in + pad + (small ? all(margin + beyond) : all(margin));
         exit_shift = out - pad - (small ? all(margin + 2 * beyond) : all(margin));
     }
@@ -80,16 +80,16 @@ struct FusedSlabs {
   private:
     using Bits = std::int32_t __attribute__((vector_size(16)));
 
-    static Lanes3 all(float x) { return Lanes3{x, x, x, x}; }
-    static Lanes3 abs(Lanes3 x) { return (Lanes3)((Bits)x & 0x7fffffff); }
+    static Float4 all(float x) { return Float4{x, x, x, x}; }
+    static Float4 abs(Float4 x) { return (Float4)((Bits)x & 0x7fffffff); }
     /// x >= 0 with the signs of y.
-    static Lanes3 with_sign(Lanes3 x, Lanes3 y) {
-        return (Lanes3)((Bits)x | ((Bits)y & std::numeric_limits<std::int32_t>::min()));
+    static Float4 with_sign(Float4 x, Float4 y) {
+        return (Float4)((Bits)x | ((Bits)y & std::numeric_limits<std::int32_t>::min()));
     }
-    static float largest_of(Lanes3 x) { return std::max(std::max(x[0], x[1]), x[2]); }
+    static float largest_of(Float4 x) { return std::max(std::max(x[0], x[1]), x[2]); }
 
     /// Entries below 0 and exits beyond everything, but the empty box (+inf, -inf) stays empty.
-    void give_up(Lanes3 direction) {
+    void give_up(Float4 direction) {
         entry_rdir = exit_rdir = with_sign(all(std::numeric_limits<float>::min()), direction);
         entry_shift = all(8); // |near| entry_rdir < 4
         exit_shift = all(-std::numeric_limits<float>::max());

@@ -6,10 +6,10 @@
 
 namespace boxwood {
 
-/// The slab test of the textbooks, to compare with: one reciprocal per axis, near and far told
-/// apart by min and max, nothing padded. It loses true hits at corners and edges (both ends carry
-/// three roundings, relative error gamma_3 = 3u / (1 - 3u) each, u = 2^-24), and where an origin
-/// lies on a face that the ray runs along: 0 * inf = NaN.
+/// The slab test of the textbooks, to compare with: one reciprocal per axis, near and far
+/// distinguished by min and max, nothing padded. It loses true hits at corners and edges (both ends
+/// carry three roundings, relative error gamma_3 = 3u / (1 - 3u) each, u = 2^-24), and where an
+/// origin lies on a face that the ray runs along: 0 * inf = NaN.
 struct PlainSlabs {
     static constexpr std::string_view name = "plain";
     static constexpr KernelInfo info{

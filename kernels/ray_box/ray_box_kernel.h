@@ -1,11 +1,10 @@
 #pragma once
 
+#include "kernels/decision.h"
 #include "kernels/primitives/aabb.h"
 #include "kernels/primitives/ray.h"
-#include "kernels/verdict.h"
 
 #include <concepts>
-#include <string_view>
 
 namespace boxwood {
 
@@ -19,11 +18,9 @@ struct RaySpan {
 /// The part of a ray within t_min <= t <= t_max (t_min >= 0) that lies in a closed box. K is made
 /// once per ray. NaN or infinite input: some answer.
 template <class K>
-concept RayBoxKernel = std::constructible_from < K,
+concept RayBoxKernel = DescribedKernel<K> && std::constructible_from < K,
         const Ray<float>
 & > &&requires(const K& ray, const Aabb<float>& box, float t_min, float t_max) {
-    { K::name } -> std::convertible_to<std::string_view>;
-    { K::info } -> std::convertible_to<KernelInfo>;
     { clip(ray, box, t_min, t_max) } -> std::same_as<RaySpan>;
 };
 

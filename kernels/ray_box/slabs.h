@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/ray_box/ray_box_kernel.h"
 #include "kernels/arithmetic/rounding.h"
+#include "kernels/ray_box/ray_box_kernel.h"
 
 #include <algorithm>
 #include <array>
@@ -76,7 +76,7 @@ struct RaySlabs {
 ///   b = (far - origin) * exit_rdir;    t1 = b < t1 ? b : t1     starting with t1 = t_max
 /// entry = t0 - margin, exit = t1. A hit if entry <= exit. Never misses: if a real t in [t_min,
 /// t_max] puts origin + t d into the box, it is a hit with entry <= fl(t) <= exit. Right for +-0
-/// components (0 * inf = NaN is passed over), origins on a face, flat boxes, and the empty box,
+/// components (0 * inf = NaN is skipped), origins on a face, flat boxes, and the empty box,
 /// which is never hit. NaN in a box does not clip.
 inline RaySpan clip(const RaySlabs& ray, const Aabb<float>& box, float t_min, float t_max) {
     float t0 = t_min, t1 = t_max;

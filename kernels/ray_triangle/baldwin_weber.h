@@ -8,7 +8,7 @@
 namespace boxwood {
 
 /// Baldwin-Weber: an affine map takes the triangle to (0,0), (1,0), (0,1); the ray is mapped, cut
-/// with the plane w = 0, and its (u, v) there compared. The map is made anew for every test, as a
+/// with the plane w = 0, and its (u, v) there compared. The map is made for every test, as a
 /// RayKernel stores nothing per triangle: the nine numbers that the method keeps would leave 36
 /// operations. No promise. Source: Baldwin, Weber 2016, "Fast Ray-Triangle Intersections by
 /// Coordinate Transformation".

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/ray_triangle/float_products.h"
+#include "kernels/ray_triangle/detail/float_products.h"
 #include "kernels/ray_triangle/ray_kernel.h"
 
 #include <algorithm>
@@ -58,8 +58,8 @@ struct ExactRayTriangle {
     }
 
     /// The same with the tier that decided: 0 the filter, 1 the exact sums.
-    static Verdict decide(const PerRay& r, const Ray<float>& ray, const Triangle<float>& triangle,
-                          float t_max, RayHit& hit) {
+    static Decision decide(const PerRay& r, const Ray<float>& ray, const Triangle<float>& triangle,
+                           float t_max, RayHit& hit) {
         using Vec = Vec3<double>;
         const Vec a(triangle.a), b(triangle.b), c(triangle.c);
         const Vec from_a = a - r.origin, from_b = b - r.origin, from_c = c - r.origin;
@@ -118,8 +118,8 @@ struct ExactRayTriangle {
     static Vec3<double> widen(Vec3<float> p) { return {widen(p.x), widen(p.y), widen(p.z)}; }
 
     /// d.((p - o) x (q - o)) = d.(p x q) - d.(p x o) - d.(o x q).
-    static FloatProducts weight(const Ray<float>& ray, Vec3<float> p, Vec3<float> q) {
-        FloatProducts sum;
+    static detail::FloatProducts weight(const Ray<float>& ray, Vec3<float> p, Vec3<float> q) {
+        detail::FloatProducts sum;
         sum.add_volume(ray.direction, p, q);
         sum.add_volume(ray.direction, p, ray.origin, 1, true);
         sum.add_volume(ray.direction, ray.origin, q, 1, true);
@@ -135,14 +135,15 @@ struct ExactRayTriangle {
     }
 
     /// depth = d.n times `factor`, taken away or added.
-    static void add_depth(FloatProducts& sum, const Ray<float>& ray, const Triangle<float>& t,
-                          float factor, bool minus) {
+    static void add_depth(detail::FloatProducts& sum, const Ray<float>& ray,
+                          const Triangle<float>& t, float factor, bool minus) {
         sum.add_volume(ray.direction, t.a, t.b, factor, minus);
         sum.add_volume(ray.direction, t.b, t.c, factor, minus);
         sum.add_volume(ray.direction, t.c, t.a, factor, minus);
     }
     /// height = from_a.n = from_a.(from_b x from_c)
-    static void add_height(FloatProducts& sum, const Ray<float>& ray, const Triangle<float>& t) {
+    static void add_height(detail::FloatProducts& sum, const Ray<float>& ray,
+                           const Triangle<float>& t) {
         sum.add_volume(t.a, t.b, t.c);
         sum.add_volume(ray.origin, t.b, t.c, 1, true);
         sum.add_volume(t.a, ray.origin, t.c, 1, true);
@@ -152,7 +153,7 @@ struct ExactRayTriangle {
     [[gnu::noinline]] static void exact_values(const Ray<float>& ray, const Triangle<float>& t,
                                                Weights& w, double& depth, double& height) {
         w = {0, weight(ray, t.c, t.a).value(), weight(ray, t.a, t.b).value()};
-        FloatProducts depths, heights;
+        detail::FloatProducts depths, heights;
         add_depth(depths, ray, t, 1, false);
         add_height(heights, ray, t);
         depth = depths.value();
@@ -171,7 +172,7 @@ struct ExactRayTriangle {
     }
     [[gnu::noinline]] static int compare_exactly(const Ray<float>& ray,
                                                  const Triangle<float>& triangle, float limit) {
-        FloatProducts sum;
+        detail::FloatProducts sum;
         add_height(sum, ray, triangle);
         add_depth(sum, ray, triangle, limit, true);
         return sum.sign();

@@ -1,7 +1,7 @@
 #include "kernels/ray_triangle/exact.h"
 
 #include "kernels/arithmetic/float_mode.h"
-#include "kernels/oracle/oracle.h"
+#include "kernels/oracle/exact_answers.h"
 
 #include <gtest/gtest.h>
 
@@ -49,8 +49,8 @@ Point on(const Triangle<float>& t, float u, float v) {
 struct Family {
     const char* name;
     std::function<Case(Draw&)> make;
-    int least_hits, least_misses; ///< of 10000
-    bool escalates;               ///< the filter is not enough for a tenth at least
+    int min_hits, min_misses; ///< of 10000
+    bool escalates;           ///< the filter is not enough for a tenth at least
 };
 
 const std::vector<Family>& families() {
@@ -190,8 +190,9 @@ void check(const Case& c, Tally& tally) {
     const auto expected = oracle::ray_triangle(c.ray, c.triangle);
     RayHit hit;
     const auto per_ray = ExactRayTriangle::prepare(c.ray);
-    const Verdict verdict = ExactRayTriangle::decide(per_ray, c.ray, c.triangle, c.ray.t_max, hit);
-    ASSERT_EQ(verdict.answer, expected ? Answer::yes : Answer::no)
+    const Decision decision =
+        ExactRayTriangle::decide(per_ray, c.ray, c.triangle, c.ray.t_max, hit);
+    ASSERT_EQ(decision.answer, expected ? Answer::yes : Answer::no)
         << std::hexfloat << c.ray.origin.x << ' ' << c.ray.direction.x;
     RayHit flushed;
     const auto again = [&] {
@@ -201,9 +202,9 @@ void check(const Case& c, Tally& tally) {
     {
         const DenormalFlushing on(true);
         const Answer answer = call_opaquely(again).answer;
-        ASSERT_EQ(answer, verdict.answer) << "flushing denormals";
+        ASSERT_EQ(answer, decision.answer) << "flushing denormals";
     }
-    tally.escalated += verdict.tier;
+    tally.escalated += decision.tier;
     if (!expected) {
         ++tally.misses;
         return;
@@ -245,8 +246,8 @@ TEST(ExactRayTriangle, AgreesWithTheOracleOnEveryFamily) {
             if (HasFatalFailure())
                 return;
         }
-        EXPECT_GE(tally.hits, family.least_hits);
-        EXPECT_GE(tally.misses, family.least_misses);
+        EXPECT_GE(tally.hits, family.min_hits);
+        EXPECT_GE(tally.misses, family.min_misses);
         EXPECT_LE(tally.worst_t, .63);
         EXPECT_LE(tally.worst_weight, 0x1p-23);
         EXPECT_GE(tally.escalated, family.escalates ? n / 10 : 0);

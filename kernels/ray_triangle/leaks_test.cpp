@@ -32,7 +32,7 @@ constexpr bool never_leaks(std::string_view kernel) {
     return kernel == "watertight" || kernel == "exact";
 }
 
-template <class K> class Leaks : public testing::Test {
+template <class K> class Leaks : public ::testing::Test {
   protected:
     void shoot(const Ray<float>& ray, const std::vector<Triangle<float>>& mesh) {
         ++rays_;
@@ -49,7 +49,7 @@ template <class K> class Leaks : public testing::Test {
         all_leaks_ += leaks_;
         rays_ = leaks_ = 0;
     }
-    /// The float rungs must be seen to leak, or nothing was tested.
+    /// The float kernels must be seen to leak, or nothing was tested.
     void expect_that_floats_leak() const {
         if (!never_leaks(K::name) && K::name != MollerTrumbore<double>::name) {
             EXPECT_GT(all_leaks_, 0);
@@ -61,7 +61,7 @@ template <class K> class Leaks : public testing::Test {
 };
 
 template <class Kernels> struct TypesOf;
-template <class... K> struct TypesOf<std::tuple<K...>> { using Types = testing::Types<K...>; };
+template <class... K> struct TypesOf<std::tuple<K...>> { using Types = ::testing::Types<K...>; };
 struct KernelName {
     template <class K> static std::string GetName(int) { return std::string(K::name); }
 };

@@ -1,11 +1,10 @@
 #pragma once
 
+#include "kernels/decision.h"
 #include "kernels/primitives/ray.h"
 #include "kernels/primitives/triangle.h"
-#include "kernels/verdict.h"
 
 #include <concepts>
-#include <string_view>
 
 namespace boxwood {
 
@@ -15,10 +14,9 @@ namespace boxwood {
 /// compared with hit.t as written, so that the nearest of several triangles does not depend on
 /// their order. NaN or infinite input is a miss.
 template <class K>
-concept RayKernel = requires(const Ray<float>& ray, const Triangle<float>& triangle, float t_max,
-                             const typename K::PerRay& per_ray, RayHit& hit) {
-    { K::name } -> std::convertible_to<std::string_view>;
-    { K::info } -> std::convertible_to<KernelInfo>;
+concept RayKernel = DescribedKernel<K> &&
+    requires(const Ray<float>& ray, const Triangle<float>& triangle, float t_max,
+             const typename K::PerRay& per_ray, RayHit& hit) {
     { K::prepare(ray) } -> std::same_as<typename K::PerRay>;
     { K::intersect(per_ray, ray, triangle, t_max, hit) } -> std::same_as<bool>;
 };

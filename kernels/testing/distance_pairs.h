@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/oracle/oracle.h"
+#include "kernels/oracle/exact_answers.h"
 #include "kernels/primitives/triangle.h"
 #include "kernels/testing/triangle_pairs.h"
 
@@ -15,7 +15,7 @@
 #include <vector>
 
 /// Pairs of triangles that are hard to measure, by family, with the true distance by the oracle.
-namespace boxwood::for_test {
+namespace boxwood::testing {
 
 /// n, or fewer where the oracle is slow.
 constexpr int few(int n) { return (n + thinned - 1) / thinned; }
@@ -42,7 +42,7 @@ struct DistancePair {
           distance(oracle::nearest_sqrt(squared)), size(size_of(a, b)) {}
 
     bool touch() const { return sgn(squared) == 0; }
-    std::string print() const { return for_test::print({a, b, touch()}); }
+    std::string print() const { return testing::print({a, b, touch()}); }
 };
 
 class DistanceFamilies {
@@ -325,4 +325,4 @@ class DistanceFamilies {
     PairFamilies touching_;
 };
 
-} // namespace boxwood::for_test
+} // namespace boxwood::testing

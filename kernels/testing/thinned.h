@@ -1,6 +1,6 @@
 #pragma once
 
-namespace boxwood::for_test {
+namespace boxwood::testing {
 
 /// Rationals allocate, which the address sanitizer makes 100 times slower: one case of this many is
 /// then tried.
@@ -10,4 +10,4 @@ inline constexpr int thinned = 16;
 inline constexpr int thinned = 1;
 #endif
 
-} // namespace boxwood::for_test
+} // namespace boxwood::testing

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "kernels/oracle/oracle.h"
-#include "kernels/testing/thinned.h"
 #include "kernels/primitives/triangle.h"
+#include "kernels/testing/thinned.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 #include <vector>
 
 /// Pairs of triangles with the truth from the oracle, for the tests of yes/no kernels.
-namespace boxwood::for_test {
+namespace boxwood::testing {
 
 struct TrianglePair {
     Triangle<double> a, b;
@@ -190,4 +190,4 @@ class PairFamilies {
     Kept kept_;
 };
 
-} // namespace boxwood::for_test
+} // namespace boxwood::testing

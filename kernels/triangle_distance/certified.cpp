@@ -1,9 +1,9 @@
 #include "kernels/triangle_distance/certified.h"
 
 #include "kernels/arithmetic/float_mode.h"
-#include "kernels/triangle_distance/nearest_pair.h"
-#include "kernels/triangle_distance/refined_bounds.h"
-#include "kernels/triangle_distance/rescale.h"
+#include "kernels/detail/rescale.h"
+#include "kernels/triangle_distance/detail/nearest_pair.h"
+#include "kernels/triangle_distance/detail/refined_bounds.h"
 #include "kernels/triangle_triangle/exact.h"
 
 #include <algorithm>
@@ -13,14 +13,14 @@
 namespace boxwood {
 namespace {
 
+using namespace detail;
+
 using Search = NearestPairSearch<double, false>;
-using Vector = one_lane::Vector<double>;
 using Pair = one_lane::PointPair<double>;
 
 constexpr double u = 0x1p-53;
 constexpr double underflow = 0x1p-1060; ///< of all products below, and of coordinates scaled down
 
-Vec3<double> point(const Vector& v) { return {v.x, v.y, v.z}; }
 Vec3<double> abs(Vec3<double> v) { return {std::abs(v.x), std::abs(v.y), std::abs(v.z)}; }
 
 bool tight(const DistanceBounds& b) { return b.lo >= b.hi * (1 - 0x1p-32); }
@@ -37,7 +37,7 @@ bool tight(const DistanceBounds& b) { return b.lo >= b.hi * (1 - 0x1p-32); }
 ///           sum to 1 at most, and the edges of b are at most twice its E_k apart); weights that
 ///           are off the triangle by rounding 6u E_k: 20u E_k with what is O(u^2)
 DistanceBounds bounds_from(const Pair& pair, const Triangle<double>& a, const Triangle<double>& b) {
-    const Vec3<double> n = point(pair.offset), x1 = a.b - a.a, x2 = a.c - a.a;
+    const Vec3<double> n = pair.offset, x1 = a.b - a.a, x2 = a.c - a.a;
     const Vec3<double> y0 = b.a - a.a, y1 = b.b - a.a, y2 = b.c - a.a;
     const Vec3<double> extent = max(abs(x1), abs(x2)) + max(max(abs(y0), abs(y1)), abs(y2));
     const double squared = dot(n, n), length = std::sqrt(squared);
@@ -48,14 +48,13 @@ DistanceBounds bounds_from(const Pair& pair, const Triangle<double>& a, const Tr
     const double gap = (near_a - near_b) - (6 * u * dot(abs(n), extent) + underflow);
     const double lo = gap / length * (1 - 8 * u);
     // Below, squares underflow.
-    return {squared > 0x1p-900 && lo > 0 ? lo : 0, hi, std::sqrt(pair.squared), point(pair.a),
-            point(pair.b)};
+    return {squared > 0x1p-900 && lo > 0 ? lo : 0, hi, std::sqrt(pair.squared), pair.a, pair.b};
 }
 
 Distance between(const DistanceBounds& b, std::uint8_t tier) {
     return {std::clamp(b.distance, b.lo, b.hi), b.lo, b.hi, b.point_a, b.point_b, tier};
 }
-DistanceBounds touching(const Pair& pair) { return {0, 0, 0, point(pair.a), point(pair.b)}; }
+DistanceBounds touching(const Pair& pair) { return {0, 0, 0, pair.a, pair.b}; }
 
 /// x * 2^exponent, rounded down, or up.
 double scaled_down(double x, int exponent) {
@@ -89,13 +88,13 @@ double scaled_up(double x, int exponent) {
     }
     if (tier == 2)
         bounds = refined_bounds(ua, ub);
-    if (tier != 1 && bounds.distance == 0) // too small to tell
+    if (tier != 1 && bounds.distance == 0) // too small to decide
         bounds.distance = bounds.hi;
     bounds = {scaled_down(bounds.lo, e), scaled_up(bounds.hi, e),
               scaled_up(bounds.distance, e), // not to 0
               times_power_of_two(bounds.point_a, e), times_power_of_two(bounds.point_b, e)};
     if (tier == 2 && !(bounds.lo > 0)) {
-        bounds.lo = std::min(least_separation(coordinate_grid(a, b), e), bounds.hi);
+        bounds.lo = std::min(min_separation(coordinate_grid(a, b), e), bounds.hi);
         tier = 3;
     }
     return between(bounds, tier);

@@ -2,7 +2,7 @@
 
 #include "kernels/arithmetic/float_mode.h"
 #include "kernels/testing/distance_pairs.h"
-#include "kernels/triangle_distance/refined_bounds.h"
+#include "kernels/triangle_distance/detail/refined_bounds.h"
 
 #include <gtest/gtest.h>
 
@@ -12,9 +12,11 @@
 namespace boxwood {
 namespace {
 
-using for_test::DistanceFamilies;
-using for_test::DistancePair;
-using for_test::few;
+using namespace detail;
+
+using testing::DistanceFamilies;
+using testing::DistancePair;
+using testing::few;
 using Kernel = CertifiedDistance;
 
 static_assert(Kernel::info.promise == Promise::certified);
@@ -47,7 +49,7 @@ Tally judge(DistanceFamilies& make, const Families& families, std::size_t n) {
         for (const DistancePair& pair : make.pairs(family, n)) {
             const Distance d = Kernel::distance(pair.a, pair.b);
             expect_certified(d, pair);
-            if (testing::Test::HasFatalFailure())
+            if (::testing::Test::HasFatalFailure())
                 return all;
             ++all.tiers.at(d.tier);
             all.touching += pair.touch();
@@ -215,13 +217,13 @@ TEST(LeastSeparation, IsBelowEveryDistanceOfAGrid) {
     double nearest = 1;
     for (const DistancePair& pair : make.pairs(tiny, 5000))
         if (!pair.touch()) {
-            ASSERT_LE(oracle::compare(least_separation(0, 3), pair.squared), 0) << pair.print();
+            ASSERT_LE(oracle::compare(min_separation(0, 3), pair.squared), 0) << pair.print();
             nearest = std::min(nearest, pair.distance);
         }
-    if (for_test::thinned == 1) {
-        EXPECT_LT(nearest, 16 * least_separation(0, 3)); // not needlessly small
+    if (testing::thinned == 1) {
+        EXPECT_LT(nearest, 16 * min_separation(0, 3)); // not needlessly small
     }
-    EXPECT_EQ(least_separation(-1074, -1070), 0); // underflows
+    EXPECT_EQ(min_separation(-1074, -1070), 0); // underflows
     EXPECT_EQ(coordinate_grid({{4, 0, 0}, {8, 12, 0}, {0, 0, 0}}, {{0, 4, 0}, {0, 0, 0}, {}}), 2);
     EXPECT_EQ(coordinate_grid({{0x1p-1074, 0, 0}, {1, 0, 0}, {}}, {}), -1074);
 }

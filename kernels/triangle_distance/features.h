@@ -1,52 +1,20 @@
 #pragma once
 
 #include "kernels/triangle_distance/distance_kernel.h"
-#include "kernels/triangle_distance/nearest_pair.h"
-#include "kernels/triangle_distance/rescale.h"
-
-#include <cmath>
 
 namespace boxwood {
 
 /// The least distance of two triangles over their features, and 0 where they cross, in plain
-/// arithmetic. Sizes from 2^-900 to 2^1000 (float: all) make no difference.
+/// arithmetic. Sizes from 2^-900 to 2^1000 (float: all) make no difference. by_cross: the edges'
+/// parameters are solved by their cross product.
 template <class RealOf, bool by_cross> struct FeatureDistance {
     using Real = RealOf;
 
-    static Distance distance(const Triangle<Real>& a, const Triangle<Real>& b) {
-        return measured<&NearestPairSearch<Real, by_cross>::find>(a, b);
-    }
-
-  protected:
-    template <auto find>
-    static Distance measured(const Triangle<Real>& a, const Triangle<Real>& b) {
-        Pair found;
-        if (find(a, b, found)) [[likely]]
-            return of(found);
-        return rescaled<find>(a, b);
-    }
-
-  private:
-    using Pair = one_lane::PointPair<Real>;
-
-    static Vec3<double> point(const one_lane::Vector<Real>& v) {
-        return Vec3<double>(Vec3<Real>{v.x, v.y, v.z});
-    }
-    static Distance of(const Pair& found) {
-        const auto d = static_cast<double>(std::sqrt(found.squared));
-        return {d, d, d, point(found.a), point(found.b), 0};
-    }
-    template <auto find>
-    [[gnu::noinline]] static Distance rescaled(const Triangle<Real>& a, const Triangle<Real>& b) {
-        const std::array points{a.a, a.b, a.c, b.a, b.b, b.c};
-        return at_unit_size(points, a, b, [](const auto& ua, const auto& ub) {
-            const Vec3<Real>&p = ua.a, &q = ub.a; // where all is one point
-            Pair found{0, {}, {p.x, p.y, p.z}, {q.x, q.y, q.z}};
-            find(ua, ub, found);
-            return of(found);
-        });
-    }
+    static Distance distance(const Triangle<Real>& a, const Triangle<Real>& b);
 };
+extern template struct FeatureDistance<float, false>;
+extern template struct FeatureDistance<double, false>;
+extern template struct FeatureDistance<double, true>;
 
 struct FeaturesF32 : FeatureDistance<float, false> {
     static constexpr std::string_view name = "features_f32";

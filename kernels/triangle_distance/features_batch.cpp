@@ -5,6 +5,8 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
+#include "kernels/simd/vec3-inl.h"
+#include "kernels/triangle_distance/detail/nearest_pair.h"
 #include "kernels/triangle_distance/features_batch.h"
 
 #include <algorithm>
@@ -15,6 +17,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::HWY_NAMESPACE {
+namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -36,7 +39,7 @@ struct Lanes {
     friend HWY_INLINE Mask operator<=(Lanes a, Lanes b) { return hn::Le(a.v, b.v); }
 };
 
-template <class V> struct Limits : one_lane::Limits<double> {};
+template <class V> struct Limits : detail::one_lane::Limits<double> {};
 template <class V> HWY_INLINE V constant(double x) { return {hn::Set(df, x)}; }
 HWY_INLINE Lanes select(Mask m, Lanes a, Lanes b) { return {hn::IfThenElse(m, a.v, b.v)}; }
 HWY_INLINE Lanes min(Lanes a, Lanes b) { return {hn::Min(a.v, b.v)}; }
@@ -57,7 +60,7 @@ HWY_INLINE void reciprocals(Lanes (&x)[3]) {
     x[1] = q * x0;
 }
 
-#include "kernels/triangle_distance/nearest_features.inc"
+#include "kernels/triangle_distance/detail/nearest_features-inl.h"
 
 constexpr std::size_t width = TrianglePairBlock<double>::lanes;
 constexpr std::size_t lanes = hn::MaxLanes(df);
@@ -66,15 +69,15 @@ constexpr std::size_t lanes = hn::MaxLanes(df);
 template <std::size_t stride> using Rows = double[2][3][3][stride];
 
 template <std::size_t stride>
-HWY_INLINE Vector<Lanes> LoadCorner(const double (&corner)[3][stride], std::size_t lane) {
+HWY_INLINE LaneVec3<Lanes> load_corner(const double (&corner)[3][stride], std::size_t lane) {
     return {hn::LoadU(df, corner[0] + lane), hn::LoadU(df, corner[1] + lane),
             hn::LoadU(df, corner[2] + lane)};
 }
 template <std::size_t stride>
-HWY_INLINE Shape<Lanes> LoadShape(const double (&side)[3][3][stride], std::size_t lane) {
-    return {LoadCorner(side[0], lane), LoadCorner(side[1], lane), LoadCorner(side[2], lane)};
+HWY_INLINE Shape<Lanes> load_shape(const double (&side)[3][3][stride], std::size_t lane) {
+    return {load_corner(side[0], lane), load_corner(side[1], lane), load_corner(side[2], lane)};
 }
-HWY_INLINE std::uint32_t Bits(Mask m) {
+HWY_INLINE std::uint32_t mask_bits(Mask m) {
     std::uint8_t bytes[8] = {};
     hn::StoreMaskBits(df, m, bytes);
     return bytes[0];
@@ -82,11 +85,11 @@ HWY_INLINE std::uint32_t Bits(Mask m) {
 
 /// The corners of a triangle from the one that is least along a way on, counted round.
 struct Turned {
-    Vector<Lanes> c0, c1, c2;
-    HWY_INLINE Turned(const Shape<Lanes>& t, const Vector<Lanes>& way) : c0(), c1(), c2() {
+    LaneVec3<Lanes> c0, c1, c2;
+    HWY_INLINE Turned(const Shape<Lanes>& t, const LaneVec3<Lanes>& way) : c0(), c1(), c2() {
         const Lanes zero = constant<Lanes>(0), x = dot(way, t.edge[0]), y = dot(way, t.edge[1]);
         const Mask third = y < min(x, zero), second = hn::AndNot(third, x < zero);
-        const Vector<Lanes>(&c)[3] = t.corner;
+        const LaneVec3<Lanes>(&c)[3] = t.corner;
         c0 = select(third, c[2], select(second, c[1], c[0]));
         c1 = select(third, c[0], select(second, c[2], c[1]));
         c2 = select(third, c[1], select(second, c[0], c[2]));
@@ -96,17 +99,17 @@ struct Turned {
 /// The pairs [lane, lane + lanes) of the rows by one guess, as NearestPairSearch makes it; true
 /// where it was right.
 template <std::size_t stride>
-HWY_INLINE Mask Guess(const Rows<stride>& rows, std::size_t lane, PointPair<Lanes>& pair) {
-    const Shape<Lanes> a = LoadShape(rows[0], lane), b = LoadShape(rows[1], lane);
-    const Vector<Lanes> way =
+HWY_INLINE Mask guess(const Rows<stride>& rows, std::size_t lane, PointPair<Lanes>& pair) {
+    const Shape<Lanes> a = load_shape(rows[0], lane), b = load_shape(rows[1], lane);
+    const LaneVec3<Lanes> way =
         way_between(b.corner[0] - a.corner[0], a.edge[0], a.edge[1], b.edge[0], b.edge[1]);
     const Turned ta(a, way), tb(b, -way);
     return facing_edges<false>(ta.c0, ta.c1, ta.c2, tb.c0, tb.c1, tb.c2, pair);
 }
 /// ... by all features; true where they are in range.
 template <std::size_t stride>
-HWY_INLINE Mask Compare(const Rows<stride>& rows, std::size_t lane, PointPair<Lanes>& pair) {
-    const Shape<Lanes> a = LoadShape(rows[0], lane), b = LoadShape(rows[1], lane);
+HWY_INLINE Mask compare(const Rows<stride>& rows, std::size_t lane, PointPair<Lanes>& pair) {
+    const Shape<Lanes> a = load_shape(rows[0], lane), b = load_shape(rows[1], lane);
     const Facing<Lanes> facing(a, b);
     Best<Lanes> best;
     const Mask done = offer_crossing(facing, best);
@@ -192,7 +195,7 @@ class Pending {
     }
     HWY_INLINE void answer(std::size_t begin, std::size_t count) {
         PointPair<Lanes> pair;
-        const std::uint32_t in_range = Bits(Compare(rows_, begin, pair));
+        const std::uint32_t in_range = mask_bits(compare(rows_, begin, pair));
         const Answers answers(pair);
         for (std::size_t i = 0; i < count; ++i) {
             Distance& to = distances_[index_[begin + i]];
@@ -216,7 +219,8 @@ class Pending {
     std::size_t count_ = 0;
 };
 
-void Distances(std::span<const TrianglePairBlock<double>> blocks, std::span<Distance> distances) {
+void distances_of(std::span<const TrianglePairBlock<double>> blocks,
+                  std::span<Distance> distances) {
     Pending pending(distances);
     std::uint32_t wrong[Pending::most / lanes];
     for (std::size_t begin = 0; begin < distances.size(); begin += Pending::most) {
@@ -224,8 +228,8 @@ void Distances(std::span<const TrianglePairBlock<double>> blocks, std::span<Dist
         for (std::size_t first = begin; first < end; first += lanes) {
             const std::size_t count = std::min(lanes, end - first);
             PointPair<Lanes> pair;
-            const Mask right = Guess(blocks[first / width].corner, first % width, pair);
-            wrong[(first - begin) / lanes] = ~Bits(right) & ((1u << count) - 1);
+            const Mask right = guess(blocks[first / width].corner, first % width, pair);
+            wrong[(first - begin) / lanes] = ~mask_bits(right) & ((1u << count) - 1);
             const Answers answers(pair);
             for (std::size_t i = 0; i < count; ++i)
                 answers.hand_out(i, distances[first + i]);
@@ -238,20 +242,21 @@ void Distances(std::span<const TrianglePairBlock<double>> blocks, std::span<Dist
     pending.finish();
 }
 
+} // namespace
 } // namespace boxwood::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace boxwood {
-HWY_EXPORT(Distances);
+HWY_EXPORT(distances_of);
 
 Distance FeaturesF64Batch::distance(const Triangle<double>& a, const Triangle<double>& b) {
-    return measured<&NearestPairSearch<double, false>::find_by_one_guess>(a, b);
+    return detail::measured<&detail::NearestPairSearch<double, false>::find_by_one_guess>(a, b);
 }
 
 void FeaturesF64Batch::distance(std::span<const TrianglePairBlock<double>> blocks,
                                 std::span<Distance> distances) {
-    HWY_DYNAMIC_DISPATCH(Distances)(blocks, distances);
+    HWY_DYNAMIC_DISPATCH(distances_of)(blocks, distances);
 }
 
 } // namespace boxwood

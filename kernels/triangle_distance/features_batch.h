@@ -1,12 +1,12 @@
 #pragma once
 
-#include "kernels/triangle_distance/features.h"
+#include "kernels/triangle_distance/distance_kernel.h"
 
 namespace boxwood {
 
 /// Features of eight pairs at a time. It compares them all, so that the time does not depend on the
 /// input; one by one it does the same, and FeaturesF64 is faster for a single pair.
-struct FeaturesF64Batch : private FeatureDistance<double, false> {
+struct FeaturesF64Batch {
     using Real = double;
     static constexpr std::string_view name = "features_f64_batch";
     static constexpr KernelInfo info{

@@ -1,7 +1,7 @@
 #include "kernels/triangle_distance/features.h"
 
-#include "kernels/testing/every_target.h"
 #include "kernels/testing/distance_pairs.h"
+#include "kernels/testing/every_target.h"
 #include "kernels/triangle_distance/features_batch.h"
 
 #include <gtest/gtest.h>
@@ -11,9 +11,9 @@
 namespace boxwood {
 namespace {
 
-using for_test::DistanceFamilies;
-using for_test::DistancePair;
-using for_test::few;
+using testing::DistanceFamilies;
+using testing::DistancePair;
+using testing::few;
 
 struct NoDistance {
     using Real = double;
@@ -27,20 +27,20 @@ static_assert(!TriangleDistanceBatchKernel<FeaturesF64>);
 /// The error of K over the size of the pair; the truth is that of the corners as K reads them.
 template <class K> double error(const Triangle<double>& a, const Triangle<double>& b) {
     using Real = typename K::Real;
-    const Triangle<Real> ra = for_test::as<Real>(a), rb = for_test::as<Real>(b);
-    const DistancePair pair(for_test::as<double>(ra), for_test::as<double>(rb));
+    const Triangle<Real> ra = testing::as<Real>(a), rb = testing::as<Real>(b);
+    const DistancePair pair(testing::as<double>(ra), testing::as<double>(rb));
     const Distance d = K::distance(ra, rb);
     EXPECT_TRUE(d.lo == d.distance && d.hi == d.distance);
     return std::abs(d.distance - pair.distance) / pair.size;
 }
 
-template <class K> class Features : public testing::Test {
+template <class K> class Features : public ::testing::Test {
   protected:
     static constexpr bool f32 = std::is_same_v<typename K::Real, float>;
     static constexpr double u = f32 ? 0x1p-24 : 0x1p-53;
 };
-using Rungs = testing::Types<FeaturesF32, FeaturesF64, CrossProductF64, FeaturesF64Batch>;
-TYPED_TEST_SUITE(Features, Rungs);
+using Kernels = ::testing::Types<FeaturesF32, FeaturesF64, CrossProductF64, FeaturesF64Batch>;
+TYPED_TEST_SUITE(Features, Kernels);
 
 TYPED_TEST(Features, SmallIntegers) {
     // Every logic error shows: degenerate ones, touching ones, shared corners and edges.
@@ -55,7 +55,7 @@ TYPED_TEST(Features, SmallIntegers) {
             if (i % 5 == 0)
                 std::copy_n(a.begin(), i % 3, b.begin());
             const Triangle<double> ta = make.triangle(a), tb = make.triangle(b);
-            ASSERT_LT(error<TypeParam>(ta, tb), 4 * this->u) << for_test::print({ta, tb, false});
+            ASSERT_LT(error<TypeParam>(ta, tb), 4 * this->u) << testing::print({ta, tb, false});
         }
 }
 
@@ -65,7 +65,7 @@ TYPED_TEST(Features, OrdinaryPairs) {
         for (int i = 0; i < few(250); ++i) {
             const auto [a, b] = family.make();
             ASSERT_LT(error<TypeParam>(make.triangle(a), make.triangle(b)), 64 * this->u)
-                << family.name << for_test::print({make.triangle(a), make.triangle(b), false});
+                << family.name << testing::print({make.triangle(a), make.triangle(b), false});
         }
 }
 
@@ -77,7 +77,7 @@ TYPED_TEST(Features, NearContact) {
             // Floats of coplanar corners are slivers' worth of angles apart.
             ASSERT_LT(error<TypeParam>(make.triangle(a), make.triangle(b)),
                       (this->f32 ? 2048 : 64) * this->u)
-                << family.name << for_test::print({make.triangle(a), make.triangle(b), false});
+                << family.name << testing::print({make.triangle(a), make.triangle(b), false});
         }
 }
 
@@ -88,7 +88,7 @@ TYPED_TEST(Features, ThinOnes) {
         for (int i = 0; i < few(250); ++i) {
             const auto [a, b] = family.make();
             ASSERT_LT(error<TypeParam>(make.triangle(a), make.triangle(b)), 8 * std::sqrt(this->u))
-                << family.name << for_test::print({make.triangle(a), make.triangle(b), false});
+                << family.name << testing::print({make.triangle(a), make.triangle(b), false});
         }
 }
 
@@ -97,8 +97,8 @@ TYPED_TEST(Features, PowersOfTwoChangeNothing) {
     DistanceFamilies make(5);
     const int reach = this->f32 ? 100 : 900;
     for (int i = 0; i < few(1000); ++i) {
-        const auto a = for_test::as<Real>(make.triangle(make.inside()));
-        const auto b = for_test::as<Real>(make.triangle(make.inside()));
+        const auto a = testing::as<Real>(make.triangle(make.inside()));
+        const auto b = testing::as<Real>(make.triangle(make.inside()));
         const int k = make.below(2 * reach) - reach;
         const Distance one = TypeParam::distance(a, b);
         const Distance other =
@@ -112,22 +112,22 @@ TYPED_TEST(Features, PowersOfTwoChangeNothing) {
 TYPED_TEST(Features, WitnessesLieThatFarApart) {
     DistanceFamilies make(6);
     for (int i = 0; i < few(1000); ++i) {
-        const auto a = for_test::as<typename TypeParam::Real>(make.triangle(make.inside()));
-        const auto b = for_test::as<typename TypeParam::Real>(make.triangle(make.inside()));
+        const auto a = testing::as<typename TypeParam::Real>(make.triangle(make.inside()));
+        const auto b = testing::as<typename TypeParam::Real>(make.triangle(make.inside()));
         const Distance d = TypeParam::distance(a, b);
         ASSERT_NEAR(length(d.point_a - d.point_b), d.distance, 16 * this->u);
         const auto off = [](Vec3<double> p, const Triangle<double>& t) {
             return oracle::nearest_sqrt(oracle::squared_distance(p, t));
         };
-        ASSERT_LT(off(d.point_a, for_test::as<double>(a)), 16 * this->u);
-        ASSERT_LT(off(d.point_b, for_test::as<double>(b)), 16 * this->u);
+        ASSERT_LT(off(d.point_a, testing::as<double>(a)), 16 * this->u);
+        ASSERT_LT(off(d.point_b, testing::as<double>(b)), 16 * this->u);
     }
 }
 
 TYPED_TEST(Features, KnownAnswers) {
     using Real = typename TypeParam::Real;
     const auto measure = [](const Triangle<double>& a, const Triangle<double>& b) {
-        return TypeParam::distance(for_test::as<Real>(a), for_test::as<Real>(b)).distance;
+        return TypeParam::distance(testing::as<Real>(a), testing::as<Real>(b)).distance;
     };
     for (const double s : {1.8e-4, 1.7e-4, 1e-4, 1e-5}) {
         const double h = s / 10;
@@ -213,7 +213,7 @@ TEST(FeaturesBatch, SameBitsOnEveryTarget) {
             FeaturesF64Batch::distance(blocks, {got.data(), n});
             for (std::size_t i = 0; i < n; ++i)
                 ASSERT_EQ(bits(got[i]), bits(expected[i]))
-                    << i << for_test::print({a[i], b[i], false}) << got[i].distance << ' '
+                    << i << testing::print({a[i], b[i], false}) << got[i].distance << ' '
                     << expected[i].distance;
             EXPECT_EQ(got.back().distance, -1);
         }

@@ -1,11 +1,13 @@
 #include "kernels/triangle_triangle/exact.h"
 
 #include "kernels/arithmetic/float_mode.h"
-#include "kernels/predicates/accumulated.h"
-#include "kernels/predicates/grid.h"
+#include "kernels/predicates/detail/accumulated.h"
+#include "kernels/predicates/detail/grid.h"
 
 namespace boxwood {
 namespace {
+
+using namespace detail;
 
 /// The filtered signs of a pair of finite triangles, and where they are undecided the exact ones,
 /// from the narrowest numbers that the corners fit in. Denormals are kept (float_mode.h).
@@ -107,7 +109,7 @@ bool finite(const FilteredPair& pair) {
 }
 
 /// What the filter has left as `maybe`.
-Verdict decide(FilteredPair& pair) {
+Decision decide(FilteredPair& pair) {
     using Plain = Determinants<double>;
     pair.narrow();
     const auto sums = pair.sums();
@@ -128,14 +130,14 @@ Verdict decide(FilteredPair& pair) {
 
 } // namespace
 
-Verdict GuigueDevillersExact::decide_exactly(FilteredPair& filtered, const Triangle<double>& a,
-                                             const Triangle<double>& b) {
+Decision GuigueDevillersExact::decide_exactly(FilteredPair& filtered, const Triangle<double>& a,
+                                              const Triangle<double>& b) {
     if (!flushes_denormals())
         return decide(filtered);
     return without_flushing([&] {
         FilteredPair pair(a, b);
         const Answer answer = GuigueDevillersFiltered::meet(pair);
-        return answer != Answer::maybe ? Verdict{answer, 0} : decide(pair);
+        return answer != Answer::maybe ? Decision{answer, 0} : decide(pair);
     });
 }
 

@@ -21,15 +21,15 @@ class GuigueDevillersExact {
         "exact for all finite doubles",
         "1.4 times f64; 2 to 5 times where the filter fails"};
 
-    static Verdict intersect(const Triangle<double>& a, const Triangle<double>& b) {
-        FilteredPair pair(a, b);
+    static Decision intersect(const Triangle<double>& a, const Triangle<double>& b) {
+        detail::FilteredPair pair(a, b);
         const Answer answer = GuigueDevillersFiltered::meet(pair);
-        return answer != Answer::maybe ? Verdict{answer, 0} : decide_exactly(pair, a, b);
+        return answer != Answer::maybe ? Decision{answer, 0} : decide_exactly(pair, a, b);
     }
 
   private:
-    static Verdict decide_exactly(FilteredPair& filtered, const Triangle<double>& a,
-                                  const Triangle<double>& b);
+    static Decision decide_exactly(detail::FilteredPair& filtered, const Triangle<double>& a,
+                                   const Triangle<double>& b);
 };
 
 } // namespace boxwood

@@ -17,8 +17,8 @@
 namespace boxwood {
 namespace {
 
-using for_test::PairFamilies;
-using for_test::TrianglePair;
+using testing::PairFamilies;
+using testing::TrianglePair;
 using Point = Vec3<double>;
 
 static_assert(TriangleKernel<GuigueDevillersExact>);
@@ -26,32 +26,32 @@ static_assert(TriangleKernel<GuigueDevillersFiltered>);
 static_assert(GuigueDevillersExact::info.promise == Promise::exact);
 static_assert(GuigueDevillersFiltered::info.promise == Promise::certified);
 
-/// Of a count that is asked for, what is left where there are fewer pairs.
-constexpr int at_least(int n) { return n / for_test::thinned; }
+/// Of a wanted count, what is left where there are fewer pairs.
+constexpr int at_least(int n) { return n / testing::thinned; }
 
 Answer answer_of(bool touch) { return touch ? Answer::yes : Answer::no; }
 
-/// How many pairs each tier decided, and how many the filtered rung did.
+/// How many pairs each tier decided, and how many the filtered kernel did.
 struct Tally {
     std::array<int, 4> by_tier{};
     int filtered = 0, yes = 0, no = 0;
 };
 
-/// The exact rung must be right and the filtered one not wrong, denormals flushed or not.
+/// The exact kernel must be right and the filtered one not wrong, denormals flushed or not.
 void judge(Tally& tally, const TrianglePair& pair) {
     const Answer expected = answer_of(pair.touch);
     (pair.touch ? tally.yes : tally.no)++;
     for (const bool flushing : {false, true}) {
-        Verdict exact, filtered;
+        Decision exact, filtered;
         {
             const DenormalFlushing mode(flushing);
             exact = GuigueDevillersExact::intersect(pair.a, pair.b);
             filtered = GuigueDevillersFiltered::intersect(pair.a, pair.b);
         }
-        ASSERT_EQ(exact.answer, expected) << for_test::print(pair) << " flushing " << flushing;
+        ASSERT_EQ(exact.answer, expected) << testing::print(pair) << " flushing " << flushing;
         if (filtered.answer != Answer::maybe) {
             ASSERT_EQ(filtered.answer, expected)
-                << for_test::print(pair) << " flushing " << flushing;
+                << testing::print(pair) << " flushing " << flushing;
         }
         if (!flushing) {
             tally.by_tier[exact.tier]++;
@@ -64,7 +64,7 @@ Tally judge(const std::vector<TrianglePair>& pairs) {
     Tally tally;
     for (const TrianglePair& pair : pairs) {
         judge(tally, pair);
-        if (testing::Test::HasFatalFailure())
+        if (::testing::Test::HasFatalFailure())
             break;
     }
     return tally;
@@ -144,7 +144,7 @@ TEST(GuigueDevillersExact, TheLeastStepOffThePlane) {
     for (const int bits : {8, 14, 15, 16, 17, 18, 20, 22}) {
         std::vector<TrianglePair> pairs;
         const auto component = [&] { return std::int64_t{random.below(2 << bits)} - (1 << bits); };
-        while (pairs.size() < 1500 / for_test::thinned) {
+        while (pairs.size() < 1500 / testing::thinned) {
             const Lattice u{component(), component(), component()};
             const Lattice v{component(), component(), component()};
             const auto step = next_to_plane(u, v);
@@ -203,7 +203,7 @@ TEST(GuigueDevillersExact, NearlyTouchingInAPlane) {
 TEST(GuigueDevillersExact, NearlyTouching) {
     const Tally doubles = judge(PairFamilies(4).nearly_touching(15000));
     EXPECT_GT(doubles.by_tier[1], at_least(1000));
-    judge(PairFamilies(4, for_test::Kept::as_float).nearly_touching(15000));
+    judge(PairFamilies(4, testing::Kept::as_float).nearly_touching(15000));
 }
 
 /// On lattices whose steps differ by hundreds of powers of two: the superaccumulator's.
@@ -211,7 +211,7 @@ TEST(GuigueDevillersExact, StepsOfAllSizes) {
     PairFamilies random(5);
     const std::array<double, 8> steps{0,        1,         0x1p-1074, -0x1p-1074,
                                       0x1p1000, -0x1p1000, 3,         0x1p-600};
-    std::vector<TrianglePair> pairs(6000 / for_test::thinned);
+    std::vector<TrianglePair> pairs(6000 / testing::thinned);
     for (TrianglePair& pair : pairs) {
         const std::size_t n_steps = random.below(2) == 0 ? 3 : 8;
         const bool flat = random.below(3) == 0;
@@ -249,7 +249,7 @@ TEST(GuigueDevillersExact, LargestNumbers) {
     PairFamilies random(7);
     const double huge = std::numeric_limits<double>::max();
     const std::array<double, 6> steps{huge, -huge, 0, std::nextafter(huge, 0), huge / 2, -huge / 2};
-    std::vector<TrianglePair> pairs(3000 / for_test::thinned);
+    std::vector<TrianglePair> pairs(3000 / testing::thinned);
     for (TrianglePair& pair : pairs) {
         for (Triangle<double>* t : {&pair.a, &pair.b})
             for (Point* p : {&t->a, &t->b, &t->c})
@@ -283,15 +283,15 @@ TEST(GuigueDevillersExact, TheOrderOfCornersAndSidesChangesNothing) {
                     const DenormalFlushing mode(flushing);
                     const Answer forth = GuigueDevillersExact::intersect(p, q).answer;
                     const Answer back = GuigueDevillersExact::intersect(q, p).answer;
-                    ASSERT_EQ(forth, answer_of(pair.touch)) << for_test::print(pair);
-                    ASSERT_EQ(back, answer_of(pair.touch)) << for_test::print(pair);
+                    ASSERT_EQ(forth, answer_of(pair.touch)) << testing::print(pair);
+                    ASSERT_EQ(back, answer_of(pair.touch)) << testing::print(pair);
                 }
             } while (std::next_permutation(j.begin(), j.end()));
         } while (std::next_permutation(i.begin(), i.end()));
     }
 }
 
-/// Bit for bit the verdict of both rungs, tier included.
+/// Bit for bit the decision of both kernels, tier included.
 TEST(GuigueDevillersExact, PowersOfTwoChangeNothing) {
     PairFamilies families(9);
     std::vector<TrianglePair> pairs = families.nearly_touching(1000);
@@ -304,10 +304,10 @@ TEST(GuigueDevillersExact, PowersOfTwoChangeNothing) {
             const Triangle<double> b{pair.b.a * s, pair.b.b * s, pair.b.c * s};
             ASSERT_EQ(GuigueDevillersExact::intersect(a, b),
                       GuigueDevillersExact::intersect(pair.a, pair.b))
-                << for_test::print(pair) << exponent;
+                << testing::print(pair) << exponent;
             ASSERT_EQ(GuigueDevillersFiltered::intersect(a, b),
                       GuigueDevillersFiltered::intersect(pair.a, pair.b))
-                << for_test::print(pair) << exponent;
+                << testing::print(pair) << exponent;
         }
 }
 
@@ -325,7 +325,7 @@ TEST(GuigueDevillersExact, PartsMeetWhatTheWholeMeets) {
             const bool any = std::any_of(parts.begin(), parts.end(), [&](const auto& part) {
                 return GuigueDevillersExact::intersect(part, pair.b).answer == Answer::yes;
             });
-            ASSERT_EQ(any, pair.touch) << for_test::print(pair);
+            ASSERT_EQ(any, pair.touch) << testing::print(pair);
             cut += pair.touch;
         }
         EXPECT_GT(cut, at_least(30));
@@ -363,7 +363,7 @@ TEST(GuigueDevillersExact, MaybeForNonFiniteAlone) {
 TEST(GuigueDevillersExact, CoplanarDisjoint) {
     const Triangle<double> a{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     const Triangle<double> b{{10, 10, 0}, {11, 10, 0}, {10, 11, 0}};
-    EXPECT_EQ(GuigueDevillersExact::intersect(a, b), (Verdict{Answer::no, 0}));
+    EXPECT_EQ(GuigueDevillersExact::intersect(a, b), (Decision{Answer::no, 0}));
 }
 
 } // namespace

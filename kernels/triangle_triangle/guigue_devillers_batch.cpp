@@ -6,6 +6,7 @@
 #include <hwy/highway.h>
 
 #include "kernels/arithmetic/float_mode.h"
+#include "kernels/simd/vec3-inl.h"
 #include "kernels/triangle_triangle/guigue_devillers_batch.h"
 
 #include <algorithm>
@@ -15,21 +16,22 @@
 #ifndef BOXWOOD_GUIGUE_DEVILLERS_BATCH_ONCE
 #define BOXWOOD_GUIGUE_DEVILLERS_BATCH_ONCE
 namespace boxwood {
+namespace {
 
-using PassUp = Verdict (*)(const void* block, std::size_t lane, int tier);
+using PassUp = Decision (*)(const void* block, std::size_t lane, int tier);
 
-/// A lane's pair by the rung above, whose tiers are counted from `tier`. Denormal floats would be
+/// A lane's pair by the kernel above, whose tiers are counted from `tier`. Denormal floats would be
 /// lost if they were flushed on the way.
-template <class Real, class Up> Verdict pass_up(const void* block, std::size_t lane, int tier) {
+template <class Real, class Up> Decision pass_up(const void* block, std::size_t lane, int tier) {
     return without_flushing([&] {
         const auto& pairs = *static_cast<const TrianglePairBlock<Real>*>(block);
         const auto as_read = [](const Triangle<Real>& t) {
             using To = Vec3<typename Up::Real>;
             return Triangle<typename Up::Real>{To(t.a), To(t.b), To(t.c)};
         };
-        const Verdict above =
+        const Decision above =
             Up::intersect(as_read(pairs.triangle(0, lane)), as_read(pairs.triangle(1, lane)));
-        return Verdict{above.answer, static_cast<std::uint8_t>(above.tier + tier)};
+        return Decision{above.answer, static_cast<std::uint8_t>(above.tier + tier)};
     });
 }
 
@@ -51,41 +53,31 @@ template <> struct CertainSign<float> {
     static constexpr float least = 0x1p-28f, bound = 270 * 0x1p-24f, headroom = 0x1p48f;
 };
 
-static_assert(sizeof(Verdict) == sizeof(std::uint16_t) &&
-              std::bit_cast<std::uint16_t>(Verdict{}) == 0);
+static_assert(sizeof(Decision) == sizeof(std::uint16_t) &&
+              std::bit_cast<std::uint16_t>(Decision{}) == 0);
 
+} // namespace
 } // namespace boxwood
 #endif
 
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::HWY_NAMESPACE {
+namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-template <class V> struct Vector { V x, y, z; };
-template <class V> HWY_INLINE Vector<V> Sub(const Vector<V>& a, const Vector<V>& b) {
-    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-template <class V> HWY_INLINE Vector<V> Cross(const Vector<V>& a, const Vector<V>& b) {
-    return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
-            hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-            hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
-}
-template <class V> HWY_INLINE V Dot(const Vector<V>& a, const Vector<V>& b) {
-    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-template <class V> HWY_INLINE V LargestSize(V least, V a, V b, V c, V d, V e) {
+template <class V> HWY_INLINE V largest_size(V least, V a, V b, V c, V d, V e) {
     const V ab = hn::Max(hn::Abs(a), hn::Abs(b)), cd = hn::Max(hn::Abs(c), hn::Abs(d));
     return hn::Max(hn::Max(ab, cd), hn::Max(hn::Abs(e), least));
 }
 
 /// Where the sign bit is set.
-template <class D> HWY_INLINE hn::Mask<D> Negative(D d, hn::Vec<D> v) {
+template <class D> HWY_INLINE hn::Mask<D> negative(D d, hn::Vec<D> v) {
     const hn::RebindToSigned<D> di;
     return hn::RebindMask(d, hn::Lt(hn::BitCast(di, v), hn::Zero(di)));
 }
 
-template <class D> HWY_INLINE std::uint32_t Bits(D d, hn::Mask<D> mask) {
+template <class D> HWY_INLINE std::uint32_t mask_bits(D d, hn::Mask<D> mask) {
     std::uint8_t part[8] = {};
     hn::StoreMaskBits(d, mask, part);
     return part[0] | std::uint32_t{part[1]} << 8;
@@ -100,7 +92,7 @@ template <class D> struct Lone {
 
     HWY_INLINE Lone(D d, hn::Vec<D> h0, hn::Vec<D> h1, hn::Vec<D> h2)
         : differ01(hn::Xor(h0, h1)), differ02(hn::Xor(h0, h2)), differ12(hn::Xor(h1, h2)),
-          below(hn::Xor(differ01, h2)), not1(Negative(d, differ02)), not2(Negative(d, differ01)) {}
+          below(hn::Xor(differ01, h2)), not1(negative(d, differ02)), not2(negative(d, differ01)) {}
 
     /// Whether there is one: the plane passes between the corners.
     HWY_INLINE hn::Mask<D> exists() const { return hn::Or(not1, not2); }
@@ -121,43 +113,39 @@ template <class D> struct Lone {
 };
 
 /// The corners of both triangles as seen from a's first one.
-template <class D> struct Seen { Vector<hn::Vec<D>> a1, a2, b0, b1, b2; };
+template <class D> struct Seen { LaneVec3<hn::Vec<D>> a1, a2, b0, b1, b2; };
 
 /// Lanes [i, i + Lanes(d)) of a block.
 template <class D, class Real>
-HWY_INLINE Seen<D> See(D d, const TrianglePairBlock<Real>& block, std::size_t i) {
-    const auto corner = [&](int side, int k) HWY_ATTR {
-        const auto& axes = block.corner[side][k];
-        return Vector<hn::Vec<D>>{hn::Load(d, axes[0] + i), hn::Load(d, axes[1] + i),
-                                  hn::Load(d, axes[2] + i)};
-    };
-    const auto origin = corner(0, 0);
-    return {Sub(corner(0, 1), origin), Sub(corner(0, 2), origin), Sub(corner(1, 0), origin),
-            Sub(corner(1, 1), origin), Sub(corner(1, 2), origin)};
+HWY_INLINE Seen<D> seen_lanes(D d, const TrianglePairBlock<Real>& block, std::size_t i) {
+    const auto& [a, b] = block.corner;
+    const auto origin = load3(d, a[0], i);
+    return {load3(d, a[1], i) - origin, load3(d, a[2], i) - origin, load3(d, b[0], i) - origin,
+            load3(d, b[1], i) - origin, load3(d, b[2], i) - origin};
 }
 
-template <class D> struct Judgement {
+template <class D> struct Decided {
     hn::Mask<D> yes, decided; ///< yes: within decided
 };
 
-template <bool proven, class D> HWY_INLINE Judgement<D> Judge(D d, const Seen<D>& seen) {
+template <bool proven, class D> HWY_INLINE Decided<D> decide(D d, const Seen<D>& seen) {
     using V = hn::Vec<D>;
     using Real = hn::TFromD<D>;
     const auto& [a1, a2, b0, b1, b2] = seen;
     // Heights of b's corners above a's plane, times its normal.
-    const Vector<V> normal = Cross(a1, a2);
-    const V above_a0 = Dot(normal, b0), above_a1 = Dot(normal, b1), above_a2 = Dot(normal, b2);
+    const LaneVec3<V> normal = cross(a1, a2);
+    const V above_a0 = dot(normal, b0), above_a1 = dot(normal, b1), above_a2 = dot(normal, b2);
     // The sides on which the lines of edges pass each other, e . moment(f) + f . moment(e): s01_02
     // is a's edge 01 and b's edge 02. The moments of a's edges are 0, 0 and `normal`; the last
     // three sides have f . normal for differences of heights.
-    const Vector<V> moment01 = Cross(b0, b1), moment02 = Cross(b0, b2), moment12 = Cross(b1, b2);
-    const V s01_01 = Dot(a1, moment01), s01_02 = Dot(a1, moment02), s01_12 = Dot(a1, moment12);
-    const V s02_01 = Dot(a2, moment01), s02_02 = Dot(a2, moment02), s02_12 = Dot(a2, moment12);
+    const LaneVec3<V> moment01 = cross(b0, b1), moment02 = cross(b0, b2), moment12 = cross(b1, b2);
+    const V s01_01 = dot(a1, moment01), s01_02 = dot(a1, moment02), s01_12 = dot(a1, moment12);
+    const V s02_01 = dot(a2, moment01), s02_02 = dot(a2, moment02), s02_12 = dot(a2, moment12);
     const V s12_01 = hn::Add(hn::Sub(s02_01, s01_01), hn::Sub(above_a1, above_a0));
     const V s12_02 = hn::Add(hn::Sub(s02_02, s01_02), hn::Sub(above_a2, above_a0));
     const V s12_12 = hn::Add(hn::Sub(s02_12, s01_12), hn::Sub(above_a2, above_a1));
     // b's normal is moment01 + moment12 - moment02.
-    const V above_b0 = hn::Neg(Dot(b0, moment12));
+    const V above_b0 = hn::Neg(dot(b0, moment12));
     const V above_b1 = hn::Add(hn::Sub(hn::Add(s01_01, s01_12), s01_02), above_b0);
     const V above_b2 = hn::Add(hn::Sub(hn::Add(s02_01, s02_12), s02_02), above_b0);
 
@@ -165,9 +153,9 @@ template <bool proven, class D> HWY_INLINE Judgement<D> Judge(D d, const Seen<D>
     if constexpr (proven) {
         using Certain = CertainSign<Real>;
         const V least = hn::Set(d, Certain::least);
-        const V mx = LargestSize(least, a1.x, a2.x, b0.x, b1.x, b2.x);
-        const V my = LargestSize(least, a1.y, a2.y, b0.y, b1.y, b2.y);
-        const V mz = LargestSize(least, a1.z, a2.z, b0.z, b1.z, b2.z);
+        const V mx = largest_size(least, a1.x, a2.x, b0.x, b1.x, b2.x);
+        const V my = largest_size(least, a1.y, a2.y, b0.y, b1.y, b2.y);
+        const V mz = largest_size(least, a1.z, a2.z, b0.z, b1.z, b2.z);
         const V large =
             hn::Mul(hn::Mul(mx, my), hn::Mul(mz, hn::Set(d, Certain::bound * Certain::headroom)));
         bound = hn::Mul(large, hn::Set(d, 1 / Certain::headroom));
@@ -191,7 +179,7 @@ template <bool proven, class D> HWY_INLINE Judgement<D> Judge(D d, const Seen<D>
     // The common line leaves each triangle through its lone corner's two edges. Turned so that the
     // lone corners are above the planes, the intervals overlap iff each one's first edge passes the
     // other's first, and last the last, on the right side. Turning one triangle swaps its edges.
-    const auto swapped = Negative(d, hn::Xor(a.below, b.below));
+    const auto swapped = negative(d, hn::Xor(a.below, b.below));
     const V next01 = b.next(s01_01, s01_02, s01_12), last01 = b.last(s01_01, s01_02, s01_12);
     const V next02 = b.next(s02_01, s02_02, s02_12), last02 = b.last(s02_01, s02_02, s02_12);
     const V next12 = b.next(s12_01, s12_02, s12_12), last12 = b.last(s12_01, s12_02, s12_12);
@@ -203,77 +191,77 @@ template <bool proven, class D> HWY_INLINE Judgement<D> Judge(D d, const Seen<D>
     const V second_turned = hn::IfThenElse(swapped, a.next_turned(), a.last_turned());
     const V right1 = hn::Xor(hn::Xor(first, a.below), hn::Xor(first_turned, b.next_turned()));
     const V wrong2 = hn::Xor(hn::Xor(second, a.below), hn::Xor(second_turned, b.last_turned()));
-    const auto overlap = Negative(d, hn::AndNot(wrong2, right1));
+    const auto overlap = negative(d, hn::AndNot(wrong2, right1));
 
     const auto compared = hn::And(crossing, hn::And(certain(first), certain(second)));
     return {hn::And(compared, overlap), hn::Or(one_side, compared)};
 }
 
-/// Lanes [0, n) by way of see(i), the lanes [i, i + Lanes(d)): writes the verdicts of all, returns
+/// Lanes [0, n) by way of see(i), the lanes [i, i + Lanes(d)): writes the decisions of all, returns
 /// those that are not decided as bits.
 template <bool proven, class D, class See>
-HWY_INLINE std::uint32_t JudgeLanes(D d, std::size_t n, Verdict* verdicts, const See& see) {
+HWY_INLINE std::uint32_t decide_lanes(D d, std::size_t n, Decision* decisions, const See& see) {
     const hn::RebindToUnsigned<D> du;
     const hn::Rebind<std::uint16_t, D> d16;
-    constexpr auto yes = std::bit_cast<std::uint16_t>(Verdict{Answer::yes, 0});
+    constexpr auto yes = std::bit_cast<std::uint16_t>(Decision{Answer::yes, 0});
     std::uint32_t undecided_lanes = 0;
     for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
-        const Judgement<D> judgement = Judge<proven>(d, see(i));
+        const Decided<D> judgement = decide<proven>(d, see(i));
         std::uint16_t words[hn::MaxLanes(d)];
         const auto yes_lanes = hn::RebindMask(du, judgement.yes);
         hn::StoreU(hn::TruncateTo(d16, hn::IfThenElseZero(yes_lanes, hn::Set(du, yes))), d16,
                    words);
-        std::memcpy(verdicts + i, words, sizeof words);
+        std::memcpy(decisions + i, words, sizeof words);
         if (!hn::AllTrue(d, judgement.decided))
-            undecided_lanes |= Bits(d, hn::Not(judgement.decided)) << i;
+            undecided_lanes |= mask_bits(d, hn::Not(judgement.decided)) << i;
     }
     return undecided_lanes;
 }
 
 /// f(lane) for each bit.
-template <class F> HWY_INLINE void ForEachLane(std::uint32_t bits, const F& f) {
+template <class F> HWY_INLINE void for_each_lane(std::uint32_t bits, const F& f) {
     for (; bits != 0; bits &= bits - 1)
         f(static_cast<std::size_t>(std::countr_zero(bits)));
 }
 
-/// Sixteen verdicts on their way to n <= 16 places.
+/// Sixteen decisions on their way to n <= 16 places.
 class Sixteen {
   public:
-    HWY_INLINE Sixteen(Verdict* to, std::size_t n) : to_(to), n_(std::min<std::size_t>(n, 16)) {}
+    HWY_INLINE Sixteen(Decision* to, std::size_t n) : to_(to), n_(std::min<std::size_t>(n, 16)) {}
     HWY_INLINE ~Sixteen() {
         if (n_ < 16)
             std::copy_n(spare_, n_, to_);
     }
-    HWY_INLINE Verdict* data() { return n_ < 16 ? spare_ : to_; }
+    HWY_INLINE Decision* data() { return n_ < 16 ? spare_ : to_; }
     HWY_INLINE std::uint32_t among(std::uint32_t bits) const { return bits & ((1u << n_) - 1); }
 
   private:
-    Verdict* to_;
+    Decision* to_;
     std::size_t n_;
-    Verdict spare_[16];
+    Decision spare_[16];
 };
 
 template <bool proven>
-HWY_INLINE void Floats(std::span<const TrianglePairBlock<float>> blocks,
-                       std::span<Verdict> verdicts, PassUp up) {
+HWY_INLINE void decide_floats(std::span<const TrianglePairBlock<float>> blocks,
+                              std::span<Decision> decisions, PassUp up) {
     const hn::CappedTag<float, 16> d;
-    for (std::size_t k = 0; k < verdicts.size(); k += 16) {
+    for (std::size_t k = 0; k < decisions.size(); k += 16) {
         const TrianglePairBlock<float>& block = blocks[k / 16];
-        Sixteen said(&verdicts[k], verdicts.size() - k);
-        const auto see = [&](std::size_t i) HWY_ATTR { return See(d, block, i); };
-        const std::uint32_t unsure = JudgeLanes<proven>(d, 16, said.data(), see);
-        ForEachLane(said.among(unsure),
-                    [&](std::size_t lane) { said.data()[lane] = up(&block, lane, 1); });
+        Sixteen said(&decisions[k], decisions.size() - k);
+        const auto see = [&](std::size_t i) HWY_ATTR { return seen_lanes(d, block, i); };
+        const std::uint32_t unsure = decide_lanes<proven>(d, 16, said.data(), see);
+        for_each_lane(said.among(unsure),
+                      [&](std::size_t lane) { said.data()[lane] = up(&block, lane, 1); });
     }
 }
 
-void FloatPairs(std::span<const TrianglePairBlock<float>> blocks, std::span<Verdict> verdicts,
-                PassUp up) {
-    Floats<false>(blocks, verdicts, up);
+void float_pairs(std::span<const TrianglePairBlock<float>> blocks, std::span<Decision> decisions,
+                 PassUp up) {
+    decide_floats<false>(blocks, decisions, up);
 }
-void ProvenFloatPairs(std::span<const TrianglePairBlock<float>> blocks, std::span<Verdict> verdicts,
-                      PassUp up) {
-    Floats<true>(blocks, verdicts, up);
+void proven_float_pairs(std::span<const TrianglePairBlock<float>> blocks,
+                        std::span<Decision> decisions, PassUp up) {
+    decide_floats<true>(blocks, decisions, up);
 }
 
 /// Sixteen pairs of doubles, rounded to floats after their difference to a's first corner: the
@@ -284,7 +272,7 @@ struct alignas(64) RoundedPairs {
     HWY_INLINE void round(const TrianglePairBlock<double>& block, std::size_t at) {
         const hn::CappedTag<double, 8> d;
         for (std::size_t i = 0; i < 8; i += hn::Lanes(d)) {
-            const auto seen = See(d, block, i);
+            const auto seen = seen_lanes(d, block, i);
             put(d, 0, at + i, seen.a1);
             put(d, 1, at + i, seen.a2);
             put(d, 2, at + i, seen.b0);
@@ -293,15 +281,13 @@ struct alignas(64) RoundedPairs {
         }
     }
     template <class D> HWY_INLINE Seen<D> see(D d, std::size_t i) const {
-        const auto get = [&](int k) HWY_ATTR {
-            return Vector<hn::Vec<D>>{hn::Load(d, corner[k][0] + i), hn::Load(d, corner[k][1] + i),
-                                      hn::Load(d, corner[k][2] + i)};
-        };
-        return {get(0), get(1), get(2), get(3), get(4)};
+        return {load3(d, corner[0], i), load3(d, corner[1], i), load3(d, corner[2], i),
+                load3(d, corner[3], i), load3(d, corner[4], i)};
     }
 
   private:
-    template <class D> HWY_INLINE void put(D, int k, std::size_t at, const Vector<hn::Vec<D>>& v) {
+    template <class D>
+    HWY_INLINE void put(D, int k, std::size_t at, const LaneVec3<hn::Vec<D>>& v) {
         const hn::Rebind<float, D> df;
         hn::StoreU(hn::DemoteTo(df, v.x), df, corner[k][0] + at);
         hn::StoreU(hn::DemoteTo(df, v.y), df, corner[k][1] + at);
@@ -309,27 +295,27 @@ struct alignas(64) RoundedPairs {
     }
 };
 
-/// Lanes that the floats leave open: by their doubles, then by the rung above.
-HWY_NOINLINE void Reconsider(const TrianglePairBlock<double>& block, std::uint32_t lanes,
-                             Verdict* verdicts, PassUp up) {
+/// Lanes that the floats leave open: by their doubles, then by the kernel above.
+HWY_NOINLINE void reconsider(const TrianglePairBlock<double>& block, std::uint32_t lanes,
+                             Decision* decisions, PassUp up) {
     const hn::CappedTag<double, 8> d;
-    Verdict said[8];
-    const auto see = [&](std::size_t i) HWY_ATTR { return See(d, block, i); };
-    const std::uint32_t unsure = JudgeLanes<true>(d, 8, said, see);
-    ForEachLane(lanes, [&](std::size_t lane) {
+    Decision said[8];
+    const auto see = [&](std::size_t i) HWY_ATTR { return seen_lanes(d, block, i); };
+    const std::uint32_t unsure = decide_lanes<true>(d, 8, said, see);
+    for_each_lane(lanes, [&](std::size_t lane) {
         const bool sure = (unsure >> lane & 1) == 0;
-        verdicts[lane] = sure ? Verdict{said[lane].answer, 1} : up(&block, lane, 2);
+        decisions[lane] = sure ? Decision{said[lane].answer, 1} : up(&block, lane, 2);
     });
 }
 
-void ProvenDoublePairs(std::span<const TrianglePairBlock<double>> blocks,
-                       std::span<Verdict> verdicts, PassUp up) {
+void proven_double_pairs(std::span<const TrianglePairBlock<double>> blocks,
+                         std::span<Decision> decisions, PassUp up) {
     // Rounded and judged in turns of 64 pairs: a float that was only just stored loads slowly.
     constexpr std::size_t sixteens = 4, turn = 16 * sixteens;
     const hn::CappedTag<float, 16> d;
     RoundedPairs rounded[sixteens];
-    for (std::size_t k = 0; k < verdicts.size(); k += turn) {
-        const std::size_t n = std::min(verdicts.size() - k, turn);
+    for (std::size_t k = 0; k < decisions.size(); k += turn) {
+        const std::size_t n = std::min(decisions.size() - k, turn);
         const auto block = [&](std::size_t i) HWY_ATTR -> const TrianglePairBlock<double>& {
             return blocks[(k + std::min(i, n - 1)) / 8]; // the last one twice
         };
@@ -338,41 +324,43 @@ void ProvenDoublePairs(std::span<const TrianglePairBlock<double>> blocks,
             rounded[i / 16].round(block(i + 8), 8);
         }
         for (std::size_t i = 0; i < n; i += 16) {
-            Sixteen said(&verdicts[k + i], n - i);
+            Sixteen said(&decisions[k + i], n - i);
             const auto see = [&](std::size_t j) HWY_ATTR { return rounded[i / 16].see(d, j); };
-            const std::uint32_t unsure = said.among(JudgeLanes<true>(d, 16, said.data(), see));
+            const std::uint32_t unsure = said.among(decide_lanes<true>(d, 16, said.data(), see));
             if ((unsure & 0xff) != 0)
-                Reconsider(block(i), unsure & 0xff, said.data(), up);
+                reconsider(block(i), unsure & 0xff, said.data(), up);
             if (unsure >> 8 != 0)
-                Reconsider(block(i + 8), unsure >> 8, said.data() + 8, up);
+                reconsider(block(i + 8), unsure >> 8, said.data() + 8, up);
         }
     }
 }
 
+} // namespace
 } // namespace boxwood::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace boxwood {
-HWY_EXPORT(FloatPairs);
-HWY_EXPORT(ProvenFloatPairs);
-HWY_EXPORT(ProvenDoublePairs);
+HWY_EXPORT(float_pairs);
+HWY_EXPORT(proven_float_pairs);
+HWY_EXPORT(proven_double_pairs);
 
 template <>
 void GuigueDevillersF32Batch::intersect(std::span<const TrianglePairBlock<float>> blocks,
-                                        std::span<Verdict> verdicts) {
-    HWY_DYNAMIC_DISPATCH(FloatPairs)(blocks, verdicts, pass_up<float, GuigueDevillersF32>);
+                                        std::span<Decision> decisions) {
+    HWY_DYNAMIC_DISPATCH(float_pairs)(blocks, decisions, pass_up<float, GuigueDevillersF32>);
 }
 template <>
 void GuigueDevillersExactF32Batch::intersect(std::span<const TrianglePairBlock<float>> blocks,
-                                             std::span<Verdict> verdicts) {
-    HWY_DYNAMIC_DISPATCH(ProvenFloatPairs)(blocks, verdicts, pass_up<float, GuigueDevillersExact>);
+                                             std::span<Decision> decisions) {
+    HWY_DYNAMIC_DISPATCH(proven_float_pairs)
+    (blocks, decisions, pass_up<float, GuigueDevillersExact>);
 }
 template <>
 void GuigueDevillersExactBatch::intersect(std::span<const TrianglePairBlock<double>> blocks,
-                                          std::span<Verdict> verdicts) {
-    HWY_DYNAMIC_DISPATCH(ProvenDoublePairs)
-    (blocks, verdicts, pass_up<double, GuigueDevillersExact>);
+                                          std::span<Decision> decisions) {
+    HWY_DYNAMIC_DISPATCH(proven_double_pairs)
+    (blocks, decisions, pass_up<double, GuigueDevillersExact>);
 }
 
 } // namespace boxwood

@@ -11,9 +11,9 @@ namespace boxwood {
 
 /// The interval test of guigue_devillers.h on 16 pairs at a time, without a branch, in floats (to
 /// which doubles are rounded, as seen from a corner). Lanes with a sign that is not certain pass
-/// up: of doubles, to the same in doubles; then to the rung `Up`. If Up is exact, certain means
+/// up: of doubles, to the same in doubles; then to the kernel `Up`. If Up is exact, certain means
 /// proven, and so is the batch; else it means not zero, NaN or infinite. Tiers in this order. The
-/// verdicts are the same for every instruction set, and for one pair. Source: Guigue, Devillers
+/// decisions are the same for every instruction set, and for one pair. Source: Guigue, Devillers
 /// 2003.
 template <class R, TriangleKernel Up> struct GuigueDevillersBatch {
   private:
@@ -34,20 +34,20 @@ template <class R, TriangleKernel Up> struct GuigueDevillersBatch {
         name,
         Joined<begin, Up::name>::value,
         Up::info.promise,
-        exact ? "270u * (product of the largest |differences| per axis), else the rung above; "
+        exact ? "270u * (product of the largest |differences| per axis), else the kernel above; "
                 "derived in triangle_triangle/guigue_devillers_batch.cpp"
               : Up::info.bound,
         "about 230 vector operations for 16"};
 
-    static Verdict intersect(const Triangle<Real>& a, const Triangle<Real>& b) {
+    static Decision intersect(const Triangle<Real>& a, const Triangle<Real>& b) {
         TrianglePairBlock<Real> block{};
         block.set(0, a, b);
-        Verdict verdict;
-        intersect({&block, 1}, {&verdict, 1});
-        return verdict;
+        Decision decision;
+        intersect({&block, 1}, {&decision, 1});
+        return decision;
     }
     static void intersect(std::span<const TrianglePairBlock<Real>> blocks,
-                          std::span<Verdict> verdicts);
+                          std::span<Decision> decisions);
 };
 
 using GuigueDevillersF32Batch = GuigueDevillersBatch<float, GuigueDevillersF32>;

@@ -1,7 +1,7 @@
 #include "kernels/triangle_triangle/guigue_devillers_batch.h"
 
-#include "kernels/testing/every_target.h"
 #include "kernels/arithmetic/float_mode.h"
+#include "kernels/testing/every_target.h"
 #include "kernels/testing/triangle_pairs.h"
 
 #include <gtest/gtest.h>
@@ -11,11 +11,11 @@
 namespace boxwood {
 namespace {
 
-using for_test::as;
-using for_test::Kept;
-using for_test::PairFamilies;
-using for_test::print;
-using for_test::TrianglePair;
+using testing::as;
+using testing::Kept;
+using testing::PairFamilies;
+using testing::print;
+using testing::TrianglePair;
 
 static_assert(TriangleBatchKernel<GuigueDevillersF32Batch>);
 static_assert(TriangleBatchKernel<GuigueDevillersExactF32Batch>);
@@ -36,9 +36,9 @@ template <class K> struct Blocks {
             blocks[i / Block::lanes].set(i % Block::lanes, as<Real>(pairs[i].a),
                                          as<Real>(pairs[i].b));
     }
-    std::vector<Verdict> verdicts(std::size_t n) const {
-        constexpr Verdict unwritten{Answer::maybe, 99};
-        std::vector<Verdict> all(n + 1, unwritten);
+    std::vector<Decision> decisions(std::size_t n) const {
+        constexpr Decision unwritten{Answer::maybe, 99};
+        std::vector<Decision> all(n + 1, unwritten);
         K::intersect(blocks, {all.data(), n});
         EXPECT_EQ(all.back(), unwritten);
         all.pop_back();
@@ -46,7 +46,7 @@ template <class K> struct Blocks {
     }
 };
 
-template <class K> class Batch : public testing::Test {
+template <class K> class Batch : public ::testing::Test {
   protected:
     static constexpr bool floats = std::is_same_v<typename K::Real, float>;
     static constexpr bool exact = K::info.promise == Promise::exact;
@@ -54,12 +54,12 @@ template <class K> class Batch : public testing::Test {
 
     static PairFamilies families(std::uint64_t seed) { return PairFamilies(seed, kept); }
 
-    /// The same verdicts on every instruction set, with denormals flushed or not (if exact) and one
-    /// by one. Returns them.
-    static std::vector<Verdict> verdicts(const std::vector<TrianglePair>& pairs) {
+    /// The same decisions on every instruction set, with denormals flushed or not (if exact) and
+    /// one by one. Returns them.
+    static std::vector<Decision> decisions(const std::vector<TrianglePair>& pairs) {
         const Blocks<K> blocks(pairs);
-        const std::vector<Verdict> best = blocks.verdicts(pairs.size());
-        on_every_target([&] { EXPECT_EQ(blocks.verdicts(pairs.size()), best); });
+        const std::vector<Decision> best = blocks.decisions(pairs.size());
+        on_every_target([&] { EXPECT_EQ(blocks.decisions(pairs.size()), best); });
         for (std::size_t i = 0; i < pairs.size(); ++i) {
             const auto one =
                 K::intersect(as<typename K::Real>(pairs[i].a), as<typename K::Real>(pairs[i].b));
@@ -68,10 +68,10 @@ template <class K> class Batch : public testing::Test {
                 break;
         }
         if (exact) {
-            std::vector<Verdict> flushed;
+            std::vector<Decision> flushed;
             {
                 const DenormalFlushing mode(true);
-                flushed = blocks.verdicts(pairs.size());
+                flushed = blocks.decisions(pairs.size());
             }
             EXPECT_EQ(flushed, best);
         }
@@ -84,7 +84,7 @@ template <class K> class Batch : public testing::Test {
     };
     static Tally judge(const std::vector<TrianglePair>& pairs) {
         Tally tally;
-        const std::vector<Verdict> said = verdicts(pairs);
+        const std::vector<Decision> said = decisions(pairs);
         for (std::size_t i = 0; i < pairs.size(); ++i) {
             const bool wrong = said[i].answer == (pairs[i].touch ? Answer::no : Answer::yes);
             if (wrong && tally.wrong == 0 && exact)
@@ -96,8 +96,8 @@ template <class K> class Batch : public testing::Test {
         return tally;
     }
 };
-using Kernels = testing::Types<GuigueDevillersF32Batch, GuigueDevillersExactF32Batch,
-                               GuigueDevillersExactBatch>;
+using Kernels = ::testing::Types<GuigueDevillersF32Batch, GuigueDevillersExactF32Batch,
+                                 GuigueDevillersExactBatch>;
 TYPED_TEST_SUITE(Batch, Kernels);
 
 TYPED_TEST(Batch, ExactOnSmallIntegers) {
@@ -171,11 +171,11 @@ TYPED_TEST(Batch, Magnitudes) {
 TYPED_TEST(Batch, WritesNoMoreThanAsked) {
     const auto pairs = this->families(3).grid(40, 3);
     const Blocks<TypeParam> blocks(pairs);
-    const std::vector<Verdict> all = blocks.verdicts(pairs.size());
+    const std::vector<Decision> all = blocks.decisions(pairs.size());
     on_every_target([&] {
         for (std::size_t n = 0; n <= pairs.size(); ++n)
-            EXPECT_EQ(blocks.verdicts(n),
-                      std::vector<Verdict>(all.begin(), all.begin() + std::ptrdiff_t(n)));
+            EXPECT_EQ(blocks.decisions(n),
+                      std::vector<Decision>(all.begin(), all.begin() + std::ptrdiff_t(n)));
     });
 }
 
@@ -187,7 +187,7 @@ TYPED_TEST(Batch, MaybeForNanAndInfinity) {
     constexpr Real inf = std::numeric_limits<Real>::infinity(),
                    nan = std::numeric_limits<Real>::quiet_NaN();
     std::vector<Real> bad{nan};
-    if (this->exact) // the rung above the other one judges infinity as it can
+    if (this->exact) // the kernel above the other one judges infinity as it can
         bad.insert(bad.end(), {inf, -inf});
     on_every_target([&] {
         for (const Real x : bad)

@@ -195,7 +195,7 @@ template <class Shape> Judge random_pairs(int n, int size, Shape shape) {
         Corners a = random.triangle(size), b = random.triangle(size);
         shape(a, b, random);
         judge(a, b);
-        if (testing::Test::HasFatalFailure())
+        if (::testing::Test::HasFatalFailure())
             break;
     }
     EXPECT_GT(judge.yes, n / 100);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/predicates/rounded.h"
-#include "kernels/triangle_triangle/flat.h"
+#include "kernels/triangle_triangle/detail/flat.h"
 #include "kernels/triangle_triangle/triangle_kernel.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ template <class RealT> struct Moller {
         "none: the interval ends cancel without limit as the planes become parallel",
         "about 150 flops"};
 
-    static Verdict intersect(const Triangle<Real>& a, const Triangle<Real>& b) {
+    static Decision intersect(const Triangle<Real>& a, const Triangle<Real>& b) {
         return {answer(a, b), 0};
     }
 
@@ -53,8 +53,8 @@ template <class RealT> struct Moller {
             return no_if_finite(of_b[0] + of_b[1] + of_b[2]);
         // Coplanar, or one of them has no plane.
         if (of_a == Heights{} || of_b == Heights{}) {
-            Signs<Rounded<Real>> signs(a, b);
-            return FlatPair<Signs<Rounded<Real>>>::meet(signs);
+            detail::Signs<Rounded<Real>> signs(a, b);
+            return detail::FlatPair<detail::Signs<Rounded<Real>>>::meet(signs);
         }
 
         const Vector line = cross(n1, n2);

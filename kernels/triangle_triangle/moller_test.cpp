@@ -9,15 +9,15 @@
 namespace boxwood {
 namespace {
 
-using for_test::as;
-using for_test::Kept;
-using for_test::PairFamilies;
-using for_test::print;
-using for_test::TrianglePair;
+using testing::as;
+using testing::Kept;
+using testing::PairFamilies;
+using testing::print;
+using testing::TrianglePair;
 
 static_assert(TriangleKernel<MollerF32> && TriangleKernel<MollerF64>);
 
-template <class K> class MollerRungs : public testing::Test {
+template <class K> class MollerKernels : public ::testing::Test {
   protected:
     static constexpr Kept kept =
         std::is_same_v<typename K::Real, float> ? Kept::as_float : Kept::as_double;
@@ -33,32 +33,32 @@ template <class K> class MollerRungs : public testing::Test {
         return n / double(pairs.size());
     }
 };
-using Kernels = testing::Types<MollerF32, MollerF64>;
-TYPED_TEST_SUITE(MollerRungs, Kernels);
+using Kernels = ::testing::Types<MollerF32, MollerF64>;
+TYPED_TEST_SUITE(MollerKernels, Kernels);
 
-TYPED_TEST(MollerRungs, ExactOnSmallIntegers) {
+TYPED_TEST(MollerKernels, ExactOnSmallIntegers) {
     for (const int size : {1, 2, 4, this->kept == Kept::as_float ? 3 : 64})
         for (const TrianglePair& pair : PairFamilies(std::uint64_t(size)).grid(6000, size))
             ASSERT_EQ(this->answer(pair), pair.touch ? Answer::yes : Answer::no) << print(pair);
 }
 
-TYPED_TEST(MollerRungs, GenericPairs) {
+TYPED_TEST(MollerKernels, GenericPairs) {
     EXPECT_LT(this->wrong(PairFamilies(1, this->kept).generic(10000)), 1e-3);
 }
 
-TYPED_TEST(MollerRungs, PromisesNothingNearTouch) {
+TYPED_TEST(MollerKernels, PromisesNothingNearTouch) {
     const double wrong = this->wrong(PairFamilies(1, this->kept).nearly_touching(4000));
     EXPECT_GT(wrong, 0.01);
     EXPECT_LT(wrong, 0.5);
 }
 
-TYPED_TEST(MollerRungs, PowersOfTwoChangeNothing) {
+TYPED_TEST(MollerKernels, PowersOfTwoChangeNothing) {
     const int most = this->kept == Kept::as_float ? 8 : 60;
     for (const int exponent : {-most, most})
         EXPECT_EQ(this->wrong(PairFamilies(2, this->kept).grid(4000, 4, exponent)), 0);
 }
 
-TYPED_TEST(MollerRungs, MaybeForNanInfinityAndOverflow) {
+TYPED_TEST(MollerKernels, MaybeForNanInfinityAndOverflow) {
     using Real = typename TypeParam::Real;
     const Triangle<Real> good{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     const Triangle<Real> far{{0, 0, 9}, {1, 0, 9}, {0, 1, 9}};

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/triangle_triangle/sat_axes.h"
+#include "kernels/triangle_triangle/detail/sat_axes.h"
 #include "kernels/triangle_triangle/triangle_kernel.h"
 
 #include <algorithm>
@@ -23,10 +23,10 @@ struct SatF64 {
                                      "none: an axis is lost to rounding where its gap is small",
                                      "about 600 flops"};
 
-    static Verdict intersect(const Triangle<double>& a, const Triangle<double>& b) {
-        const SatPair pair(a, b);
+    static Decision intersect(const Triangle<double>& a, const Triangle<double>& b) {
+        const detail::SatPair pair(a, b);
         double size = 0; // infinite or NaN if any projection is
-        const bool apart = any_axis(pair, [&](const Vec3<double>& axis) {
+        const bool apart = detail::any_axis(pair, [&](const Vec3<double>& axis) {
             const double a1 = dot(axis, pair.a[1]), a2 = dot(axis, pair.a[2]);
             const double b0 = dot(axis, pair.b[0]), b1 = dot(axis, pair.b[1]),
                          b2 = dot(axis, pair.b[2]);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/arithmetic/float_mode.h"
-#include "kernels/triangle_triangle/sat_axes.h"
+#include "kernels/triangle_triangle/detail/sat_axes.h"
 #include "kernels/triangle_triangle/triangle_kernel.h"
 
 #include <algorithm>
@@ -27,11 +27,11 @@ struct SatCertified {
         "triangle_triangle/sat_certified.h",
         "about 800 flops"};
 
-    static Verdict intersect(const Triangle<double>& a, const Triangle<double>& b) {
+    static Decision intersect(const Triangle<double>& a, const Triangle<double>& b) {
         for (const Triangle<double>* t : {&a, &b})
             if (!is_finite(t->a) || !is_finite(t->b) || !is_finite(t->c))
                 return {Answer::maybe, 0};
-        return without_flushing([&] { return Verdict{at_any_scale(a, b), 0}; });
+        return without_flushing([&] { return Decision{at_any_scale(a, b), 0}; });
     }
 
   private:
@@ -79,7 +79,7 @@ struct SatCertified {
     }
 
     static Answer at_this_scale(const Triangle<double>& a, const Triangle<double>& b) {
-        const SatPair pair(a, b);
+        const detail::SatPair pair(a, b);
         const auto extent = [&](int k) {
             return std::max({std::abs(pair.a[1][k]), std::abs(pair.a[2][k]), std::abs(pair.b[0][k]),
                              std::abs(pair.b[1][k]), std::abs(pair.b[2][k])});
@@ -88,7 +88,7 @@ struct SatCertified {
         const double clear = overlap_bound * mx * my * mz + overlap_underflow;
         int axes = 0, overlapping = 0;
         Answer answer = Answer::maybe;
-        any_axis(pair, [&](const Vec3<double>& n) {
+        detail::any_axis(pair, [&](const Vec3<double>& n) {
             const double a1 = dot(n, pair.a[1]), a2 = dot(n, pair.a[2]);
             const double b0 = dot(n, pair.b[0]), b1 = dot(n, pair.b[1]), b2 = dot(n, pair.b[2]);
             const double low_a = std::min({0.0, a1, a2}), high_a = std::max({0.0, a1, a2});

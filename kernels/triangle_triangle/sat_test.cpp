@@ -11,9 +11,9 @@
 namespace boxwood {
 namespace {
 
-using for_test::PairFamilies;
-using for_test::print;
-using for_test::TrianglePair;
+using testing::PairFamilies;
+using testing::print;
+using testing::TrianglePair;
 
 static_assert(TriangleKernel<SatF64> && TriangleKernel<SatCertified>);
 
@@ -51,7 +51,7 @@ Sureness judge(const std::vector<TrianglePair>& pairs) {
         }
         EXPECT_EQ(flushed, kept) << print(pair);
         (kept == Answer::yes ? sure.yes : kept == Answer::no ? sure.no : sure.maybe)++;
-        if (testing::Test::HasFailure())
+        if (::testing::Test::HasFailure())
             break;
     }
     return sure;

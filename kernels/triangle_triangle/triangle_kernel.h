@@ -1,24 +1,21 @@
 #pragma once
 
+#include "kernels/decision.h"
 #include "kernels/primitives/triangle.h"
-#include "kernels/verdict.h"
 
 #include <concepts>
 #include <cstddef>
 #include <span>
-#include <string_view>
 
 namespace boxwood {
 
-/// Whether two closed triangles share a point, at the rung that K::info states. K::Real (float or
-/// double) is what it reads. Triangles may be degenerate. The answer is `maybe` where the rung
-/// cannot decide, and for NaN.
+/// Whether two closed triangles share a point, with the accuracy that K::info states. K::Real
+/// (float or double) is what it reads. Triangles may be degenerate. The answer is `maybe` where the
+/// kernel cannot decide, and for NaN.
 template <class K>
-concept TriangleKernel = requires(const Triangle<typename K::Real>& a,
-                                  const Triangle<typename K::Real>& b) {
-    { K::name } -> std::convertible_to<std::string_view>;
-    { K::info } -> std::convertible_to<KernelInfo>;
-    { K::intersect(a, b) } -> std::same_as<Verdict>;
+concept TriangleKernel = DescribedKernel<K> &&
+    requires(const Triangle<typename K::Real>& a, const Triangle<typename K::Real>& b) {
+    { K::intersect(a, b) } -> std::same_as<Decision>;
 };
 
 /// Pairs side by side for SIMD: `lanes` is 16 for float, 8 for double.
@@ -45,12 +42,12 @@ template <class Real> struct alignas(64) TrianglePairBlock {
 };
 
 /// A TriangleKernel that also answers many pairs at a time, the same as one by one.
-/// verdicts.size() <= blocks.size() * lanes; lanes beyond it are read but not answered.
+/// decisions.size() <= blocks.size() * lanes; lanes beyond it are read but not answered.
 template <class K>
 concept TriangleBatchKernel = TriangleKernel<K> &&
     requires(std::span<const TrianglePairBlock<typename K::Real>> blocks,
-             std::span<Verdict> verdicts) {
-    K::intersect(blocks, verdicts);
+             std::span<Decision> decisions) {
+    K::intersect(blocks, decisions);
 };
 
 } // namespace boxwood

@@ -1,5 +1,5 @@
 /// The registry of effects. To add one: write effects/NAME.cpp, which defines
-/// `EffectEntry NAME_effect()`, and add its word here.
+/// `EffectEntry NAME_effect()`, and add its name here.
 
 #include "scenes/effects/effect.h"
 
@@ -16,19 +16,19 @@
 
 namespace boxwood {
 
-#define X(word) EffectEntry word##_effect();
+#define X(name) EffectEntry name##_effect();
 BOXWOOD_EFFECTS(X)
 #undef X
 
 std::span<const EffectEntry> effects() {
-#define X(word) word##_effect(),
+#define X(name) name##_effect(),
     static const EffectEntry entries[] = {BOXWOOD_EFFECTS(X)};
 #undef X
     return entries;
 }
 
-const EffectEntry& effect_of(std::string_view word) {
-    return entry_named(word, effects(), "effect");
+const EffectEntry& effect_of(std::string_view name) {
+    return entry_named(name, effects(), "effect");
 }
 
 double wave(double quarters) {

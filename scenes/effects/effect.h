@@ -28,14 +28,15 @@ struct Changes {
     constexpr bool operator==(const Changes&) const = default;
 };
 
-/// The moment at which an effect is asked to act.
+/// The moment at which an effect acts.
 struct Moment {
     Bodies& bodies;
-    std::span<const std::uint32_t> chosen; ///< the bodies it is laid on, ascending: no other changes
-    Changed& changed;                      ///< what it must list: bodies it changed, but velocity
-    Random random;                         ///< its own numbers
-    std::uint64_t frame;                   ///< from 1; 0 at the start
-    double dt;                             ///< seconds from frame to frame
+    std::span<const std::uint32_t>
+        chosen;          ///< the bodies it is laid on, ascending: no other changes
+    Changed& changed;    ///< what it must list: bodies it changed, but velocity
+    Random random;       ///< its own numbers
+    std::uint64_t frame; ///< from 1; 0 at the start
+    double dt;           ///< seconds from frame to frame
 
     /// The numbers of one body in this frame alone.
     Draws draws(std::uint32_t body) const { return random.item(frame << 32 | body); }
@@ -70,11 +71,11 @@ struct EffectEntry {
 };
 std::span<const EffectEntry> effects();
 
-/// The row of a word. Throws std::invalid_argument, with a suggestion, for an unknown one.
-const EffectEntry& effect_of(std::string_view word);
+/// The row of that name. Throws std::invalid_argument, with a suggestion, for an unknown one.
+const EffectEntry& effect_of(std::string_view name);
 
 /// The registry row of an Effect type. An effect NAME is the file effects/NAME.cpp, which defines
-/// `EffectEntry NAME_effect()` by this, and the word X(NAME) in effect.cpp.
+/// `EffectEntry NAME_effect()` by this, and the name X(NAME) in effect.cpp.
 template <Effect E> EffectEntry effect_entry() {
     struct Running final : RunningEffect {
         explicit Running(const E& made) : effect(made) {}

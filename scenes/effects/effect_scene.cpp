@@ -2,6 +2,7 @@
 
 #include "scenes/atom.h"
 #include "scenes/effects/effect.h"
+#include "scenes/human_name.h"
 
 #include <fmt/format.h>
 
@@ -32,13 +33,16 @@ SceneFile effect_scene(const SceneSpec& spec, std::span<const EffectChoice> effe
                         "as uniform, or write a scene file",
                         spec.generator));
     for (const auto& [name, settings, share] : effects) {
-        effect_of(name).make(settings); // throws for a bad word or setting
+        effect_of(name).make(settings); // throws for a bad name or setting
         file.name += '_' + name;
         for (const auto& [setting, value] : settings)
             file.name += '_' + setting + value_atom(value);
         if (share != 1)
             file.name += "_share" + atom(share);
     }
+    file.title = generator_title(spec, *entry);
+    for (const EffectChoice& effect : effects)
+        file.title += ", " + effect_title(effect);
     file.summary = fmt::format("{} with effects", spec.generator);
     file.n = spec.n;
     file.seed = spec.seed;

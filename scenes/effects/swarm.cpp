@@ -27,7 +27,7 @@ struct Swarm {
             static_cast<std::uint64_t>(static_cast<double>(moment.frame) * moment.dt / period);
         const Vec3<double> extent = bodies.room.max - bodies.room.min;
         const double fastest = speed * bodies.side;
-        const double most_change = 4 * fastest * moment.dt; // full speed after a quarter second
+        const double max_change = 4 * fastest * moment.dt; // full speed after a quarter second
         Vec3<double> goal{};
         std::uint64_t goal_of = ~std::uint64_t{0};
         for (const std::uint32_t i : moment.chosen) {
@@ -42,7 +42,7 @@ struct Swarm {
             const Vec3<double> way = goal + place - bodies.pose[i].translation;
             const Vec3<double> wanted = limited(way * (1 / (moment.dt * 8)), fastest);
             Vec3<double>& velocity = bodies.velocity[i];
-            velocity = velocity + limited(wanted - velocity, most_change);
+            velocity = velocity + limited(wanted - velocity, max_change);
         }
     }
 

@@ -7,6 +7,7 @@ namespace {
 /// A third each; planks have the volume of bars.
 struct Assorted {
     static constexpr std::string_view name = "assorted";
+    static constexpr std::string_view human_name = "{n} cubes, bars and planks";
     static constexpr std::string_view summary =
         "n cubes, bars 15.2 x 0.4 x 0.4 and planks along the axes (Broadmark; overlaps unused)";
     static constexpr bool has_mesh = false, uses_overlaps = false;

@@ -7,6 +7,7 @@ namespace {
 /// Bars about 20 times as long as thick, one third along each axis.
 struct Bars {
     static constexpr std::string_view name = "bars";
+    static constexpr std::string_view human_name = "{n} long bars";
     static constexpr std::string_view summary =
         "n long thin boxes (about 20:1:1) along the three axes in the unit cube";
     static constexpr bool has_mesh = false, uses_overlaps = true;

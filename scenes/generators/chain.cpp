@@ -7,6 +7,7 @@ namespace {
 /// The robot of four_link.h with n links: half a metre from joint to joint.
 struct Chain {
     static constexpr std::string_view name = "chain";
+    static constexpr std::string_view human_name = "straight arm of {n} links";
     static constexpr std::string_view summary =
         "the n link boxes of a straight arm, each overlapping its neighbours (overlaps unused)";
     static constexpr bool has_mesh = false, uses_overlaps = false;

@@ -8,6 +8,7 @@ namespace {
 /// A square sheet of m x m squares, two triangles each, their diagonals by turns.
 struct Cloth {
     static constexpr std::string_view name = "cloth";
+    static constexpr std::string_view human_name = "flat cloth of {n} triangles";
     static constexpr std::string_view summary =
         "a flat square sheet of about n triangles, 3 units wide (seed and overlaps unused)";
     static constexpr bool has_mesh = true, uses_overlaps = false;

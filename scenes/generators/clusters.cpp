@@ -74,6 +74,7 @@ double clusters_scale(const SceneSpec& spec, std::span<const Cluster> clusters) 
 /// Dense clusters of very different size and density on a sparse background.
 struct Clusters {
     static constexpr std::string_view name = "clusters";
+    static constexpr std::string_view human_name = "{n} clustered boxes";
     static constexpr std::string_view summary =
         "n boxes in 16 clusters of densities 1:1000 and a sparse background in the unit cube";
     static constexpr bool has_mesh = false, uses_overlaps = true;

@@ -6,6 +6,7 @@ namespace {
 
 struct Cubes {
     static constexpr std::string_view name = "cubes";
+    static constexpr std::string_view human_name = "{n} unit cubes";
     static constexpr std::string_view summary =
         "n unit cubes in a cube ten times their volume (Broadmark; overlaps unused)";
     static constexpr bool has_mesh = false, uses_overlaps = false;

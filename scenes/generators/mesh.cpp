@@ -1,5 +1,5 @@
-#include "scenes/registry.h"
 #include "scenes/meshes/mesh_file.h"
+#include "scenes/registry.h"
 
 #include <fmt/format.h>
 
@@ -11,6 +11,7 @@ namespace {
 /// The user's own mesh.
 struct Mesh {
     static constexpr std::string_view name = "mesh";
+    static constexpr std::string_view human_name = "mesh {file}";
     static constexpr std::string_view summary =
         "the triangles of a file: OBJ, PLY, STL, ... (n, seed and overlaps unused)";
     static constexpr bool has_mesh = true, uses_overlaps = false;

@@ -8,6 +8,7 @@ namespace {
 /// h |d| + 1 per axis: mostly empty, as the boxes of cables, pipes and hair are.
 struct Needles {
     static constexpr std::string_view name = "needles";
+    static constexpr std::string_view human_name = "{n} needles";
     static constexpr std::string_view summary =
         "n boxes of thin bodies (about 20:1) in random directions in the unit cube";
     static constexpr bool has_mesh = false, uses_overlaps = true;

@@ -7,6 +7,7 @@ namespace {
 /// Planks about 20 times as long and wide as thick, one third across each axis.
 struct Planks {
     static constexpr std::string_view name = "planks";
+    static constexpr std::string_view human_name = "{n} flat planks";
     static constexpr std::string_view summary =
         "n flat wide boxes (about 20:20:1) across the three axes in the unit cube";
     static constexpr bool has_mesh = false, uses_overlaps = true;

@@ -7,6 +7,7 @@ namespace {
 /// Triangles that nearly all of their boxes is empty of: hard on every tree of boxes.
 struct SliverMesh {
     static constexpr std::string_view name = "sliver_mesh";
+    static constexpr std::string_view human_name = "{n} sliver triangles";
     static constexpr std::string_view summary =
         "n unconnected triangles, long and thin (100:1), in random directions in the unit cube";
     static constexpr bool has_mesh = true, uses_overlaps = true;

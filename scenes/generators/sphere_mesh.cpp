@@ -66,6 +66,7 @@ struct OctahedronGrid {
 /// triangles wind counter-clockwise seen from outside.
 struct SphereMesh {
     static constexpr std::string_view name = "sphere_mesh";
+    static constexpr std::string_view human_name = "sphere mesh, {n} triangles";
     static constexpr std::string_view summary =
         "a closed bumpy sphere of 8 f^2 triangles, f^2 nearest to n / 8";
     static constexpr bool has_mesh = true, uses_overlaps = false;

@@ -7,6 +7,7 @@ namespace {
 /// Unconnected triangles of any shape: three corners uniform in a cube.
 struct TriangleSoup {
     static constexpr std::string_view name = "triangle_soup";
+    static constexpr std::string_view human_name = "triangle soup, {n} triangles";
     static constexpr std::string_view summary =
         "n unconnected small triangles of random shape in the unit cube";
     static constexpr bool has_mesh = true, uses_overlaps = true;

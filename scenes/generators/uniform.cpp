@@ -7,6 +7,7 @@ namespace {
 /// Boxes of much the same size, everywhere alike: each side within a factor of three.
 struct Uniform {
     static constexpr std::string_view name = "uniform";
+    static constexpr std::string_view human_name = "{n} uniform boxes";
     static constexpr std::string_view summary =
         "n boxes of sides 1:1 to 1:3 uniform in the unit cube";
     static constexpr bool has_mesh = false, uses_overlaps = true;

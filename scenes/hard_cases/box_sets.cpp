@@ -11,7 +11,7 @@ namespace {
 
 /// Sets with integer corners below 2^14. Boxes of a lattice are numbered row by row, and a box's
 /// earlier neighbours are counted as it is added: those pairs are all there are.
-constexpr int scale_most = 127 - 14;
+constexpr int scale_max = 127 - 14;
 
 constexpr std::string_view order_meaning =
     "order of the boxes: 0 as built (sorted), 1 reversed, 2 Morton, 3 shuffled";
@@ -132,10 +132,10 @@ HardCaseFamily family(std::string_view name, std::string_view summary,
             .panel = Panel::degenerate,
             .k_meaning = order_meaning,
             .k_default = 0,
-            .k_least = 0,
-            .k_most = 3,
-            .scale_least = -149,
-            .scale_most = scale_most,
+            .k_min = 0,
+            .k_max = 3,
+            .scale_min = -149,
+            .scale_max = scale_max,
             .generate = generate};
 }
 
@@ -160,7 +160,7 @@ HardCaseFamily identical_boxes_family() {
         "identical_boxes", "2^k times the same box, all pairs overlap (n is not used)", identical);
     row.k_meaning = "2^k boxes";
     row.k_default = 8;
-    row.k_most = 13;
+    row.k_max = 13;
     return row;
 }
 

@@ -1,4 +1,4 @@
-#include "kernels/oracle/continuous.h"
+#include "kernels/oracle/rational.h"
 #include "scenes/hard_cases/hard_cases.h"
 
 #include <fmt/format.h>

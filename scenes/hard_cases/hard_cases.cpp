@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-// To add a family: its file, which defines `HardCaseFamily NAME_family()`, and its word here.
+// To add a family: its file, which defines `HardCaseFamily NAME_family()`, and its name here.
 #define BOXWOOD_FAMILIES(X)                                                                        \
     X(generic_triangles)                                                                           \
     X(separated_triangles)                                                                         \
@@ -65,7 +65,7 @@
 
 namespace boxwood {
 
-#define BOXWOOD_DECLARE(word) HardCaseFamily word##_family();
+#define BOXWOOD_DECLARE(name) HardCaseFamily name##_family();
 BOXWOOD_FAMILIES(BOXWOOD_DECLARE)
 #undef BOXWOOD_DECLARE
 
@@ -93,7 +93,7 @@ std::size_t n_cases(const Cases& cases) {
 }
 
 std::span<const HardCaseFamily> hard_case_families() {
-#define BOXWOOD_ROW(word) word##_family(),
+#define BOXWOOD_ROW(name) name##_family(),
     static const std::vector<HardCaseFamily> families{BOXWOOD_FAMILIES(BOXWOOD_ROW)};
 #undef BOXWOOD_ROW
     return families;
@@ -112,13 +112,13 @@ void check_hard_case_spec(const HardCaseFamily& family, const HardCaseSpec& spec
     if (spec.k && family.k_meaning.empty())
         refuse("it has no parameter k, but k = {} is given", *spec.k);
     const int k = spec.k.value_or(family.k_default);
-    if (k < family.k_least || k > family.k_most)
-        refuse("k = {} is not within {} .. {} (k: {})", k, family.k_least, family.k_most,
+    if (k < family.k_min || k > family.k_max)
+        refuse("k = {} is not within {} .. {} (k: {})", k, family.k_min, family.k_max,
                family.k_meaning);
-    if (spec.scale < family.scale_least || spec.scale > family.scale_most)
+    if (spec.scale < family.scale_min || spec.scale > family.scale_max)
         refuse("scale = {} is not within {} .. {}, where multiplying every coordinate by 2^scale "
                "is exact",
-               spec.scale, family.scale_least, family.scale_most);
+               spec.scale, family.scale_min, family.scale_max);
     if (family.reads_file) {
         if (spec.file.empty())
             refuse("no file is given; name a query file, or a folder of them");
@@ -126,7 +126,7 @@ void check_hard_case_spec(const HardCaseFamily& family, const HardCaseSpec& spec
         if (!spec.file.empty())
             refuse("it reads no file, but {} is given", spec.file.string());
         if (spec.n == 0)
-            refuse("n is 0; ask for at least one case");
+            refuse("n is 0, but there must be at least one case");
     }
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "kernels/continuous/continuous_kernel.h"
 #include "kernels/primitives/aabb.h"
 #include "kernels/primitives/obb.h"
-#include "kernels/primitives/rigid_transform.h"
-#include "kernels/continuous/continuous_kernel.h"
 #include "kernels/primitives/ray.h"
+#include "kernels/primitives/rigid_transform.h"
 #include "kernels/primitives/triangle.h"
 
 #include <cstdint>
@@ -18,14 +18,14 @@
 
 namespace boxwood {
 
-/// What is known of a case by its construction. `ask`: only an exact oracle can tell.
-enum class Known : std::uint8_t { no, yes, ask };
+/// What is known of a case by its construction. `unknown`: an exact oracle decides.
+enum class Known : std::uint8_t { no, yes, unknown };
 
 /// Two triangles. Kernels of smaller things take what they need of them: segments a.a a.b and
 /// b.a b.b, the point a.a, the triangle b.
 struct TrianglePairCase {
     Triangle<double> a, b;
-    Known touch = Known::ask;
+    Known touch = Known::unknown;
 };
 
 /// A ray and the triangles [first, first + count) of `RayCases::triangles`: one, or a closed fan.
@@ -33,7 +33,7 @@ struct TrianglePairCase {
 struct RayCase {
     Ray<float> ray;
     std::uint32_t first = 0, count = 1;
-    Known hit = Known::ask;
+    Known hit = Known::unknown;
 };
 struct RayCases {
     std::vector<Triangle<float>> triangles;
@@ -43,13 +43,13 @@ struct RayCases {
 struct RayBoxCase {
     Ray<float> ray;
     Aabb<float> box;
-    Known hit = Known::ask;
+    Known hit = Known::unknown;
 };
 
 enum class MotionKind : std::uint8_t { vertex_face, edge_edge };
 struct MotionCase {
     LinearMotion motion;
-    Known touch = Known::ask;
+    Known touch = Known::unknown;
 };
 struct MotionCases {
     MotionKind kind = MotionKind::vertex_face;
@@ -58,10 +58,10 @@ struct MotionCases {
 
 struct ObbPairCase {
     Obb<double> a, b;
-    Known touch = Known::ask;
+    Known touch = Known::unknown;
 };
 
-/// A box to be fitted anew after a transform.
+/// A box and a transform after which it is fitted again.
 struct FitCase {
     RigidTransform<double> transform;
     Aabb<double> box;
@@ -84,7 +84,7 @@ std::size_t n_cases(const Cases& cases); ///< pairs, rays, motions, fits or boxe
 enum class Panel : std::uint8_t { generic, touching, degenerate };
 std::string_view to_string(Panel panel);
 
-/// What a family is asked for. The same spec gives the same bits on every machine.
+/// What a family makes. The same spec gives the same bits on every machine.
 struct HardCaseSpec {
     std::size_t n = 1000;       ///< wanted number of cases
     std::uint64_t seed = 1;     ///< key of the counter-based random numbers
@@ -95,22 +95,22 @@ struct HardCaseSpec {
 
 class Random;
 
-/// A family of hard cases: `boxwood list families`. A word of BOXWOOD_FAMILIES in hard_cases.cpp
+/// A family of hard cases: `boxwood list families`. A name of BOXWOOD_FAMILIES in hard_cases.cpp
 /// and a function that makes this row.
 struct HardCaseFamily {
-    std::string_view name;    ///< registry word
+    std::string_view name;    ///< registry name
     std::string_view summary; ///< one line
     Panel panel = Panel::generic;
     std::string_view k_meaning{}; ///< what k is; empty if there is none
-    int k_default = 0, k_least = 0, k_most = 0;
-    int scale_least = 0, scale_most = 0; ///< where every coordinate stays exact
+    int k_default = 0, k_min = 0, k_max = 0;
+    int scale_min = 0, scale_max = 0; ///< where every coordinate stays exact
     bool reads_file = false;
     /// Called by `make_cases`, with k given and the random numbers of (seed, name).
     Cases (*generate)(const HardCaseSpec& spec, const Random& random) = nullptr;
 };
 
 std::span<const HardCaseFamily> hard_case_families();
-/// The family by its registry word, or nullptr.
+/// The family by its registry name, or nullptr.
 const HardCaseFamily* find_hard_case_family(std::string_view name);
 
 /// Throws std::invalid_argument naming family, parameter and range for a bad spec.

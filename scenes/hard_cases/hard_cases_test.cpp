@@ -116,7 +116,7 @@ HardCaseSpec spec_of(std::size_t n, std::uint64_t seed, std::optional<int> k = {
 std::vector<std::optional<int>> ks_of(const HardCaseFamily& family) {
     if (family.k_meaning.empty())
         return {std::nullopt};
-    return {family.k_least, family.k_default, family.k_most};
+    return {family.k_min, family.k_default, family.k_max};
 }
 
 TEST(HardCases, NamesAreWordsOfTheirOwn) {
@@ -130,11 +130,11 @@ TEST(HardCases, NamesAreWordsOfTheirOwn) {
                   std::string_view::npos);
         EXPECT_FALSE(family.summary.empty());
         EXPECT_EQ(find_hard_case_family(family.name)->name, family.name);
-        EXPECT_LE(family.k_least, family.k_default);
-        EXPECT_LE(family.k_default, family.k_most);
-        EXPECT_EQ(family.k_meaning.empty(), family.k_least == family.k_most);
-        EXPECT_LE(family.scale_least, 0);
-        EXPECT_GE(family.scale_most, 0);
+        EXPECT_LE(family.k_min, family.k_default);
+        EXPECT_LE(family.k_default, family.k_max);
+        EXPECT_EQ(family.k_meaning.empty(), family.k_min == family.k_max);
+        EXPECT_LE(family.scale_min, 0);
+        EXPECT_GE(family.scale_max, 0);
     }
     EXPECT_EQ(find_hard_case_family("uniform"), nullptr);
 }
@@ -146,8 +146,8 @@ TEST(HardCases, ScaleIsAnExactPowerOfTwoOnEveryPosition) {
             const Numbers plain = numbers_of(make_cases(family, spec_of(200, 3, k)));
             for (const double x : plain.positions)
                 ASSERT_TRUE(std::isfinite(x));
-            for (const int scale : {family.scale_least, family.scale_most, -1}) {
-                if (scale < family.scale_least)
+            for (const int scale : {family.scale_min, family.scale_max, -1}) {
+                if (scale < family.scale_min)
                     continue;
                 const Numbers scaled = numbers_of(make_cases(family, spec_of(200, 3, k, scale)));
                 ASSERT_EQ(scaled.positions.size(), plain.positions.size());
@@ -191,7 +191,7 @@ TEST(HardCases, AsManyAsWantedAndEachFromItsNumberAndSeedAlone) {
                                        all.positions | std::views::take(first.positions.size())));
         EXPECT_NE(first.positions, numbers_of(make_cases(family, spec_of(10, 2))).positions);
         if (!family.k_meaning.empty()) {
-            const int other = family.k_default == family.k_most ? family.k_least : family.k_most;
+            const int other = family.k_default == family.k_max ? family.k_min : family.k_max;
             EXPECT_NE(first.positions,
                       numbers_of(make_cases(family, spec_of(10, 1, other))).positions);
         }

@@ -26,7 +26,7 @@ LatticeMap draw_signed_permutation(Draws& draws) {
 /// (4 + 2 + 2) 2^k grows by at most 3 s^2 + 2 s + 1 = 34 < 2^6. They are multiples of 2^(scale -
 /// k).
 /// From about k = 18 a determinant of differences is rounded in double, and at 30 nearly always.
-constexpr int growth_bits = 9, k_least = 6, k_most = 53 - growth_bits, k_default = 30;
+constexpr int growth_bits = 9, k_min = 6, k_max = 53 - growth_bits, k_default = 30;
 static_assert(24 - growth_bits == 15, "see k_meaning");
 
 LatticePoint draw_shift(Draws& draws, std::int64_t size) {
@@ -156,10 +156,10 @@ HardCaseFamily lattice_family(std::string_view name, std::string_view summary, P
             .panel = panel,
             .k_meaning = "the least gap is 2^-k of the size; exact in floats up to k = 15",
             .k_default = k_default,
-            .k_least = k_least,
-            .k_most = k_most,
-            .scale_least = -1074 + k_most,
-            .scale_most = 1023 - growth_bits,
+            .k_min = k_min,
+            .k_max = k_max,
+            .scale_min = -1074 + k_max,
+            .scale_max = 1023 - growth_bits,
             .generate = generate};
 }
 

@@ -115,8 +115,8 @@ HardCaseFamily generic_ray_boxes_family() {
     return {.name = "generic_ray_boxes",
             .summary = "rays at boxes in the unit ball, about half of them hitting",
             .panel = Panel::generic,
-            .scale_least = -80,
-            .scale_most = 120,
+            .scale_min = -80,
+            .scale_max = 120,
             .generate = [](const HardCaseSpec& spec, const Random& random) {
                 return ray_boxes(spec, random, generic);
             }};
@@ -126,8 +126,8 @@ HardCaseFamily signed_zero_directions_family() {
     return {.name = "signed_zero_directions",
             .summary = "direction components +0 and -0, origins on faces, flat boxes",
             .panel = Panel::degenerate,
-            .scale_least = -149,
-            .scale_most = 120,
+            .scale_min = -149,
+            .scale_max = 120,
             .generate = [](const HardCaseSpec& spec, const Random& random) {
                 return ray_boxes(spec, random, signed_zeros);
             }};
@@ -139,10 +139,10 @@ HardCaseFamily slab_corner_ties_family() {
             .panel = Panel::touching,
             .k_meaning = "the touch is at t of 2^k to 2^(k + 1)",
             .k_default = 22,
-            .k_least = 0,
-            .k_most = 22,
-            .scale_least = -148,
-            .scale_most = 78,
+            .k_min = 0,
+            .k_max = 22,
+            .scale_min = -148,
+            .scale_max = 78,
             .generate = [](const HardCaseSpec& spec, const Random& random) {
                 return ray_boxes(spec, random, corner_tie);
             }};

@@ -9,7 +9,7 @@ namespace {
 /// Rays and fans are built around the origin, where the ray passes, in the basis (x, y / 2^k, D):
 /// seen along the ray's direction D the triangles cover a disc around the origin, whatever their
 /// heights along D. Sizes are integers below 2^24 after the tilt, so that floats hold them all.
-constexpr int size_bits = 20, k_most = 12;
+constexpr int size_bits = 20, k_max = 12;
 constexpr std::int64_t size = 1 << 18; ///< of a fan across the ray; squeezed to size / 2^k in y
 
 struct Fan {
@@ -103,10 +103,10 @@ HardCaseFamily family(std::string_view name, std::string_view summary,
             .k_meaning =
                 "the fan is 2^-k as wide as long; above 5 all rays pass through it exactly",
             .k_default = 0,
-            .k_least = 0,
-            .k_most = k_most,
-            .scale_least = -149 + size_bits + 8,
-            .scale_most = 120,
+            .k_min = 0,
+            .k_max = k_max,
+            .scale_min = -149 + size_bits + 8,
+            .scale_max = 120,
             .generate = generate};
 }
 

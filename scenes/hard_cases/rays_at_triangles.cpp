@@ -96,8 +96,8 @@ HardCaseFamily generic_rays_family() {
     return {.name = "generic_rays",
             .summary = "rays at triangles in the unit ball, more than half of them hitting",
             .panel = Panel::generic,
-            .scale_least = -80,
-            .scale_most = 120,
+            .scale_min = -80,
+            .scale_max = 120,
             .generate = [](const HardCaseSpec& spec, const Random& random) {
                 return single_rays(spec, random, generic);
             }};
@@ -107,8 +107,8 @@ HardCaseFamily ray_in_plane_family() {
     return {.name = "ray_in_plane",
             .summary = "rays in the triangle's plane, through it or along an edge: a miss",
             .panel = Panel::degenerate,
-            .scale_least = -149 + 16,
-            .scale_most = 120,
+            .scale_min = -149 + 16,
+            .scale_max = 120,
             .generate = [](const HardCaseSpec& spec, const Random& random) {
                 return single_rays(spec, random, in_plane);
             }};
@@ -120,10 +120,10 @@ HardCaseFamily ray_grazing_family() {
             .panel = Panel::touching,
             .k_meaning = "distance 2^k",
             .k_default = 10,
-            .k_least = 0,
-            .k_most = 20,
-            .scale_least = -80,
-            .scale_most = 100,
+            .k_min = 0,
+            .k_max = 20,
+            .scale_min = -80,
+            .scale_max = 100,
             .generate = [](const HardCaseSpec& spec, const Random& random) {
                 return single_rays(spec, random, grazing);
             }};
@@ -135,10 +135,10 @@ HardCaseFamily ray_at_small_triangle_family() {
             .panel = Panel::generic,
             .k_meaning = "legs of 10^-k to 10^(1 - k)",
             .k_default = 4,
-            .k_least = 0,
-            .k_most = 15,
-            .scale_least = -60,
-            .scale_most = 120,
+            .k_min = 0,
+            .k_max = 15,
+            .scale_min = -60,
+            .scale_max = 120,
             .generate = [](const HardCaseSpec& spec, const Random& random) {
                 return single_rays(spec, random, small);
             }};

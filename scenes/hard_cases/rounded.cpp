@@ -83,16 +83,16 @@ HardCaseFamily rounded_family(std::string_view name, std::string_view summary, P
     return {.name = name,
             .summary = summary,
             .panel = panel,
-            .scale_least = -rounded_scale,
-            .scale_most = rounded_scale,
+            .scale_min = -rounded_scale,
+            .scale_max = rounded_scale,
             .generate = generate};
 }
 
 HardCaseFamily with_k(HardCaseFamily family, std::string_view meaning, int k, int least, int most) {
     family.k_meaning = meaning;
     family.k_default = k;
-    family.k_least = least;
-    family.k_most = most;
+    family.k_min = least;
+    family.k_max = most;
     return family;
 }
 

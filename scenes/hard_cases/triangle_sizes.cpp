@@ -64,10 +64,10 @@ HardCaseFamily tiny_triangles_family() {
             .panel = Panel::generic,
             .k_meaning = "legs of 10^-k to 10^(1 - k)",
             .k_default = 4,
-            .k_least = 0,
-            .k_most = 16,
-            .scale_least = -rounded_scale,
-            .scale_most = rounded_scale,
+            .k_min = 0,
+            .k_max = 16,
+            .scale_min = -rounded_scale,
+            .scale_max = rounded_scale,
             .generate = rounded_pairs<tiny>};
 }
 
@@ -77,10 +77,10 @@ HardCaseFamily mixed_scale_family() {
             .panel = Panel::touching,
             .k_meaning = "sizes 10^-k and 10^k",
             .k_default = 6,
-            .k_least = 1,
-            .k_most = 8,
-            .scale_least = -rounded_scale,
-            .scale_most = rounded_scale,
+            .k_min = 1,
+            .k_max = 8,
+            .scale_min = -rounded_scale,
+            .scale_max = rounded_scale,
             .generate = rounded_pairs<mixed>};
 }
 
@@ -90,8 +90,8 @@ HardCaseFamily decimal_scale_family() {
             .panel = Panel::touching,
             .k_meaning = "size 10^k",
             .k_default = 30,
-            .k_least = -300,
-            .k_most = 300,
+            .k_min = -300,
+            .k_max = 300,
             .generate = rounded_pairs<decimal>};
 }
 
@@ -101,10 +101,10 @@ HardCaseFamily far_from_origin_family() {
             .panel = Panel::touching,
             .k_meaning = "distance 10^k from the origin",
             .k_default = 6,
-            .k_least = 1,
-            .k_most = 12,
-            .scale_least = -rounded_scale,
-            .scale_most = rounded_scale,
+            .k_min = 1,
+            .k_max = 12,
+            .scale_min = -rounded_scale,
+            .scale_max = rounded_scale,
             .generate = rounded_pairs<far>};
 }
 

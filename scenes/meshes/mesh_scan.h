@@ -12,7 +12,7 @@ class MeshError : public std::runtime_error {
 };
 
 /// Read the bytes of a file before assimp does, and throw MeshError for what assimp would repair,
-/// repeat or drop without a word: coordinates that are no finite float, indices out of range, and
+/// repeat or drop silently: coordinates that are no finite float, indices out of range, and
 /// files that end too soon. What they do not know they let pass.
 void scan_ply(std::string_view bytes);
 void scan_stl(std::string_view bytes);

@@ -130,7 +130,7 @@ void scan_text(std::string_view body, const Header& header) {
         }
 }
 
-/// Walks over the bytes: only the lengths of lists are read.
+/// Goes over the bytes: only the lengths of lists are read.
 void scan_binary(std::string_view body, const Header& header) {
     const bool big_endian = header.format == "binary_big_endian";
     const auto length = [&](std::size_t size) {

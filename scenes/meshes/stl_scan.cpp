@@ -7,7 +7,7 @@
 namespace boxwood {
 
 /// Binary: 80 bytes of header (which may begin with "solid" as well), the number of triangles, 50
-/// bytes each. So the size tells the two kinds apart.
+/// bytes each. So the size distinguishes the two kinds.
 void scan_stl(std::string_view bytes) {
     constexpr std::size_t header = 84, per_triangle = 50;
     std::uint32_t count = 0;
@@ -18,13 +18,14 @@ void scan_stl(std::string_view bytes) {
         return;
     const bool text = bytes.substr(0, bytes.find('\0')).size() == bytes.size();
     if (!text || !bytes.starts_with("solid"))
-        throw MeshError(bytes.size() < header
-                            ? fmt::format("{} bytes are too few for a binary STL header and it is "
-                                          "no ASCII STL (which starts with 'solid')",
-                                          bytes.size())
-                            : fmt::format("truncated or damaged binary STL: its header tells of {} "
-                                          "triangles, which is {} bytes, but the file has {}",
-                                          count, expected, bytes.size()));
+        throw MeshError(
+            bytes.size() < header
+                ? fmt::format("{} bytes are too few for a binary STL header and it is "
+                              "no ASCII STL (which starts with 'solid')",
+                              bytes.size())
+                : fmt::format("truncated or damaged binary STL: its header announces {} "
+                              "triangles, which is {} bytes, but the file has {}",
+                              count, expected, bytes.size()));
     bool ended = false;
     for (std::size_t line = 1; !bytes.empty(); ++line) {
         std::string_view rest = take_line(bytes);

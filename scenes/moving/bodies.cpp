@@ -1,7 +1,7 @@
 #include "scenes/moving/bodies.h"
 
-#include "kernels/boxes/fit.h"
 #include "kernels/arithmetic/rounding.h"
+#include "kernels/boxes/fit.h"
 
 #include <algorithm>
 

@@ -19,7 +19,7 @@ struct Bodies {
     std::vector<std::uint32_t> mesh;          ///< its mesh among `meshes`, or no_mesh
     std::vector<RigidTransform<double>> pose; ///< from its own frame to the scene's
     std::vector<Vec3<double>> velocity;
-    std::vector<std::uint8_t> present; ///< 0: not there, and asked for nothing
+    std::vector<std::uint8_t> present; ///< 0: not there, in no answer
     std::vector<TriangleMesh> meshes;  ///< each in its bodies' own frame
     Aabb<double> room;                 ///< where effects keep the origins of bodies
     double side = 0;                   ///< mean of all sides of all boxes at the start

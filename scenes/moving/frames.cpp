@@ -42,10 +42,10 @@ std::vector<Aabb<float>> boxes_of(const MovingScene& scene) {
     return boxes;
 }
 
-Frames::Frames(std::shared_ptr<const SceneFile> file, std::size_t most_bytes)
+Frames::Frames(std::shared_ptr<const SceneFile> file, std::size_t max_bytes)
     : file_(std::move(file)), scene_(std::make_unique<MovingScene>(*file_)) {
     start_ = boxes_of(*scene_);
-    is_baked_ = size() <= most_bytes / (start_.size() * sizeof(start_[0]));
+    is_baked_ = size() <= max_bytes / (start_.size() * sizeof(start_[0]));
     if (!is_baked_) {
         now_.boxes = start_;
         return;
@@ -121,20 +121,20 @@ std::string params_json(const SceneFile& file) {
     return json + "]}";
 }
 
-std::string effect_words(const SceneFile& file) {
-    std::vector<std::string> words;
+std::string effect_names(const SceneFile& file) {
+    std::vector<std::string> names;
     for (const BodyGroup& group : file.groups)
         for (const EffectChoice& effect : group.effects)
-            if (std::ranges::find(words, effect.name) == words.end())
-                words.push_back(effect.name);
-    return fmt::format("{}", fmt::join(words, ","));
+            if (std::ranges::find(names, effect.name) == names.end())
+                names.push_back(effect.name);
+    return fmt::format("{}", fmt::join(names, ","));
 }
 
-std::string ask_words(const SceneFile& file) {
-    std::vector<std::string> words;
-    for (const SceneQuery& ask : file.queries)
-        words.push_back(ask.name);
-    return fmt::format("{}", fmt::join(words, ","));
+std::string query_names(const SceneFile& file) {
+    std::vector<std::string> names;
+    for (const SceneQuery& query : file.queries)
+        names.push_back(query.name);
+    return fmt::format("{}", fmt::join(names, ","));
 }
 
 } // namespace boxwood

@@ -21,13 +21,13 @@ struct Frame {
 std::vector<Aabb<float>> boxes_of(const MovingScene& scene);
 
 /// The boxes of a moving scene, frame by frame: the same bits in each pass. They are made once and
-/// held if the boxes of all frames take `most_bytes` at most, else made anew in each pass; then
+/// held if the boxes of all frames take `max_bytes` at most, else made again in each pass; then
 /// memory does not grow with their number.
 class Frames {
   public:
-    static constexpr std::size_t most_baked = std::size_t{256} << 20;
+    static constexpr std::size_t max_baked = std::size_t{256} << 20;
 
-    explicit Frames(std::shared_ptr<const SceneFile> file, std::size_t most_bytes = most_baked);
+    explicit Frames(std::shared_ptr<const SceneFile> file, std::size_t max_bytes = max_baked);
 
     /// The number of frames that follow the start.
     std::size_t size() const { return file_->frames; }
@@ -57,8 +57,8 @@ std::uint64_t content_hash(Frames& frames);
 
 /// Its effects, group by group, and its frames per second, as one JSON object.
 std::string params_json(const SceneFile& file);
-/// The words of its effects and of its asks, each once, comma-separated.
-std::string effect_words(const SceneFile& file);
-std::string ask_words(const SceneFile& file);
+/// The names of its effects and of its queries, each once, comma-separated.
+std::string effect_names(const SceneFile& file);
+std::string query_names(const SceneFile& file);
 
 } // namespace boxwood

@@ -116,8 +116,8 @@ TEST(Frames, ASceneThatMovesStandsAtItsFirstFrame) {
     EXPECT_EQ(scene.name, "uniform_spawn_drift_share0_5");
     EXPECT_TRUE(std::ranges::equal(scene.boxes, Frames(spec.moving).start()));
     EXPECT_GT(std::ranges::count_if(scene.boxes, &Aabb<float>::is_empty), 5);
-    EXPECT_EQ(effect_words(*spec.moving), "spawn,drift");
-    EXPECT_EQ(ask_words(*spec.moving), "pairs");
+    EXPECT_EQ(effect_names(*spec.moving), "spawn,drift");
+    EXPECT_EQ(query_names(*spec.moving), "pairs");
     EXPECT_THAT(scene.params_json, HasSubstr(R"("name":"drift","share":0.5)"));
 }
 

@@ -69,7 +69,7 @@ double mean_side(const Bodies& bodies) {
     return sum / (3 * static_cast<double>(bodies.size()));
 }
 
-/// The bodies of a group that an effect is laid on, by lot: the same for any n.
+/// The bodies of a group that an effect is laid on, at random: the same for any n.
 std::vector<std::uint32_t> drawn(const Random& random, double share, std::uint32_t first,
                                  std::uint32_t last) {
     std::vector<std::uint32_t> chosen;
@@ -166,8 +166,8 @@ void MovingScene::lay_effects(const BodyGroup& group, std::size_t index, std::ui
     for (std::size_t k = 0; k < group.effects.size(); ++k) {
         const auto& [name, settings, share] = group.effects[k];
         const EffectEntry& entry = effect_of(name);
-        const Random lot(file_.seed, fmt::format("{}.{}.{}.chosen", name, index, k));
-        std::vector<std::uint32_t> chosen = drawn(lot, share, first, last);
+        const Random choice(file_.seed, fmt::format("{}.{}.{}.chosen", name, index, k));
+        std::vector<std::uint32_t> chosen = drawn(choice, share, first, last);
         if (entry.changes == Changes{.shape = true})
             std::erase_if(chosen, [&](std::uint32_t i) { return bodies_.mesh[i] == no_mesh; });
         if (chosen.empty())

@@ -288,7 +288,7 @@ TEST(SceneFile, BadOnesAreRefusedWithTheirPlace) {
     EXPECT_THAT(complaint("n = 1e3\n" + uniform), HasSubstr("n must be a whole number"));
     EXPECT_THAT(complaint("[[bodies]]\n"), HasSubstr("mine.toml:1: [[bodies]] needs a generator"));
     EXPECT_THAT(complaint("[[bodies]]\ngenerator = \"unifrom\"\n"),
-                HasSubstr("mine.toml:2: generator: unknown word 'unifrom'; did you mean"));
+                HasSubstr("mine.toml:2: generator: unknown name 'unifrom'; did you mean"));
     EXPECT_THAT(complaint(uniform + "effects = \"drfit\"\n"), HasSubstr("did you mean 'drift'?"));
     EXPECT_THAT(complaint(uniform + "effects = {name = \"drift\", sped = 1}\n"),
                 HasSubstr("mine.toml:3: 'drift' has no setting 'sped'; it has speed"));
@@ -296,7 +296,7 @@ TEST(SceneFile, BadOnesAreRefusedWithTheirPlace) {
                 HasSubstr("must lie between"));
     EXPECT_THAT(complaint(uniform + "effects = {name = \"drift\", speed = nan}\n"),
                 HasSubstr("out of range"));
-    EXPECT_THAT(complaint(uniform + "effects = {share = 1}\n"), HasSubstr("an effect is a word"));
+    EXPECT_THAT(complaint(uniform + "effects = {share = 1}\n"), HasSubstr("an effect is a name"));
     EXPECT_THAT(complaint(uniform + "effects = {name = \"drift\", share = 2}\n"),
                 HasSubstr("share = 2 is out of range"));
     EXPECT_THAT(complaint(uniform + "n = 3\nshare = 0.5\n"), HasSubstr("not both"));

@@ -1,4 +1,4 @@
-/// The registry of what a scene may ask. To add an ask: its row here, and the file
+/// The registry of what a scene may query. To add a query: its row here, and the file
 /// bench/stages/queries/NAME.cpp that answers it.
 
 #include "scenes/moving/query.h"
@@ -12,6 +12,9 @@ namespace boxwood {
 namespace {
 
 using Vec = Vec3<double>;
+
+/// The name of a query's stream of random numbers, on which the bits of all scenes depend.
+std::string stream(const std::string& query) { return "asks." + query; }
 
 /// The eye of the camera goes to and fro, along x from one end of the room to the other in about
 /// three seconds, along y and z at other rates; it looks to where it will be.
@@ -52,8 +55,8 @@ Vec in_box(const Aabb<double>& box, Draws& draws) {
 }
 
 /// Where points are laid: within a tenth of the room around the eye, or all of the room.
-Aabb<double> around(const MovingScene& scene, const SceneQuery& ask) {
-    if (ask.kind != "flying")
+Aabb<double> around(const MovingScene& scene, const SceneQuery& query) {
+    if (query.kind != "flying")
         return scene.bodies().room;
     const Camera camera(scene);
     const Vec half = .1 * (camera.room.max - camera.room.min);
@@ -94,14 +97,15 @@ std::span<const QueryKindEntry> query_kinds() {
     return entries;
 }
 
-void rays_of_frame(const MovingScene& scene, const SceneQuery& ask, std::vector<Ray<float>>& out) {
+void rays_of_frame(const MovingScene& scene, const SceneQuery& query,
+                   std::vector<Ray<float>>& out) {
     out.clear();
-    if (ask.kind == "flying") {
+    if (query.kind == "flying") {
         const Camera camera(scene);
         const auto side =
-            static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(ask.n))));
+            static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(query.n))));
         const double step = 1.2 / static_cast<double>(side);
-        for (std::size_t i = 0; i < ask.n; ++i) {
+        for (std::size_t i = 0; i < query.n; ++i) {
             const double x = (static_cast<double>(i % side) + .5) * step - .6;
             const double y = .6 - (static_cast<double>(i / side) + .5) * step;
             out.push_back(
@@ -110,8 +114,8 @@ void rays_of_frame(const MovingScene& scene, const SceneQuery& ask, std::vector<
         }
         return;
     }
-    const Random random(scene.file().seed, "asks.rays");
-    for (std::size_t i = 0; i < ask.n; ++i) {
+    const Random random(scene.file().seed, stream("rays"));
+    for (std::size_t i = 0; i < query.n; ++i) {
         Draws draws = draws_of(random, scene, i);
         const Vec from = in_box(scene.bodies().room, draws);
         out.push_back(
@@ -119,23 +123,24 @@ void rays_of_frame(const MovingScene& scene, const SceneQuery& ask, std::vector<
     }
 }
 
-void points_of_frame(const MovingScene& scene, const SceneQuery& ask, std::vector<Vec3<float>>& out) {
+void points_of_frame(const MovingScene& scene, const SceneQuery& query,
+                     std::vector<Vec3<float>>& out) {
     out.clear();
-    const Aabb<double> box = around(scene, ask);
-    const Random random(scene.file().seed, "asks." + ask.name);
-    for (std::size_t i = 0; i < ask.n; ++i) {
+    const Aabb<double> box = around(scene, query);
+    const Random random(scene.file().seed, stream(query.name));
+    for (std::size_t i = 0; i < query.n; ++i) {
         Draws draws = draws_of(random, scene, i);
         out.push_back(static_cast<Vec3<float>>(in_box(box, draws)));
     }
 }
 
-void regions_of_frame(const MovingScene& scene, const SceneQuery& ask,
+void regions_of_frame(const MovingScene& scene, const SceneQuery& query,
                       std::vector<Aabb<float>>& out) {
     out.clear();
-    const Aabb<double> box = around(scene, ask);
-    const double size = ask.size * scene.bodies().side;
-    const Random random(scene.file().seed, "asks.regions");
-    for (std::size_t i = 0; i < ask.n; ++i) {
+    const Aabb<double> box = around(scene, query);
+    const double size = query.size * scene.bodies().side;
+    const Random random(scene.file().seed, stream("regions"));
+    for (std::size_t i = 0; i < query.n; ++i) {
         Draws draws = draws_of(random, scene, i);
         const Vec middle = in_box(box, draws);
         const Vec u = draws.in_cube();

@@ -14,16 +14,16 @@ namespace boxwood {
 
 class MovingScene;
 
-/// What a scene file asks of each frame. What an ask has no key for is 0 or empty.
+/// What a scene wants to know of each frame. What a query has no key for is 0 or empty.
 struct SceneQuery {
-    std::string name{}; ///< a word of `scene_queries()`
-    std::string kind{}; ///< of queries: a word of `query_kinds()`
-    std::size_t n = 0;  ///< number of queries
+    std::string name{}; ///< a name of `scene_queries()`
+    std::string kind{}; ///< of rays, points, regions: a name of `query_kinds()`
+    std::size_t n = 0;  ///< number of rays, points or regions
     std::size_t k = 0;  ///< of nearest: neighbours of each
     double size = 0;    ///< of regions: mean side, in mean body sides
 };
 
-/// A registry row: the keys that the ask takes beside its name, and what they are if not given.
+/// A registry row: the keys that the query takes beside its name, and their defaults.
 struct SceneQueryEntry {
     std::string_view name, summary;
     std::vector<std::string_view> keys; ///< of kind, n, k, size
@@ -31,20 +31,22 @@ struct SceneQueryEntry {
 };
 std::span<const SceneQueryEntry> scene_queries();
 
-/// How the queries of an ask go through the scene.
+/// Where the rays, points and regions of a query are.
 struct QueryKindEntry {
     std::string_view name, summary;
 };
 std::span<const QueryKindEntry> query_kinds();
 
-// The queries of the scene's present frame, the same bits on every machine: query i depends on the
-// scene's seed and room, the frame and i. They replace what `out` holds.
+// What a query needs in the scene's present frame, the same bits on every machine: ray, point or
+// region i depends on the scene's seed and room, the frame and i. They replace what `out` holds.
 
 /// flying: a pinhole camera's; scattered: from anywhere in the room in any direction.
-void rays_of_frame(const MovingScene& scene, const SceneQuery& ask, std::vector<Ray<float>>& out);
+void rays_of_frame(const MovingScene& scene, const SceneQuery& query, std::vector<Ray<float>>& out);
 /// flying: around the camera; scattered: anywhere in the room.
-void points_of_frame(const MovingScene& scene, const SceneQuery& ask, std::vector<Vec3<float>>& out);
+void points_of_frame(const MovingScene& scene, const SceneQuery& query,
+                     std::vector<Vec3<float>>& out);
 /// Closed boxes around such points, of half to one and a half the size.
-void regions_of_frame(const MovingScene& scene, const SceneQuery& ask, std::vector<Aabb<float>>& out);
+void regions_of_frame(const MovingScene& scene, const SceneQuery& query,
+                      std::vector<Aabb<float>>& out);
 
 } // namespace boxwood

@@ -16,15 +16,16 @@ using testing::HasSubstr;
 
 const std::string uniform = "[[bodies]]\ngenerator = \"uniform\"\n";
 
-SceneFile file_of(const std::string& asks) {
-    return parse_scene_file((asks.empty() ? "" : "queries = " + asks + "\n") + uniform, "mine.toml");
+SceneFile file_of(const std::string& queries) {
+    return parse_scene_file((queries.empty() ? "" : "queries = " + queries + "\n") + uniform,
+                            "mine.toml");
 }
 
-std::vector<std::string> words(const SceneFile& file) {
-    std::vector<std::string> words;
-    for (const SceneQuery& ask : file.queries)
-        words.push_back(ask.name);
-    return words;
+std::vector<std::string> names(const SceneFile& file) {
+    std::vector<std::string> names;
+    for (const SceneQuery& query : file.queries)
+        names.push_back(query.name);
+    return names;
 }
 
 std::string complaint(const std::string& text) {
@@ -36,33 +37,34 @@ std::string complaint(const std::string& text) {
     return "no error";
 }
 
-TEST(SceneAsks, AreReadFromTheFile) {
-    EXPECT_THAT(words(file_of("")), ElementsAre("pairs"));
-    EXPECT_THAT(words(file_of("\"rays\"")), ElementsAre("rays"));
+TEST(SceneQueries, AreReadFromTheFile) {
+    EXPECT_THAT(names(file_of("")), ElementsAre("pairs"));
+    EXPECT_THAT(names(file_of("\"rays\"")), ElementsAre("rays"));
     const SceneFile file = file_of(
         "[\"triangle_pairs\", {name = \"regions\", n = 7, size = 2.5, kind = \"scattered\"}, "
         "{name = \"nearest\", k = 3}]");
-    EXPECT_THAT(words(file), ElementsAre("triangle_pairs", "regions", "nearest"));
+    EXPECT_THAT(names(file), ElementsAre("triangle_pairs", "regions", "nearest"));
     EXPECT_EQ(file.queries[1].n, 7u);
     EXPECT_EQ(file.queries[1].size, 2.5);
     EXPECT_EQ(file.queries[1].kind, "scattered");
     EXPECT_EQ(file.queries[2].k, 3u);
     EXPECT_EQ(file.queries[2].n, 1000u);
-    EXPECT_EQ(ask_of(file, "regions"), &file.queries[1]);
-    EXPECT_EQ(ask_of(file, "pairs"), nullptr);
+    EXPECT_EQ(query_named(file, "regions"), &file.queries[1]);
+    EXPECT_EQ(query_named(file, "pairs"), nullptr);
 }
 
-TEST(SceneAsks, BadOnesAreRefusedWithTheirPlace) {
-    const auto of = [](const std::string& asks) {
-        return complaint("n = 10\nqueries = " + asks + "\n" + uniform);
+TEST(SceneQueries, BadOnesAreRefusedWithTheirPlace) {
+    const auto of = [](const std::string& queries) {
+        return complaint("n = 10\nqueries = " + queries + "\n" + uniform);
     };
-    EXPECT_THAT(of("\"pears\""), HasSubstr("mine.toml:2: asks: unknown word 'pears'; did you mean "
-                                           "'pairs'?"));
-    EXPECT_THAT(of("[]"), HasSubstr("mine.toml:2: asks must name something"));
-    EXPECT_THAT(of("3"), HasSubstr("mine.toml:2: an ask is a word, or"));
-    EXPECT_THAT(of("{n = 3}"), HasSubstr("an ask is a word, or"));
-    EXPECT_THAT(of("[\"rays\", \"rays\"]"), HasSubstr("mine.toml:2: 'rays' is asked twice"));
-    EXPECT_THAT(of("{name = \"pairs\", n = 3}"), HasSubstr("key of the ask pairs 'n'"));
+    EXPECT_THAT(of("\"pears\""),
+                HasSubstr("mine.toml:2: queries: unknown name 'pears'; did you mean "
+                          "'pairs'?"));
+    EXPECT_THAT(of("[]"), HasSubstr("mine.toml:2: queries must name something"));
+    EXPECT_THAT(of("3"), HasSubstr("mine.toml:2: a query is a name, or"));
+    EXPECT_THAT(of("{n = 3}"), HasSubstr("a query is a name, or"));
+    EXPECT_THAT(of("[\"rays\", \"rays\"]"), HasSubstr("mine.toml:2: 'rays' is named twice"));
+    EXPECT_THAT(of("{name = \"pairs\", n = 3}"), HasSubstr("key of the query pairs 'n'"));
     EXPECT_THAT(of("{name = \"rays\", knd = \"flying\"}"), HasSubstr("did you mean 'kind'?"));
     EXPECT_THAT(of("{name = \"rays\", kind = \"flyng\"}"), HasSubstr("did you mean 'flying'?"));
     EXPECT_THAT(of("{name = \"rays\", n = 0}"), HasSubstr("n = 0 is out of range"));
@@ -76,7 +78,7 @@ TEST(SceneAsks, BadOnesAreRefusedWithTheirPlace) {
                 HasSubstr("did you mean 'group_ignored'?"));
 }
 
-TEST(SceneAsks, FiltersAndMarginsAreThoseOfTheirGroups) {
+TEST(SceneQueries, FiltersAndMarginsAreThoseOfTheirGroups) {
     const MovingScene scene(parse_scene_file(uniform + "n = 5\nmargin = 0.5\n" + uniform +
                                                  "n = 3\ngroup_ignored = true\n" + uniform +
                                                  "n = 2\nneighbours_ignored = true\n",
@@ -97,20 +99,20 @@ TEST(SceneAsks, FiltersAndMarginsAreThoseOfTheirGroups) {
     }
 }
 
-TEST(SceneAsks, QueriesGoWithTheFrameAndAreTheSameOnEveryMachine) {
+TEST(SceneQueries, QueriesGoWithTheFrameAndAreTheSameOnEveryMachine) {
     MovingScene scene(load_scene("still_life"), 100);
     const Aabb<double> room = scene.bodies().room;
     std::uint64_t hash = 0;
     for (const QueryKindEntry& kind : query_kinds()) {
-        const SceneQuery ask{
+        const SceneQuery query{
             .name = "regions", .kind = std::string(kind.name), .n = 50, .k = 0, .size = 2};
         std::vector<Ray<float>> rays, rays_before;
         std::vector<Vec3<float>> points;
         std::vector<Aabb<float>> regions, regions_before;
         for (int frame = 0; frame < 40; ++frame) {
-            rays_of_frame(scene, ask, rays);
-            points_of_frame(scene, ask, points);
-            regions_of_frame(scene, ask, regions);
+            rays_of_frame(scene, query, rays);
+            points_of_frame(scene, query, points);
+            regions_of_frame(scene, query, regions);
             ASSERT_EQ(rays.size(), 50u);
             ASSERT_EQ(points.size(), 50u);
             ASSERT_EQ(regions.size(), 50u);
@@ -136,7 +138,7 @@ TEST(SceneAsks, QueriesGoWithTheFrameAndAreTheSameOnEveryMachine) {
     EXPECT_EQ(hash, 1408690262641514390u);
 }
 
-TEST(SceneAsks, ACameraFliesThroughAFlatRoom) {
+TEST(SceneQueries, ACameraFliesThroughAFlatRoom) {
     MovingScene scene(parse_scene_file(uniform + "n = 1\n", "mine.toml")); // a room of one point
     std::vector<Ray<float>> rays;
     for (int frame = 0; frame < 5; ++frame) {

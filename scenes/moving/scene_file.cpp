@@ -1,9 +1,9 @@
 #include "scenes/moving/scene_file.h"
 
 #include "scenes/effects/read_effect.h"
+#include "scenes/moving/toml_reader.h"
 #include "scenes/scene.h"
 #include "kernels/suggest.h"
-#include "scenes/moving/toml_reader.h"
 
 #include <fmt/format.h>
 
@@ -16,44 +16,47 @@
 namespace boxwood {
 namespace {
 
-constexpr std::int64_t most_bodies = 100'000'000;
-constexpr std::int64_t most_queries = 10'000'000;
+constexpr std::int64_t max_bodies = 100'000'000;
+constexpr std::int64_t max_queries = 10'000'000;
 
 /// "pairs", or {name = "regions", n = 100, kind = "flying"}.
-SceneQuery read_ask(const TomlReader& reader, const toml::node& node) {
+SceneQuery read_query(const TomlReader& reader, const toml::node& node) {
     const toml::table* table = node.as_table();
     const toml::node* name = table ? table->get("name") : &node;
     if (!name || (!table && !node.is_string()))
-        reader.fail(node.source(), "an ask is a word, or {name = \"WORD\", n = NUMBER, ...}");
-    const std::string word = reader.word(*name, "queries", names_of(scene_queries()));
-    const SceneQueryEntry& entry = *std::ranges::find(scene_queries(), word, &SceneQueryEntry::name);
-    SceneQuery ask = entry.defaults;
-    ask.name = word;
+        reader.fail(node.source(), "a query is a name, or {name = \"NAME\", n = NUMBER, ...}");
+    const std::string found = reader.word(*name, "queries", names_of(scene_queries()));
+    const SceneQueryEntry& entry =
+        *std::ranges::find(scene_queries(), found, &SceneQueryEntry::name);
+    SceneQuery query = entry.defaults;
+    query.name = found;
     if (!table)
-        return ask;
+        return query;
     TomlReader::Words known = entry.keys;
     known.push_back("name");
-    reader.require_known_keys(*table, "the ask " + word, known);
+    reader.require_known_keys(*table, "the query " + found, known);
     if (const toml::node* kind = table->get("kind"))
-        ask.kind = reader.word(*kind, "kind", names_of(query_kinds()));
+        query.kind = reader.word(*kind, "kind", names_of(query_kinds()));
     if (const toml::node* n = table->get("n"))
-        ask.n = reader.whole(*n, "n", 1, most_queries);
+        query.n = reader.whole(*n, "n", 1, max_queries);
     if (const toml::node* k = table->get("k"))
-        ask.k = reader.whole(*k, "k", 1, 1000);
+        query.k = reader.whole(*k, "k", 1, 1000);
     if (const toml::node* size = table->get("size"))
-        ask.size = reader.number(*size, "size", 0, 1e6);
-    return ask;
+        query.size = reader.number(*size, "size", 0, 1e6);
+    return query;
 }
 
-void read_asks(const TomlReader& reader, const toml::table& root, std::vector<SceneQuery>& asks) {
-    reader.list(root, "queries", asks, [&](const toml::node& node) {
-        SceneQuery ask = read_ask(reader, node);
-        if (std::ranges::find(asks, ask.name, &SceneQuery::name) != asks.end())
-            reader.fail(node.source(), fmt::format("'{}' is asked twice", ask.name));
-        return ask;
+void read_queries(const TomlReader& reader, const toml::table& root,
+                  std::vector<SceneQuery>& queries) {
+    reader.list(root, "queries", queries, [&](const toml::node& node) {
+        SceneQuery query = read_query(reader, node);
+        if (std::ranges::find(queries, query.name, &SceneQuery::name) != queries.end())
+            reader.fail(node.source(), fmt::format("'{}' is named twice", query.name));
+        return query;
     });
-    if (asks.empty())
-        reader.fail(root.get("queries")->source(), "queries must name something, such as \"pairs\"");
+    if (queries.empty())
+        reader.fail(root.get("queries")->source(),
+                    "queries must name something, such as \"pairs\"");
 }
 
 bool read_flag(const TomlReader& reader, const toml::table& table, std::string_view key) {
@@ -85,7 +88,7 @@ BodyGroup read_group(const TomlReader& reader, const toml::table& table) {
                     "[[bodies]] needs a generator, such as generator = \"uniform\"");
     group.generator = reader.word(*generator, "generator", generators(false));
     if (const toml::node* n = table.get("n"))
-        group.n = reader.whole(*n, "n", 1, most_bodies);
+        group.n = reader.whole(*n, "n", 1, max_bodies);
     if (const toml::node* share = table.get("share")) {
         if (group.n != 0)
             reader.fail(share->source(),
@@ -99,7 +102,7 @@ BodyGroup read_group(const TomlReader& reader, const toml::table& table) {
         group.shape = reader.word(*shape, "shape", generators(true));
         if (!triangles)
             reader.fail(shape->source(), "a shape needs triangles, such as triangles = 100");
-        group.triangles = reader.whole(*triangles, "triangles", 1, most_bodies);
+        group.triangles = reader.whole(*triangles, "triangles", 1, max_bodies);
     } else if (triangles) {
         reader.fail(triangles->source(),
                     "triangles is for a shape, such as shape = \"sphere_mesh\"");
@@ -135,7 +138,7 @@ SceneFile parse_scene_file(std::string_view text, const std::string& file) {
     if (const toml::node* summary = root.get("summary"))
         scene.summary = reader.text(*summary, "summary");
     if (const toml::node* n = root.get("n"))
-        scene.n = reader.whole(*n, "n", 1, most_bodies);
+        scene.n = reader.whole(*n, "n", 1, max_bodies);
     if (const toml::node* seed = root.get("seed"))
         scene.seed = reader.whole(*seed, "seed", 0, std::numeric_limits<std::int64_t>::max());
     if (const toml::node* frames = root.get("frames"))
@@ -144,7 +147,7 @@ SceneFile parse_scene_file(std::string_view text, const std::string& file) {
         scene.frames_per_second = reader.number(*fps, "frames_per_second", 1e-3, 1e6);
     if (const toml::node* view = root.get("view"))
         scene.view = reader.word(*view, "view", {"xy", "xz", "yz"});
-    read_asks(reader, root, scene.queries);
+    read_queries(reader, root, scene.queries);
     const toml::node* bodies = root.get("bodies");
     const toml::array* groups = bodies ? bodies->as_array() : nullptr;
     if (!groups || groups->empty())
@@ -157,8 +160,8 @@ SceneFile parse_scene_file(std::string_view text, const std::string& file) {
     return scene;
 }
 
-const SceneQuery* ask_of(const SceneFile& file, std::string_view word) {
-    const auto found = std::ranges::find(file.queries, word, &SceneQuery::name);
+const SceneQuery* query_named(const SceneFile& file, std::string_view name) {
+    const auto found = std::ranges::find(file.queries, name, &SceneQuery::name);
     return found == file.queries.end() ? nullptr : &*found;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/settings.h"
 #include "kernels/primitives/vec3.h"
+#include "kernels/settings.h"
 #include "scenes/moving/query.h"
 
 #include <cstdint>
@@ -15,14 +15,14 @@ namespace boxwood {
 
 /// An effect as a scene file lays it on a group of bodies.
 struct EffectChoice {
-    std::string name; ///< a word of `effects()`
+    std::string name; ///< a name of `effects()`
     Settings settings;
-    double share = 1; ///< of the group's bodies, drawn by lot
+    double share = 1; ///< of the group's bodies, drawn at random
 };
 
 /// Bodies that come from one generator and have the same effects.
 struct BodyGroup {
-    std::string generator; ///< a word of `scene_generators()`: a body per box, or one mesh
+    std::string generator; ///< a name of `scene_generators()`: a body per box, or one mesh
     std::size_t n = 0;     ///< of the generator; 0: `share` of the scene's n
     double share = 1;
     double overlaps = 10;      ///< as in SceneSpec
@@ -36,9 +36,10 @@ struct BodyGroup {
     std::vector<EffectChoice> effects;
 };
 
-/// A scene: what is in it, what happens to it, and what is asked of each frame.
+/// A scene: what is in it, what happens to it, and what is queried in each frame.
 struct SceneFile {
     std::string name;    ///< of the file, without .toml
+    std::string title;   ///< for people, without the number of bodies; empty: as the name
     std::string summary; ///< one line
     std::size_t n = 1000;
     std::uint64_t seed = 1;
@@ -46,11 +47,11 @@ struct SceneFile {
     double frames_per_second = 30;
     std::string view = "xy"; ///< the plane in which it is drawn: xy, xz or yz
     std::vector<BodyGroup> groups;
-    std::vector<SceneQuery> queries{{.name = "pairs"}}; ///< each word once
+    std::vector<SceneQuery> queries{{.name = "pairs"}}; ///< each name once
 };
 
-/// The ask of this word, or nullptr.
-const SceneQuery* ask_of(const SceneFile& file, std::string_view word);
+/// The query of this name, or nullptr.
+const SceneQuery* query_named(const SceneFile& file, std::string_view name);
 
 /// Throws std::invalid_argument, "file:line: what and how to fix it", for what is no scene.
 SceneFile parse_scene_file(std::string_view text, const std::string& file);

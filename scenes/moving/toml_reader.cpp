@@ -33,25 +33,25 @@ void TomlReader::require_known_keys(const toml::table& table, std::string_view w
             fail(key.source(), unknown_word(fmt::format("key of {}", where), key.str(), known));
 }
 
-double TomlReader::number(const toml::node& node, std::string_view key, double least,
-                          double most) const {
+double TomlReader::number(const toml::node& node, std::string_view key, double min,
+                          double max) const {
     const auto value = node.value<double>();
     if (!value || !node.is_number())
         fail(node.source(), fmt::format("{} must be a number", key));
-    if (!(*value >= least && *value <= most))
+    if (!(*value >= min && *value <= max))
         fail(node.source(), fmt::format("{} = {} is out of range: it must lie between {} and {}",
-                                        key, *value, least, most));
+                                        key, *value, min, max));
     return *value;
 }
 
-std::uint64_t TomlReader::whole(const toml::node& node, std::string_view key, std::int64_t least,
-                                std::int64_t most) const {
+std::uint64_t TomlReader::whole(const toml::node& node, std::string_view key, std::int64_t min,
+                                std::int64_t max) const {
     if (!node.is_integer())
         fail(node.source(), fmt::format("{} must be a whole number", key));
     const std::int64_t value = *node.value<std::int64_t>();
-    if (value < least || value > most)
+    if (value < min || value > max)
         fail(node.source(), fmt::format("{} = {} is out of range: it must lie between {} and {}",
-                                        key, value, least, most));
+                                        key, value, min, max));
     return static_cast<std::uint64_t>(value);
 }
 
@@ -77,9 +77,9 @@ std::string TomlReader::word(const toml::node& node, std::string_view key,
                              const Words& known) const {
     const auto value = node.value<std::string>();
     if (!value)
-        fail(node.source(), fmt::format("{} must be a word in quotes", key));
+        fail(node.source(), fmt::format("{} must be a name in quotes", key));
     if (std::ranges::find(known, *value) == known.end())
-        fail(node.source(), fmt::format("{}: {}", key, unknown_word("word", *value, known)));
+        fail(node.source(), fmt::format("{}: {}", key, unknown_word("name", *value, known)));
     return *value;
 }
 

@@ -29,16 +29,16 @@ class TomlReader {
 
     void require_known_keys(const toml::table& table, std::string_view where,
                             const Words& known) const;
-    double number(const toml::node& node, std::string_view key, double least, double most) const;
-    std::uint64_t whole(const toml::node& node, std::string_view key, std::int64_t least,
-                        std::int64_t most) const;
+    double number(const toml::node& node, std::string_view key, double min, double max) const;
+    std::uint64_t whole(const toml::node& node, std::string_view key, std::int64_t min,
+                        std::int64_t max) const;
     std::string text(const toml::node& node, std::string_view key) const;
     /// A number, true or false, or a name, in its own type.
     SettingValue setting(const toml::node& node, std::string_view key) const;
-    /// One of the known words.
+    /// One of the known names.
     std::string word(const toml::node& node, std::string_view key, const Words& known) const;
 
-    /// "WORD", or {name = "WORD", SETTING = VALUE, ...}. read: the name's node to the name;
+    /// "NAME", or {name = "NAME", SETTING = VALUE, ...}. read: the name's node to the name;
     /// try_out(name, settings) throws std::invalid_argument for a bad setting; is_taken(key,
     /// value): whether a key is no setting but something of the caller's.
     template <class Read, class TryOut, class IsTaken>
@@ -51,7 +51,7 @@ class TomlReader {
         const toml::node* name = table ? table->get("name") : nullptr;
         if (!name)
             fail(node.source(),
-                 std::string(what) + " is a word, or {name = \"WORD\", SETTING = VALUE, ...}");
+                 std::string(what) + " is a name, or {name = \"NAME\", SETTING = VALUE, ...}");
         std::pair<std::string, Settings> made{read(*name), {}};
         for (const auto& [key, value] : *table)
             if (key != "name" && !is_taken(key.str(), value))

@@ -18,7 +18,7 @@ struct RegionKindEntry {
 };
 std::span<const RegionKindEntry> region_kinds();
 
-/// Throws std::invalid_argument, with a suggestion, unless `kind` is a word of `region_kinds()`.
+/// Throws std::invalid_argument, with a suggestion, unless `kind` is a name of `region_kinds()`.
 void check_region_kind(std::string_view kind);
 
 /// n finite points: those of even number in or beside an item (uniform in its box, grown by half

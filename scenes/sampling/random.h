@@ -74,7 +74,7 @@ class Random {
     Random(std::uint64_t seed, std::uint32_t stream)
         : key_{{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}},
           stream_(stream) {}
-    /// A stream by its word, so that each use of a seed names its own.
+    /// A stream by its name, so that each use of a seed names its own.
     Random(std::uint64_t seed, std::string_view stream) : Random(seed, stream_of(stream)) {}
 
     Draws item(std::uint64_t i) const { return {key_, stream_, i}; }

@@ -170,7 +170,7 @@ std::vector<Ray<float>> occlusion(const Target& target) {
 } // namespace
 
 std::span<const RayKindEntry> ray_kinds() {
-#define BOXWOOD_ROW(word, summary) {#word, summary},
+#define BOXWOOD_ROW(name, summary) {#name, summary},
     static constexpr RayKindEntry entries[] = {BOXWOOD_RAY_KINDS(BOXWOOD_ROW)};
 #undef BOXWOOD_ROW
     return entries;
@@ -186,9 +186,9 @@ std::vector<Ray<float>> make_rays(std::string_view kind, const TriangleMesh& mes
     Target target(mesh, n, seed);
     target.sum_areas();
     std::vector<Ray<float>> rays;
-#define BOXWOOD_MAKE(word, summary)                                                                \
-    if (kind == #word)                                                                             \
-        rays = word(target);
+#define BOXWOOD_MAKE(name, summary)                                                                \
+    if (kind == #name)                                                                             \
+        rays = name(target);
     BOXWOOD_RAY_KINDS(BOXWOOD_MAKE)
 #undef BOXWOOD_MAKE
     for (const Ray<float>& ray : rays)

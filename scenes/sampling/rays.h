@@ -9,7 +9,7 @@
 
 namespace boxwood {
 
-/// Throws std::invalid_argument, with a suggestion, unless `kind` is a word of `ray_kinds()`.
+/// Throws std::invalid_argument, with a suggestion, unless `kind` is a name of `ray_kinds()`.
 void check_ray_kind(std::string_view kind);
 
 /// n rays of a kind, aimed at a mesh with at least one triangle; every number finite but t_max,

@@ -62,7 +62,7 @@ double scale_of(std::span<const PlacementPair> sample, double probability) {
 double overlap_probability(const SceneSpec& spec) {
     if (spec.n == 0)
         throw std::invalid_argument(
-            fmt::format("scene {}: n is 0; ask for at least one item", spec.generator));
+            fmt::format("scene {}: n is 0, but there must be at least one item", spec.generator));
     if (!(spec.overlaps > 0 && spec.overlaps <= 1e9))
         throw std::invalid_argument(
             fmt::format("scene {}: overlaps = {} must lie in (0, 1e9]: it is the mean number of "
@@ -86,7 +86,7 @@ Aabb<float> draw_box(const Placement& placement, double scale, Draws& draws) {
 
 namespace {
 
-/// The factor at which as many overlap as spec.overlaps asks for.
+/// The factor at which as many overlap as spec.overlaps says.
 double scattered_scale(const SceneSpec& spec, std::string_view name, const HalfSize& half_size) {
     // The sizes vary within one and a half decades of volume: 8192 pairs leave about 1 %.
     constexpr std::size_t n_pairs = 8192;

@@ -46,7 +46,7 @@ using Corners = std::array<Vec3<double>, 3>;
 using DrawCorners = Corners (*)(Draws&);
 
 /// spec.n boxes with centres uniform in the unit cube (they may stick out of it), as many to
-/// overlap as spec.overlaps asks for. `name` is the stream of random numbers.
+/// overlap as spec.overlaps says. `name` is the stream of random numbers.
 Scene scattered_boxes(const SceneSpec& spec, std::string_view name, const HalfSize& half_size);
 
 /// spec.n boxes with the sides that `sides` draws and centres uniform in a cube of spec.n / density

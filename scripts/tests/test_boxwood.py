@@ -170,7 +170,7 @@ def test_bad_boxes_are_named_by_file_and_line(tmp_path, text, said):
         (["list", "bilders"], "did you mean 'builders'"),
         (["query", "piars"], "did you mean 'pairs'"),
         (["query"], "pairs, rays"),
-        (["demo"], "four-link"),
+        (["demo", "for-link"], "did you mean 'four-link'"),
         (["query", "pairs"], "required"),
         (["query", "pairs", "/no/such/file"], "/no/such/file: cannot read it: No such file"),
         (["query", "pairs", "/"], "Is a directory"),
@@ -194,8 +194,8 @@ def test_no_command_shows_the_help_and_fails():
 
 
 def test_every_help_has_an_example():
-    commands = ["list", "sweep", "show", "compare", "merge", "doctor", "demo", "scene", "plan", "query"]
-    for command in [*([c] for c in commands), ["demo", "four-link"], ["query", "pairs"], ["query", "rays"]]:
+    commands = ["list", "sweep", "check", "show", "compare", "merge", "doctor", "demo", "scene", "plan", "query"]
+    for command in [*([c] for c in commands), ["demo", "four-link"], *(["query", q] for q in ("pairs", "rays", "triangles", "ccd"))]:
         assert "xample" in answer(*command, "--help"), command
     assert all(command in answer("--help") for command in commands)
 
@@ -215,20 +215,20 @@ def test_scene_describes_and_draws(tmp_path):
 
 def test_scene_draws_a_strip(tmp_path):
     svg = tmp_path / "strip.svg"
-    assert "tasks: rays (4096 flying), " in answer("scene", "fly_through", "--n", "50", "--strip", str(svg))
+    assert "queries: rays (4096 flying), " in answer("scene", "fly_through", "--n", "50", "--strip", str(svg))
     assert [f"frame {k}: 50 bodies" in svg.read_text() for k in (0, 33, 66, 100)] == [True] * 4
     own = tmp_path / "own.toml"
-    own.write_text('tasks = {name = "rays", kind = "flyng"}\n[[bodies]]\ngenerator = "cubes"\n')
+    own.write_text('queries = {name = "rays", kind = "flyng"}\n[[bodies]]\ngenerator = "cubes"\n')
     done = boxwood("scene", str(own))
     assert done.returncode == 2 and f"{own}:1: " in done.stderr and "did you mean 'flying'?" in done.stderr
 
 
-def test_plan_says_what_is_called_for():
+def test_plan_says_what_the_scene_requires():
     plan = json.loads(answer("plan", "still_life", "--json"))
     assert [row["stage"] for row in plan["stages"] if row["required"]] == ["fit", "tree", "pairs"]
     assert all(row["why"] and row["runs"] == row["required"] for row in plan["stages"])
-    everything = json.loads(answer("plan", "still_life", "--everything", "--json"))
-    assert "filter" in [row["stage"] for row in everything["stages"] if row["runs"]]
+    whole = json.loads(answer("plan", "still_life", "--all-stages", "--json"))
+    assert "filter" in [row["stage"] for row in whole["stages"] if row["runs"]]
     assert "the same answers" in answer("plan", "tumbling_rocks", "--n", "100", "--play", "5", "--threads", "2")
     done = boxwood("plan", "warehose")
     assert done.returncode == 2 and "did you mean 'warehouse'?" in done.stderr
@@ -242,7 +242,8 @@ def test_version_says_how_it_was_built():
 def test_list_is_the_same_whole_and_in_parts():
     whole = json.loads(answer("list", "--json"))
     assert list(whole) == (
-        "builders optimizers layouts updates traversals kernels scenes moving_scenes effects scene_queries query_kinds tasks executors peers families".split()
+        "builders optimizers layouts queries updates executors devices kernels families scenes moving_scenes effects "
+        "scene_queries query_kinds tasks peers".split()
     )
     for name, rows in whole.items():
         assert json.loads(answer("list", name, "--json")) == rows
@@ -252,15 +253,26 @@ def test_list_is_the_same_whole_and_in_parts():
     assert {"median", "binned_sah", "incremental"} <= {row["name"] for row in whole["builders"]}
 
 
+def test_list_alone_is_a_summary_of_one_screen():
+    lines = answer("list").splitlines()
+    assert len(lines) <= 24 and max(map(len, lines)) <= 100
+    counts = {line.split()[0]: int(line.split()[1]) for line in lines[1:] if line and line[0] != "`"}
+    assert counts == {name: len(rows) for name, rows in json.loads(answer("list", "--json")).items()}
+
+
 def test_doctor_never_fails():
-    told = json.loads(answer("doctor", "--json"))
-    assert {f["level"] for f in told["findings"]} <= {"ok", "note", "warn"}
-    assert told["isa"]["used"] in told["isa"]["supported"]
-    assert told["triad_gbs"]["one"] > 0
+    found = json.loads(answer("doctor", "--json"))
+    assert {f["level"] for f in found["findings"]} <= {"ok", "note", "warn"}
+    assert found["isa"]["used"] in found["isa"]["supported"]
+    assert found["triad_gbs"]["one"] > 0
     assert "What may spoil timings" in answer("doctor")
 
 
-def test_the_demo_tells_the_story():
+def test_demo_alone_lists_the_demos():
+    assert "boxwood demo four-link " in answer("demo")
+
+
+def test_the_demo_explains_the_four_link_robot():
     text = answer("demo", "four-link")
     for fact in (
         "= 6 box tests",

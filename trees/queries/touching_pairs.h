@@ -15,7 +15,7 @@ struct TierCounts {
     std::array<std::uint64_t, 4> decided{};
     std::uint64_t undecided = 0;
 
-    void add(Verdict v) {
+    void add(Decision v) {
         ++decided[std::min<std::size_t>(v.tier, 3)];
         undecided += v.answer == Answer::maybe ? 1 : 0;
     }
@@ -24,7 +24,7 @@ struct TierCounts {
 /// Hands on to another sink the pairs whose triangles share a point by the kernel K, in the same
 /// order and chunks. A `maybe` is handed on as well: the policy of never-miss. Items are triangles
 /// of `mesh`, or those of a pair of `a` and of `b`, which have triangle(i) as a TriangleMesh does.
-/// Batch kernels are given whole blocks; the verdicts are the same as one by one. `tiers`, if
+/// Batch kernels are given whole blocks; the decisions are the same as one by one. `tiers`, if
 /// given, is added to, and then all must happen on one thread.
 template <TriangleKernel K, class Mesh = TriangleMesh> class TouchingPairs final : public PairSink {
   public:
@@ -57,20 +57,20 @@ template <TriangleKernel K, class Mesh = TriangleMesh> class TouchingPairs final
     }
 
     bool take_piece(std::size_t chunk, std::span<const Pair> pairs) const {
-        std::array<Verdict, piece_size> verdicts;
-        judge(pairs, std::span(verdicts).first(pairs.size()));
+        std::array<Decision, piece_size> decisions;
+        judge(pairs, std::span(decisions).first(pairs.size()));
         std::array<Pair, piece_size> kept;
         std::size_t n = 0;
         for (std::size_t i = 0; i < pairs.size(); ++i) {
             kept[n] = pairs[i];
-            n += verdicts[i].answer != Answer::no ? 1 : 0;
+            n += decisions[i].answer != Answer::no ? 1 : 0;
             if (tiers_)
-                tiers_->add(verdicts[i]);
+                tiers_->add(decisions[i]);
         }
         return n == 0 || sink_.take(chunk, {kept.data(), n});
     }
 
-    void judge(std::span<const Pair> pairs, std::span<Verdict> verdicts) const {
+    void judge(std::span<const Pair> pairs, std::span<Decision> decisions) const {
         if constexpr (TriangleBatchKernel<K>) {
             using Block = TrianglePairBlock<Real>;
             std::array<Block, piece_size / Block::lanes> blocks;
@@ -80,10 +80,10 @@ template <TriangleKernel K, class Mesh = TriangleMesh> class TouchingPairs final
                 blocks[i / Block::lanes].set(i % Block::lanes, triangle(a_, p.a),
                                              triangle(b_, p.b));
             }
-            K::intersect(std::span<const Block>(blocks.data(), n_blocks), verdicts);
+            K::intersect(std::span<const Block>(blocks.data(), n_blocks), decisions);
         } else {
             for (std::size_t i = 0; i < pairs.size(); ++i)
-                verdicts[i] = K::intersect(triangle(a_, pairs[i].a), triangle(b_, pairs[i].b));
+                decisions[i] = K::intersect(triangle(a_, pairs[i].a), triangle(b_, pairs[i].b));
         }
     }
 

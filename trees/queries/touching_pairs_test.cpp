@@ -86,7 +86,7 @@ struct Undecided {
     using Real = float;
     static constexpr std::string_view name = "undecided";
     static constexpr KernelInfo info{"triangle_triangle", name, "", Promise::certified};
-    static Verdict intersect(const Triangle<float>&, const Triangle<float>&) {
+    static Decision intersect(const Triangle<float>&, const Triangle<float>&) {
         return {Answer::maybe, 2};
     }
 };

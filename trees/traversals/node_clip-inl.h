@@ -103,7 +103,7 @@ template <class Node> class NodeClip {
     std::size_t near0_, near1_, near2_; ///< of `PlaneOf`; the far planes are the others
 };
 
-/// As LaneBits, for up to 16 lanes.
+/// As lane_bits, for up to 16 lanes.
 template <class D, class M> HWY_INLINE std::uint32_t WideBits(D d, M m, std::size_t first) {
     std::uint8_t bytes[8] = {};
     hwy::HWY_NAMESPACE::StoreMaskBits(d, m, bytes);

@@ -34,8 +34,8 @@ HWY_INLINE void TraverseAll(const TriangleBlocks& tree, const FusedSlabs& slabs,
             const RayBlock<Node>* last = block + (Node::width > 8 && (at & ray_refs::two));
             do
                 state.tested(*block,
-                             IntersectBlock(std::type_identity<K>{}, state.per_ray, ray, *block,
-                                            state.t_max(), hits),
+                             intersect_block(std::type_identity<K>{}, state.per_ray, ray, *block,
+                                             state.t_max(), hits),
                              hits);
             while (++block <= last);
         } else {

@@ -8,8 +8,8 @@
 
 #include <hwy/cache_control.h>
 
-#include "kernels/ray_triangle/moller_trumbore_block-inl.h"
-#include "kernels/ray_triangle/watertight_block-inl.h"
+#include "kernels/simd/moller_trumbore_block-inl.h"
+#include "kernels/simd/watertight_block-inl.h"
 #include "trees/traversals/compress-inl.h"
 #include "trees/traversals/node_clip-inl.h"
 #include "trees/traversals/ray_traversal.h"
@@ -24,7 +24,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::detail::HWY_NAMESPACE {
 
-using boxwood::HWY_NAMESPACE::IntersectBlock;
+using boxwood::HWY_NAMESPACE::intersect_block;
 
 /// Each open node on a path leaves all but one of its children waiting; a whole node is stored
 /// beyond them, and one reference below them ends a traversal.
@@ -186,7 +186,7 @@ template <class Node, RayKernel K, RayMode mode, bool Counted> class RayWave {
         BlockHits<ray_lanes<Node>> hits;
         do {
             const std::uint32_t bits =
-                IntersectBlock(std::type_identity<K>{}, own.state->per_ray, *own.ray, *block,
+                intersect_block(std::type_identity<K>{}, own.state->per_ray, *own.ray, *block,
                                own.state->t_max(), hits);
             if (!Counted && bits == 0)
                 continue;

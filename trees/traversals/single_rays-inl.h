@@ -6,8 +6,8 @@
 #define BOXWOOD_SINGLE_RAYS_INL_H
 #endif
 
-#include "trees/traversals/ray_wave-inl.h"
 #include "trees/queries/single_rays.h"
+#include "trees/traversals/ray_wave-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::detail::HWY_NAMESPACE {
@@ -154,8 +154,8 @@ template <class Node, RayKernel K, RayMode mode> class RayAlone {
         const auto* last = block + (Node::width > 8 && (at & ray_refs::two));
         BlockHits<ray_lanes<Node>> hits;
         do {
-            const std::uint32_t bits = IntersectBlock(std::type_identity<K>{}, state_.per_ray, ray_,
-                                                      *block, state_.t_max(), hits);
+            const std::uint32_t bits = intersect_block(std::type_identity<K>{}, state_.per_ray,
+                                                       ray_, *block, state_.t_max(), hits);
             if (bits == 0)
                 continue;
             state_.tested(*block, bits, hits);

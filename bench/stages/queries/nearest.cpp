@@ -8,7 +8,7 @@ namespace {
 class Nearest final : public SceneStage {
   public:
     std::size_t run(Playing& playing) override {
-        const std::size_t k = ask_of(playing.scene.file(), "nearest")->k;
+        const std::size_t k = query_named(playing.scene.file(), "nearest")->k;
         playing.answers.nearest.resize(k * playing.places.size());
         boxwood::nearest(*playing.box_tree, playing.places, k, playing.executor,
                          playing.answers.nearest, nullptr);

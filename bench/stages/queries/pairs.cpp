@@ -9,7 +9,8 @@ namespace {
 class Pairs final : public SceneStage {
   public:
     std::size_t start(Playing& playing) override {
-        playing.pairs = ask_of(playing.scene.file(), "pairs") ? &playing.answers.pairs : &hidden_;
+        playing.pairs =
+            query_named(playing.scene.file(), "pairs") ? &playing.answers.pairs : &hidden_;
         sink_.emplace(*playing.pairs);
         is_found_ = false;
         return 0;

@@ -1,5 +1,5 @@
-#include "kernels/oracle/continuous.h"
 #include "bench/tasks/kernels/kernel.h"
+#include "kernels/oracle/rational.h"
 #include "kernels/registry.h"
 
 namespace boxwood::bench {

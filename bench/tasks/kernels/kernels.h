@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bench/tasks/contender.h"
-#include "kernels/verdict.h"
+#include "kernels/decision.h"
 
 #include <span>
 #include <string_view>

@@ -38,7 +38,7 @@ TEST(Rungs, AnswerEveryCaseTheSameTwice) {
             continue;
         HardCaseSpec spec;
         spec.n = 21; // not a multiple of any number of lanes
-        spec.scale = std::clamp(0, family.scale_least, family.scale_most);
+        spec.scale = std::clamp(0, family.scale_min, family.scale_max);
         scene.cases = make_cases(family, spec);
         for (const AskEntry& entry : asks())
             if (is_kernel_ask(entry.task) && fits(scene.cases, entry.task))

@@ -11,7 +11,7 @@ template <class K> Rung rung() {
                 return one_by_one<&Answers::verdicts>(
                     std::get<std::vector<RayBoxCase>>(cases), [](const RayBoxCase& c) {
                         const RaySpan span = clip(K(c.ray), c.box, c.ray.t_min, c.ray.t_max);
-                        return Verdict{span.hit() ? Answer::yes : Answer::no, 0};
+                        return Decision{span.hit() ? Answer::yes : Answer::no, 0};
                     });
             }};
 }

@@ -2,7 +2,7 @@
 #include "bench/truth/judging/judges.h"
 #include "bench/truth/judging/tally.h"
 #include "bench/truth/judging/truths.h"
-#include "kernels/oracle/oracle.h"
+#include "kernels/oracle/exact_answers.h"
 #include "kernels/oracle/roots.h"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #include "bench/truth/judging/judges.h"
 #include "bench/truth/judging/tally.h"
 #include "bench/truth/judging/truths.h"
-#include "kernels/oracle/continuous.h"
+#include "kernels/oracle/rational.h"
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ TrueImpact truth_of(const MotionCase& c, MotionKind kind) {
     const oracle::ExactContinuous exact;
     const Impact first =
         kind == MotionKind::vertex_face ? exact.vertex_face(c.motion) : exact.edge_edge(c.motion);
-    return {c.touch == Known::ask ? first.answer == Answer::yes : c.touch == Known::yes, first};
+    return {c.touch == Known::unknown ? first.answer == Answer::yes : c.touch == Known::yes, first};
 }
 
 class ImpactJudge final : public Judge {

@@ -120,7 +120,7 @@ Panel panel_of(const Scene& scene) {
         return Panel::generic;
     const int scale = scene.spec.scale;
     const bool is_extreme =
-        scale != 0 && (scale == family->scale_least || scale == family->scale_most);
+        scale != 0 && (scale == family->scale_min || scale == family->scale_max);
     return is_extreme ? Panel::degenerate : family->panel;
 }
 

@@ -44,7 +44,7 @@ Judgement judged(const Scene& scene, Ask ask, const Answers& answers,
     return make_judge(scene, ask, 2)->judge(answers, contender);
 }
 
-Answers verdicts(std::vector<Verdict> list) {
+Answers verdicts(std::vector<Decision> list) {
     Answers answers;
     answers.verdicts = std::move(list);
     return answers;
@@ -84,10 +84,10 @@ TEST(Tally, EveryPromiseAllowsItsOwnErrors) {
 
 TEST(Judge, CountsFalseAnswersAndTiers) {
     // Touching by the oracle; apart, known; apart by the oracle; not finite.
-    const Scene scene = pairs_of_triangles({{at(0), at(0), Known::ask},
+    const Scene scene = pairs_of_triangles({{at(0), at(0), Known::unknown},
                                             {at(0), at(1), Known::no},
-                                            {at(0), at(1), Known::ask},
-                                            {at(0), at(nan), Known::ask}});
+                                            {at(0), at(1), Known::unknown},
+                                            {at(0), at(nan), Known::unknown}});
     const Answers answers =
         verdicts({{Answer::no, 0}, {Answer::yes, 2}, {Answer::maybe, 5}, {Answer::yes, 0}});
     const Judgement none = judged(scene, Ask::triangle_triangle, answers, named(Promise::none));
@@ -131,7 +131,7 @@ TEST(Judge, AKernelOfFloatsIsJudgedOnWhatItReads) {
     const double h = 0x1p-60; // a float, but not beside 1
     Triangle<double> tilted{{0, 0, 1}, {1, 0, 1}, {0, 1, 1 + 0x1p-40}};
     const Scene scene =
-        pairs_of_triangles({{at(0), at(h), Known::no}, {tilted, at(1 + 0x1p-41), Known::ask}});
+        pairs_of_triangles({{at(0), at(h), Known::no}, {tilted, at(1 + 0x1p-41), Known::unknown}});
     const Answers rounded = verdicts({{Answer::no, 0}, {Answer::yes, 0}});
     EXPECT_EQ(
         judged(scene, Ask::triangle_triangle, rounded, named(Promise::exact, "f32")).kernel.status,

@@ -2,7 +2,7 @@
 #include "bench/truth/judging/judges.h"
 #include "bench/truth/judging/tally.h"
 #include "bench/truth/judging/truths.h"
-#include "kernels/oracle/oracle.h"
+#include "kernels/oracle/exact_answers.h"
 #include "kernels/oracle/roots.h"
 
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ TrueHit truth_of(const RayCase& c, const std::vector<Triangle<float>>& triangles
         if (point && (!nearest || point->t < *nearest))
             nearest = point->t;
     }
-    return {c.hit == Known::ask ? nearest.has_value() : c.hit == Known::yes,
+    return {c.hit == Known::unknown ? nearest.has_value() : c.hit == Known::yes,
             nearest ? oracle::nearest_double(*nearest) : std::nan("")};
 }
 

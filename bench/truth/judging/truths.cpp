@@ -31,7 +31,7 @@ class ToFloats {
 template <class PairCase> std::optional<PairCase> rounded_pair(PairCase c) {
     if (!ToFloats()(c.a)(c.b).changed())
         return std::nullopt;
-    c.touch = Known::ask;
+    c.touch = Known::unknown;
     return c;
 }
 

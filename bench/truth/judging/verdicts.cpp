@@ -10,15 +10,15 @@ namespace boxwood::bench {
 namespace {
 
 bool truth_of(const TrianglePairCase& c) {
-    return c.touch == Known::ask ? oracle::intersect(c.a, c.b) : c.touch == Known::yes;
+    return c.touch == Known::unknown ? oracle::intersect(c.a, c.b) : c.touch == Known::yes;
 }
 
 bool truth_of(const RayBoxCase& c) {
-    return c.hit == Known::ask ? oracle::ray_box(c.ray, c.box) : c.hit == Known::yes;
+    return c.hit == Known::unknown ? oracle::ray_box(c.ray, c.box) : c.hit == Known::yes;
 }
 
 bool truth_of(const ObbPairCase& c) {
-    if (c.touch != Known::ask)
+    if (c.touch != Known::unknown)
         return c.touch == Known::yes;
     const auto pose = [](const Obb<double>& box) {
         return std::array{box.centre, box.axis[0], box.axis[1], box.axis[2]};
@@ -57,7 +57,7 @@ template <class Case> class VerdictJudge final : public Judge {
         return truth ? text_of(*truth) : "none: not finite";
     }
     std::string answer_text(const Answers& answers, std::size_t i) const override {
-        const Verdict& verdict = answers.verdicts[i];
+        const Decision& verdict = answers.verdicts[i];
         return verdict.tier == 0
                    ? text_of(verdict.answer)
                    : fmt::format("{} (tier {})", text_of(verdict.answer), verdict.tier);

@@ -1,8 +1,8 @@
-// Entries of the list of hard cases that several libraries get wrong, asked of the box kernels.
-#include "kernels/registry.h"
+// Entries of the list of hard cases that several libraries get wrong, for the box kernels.
 #include "kernels/oracle/oracle.h"
+#include "kernels/registry.h"
 #include "scenes/hard_cases/hard_cases.h"
-#include "scenes/hard_cases/known_answers/kept_promises_for_test.h"
+#include "scenes/hard_cases/known_answers/promises.h"
 
 #include <gtest/gtest.h>
 

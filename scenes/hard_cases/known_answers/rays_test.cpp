@@ -1,7 +1,7 @@
-// Entries of the list of hard cases that several libraries get wrong, asked of the ray kernels.
-#include "kernels/registry.h"
+// Entries of the list of hard cases that several libraries get wrong, for the ray kernels.
 #include "kernels/oracle/registry.h"
-#include "scenes/hard_cases/known_answers/kept_promises_for_test.h"
+#include "kernels/registry.h"
+#include "scenes/hard_cases/known_answers/promises.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-// Entries of the list of hard cases that several libraries get wrong, asked of every triangle
+// Entries of the list of hard cases that several libraries get wrong, for every triangle
 // kernel.
-#include "kernels/registry.h"
+#include "kernels/oracle/exact_answers.h"
 #include "kernels/oracle/registry.h"
-#include "kernels/oracle/oracle.h"
+#include "kernels/registry.h"
 #include "scenes/hard_cases/hard_cases.h"
-#include "scenes/hard_cases/known_answers/kept_promises_for_test.h"
+#include "scenes/hard_cases/known_answers/promises.h"
 
 #include <gtest/gtest.h>
 
