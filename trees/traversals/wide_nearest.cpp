@@ -106,7 +106,7 @@ HWY_INLINE void OfferAll(const Leaf& leaf, Goal& goal, NearestSurface& best, Nea
     if (near == 0)
         return;
     SeenTriangles seen{}; // denormals in unused lanes would cost ten times the whole search
-    std::uint32_t items[SeenTriangles::most];
+    std::uint32_t items[SeenTriangles::max];
     std::size_t n = 0;
     for (; near != 0; near &= near - 1) {
         items[n] = leaf.ref[static_cast<std::size_t>(std::countr_zero(near))];
@@ -114,8 +114,8 @@ HWY_INLINE void OfferAll(const Leaf& leaf, Goal& goal, NearestSurface& best, Nea
         ++n;
     }
     traversal.template count_triangles<Counted>(n);
-    const hn::CappedTag<float, SeenTriangles::most> d;
-    alignas(64) float bounds[SeenTriangles::most];
+    const hn::CappedTag<float, SeenTriangles::max> d;
+    alignas(64) float bounds[SeenTriangles::max];
     for (std::size_t i = 0; i < n; i += hn::Lanes(d))
         hn::Store(TriangleBounds(d, seen, i), d, bounds + i);
     const std::size_t first =
