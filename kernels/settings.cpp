@@ -48,7 +48,8 @@ std::string demand(const SettingInfo& setting, const SettingValue& value) {
 std::optional<SettingValue> convert(const SettingInfo& setting, const SettingValue& value) {
     if (!setting.choices.empty()) {
         const auto* name = std::get_if<std::string>(&value);
-        const bool known = name && std::ranges::find(setting.choices, *name) != setting.choices.end();
+        const bool known =
+            name && std::ranges::find(setting.choices, *name) != setting.choices.end();
         return known ? std::optional(value) : std::nullopt;
     }
     if (const auto number = number_of(value); number && !in_range(setting, *number))
@@ -77,7 +78,9 @@ std::string allowed_values(const SettingInfo& setting) {
         return number_text(setting.min) + " to " + number_text(setting.max);
     std::string all;
     for (std::size_t i = 0; i < setting.choices.size(); ++i)
-        all += (i == 0 ? "" : i + 1 < setting.choices.size() ? ", " : " or ") +
+        all += (i == 0                           ? ""
+                : i + 1 < setting.choices.size() ? ", "
+                                                 : " or ") +
                std::string(setting.choices[i]);
     return all;
 }

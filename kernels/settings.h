@@ -24,8 +24,8 @@ std::string to_text(const SettingValue& value);
 /// A setting for lists and checks, without the type that it belongs to.
 struct SettingInfo {
     std::string_view name, summary;
-    SettingValue default_value;           ///< has the setting's type; that of a choice is a name
-    double min = 0, max = 0;              ///< of a number
+    SettingValue default_value;            ///< has the setting's type; that of a choice is a name
+    double min = 0, max = 0;               ///< of a number
     std::vector<std::string_view> choices; ///< of an enum whose values are 0, 1, 2 ...
 };
 
@@ -43,10 +43,11 @@ SettingValue checked_setting(std::string_view owner, const SettingInfo& setting,
 /// A data member of a registry type T, such as a builder, that the user may set.
 template <class T> struct Setting {
     Setting(std::string_view name_, std::string_view summary_, int T::*member, int min, int max)
-        : Setting(SettingInfo{name_, summary_, std::int64_t{T{}.*member}, double(min), double(max), {}},
-                  [member](T& to, const SettingValue& value) {
-                      to.*member = static_cast<int>(std::get<std::int64_t>(value));
-                  }) {}
+        : Setting(
+              SettingInfo{name_, summary_, std::int64_t{T{}.*member}, double(min), double(max), {}},
+              [member](T& to, const SettingValue& value) {
+                  to.*member = static_cast<int>(std::get<std::int64_t>(value));
+              }) {}
     Setting(std::string_view name_, std::string_view summary_, double T::*member, double min,
             double max)
         : Setting(SettingInfo{name_, summary_, T{}.*member, min, max, {}},
@@ -54,15 +55,13 @@ template <class T> struct Setting {
                       to.*member = std::get<double>(value);
                   }) {}
     Setting(std::string_view name_, std::string_view summary_, bool T::*member)
-        : Setting(SettingInfo{name_, summary_, T{}.*member, 0, 0, {}},
-                  [member](T& to, const SettingValue& value) {
-                      to.*member = std::get<bool>(value);
-                  }) {}
+        : Setting(
+              SettingInfo{name_, summary_, T{}.*member, 0, 0, {}},
+              [member](T& to, const SettingValue& value) { to.*member = std::get<bool>(value); }) {}
     /// choices: the names of the values 0, 1, 2 ... of the enum.
     template <class Enum>
-    requires std::is_enum_v<Enum>
-    Setting(std::string_view name_, std::string_view summary_, Enum T::*member,
-            std::vector<std::string_view> choices)
+    requires std::is_enum_v<Enum> Setting(std::string_view name_, std::string_view summary_,
+                                          Enum T::*member, std::vector<std::string_view> choices)
         : Setting(SettingInfo{name_, summary_,
                               std::string(choices[static_cast<std::size_t>(T{}.*member)]), 0, 0,
                               choices},
@@ -83,7 +82,10 @@ template <class T> struct Setting {
 
 /// What T::settings() must be, if there is one: a range of Setting<T>.
 template <class T>
-concept ListsSettings = !requires { T::settings(); } || requires {
+concept ListsSettings = !requires {
+    T::settings();
+}
+|| requires {
     { *T::settings().begin() } -> std::convertible_to<const Setting<T>&>;
 };
 

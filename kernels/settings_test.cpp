@@ -44,8 +44,8 @@ template <class T = Painted> std::string complaint(const Settings& settings) {
 }
 
 TEST(Settings, ReachMembersOfEveryType) {
-    const Painted made = with_settings<Painted>(
-        {{"coats", 3}, {"gloss", .25}, {"dry", true}, {"colour", "red"}});
+    const Painted made =
+        with_settings<Painted>({{"coats", 3}, {"gloss", .25}, {"dry", true}, {"colour", "red"}});
     EXPECT_EQ(made.coats, 3);
     EXPECT_EQ(made.gloss, .25);
     EXPECT_TRUE(made.dry);
@@ -78,8 +78,7 @@ TEST(Settings, RefuseOtherTypesRangesAndNamesWithAReason) {
               "setting 'gloss' of 'painted' must be a number from 0 to 1, not high");
     EXPECT_THAT(complaint({{"gloss", std::numeric_limits<double>::quiet_NaN()}}),
                 HasSubstr("must lie between 0 and 1"));
-    EXPECT_EQ(complaint({{"dry", 1}}),
-              "setting 'dry' of 'painted' must be true or false, not 1");
+    EXPECT_EQ(complaint({{"dry", 1}}), "setting 'dry' of 'painted' must be true or false, not 1");
     EXPECT_EQ(complaint({{"colour", "blue"}}),
               "setting 'colour' of 'painted' must be red or green, not blue");
     EXPECT_EQ(complaint({{"coast", 2}}), "'painted' has no setting 'coast'; it has coats, gloss, "

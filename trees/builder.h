@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/settings.h"
 #include "kernels/primitives/triangle.h"
+#include "kernels/settings.h"
 #include "trees/executor.h"
 #include "trees/tree.h"
 
@@ -107,10 +107,10 @@ template <Builder B> BuilderEntry builder_entry() {
 /// The registry row of an Optimizer type.
 template <Optimizer O> OptimizerEntry optimizer_entry() {
     return {O::name, O::summary, setting_infos<O>(), [](const Settings& values) {
-                return [optimizer = with_settings<O>(values)](Tree& tree,
-                                                              const Executor& executor) {
-                    optimizer.improve(tree, executor);
-                };
+                return
+                    [optimizer = with_settings<O>(values)](Tree& tree, const Executor& executor) {
+                        optimizer.improve(tree, executor);
+                    };
             }};
 }
 

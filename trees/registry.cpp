@@ -1,6 +1,7 @@
-/// The registries of trees/. To add a builder, optimizer, update policy or executor: write its file,
-/// which defines `BuilderEntry NAME_builder()` (or NAME_optimizer, NAME_update, NAME_executor), and
-/// add its name here; of a layout, NAME_layout, to the list in layouts/layouts.h.
+/// The registries of trees/. To add a builder, optimizer, update policy or executor: write its
+/// file, which defines `BuilderEntry NAME_builder()` (or NAME_optimizer, NAME_update,
+/// NAME_executor), and add its name here; of a layout, NAME_layout, to the list in
+/// layouts/layouts.h.
 
 #include "kernels/suggest.h"
 #include "trees/builder.h"
@@ -104,8 +105,7 @@ BuildFunction make_builder(std::string_view name, const Settings& settings) {
     const BuilderEntry& builder = entry_named(name.substr(0, plus), builders(), "builder");
     if (plus == std::string_view::npos)
         return builder.make(settings);
-    const OptimizerEntry& optimizer =
-        entry_named(name.substr(plus + 1), optimizers(), "optimizer");
+    const OptimizerEntry& optimizer = entry_named(name.substr(plus + 1), optimizers(), "optimizer");
     Settings of_builder, of_optimizer;
     for (const auto& setting : settings) {
         const bool optimizers_own =

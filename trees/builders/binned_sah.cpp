@@ -76,7 +76,7 @@ class BinnedSplitter {
         ClearCentres(h.first);
         ClearCentres(h.second);
         Partition(Items(r), r.count, binning, plane, Items(h.first), 0, n_left, h.first.centres,
-             h.second.centres);
+                  h.second.centres);
         return h;
     }
 
@@ -152,9 +152,8 @@ class BinnedSplitter {
             StoreF8(SetF8(kLowest), s.right_centres);
             if (choice.plane.axis >= 0)
                 Partition(Items(large[s.range]) + s.from, s.count, choice.binning, choice.plane,
-                     Items(h.first), s.n_left,
-                     h.first.count + (s.from - s.n_left), s.left_centres,
-                     s.right_centres);
+                          Items(h.first), s.n_left, h.first.count + (s.from - s.n_left),
+                          s.left_centres, s.right_centres);
         });
         for (const Slice& s : slices) {
             Halves& h = children[s.range];

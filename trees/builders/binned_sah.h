@@ -31,15 +31,15 @@ struct BinnedSahBuilder {
                          max_unsplit_below = 16;
     static auto settings() {
         using Owner = BinnedSahBuilder;
-        return std::array{Setting<Owner>("bins", "bins per axis at most", &Owner::bins, 2, max_bins),
-                          Setting<Owner>("agglomerate_below",
-                                         "items of the largest node that is joined bottom-up",
-                                         &Owner::agglomerate_below, 1, max_agglomerate_below),
-                          Setting<Owner>("leaf_size", "items that cost as much as one",
-                                         &Owner::leaf_size, 1, max_leaf_size),
-                          Setting<Owner>("unsplit_below",
-                                         "items of the largest node that is left as it lies",
-                                         &Owner::unsplit_below, 1, max_unsplit_below)};
+        return std::array{
+            Setting<Owner>("bins", "bins per axis at most", &Owner::bins, 2, max_bins),
+            Setting<Owner>("agglomerate_below",
+                           "items of the largest node that is joined bottom-up",
+                           &Owner::agglomerate_below, 1, max_agglomerate_below),
+            Setting<Owner>("leaf_size", "items that cost as much as one", &Owner::leaf_size, 1,
+                           max_leaf_size),
+            Setting<Owner>("unsplit_below", "items of the largest node that is left as it lies",
+                           &Owner::unsplit_below, 1, max_unsplit_below)};
     }
 
     Tree build(Boxes boxes, const Executor& executor) const;

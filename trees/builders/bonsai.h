@@ -27,19 +27,17 @@ struct BonsaiBuilder {
     static auto settings() {
         using Owner = BonsaiBuilder;
         using Binned = BinnedSahBuilder;
-        return std::array{Setting<Owner>("group", "items of a mini-tree at most", &Owner::group, 16,
-                                         max_group),
-                          Setting<Owner>("prune", "largest root of a mini-tree, by their mean area",
-                                         &Owner::prune, 0, 1e6),
-                          Setting<Owner>("agglomerate_below",
-                                         "items of the largest node that is joined bottom-up",
-                                         &Owner::agglomerate_below, 1,
-                                         Binned::max_agglomerate_below),
-                          Setting<Owner>("leaf_size", "items that cost as much as one",
-                                         &Owner::leaf_size, 1, Binned::max_leaf_size),
-                          Setting<Owner>("unsplit_below",
-                                         "items of the largest node that is left as it lies",
-                                         &Owner::unsplit_below, 1, Binned::max_unsplit_below)};
+        return std::array{
+            Setting<Owner>("group", "items of a mini-tree at most", &Owner::group, 16, max_group),
+            Setting<Owner>("prune", "largest root of a mini-tree, by their mean area",
+                           &Owner::prune, 0, 1e6),
+            Setting<Owner>("agglomerate_below",
+                           "items of the largest node that is joined bottom-up",
+                           &Owner::agglomerate_below, 1, Binned::max_agglomerate_below),
+            Setting<Owner>("leaf_size", "items that cost as much as one", &Owner::leaf_size, 1,
+                           Binned::max_leaf_size),
+            Setting<Owner>("unsplit_below", "items of the largest node that is left as it lies",
+                           &Owner::unsplit_below, 1, Binned::max_unsplit_below)};
     }
 
     Tree build(Boxes boxes, const Executor& executor) const;

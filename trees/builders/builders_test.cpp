@@ -1,11 +1,11 @@
 #include "kernels/testing/every_target.h"
-#include "trees/testing/box_families.h"
 #include "trees/builder.h"
 #include "trees/builders/top_down.h"
-#include "trees/testing/every_executor.h"
 #include "trees/inspect/quality.h"
-#include "trees/testing/same_tree.h"
 #include "trees/inspect/validate.h"
+#include "trees/testing/box_families.h"
+#include "trees/testing/every_executor.h"
+#include "trees/testing/same_tree.h"
 
 #include <gtest/gtest.h>
 

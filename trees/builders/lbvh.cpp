@@ -5,8 +5,8 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
-#include "trees/builders/lbvh.h"
 #include "trees/builders/detail/radix_items.h"
+#include "trees/builders/lbvh.h"
 
 #include <algorithm>
 #include <bit>
@@ -106,7 +106,7 @@ HWY_AFTER_NAMESPACE();
 namespace boxwood::detail {
 HWY_EXPORT(WriteCoarse);
 HWY_EXPORT(WriteFine);
-}
+} // namespace boxwood::detail
 
 namespace boxwood {
 using namespace detail;

@@ -1,11 +1,11 @@
 #include "trees/builders/lbvh.h"
 
 #include "kernels/testing/every_target.h"
+#include "trees/inspect/quality.h"
+#include "trees/inspect/validate.h"
 #include "trees/testing/box_families.h"
 #include "trees/testing/every_executor.h"
-#include "trees/inspect/quality.h"
 #include "trees/testing/same_tree.h"
-#include "trees/inspect/validate.h"
 
 #include <gtest/gtest.h>
 

@@ -5,9 +5,9 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
-#include "trees/builders/median.h"
 #include "trees/builders/detail/prim8-inl.h"
 #include "trees/builders/detail/top_down_loop.h"
+#include "trees/builders/median.h"
 #include "trees/optimizers/refit.h"
 
 #include <algorithm>

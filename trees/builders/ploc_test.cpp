@@ -1,13 +1,13 @@
 #include "trees/builders/ploc.h"
 
 #include "kernels/testing/every_target.h"
-#include "trees/testing/box_families.h"
-#include "trees/builders/lbvh.h"
 #include "trees/builders/detail/ploc_tile.h"
-#include "trees/testing/every_executor.h"
+#include "trees/builders/lbvh.h"
 #include "trees/inspect/quality.h"
-#include "trees/testing/same_tree.h"
 #include "trees/inspect/validate.h"
+#include "trees/testing/box_families.h"
+#include "trees/testing/every_executor.h"
+#include "trees/testing/same_tree.h"
 
 #include <gtest/gtest.h>
 

@@ -23,9 +23,9 @@ struct SpatialSahBuilder {
     double references = 2; ///< leaves per triangle at most, over the whole mesh
 
     static auto settings() {
-        return std::array{
-            Setting<SpatialSahBuilder>("references", "leaves per triangle at most, over the mesh",
-                                       &SpatialSahBuilder::references, 1, 16)};
+        return std::array{Setting<SpatialSahBuilder>("references",
+                                                     "leaves per triangle at most, over the mesh",
+                                                     &SpatialSahBuilder::references, 1, 16)};
     }
 
     Tree build(Boxes boxes, const Executor& executor) const;

@@ -3,14 +3,14 @@
 #include "kernels/registry.h"
 #include "kernels/testing/closed_meshes.h"
 #include "trees/builders/detail/clip_triangle.h"
-#include "trees/testing/every_executor.h"
-#include "trees/layout.h"
 #include "trees/inspect/quality.h"
-#include "trees/testing/same_tree.h"
-#include "trees/testing/brute_force_rays.h"
-#include "trees/testing/triangle_soup.h"
-#include "trees/testing/layouts_answering.h"
 #include "trees/inspect/validate.h"
+#include "trees/layout.h"
+#include "trees/testing/brute_force_rays.h"
+#include "trees/testing/every_executor.h"
+#include "trees/testing/layouts_answering.h"
+#include "trees/testing/same_tree.h"
+#include "trees/testing/triangle_soup.h"
 
 #include <gtest/gtest.h>
 

@@ -52,9 +52,7 @@ template <class Split> class ItemSplitter {
 
   private:
     /// All but the box, which `refit` makes.
-    void write(const Part& part) {
-        tree_.nodes[part.node] = {{}, part.first, part.count};
-    }
+    void write(const Part& part) { tree_.nodes[part.node] = {{}, part.first, part.count}; }
 
     const Split& split_;
     Prims8 items_;

@@ -1,8 +1,8 @@
 #include "trees/dynamic/dynamic_tree.h"
 
-#include "trees/testing/box_families.h"
 #include "trees/inspect/quality.h"
 #include "trees/inspect/validate.h"
+#include "trees/testing/box_families.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

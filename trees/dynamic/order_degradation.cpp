@@ -1,8 +1,8 @@
 #include "trees/dynamic/order_degradation.h"
 
-#include "trees/queries/regions.h"
 #include "trees/dynamic/detail/item_sample.h"
 #include "trees/dynamic/detail/survey.h"
+#include "trees/queries/regions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,8 +24,8 @@ void OrderDegradation::start(double cost, double query) {
     fresh_query_ = query;
 }
 
-/// Some of the boxes are queries by region. All pairs together take about a quarter of as many box tests:
-/// each found once, and by whole blocks.
+/// Some of the boxes are queries by region. All pairs together take about a quarter of as many box
+/// tests: each found once, and by whole blocks.
 void OrderDegradation::measure(const PackedLayout& layout, Boxes boxes) {
     constexpr std::size_t few = 16, most = 256;
     constexpr double per_test = .3, share = .28;
@@ -40,8 +40,8 @@ void OrderDegradation::measure(const PackedLayout& layout, Boxes boxes) {
     Work work;
     CountPairs ignored;
     regions(layout, Boxes(sampled), serial(), ignored, &work);
-    fresh_query_ =
-        per_test * share * static_cast<double>(work.box_tests) / static_cast<double>(sampled.size());
+    fresh_query_ = per_test * share * static_cast<double>(work.box_tests) /
+                   static_cast<double>(sampled.size());
 }
 
 void OrderDegradation::reordered(double cost, const PackedLayout& layout, Boxes boxes) {

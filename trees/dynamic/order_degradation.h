@@ -24,8 +24,8 @@ class OrderDegradation {
     /// A new order was made, or a part of one, at this cost above that of leaving the old one.
     void reordered(double cost, const PackedLayout& layout, Boxes boxes);
     void reordered(double cost, double query);
-    /// The boxes moved, the order stayed: `area_ratio` is the surface of all blocks over what it was
-    /// when the whole order was new.
+    /// The boxes moved, the order stayed: `area_ratio` is the surface of all blocks over what it
+    /// was when the whole order was new.
     void degraded(double area_ratio);
     /// What queries lose by that.
     double excess(double area_ratio) const;

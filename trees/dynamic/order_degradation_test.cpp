@@ -1,7 +1,7 @@
 #include "trees/dynamic/order_degradation.h"
 
-#include "trees/testing/box_families.h"
 #include "trees/builders/hilbert.h"
+#include "trees/testing/box_families.h"
 
 #include <gtest/gtest.h>
 
@@ -61,7 +61,8 @@ double mean_cost(double cost_of_order, const std::function<double(std::size_t)>&
     return cost / 1000;
 }
 
-double best_mean_cost(double cost_of_order, const std::function<double(std::size_t)>& area_ratio_at) {
+double best_mean_cost(double cost_of_order,
+                      const std::function<double(std::size_t)>& area_ratio_at) {
     const Still still;
     OrderDegradation degradation;
     degradation.start(cost_of_order, still.layout, still.boxes);

@@ -1,10 +1,10 @@
-#include "trees/layout.h"
 #include "trees/dynamic/ray_refit.h"
+#include "trees/layout.h"
 
 #include "kernels/ray_triangle/watertight.h"
 #include "trees/builder.h"
-#include "trees/testing/every_executor.h"
 #include "trees/testing/brute_force_rays.h"
+#include "trees/testing/every_executor.h"
 #include "trees/testing/triangle_soup.h"
 
 #include <gtest/gtest.h>

@@ -2,9 +2,9 @@
 
 #include "trees/builder.h"
 #include "trees/executor.h"
+#include "trees/inspect/work.h"
 #include "trees/queries/pairs.h"
 #include "trees/tree.h"
-#include "trees/inspect/work.h"
 
 #include <cstddef>
 #include <cstdint>

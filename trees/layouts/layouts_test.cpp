@@ -1,11 +1,11 @@
 #include "kernels/arithmetic/rounding.h"
-#include "trees/layout.h"
-#include "trees/testing/box_families.h"
 #include "trees/builder.h"
+#include "trees/layout.h"
 #include "trees/layouts/binary.h"
 #include "trees/layouts/quantised8.h"
 #include "trees/layouts/wide.h"
 #include "trees/queries/self_pairs.h"
+#include "trees/testing/box_families.h"
 
 #include <gtest/gtest.h>
 

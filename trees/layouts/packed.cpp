@@ -1,7 +1,7 @@
 #include "trees/layouts/packed.h"
+#include "trees/executors/chunks.h"
 #include "trees/layouts/detail/model.h"
 #include "trees/layouts/detail/packed_blocks.h"
-#include "trees/executors/chunks.h"
 
 #include <algorithm>
 #include <cstddef>

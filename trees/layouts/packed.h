@@ -31,8 +31,8 @@ struct alignas(64) PackedBlock {
 };
 static_assert(sizeof(PackedBlock) == 384);
 
-/// A block as traversals of wide layouts see it (BoxBlock in wide.h): what is not stored follows from
-/// where the block is.
+/// A block as traversals of wide layouts see it (BoxBlock in wide.h): what is not stored follows
+/// from where the block is.
 struct PackedView {
     using Real = float;
     static constexpr std::uint32_t width = PackedBlock::width;

@@ -36,11 +36,11 @@ using Block8 = BoxBlock<float, 8>;
 static_assert(sizeof(Block8) == 256 && sizeof(BoxBlock<double, 8>) == 512);
 static_assert(sizeof(BoxBlock<float, 4>) == 144 && sizeof(BoxBlock<float, 16>) == 512);
 
-/// W-wide tree: the binary tree collapsed so that its blocks have the least area in all; subtrees of
-/// at most W items become leaf blocks. The children of a node lie side by side.
+/// W-wide tree: the binary tree collapsed so that its blocks have the least area in all; subtrees
+/// of at most W items become leaf blocks. The children of a node lie side by side.
 ///
-/// Traversals are templates over this interface, which Quantised8Layout has too: Real, width, Block,
-/// Leaf, is_leaf, index, root, block, leaf, bounds, depth.
+/// Traversals are templates over this interface, which Quantised8Layout has too: Real, width,
+/// Block, Leaf, is_leaf, index, root, block, leaf, bounds, depth.
 template <class Real_, std::size_t W> class WideLayout {
     static_assert(W == 4 || W == 8 || W == 16);
 

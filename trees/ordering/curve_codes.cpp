@@ -350,7 +350,7 @@ namespace boxwood::detail {
 HWY_EXPORT(MeasureCentres);
 HWY_EXPORT(FineCodes);
 HWY_EXPORT(CoarseCodes);
-}
+} // namespace boxwood::detail
 
 namespace boxwood {
 using namespace detail;

@@ -1,6 +1,6 @@
 #include "trees/ordering/curve_order.h"
-#include "trees/ordering/detail/bucket_sort.h"
 #include "trees/executors/chunks.h"
+#include "trees/ordering/detail/bucket_sort.h"
 #include "trees/ordering/detail/radix_sort.h"
 
 #include <algorithm>
@@ -214,8 +214,8 @@ Buffer<std::uint32_t> order_by(Boxes boxes, Curve curve, GroupOfBox group, Sorte
 
 } // namespace
 
-MergeableOrder mergeable_curve_order(Boxes boxes, Curve curve, GroupOfBox group, const Executor& executor,
-                           const Box* centres) {
+MergeableOrder mergeable_curve_order(Boxes boxes, Curve curve, GroupOfBox group,
+                                     const Executor& executor, const Box* centres) {
     MergeableOrder kept{coarse_grid(boxes, executor, centres), group, Records(boxes.size())};
     const auto put = [&](std::size_t first, std::span<const std::uint64_t> records) {
         std::ranges::copy(records, kept.records.data() + first);

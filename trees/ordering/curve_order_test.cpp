@@ -1,6 +1,6 @@
 #include "kernels/testing/every_target.h"
-#include "trees/testing/box_families.h"
 #include "trees/ordering/curve_order.h"
+#include "trees/testing/box_families.h"
 
 #include <gtest/gtest.h>
 

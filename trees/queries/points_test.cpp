@@ -1,11 +1,11 @@
-#include "kernels/testing/every_target.h"
 #include "kernels/features/point_triangle.h"
-#include "trees/testing/box_families.h"
+#include "kernels/testing/every_target.h"
 #include "trees/builder.h"
-#include "trees/testing/every_executor.h"
 #include "trees/layout.h"
-#include "trees/testing/triangle_soup.h"
+#include "trees/testing/box_families.h"
+#include "trees/testing/every_executor.h"
 #include "trees/testing/layouts_answering.h"
+#include "trees/testing/triangle_soup.h"
 
 #include <gtest/gtest.h>
 
@@ -142,7 +142,8 @@ TEST(Points, RegionsAndNeighboursAgreeWithBruteForce) {
         const Expected e = brute_force(family.boxes, q);
         for (const BuilderEntry& builder : builders()) {
             const Tree tree = builder.make({})(family.boxes, serial());
-            for (const LayoutEntry& entry : layouts_answering({Query::points, Query::regions, Query::nearest, Query::closest_points})) {
+            for (const LayoutEntry& entry : layouts_answering(
+                     {Query::points, Query::regions, Query::nearest, Query::closest_points})) {
                 SCOPED_TRACE(std::string(builder.name) + "." + std::string(entry.name));
                 const auto layout = entry.make(tree, serial());
                 Work work;
@@ -176,7 +177,8 @@ TEST(Points, AnswerInOneOrderOnEveryExecutor) {
     }
     const Expected e = brute_force(items, q);
     ASSERT_GT(e.points.size(), 500u);
-    for (const LayoutEntry& entry : layouts_answering({Query::points, Query::regions, Query::nearest, Query::closest_points})) {
+    for (const LayoutEntry& entry : layouts_answering(
+             {Query::points, Query::regions, Query::nearest, Query::closest_points})) {
         SCOPED_TRACE(entry.name);
         const auto layout = entry.make(builders().front().make({})(items, serial()), serial());
         for (const auto& [name, executor] : every_executor()) {

@@ -1,11 +1,11 @@
 #include "kernels/registry.h"
 #include "kernels/testing/every_target.h"
 #include "trees/builder.h"
-#include "trees/testing/every_executor.h"
 #include "trees/layout.h"
 #include "trees/testing/brute_force_rays.h"
-#include "trees/testing/triangle_soup.h"
+#include "trees/testing/every_executor.h"
 #include "trees/testing/layouts_answering.h"
+#include "trees/testing/triangle_soup.h"
 
 #include <gtest/gtest.h>
 

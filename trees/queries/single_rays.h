@@ -47,8 +47,7 @@ class SingleRays {
     }
     /// Whether there is a hit.
     bool any(const Ray<float>& ray) const {
-        return functions_.any ? functions_.any(tree_, ray)
-                              : in_a_batch(ray, RayQuery::any).hit();
+        return functions_.any ? functions_.any(tree_, ray) : in_a_batch(ray, RayQuery::any).hit();
     }
 
   private:

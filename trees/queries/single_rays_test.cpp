@@ -2,12 +2,12 @@
 #include "trees/queries/single_rays.h"
 
 #include "kernels/registry.h"
-#include "kernels/testing/every_target.h"
 #include "kernels/testing/closed_meshes.h"
+#include "kernels/testing/every_target.h"
 #include "trees/builder.h"
 #include "trees/testing/brute_force_rays.h"
-#include "trees/testing/triangle_soup.h"
 #include "trees/testing/layouts_answering.h"
+#include "trees/testing/triangle_soup.h"
 
 #include <gtest/gtest.h>
 
@@ -165,8 +165,9 @@ TEST(SingleRays, TraverseTreesThatAreTooDeepForTheirStack) {
         const TriangleBlocks triangles = layout->triangles(mesh);
         expect_answers(SingleRays(*layout, "watertight", triangles), rays, expected);
     }
-    EXPECT_EQ(find_layout("wide8")->make(tree, serial())->single_ray_functions("watertight").closest,
-              nullptr);
+    EXPECT_EQ(
+        find_layout("wide8")->make(tree, serial())->single_ray_functions("watertight").closest,
+        nullptr);
 }
 
 TEST(SingleRays, HaveFunctionsOfTheirOwnForTheKernelsOfTheBench) {
@@ -176,7 +177,8 @@ TEST(SingleRays, HaveFunctionsOfTheirOwnForTheKernelsOfTheBench) {
         const auto layout = entry.make(tree, serial());
         for (const char* kernel : {"moller_trumbore_f32", "moller_trumbore_f64", "watertight"}) {
             const SingleRayFunctions functions = layout->single_ray_functions(kernel);
-            EXPECT_EQ(functions.closest != nullptr, !entry.name.starts_with("binary")) << entry.name;
+            EXPECT_EQ(functions.closest != nullptr, !entry.name.starts_with("binary"))
+                << entry.name;
             EXPECT_EQ(functions.any != nullptr, functions.closest != nullptr);
         }
     }

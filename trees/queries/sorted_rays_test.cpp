@@ -1,9 +1,9 @@
 #include "trees/builder.h"
 #include "trees/layout.h"
-#include "trees/testing/every_executor.h"
 #include "trees/queries/sorted_rays.h"
-#include "trees/testing/triangle_soup.h"
+#include "trees/testing/every_executor.h"
 #include "trees/testing/layouts_answering.h"
+#include "trees/testing/triangle_soup.h"
 
 #include <gtest/gtest.h>
 

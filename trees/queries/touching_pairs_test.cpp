@@ -1,11 +1,11 @@
 #include "trees/queries/touching_pairs.h"
 
-#include "kernels/registry.h"
 #include "kernels/oracle/oracle.h"
+#include "kernels/registry.h"
 #include "trees/builder.h"
 #include "trees/layout.h"
-#include "trees/testing/triangle_soup.h"
 #include "trees/testing/layouts_answering.h"
+#include "trees/testing/triangle_soup.h"
 
 #include <gtest/gtest.h>
 

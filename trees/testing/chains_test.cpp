@@ -1,9 +1,9 @@
 #include "trees/builder.h"
-#include "trees/layout.h"
 #include "trees/inspect/quality.h"
+#include "trees/inspect/validate.h"
+#include "trees/layout.h"
 #include "trees/optimizers/refit.h"
 #include "trees/queries/sorted_rays.h"
-#include "trees/inspect/validate.h"
 #include "trees/testing/layouts_answering.h"
 
 #include <gtest/gtest.h>
@@ -128,7 +128,9 @@ TEST(Chains, EveryLayoutAnswersEveryQueryOnASmallStack) {
     const TriangleMesh mesh = strip();
     for (const bool to_the_right : {false, true}) {
         const Tree tree = chain(to_the_right);
-        for (const LayoutEntry& entry : layouts_answering({Query::self_pairs, Query::tree_pairs, Query::rays, Query::points, Query::regions, Query::nearest, Query::closest_points})) {
+        for (const LayoutEntry& entry :
+             layouts_answering({Query::self_pairs, Query::tree_pairs, Query::rays, Query::points,
+                                Query::regions, Query::nearest, Query::closest_points})) {
             SCOPED_TRACE(std::string(entry.name) + (to_the_right ? ", right" : ", left"));
             on_a_small_stack([&] { expect_answers(*entry.make(tree, serial()), mesh); });
         }
@@ -231,7 +233,8 @@ TEST(Chains, WorkOnIdenticalBoxesIsThatOfTheOutput) {
     const std::vector<Sphere<float>> balls(20, Sphere<float>{{2, .5f, .5f}, 1});
     for (const BuilderEntry& builder : builders()) {
         const Tree tree = builder.make({})(boxes, serial());
-        for (const LayoutEntry& entry : layouts_answering({Query::self_pairs, Query::tree_pairs, Query::points, Query::regions})) {
+        for (const LayoutEntry& entry : layouts_answering(
+                 {Query::self_pairs, Query::tree_pairs, Query::points, Query::regions})) {
             SCOPED_TRACE(std::string(builder.name) + "." + std::string(entry.name));
             const auto layout = entry.make(tree, serial());
             CountPairs count;

@@ -1,12 +1,12 @@
-#include "trees/testing/brute_force.h"
 #include "trees/builder.h"
-#include "trees/testing/every_executor.h"
+#include "trees/inspect/validate.h"
 #include "trees/layout.h"
 #include "trees/queries/pairs.h"
-#include "trees/testing/same_tree.h"
-#include "trees/inspect/validate.h"
-#include "trees/testing/ways_to_build.h"
+#include "trees/testing/brute_force.h"
+#include "trees/testing/every_executor.h"
 #include "trees/testing/layouts_answering.h"
+#include "trees/testing/same_tree.h"
+#include "trees/testing/ways_to_build.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -15,8 +15,8 @@
 #include <cmath>
 #include <random>
 
-/// What holds for any boxes, every builder, optimizer, layout and executor. RapidCheck prints the boxes
-/// that a failure shrinks to, and the RC_PARAMS that bring it back.
+/// What holds for any boxes, every builder, optimizer, layout and executor. RapidCheck prints the
+/// boxes that a failure shrinks to, and the RC_PARAMS that bring it back.
 namespace boxwood {
 namespace {
 

@@ -1,7 +1,7 @@
-#include "trees/testing/box_families.h"
-#include "trees/testing/layouts_answering.h"
 #include "trees/builder.h"
 #include "trees/layout.h"
+#include "trees/testing/box_families.h"
+#include "trees/testing/layouts_answering.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include "trees/layouts/binary.h"
-#include "trees/traversals/pair_traversal.h"
 #include "trees/queries/self_pairs.h"
 #include "trees/queries/tree_pairs.h"
+#include "trees/traversals/pair_traversal.h"
 
 namespace boxwood::detail {
 namespace {
@@ -30,7 +30,8 @@ void open_nodes(const T& a, const T& b, Pair nodes, const Test& test) {
     }
 }
 
-template <bool Self, bool Counted, class T> void traverse(PairTraversal& state, const T& a, const T& b) {
+template <bool Self, bool Counted, class T>
+void traverse(PairTraversal& state, const T& a, const T& b) {
     Pair nodes{};
     while (state.next(nodes)) {
         const bool same = Self && nodes.a == nodes.b;
@@ -97,10 +98,9 @@ void pairs(const T& a, const T& b, const Executor& executor, PairSink& sink, Wor
             });
         });
     }
-    run_tasks(tasks, executor, sink, work,
-              [&](PairTraversal& state) {
-                  work ? traverse<Self, true>(state, a, b) : traverse<Self, false>(state, a, b);
-              });
+    run_tasks(tasks, executor, sink, work, [&](PairTraversal& state) {
+        work ? traverse<Self, true>(state, a, b) : traverse<Self, false>(state, a, b);
+    });
 }
 
 } // namespace

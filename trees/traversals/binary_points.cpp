@@ -27,8 +27,8 @@ void collect(const L& layout, const Takes& takes, RegionTraversal& traversal) {
 }
 
 template <bool Counted, class L>
-void answer(const L& layout, const RegionQueries& queries, RegionTraversal& traversal, std::size_t first,
-            std::size_t last) {
+void answer(const L& layout, const RegionQueries& queries, RegionTraversal& traversal,
+            std::size_t first, std::size_t last) {
     using Bounds = Aabb<typename L::Real>;
     const auto box = [&](const auto& region) {
         const std::optional<Box> b = finite_region(region);
@@ -87,8 +87,9 @@ void search(const L& layout, Vec3<float> point, Best& best, NearestTraversal& tr
             continue;
         }
         const auto child = [&](std::size_t i) {
-            return NearestTraversal::waiting(scaled.below(squared_distance(point, tree.nodes[i].box)),
-                                        static_cast<std::uint32_t>(i));
+            return NearestTraversal::waiting(
+                scaled.below(squared_distance(point, tree.nodes[i].box)),
+                static_cast<std::uint32_t>(i));
         };
         traversal.count<Counted>(2, top + 2);
         const auto [near, far] = std::minmax({child(tree.right(node)), child(Tree::left(node))});

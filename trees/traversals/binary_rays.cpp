@@ -1,5 +1,5 @@
-#include "kernels/ray_box/slabs.h"
 #include "kernels/arithmetic/rounding.h"
+#include "kernels/ray_box/slabs.h"
 #include "trees/layouts/binary.h"
 #include "trees/traversals/ray_traversal.h"
 
@@ -18,7 +18,7 @@ using Block = TriangleBlock<8>;
 
 template <class L, class State>
 void trace(const L& layout, const Block* blocks, const Ray<float>& ray, State& state,
-          Buffer<Waiting>& stack) {
+           Buffer<Waiting>& stack) {
     const auto& tree = layout.tree();
     const Box bounds = box_of(tree.nodes[0]);
     const RaySlabs slabs(ray, ray_margin(ray, bounds));

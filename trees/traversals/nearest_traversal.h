@@ -1,8 +1,8 @@
 #pragma once
 
 #include "kernels/features/point_triangle.h"
-#include "trees/queries/nearest.h"
 #include "trees/queries/box_distance.h"
+#include "trees/queries/nearest.h"
 #include "trees/traversals/region_traversal.h"
 
 #include <algorithm>

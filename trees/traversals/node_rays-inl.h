@@ -15,8 +15,9 @@ namespace boxwood::detail::HWY_NAMESPACE {
 
 /// All hits of one ray; nodes in no order.
 template <class Node, RayKernel K>
-HWY_INLINE void TraverseAll(const TriangleBlocks& tree, const FusedSlabs& slabs, const Ray<float>& ray,
-                        RayState<K, RayMode::all, false>& state, std::uint32_t* waiting) {
+HWY_INLINE void TraverseAll(const TriangleBlocks& tree, const FusedSlabs& slabs,
+                            const Ray<float>& ray, RayState<K, RayMode::all, false>& state,
+                            std::uint32_t* waiting) {
     namespace hn = hwy::HWY_NAMESPACE;
     const NodeTag<Node> df;
     const hn::Rebind<std::uint32_t, decltype(df)> du;
@@ -57,11 +58,13 @@ template <class Node> void TraverseJob(const RayJob& job) {
                             std::bool_constant<Counted>) HWY_ATTR {
         if constexpr (mode == RayMode::all) {
             Buffer<std::uint32_t> waiting(room_for<Node>(job.depth));
-            for_each_ray<mode>(job, [&](const Ray<float>& ray, std::vector<RayHit>& found) HWY_ATTR {
-                RayState<K, mode, false> state(ray, nullptr, found);
-                TraverseAll<Node>(job.triangles, FusedSlabs(ray, bounds), ray, state, waiting.data());
-                return state.result();
-            });
+            for_each_ray<mode>(job,
+                               [&](const Ray<float>& ray, std::vector<RayHit>& found) HWY_ATTR {
+                                   RayState<K, mode, false> state(ray, nullptr, found);
+                                   TraverseAll<Node>(job.triangles, FusedSlabs(ray, bounds), ray,
+                                                     state, waiting.data());
+                                   return state.result();
+                               });
         } else {
             RayWave<Node, K, mode, Counted>(job, bounds).run();
         }

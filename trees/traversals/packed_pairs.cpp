@@ -5,11 +5,11 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
+#include "trees/queries/self_pairs.h"
 #include "trees/queries/swapped_pairs.h"
+#include "trees/queries/tree_pairs.h"
 #include "trees/traversals/packed_overlap-inl.h"
 #include "trees/traversals/packed_traversal.h"
-#include "trees/queries/self_pairs.h"
-#include "trees/queries/tree_pairs.h"
 
 #include <algorithm>
 #include <array>

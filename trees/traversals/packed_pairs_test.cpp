@@ -1,9 +1,9 @@
 #include "kernels/testing/every_target.h"
-#include "trees/testing/box_families.h"
-#include "trees/ordering/curve_order.h"
 #include "trees/layouts/packed.h"
+#include "trees/ordering/curve_order.h"
 #include "trees/queries/self_pairs.h"
 #include "trees/queries/tree_pairs.h"
+#include "trees/testing/box_families.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "trees/layouts/packed.h"
 #include "trees/executors/chunks.h"
+#include "trees/layouts/packed.h"
 #include "trees/traversals/chunk_sink.h"
 
 #include <algorithm>

@@ -10,9 +10,9 @@
 
 namespace boxwood::detail {
 
-/// What one chunk of a traversal for pairs holds: the stack of node pairs still to open (a pair of equal
-/// nodes, within one tree, stands for that subtree against itself) and the answers not yet handed
-/// over.
+/// What one chunk of a traversal for pairs holds: the stack of node pairs still to open (a pair of
+/// equal nodes, within one tree, stands for that subtree against itself) and the answers not yet
+/// handed over.
 class PairTraversal {
   public:
     /// A step opens one pair of nodes and pushes or emits at most this many (16 x 16, or 16 + 120),
@@ -73,10 +73,10 @@ class PairTraversal {
     Buffer<Pair> stack_{1024}, out_{4096};
 };
 
-/// Splits a traversal that starts at `root` into tasks, by the trees alone: opens the heaviest until
-/// there are enough to balance threads even if some are heavier than their items tell, or until all
-/// are light. `weight(nodes)` is the number of items below both, 0 for a pair of nodes whose step
-/// might emit answers. `open(nodes, tasks)` appends what a step would push.
+/// Splits a traversal that starts at `root` into tasks, by the trees alone: opens the heaviest
+/// until there are enough to balance threads even if some are heavier than their items tell, or
+/// until all are light. `weight(nodes)` is the number of items below both, 0 for a pair of nodes
+/// whose step might emit answers. `open(nodes, tasks)` appends what a step would push.
 template <class Weight, class Open>
 std::vector<Pair> share_out(Pair root, const Weight& weight, const Open& open) {
     constexpr std::size_t small = 4096; // a traversal of fewer items is not worth sharing out

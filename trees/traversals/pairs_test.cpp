@@ -1,11 +1,11 @@
 #include "kernels/testing/every_target.h"
-#include "trees/testing/box_families.h"
 #include "trees/builder.h"
-#include "trees/testing/every_executor.h"
 #include "trees/layout.h"
 #include "trees/queries/pairs.h"
-#include "trees/testing/same_tree.h"
+#include "trees/testing/box_families.h"
+#include "trees/testing/every_executor.h"
 #include "trees/testing/layouts_answering.h"
+#include "trees/testing/same_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,8 @@ namespace {
 
 void for_all_ways(const std::function<void(const BuilderEntry&, const LayoutEntry&)>& test) {
     for (const BuilderEntry& builder : builders())
-        for (const LayoutEntry& layout : layouts_answering({Query::self_pairs, Query::tree_pairs})) {
+        for (const LayoutEntry& layout :
+             layouts_answering({Query::self_pairs, Query::tree_pairs})) {
             SCOPED_TRACE(std::string(builder.name) + "." + std::string(layout.name));
             test(builder, layout);
         }

@@ -29,7 +29,8 @@ template <> void traverse_nodes<QuantisedBlock>(const RayJob& job) {
     HWY_DYNAMIC_DISPATCH(Quantised8Rays)(job);
 }
 template <>
-SingleRayFunctions single_ray_functions_of<QuantisedBlock>(std::size_t depth, std::string_view kernel) {
+SingleRayFunctions single_ray_functions_of<QuantisedBlock>(std::size_t depth,
+                                                           std::string_view kernel) {
     return HWY_DYNAMIC_DISPATCH(Quantised8SingleRays)(depth, kernel);
 }
 

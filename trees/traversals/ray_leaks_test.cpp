@@ -2,8 +2,8 @@
 #include "trees/builder.h"
 #include "trees/layout.h"
 #include "trees/queries/single_rays.h"
-#include "trees/testing/triangle_soup.h"
 #include "trees/testing/layouts_answering.h"
+#include "trees/testing/triangle_soup.h"
 
 #include <gtest/gtest.h>
 
@@ -108,7 +108,8 @@ TEST(RayLeaks, NoneOfTheRaysThatLeakElsewhere) {
         EXPECT_EQ(leaks(layout, mesh, kernel, rays), 0u);
     });
     // The kernel below is seen to leak, or nothing was tested.
-    EXPECT_GT(leaks(*layout_of(mesh, *find_layout("binary")), mesh, "moller_trumbore_f32", rays), 10u);
+    EXPECT_GT(leaks(*layout_of(mesh, *find_layout("binary")), mesh, "moller_trumbore_f32", rays),
+              10u);
 }
 
 TEST(RayLeaks, NoneAlongCorridors) {

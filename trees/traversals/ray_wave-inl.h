@@ -82,7 +82,7 @@ template <class Node, RayKernel K, RayMode mode, bool Counted> class RayWave {
 
   private:
     static constexpr std::uint32_t over = ~std::uint32_t{0}; ///< no ray_refs
-    static constexpr std::size_t max_waiting = 1 << 18;     ///< of several rays together
+    static constexpr std::size_t max_waiting = 1 << 18;      ///< of several rays together
 
     struct alignas(64) WaveRay {
         FusedSlabs slabs;
@@ -139,8 +139,7 @@ template <class Node, RayKernel K, RayMode mode, bool Counted> class RayWave {
             own.at = *--own.top;
         }
         if (own.at == over) [[unlikely]] {
-            job_.hits[static_cast<std::size_t>(own.ray - job_.rays.data())] =
-                own.state->result();
+            job_.hits[static_cast<std::size_t>(own.ray - job_.rays.data())] = own.state->result();
             if (!start(own))
                 return;
         }
@@ -185,9 +184,8 @@ template <class Node, RayKernel K, RayMode mode, bool Counted> class RayWave {
         const auto* last = block + (Node::width > 8 && (own.at & ray_refs::two));
         BlockHits<ray_lanes<Node>> hits;
         do {
-            const std::uint32_t bits =
-                intersect_block(std::type_identity<K>{}, own.state->per_ray, *own.ray, *block,
-                               own.state->t_max(), hits);
+            const std::uint32_t bits = intersect_block(std::type_identity<K>{}, own.state->per_ray,
+                                                       *own.ray, *block, own.state->t_max(), hits);
             if (!Counted && bits == 0)
                 continue;
             own.state->tested(*block, bits, hits);

@@ -26,8 +26,8 @@ struct RegionQueries {
     std::size_t size() const { return points.size() + boxes.size() + spheres.size(); }
 };
 
-/// A region as traversals take it: a finite closed box that finite boxes overlap if and only if they
-/// share a point with the region. Nothing if no finite box does: a NaN, or min > max.
+/// A region as traversals take it: a finite closed box that finite boxes overlap if and only if
+/// they share a point with the region. Nothing if no finite box does: a NaN, or min > max.
 inline std::optional<Box> finite_region(const Box& region) {
     constexpr float most = std::numeric_limits<float>::max();
     Box box = region;
@@ -66,8 +66,8 @@ class RegionTraversal {
     static constexpr std::size_t spare = 16;
 
     /// stack_room: the most references that wait on the stack of one traversal.
-    RegionTraversal(PairSink& sink, std::size_t chunk, std::size_t stack_room, std::atomic<bool>& stop,
-               Work* work)
+    RegionTraversal(PairSink& sink, std::size_t chunk, std::size_t stack_room,
+                    std::atomic<bool>& stop, Work* work)
         : to_(sink, chunk, stop, work), work_(work), stack_(stack_room + spare) {}
 
     std::uint32_t* stack() { return stack_.data(); }
@@ -148,7 +148,8 @@ void run_regions(std::size_t n, std::size_t stack_room, const Executor& executor
     sink.end();
 }
 
-/// The most references that wait in one traversal: opening a node leaves all but one of its children.
+/// The most references that wait in one traversal: opening a node leaves all but one of its
+/// children.
 template <class L> std::size_t stack_room(const L& layout) {
     if constexpr (requires { L::width; })
         return layout.depth() * L::width + L::width;

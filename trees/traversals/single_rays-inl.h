@@ -187,7 +187,8 @@ template <class Node, RayKernel K> bool AnyAlone(const SingleRayTree& tree, cons
 }
 
 /// None for an empty tree, nor for one that is too deep.
-template <class Node> SingleRayFunctions SingleRayFunctionsOf(std::size_t depth, std::string_view kernel) {
+template <class Node>
+SingleRayFunctions SingleRayFunctionsOf(std::size_t depth, std::string_view kernel) {
     using Kernels = std::tuple<MollerTrumbore<float>, MollerTrumbore<double>, Watertight>;
     SingleRayFunctions functions;
     if (depth != 0 && room_for<Node>(depth) <= RayAlone<Node, Watertight, RayMode::closest>::room)

@@ -29,7 +29,8 @@ template <> void traverse_nodes<RayNode<16>>(const RayJob& job) {
     HWY_DYNAMIC_DISPATCH(Wide16Rays)(job);
 }
 template <>
-SingleRayFunctions single_ray_functions_of<RayNode<16>>(std::size_t depth, std::string_view kernel) {
+SingleRayFunctions single_ray_functions_of<RayNode<16>>(std::size_t depth,
+                                                        std::string_view kernel) {
     return HWY_DYNAMIC_DISPATCH(Wide16SingleRays)(depth, kernel);
 }
 

@@ -5,11 +5,11 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
-#include "trees/traversals/compress-inl.h"
-#include "trees/traversals/distance_lanes-inl.h"
 #include "trees/layouts/packed.h"
 #include "trees/layouts/quantised8.h"
 #include "trees/layouts/wide.h"
+#include "trees/traversals/compress-inl.h"
+#include "trees/traversals/distance_lanes-inl.h"
 #include "trees/traversals/nearest_traversal.h"
 #include "trees/traversals/triangle_lanes-inl.h"
 
@@ -93,7 +93,8 @@ HWY_INLINE void OfferAll(const Leaf& leaf, Goal& goal, NearestItems& best, Neare
 /// The triangles of a leaf: all that are near by their boxes are bounded together in floats, and
 /// computed in doubles if they may still be nearer than what was found, the nearest first.
 template <bool Counted, class Leaf>
-HWY_INLINE void OfferAll(const Leaf& leaf, Goal& goal, NearestSurface& best, NearestTraversal& traversal) {
+HWY_INLINE void OfferAll(const Leaf& leaf, Goal& goal, NearestSurface& best,
+                         NearestTraversal& traversal) {
     const BoundTag<Leaf> df;
     const float scale = goal.scaled.scale;
     std::uint32_t near = 0;

@@ -8,8 +8,8 @@
 
 #include <hwy/highway.h>
 
-#include "trees/traversals/compress-inl.h"
 #include "trees/layouts/detail/lanes-inl.h"
+#include "trees/traversals/compress-inl.h"
 #include "trees/traversals/pair_traversal.h"
 
 #include <bit>
@@ -84,8 +84,8 @@ HWY_INLINE std::size_t AppendSelf(PairTraversal& state, const Block& block, Pair
     return static_cast<std::size_t>(to - start);
 }
 
-/// The traversal below the pairs of nodes on the stack. A pair of a leaf and an inner node opens the
-/// inner one, so the stack holds at most width^2 pairs per level of the two trees.
+/// The traversal below the pairs of nodes on the stack. A pair of a leaf and an inner node opens
+/// the inner one, so the stack holds at most width^2 pairs per level of the two trees.
 template <class L, bool Self, bool Counted>
 void TraversePairs(PairTraversal& state, const L& tree_a, const L& tree_b) {
     Pair nodes{};
@@ -122,11 +122,14 @@ void TraversePairs(PairTraversal& state, const L& tree_a, const L& tree_b) {
 }
 
 /// self: `b` is `a`.
-template <class L> void AnyPairs(PairTraversal& state, const L& a, const L& b, bool self, bool counted) {
+template <class L>
+void AnyPairs(PairTraversal& state, const L& a, const L& b, bool self, bool counted) {
     if (self)
-        counted ? TraversePairs<L, true, true>(state, a, b) : TraversePairs<L, true, false>(state, a, b);
+        counted ? TraversePairs<L, true, true>(state, a, b)
+                : TraversePairs<L, true, false>(state, a, b);
     else
-        counted ? TraversePairs<L, false, true>(state, a, b) : TraversePairs<L, false, false>(state, a, b);
+        counted ? TraversePairs<L, false, true>(state, a, b)
+                : TraversePairs<L, false, false>(state, a, b);
 }
 
 } // namespace boxwood::detail::HWY_NAMESPACE

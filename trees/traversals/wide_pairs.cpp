@@ -34,8 +34,8 @@ namespace {
 BOXWOOD_WIDE_LAYOUTS(X)
 #undef X
 
-/// The first tasks of a traversal: pairs of inner blocks are opened, and of two trees also a leaf and an
-/// inner block, so that a tree of few items shares out the other.
+/// The first tasks of a traversal: pairs of inner blocks are opened, and of two trees also a leaf
+/// and an inner block, so that a tree of few items shares out the other.
 template <bool Self, class L> std::vector<Pair> first_tasks(const L& a, const L& b, Work* work) {
     if (a.empty() || b.empty())
         return {};

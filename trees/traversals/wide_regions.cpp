@@ -5,11 +5,11 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
-#include "trees/traversals/compress-inl.h"
-#include "trees/traversals/distance_lanes-inl.h"
 #include "trees/layouts/packed.h"
 #include "trees/layouts/quantised8.h"
 #include "trees/layouts/wide.h"
+#include "trees/traversals/compress-inl.h"
+#include "trees/traversals/distance_lanes-inl.h"
 #include "trees/traversals/region_traversal.h"
 
 #include <bit>
@@ -151,8 +151,8 @@ HWY_INLINE void Collect(const L& tree, const Region& region, RegionTraversal& tr
 }
 
 template <bool Counted, class L>
-void Answer(const L& tree, const RegionQueries& queries, RegionTraversal& traversal, std::size_t first,
-            std::size_t last) {
+void Answer(const L& tree, const RegionQueries& queries, RegionTraversal& traversal,
+            std::size_t first, std::size_t last) {
     using Real = typename L::Real;
     const auto each = [&](const auto& regions, const auto& collect) HWY_ATTR {
         for (std::size_t i = first; i < last; ++i) {
@@ -164,7 +164,8 @@ void Answer(const L& tree, const RegionQueries& queries, RegionTraversal& traver
     };
     const auto box = [&](const auto& region) HWY_ATTR {
         if (const auto b = finite_region(region))
-            Collect<Counted>(tree, BoxRegion<Real>{{Vec3<Real>(b->min), Vec3<Real>(b->max)}}, traversal);
+            Collect<Counted>(tree, BoxRegion<Real>{{Vec3<Real>(b->min), Vec3<Real>(b->max)}},
+                             traversal);
     };
     if (!queries.points.empty())
         each(queries.points, box);

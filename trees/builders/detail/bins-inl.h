@@ -228,8 +228,8 @@ HWY_INLINE Plane CheapestPlane(const Bin* bins, const Binning& binning, std::uin
 /// in their old order, and grows the bounds of the doubled centres of each side. Without a branch,
 /// which would be mispredicted half the time.
 HWY_INLINE void Partition(const Prim8* prims, std::size_t n, const Binning& binning, Plane plane,
-                     Prim8* to, std::size_t left, std::size_t right, float (&left_centres)[8],
-                     float (&right_centres)[8]) {
+                          Prim8* to, std::size_t left, std::size_t right, float (&left_centres)[8],
+                          float (&right_centres)[8]) {
     F8 l = LoadF8(left_centres), r = LoadF8(right_centres);
     const float start = Binning::Start(plane.bin);
     // One of the two places moves on at each step.

@@ -33,7 +33,8 @@ bool AreAscending(std::span<const std::uint32_t> items) {
 }
 
 std::size_t FollowBlocks(Boxes now, Box* HWY_RESTRICT before, std::size_t begin, std::size_t end,
-                         float max_step, float* HWY_RESTRICT steps, std::uint32_t* HWY_RESTRICT far) {
+                         float max_step, float* HWY_RESTRICT steps,
+                         std::uint32_t* HWY_RESTRICT far) {
     std::size_t n_far = 0;
     for (std::size_t b = begin; b < end; ++b) {
         const std::size_t first = b * follow_block,
@@ -82,8 +83,8 @@ bool are_ascending(std::span<const std::uint32_t> items) {
     return HWY_DYNAMIC_DISPATCH(AreAscending)(items);
 }
 
-std::size_t follow_blocks(Boxes now, Box* before, std::size_t begin, std::size_t end, float max_step,
-                          float* steps, std::uint32_t* far) {
+std::size_t follow_blocks(Boxes now, Box* before, std::size_t begin, std::size_t end,
+                          float max_step, float* steps, std::uint32_t* far) {
     return HWY_DYNAMIC_DISPATCH(FollowBlocks)(now, before, begin, end, max_step, steps, far);
 }
 

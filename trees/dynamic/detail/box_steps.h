@@ -33,9 +33,9 @@ inline float box_step(const Box& now, const Box& before) {
 inline constexpr std::size_t follow_block = 16;
 
 /// Takes the boxes of the blocks [begin, end) over to `before`, all of a block if none of its boxes
-/// went farther than `max_step`, else none. The largest step of block b goes to steps[b]; the numbers
-/// of the blocks not taken over go to `far`. Returns how many these are.
-std::size_t follow_blocks(Boxes now, Box* before, std::size_t begin, std::size_t end, float max_step,
-                          float* steps, std::uint32_t* far);
+/// went farther than `max_step`, else none. The largest step of block b goes to steps[b]; the
+/// numbers of the blocks not taken over go to `far`. Returns how many these are.
+std::size_t follow_blocks(Boxes now, Box* before, std::size_t begin, std::size_t end,
+                          float max_step, float* steps, std::uint32_t* far);
 
 } // namespace boxwood::detail

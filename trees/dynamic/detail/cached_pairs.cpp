@@ -1,12 +1,12 @@
 #include "trees/dynamic/detail/cached_pairs.h"
 
-#include "trees/executors/chunks.h"
-#include "trees/traversals/chunk_sink.h"
-#include "trees/queries/regions.h"
-#include "trees/queries/self_pairs.h"
 #include "trees/dynamic/detail/box_steps.h"
 #include "trees/dynamic/detail/survey.h"
 #include "trees/dynamic/detail/widen.h"
+#include "trees/executors/chunks.h"
+#include "trees/queries/regions.h"
+#include "trees/queries/self_pairs.h"
+#include "trees/traversals/chunk_sink.h"
 
 #include <algorithm>
 #include <atomic>
@@ -92,7 +92,8 @@ bool CachedPairs::rebuild(MovingTree& tree, Boxes boxes, const Executor& executo
     holds_ = false;
 
     boxes_.assign(boxes.begin(), boxes.end());
-    std::erase_if(out_, [&](const Out& out) { return !(out.step > max_slow_step_) || is_absent(out.box); });
+    std::erase_if(
+        out_, [&](const Out& out) { return !(out.step > max_slow_step_) || is_absent(out.box); });
     for (const Out& out : out_)
         boxes_[out.item] = Box{};
     for (std::uint32_t i = 0; i < size; ++i)
@@ -140,8 +141,8 @@ float CachedPairs::follow_all(Boxes boxes, const Executor& executor) {
     std::vector<std::size_t> n_far(chunks);
     executor.for_each(chunks, [&](std::size_t c) {
         const ChunkRange range(blocks, chunks, c);
-        n_far[c] = follow_blocks(boxes, boxes_.data(), range.begin, range.end, max_slow_step_, steps_.data(),
-                                 far_.data() + range.begin);
+        n_far[c] = follow_blocks(boxes, boxes_.data(), range.begin, range.end, max_slow_step_,
+                                 steps_.data(), far_.data() + range.begin);
     });
     // Nearly everywhere some item went far: those are too many, whichever they are.
     if (std::accumulate(n_far.begin(), n_far.end(), std::size_t{0}) > blocks / 4 * 3 + 16)
@@ -215,7 +216,7 @@ void CachedPairs::leave_out(const Executor& executor) {
 }
 
 bool CachedPairs::follow(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
-                       const Executor& executor) {
+                         const Executor& executor) {
     spent_ = 0;
     examined_ = 0;
     searched_ = false;
@@ -249,8 +250,9 @@ bool CachedPairs::follow(MovingTree& tree, Boxes boxes, std::span<const std::uin
         leave_out(executor);
     if (step > 0) {
         std::vector<std::size_t> examined(n_parts_);
-        executor.for_each(
-            n_parts_, [&](std::size_t p) { examined[p] = parts_[p].examine(boxes_.data(), used_); });
+        executor.for_each(n_parts_, [&](std::size_t p) {
+            examined[p] = parts_[p].examine(boxes_.data(), used_);
+        });
         for (const std::size_t some : examined)
             examined_ += some;
     }
@@ -276,8 +278,7 @@ void CachedPairs::find_fast(MovingTree& tree, const Executor& executor) {
     for (const Out& out : out_)
         if (!is_absent(out.box))
             fast_items_.push_back(out.item);
-    fast_tree_.take(fast_, coarse_curve_order(fast_, Curve::hilbert, executor),
-                        executor);
+    fast_tree_.take(fast_, coarse_curve_order(fast_, Curve::hilbert, executor), executor);
     AppendPairs sink(fast_pairs_);
     boxwood::self_pairs(fast_tree_, executor, sink);
     for (Pair& pair : fast_pairs_) // ascending, as they are listed
@@ -287,8 +288,8 @@ void CachedPairs::find_fast(MovingTree& tree, const Executor& executor) {
     spent_ += static_cast<double>(fast_.size()) * per_fast_item;
 }
 
-/// Parts in order, then the pairs of the fast items; on the calling thread, as no more than memory is
-/// copied.
+/// Parts in order, then the pairs of the fast items; on the calling thread, as no more than memory
+/// is copied.
 void CachedPairs::self_pairs(PairSink& sink) const {
     sink.begin(n_parts_ + 1, true);
     std::atomic<bool> stop = false;

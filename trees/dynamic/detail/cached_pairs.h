@@ -58,9 +58,9 @@ class CachedPairs {
     /// And a frame on average if in each to come as many items become fast as in each of the newest
     /// two at least: they are more and more until a rebuild is best.
     double churn_cost() const;
-    /// What a frame would take, rebuilds shared out, if the next rebuild counted as fast those items
-    /// that cost less so. Each of these steps stands for `items` of the fastest; `moved` move at
-    /// all.
+    /// What a frame would take, rebuilds shared out, if the next rebuild counted as fast those
+    /// items that cost less so. Each of these steps stands for `items` of the fastest; `moved` move
+    /// at all.
     double forecast(std::vector<float> steps, double items, std::size_t moved);
     /// The last of these, of steps seen in the newest frame.
     double forecast() const { return forecast_; }
@@ -99,15 +99,15 @@ class CachedPairs {
 
     bool holds_ = false, widened_before_ = false;
     double side_ = 1;
-    float pace_ = 0;   ///< the step of the fastest item that is to be slow
-    float max_slow_step_ = 0;   ///< what steps farther becomes fast
-    double used_ = 0;  ///< of the motion since the rebuild
-    double waste_ = 0; ///< spent since then on the fast who had come to rest
+    float pace_ = 0;          ///< the step of the fastest item that is to be slow
+    float max_slow_step_ = 0; ///< what steps farther becomes fast
+    double used_ = 0;         ///< of the motion since the rebuild
+    double waste_ = 0;        ///< spent since then on the fast who had come to rest
     double spent_ = 0, forecast_ = 0;
     std::size_t fresh_before_ = 0; ///< who became fast in the frame before the newest
     double pairs_ = 0;             ///< when last held
     ExpiringPairs::Reach reach_;
-    std::vector<Box> boxes_;    ///< by item: the box of the newest frame if slow, else Box{}
+    std::vector<Box> boxes_;   ///< by item: the box of the newest frame if slow, else Box{}
     std::vector<Box> widened_; ///< by item: at the rebuild
     std::vector<float> steps_; ///< the largest of each sixteen items that moved
     std::vector<std::uint32_t> far_;

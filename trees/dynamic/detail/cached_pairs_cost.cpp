@@ -1,7 +1,7 @@
 /// What caching pairs costs, and when it pays.
 
-#include "trees/dynamic/detail/cached_pairs.h"
 #include "trees/dynamic/detail/box_steps.h"
+#include "trees/dynamic/detail/cached_pairs.h"
 
 #include <algorithm>
 #include <cfloat>
@@ -11,11 +11,14 @@
 
 namespace boxwood::detail {
 
-double CachedPairs::search_cost() const { return n() * per_item_searched + pairs_ * per_pair_searched; }
+double CachedPairs::search_cost() const {
+    return n() * per_item_searched + pairs_ * per_pair_searched;
+}
 
 /// A third more pairs than overlap are found.
 double CachedPairs::rebuild_cost() const {
-    return n() * (per_item_rebuilt + per_item_searched) + pairs_ * 1.3 * (per_found + per_pair_searched);
+    return n() * (per_item_rebuilt + per_item_searched) +
+           pairs_ * 1.3 * (per_found + per_pair_searched);
 }
 
 /// After k frames there are k times as many fast items. A rebuild every k frames costs

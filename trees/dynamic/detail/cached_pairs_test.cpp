@@ -1,7 +1,7 @@
 #include "trees/dynamic/detail/cached_pairs.h"
 
-#include "trees/testing/box_families.h"
 #include "trees/dynamic/update.h"
+#include "trees/testing/box_families.h"
 
 #include <gtest/gtest.h>
 
@@ -70,15 +70,15 @@ TEST(CachedPairs, OverTenThousandFramesOfSlowDriftNothingDrifts) {
     std::size_t pairs_rebuilt = 0;
     for (int frame = 0; frame < 10'000; ++frame) {
         pairs_rebuilt += caching
-                       .step([&](std::size_t i, const Box&) {
-                           for (int axis = 0; axis < 3; ++axis) {
-                               at[i][axis] += by[i][axis] * 2e-4f;
-                               if (std::abs(at[i][axis]) > .3f)
-                                   by[i][axis] = at[i][axis] > 0 ? -1.f : 1.f;
-                           }
-                           return shifted(home[i], at[i]);
-                       })
-                       .pairs_rebuilt;
+                             .step([&](std::size_t i, const Box&) {
+                                 for (int axis = 0; axis < 3; ++axis) {
+                                     at[i][axis] += by[i][axis] * 2e-4f;
+                                     if (std::abs(at[i][axis]) > .3f)
+                                         by[i][axis] = at[i][axis] > 0 ? -1.f : 1.f;
+                                 }
+                                 return shifted(home[i], at[i]);
+                             })
+                             .pairs_rebuilt;
         ASSERT_TRUE(caching.is_right()) << "frame " << frame;
     }
     EXPECT_GT(pairs_rebuilt, 50u);
@@ -198,16 +198,15 @@ TEST(CachedPairs, AFewFastItemsAreFoundEachFrameAndSlowAgainWhenTheyStop) {
 
 /// How many are fast in the fourth frame, where in each some items jump to and fro.
 std::size_t fast_in_the_fourth(const char* policy,
-                                   const std::function<bool(int, std::size_t)>& jumps) {
+                               const std::function<bool(int, std::size_t)>& jumps) {
     Caching caching(random_boxes(8000, .03f, 36), policy);
     std::size_t fast = 0;
     for (int frame = 0; frame < 4; ++frame)
-        fast =
-            caching
-                .step([&](std::size_t i, const Box& box) {
-                    return jumps(frame, i) ? shifted(box, {frame % 2 ? -.2f : .2f, 0, 0}) : box;
-                })
-                .fast;
+        fast = caching
+                   .step([&](std::size_t i, const Box& box) {
+                       return jumps(frame, i) ? shifted(box, {frame % 2 ? -.2f : .2f, 0, 0}) : box;
+                   })
+                   .fast;
     EXPECT_TRUE(caching.is_right());
     return fast;
 }

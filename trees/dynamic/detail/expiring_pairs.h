@@ -1,8 +1,8 @@
 #pragma once
 
+#include "trees/dynamic/detail/gap_codes.h"
 #include "trees/queries/pairs.h"
 #include "trees/tree.h"
-#include "trees/dynamic/detail/gap_codes.h"
 
 #include <algorithm>
 #include <array>
@@ -13,10 +13,11 @@
 
 namespace boxwood::detail {
 
-/// Candidate pairs, each tested again no sooner than motion can have changed whether they overlap. Motion is counted in `used`: twice the most that any face can have moved since `start`.
-/// A pair that was last tested when u was used, with a gap that allows for g, is as it was while
-/// used <= u + g. So it waits in the bucket of u + g, of `n_buckets` between 0 and `reach`; beyond
-/// that it need not be tested any more.
+/// Candidate pairs, each tested again no sooner than motion can have changed whether they overlap.
+/// Motion is counted in `used`: twice the most that any face can have moved since `start`. A pair
+/// that was last tested when u was used, with a gap that allows for g, is as it was while used <= u
+/// + g. So it waits in the bucket of u + g, of `n_buckets` between 0 and `reach`; beyond that it
+/// need not be tested any more.
 class ExpiringPairs {
   public:
     static constexpr std::size_t n_buckets = GapScale::last;

@@ -58,10 +58,11 @@ double MovingTree::area_ratio() const {
 }
 
 /// mergeable_curve_order; the records of absent items come last.
-MergeableOrder MovingTree::mergeable_order(Boxes boxes, const Survey& found, const Executor& executor) {
+MergeableOrder MovingTree::mergeable_order(Boxes boxes, const Survey& found,
+                                           const Executor& executor) {
     if (!found.some_absent)
         return mergeable_curve_order(boxes, Curve::hilbert, HilbertBuilder::groups(boxes), executor,
-                                &found.centres);
+                                     &found.centres);
     const std::size_t n = gather_present(boxes, gathered_, gathered_items_);
     const MergeableOrder present = mergeable_curve_order(
         gathered_, Curve::hilbert, HilbertBuilder::groups(gathered_), executor, &found.centres);
@@ -84,7 +85,7 @@ void MovingTree::place(Boxes boxes, const Executor& executor) {
 }
 
 void MovingTree::reorder(Boxes boxes, const std::optional<Survey>& known,
-                            const Executor& executor) {
+                         const Executor& executor) {
     order_ = present_order(boxes, known ? *known : survey_of(boxes, executor), executor);
     records_ = {};
     place(boxes, executor);

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "trees/ordering/curve_order.h"
-#include "trees/layouts/packed.h"
-#include "trees/dynamic/update.h"
 #include "trees/dynamic/detail/survey.h"
+#include "trees/dynamic/update.h"
+#include "trees/layouts/packed.h"
+#include "trees/ordering/curve_order.h"
 
 #include <cstdint>
 #include <optional>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "trees/dynamic/detail/cached_pairs.h"
-#include "trees/queries/self_pairs.h"
 #include "trees/dynamic/detail/moving_tree.h"
+#include "trees/queries/self_pairs.h"
 
 #include <concepts>
 #include <limits>
@@ -60,7 +60,7 @@ template <UpdatePolicy P> class UpdaterOf final : public Updater {
     Work self_pairs_counted(PairSink& sink) const override {
         const CachedPairs* cached = valid_pairs();
         return cached ? cached->self_pairs_counted(tree_, sink)
-                    : boxwood::self_pairs_counted(tree_.layout(), sink);
+                      : boxwood::self_pairs_counted(tree_.layout(), sink);
     }
     std::size_t size() const override { return tree_.size(); }
     std::size_t bytes() const override { return tree_.bytes() + policy_.bytes(); }

@@ -5,9 +5,9 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
-#include "trees/ordering/curve_codes.h"
-#include "trees/executors/chunks.h"
 #include "trees/dynamic/detail/survey.h"
+#include "trees/executors/chunks.h"
+#include "trees/ordering/curve_codes.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,7 +1,7 @@
 #include "trees/dynamic/detail/widen.h"
 
-#include "trees/executors/chunks.h"
 #include "trees/dynamic/detail/survey.h"
+#include "trees/executors/chunks.h"
 
 #include <algorithm>
 #include <cfloat>

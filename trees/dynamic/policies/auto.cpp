@@ -1,9 +1,9 @@
 #include "trees/dynamic/detail/cached_pairs.h"
 #include "trees/dynamic/detail/far_sample.h"
 #include "trees/dynamic/detail/margins.h"
-#include "trees/dynamic/order_degradation.h"
 #include "trees/dynamic/detail/policy.h"
 #include "trees/dynamic/detail/step_sample.h"
+#include "trees/dynamic/order_degradation.h"
 
 #include <algorithm>
 #include <array>
@@ -14,11 +14,11 @@ using namespace detail;
 namespace {
 
 /// Picks by what moved, never by the clock, so that the answers and their order are the same
-/// everywhere. While a forecast from the steps of a sample of the items says that it pays, pairs are
-/// cached, as long as what was spent confirms it. Otherwise the tree answers: bounds are refitted
-/// until what queries lose by that exceeds what a new order takes (order_degradation.h). Then the
-/// items that went far (far_sample.h) are merged in at their new places if they are few, else all
-/// get a new order.
+/// everywhere. While a forecast from the steps of a sample of the items says that it pays, pairs
+/// are cached, as long as what was spent confirms it. Otherwise the tree answers: bounds are
+/// refitted until what queries lose by that exceeds what a new order takes (order_degradation.h).
+/// Then the items that went far (far_sample.h) are merged in at their new places if they are few,
+/// else all get a new order.
 struct Auto {
     static constexpr std::string_view name = "auto";
     static constexpr std::string_view summary = "cached pairs, refit, merge or a new order, by how "
@@ -68,8 +68,8 @@ struct Auto {
             return follow(tree, boxes, moved, executor);
         }
         const auto steps = sample_.follow(boxes, moved);
-        const bool would_pay =
-            pays(cached_.forecast({steps.begin(), steps.end()}, sample_.items_each(), moved.size()));
+        const bool would_pay = pays(
+            cached_.forecast({steps.begin(), steps.end()}, sample_.items_each(), moved.size()));
         if (cached_.holds())
             return would_pay ? follow_cached(tree, boxes, moved, executor)
                              : do_without(tree, boxes, moved, executor);
@@ -96,7 +96,7 @@ struct Auto {
         improve_order(tree, boxes, moved, executor);
     }
     void improve_order(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
-                     const Executor& executor) {
+                       const Executor& executor) {
         const auto n = static_cast<double>(tree.size());
         const FarSample::Found far = far_.look(boxes);
         const double refit = std::min(1., 16 * static_cast<double>(moved.size()) / n) * per_refit,
@@ -148,7 +148,7 @@ struct Auto {
             stop_caching(tree, boxes, executor);
     }
     void follow_cached(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
-              const Executor& executor) {
+                       const Executor& executor) {
         bool held = cached_.follow(tree, boxes, moved, executor);
         if (!held && pays(cached_.forecast()))
             held = cached_.rebuild(tree, boxes, executor);
@@ -162,7 +162,7 @@ struct Auto {
     }
     /// In the first frame the order is that of the start.
     void do_without(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
-                      const Executor& executor) {
+                    const Executor& executor) {
         cached_.drop();
         wait();
         tree.exchange(boxes, executor);
@@ -193,10 +193,10 @@ struct Auto {
     OrderDegradation degradation_;
     double fresh_ = 0; ///< surface of the blocks at the last new order
     CachedPairs cached_;
-    StepSample sample_;                          ///< followed while no pairs are cached
-    bool is_first_ = false;                      ///< no frame has come since the start
-    double lost_ = 0;                            ///< by caching pairs, of late
-    std::size_t paid_ = 0;                       ///< frames in which caching them paid
+    StepSample sample_;                        ///< followed while no pairs are cached
+    bool is_first_ = false;                    ///< no frame has come since the start
+    double lost_ = 0;                          ///< by caching pairs, of late
+    std::size_t paid_ = 0;                     ///< frames in which caching them paid
     std::size_t wait_ = 0, pause_ = min_pause; ///< frames until caching may be tried again
 };
 

@@ -1,7 +1,7 @@
-#include "trees/dynamic/dynamic_tree.h"
 #include "trees/dynamic/detail/margins.h"
 #include "trees/dynamic/detail/policy.h"
 #include "trees/dynamic/detail/survey.h"
+#include "trees/dynamic/dynamic_tree.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 /// Updater::sah against the blocks of the tree, and against lines that are shot through them.
 
-#include "trees/testing/box_families.h"
 #include "trees/dynamic/detail/policy.h"
+#include "trees/testing/box_families.h"
 
 #include <gtest/gtest.h>
 

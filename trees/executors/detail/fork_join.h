@@ -6,11 +6,11 @@
 
 namespace boxwood::detail {
 
-/// What an executor promises, reported to ThreadSanitizer: what came before the fork is seen by every
-/// task, and what the tasks did by whoever waits for them; nothing between two tasks. Debian's
-/// libgomp and oneTBB are not instrumented, and the executors' own files are compiled without (or
-/// TBB's templates would tell half of it), so it learns of forks and joins here alone. An empty
-/// type in all other builds.
+/// What an executor promises, reported to ThreadSanitizer: what came before the fork is seen by
+/// every task, and what the tasks did by whoever waits for them; nothing between two tasks.
+/// Debian's libgomp and oneTBB are not instrumented, and the executors' own files are compiled
+/// without (or TBB's templates would tell half of it), so it learns of forks and joins here alone.
+/// An empty type in all other builds.
 class ForkJoin {
   public:
 #ifdef BOXWOOD_THREAD_SANITIZER

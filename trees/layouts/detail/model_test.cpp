@@ -51,8 +51,8 @@ TEST(LayoutModel, ALayoutForPairsAloneAnswersThemAndRefusesTheRestByName) {
             run();
             FAIL() << to_string(query) << " was answered";
         } catch (const std::invalid_argument& error) {
-            EXPECT_EQ(error.what(), "the layout 'pairs_only' does not answer " +
-                                        std::string(to_string(query)));
+            EXPECT_EQ(error.what(),
+                      "the layout 'pairs_only' does not answer " + std::string(to_string(query)));
         }
     }
 }
