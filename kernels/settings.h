@@ -80,19 +80,20 @@ template <class T> struct Setting {
         : info(std::move(info_)), set(std::move(set_)) {}
 };
 
+template <class T>
+concept HasSettings = requires {
+    T::settings();
+};
+
 /// What T::settings() must be, if there is one: a range of Setting<T>.
 template <class T>
-concept ListsSettings = !requires {
-    T::settings();
-}
-|| requires {
-    { *T::settings().begin() } -> std::convertible_to<const Setting<T>&>;
-};
+concept ListsSettings =
+    !HasSettings<T> || std::convertible_to<decltype(*T::settings().begin()), const Setting<T>&>;
 
 /// The settings that T lists by `T::settings()`, if it does.
 template <class T> std::vector<SettingInfo> setting_infos() {
     std::vector<SettingInfo> infos;
-    if constexpr (requires { T::settings(); })
+    if constexpr (HasSettings<T>)
         for (const Setting<T>& setting : T::settings())
             infos.push_back(setting.info);
     return infos;
@@ -103,7 +104,7 @@ template <class T> T with_settings(const Settings& values) {
     T made;
     for (const auto& [name, value] : values) {
         bool known = false;
-        if constexpr (requires { T::settings(); })
+        if constexpr (HasSettings<T>)
             for (const Setting<T>& setting : T::settings())
                 if (setting.info.name == name) {
                     setting.set(made, checked_setting(T::name, setting.info, value));
