@@ -30,7 +30,6 @@ HWY_INLINE void ClearCentres(BinnedPart& part) { StoreF8(SetF8(kLowest), part.ce
 class BinnedSplitter {
   public:
     using Part = BinnedPart;
-    using Halves = std::pair<Part, Part>;
 
     BinnedSplitter(Boxes boxes, const BinnedSahBuilder& settings, const Executor& executor)
         : boxes_(boxes), executor_(executor), max_bins_(settings.bins),
@@ -56,7 +55,7 @@ class BinnedSplitter {
         return part.count > 1 && (part.count > unsplit_ || part.depth > max_depth_);
     }
 
-    Halves split(const Part& r) {
+    Halves<Part> split(const Part& r) {
         if (r.depth > max_depth_)
             return Halve(r, false);
         const Binning binning(r.centres, r.count, max_bins_);
@@ -72,11 +71,11 @@ class BinnedSplitter {
         std::uint32_t n_left = 0;
         for (int b = 0; b < plane.bin; ++b)
             n_left += bins[b].count[plane.axis];
-        Halves h = Children(r, n_left, r.array ^ 1);
-        ClearCentres(h.first);
-        ClearCentres(h.second);
-        Partition(Items(r), r.count, binning, plane, Items(h.first), 0, n_left, h.first.centres,
-                  h.second.centres);
+        Halves<Part> h = Children(r, n_left, r.array ^ 1);
+        ClearCentres(h.left);
+        ClearCentres(h.right);
+        Partition(Items(r), r.count, binning, plane, Items(h.left), 0, n_left, h.left.centres,
+                  h.right.centres);
         return h;
     }
 
@@ -89,7 +88,7 @@ class BinnedSplitter {
     void build(const Part& part) { build_below(*this, part); }
 
     /// In slices of the items, so that all threads have work where parts are few.
-    void split_level(const std::vector<Part>& large, std::vector<Halves>& children) {
+    void split_level(const std::vector<Part>& large, std::vector<Halves<Part>>& children) {
         struct Slice {
             std::size_t range;
             std::uint32_t from, count, n_left;
@@ -141,24 +140,24 @@ class BinnedSplitter {
             }
             WriteBoxOfBins(large[i], bins, choice.binning.n_bins);
             children[i] = Children(large[i], n_left, large[i].array ^ 1);
-            ClearCentres(children[i].first);
-            ClearCentres(children[i].second);
+            ClearCentres(children[i].left);
+            ClearCentres(children[i].right);
         }
         executor_.for_each(slices.size(), [&](std::size_t i) {
             Slice& s = slices[i];
             const Choice& choice = choices[s.range];
-            Halves& h = children[s.range];
+            Halves<Part>& h = children[s.range];
             StoreF8(SetF8(kLowest), s.left_centres);
             StoreF8(SetF8(kLowest), s.right_centres);
             if (choice.plane.axis >= 0)
                 Partition(Items(large[s.range]) + s.from, s.count, choice.binning, choice.plane,
-                          Items(h.first), s.n_left, h.first.count + (s.from - s.n_left),
+                          Items(h.left), s.n_left, h.left.count + (s.from - s.n_left),
                           s.left_centres, s.right_centres);
         });
         for (const Slice& s : slices) {
-            Halves& h = children[s.range];
-            StoreF8(MaxF8(LoadF8(h.first.centres), LoadF8(s.left_centres)), h.first.centres);
-            StoreF8(MaxF8(LoadF8(h.second.centres), LoadF8(s.right_centres)), h.second.centres);
+            Halves<Part>& h = children[s.range];
+            StoreF8(MaxF8(LoadF8(h.left.centres), LoadF8(s.left_centres)), h.left.centres);
+            StoreF8(MaxF8(LoadF8(h.right.centres), LoadF8(s.right_centres)), h.right.centres);
         }
     }
 
@@ -172,23 +171,23 @@ class BinnedSplitter {
     }
 
     /// The children of a part of which `n_left` go left; their centres are left to the caller.
-    static Halves Children(const Part& part, std::uint32_t n_left, std::uint32_t array) {
+    static Halves<Part> Children(const Part& part, std::uint32_t n_left, std::uint32_t array) {
         const auto [left, right] = children_of(part, n_left);
-        Halves h;
-        static_cast<Subtree&>(h.first) = left;
-        static_cast<Subtree&>(h.second) = right;
-        h.first.array = h.second.array = array;
+        Halves<Part> h;
+        static_cast<Subtree&>(h.left) = left;
+        static_cast<Subtree&>(h.right) = right;
+        h.left.array = h.right.array = array;
         return h;
     }
 
     /// Halves that stay in their array: for centres that coincide, or for too great a depth.
-    Halves Halve(const Part& r, bool coincide) {
+    Halves<Part> Halve(const Part& r, bool coincide) {
         WriteInner(r, BoundsOfBoxes(Items(r), r.count));
         const auto n_left = static_cast<std::uint32_t>(
             coincide ? r.count / 2 : halve({Items(r), r.count}, r.centres));
-        Halves h = Children(r, n_left, r.array);
-        StoreF8(BoundsOfCentres(Items(h.first), h.first.count), h.first.centres);
-        StoreF8(BoundsOfCentres(Items(h.second), h.second.count), h.second.centres);
+        Halves<Part> h = Children(r, n_left, r.array);
+        StoreF8(BoundsOfCentres(Items(h.left), h.left.count), h.left.centres);
+        StoreF8(BoundsOfCentres(Items(h.right), h.right.count), h.right.centres);
         return h;
     }
 

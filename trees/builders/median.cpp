@@ -44,7 +44,7 @@ class MedianSplitter {
     bool is_split(const Part& part) const { return part.count > 1; }
 
     /// Each side comes in its old order, into the other array.
-    std::pair<Part, Part> split(const Part& r) {
+    Halves<Part> split(const Part& r) {
         const Prim8* prims = Array(r.array) + r.first;
         F8 box = SetF8(kLowest), centres = box;
         for (std::uint32_t i = 0; i < r.count; ++i) {

@@ -62,7 +62,7 @@ class SweepSplitter {
 
     bool is_split(const Part& part) const { return part.count > 1; }
 
-    std::pair<Part, Part> split(const Part& part) {
+    Halves<Part> split(const Part& part) {
         const Split split =
             part.depth > max_depth_
                 ? Middle(part)
@@ -75,7 +75,7 @@ class SweepSplitter {
     }
 
     /// The axes at the same time.
-    void split_level(const std::vector<Part>& large, std::vector<std::pair<Part, Part>>& children) {
+    void split_level(const std::vector<Part>& large, std::vector<Halves<Part>>& children) {
         std::vector<std::array<Split, 3>> along(large.size());
         executor_.for_each(3 * large.size(), [&](std::size_t i) {
             along[i / 3][i % 3] = BestAlong(large[i / 3], static_cast<std::uint32_t>(i % 3));

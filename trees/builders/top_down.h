@@ -36,7 +36,7 @@ template <class Split> class ItemSplitter {
     }
 
     bool is_split(const Part& part) const { return part.count > 1; }
-    std::pair<Part, Part> split(const Part& part) {
+    Halves<Part> split(const Part& part) {
         write(part);
         const std::span<Prim8> items = items_.prims.span().subspan(part.first, part.count);
         const std::size_t n_left = part.count == 2           ? 1

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <utility>
 #include <vector>
 
 namespace boxwood::detail {
@@ -19,8 +18,11 @@ struct Subtree {
     std::uint32_t node, first, count, depth;
 };
 
-/// The two parts of a part of which `n_left` items go left.
-inline std::pair<Subtree, Subtree> children_of(const Subtree& part, std::uint32_t n_left) {
+/// The two parts that a part is split into.
+template <class Part> struct Halves { Part left, right; };
+
+/// Those of a part of which `n_left` items go left.
+inline Halves<Subtree> children_of(const Subtree& part, std::uint32_t n_left) {
     return {{part.node + 1, part.first, n_left, part.depth + 1},
             {part.node + 2 * n_left, part.first + n_left, part.count - n_left, part.depth + 1}};
 }
@@ -34,7 +36,7 @@ template <class S>
 concept Splitter = std::derived_from<typename S::Part, Subtree> &&
     requires(S splitter, const typename S::Part& part) {
     { splitter.is_split(part) } -> std::same_as<bool>;
-    { splitter.split(part) } -> std::same_as<std::pair<typename S::Part, typename S::Part>>;
+    { splitter.split(part) } -> std::same_as<Halves<typename S::Part>>;
     splitter.finish(part);
     splitter.build(part);
 };
@@ -49,9 +51,9 @@ template <Splitter S>
     for (;;) {
         if (splitter.is_split(part)) {
             const auto children = splitter.split(part);
-            const bool left_first = children.first.count <= children.second.count;
-            waiting[n_waiting++] = left_first ? children.second : children.first;
-            part = left_first ? children.first : children.second;
+            const bool left_first = children.left.count <= children.right.count;
+            waiting[n_waiting++] = left_first ? children.right : children.left;
+            part = left_first ? children.left : children.right;
             continue;
         }
         splitter.finish(part);
@@ -72,7 +74,7 @@ void build_by_splitter(S& splitter, const typename S::Part& root, const Executor
     std::vector<Part> parts, frontier{root}, large;
     if (executor.threads() == 1)
         parts.swap(frontier);
-    std::vector<std::pair<Part, Part>> children;
+    std::vector<Halves<Part>> children;
     while (!frontier.empty()) {
         large.clear();
         for (const Part& part : frontier)

@@ -10,7 +10,6 @@
 #include <vector>
 
 namespace boxwood {
-using namespace detail;
 namespace {
 
 /// Two tasks that run at the same time, on two threads, and are not ordered by it. Where there is
