@@ -5,7 +5,7 @@
 #include "bench/io/csv.h"
 #include "kernels/registry.h"
 #include "scenes/meshes/mesh_file.h"
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 
 #include <fmt/format.h>
 

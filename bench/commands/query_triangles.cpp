@@ -6,7 +6,7 @@
 #include "bench/io/json.h"
 #include "kernels/oracle/registry.h"
 #include "kernels/registry.h"
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 
 #include <fmt/format.h>
 

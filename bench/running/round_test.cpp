@@ -304,7 +304,7 @@ class Follower final : public Contender {
 };
 
 TEST_F(RoundTest, Round0CountsTheFramesOfMovingScenes) {
-    const std::vector<std::string> policies{"auto",     "refit", "keep",
+    const std::vector<std::string> policies{"auto",     "refit", "cached",
                                             "reinsert", "merge", "rebuild"};
     plan = make_plan("rounds = 2\nmin_time_ms = 1\n[[cells]]\ntask = \"moving_pairs\"\n"
                      "scene = \"broadmark_brownian\"\nn = 700\nframes = 5\n"
