@@ -40,11 +40,13 @@ results::Results four_cells() {
         results::Variant variant;
         variant.variant_id = id;
         variant.name = names[id];
+        variant.library = id == 0 ? "boxwood" : variant.name.substr(0, variant.name.find('.'));
         variant.is_peer = id > 0;
         results.variants.push_back(variant);
         results::Cell cell;
         cell.cell_id = cell.variant_id = id;
         cell.task = "pairs";
+        cell.n_items = 1000;
         cell.precision = "f32";
         cell.executor = "serial";
         results.cells.push_back(cell);
@@ -81,7 +83,7 @@ TEST(Show, AllSaysWhatIsInTheFile) {
                                                "+peers +query +9 +2.00 \\[1.[0-9]+, 2.[0-9]+\\] +"
                                                "faster"));
     EXPECT_THAT(text, HasSubstr("not ranked: a wrong answer"));
-    EXPECT_THAT(text, ::testing::ContainsRegex("overlapping pairs, soup 1k +wins 2.00x over "));
+    EXPECT_THAT(text, ::testing::ContainsRegex("overlapping pairs, soup 1k +wins 2.00x over FCL"));
 }
 
 TEST(Show, TakesWhatTheFileSaysAndDerivesNothing) {
