@@ -54,9 +54,9 @@ template <class Key, class Row> class Joined {
 /// How bad a status is; one that is not known is taken as worse than any that could be ranked.
 std::size_t badness(std::string_view status) {
     constexpr std::array<std::string_view, 3> ranked{"exact", "conservative", "within_bound"};
-    if (status == "wrong")
+    if (status == Status::wrong)
         return ranked.size() + 2;
-    if (status == "unsupported")
+    if (status == Status::unsupported)
         return ranked.size() + 1;
     return static_cast<std::size_t>(std::find(ranked.begin(), ranked.end(), status) -
                                     ranked.begin());

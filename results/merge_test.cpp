@@ -82,7 +82,7 @@ Results part(const std::string& machine, std::uint32_t round, std::uint32_t firs
         Check check;
         check.cell_id = cell.cell_id;
         check.oracle = "brute_force";
-        check.status = "exact";
+        check.status = Status::exact;
         p.checks.push_back(check);
         TreeRow tree;
         tree.cell_id = cell.cell_id;
@@ -166,10 +166,10 @@ TEST(Merge, AnotherVersionIsAnotherVariant) {
 TEST(Merge, TheWorseCheckStays) {
     for (const bool swapped : {false, true}) {
         std::array parts{part("a", 0), part("a", 1)};
-        parts[swapped].checks[0].status = "wrong";
+        parts[swapped].checks[0].status = Status::wrong;
         parts[swapped].checks[0].witness = "pair 3,4";
         const Results all = merge(parts);
-        EXPECT_EQ(all.checks[0].status, "wrong");
+        EXPECT_EQ(all.checks[0].status, Status::wrong);
         EXPECT_EQ(all.checks[0].witness, "pair 3,4");
         EXPECT_EQ(all.checks[0].cell_id, 0u);
     }

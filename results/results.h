@@ -126,7 +126,8 @@ struct Counter {
 
 struct Check {
     std::uint32_t cell_id = 0;
-    std::string oracle, status; ///< exact | conservative | within_bound | wrong | unsupported
+    std::string oracle;
+    Status status = Status::unchecked;
     std::uint64_t n_checked = 0, n_expected = 0, n_got = 0, missing = 0, extra = 0;
     double max_ulp = results::missing, max_abs_err = results::missing,
            max_rel_err = results::missing;
@@ -157,7 +158,7 @@ struct KernelRow {
     std::uint64_t bound_violations = 0;
     double escalation_rate = missing; ///< share of the calls that tier 0 did not decide
     std::uint64_t tier_0 = 0, tier_1 = 0, tier_2 = 0, tier_3 = 0; ///< calls decided by each tier
-    std::string status;          ///< exact | conservative | within_bound | wrong | unsupported
+    Status status = Status::unchecked;
     std::string witness;         ///< a wrong case and the command that replays it
     std::uint32_t is_broken = 0; ///< derived: a kernel of ours does not keep its promise
 };

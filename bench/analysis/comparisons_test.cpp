@@ -39,7 +39,7 @@ struct Maker {
             results.shards.push_back(shard);
         }
     }
-    std::uint32_t cell(const std::string& name, bool is_peer, const std::string& status = "exact") {
+    std::uint32_t cell(const std::string& name, bool is_peer, const std::string& status = results::Status::exact) {
         const auto id = static_cast<std::uint32_t>(results.cells.size());
         results::Variant variant;
         variant.variant_id = id;

@@ -120,11 +120,11 @@ TEST_F(Findings, SayWhyNothingCanBeTold) {
 TEST_F(Findings, NeverRankWhatIsWrong) {
     add("uniform", "pairs", "ours.packed", 100, 300);
     const auto rogue = add("uniform", "pairs", "fcl.rogue", 1, 1);
-    run.results.checks[rogue].status = "wrong";
+    run.results.checks[rogue].status = results::Status::wrong;
     EXPECT_THAT(screen(), HasSubstr("2 answers checked: 0 of ours wrong, 1 of the peers' wrong"));
     EXPECT_TRUE(run.results.findings.empty());
     EXPECT_FALSE(is_promise_broken(run.results)); // a peer promised nothing
-    run.results.checks[add("uniform", "pairs", "bad.packed", 1, 1)].status = "wrong";
+    run.results.checks[add("uniform", "pairs", "bad.packed", 1, 1)].status = results::Status::wrong;
     EXPECT_THAT(screen(), HasSubstr("1 of ours wrong"));
     EXPECT_TRUE(is_promise_broken(run.results));
 }
@@ -138,7 +138,7 @@ TEST_F(Findings, ALaterWrongAnswerOrACrashBreaksThePromise) {
     analyse(run.results);
     EXPECT_FALSE(is_promise_broken(run.results));
     results::Check& check = run.results.checks[add("uniform", "pairs", "fcl.tree", 1, 1)];
-    check.status = "wrong";
+    check.status = results::Status::wrong;
     check.witness = "crashed: signal 11 in round 2";
     analyse(run.results);
     EXPECT_TRUE(is_promise_broken(run.results));
@@ -149,7 +149,7 @@ TEST_F(Findings, AKernelWithoutAPromiseMayErrAndOneWithMayNot) {
                                 std::uint64_t false_neg, double ns) {
         const auto cell = run.cell("slivers", 100, "triangle_triangle", kernel);
         run.time(cell, Phase::query, 100 * ns);
-        run.results.checks[cell].status = false_neg > 0 ? "wrong" : "exact";
+        run.results.checks[cell].status = false_neg > 0 ? results::Status::wrong : results::Status::exact;
         results::KernelRow row;
         row.cell_id = cell;
         row.family = "slivers";
@@ -159,7 +159,7 @@ TEST_F(Findings, AKernelWithoutAPromiseMayErrAndOneWithMayNot) {
         row.promise = promise;
         row.n = row.tier_0 = 100;
         row.false_neg = false_neg;
-        row.status = false_neg > 0 ? "wrong" : "exact";
+        row.status = false_neg > 0 ? results::Status::wrong : results::Status::exact;
         row.witness = "case 7";
         run.results.kernels.push_back(row);
     };

@@ -32,7 +32,7 @@ std::vector<KernelCost> kernel_costs_of(const results::Results& results) {
     using Key = std::tuple<std::string, std::string, bool, std::string, std::string>;
     std::map<Key, std::pair<KernelCost, int>> costs; // and the number of families
     for (const KernelRow& row : results.kernels) {
-        if (row.family == whole_queries || row.n == 0 || row.status == "unsupported")
+        if (row.family == whole_queries || row.n == 0 || row.status == results::Status::unsupported)
             continue;
         const results::Cell& cell = *cells.at(row.cell_id);
         const results::Variant& variant = *variants.at(cell.variant_id);

@@ -14,12 +14,12 @@ using results::Results;
 
 bool is_checked_wrong(const Results& results, std::uint32_t cell_id) {
     return std::ranges::any_of(results.checks, [&](const results::Check& check) {
-        return check.cell_id == cell_id && check.status == "wrong";
+        return check.cell_id == cell_id && check.status == results::Status::wrong;
     });
 }
 
 bool has_crashed(const results::Check& check) {
-    return check.status == "wrong" && check.witness.starts_with("crashed: ");
+    return check.status == results::Status::wrong && check.witness.starts_with("crashed: ");
 }
 
 } // namespace

@@ -83,7 +83,7 @@ TEST(SizeScaling, IsOfThreeSizesOfOneSceneAndOfRightAnswersAlone) {
     EXPECT_EQ(rows[0].n_sizes, 4u);
     EXPECT_NEAR(rows[0].exponent_lo, 1.25, 1e-12);
     EXPECT_NEAR(rows[0].off_line, 0, 1e-12);
-    run.results.checks[1].status = run.results.checks[2].status = "wrong";
+    run.results.checks[1].status = run.results.checks[2].status = results::Status::wrong;
     set_statuses(run.results);
     EXPECT_TRUE(size_scaling_of(run.results, Times(run.results)).empty());
 }

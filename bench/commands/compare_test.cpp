@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 /// One cell timed in some rounds, the same in each but for one part in a thousand.
-results::Results timed(double ns, std::uint32_t rounds = 9, const std::string& status = "exact") {
+results::Results timed(double ns, std::uint32_t rounds = 9, const std::string& status = results::Status::exact) {
     results::Results results;
     results.env.resize(1);
     results.env[0].git_commit = "0123456789abcdef";

@@ -169,12 +169,12 @@ class Group {
             if (const auto found = checks_.find(cell->cell_id); found != checks_.end())
                 for (const Check* check : found->second) {
                     const std::string& label = labels_.at(cell->cell_id);
-                    if (check->status == "wrong")
+                    if (check->status == results::Status::wrong)
                         text += fmt::format("  wrong, not ranked: {}: {} missing and {} extra of "
                                             "{}; {}\n",
                                             label, check->missing, check->extra, check->n_expected,
                                             check->witness);
-                    else if (check->status == "unsupported")
+                    else if (check->status == results::Status::unsupported)
                         text += fmt::format("  unsupported: {}: {}\n", label, check->witness);
                 }
         return text;

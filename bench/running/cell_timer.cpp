@@ -5,7 +5,6 @@
 #include "bench/stages/ledger.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace boxwood::bench {

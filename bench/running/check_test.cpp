@@ -139,13 +139,13 @@ TEST(Check, PeersMayErrAndCrashAndHaveNoPromise) {
     const Scene scene = touching_triangles();
     const results::Results wrong =
         checked(scene, "triangle_triangle", made_up(Promise::none, always(Answer::no), true));
-    EXPECT_EQ(wrong.kernels[0].status, "wrong");
+    EXPECT_EQ(wrong.kernels[0].status, results::Status::wrong);
     EXPECT_FALSE(is_promise_broken(wrong));
     const results::Results crash =
         checked(scene, "triangle_triangle",
                 made_up(
                     Promise::none, [](const Scene&, Answers&) { raise(SIGKILL); }, true));
-    EXPECT_EQ(crash.kernels[0].status, "wrong");
+    EXPECT_EQ(crash.kernels[0].status, results::Status::wrong);
     EXPECT_THAT(crash.checks[0].witness, HasSubstr("crashed: signal 9"));
     EXPECT_EQ(broken_promises(crash), 0u);
 }
@@ -243,7 +243,7 @@ TEST_F(CheckCommand, WritesAResultFileWithARowPerKernelAndScale) {
     for (const results::KernelRow& row : r.kernels) {
         EXPECT_EQ(row.family, "slivers");
         EXPECT_EQ(row.panel, "degenerate");
-        EXPECT_TRUE(row.status == "unsupported" || row.ns_per_call > 0) << row.kernel;
+        EXPECT_TRUE(row.status == results::Status::unsupported || row.ns_per_call > 0) << row.kernel;
     }
 }
 

@@ -78,7 +78,7 @@ results::Cell Record::cell(std::string name, const Scene& scene, std::uint32_t s
 
 void Record::add(Judgement judgement, std::uint32_t cell_id, double query_ns) {
     judgement.check.cell_id = cell_id;
-    judgement.check.status = to_string(judgement.status);
+    judgement.check.status = judgement.status;
     if (judgement.kernel) {
         results::KernelRow& row = *judgement.kernel;
         row.cell_id = cell_id;

@@ -129,17 +129,17 @@ TEST_F(RoundTest, PreparationChecksCountsAndCalibrates) {
     EXPECT_EQ(r.scenes.size(), 1u);
     EXPECT_EQ(r.variants.size(), 6u);
     EXPECT_TRUE(r.samples.empty());
-    EXPECT_EQ(check_of(r, "right")->status, "exact");
+    EXPECT_EQ(check_of(r, "right")->status, results::Status::exact);
     EXPECT_NE(check_of(r, "right")->result_hash, 0u);
-    EXPECT_EQ(check_of(r, "wrong")->status, "wrong");
+    EXPECT_EQ(check_of(r, "wrong")->status, results::Status::wrong);
     EXPECT_EQ(check_of(r, "wrong")->missing, 1u);
-    EXPECT_EQ(check_of(r, "throws")->status, "wrong");
+    EXPECT_EQ(check_of(r, "throws")->status, results::Status::wrong);
     EXPECT_EQ(check_of(r, "throws")->witness, "threw: no more\nmemory");
-    EXPECT_EQ(check_of(r, "cannot")->status, "unsupported");
+    EXPECT_EQ(check_of(r, "cannot")->status, results::Status::unsupported);
     EXPECT_EQ(check_of(r, "cannot")->witness, "has no arms");
     EXPECT_EQ(check_of(r, "skipped"), nullptr);
     EXPECT_EQ(queries["skipped"], 0);
-    EXPECT_EQ(check_of(r, "counts")->status, "wrong");
+    EXPECT_EQ(check_of(r, "counts")->status, results::Status::wrong);
 
     const Calibrations calibrations = calibrations_of(r.texts.at("calibration"));
     EXPECT_EQ(calibrations.size(), 3u); // wrong ones are timed too; nobody ranks them
@@ -219,7 +219,7 @@ TEST_F(RoundTest, ACrashedCellIsOutAndSaysWhy) {
     EXPECT_TRUE(mark_crashed(p, "a", "crashed: signal 6 in round 2"));
     EXPECT_FALSE(mark_crashed(p, "a", "crashed: signal 6 in round 2"));
     for (const char* name : {"a", "b"}) {
-        EXPECT_EQ(check_of(p, name)->status, "wrong");
+        EXPECT_EQ(check_of(p, name)->status, results::Status::wrong);
         EXPECT_TRUE(check_of(p, name)->witness.starts_with("crashed: signal"));
     }
     EXPECT_EQ(p.checks.size(), 2u);
@@ -251,12 +251,12 @@ TEST_F(RoundTest, KernelsAreJudgedAndHaveAQueryAlone) {
     ASSERT_EQ(r.kernels.size(), 2u);
     EXPECT_EQ(r.kernels[0].family, "generic_triangles");
     EXPECT_EQ(r.kernels[0].n, 20u);
-    EXPECT_EQ(r.kernels[0].status, "exact");
+    EXPECT_EQ(r.kernels[0].status, results::Status::exact);
     EXPECT_GT(r.kernels[0].ns_per_call, 0);
     EXPECT_EQ(r.kernels[1].cell_id, 1u);
     EXPECT_FALSE(r.conditions.empty());
     EXPECT_EQ(r.conditions[0].cell_id, 1u);
-    EXPECT_EQ(check_of(r, "triangle_triangle")->status, "exact");
+    EXPECT_EQ(check_of(r, "triangle_triangle")->status, results::Status::exact);
     EXPECT_EQ(r.cells[0].n_items, 20u);
     EXPECT_EQ(r.cells[0].n_queries, 20u);
 
@@ -304,7 +304,7 @@ class Follower final : public Contender {
 };
 
 TEST_F(RoundTest, Round0CountsTheFramesOfMovingScenes) {
-    const std::vector<std::string> policies{"auto",     "refit", "keep",
+    const std::vector<std::string> policies{"auto",     "refit", "cached",
                                             "reinsert", "merge", "rebuild"};
     plan = make_plan("rounds = 2\nmin_time_ms = 1\n[[cells]]\ntask = \"moving_pairs\"\n"
                      "scene = \"broadmark_brownian\"\nn = 700\nframes = 5\n"

@@ -178,7 +178,7 @@ TEST_F(SweepTest, MeasuresChecksAndCleansUp) {
     EXPECT_EQ(r.samples.size(), 3u * 2 * (3 + 1)); // rounds, phases, cells and the A/A twin
     EXPECT_EQ(r.checks.size(), 3u);
     for (const results::Check& check : r.checks)
-        EXPECT_EQ(check.status, "exact");
+        EXPECT_EQ(check.status, results::Status::exact);
     EXPECT_EQ(r.trees.size(), 2u);
     EXPECT_EQ(r.env.size(), 1u);
     EXPECT_FALSE(r.compare.empty());
@@ -200,7 +200,7 @@ TEST_F(SweepTest, KernelsAreTimedWhereTheyErrAndJudgedByTheirPromise) {
     EXPECT_FALSE(r.conditions.empty());
     std::set<std::uint32_t> wrong, timed;
     for (const results::KernelRow& row : r.kernels)
-        if (row.status == "wrong")
+        if (row.status == results::Status::wrong)
             wrong.insert(row.cell_id);
     for (const results::Sample& sample : r.samples) {
         EXPECT_EQ(sample.phase, results::Phase::query);
@@ -283,7 +283,7 @@ TEST_F(SweepTest, ACellThatCrashesTwiceIsLeftOut) {
     EXPECT_EQ(wait_for(parent), 1) << text_of(log());
     const results::Results r = results::read(out());
     ASSERT_EQ(r.checks.size(), 1u);
-    EXPECT_EQ(r.checks[0].status, "wrong");
+    EXPECT_EQ(r.checks[0].status, results::Status::wrong);
     EXPECT_THAT(r.checks[0].witness, HasSubstr("crashed: signal 9"));
     EXPECT_EQ(rounds_in(r).size(), 3u);
     EXPECT_TRUE(r.samples.empty());

@@ -35,7 +35,7 @@ struct RunForTest {
         results.cells.push_back(cell);
         results::Check check;
         check.cell_id = cell.cell_id;
-        check.status = "exact";
+        check.status = results::Status::exact;
         results.checks.push_back(check);
         return cell.cell_id;
     }

@@ -33,7 +33,7 @@ FAMILIES = {
 # Ways to play moving scenes; they stand beside peers, never beside builders. Settings follow the word.
 POLICIES = {
     "auto": ("#0072B2", "o"),
-    "keep": ("#009E73", "s"),
+    "cached": ("#009E73", "s"),
     "merge": ("#56B4E9", "^"),
     "rebuild": ("#332288", "p"),
     "refit": ("#882255", "d"),

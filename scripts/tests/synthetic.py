@@ -74,7 +74,7 @@ TREE_CONTENDERS = {  # the last: SAH cost / 2.5
 # contender -> (builder, ns of an update per box moved and per box at rest, ns of a query per box, growth per frame)
 POLICIES = {
     "auto": ("auto", 25, 1, 60, 0.001),
-    "keep": ("keep", 18, 3, 9, 0.0),
+    "cached": ("cached", 18, 3, 9, 0.0),
     "merge": ("merge", 24, 4, 62, 0.0),
     "rebuild.trigger0": ("rebuild_trigger0", 50, 50, 58, 0.0),
     "reinsert": ("reinsert", 210, 1, 60, 0.012),

@@ -227,7 +227,7 @@ def test_a_structure_that_degrades_climbs(results):
 def test_degradation_is_counted_where_it_was(results):
     _, counted = registry.draw("tree_quality_over_time", results).pictures
     rows = [dict(zip(counted.columns, row)) for row in counted.rows if row[0] == "uniform_drift"]
-    assert {row["contender"] for row in rows} == {"auto", "merge", "rebuild.trigger0", "reinsert"}  # no peers, no keep
+    assert {row["contender"] for row in rows} == {"auto", "merge", "rebuild.trigger0", "reinsert"}  # no peers, no cached
     last = {row["contender"]: row for row in rows if row["frame"] == 19}
     assert last["reinsert"]["box_tests_per_item"] == pytest.approx(40 * (1 + 2 * 0.012 * 19))
     assert last["reinsert"]["sah"] == pytest.approx(200 * (1 + 2 * 0.012 * 19))

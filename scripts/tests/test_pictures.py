@@ -42,7 +42,7 @@ def test_an_error_without_a_right_digit_stands_in_the_lane_at_the_top(error):
 
 def test_settings_keep_the_colour_of_their_builder():
     for word in ("binned_sah", "bonsai", "sweep_sah"):
-        assert style.look(word + "_block8_joined8")[0] == style.look(word)[0]
+        assert style.look(word + "_agglomerate_below8_leaf_size8")[0] == style.look(word)[0]
     assert style.look("binned_sah_reinsertion")[0] != style.look("sweep_sah")[0]
 
 
@@ -75,7 +75,7 @@ def test_long_names_leave_out_what_they_share():
     assert [names[id(c)] for c in cells] == ["guigue_devillers_f32", "sat_f64", "fcl.wide8.x"]
     peer = cell("cgal.box_self_intersection_d_of_all", False)
     for kept in ([cell("hilbert.packed"), cell("median.packed"), peer],  # short ones stay as other figures have them
-                 [cell("binned_sah_block8_joined8.wide8"), cell("binned_sah_block8_joined8.wide8.watertight")]):
+                 [cell("binned_sah_agglomerate_below8_leaf_size8.wide8"), cell("binned_sah_agglomerate_below8_leaf_size8.wide8.watertight")]):
         names, shared = selection.short_labels(kept)
         assert shared == "" and [names[id(c)] for c in kept] == [c.label for c in kept]
 

@@ -11,7 +11,7 @@ TITLE = "How trees degrade"
 HOW_TO_READ = (
     "Lower is better. Each line is the query of each frame by one way to keep the structure, over the query of the same "
     "frame by our structure that is rebuilt for every frame (where there is none, over its own first frame). A "
-    "structure that degrades climbs. The policy keep, which answers from the pairs that it found, is left out; auto "
+    "structure that degrades climbs. The policy cached, which answers from the pairs that it found, is left out; auto "
     "stands below 1 where it does the same. Where it was counted, a second picture holds what does not depend on the "
     "machine: the tests of boxes that the query of each frame made, per item, and those that a random ray "
     "would make by the surface-area heuristic."
@@ -120,7 +120,7 @@ def draw_counted(drawn, all_panels, notes):
 def draw(run):
     panels = []
     for job in largest_jobs(run.jobs):
-        cells = [c for c in run.of(job) if len(c.frames) >= MIN_FRAMES and not c.builder.startswith("keep")]
+        cells = [c for c in run.of(job) if len(c.frames) >= MIN_FRAMES and not c.builder.startswith("cached")]
         if job.task == "moving_pairs" and len(cells) >= 2 and job.threads == 1:
             fresh = next((c for c in cells if c.builder == FRESH and c.status != "wrong"), None)
             shown, left_out = choose(cells, keep=[fresh] if fresh else (), limit=9)
