@@ -141,7 +141,7 @@ class Maker:
 
     def cell(self, scene, n, task, contender, spec, threads, factor=1.0, status="exact", twin=False, queries=0, kernel=""):
         library, builder, build, query, tests = spec
-        traversal = {"pairs": "self_pairs", "rays_closest": "rays", "triangle_pairs": "self_pairs", "build": ""}[task]
+        traversal = {"pairs": "self_pairs", "rays_closest": "rays", "triangle_pairs": "self_pairs", "build": "tree"}[task]
         traversal = traversal if builder else ""
         name = f"{contender}.{traversal or task}" if builder else contender
         name = f"{name}.{kernel}" if kernel else name
