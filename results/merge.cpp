@@ -51,17 +51,6 @@ template <class Key, class Row> class Joined {
     std::map<Key, std::uint32_t> index_;
 };
 
-/// How bad a status is; one that is not known is taken as worse than any that could be ranked.
-std::size_t badness(std::string_view status) {
-    constexpr std::array<std::string_view, 3> ranked{"exact", "conservative", "within_bound"};
-    if (status == Status::wrong)
-        return ranked.size() + 2;
-    if (status == Status::unsupported)
-        return ranked.size() + 1;
-    return static_cast<std::size_t>(std::find(ranked.begin(), ranked.end(), status) -
-                                    ranked.begin());
-}
-
 using Strings = std::vector<std::string>;
 
 class Merger {
@@ -202,7 +191,7 @@ void Merger::add_facts(const Results& part) {
     for (Check row : part.checks) {
         row.cell_id = cell_ids_(row.cell_id);
         Check& kept = all_.checks[checks_.add({row.cell_id, row.oracle}, row).first];
-        if (badness(row.status) > badness(kept.status))
+        if (row.status > kept.status)
             kept = row;
     }
     for (TreeRow row : part.trees) {
@@ -212,7 +201,7 @@ void Merger::add_facts(const Results& part) {
     for (KernelRow row : part.kernels) {
         row.cell_id = cell_ids_(row.cell_id);
         KernelRow& kept = all_.kernels[kernels_.add({row.cell_id, row.family}, row).first];
-        if (badness(row.status) > badness(kept.status))
+        if (row.status > kept.status)
             kept = row;
     }
     for (ConditionRow row : part.conditions) {
