@@ -101,7 +101,7 @@ TEST(Rankings, SayHowFarFromTheLimitOursIs) {
 
 TEST(Rankings, TreesAloneStandElsewhere) {
     RunForTest run;
-    run.time(run.cell("uniform", 1000, "tree", "lbvh.tree"), "build", 5);
+    run.time(run.cell("uniform", 1000, "build", "lbvh.tree"), "build", 5);
     EXPECT_EQ(text_of(run), "");
 }
 

@@ -15,7 +15,7 @@ using testing::Not;
 TEST(TreeRankings, GiveTimeAndSahCostAgainstEachQuality) {
     RunForTest run;
     const auto add = [&](const char* variant, double ns, double sah) {
-        const auto cell = run.cell("uniform", 1000, "tree", variant);
+        const auto cell = run.cell("uniform", 1000, "build", variant);
         run.time(cell, "build", ns);
         results::TreeRow row;
         row.cell_id = cell;
