@@ -3,7 +3,7 @@
 
 #include "bench/commands/command.h"
 #include "bench/running/environment.h"
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 
 #include <fmt/format.h>
 

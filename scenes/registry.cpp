@@ -1,6 +1,6 @@
 #include "scenes/registry.h"
 
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 
 #include <stdexcept>
 

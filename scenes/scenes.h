@@ -21,4 +21,4 @@
 #include "scenes/sampling/rays.h"        // camera, random, ambient and occlusion rays at a mesh
 #include "scenes/sampling/scatter.h"     // boxes that overlap as often as wanted
 #include "scenes/scene.h"                // the contract: SceneSpec, Scene, make_scene, registries
-#include "scenes/suggest.h"              // "did you mean ...?"
+#include "kernels/suggest.h"              // "did you mean ...?"

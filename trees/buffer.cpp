@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t line = 64, huge_page = std::size_t{1} << 21;
 
 /// From this size on malloc gives freed memory back to the system each time, and to have it cleared
-/// anew, page by page in the middle of a build, takes as long as to fill it.
+/// again, page by page in the middle of a build, takes as long as to fill it.
 constexpr std::size_t given_back = std::size_t{24} << 20;
 
 /// Stands just before the memory that is handed out.
@@ -35,7 +35,7 @@ Header header_of(void* memory) {
 /// time (MADV_FREE).
 class KeptBlocks {
   public:
-    KeptBlocks() { blocks_.reserve(most_blocks); } // so that to keep one never throws
+    KeptBlocks() { blocks_.reserve(max_blocks); } // so that to keep one never throws
 
     /// One of at least this size and not much larger, or nullptr.
     void* take(std::size_t bytes) {
@@ -54,13 +54,13 @@ class KeptBlocks {
     /// False if the block is to be freed.
     bool keep(void* memory) {
         const std::size_t bytes = header_of(memory).bytes;
-        if (bytes > most_bytes)
+        if (bytes > max_bytes)
             return false;
 #if defined(__linux__)
         madvise(memory, bytes / huge_page * huge_page, MADV_FREE);
 #endif
         const std::lock_guard lock(mutex_);
-        while (blocks_.size() == most_blocks || bytes_ + bytes > most_bytes) {
+        while (blocks_.size() == max_blocks || bytes_ + bytes > max_bytes) {
             void* const oldest = header_of(blocks_.front()).whole;
             forget(0);
             std::free(oldest);
@@ -71,7 +71,7 @@ class KeptBlocks {
     }
 
   private:
-    static constexpr std::size_t most_blocks = 16, most_bytes = std::size_t{1} << 28;
+    static constexpr std::size_t max_blocks = 16, max_bytes = std::size_t{1} << 28;
 
     void forget(std::size_t i) {
         bytes_ -= header_of(blocks_[i]).bytes;
@@ -114,7 +114,7 @@ void* allocate_lines(std::size_t bytes) {
     const Header header{whole, bytes};
     std::memcpy(memory - sizeof(Header), &header, sizeof(Header));
 #if defined(__linux__)
-    // Only advice: without it walks through a large tree miss the TLB at every step.
+    // Only advice: without it traversals of a large tree miss the TLB at every step.
     if (alignment == huge_page)
         madvise(memory, bytes / huge_page * huge_page, MADV_HUGEPAGE);
 #endif

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/settings.h"
 #include "kernels/primitives/triangle.h"
+#include "kernels/settings.h"
 #include "trees/executor.h"
 #include "trees/tree.h"
 
@@ -16,17 +16,29 @@ namespace boxwood {
 /// A builder makes the canonical tree of any number of boxes: the same tree on every executor.
 /// It throws InvalidBox for a box with a NaN, an infinity or min > max. Its settings are documented
 /// data members with defaults, listed by `settings()` so that a sweep file can reach them.
-/// One that finds a good order of the items without a tree may hand it out by `order`, and one that
-/// makes more of triangles than their boxes may do so by `build_of_mesh`.
 template <class B>
-concept Builder = std::default_initializable<B> &&
+concept Builder = std::default_initializable<B> && std::copy_constructible<B> && ListsSettings<B> &&
     requires(const B builder, Boxes boxes, const Executor& executor) {
     { builder.build(boxes, executor) } -> std::same_as<Tree>;
     { B::name } -> std::convertible_to<std::string_view>;
     { B::summary } -> std::convertible_to<std::string_view>;
 };
 
-/// A builder with its settings, and with the stage after it if one is named.
+/// A builder that finds a good order of the items without a tree: slot -> item.
+template <class B>
+concept OrderBuilder = Builder<B> &&
+    requires(const B builder, Boxes boxes, const Executor& executor) {
+    { builder.order(boxes, executor) } -> std::same_as<Buffer<std::uint32_t>>;
+};
+
+/// A builder that makes more of triangles than of their boxes.
+template <class B>
+concept MeshBuilder = Builder<B> &&
+    requires(const B builder, const TriangleMesh& mesh, const Executor& executor) {
+    { builder.build_of_mesh(mesh, executor) } -> std::same_as<Tree>;
+};
+
+/// A builder with its settings, and with the optimizer after it if one is named.
 struct BuildFunction {
     std::function<Tree(Boxes, const Executor&)> build;
     /// The items as the leaves of the tree would have them, without the tree; empty if the builder
@@ -48,28 +60,28 @@ struct BuilderEntry {
 
 std::span<const BuilderEntry> builders();
 
-/// The builder by its registry word, or nullptr.
+/// The builder by its registered name, or nullptr.
 const BuilderEntry* find_builder(std::string_view name);
 
-/// A stage improves a finished tree: same items, a valid canonical tree, the same on every
+/// An optimizer improves a finished tree: same items, a valid canonical tree, the same on every
 /// executor. Settings as a builder's.
-template <class S>
-concept Stage = std::default_initializable<S> &&
-    requires(const S stage, Tree& tree, const Executor& executor) {
-    stage.improve(tree, executor);
-    { S::name } -> std::convertible_to<std::string_view>;
-    { S::summary } -> std::convertible_to<std::string_view>;
+template <class O>
+concept Optimizer = std::default_initializable<O> && std::copy_constructible<O> &&
+    ListsSettings<O> && requires(const O optimizer, Tree& tree, const Executor& executor) {
+    { optimizer.improve(tree, executor) } -> std::same_as<void>;
+    { O::name } -> std::convertible_to<std::string_view>;
+    { O::summary } -> std::convertible_to<std::string_view>;
 };
 struct OptimizerEntry {
     std::string_view name, summary;
     std::vector<SettingInfo> settings;
     std::function<std::function<void(Tree&, const Executor&)>(const Settings&)> make;
 };
-std::span<const OptimizerEntry> stages();
+std::span<const OptimizerEntry> optimizers();
 
-/// "ploc", or with a stage after it "ploc+reinsertion"; each setting goes to the one that has it.
-/// Throws std::invalid_argument for an unknown word or setting, with a suggestion.
-BuildFunction make_builder(std::string_view words, const Settings& settings = {});
+/// "ploc", or with an optimizer after it "ploc+reinsertion"; each setting goes to the one that has
+/// it. Throws std::invalid_argument for an unknown name or setting, with a suggestion.
+BuildFunction make_builder(std::string_view name, const Settings& settings = {});
 
 /// The registry row of a Builder type.
 template <Builder B> BuilderEntry builder_entry() {
@@ -79,13 +91,11 @@ template <Builder B> BuilderEntry builder_entry() {
                 made.build = [builder](Boxes boxes, const Executor& executor) {
                     return builder.build(boxes, executor);
                 };
-                if constexpr (requires(Boxes b, const Executor& e) { builder.order(b, e); })
+                if constexpr (OrderBuilder<B>)
                     made.order = [builder](Boxes boxes, const Executor& executor) {
                         return builder.order(boxes, executor);
                     };
-                if constexpr (requires(const TriangleMesh& m, const Executor& e) {
-                                  builder.build_of_mesh(m, e);
-                              })
+                if constexpr (MeshBuilder<B>)
                     made.build_of_mesh = [builder](const TriangleMesh& mesh,
                                                    const Executor& executor) {
                         return builder.build_of_mesh(mesh, executor);
@@ -94,12 +104,13 @@ template <Builder B> BuilderEntry builder_entry() {
             }};
 }
 
-/// The registry row of a Stage type.
-template <Stage S> OptimizerEntry optimizer_entry() {
-    return {S::name, S::summary, setting_infos<S>(), [](const Settings& values) {
-                return [stage = with_settings<S>(values)](Tree& tree, const Executor& executor) {
-                    stage.improve(tree, executor);
-                };
+/// The registry row of an Optimizer type.
+template <Optimizer O> OptimizerEntry optimizer_entry() {
+    return {O::name, O::summary, setting_infos<O>(), [](const Settings& values) {
+                return
+                    [optimizer = with_settings<O>(values)](Tree& tree, const Executor& executor) {
+                        optimizer.improve(tree, executor);
+                    };
             }};
 }
 

@@ -2,10 +2,12 @@
 
 #include "trees/function_ref.h"
 
+#include <concepts>
 #include <cstddef>
 #include <memory>
 #include <span>
 #include <string_view>
+#include <type_traits>
 
 namespace boxwood {
 
@@ -24,6 +26,10 @@ class Executor {
     virtual void for_each(std::size_t n, FunctionRef<void(std::size_t)> body) const = 0;
 };
 
+/// What may be passed as an executor.
+template <class E>
+concept ExecutorType = std::derived_from<E, Executor> && !std::is_abstract_v<E>;
+
 /// A registry row. `make(threads)` gives an executor of exactly that many threads.
 struct ExecutorEntry {
     std::string_view name, summary;
@@ -32,7 +38,7 @@ struct ExecutorEntry {
 
 std::span<const ExecutorEntry> executors();
 
-/// The executor by its registry word. Throws std::invalid_argument for an unknown one, and for
+/// The executor by its registered name. Throws std::invalid_argument for an unknown one, and for
 /// `serial` with more than one thread.
 std::unique_ptr<Executor> make_executor(std::string_view name, unsigned threads);
 

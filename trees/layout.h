@@ -1,125 +1,114 @@
 #pragma once
 
-#include "kernels/primitives/ray.h"
-#include "kernels/ray_triangle/triangle_block.h"
 #include "kernels/primitives/sphere.h"
-#include "kernels/primitives/triangle.h"
 #include "trees/builder.h"
 #include "trees/executor.h"
-#include "trees/queries/pairs.h"
-#include "trees/tree.h"
 #include "trees/inspect/work.h"
+#include "trees/queries/nearest.h"
+#include "trees/queries/pairs.h"
+#include "trees/queries/rays.h"
+#include "trees/tree.h"
 
-#include <compare>
 #include <concepts>
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace boxwood {
 
-/// A layout owns a copy of a tree in the form that some walk likes best. It is a function of the
-/// tree alone, the same on every executor, so that every builder serves every layout. One that
-/// needs no more than an order of the items is also made from that: L::of_order(boxes, order,
-/// executor).
+struct SingleRayFunctions;
+
+/// A layout owns a copy of a tree in the form that some traversal likes best. It is a function of
+/// the tree alone, the same on every executor, so that every builder serves every layout. What it
+/// answers are the functions of queries/ that are overloaded for it: any subset of them.
 template <class L>
-concept Layout = std::constructible_from<L, const Tree&, const Executor&> &&
+concept Layout = std::constructible_from<L, const Tree&, const Executor&> && std::movable<L> &&
     requires(const L layout) {
     { layout.bytes() } -> std::convertible_to<std::size_t>;
     { L::name } -> std::convertible_to<std::string_view>;
     { L::summary } -> std::convertible_to<std::string_view>;
 };
 
-/// What the ray walk of one layout reads: the triangles of a mesh in blocks of four or eight, and
-/// above them a copy of the inner nodes that knows where those are (traversals/ray_tree.h).
-struct TriangleBlocks {
-    Buffer<std::byte> nodes, blocks;
-    std::uint32_t root = 0;
-    Box bounds; ///< of all triangles
-
-    std::size_t bytes() const { return nodes.bytes() + blocks.bytes(); }
+/// A layout that is also made of an order of the items alone, without a tree.
+template <class L>
+concept OrderLayout = Layout<L> &&
+    requires(Boxes boxes, std::span<const std::uint32_t> order, const Executor& executor) {
+    { L::of_order(boxes, order, executor) } -> std::same_as<L>;
 };
 
-enum class RayQuery : std::uint8_t {
-    closest, ///< the hit with the least t, ties to the lowest triangle index
-    any      ///< whether there is a hit at all: some hit, not always the same between layouts
+/// A layout of doubles, also made around the exact boxes of a tree's items.
+template <class L>
+concept DoubleLayout = Layout<L> &&
+    requires(const Tree& tree, std::span<const Aabb<double>> boxes, const Executor& executor) {
+    { L::of_doubles(tree, boxes, executor) } -> std::same_as<L>;
 };
 
-struct SingleRayTree;
-
-/// How one ray is walked through a layout by a kernel, on this machine (traversals/single_rays.h).
-struct SingleRayWalks {
-    RayHit (*closest)(const SingleRayTree& tree, const Ray<float>& ray) = nullptr;
-    bool (*any)(const SingleRayTree& tree, const Ray<float>& ray) = nullptr;
+/// What a layout may answer. `rays` stands for closest, any and all hits.
+enum class Query : std::uint8_t {
+    self_pairs,
+    tree_pairs,
+    rays,
+    points,
+    regions,
+    nearest,
+    closest_points
 };
+std::string_view to_string(Query query);
 
-/// An item near a point, and the square of the distance from the point to its box (0 inside).
-struct Neighbour {
-    std::uint32_t item = none;
-    double squared_distance = std::numeric_limits<double>::infinity();
-
-    static constexpr std::uint32_t none = ~std::uint32_t{0};
-    constexpr auto operator<=>(const Neighbour&) const = default;
-};
-
-/// The point of a mesh that is nearest to a query point, on the lowest of the triangles that have
-/// it; `triangle` is Neighbour::none if the mesh is empty.
-struct SurfacePoint {
-    Vec3<float> point{};
-    std::uint32_t triangle = Neighbour::none;
-    double squared_distance = std::numeric_limits<double>::infinity();
-};
-
-/// Where all hits of a ray go: by chunks as PairSink, a ray's hits in one batch, by t and then by
-/// triangle; a ray without hits is passed over.
-class HitSink {
-  public:
-    virtual ~HitSink() = default;
-    virtual void begin(std::size_t chunks, bool in_order) = 0;
-    virtual bool take(std::size_t chunk, std::uint32_t ray, std::span<const RayHit> hits) = 0;
-    virtual void end() = 0;
-};
-
-/// A layout with its queries behind virtual calls: one per query, none inside.
+/// A layout with its queries behind virtual calls: one per query, none inside. A query that the
+/// layout does not answer throws std::invalid_argument, which names both. `work`, if given, is
+/// added to, and the executor must be serial().
 class AnyLayout {
   public:
     virtual ~AnyLayout() = default;
     virtual std::size_t bytes() const = 0;
+    virtual bool answers(Query query) const = 0;
 
     /// Every unordered pair of overlapping items once, lower item first.
-    virtual void self_pairs(const Executor& executor, PairSink& sink) const = 0;
-    virtual Work self_pairs_counted(PairSink& sink) const = 0;
+    virtual void self_pairs(const Executor& executor, PairSink& sink,
+                            Work* work = nullptr) const = 0;
+    Work self_pairs_counted(PairSink& sink) const {
+        Work work;
+        self_pairs(serial(), sink, &work);
+        return work;
+    }
 
     /// Every overlapping (item here, item of `other`) once. Both must be of the same layout, else
     /// std::invalid_argument.
-    virtual void tree_pairs(const AnyLayout& other, const Executor& executor,
-                            PairSink& sink) const = 0;
-    virtual Work tree_pairs_counted(const AnyLayout& other, PairSink& sink) const = 0;
+    virtual void tree_pairs(const AnyLayout& other, const Executor& executor, PairSink& sink,
+                            Work* work = nullptr) const = 0;
+    Work tree_pairs_counted(const AnyLayout& other, PairSink& sink) const {
+        Work work;
+        tree_pairs(other, serial(), sink, &work);
+        return work;
+    }
 
     /// The triangles whose boxes this is the layout of, for `rays`: the same on every executor.
     virtual TriangleBlocks triangles(const TriangleMesh& mesh,
                                      const Executor& executor = serial()) const = 0;
 
-    /// hits[i] answers rays[i]; hits.size() == rays.size(). `kernel` is a word of `ray_kernels()`,
+    /// hits[i] answers rays[i]; hits.size() == rays.size(). `kernel` is a name of `ray_kernels()`,
     /// `triangles` those of this very layout.
     virtual void rays(std::span<const Ray<float>> rays, RayQuery query, std::string_view kernel,
                       const TriangleBlocks& triangles, const Executor& executor,
-                      std::span<RayHit> hits) const = 0;
-    virtual Work rays_counted(std::span<const Ray<float>> rays, RayQuery query,
-                              std::string_view kernel, const TriangleBlocks& triangles,
-                              std::span<RayHit> hits) const = 0;
+                      std::span<RayHit> hits, Work* work = nullptr) const = 0;
+    Work rays_counted(std::span<const Ray<float>> batch, RayQuery query, std::string_view kernel,
+                      const TriangleBlocks& triangles, std::span<RayHit> hits) const {
+        Work work;
+        rays(batch, query, kernel, triangles, serial(), hits, &work);
+        return work;
+    }
     /// For SingleRays; null where a batch of one has to do.
-    virtual SingleRayWalks single_ray_walks(std::string_view kernel) const = 0;
+    virtual SingleRayFunctions single_ray_functions(std::string_view kernel) const = 0;
     /// Every hit of every ray with t_min <= t <= t_max, each triangle once.
     virtual void rays_all(std::span<const Ray<float>> rays, std::string_view kernel,
                           const TriangleBlocks& triangles, const Executor& executor,
                           HitSink& sink) const = 0;
 
     // Queries of many points, boxes or spheres at a time. The sink's pairs are (index of the query,
-    // item), those of one query by item. `work`, if given, is added to, and wants the executor
-    // serial().
+    // item), those of one query by item.
 
     /// Every item whose box contains the point; shares a point with the box; with the sphere.
     virtual void points(std::span<const Vec3<float>> points, const Executor& executor,
@@ -145,20 +134,23 @@ class AnyLayout {
 /// A registry row.
 struct LayoutEntry {
     std::string_view name, summary;
+    std::vector<Query> queries; ///< those that it answers
     std::unique_ptr<AnyLayout> (*make)(const Tree&, const Executor&);
     /// From an order of the items alone; null if the layout needs the tree.
     std::unique_ptr<AnyLayout> (*make_of_order)(Boxes, std::span<const std::uint32_t> order,
-                                                const Executor&);
+                                                const Executor&) = nullptr;
     /// Around the exact boxes of the items, which the tree's float boxes contain: its queries then
     /// answer for these. Null unless `precision` is f64. Throws InvalidBox for the first bad one.
     std::unique_ptr<AnyLayout> (*make_of_doubles)(const Tree&, std::span<const Aabb<double>> boxes,
                                                   const Executor&) = nullptr;
     std::string_view precision = "f32"; ///< of the boxes held; f64 made from a tree: its floats
+
+    bool answers(Query query) const;
 };
 
 std::span<const LayoutEntry> layouts();
 
-/// The layout by its registry word, or nullptr.
+/// The layout by its registered name, or nullptr.
 const LayoutEntry* find_layout(std::string_view name);
 
 /// The layout of the boxes by this builder: by its order alone if both sides know how; else by its

@@ -1,6 +1,8 @@
 #include "bench/running/check.h"
 
-#include "bench/analysis/ladders.h"
+#include "bench/analysis/analyse.h"
+#include "bench/analysis/kernel_costs.h"
+#include "bench/analysis/promises.h"
 #include "bench/commands/command.h"
 #include "bench/running/environment.h"
 #include "bench/truth/judging/case_truths.h"
@@ -48,13 +50,14 @@ int run(const CheckOptions& options, const std::filesystem::path& out) {
         eta.done(1);
     }
     progress.show({"checking", 1, 0, ""});
+    results::Results results = check.results();
+    analyse(results);
     if (!out.empty())
-        results::write(out, check.results());
-    fmt::print("{}{}\n{}", check.details(), ladders_text(check.results()),
-               promises_text(check.results()));
+        results::write(out, results);
+    fmt::print("{}{}\n{}", check.details(), kernel_costs_text(results), promises_text(results));
     if (!out.empty())
         fmt::print("results: {}\n", out.string());
-    return broken_promises(check.results()) > 0 ? exit_failed : exit_success;
+    return broken_promises(results) > 0 ? exit_failed : exit_success;
 }
 
 } // namespace

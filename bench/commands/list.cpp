@@ -5,10 +5,10 @@
 #include "bench/io/text_table.h"
 #include "bench/tasks/task.h"
 #include "kernels/registry.h"
+#include "kernels/suggest.h"
 #include "scenes/effects/effect.h"
 #include "scenes/hard_cases/hard_cases.h"
 #include "scenes/moving/scene_file.h"
-#include "scenes/suggest.h"
 #include "trees/builder.h"
 #include "trees/dynamic/update.h"
 #include "trees/layout.h"
@@ -38,6 +38,24 @@ template <class Entries> Rows plain(const Entries& entries) {
     return rows;
 }
 
+std::string default_json(const SettingInfo& setting) {
+    const auto* name = std::get_if<std::string>(&setting.default_value);
+    return name ? json_string(*name) : to_text(setting.default_value);
+}
+
+/// The choices of a setting, or its range.
+std::string allowed_json(const SettingInfo& setting) {
+    if (std::holds_alternative<bool>(setting.default_value))
+        return "\"choices\":[true,false]";
+    if (setting.choices.empty())
+        return fmt::format("\"min\":{},\"max\":{}", json_number(setting.min),
+                           json_number(setting.max));
+    std::string names;
+    for (const std::string_view choice : setting.choices)
+        names += (names.empty() ? "" : ",") + json_string(choice);
+    return "\"choices\":[" + names + "]";
+}
+
 /// ... and its settings.
 template <class Entries> Rows with_settings(const Entries& entries) {
     Rows rows = plain(entries);
@@ -46,12 +64,11 @@ template <class Entries> Rows with_settings(const Entries& entries) {
             entries, [&row](const auto& candidate) { return candidate.name == row.name; });
         std::string settings;
         for (const SettingInfo& s : entry->settings) {
-            settings += fmt::format(
-                "{}{{\"name\":{},\"summary\":{},\"default\":{},\"min\":{},\"max\":{}}}",
-                settings.empty() ? "" : ",", json_string(s.name), json_string(s.summary),
-                json_number(s.default_value), json_number(s.least), json_number(s.most));
-            row.notes.push_back(fmt::format("{} = {} ({} to {}): {}", s.name, s.default_value,
-                                            s.least, s.most, s.summary));
+            settings += fmt::format("{}{{\"name\":{},\"summary\":{},\"default\":{},{}}}",
+                                    settings.empty() ? "" : ",", json_string(s.name),
+                                    json_string(s.summary), default_json(s), allowed_json(s));
+            row.notes.push_back(fmt::format("{} = {} ({}): {}", s.name, to_text(s.default_value),
+                                            allowed_values(s), s.summary));
         }
         row.more.emplace_back("settings", "[" + settings + "]");
     }
@@ -159,7 +176,7 @@ struct Registry {
 constexpr std::array registries{
     Registry{"builders", "build a tree from boxes", [] { return with_settings(builders()); }},
     Registry{"optimizers", "improve a tree: BUILDER+OPTIMIZER",
-             [] { return with_settings(stages()); }},
+             [] { return with_settings(optimizers()); }},
     Registry{"layouts", "store a tree in memory", [] { return plain(layouts()); }},
     Registry{"queries", "what a layout can be searched for", [] { return plain(traversals()); }},
     Registry{"updates", "follow boxes that move", [] { return with_settings(updates()); }},

@@ -1,7 +1,7 @@
 #include "bench/commands/query.h"
 
 #include "bench/commands/command.h"
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 
 #include <charconv>
 #include <thread>

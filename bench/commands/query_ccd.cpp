@@ -6,7 +6,7 @@
 #include "bench/io/csv.h"
 #include "kernels/oracle/rational.h"
 #include "kernels/registry.h"
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include "bench/tasks/contender.h"
 #include "bench/truth/point_truth.h"
 #include "trees/layout.h"
-#include "trees/traversals/box_distance.h"
+#include "trees/queries/box_distance.h"
 
 #include <cmath>
 #include <limits>

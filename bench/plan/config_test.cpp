@@ -3,7 +3,7 @@
 #include "bench/io/bad_input.h"
 #include "bench/plan/plan.h"
 #include "kernels/registry.h"
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include "bench/plan/scenes.h"
 
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 
 #include <fmt/format.h>
 

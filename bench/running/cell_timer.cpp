@@ -5,7 +5,6 @@
 #include "bench/stages/ledger.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace boxwood::bench {
@@ -38,11 +37,6 @@ template <class Body> void time(benchmark::State& state, results::Sample& sample
 }
 
 } // namespace
-
-std::string_view to_string(Phase phase) {
-    constexpr std::array<std::string_view, 3> names{"build", "update", "query"};
-    return names[static_cast<std::size_t>(phase)];
-}
 
 void CellTimer::build(benchmark::State& state, const Timing& timing) {
     make(timing);
@@ -183,7 +177,7 @@ void CellTimer::start_sample(const Timing& timing, Phase phase) {
     sample.cell_id = timing.cell_id;
     sample.round = round_;
     sample.position = static_cast<std::uint32_t>(samples.size());
-    sample.phase = to_string(phase);
+    sample.phase = phase;
     sample.flags = timing.is_twin ? std::uint32_t{results::aa_twin} : 0;
     samples.push_back(sample);
 }

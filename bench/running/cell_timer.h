@@ -27,9 +27,7 @@ struct Timing {
     bool is_twin;
 };
 
-/// What is timed of a contender, one name each in result files.
-enum class Phase : std::uint8_t { build, update, query };
-std::string_view to_string(Phase phase);
+using results::Phase;
 
 /// Runs the timings of one round, phase by phase, inside google-benchmark's loops, and collects
 /// their rows. One contender at a time is alive: from the start of its first phase to the end of

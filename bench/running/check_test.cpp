@@ -2,8 +2,8 @@
 
 #include "bench/running/check.h"
 
-#include "bench/analysis/findings.h"
-#include "bench/analysis/ladders.h"
+#include "bench/analysis/analyse.h"
+#include "bench/analysis/promises.h"
 #include "bench/io/bad_input.h"
 #include "bench/plan/families.h"
 #include "bench/tasks/task.h"
@@ -73,7 +73,9 @@ results::Results checked(const Scene& scene, std::string_view task,
         return wanted.name() == task ? std::vector{contender} : std::vector<ContenderEntry>{};
     });
     run.judge(scene, [](const Task&) {});
-    return run.results();
+    results::Results results = run.results();
+    analyse(results);
+    return results;
 }
 
 /// All answers the same.
@@ -94,7 +96,7 @@ TEST(Check, AKernelThatMissesBreaksItsPromiseToNeverMiss) {
     EXPECT_THAT(promises_text(lie), AllOf(HasSubstr("BROKEN PROMISE: made_up promises never-miss"),
                                           HasSubstr("said no, truth yes"), HasSubstr("--case "),
                                           HasSubstr("1 broken promise.")));
-    EXPECT_THAT(ladders_text(lie), HasSubstr("BROKEN"));
+    EXPECT_EQ(lie.kernels[0].is_broken, 1u);
 
     const results::Results safe =
         checked(scene, "triangle_triangle", made_up(Promise::never_miss, always(Answer::yes)));
@@ -137,13 +139,13 @@ TEST(Check, PeersMayErrAndCrashAndHaveNoPromise) {
     const Scene scene = touching_triangles();
     const results::Results wrong =
         checked(scene, "triangle_triangle", made_up(Promise::none, always(Answer::no), true));
-    EXPECT_EQ(wrong.kernels[0].status, "wrong");
+    EXPECT_EQ(wrong.kernels[0].status, results::Status::wrong);
     EXPECT_FALSE(is_promise_broken(wrong));
     const results::Results crash =
         checked(scene, "triangle_triangle",
                 made_up(
                     Promise::none, [](const Scene&, Answers&) { raise(SIGKILL); }, true));
-    EXPECT_EQ(crash.kernels[0].status, "wrong");
+    EXPECT_EQ(crash.kernels[0].status, results::Status::wrong);
     EXPECT_THAT(crash.checks[0].witness, HasSubstr("crashed: signal 9"));
     EXPECT_EQ(broken_promises(crash), 0u);
 }
@@ -241,7 +243,7 @@ TEST_F(CheckCommand, WritesAResultFileWithARowPerKernelAndScale) {
     for (const results::KernelRow& row : r.kernels) {
         EXPECT_EQ(row.family, "slivers");
         EXPECT_EQ(row.panel, "degenerate");
-        EXPECT_TRUE(row.status == "unsupported" || row.ns_per_call > 0) << row.kernel;
+        EXPECT_TRUE(row.status == results::Status::unsupported || row.ns_per_call > 0) << row.kernel;
     }
 }
 

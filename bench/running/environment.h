@@ -33,6 +33,9 @@ std::string compiler();        ///< "g++ 12.2.0"
 /// Name and version of each library, ours to use and peers alike.
 std::vector<std::pair<std::string, std::string>> packages();
 
+/// The same as rows of a result file, for env_id 0.
+std::vector<results::Package> package_rows();
+
 /// The control register of SSE arithmetic (0 elsewhere), and whether it sets anything but the
 /// IEEE default: rounding to nearest, subnormals kept.
 std::uint32_t mxcsr();

@@ -247,7 +247,7 @@ bool mark_crashed(results::Results& prepared, const std::string& cell, const std
         results::Check& check = *seen;
         is_new |= check.witness != witness;
         check.cell_id = row.cell_id;
-        check.status = to_string(Status::wrong);
+        check.status = Status::wrong;
         check.witness = witness;
     }
     return is_new;

@@ -1,5 +1,6 @@
 #include "bench/running/record.h"
 
+#include "bench/running/environment.h"
 #include "scenes/moving/frames.h"
 
 #include <fmt/chrono.h>
@@ -33,6 +34,7 @@ Record::Record(const results::Env& env, std::string generator) {
         fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::now()));
     out.generator = std::move(generator);
     out.env.push_back(env);
+    out.packages = package_rows();
 }
 
 std::uint32_t Record::add_scene(const Scene& scene, std::string tasks) {
@@ -76,7 +78,7 @@ results::Cell Record::cell(std::string name, const Scene& scene, std::uint32_t s
 
 void Record::add(Judgement judgement, std::uint32_t cell_id, double query_ns) {
     judgement.check.cell_id = cell_id;
-    judgement.check.status = to_string(judgement.status);
+    judgement.check.status = judgement.status;
     if (judgement.kernel) {
         results::KernelRow& row = *judgement.kernel;
         row.cell_id = cell_id;

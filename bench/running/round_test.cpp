@@ -129,17 +129,17 @@ TEST_F(RoundTest, PreparationChecksCountsAndCalibrates) {
     EXPECT_EQ(r.scenes.size(), 1u);
     EXPECT_EQ(r.variants.size(), 6u);
     EXPECT_TRUE(r.samples.empty());
-    EXPECT_EQ(check_of(r, "right")->status, "exact");
+    EXPECT_EQ(check_of(r, "right")->status, results::Status::exact);
     EXPECT_NE(check_of(r, "right")->result_hash, 0u);
-    EXPECT_EQ(check_of(r, "wrong")->status, "wrong");
+    EXPECT_EQ(check_of(r, "wrong")->status, results::Status::wrong);
     EXPECT_EQ(check_of(r, "wrong")->missing, 1u);
-    EXPECT_EQ(check_of(r, "throws")->status, "wrong");
+    EXPECT_EQ(check_of(r, "throws")->status, results::Status::wrong);
     EXPECT_EQ(check_of(r, "throws")->witness, "threw: no more\nmemory");
-    EXPECT_EQ(check_of(r, "cannot")->status, "unsupported");
+    EXPECT_EQ(check_of(r, "cannot")->status, results::Status::unsupported);
     EXPECT_EQ(check_of(r, "cannot")->witness, "has no arms");
     EXPECT_EQ(check_of(r, "skipped"), nullptr);
     EXPECT_EQ(queries["skipped"], 0);
-    EXPECT_EQ(check_of(r, "counts")->status, "wrong");
+    EXPECT_EQ(check_of(r, "counts")->status, results::Status::wrong);
 
     const Calibrations calibrations = calibrations_of(r.texts.at("calibration"));
     EXPECT_EQ(calibrations.size(), 3u); // wrong ones are timed too; nobody ranks them
@@ -180,7 +180,7 @@ TEST_F(RoundTest, ARoundTimesEveryCellOnceAndTheAaCellTwice) {
             const results::Sample& s = r.samples[i];
             EXPECT_EQ(s.position, i);
             EXPECT_EQ(s.round, round);
-            EXPECT_EQ(s.phase, i % 2 ? "query" : "build");
+            EXPECT_EQ(s.phase, i % 2 ? results::Phase::query : results::Phase::build);
             EXPECT_EQ(s.cell_id, r.samples[i & ~std::size_t{1}].cell_id);
             EXPECT_FALSE(s.flags & results::wrong_answer);
             const std::string& name = r.cells[s.cell_id].name;
@@ -208,7 +208,7 @@ TEST_F(RoundTest, AnotherAnswerThanTheCheckedOneIsFlagged) {
     const results::Results p = prepared();
     Made::is_late = true;
     for (const results::Sample& s : run_round(plan, p, 0, report()).samples)
-        EXPECT_EQ((s.flags & results::wrong_answer) != 0, s.cell_id == 1 && s.phase == "query");
+        EXPECT_EQ((s.flags & results::wrong_answer) != 0, s.cell_id == 1 && s.phase == results::Phase::query);
 }
 
 TEST_F(RoundTest, ACrashedCellIsOutAndSaysWhy) {
@@ -219,7 +219,7 @@ TEST_F(RoundTest, ACrashedCellIsOutAndSaysWhy) {
     EXPECT_TRUE(mark_crashed(p, "a", "crashed: signal 6 in round 2"));
     EXPECT_FALSE(mark_crashed(p, "a", "crashed: signal 6 in round 2"));
     for (const char* name : {"a", "b"}) {
-        EXPECT_EQ(check_of(p, name)->status, "wrong");
+        EXPECT_EQ(check_of(p, name)->status, results::Status::wrong);
         EXPECT_TRUE(check_of(p, name)->witness.starts_with("crashed: signal"));
     }
     EXPECT_EQ(p.checks.size(), 2u);
@@ -251,20 +251,20 @@ TEST_F(RoundTest, KernelsAreJudgedAndHaveAQueryAlone) {
     ASSERT_EQ(r.kernels.size(), 2u);
     EXPECT_EQ(r.kernels[0].family, "generic_triangles");
     EXPECT_EQ(r.kernels[0].n, 20u);
-    EXPECT_EQ(r.kernels[0].status, "exact");
+    EXPECT_EQ(r.kernels[0].status, results::Status::exact);
     EXPECT_GT(r.kernels[0].ns_per_call, 0);
     EXPECT_EQ(r.kernels[1].cell_id, 1u);
     EXPECT_FALSE(r.conditions.empty());
     EXPECT_EQ(r.conditions[0].cell_id, 1u);
-    EXPECT_EQ(check_of(r, "triangle_triangle")->status, "exact");
+    EXPECT_EQ(check_of(r, "triangle_triangle")->status, results::Status::exact);
     EXPECT_EQ(r.cells[0].n_items, 20u);
     EXPECT_EQ(r.cells[0].n_queries, 20u);
 
     const results::Results round = run_round(plan, r, 0, report());
     std::multiset<std::string> phases;
     for (const results::Sample& sample : round.samples) {
-        phases.insert(fmt::format("{} {}", sample.cell_id, sample.phase));
-        EXPECT_EQ(sample.flags & results::wrong_answer, 0u) << sample.phase;
+        phases.insert(fmt::format("{} {}", sample.cell_id, to_string(sample.phase)));
+        EXPECT_EQ(sample.flags & results::wrong_answer, 0u) << to_string(sample.phase);
     }
     // The A/A cell, one of ours, is there twice.
     EXPECT_EQ(phases.count("0 build") + phases.count("1 build"), 0u);
@@ -304,7 +304,7 @@ class Follower final : public Contender {
 };
 
 TEST_F(RoundTest, Round0CountsTheFramesOfMovingScenes) {
-    const std::vector<std::string> policies{"auto",     "refit", "keep",
+    const std::vector<std::string> policies{"auto",     "refit", "cached",
                                             "reinsert", "merge", "rebuild"};
     plan = make_plan("rounds = 2\nmin_time_ms = 1\n[[cells]]\ntask = \"moving_pairs\"\n"
                      "scene = \"broadmark_brownian\"\nn = 700\nframes = 5\n"
@@ -357,7 +357,7 @@ TEST_F(RoundTest, Round0CountsTheFramesOfMovingScenes) {
         for (const results::Sample& sample : round->samples)
             EXPECT_EQ((sample.flags & results::wrong_answer) != 0,
                       round == &counted && sample.cell_id == policies.size() + 1 &&
-                          sample.phase != "build" && !(sample.flags & results::aa_twin));
+                          sample.phase != results::Phase::build && !(sample.flags & results::aa_twin));
 }
 
 TEST_F(RoundTest, ACellWithFewerRoundsIsNotInTheLaterOnes) {

@@ -17,7 +17,7 @@ template <class F> void for_rows(std::size_t n, const Executor& executor, const 
     });
 }
 
-// Nanoseconds of one thread of a machine of 2023, as in OrderAge: for each triangle, and each ray.
+// Nanoseconds of one thread of a machine of 2023, as in OrderDegradation: for each triangle, and each ray.
 constexpr double per_refit = 15, per_order = 60, per_ray = 700;
 
 } // namespace
@@ -103,13 +103,13 @@ std::size_t BodySurface::follow(const Bodies& bodies, std::span<const std::uint3
     // The price of an order, and what rays lose, for each triangle.
     const double n = static_cast<double>(std::max<std::size_t>(all, 1));
     const double query = per_ray * static_cast<double>(rays) / n;
-    if (!is_rebuild && !has_age_) {
+    if (!is_rebuild && !has_degradation_) {
         refit_.start(blocks_, all);
         fresh_ = refit_.surface(blocks_);
-        age_.start(per_order - per_refit, query);
-        has_age_ = true;
+        degradation_.start(per_order - per_refit, query);
+        has_degradation_ = true;
     }
-    if (!is_rebuild && !age_.is_due_next()) {
+    if (!is_rebuild && !degradation_.is_due_next()) {
         std::size_t written = 0;
         for_rows(changed.size(), executor,
                  [&](std::size_t i) { write_vertices(bodies, place_[changed[i]]); });
@@ -119,15 +119,15 @@ std::size_t BodySurface::follow(const Bodies& bodies, std::span<const std::uint3
             written += first_triangle_[at + 1] - first_triangle_[at];
         }
         refit_.refit(blocks_, mesh_, executor);
-        age_.aged(fresh_ > 0 ? refit_.surface(blocks_) / fresh_ : 1);
-        if (!age_.is_due())
+        degradation_.degraded(fresh_ > 0 ? refit_.surface(blocks_) / fresh_ : 1);
+        if (!degradation_.is_due())
             return written;
     }
     make(bodies, executor);
-    if (has_age_) {
+    if (has_degradation_) {
         refit_.start(blocks_, mesh_.triangles.size());
         fresh_ = refit_.surface(blocks_);
-        age_.renewed(per_order - per_refit, query);
+        degradation_.reordered(per_order - per_refit, query);
     }
     return mesh_.triangles.size();
 }

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "scenes/moving/bodies.h"
-#include "trees/dynamic/detail/order_age.h"
+#include "trees/dynamic/order_degradation.h"
+#include "trees/dynamic/ray_refit.h"
 #include "trees/layout.h"
-#include "trees/traversals/ray_refit.h"
 
 #include <array>
 #include <cstdint>
@@ -73,8 +73,8 @@ class BodySurface {
     std::unique_ptr<AnyLayout> layout_; ///< of the bodies as they stood when it was made
     TriangleBlocks blocks_;             ///< of the bodies as they stand
     RayRefit refit_;
-    OrderAge age_;
-    bool has_age_ = false;
+    OrderDegradation degradation_;
+    bool has_degradation_ = false;
     double fresh_ = 0; ///< surface of the tree when it was made
 };
 

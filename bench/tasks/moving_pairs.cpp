@@ -9,8 +9,8 @@
 #include "bench/tasks/detail/tree_task.h"
 #include "bench/truth/moving_truth.h"
 #include "bench/truth/truth.h"
+#include "kernels/suggest.h"
 #include "scenes/moving/frames.h"
-#include "scenes/suggest.h"
 #include "trees/dynamic/update.h"
 
 #include <fmt/format.h>

@@ -61,7 +61,7 @@ class Nearest final : public PointTask {
         return all.empty() ? std::vector{spec} : all;
     }
     Way way(const Choice&) const override {
-        return {.traversal = "nearest", .make = maker<NearestBoxes>()};
+        return {.traversal = "nearest", .make = maker<NearestBoxes>(), .query = Query::nearest};
     }
 };
 

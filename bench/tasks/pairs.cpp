@@ -77,7 +77,7 @@ class Pairs final : public PairAnswers<TreeTask> {
 
   protected:
     Way way(const Choice&) const override {
-        return {.traversal = "self_pairs", .make = maker<SelfPairs>()};
+        return {.traversal = "self_pairs", .make = maker<SelfPairs>(), .query = Query::self_pairs};
     }
 };
 

@@ -27,7 +27,7 @@ class Points final : public PairAnswers<PointTask> {
 
   protected:
     Way way(const Choice&) const override {
-        return {.traversal = "points", .make = maker<Containing>()};
+        return {.traversal = "points", .make = maker<Containing>(), .query = Query::points};
     }
 };
 

@@ -4,7 +4,7 @@
 #include "bench/tasks/detail/ray_task.h"
 #include "bench/truth/rays_all_truth.h"
 #include "kernels/registry.h"
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 
 namespace boxwood::bench {
 namespace {
@@ -66,7 +66,8 @@ class RaysAll final : public PairAnswers<RayTask> {
   protected:
     Way way(const Choice& choice) const override {
         const KernelInfo& kernel = entry_named(choice.kernel, ray_kernels(), "ray kernel");
-        return {"rays_all", choice.kernel, kernel.promise, maker<AllHits>(choice.kernel)};
+        return {"rays_all", choice.kernel, kernel.promise, maker<AllHits>(choice.kernel),
+                Query::rays};
     }
 };
 

@@ -4,7 +4,7 @@
 #include "bench/tasks/detail/pair_answers.h"
 #include "bench/tasks/detail/point_task.h"
 #include "scenes/sampling/queries.h"
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 
 namespace boxwood::bench {
 namespace {
@@ -48,7 +48,7 @@ class Regions final : public PairAnswers<PointTask> {
         return all;
     }
     Way way(const Choice&) const override {
-        return {.traversal = "regions", .make = maker<Overlapping>()};
+        return {.traversal = "regions", .make = maker<Overlapping>(), .query = Query::regions};
     }
 };
 

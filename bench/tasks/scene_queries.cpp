@@ -8,7 +8,7 @@
 #include "bench/truth/truth.h"
 #include "scenes/effects/effect.h"
 #include "scenes/moving/frames.h"
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 
 #include <fmt/format.h>
 

@@ -41,7 +41,7 @@ TEST(SceneQueries, ASweepChecksEveryFrameAndKeepsTheLedger) {
     const results::Results prepared = prepare(plan, env, {}, silent);
     ASSERT_EQ(prepared.checks.size(), plan.cells.size());
     for (const results::Check& check : prepared.checks) {
-        EXPECT_EQ(check.status, "exact")
+        EXPECT_EQ(check.status, results::Status::exact)
             << prepared.cells[check.cell_id].name << ": " << check.witness;
         EXPECT_EQ(check.oracle, "sweep");
     }

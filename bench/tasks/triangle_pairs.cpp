@@ -6,7 +6,7 @@
 #include "bench/tasks/detail/tree_task.h"
 #include "bench/truth/pair_truth.h"
 #include "kernels/registry.h"
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 #include "trees/queries/touching_pairs.h"
 
 #include <stdexcept>
@@ -125,7 +125,8 @@ class TrianglePairs final : public PairAnswers<TreeTask> {
             "self_pairs", choice.kernel, kernel.promise,
             [name = choice.kernel](const Job& job, BuildFunction build, const LayoutEntry& layout) {
                 return make_touching(job, std::move(build), layout, name);
-            }};
+            },
+            Query::self_pairs};
     }
 };
 

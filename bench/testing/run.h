@@ -35,12 +35,12 @@ struct RunForTest {
         results.cells.push_back(cell);
         results::Check check;
         check.cell_id = cell.cell_id;
-        check.status = "exact";
+        check.status = results::Status::exact;
         results.checks.push_back(check);
         return cell.cell_id;
     }
 
-    void time(std::uint32_t cell, const std::string& phase,
+    void time(std::uint32_t cell, results::Phase phase,
               const std::function<double(std::uint32_t round)>& ns) {
         for (std::uint32_t round = 0; round < rounds; ++round) {
             results::Sample sample;
@@ -51,7 +51,7 @@ struct RunForTest {
             results.samples.push_back(sample);
         }
     }
-    void time(std::uint32_t cell, const std::string& phase, double ns) {
+    void time(std::uint32_t cell, results::Phase phase, double ns) {
         time(cell, phase, [ns](std::uint32_t) { return ns; });
     }
 

@@ -11,10 +11,7 @@
 
 namespace boxwood::bench {
 
-/// What a contender's answers are worth as a whole, worst last but for `unsupported`.
-enum class Status : std::uint8_t { exact, conservative, within_bound, wrong, unsupported };
-/// The word of result files.
-std::string_view to_string(Status status);
+using results::Status;
 
 /// What one contender's answers are worth, as rows of a result file. Ids, times, status and hash
 /// are left unset in the rows.

@@ -3,7 +3,7 @@
 
 #include "scenes/effects/effect.h"
 
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 
 #include <array>
 #include <cmath>

@@ -10,6 +10,17 @@
 #include <stdexcept>
 
 namespace boxwood {
+namespace {
+
+std::string value_atom(const SettingValue& value) {
+    if (const auto* whole = std::get_if<std::int64_t>(&value))
+        return atom(static_cast<double>(*whole));
+    if (const auto* number = std::get_if<double>(&value))
+        return atom(*number);
+    return atom(to_text(value));
+}
+
+} // namespace
 
 SceneFile effect_scene(const SceneSpec& spec, std::span<const EffectChoice> effects) {
     SceneFile file;
@@ -25,7 +36,7 @@ SceneFile effect_scene(const SceneSpec& spec, std::span<const EffectChoice> effe
         effect_of(name).make(settings); // throws for a bad name or setting
         file.name += '_' + name;
         for (const auto& [setting, value] : settings)
-            file.name += '_' + setting + atom(value);
+            file.name += '_' + setting + value_atom(value);
         if (share != 1)
             file.name += "_share" + atom(share);
     }

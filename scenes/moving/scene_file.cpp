@@ -3,7 +3,7 @@
 #include "scenes/effects/read_effect.h"
 #include "scenes/moving/toml_reader.h"
 #include "scenes/scene.h"
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 
 #include <fmt/format.h>
 

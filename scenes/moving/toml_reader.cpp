@@ -1,10 +1,11 @@
 #include "scenes/moving/toml_reader.h"
 
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 namespace boxwood {
@@ -52,6 +53,17 @@ std::uint64_t TomlReader::whole(const toml::node& node, std::string_view key, st
         fail(node.source(), fmt::format("{} = {} is out of range: it must lie between {} and {}",
                                         key, value, min, max));
     return static_cast<std::uint64_t>(value);
+}
+
+SettingValue TomlReader::setting(const toml::node& node, std::string_view key) const {
+    if (const auto* whole = node.as_integer())
+        return whole->get();
+    if (const auto* on = node.as_boolean())
+        return on->get();
+    if (const auto* name = node.as_string())
+        return name->get();
+    using Limits = std::numeric_limits<double>;
+    return number(node, key, Limits::lowest(), Limits::max());
 }
 
 std::string TomlReader::text(const toml::node& node, std::string_view key) const {

@@ -1,12 +1,11 @@
 #pragma once
 
 #include "kernels/settings.h"
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 
 #include <toml++/toml.h>
 
 #include <cstdint>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -34,10 +33,12 @@ class TomlReader {
     std::uint64_t whole(const toml::node& node, std::string_view key, std::int64_t min,
                         std::int64_t max) const;
     std::string text(const toml::node& node, std::string_view key) const;
+    /// A number, true or false, or a name, in its own type.
+    SettingValue setting(const toml::node& node, std::string_view key) const;
     /// One of the known names.
     std::string word(const toml::node& node, std::string_view key, const Words& known) const;
 
-    /// "NAME", or {name = "NAME", SETTING = NUMBER, ...}. read: the name's node to the name;
+    /// "NAME", or {name = "NAME", SETTING = VALUE, ...}. read: the name's node to the name;
     /// try_out(name, settings) throws std::invalid_argument for a bad setting; is_taken(key,
     /// value): whether a key is no setting but something of the caller's.
     template <class Read, class TryOut, class IsTaken>
@@ -50,13 +51,11 @@ class TomlReader {
         const toml::node* name = table ? table->get("name") : nullptr;
         if (!name)
             fail(node.source(),
-                 std::string(what) + " is a name, or {name = \"NAME\", SETTING = NUMBER, ...}");
-        using Limits = std::numeric_limits<double>;
+                 std::string(what) + " is a name, or {name = \"NAME\", SETTING = VALUE, ...}");
         std::pair<std::string, Settings> made{read(*name), {}};
         for (const auto& [key, value] : *table)
             if (key != "name" && !is_taken(key.str(), value))
-                made.second[std::string(key.str())] =
-                    number(value, key.str(), Limits::lowest(), Limits::max());
+                made.second[std::string(key.str())] = setting(value, key.str());
         try {
             try_out(made.first, made.second);
         } catch (const std::invalid_argument& error) {

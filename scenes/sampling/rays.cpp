@@ -2,7 +2,7 @@
 
 #include "scenes/sampling/random.h"
 #include "scenes/scene.h"
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 
 #include <algorithm>
 #include <cmath>

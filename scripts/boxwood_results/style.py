@@ -11,7 +11,7 @@ from matplotlib import colors
 from matplotlib import pyplot as plt
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullFormatter, NullLocator
 
-from .findings import time_text
+from .words import time_text
 
 # Okabe and Ito 2008 without its yellow, which is faint on white.
 FAMILIES = {
@@ -33,7 +33,7 @@ FAMILIES = {
 # Ways to play moving scenes; they stand beside peers, never beside builders. Settings follow the word.
 POLICIES = {
     "auto": ("#0072B2", "o"),
-    "keep": ("#009E73", "s"),
+    "cached": ("#009E73", "s"),
     "merge": ("#56B4E9", "^"),
     "rebuild": ("#332288", "p"),
     "refit": ("#882255", "d"),

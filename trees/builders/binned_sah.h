@@ -17,26 +17,29 @@ struct BinnedSahBuilder {
     static constexpr std::string_view summary =
         "top-down, cheapest of the planes between bins by surface area (Wald 2007)";
 
-    double bins = 32;   ///< most bins per axis; a node of m items uses at most 4 + m / 8
-    double joined = 16; ///< nodes of up to this many items are joined from the bottom up; 1: none
-    /// Items count in whole blocks of this many, a power of two or else the next lower: what a leaf
-    /// costs that is tested so many at a time. Rays like 8 with `joined` 8; more area for boxes.
-    double block = 1;
-    /// Nodes of up to this many items are neither split nor joined but halved as they lie, which is
-    /// quicker: for a layout whose leaves take as many.
-    double whole = 1;
+    int bins = 32; ///< at most, per axis; a node of m items uses at most 4 + m / 8
+    /// Nodes of at most this many items are joined from the bottom up; 1: none.
+    int agglomerate_below = 16;
+    /// Items are counted in whole leaves of this many, a power of two or else the next lower: for
+    /// layouts that test so many at a time. Rays like 8, with `agglomerate_below` 8; boxes like 1.
+    int leaf_size = 1;
+    /// Nodes of at most this many items are neither split nor joined but halved as they lie, which
+    /// is quicker: for a layout whose leaves take as many.
+    int unsplit_below = 1;
 
-    static constexpr int most_bins = 32, most_joined = 16, most_block = 16, most_whole = 16;
+    static constexpr int max_bins = 32, max_agglomerate_below = 16, max_leaf_size = 16,
+                         max_unsplit_below = 16;
     static auto settings() {
+        using Owner = BinnedSahBuilder;
         return std::array{
-            Setting<BinnedSahBuilder>{"bins", "most bins per axis", &BinnedSahBuilder::bins, 2,
-                                      most_bins},
-            Setting<BinnedSahBuilder>{"joined", "most items of a node that is joined bottom-up",
-                                      &BinnedSahBuilder::joined, 1, most_joined},
-            Setting<BinnedSahBuilder>{"block", "items that cost as much as one",
-                                      &BinnedSahBuilder::block, 1, most_block},
-            Setting<BinnedSahBuilder>{"whole", "most items of a node left as they lie",
-                                      &BinnedSahBuilder::whole, 1, most_whole}};
+            Setting<Owner>("bins", "bins per axis at most", &Owner::bins, 2, max_bins),
+            Setting<Owner>("agglomerate_below",
+                           "items of the largest node that is joined bottom-up",
+                           &Owner::agglomerate_below, 1, max_agglomerate_below),
+            Setting<Owner>("leaf_size", "items that cost as much as one", &Owner::leaf_size, 1,
+                           max_leaf_size),
+            Setting<Owner>("unsplit_below", "items of the largest node that is left as it lies",
+                           &Owner::unsplit_below, 1, max_unsplit_below)};
     }
 
     Tree build(Boxes boxes, const Executor& executor) const;

@@ -14,7 +14,7 @@ namespace {
 class Curved {
   public:
     Curved(Boxes boxes, const Executor& executor)
-        : coarse_(kept_curve_order(boxes, Curve::morton, nullptr, executor).records) {
+        : coarse_(mergeable_curve_order(boxes, Curve::morton, nullptr, executor).records) {
         if (coarse_.empty())
             fine_ = curve_order(boxes, Curve::morton, executor);
     }
@@ -37,14 +37,14 @@ struct Cell {
     std::uint32_t count() const { return end - begin; }
 };
 
-/// The largest cells of at most `most` items, in order; items with the same key are halved.
-std::vector<Cell> cells_of(std::span<const std::uint64_t> keys, std::uint32_t most) {
+/// The largest cells of at most so many items, in order; items with the same key are halved.
+std::vector<Cell> cells_of(std::span<const std::uint64_t> keys, std::uint32_t max_items_of_cell) {
     // Each cell that waits lies at a lower bit than the one before: 64, and 30 halves at most.
     std::vector<Cell> cells, waiting{{0, static_cast<std::uint32_t>(keys.size())}};
     while (!waiting.empty()) {
         const Cell cell = waiting.back();
         waiting.pop_back();
-        if (cell.count() <= most) {
+        if (cell.count() <= max_items_of_cell) {
             cells.push_back(cell);
             continue;
         }
@@ -73,7 +73,7 @@ std::vector<Twig> pruned(std::span<const Tree> minis, double prune) {
     for (const Tree& mini : minis)
         sum += mini.nodes[0].box.half_area();
     // A little more, so that equal roots are not larger than their mean.
-    const double most = (1 + 0x1p-20) * prune * sum / static_cast<double>(minis.size());
+    const double max_area = (1 + 0x1p-20) * prune * sum / static_cast<double>(minis.size());
     std::vector<Twig> twigs, waiting;
     for (std::uint32_t m = 0; m < minis.size(); ++m) {
         const Tree& mini = minis[m];
@@ -81,7 +81,7 @@ std::vector<Twig> pruned(std::span<const Tree> minis, double prune) {
         while (!waiting.empty()) {
             const Twig twig = waiting.back();
             waiting.pop_back();
-            if (mini.is_leaf(twig.node) || mini.nodes[twig.node].box.half_area() <= most) {
+            if (mini.is_leaf(twig.node) || mini.nodes[twig.node].box.half_area() <= max_area) {
                 twigs.push_back(twig);
                 continue;
             }
@@ -129,7 +129,10 @@ Tree BonsaiBuilder::build(Boxes boxes, const Executor& executor) const {
     const auto cells = cells_of(curved.keys(), static_cast<std::uint32_t>(group));
 
     // More bins cost 3 % of the time and gain nothing in cells this small.
-    const BinnedSahBuilder binned{.bins = 16, .joined = joined, .block = block, .whole = whole};
+    const BinnedSahBuilder binned{.bins = 16,
+                                  .agglomerate_below = agglomerate_below,
+                                  .leaf_size = leaf_size,
+                                  .unsplit_below = unsplit_below};
     std::vector<Tree> minis(cells.size());
     executor.for_each(cells.size(), [&](std::size_t i) {
         Buffer<Box> own(cells[i].count());

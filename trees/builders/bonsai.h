@@ -19,23 +19,25 @@ struct BonsaiBuilder {
     static constexpr std::string_view summary =
         "SAH mini-trees of neighbours, the large ones pruned, under a SAH top (Ganestam 2015)";
 
-    double group = 256; ///< most items of a mini-tree
-    double prune = 1;   ///< largest root that stays, by the mean area of all roots; 0: all opened
-    double joined = 16, block = 1, whole = 1; ///< of the mini-trees, as BinnedSahBuilder's
+    int group = 256;  ///< items of a mini-tree at most
+    double prune = 1; ///< largest root that stays, by the mean area of all roots; 0: all opened
+    int agglomerate_below = 16, leaf_size = 1, unsplit_below = 1; ///< as BinnedSahBuilder's
 
-    static constexpr int most_group = 1 << 20;
+    static constexpr int max_group = 1 << 20;
     static auto settings() {
+        using Owner = BonsaiBuilder;
+        using Binned = BinnedSahBuilder;
         return std::array{
-            Setting<BonsaiBuilder>{"group", "most items of a mini-tree", &BonsaiBuilder::group, 16,
-                                   most_group},
-            Setting<BonsaiBuilder>{"prune", "largest root of a mini-tree, by their mean area",
-                                   &BonsaiBuilder::prune, 0, 1e6},
-            Setting<BonsaiBuilder>{"joined", "most items of a node that is joined bottom-up",
-                                   &BonsaiBuilder::joined, 1, BinnedSahBuilder::most_joined},
-            Setting<BonsaiBuilder>{"block", "items that cost as much as one", &BonsaiBuilder::block,
-                                   1, BinnedSahBuilder::most_block},
-            Setting<BonsaiBuilder>{"whole", "most items of a node left as they lie",
-                                   &BonsaiBuilder::whole, 1, BinnedSahBuilder::most_whole}};
+            Setting<Owner>("group", "items of a mini-tree at most", &Owner::group, 16, max_group),
+            Setting<Owner>("prune", "largest root of a mini-tree, by their mean area",
+                           &Owner::prune, 0, 1e6),
+            Setting<Owner>("agglomerate_below",
+                           "items of the largest node that is joined bottom-up",
+                           &Owner::agglomerate_below, 1, Binned::max_agglomerate_below),
+            Setting<Owner>("leaf_size", "items that cost as much as one", &Owner::leaf_size, 1,
+                           Binned::max_leaf_size),
+            Setting<Owner>("unsplit_below", "items of the largest node that is left as it lies",
+                           &Owner::unsplit_below, 1, Binned::max_unsplit_below)};
     }
 
     Tree build(Boxes boxes, const Executor& executor) const;

@@ -1,7 +1,7 @@
-#include "trees/testing/box_families.h"
 #include "trees/builder.h"
 #include "trees/inspect/quality.h"
 #include "trees/inspect/validate.h"
+#include "trees/testing/box_families.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace boxwood {
 namespace {
 
-Tree bonsai(const std::vector<Box>& boxes, double group, double prune) {
+Tree bonsai(const std::vector<Box>& boxes, int group, double prune) {
     return find_builder("bonsai")->make({{"group", group}, {"prune", prune}})(boxes, serial());
 }
 

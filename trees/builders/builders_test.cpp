@@ -1,11 +1,11 @@
 #include "kernels/testing/every_target.h"
-#include "trees/testing/box_families.h"
 #include "trees/builder.h"
 #include "trees/builders/top_down.h"
-#include "trees/testing/every_executor.h"
 #include "trees/inspect/quality.h"
-#include "trees/testing/same_tree.h"
 #include "trees/inspect/validate.h"
+#include "trees/testing/box_families.h"
+#include "trees/testing/every_executor.h"
+#include "trees/testing/same_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -27,26 +27,42 @@ TEST(Builders, MakeValidTreesOfEveryFamily) {
             }
 }
 
+/// The default and both ends of a range, or each choice.
+std::vector<SettingValue> extremes(const SettingInfo& setting) {
+    std::vector<SettingValue> values{setting.default_value};
+    for (const std::string_view choice : setting.choices)
+        values.push_back(std::string(choice));
+    for (const double end : {setting.min, setting.max}) {
+        if (std::holds_alternative<double>(setting.default_value))
+            values.push_back(end);
+        else if (std::holds_alternative<std::int64_t>(setting.default_value))
+            values.push_back(static_cast<std::int64_t>(end));
+    }
+    return values;
+}
+
 TEST(Builders, EveryFiniteSettingMakesValidTrees) {
     const std::vector<Box> boxes = random_boxes(3000, .1f, 4);
     for (const BuilderEntry& builder : builders())
         for (const SettingInfo& setting : builder.settings)
-            for (const double value : {setting.least, setting.default_value, setting.most}) {
+            for (const SettingValue& value : extremes(setting)) {
                 const Settings settings{{std::string(setting.name), value}};
                 const Tree tree = builder.make(settings)(boxes, serial());
-                EXPECT_FALSE(validate(tree, boxes)) << builder.name << " " << setting.name;
+                EXPECT_FALSE(validate(tree, boxes))
+                    << builder.name << " " << setting.name << " " << to_text(value);
             }
 }
 
 TEST(TopDown, MakesValidTreesBySplitsOfOnesOwn) {
     for (const BoxFamily& family : box_families()) {
         // One item goes left each time, but for the depth limit: the worst of splits.
-        const Tree tree =
-            build_top_down(family.boxes, serial(),
-                           [](std::span<Prim>, std::span<Prim>) { return std::size_t{1}; });
+        const auto one_left = [](std::span<BuildItem>) { return std::size_t{1}; };
+        const Tree tree = build_top_down(family.boxes, serial(), one_left);
         EXPECT_EQ(validate(tree, family.boxes).value_or(""), "") << family.name;
         EXPECT_LE(quality(tree, family.boxes).depth_max,
                   3u * std::bit_width(family.boxes.size()) + 33);
+        for (const auto& [name, executor] : parallel_executors())
+            EXPECT_TRUE(same_tree(tree, build_top_down(family.boxes, *executor, one_left))) << name;
     }
 }
 
@@ -71,18 +87,19 @@ TEST(BinnedSahBuilder, CostsNoMoreThanMedianOnBoxesOfManySizes) {
 
 TEST(BinnedSahBuilder, LeavesWholeNodesAsTheyLieAndSplitsTheOthersAlike) {
     const std::vector<Box> boxes = random_boxes(5000, .03f, 7);
-    for (const double whole : {2., 8., 16.}) {
-        const Settings joined{{"block", 8}, {"joined", whole}};
+    for (const int whole : {2, 8, 16}) {
+        const Settings joined{{"leaf_size", 8}, {"agglomerate_below", whole}};
         Settings halved = joined;
-        halved["whole"] = whole;
+        halved["unsplit_below"] = whole;
         const Tree a = make_builder("binned_sah", joined)(boxes, serial());
         const Tree b = make_builder("binned_sah", halved)(boxes, serial());
         EXPECT_FALSE(validate(b, boxes)) << whole;
+        const auto limit = static_cast<std::uint32_t>(whole);
         std::size_t larger = 0, inner = 0;
         for (std::size_t i = 0; i < b.nodes.size(); ++i) {
             const TreeNode& node = b.nodes[i];
-            larger += node.count > whole;
-            if (node.count <= whole && node.count > 1) {
+            larger += node.count > limit;
+            if (node.count <= limit && node.count > 1) {
                 ++inner;
                 ASSERT_EQ(b.nodes[Tree::left(i)].count, node.count / 2) << i;
             }
@@ -91,7 +108,7 @@ TEST(BinnedSahBuilder, LeavesWholeNodesAsTheyLieAndSplitsTheOthersAlike) {
         ASSERT_GT(larger, 300u);
         ASSERT_GT(inner, 1000u);
         for (std::size_t i = 0; i < a.nodes.size(); ++i)
-            if (a.nodes[i].count > whole || b.nodes[i].count > whole) {
+            if (a.nodes[i].count > limit || b.nodes[i].count > limit) {
                 ASSERT_EQ(a.nodes[i].count, b.nodes[i].count) << i;
                 ASSERT_EQ(a.nodes[i].first, b.nodes[i].first) << i;
                 ASSERT_EQ(a.nodes[i].box, b.nodes[i].box) << i;
@@ -132,10 +149,10 @@ TEST(Builders, RankByCostOnBoxesOfManySizes) {
     std::vector<Box> boxes = random_boxes(20000, .01f, 11);
     for (std::size_t i = 0; i < boxes.size(); i += 10)
         boxes[i].max = boxes[i].min + Vec3<float>{.1f, .3f, .02f};
-    const auto cost = [&](std::string_view words, const Settings& settings = {}) {
-        return quality(make_builder(words, settings)(boxes, serial()), boxes).sah_cost;
+    const auto cost = [&](std::string_view name, const Settings& settings = {}) {
+        return quality(make_builder(name, settings)(boxes, serial()), boxes).sah_cost;
     };
-    const double sweep = cost("sweep_sah"), binned = cost("binned_sah", {{"joined", 1}});
+    const double sweep = cost("sweep_sah"), binned = cost("binned_sah", {{"agglomerate_below", 1}});
     EXPECT_LT(cost("binned_sah"), binned);
     EXPECT_LT(sweep, binned);
     EXPECT_LT(binned, 1.05 * sweep);

@@ -1,7 +1,7 @@
 #include "trees/builders/incremental.h"
 
-#include "trees/testing/box_families.h"
 #include "trees/inspect/validate.h"
+#include "trees/testing/box_families.h"
 
 #include <gtest/gtest.h>
 

@@ -5,6 +5,7 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
+#include "trees/builders/detail/radix_items.h"
 #include "trees/builders/lbvh.h"
 
 #include <algorithm>
@@ -12,49 +13,9 @@
 #include <limits>
 #include <vector>
 
-#ifndef BOXWOOD_RADIX_TREE
-#define BOXWOOD_RADIX_TREE
-namespace boxwood {
-
-/// A subtree: its node, and the slots [begin, end) of its items.
-struct RadixPart {
-    std::uint32_t node, begin, end;
-    std::uint32_t count() const { return end - begin; }
-};
-
-/// Items by slot, sorted by codes and told apart by their numbers where these are equal: a code
-/// above an item in each record.
-struct CoarseItems {
-    const std::uint64_t* records;
-
-    std::uint32_t item(std::size_t i) const { return static_cast<std::uint32_t>(records[i]); }
-    /// The bits in which slots differ: how high in the tree they part, by the first of these.
-    std::uint64_t differing(std::size_t i, std::size_t j) const { return records[i] ^ records[j]; }
-    /// Between two neighbours' keys within one subtree the greater has the higher bit, so they are
-    /// compared as they are.
-    std::uint64_t parting(std::size_t i) const { return differing(i - 1, i); }
-    bool has(std::size_t i, std::uint64_t bit) const { return (records[i] & bit) != 0; }
-};
-
-/// The same with codes that fill a word: below their bits come those of the slots.
-struct FineItems {
-    const std::uint64_t* codes;
-    const std::uint32_t* order;
-
-    std::uint32_t item(std::size_t i) const { return order[i]; }
-    std::uint64_t differing(std::size_t i, std::size_t j) const { return codes[i] ^ codes[j]; }
-    std::uint64_t parting(std::size_t i) const {
-        const std::uint64_t bits = differing(i - 1, i);
-        return bits ? bits + (std::uint64_t{1} << 32) : (i - 1) ^ i;
-    }
-    bool has(std::size_t i, std::uint64_t bit) const { return (codes[i] & bit) != 0; }
-};
-
-} // namespace boxwood
-#endif
-
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
+namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -137,13 +98,18 @@ void WriteFine(const FineItems& items, const Box* boxes, const RadixPart& part, 
     Write(items, boxes, part, tree);
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace boxwood {
+namespace boxwood::detail {
 HWY_EXPORT(WriteCoarse);
 HWY_EXPORT(WriteFine);
+} // namespace boxwood::detail
+
+namespace boxwood {
+using namespace detail;
 
 namespace {
 
@@ -203,7 +169,7 @@ Tree radix_tree(const Items& items, Boxes boxes, const Write& write, const Execu
 Tree LbvhBuilder::build(Boxes boxes, const Executor& executor) const {
     if (boxes.empty())
         return {};
-    const KeptOrder coarse = kept_curve_order(boxes, curve(), nullptr, executor);
+    const MergeableOrder coarse = mergeable_curve_order(boxes, curve, nullptr, executor);
     if (!coarse.records.empty())
         return radix_tree(
             CoarseItems{coarse.records.data()}, boxes,
@@ -212,7 +178,7 @@ Tree LbvhBuilder::build(Boxes boxes, const Executor& executor) const {
                 (of...);
             },
             executor);
-    const CurveOrder fine = curve_order(boxes, curve(), executor);
+    const CurveOrder fine = curve_order(boxes, curve, executor);
     return radix_tree(
         FineItems{fine.codes.data(), fine.order.data()}, boxes,
         [](auto&&... of) {
@@ -223,7 +189,7 @@ Tree LbvhBuilder::build(Boxes boxes, const Executor& executor) const {
 }
 
 Buffer<std::uint32_t> LbvhBuilder::order(Boxes boxes, const Executor& executor) const {
-    return coarse_curve_order(boxes, curve(), executor);
+    return coarse_curve_order(boxes, curve, executor);
 }
 
 BuilderEntry lbvh_builder() { return builder_entry<LbvhBuilder>(); }

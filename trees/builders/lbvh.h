@@ -18,13 +18,12 @@ struct LbvhBuilder {
     static constexpr std::string_view summary =
         "items along a space-filling curve, split by the bits of their codes; fastest to build";
 
-    double hilbert = 0; ///< 0: Morton curve, 1: Hilbert curve
+    Curve curve = Curve::morton;
 
     static auto settings() {
-        return std::array{Setting<LbvhBuilder>{"hilbert", "0: Morton curve, 1: Hilbert curve",
-                                               &LbvhBuilder::hilbert, 0, 1}};
+        return std::array{Setting<LbvhBuilder>("curve", "the space-filling curve",
+                                               &LbvhBuilder::curve, {"morton", "hilbert"})};
     }
-    Curve curve() const { return hilbert < .5 ? Curve::morton : Curve::hilbert; }
 
     Tree build(Boxes boxes, const Executor& executor) const;
 

@@ -1,11 +1,11 @@
 #include "trees/builders/lbvh.h"
 
 #include "kernels/testing/every_target.h"
+#include "trees/inspect/quality.h"
+#include "trees/inspect/validate.h"
 #include "trees/testing/box_families.h"
 #include "trees/testing/every_executor.h"
-#include "trees/inspect/quality.h"
 #include "trees/testing/same_tree.h"
-#include "trees/inspect/validate.h"
 
 #include <gtest/gtest.h>
 
@@ -16,10 +16,9 @@
 namespace boxwood {
 namespace {
 
-Tree lbvh(Boxes boxes, double hilbert = LbvhBuilder{}.hilbert,
-          const Executor& executor = serial()) {
+Tree lbvh(Boxes boxes, Curve curve = LbvhBuilder{}.curve, const Executor& executor = serial()) {
     LbvhBuilder builder;
-    builder.hilbert = hilbert;
+    builder.curve = curve;
     return builder.build(boxes, executor);
 }
 
@@ -30,7 +29,7 @@ TEST(LbvhBuilder, SplitsCornersOfACubeByTheFirstBit) {
         const Vec3<float> p{i & 4 ? 1.f : 0.f, i & 2 ? 1.f : 0.f, i & 1 ? 1.f : 0.f};
         boxes.push_back({p, p});
     }
-    const Tree tree = lbvh(boxes, 0);
+    const Tree tree = lbvh(boxes, Curve::morton);
     EXPECT_FALSE(validate(tree, boxes));
     for (std::uint32_t slot = 0; slot < 8; ++slot)
         EXPECT_EQ(tree.order[slot], 7 - slot);
@@ -51,7 +50,7 @@ TEST(LbvhBuilder, IsTheTreeThatTheCodesSplit) {
         boxes[i] = boxes[i % 64]; // many equal codes: by all of 63 bits
     for (const Curve curve : {Curve::morton, Curve::hilbert}) {
         const CurveOrder sorted = curve_order(boxes, curve, serial());
-        const Tree tree = lbvh(boxes, curve == Curve::hilbert);
+        const Tree tree = lbvh(boxes, curve);
         ASSERT_FALSE(validate(tree, boxes));
         ASSERT_TRUE(std::ranges::equal(tree.order, sorted.order));
         for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
@@ -77,7 +76,7 @@ TEST(LbvhBuilder, IsTheSameOnEveryExecutorAndInstructionSet) {
         const Tree expected = lbvh(boxes);
         ASSERT_FALSE(validate(expected, boxes));
         for (const auto& [name, executor] : every_executor())
-            EXPECT_TRUE(same_tree(lbvh(boxes, 0, *executor), expected)) << name;
+            EXPECT_TRUE(same_tree(lbvh(boxes, Curve::morton, *executor), expected)) << name;
         on_every_target([&] { EXPECT_TRUE(same_tree(lbvh(boxes), expected)); });
     }
 }

@@ -5,27 +5,29 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
-#include "trees/builders/median.h"
 #include "trees/builders/detail/prim8-inl.h"
+#include "trees/builders/detail/top_down_loop.h"
+#include "trees/builders/median.h"
 #include "trees/optimizers/refit.h"
 
 #include <algorithm>
 #include <limits>
-#include <tuple>
 #include <utility>
-#include <vector>
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
+namespace {
 
-/// A subtree to build, whose items are in one of the two arrays.
-struct MedianRange {
-    std::uint32_t node, first, count, array;
+/// A part whose items are in one of the two arrays.
+struct MedianPart : Subtree {
+    std::uint32_t array;
 };
 
-class MedianBuild {
+class MedianSplitter {
   public:
-    MedianBuild(Boxes boxes, const Executor& executor)
+    using Part = MedianPart;
+
+    MedianSplitter(Boxes boxes, const Executor& executor)
         : boxes_(boxes), executor_(executor), items_(boxes, executor), other_(boxes.size()),
           keys_(boxes.size()), tree_(boxes.size()) {}
 
@@ -33,21 +35,51 @@ class MedianBuild {
         const auto n = static_cast<std::uint32_t>(boxes_.size());
         if (n == 0)
             return std::move(tree_);
-        constexpr std::uint32_t small = 2048;
-        constexpr std::size_t enough = 32;
-        std::vector<MedianRange> frontier{{0, 0, n, 0}};
-        while (executor_.threads() > 1 && frontier.size() < enough && frontier[0].count > small) {
-            std::vector<MedianRange> next(2 * frontier.size());
-            executor_.for_each(frontier.size(), [&](std::size_t i) {
-                std::tie(next[2 * i], next[2 * i + 1]) = Halve(frontier[i]);
-            });
-            frontier.swap(next);
-        }
-        executor_.for_each(frontier.size(), [&](std::size_t i) { BuildSubtree(frontier[i]); });
+        build_by_splitter(*this, Part{{0, 0, n, 0}, 0}, executor_, std::max(2048u, n / 32 + 1));
         if (items_.scale != 1)
             refit(tree_, boxes_);
         return std::move(tree_);
     }
+
+    bool is_split(const Part& part) const { return part.count > 1; }
+
+    /// Each side comes in its old order, into the other array.
+    Halves<Part> split(const Part& r) {
+        const Prim8* prims = Array(r.array) + r.first;
+        F8 box = SetF8(kLowest), centres = box;
+        for (std::uint32_t i = 0; i < r.count; ++i) {
+            const F8 each = LoadF8(prims[i].v);
+            box = MaxF8(box, each);
+            centres = MaxF8(centres, DoubledCentre(each));
+        }
+        WriteNode(box, r.first, r.count, tree_.nodes[r.node]);
+        float c[8];
+        StoreF8(centres, c);
+        const float x = c[0] + c[4], y = c[1] + c[5], z = c[2] + c[6];
+        const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+        const std::int64_t pivot = Pivot(prims, r, axis, -c[4 + axis], c[axis]);
+
+        Prim8* to = Array(r.array ^ 1) + r.first;
+        const std::uint32_t n_left = r.count / 2;
+        // Without a branch: it would be mispredicted half the time.
+        std::size_t left = 0, right = n_left;
+        for (std::uint32_t i = 0; i < r.count; ++i) {
+            const std::size_t goes_left = Key(prims[i], axis) < pivot;
+            const std::size_t at = right ^ ((left ^ right) & (0 - goes_left));
+            StoreF8(LoadF8(prims[i].v), to[at].v);
+            left += goes_left;
+            right += 1 - goes_left;
+        }
+        const auto [a, b] = children_of(r, n_left);
+        return {{a, r.array ^ 1}, {b, r.array ^ 1}};
+    }
+
+    void finish(const Part& part) {
+        const Prim8& p = Array(part.array)[part.first];
+        WriteNode(LoadF8(p.v), part.first, 1, tree_.nodes[part.node]);
+        tree_.order[part.first] = p.item();
+    }
+    void build(const Part& part) { build_below(*this, part); }
 
   private:
     Prim8* Array(std::uint32_t array) { return (array ? other_ : items_.prims).data(); }
@@ -80,7 +112,7 @@ class MedianBuild {
     }
 
     /// The key with half of the keys below it.
-    std::int64_t Pivot(const Prim8* prims, const MedianRange& r, int axis, float low, float high) {
+    std::int64_t Pivot(const Prim8* prims, const Part& r, int axis, float low, float high) {
         if (r.count <= 64)
             return PivotOfFew(prims, r.count, axis);
         std::int64_t* keys = keys_.data() + r.first;
@@ -109,55 +141,6 @@ class MedianBuild {
         return keys[left];
     }
 
-    /// Writes the node and parts its items, each side in its old order, into the other array.
-    std::pair<MedianRange, MedianRange> Halve(const MedianRange& r) {
-        const Prim8* prims = Array(r.array) + r.first;
-        F8 box = SetF8(kLeast), centres = box;
-        for (std::uint32_t i = 0; i < r.count; ++i) {
-            const F8 each = LoadF8(prims[i].v);
-            box = MaxF8(box, each);
-            centres = MaxF8(centres, DoubledCentre(each));
-        }
-        WriteNode(box, r.first, r.count, tree_.nodes[r.node]);
-        float c[8];
-        StoreF8(centres, c);
-        const float x = c[0] + c[4], y = c[1] + c[5], z = c[2] + c[6];
-        const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
-        const std::int64_t pivot = Pivot(prims, r, axis, -c[4 + axis], c[axis]);
-
-        Prim8* to = Array(r.array ^ 1) + r.first;
-        const std::uint32_t n_left = r.count / 2;
-        // Without a branch: it would be mispredicted half the time.
-        std::size_t left = 0, right = n_left;
-        for (std::uint32_t i = 0; i < r.count; ++i) {
-            const std::size_t goes_left = Key(prims[i], axis) < pivot;
-            const std::size_t at = right ^ ((left ^ right) & (0 - goes_left));
-            StoreF8(LoadF8(prims[i].v), to[at].v);
-            left += goes_left;
-            right += 1 - goes_left;
-        }
-        return {{r.node + 1, r.first, n_left, r.array ^ 1},
-                {r.node + 2 * n_left, r.first + n_left, r.count - n_left, r.array ^ 1}};
-    }
-
-    void BuildSubtree(const MedianRange& root) {
-        MedianRange waiting[32]; // halves: one for each level
-        std::size_t n_waiting = 0;
-        for (MedianRange r = root;;) {
-            if (r.count > 1) {
-                std::tie(r, waiting[n_waiting]) = Halve(r);
-                ++n_waiting;
-                continue;
-            }
-            const Prim8& p = Array(r.array)[r.first];
-            WriteNode(LoadF8(p.v), r.first, 1, tree_.nodes[r.node]);
-            tree_.order[r.first] = p.item();
-            if (n_waiting == 0)
-                break;
-            r = waiting[--n_waiting];
-        }
-    }
-
     Boxes boxes_;
     const Executor& executor_;
     Prims8 items_;
@@ -167,15 +150,20 @@ class MedianBuild {
 };
 
 Tree BuildByMedians(Boxes boxes, const Executor& executor) {
-    return MedianBuild(boxes, executor).Run();
+    return MedianSplitter(boxes, executor).Run();
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace boxwood {
+namespace boxwood::detail {
 HWY_EXPORT(BuildByMedians);
+}
+
+namespace boxwood {
+using namespace detail;
 
 Tree MedianBuilder::build(Boxes boxes, const Executor& executor) const {
     return HWY_DYNAMIC_DISPATCH(BuildByMedians)(boxes, executor);

@@ -6,6 +6,7 @@
 #include <vector>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 /// The merges of one tile, and of the leaves or clusters [begin, end) that it began with.
@@ -150,7 +151,6 @@ class Clustering {
 } // namespace
 
 Tree PlocBuilder::build(Boxes boxes, const Executor& executor) const {
-    const Curve curve = hilbert < .5 ? Curve::morton : Curve::hilbert;
     return Clustering(boxes, coarse_curve_order(boxes, curve, executor),
                       static_cast<std::size_t>(radius), executor)
         .build();

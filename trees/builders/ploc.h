@@ -20,15 +20,16 @@ struct PlocBuilder {
     static constexpr std::string_view summary =
         "bottom-up, merges mutual nearest clusters along a space-filling curve (Meister 2018)";
 
-    double radius = 8;  ///< clusters looked at on either side
-    double hilbert = 0; ///< 0: Morton curve, 1: Hilbert curve
+    int radius = 8; ///< clusters looked at on either side
+    Curve curve = Curve::morton;
 
-    static constexpr int most_radius = 31;
+    static constexpr int max_radius = 31;
     static auto settings() {
-        return std::array{Setting<PlocBuilder>{"radius", "clusters looked at on either side",
-                                               &PlocBuilder::radius, 1, most_radius},
-                          Setting<PlocBuilder>{"hilbert", "0: Morton curve, 1: Hilbert curve",
-                                               &PlocBuilder::hilbert, 0, 1}};
+        using Owner = PlocBuilder;
+        return std::array{Setting<Owner>("radius", "clusters looked at on either side",
+                                         &Owner::radius, 1, max_radius),
+                          Setting<Owner>("curve", "the space-filling curve", &Owner::curve,
+                                         {"morton", "hilbert"})};
     }
 
     Tree build(Boxes boxes, const Executor& executor) const;

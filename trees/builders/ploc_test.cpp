@@ -1,13 +1,13 @@
 #include "trees/builders/ploc.h"
 
 #include "kernels/testing/every_target.h"
-#include "trees/testing/box_families.h"
-#include "trees/builders/lbvh.h"
 #include "trees/builders/detail/ploc_tile.h"
-#include "trees/testing/every_executor.h"
+#include "trees/builders/lbvh.h"
 #include "trees/inspect/quality.h"
-#include "trees/testing/same_tree.h"
 #include "trees/inspect/validate.h"
+#include "trees/testing/box_families.h"
+#include "trees/testing/every_executor.h"
+#include "trees/testing/same_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -16,9 +16,10 @@
 #include <memory>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
-Tree ploc(Boxes boxes, double radius = PlocBuilder{}.radius, const Executor& executor = serial()) {
+Tree ploc(Boxes boxes, int radius = PlocBuilder{}.radius, const Executor& executor = serial()) {
     PlocBuilder builder;
     builder.radius = radius;
     return builder.build(boxes, executor);

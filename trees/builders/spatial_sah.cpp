@@ -11,6 +11,7 @@
 #include <vector>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 /// Worth cutting are boxes of triangles and of their parts of this many times the area that the
@@ -22,10 +23,10 @@ constexpr double empty = 8, large = 8;
 struct Grid {
     Vec3<float> low;
     double cell = 0;
-    double least_area; ///< half area of boxes worth cutting
+    double min_area; ///< half area of boxes worth cutting
 
     Grid(const Box& bounds, std::size_t n)
-        : low(bounds.min), least_area(large * bounds.half_area() / static_cast<double>(n)) {
+        : low(bounds.min), min_area(large * bounds.half_area() / static_cast<double>(n)) {
         for (int k = 0; k < 3; ++k)
             cell = std::max(cell, static_cast<double>(bounds.max[k]) -
                                       static_cast<double>(bounds.min[k]));
@@ -48,7 +49,7 @@ struct Cut {
 /// axes the one along which the box is longest. Cuts of neighbours so lie in the same planes.
 Cut coarsest_cut(const Grid& grid, const Box& box) {
     Cut cut;
-    if (!(box.half_area() > grid.least_area))
+    if (!(box.half_area() > grid.min_area))
         return cut;
     for (int k = 0; k < 3; ++k) {
         const std::uint32_t a = grid.index(box.min[k], k), b = grid.index(box.max[k], k);
@@ -70,14 +71,14 @@ Cut coarsest_cut(const Grid& grid, const Box& box) {
 /// that are k times less empty.
 struct Worth {
     double value = 0;
-    double most_cuts = 0;
+    double max_cuts = 0;
 
     std::uint32_t cuts(double scale) const {
-        return static_cast<std::uint32_t>(std::min(value * scale, most_cuts));
+        return static_cast<std::uint32_t>(std::min(value * scale, max_cuts));
     }
 };
 
-constexpr std::uint32_t most_cuts = 63;
+constexpr std::uint32_t max_cuts = 63;
 
 /// The value is what the box has more of than the triangle's own shadows along the axes, which cuts
 /// do not lessen; doubled for each level that the first cut is coarser.
@@ -91,7 +92,7 @@ Worth worth(const Grid& grid, const Triangle<float>& t, const Box& box) {
     if (!(most >= 2))
         return {};
     return {std::cbrt(std::ldexp(box.half_area() - shadows, cut.level)),
-            std::min(most - 1, static_cast<double>(most_cuts))};
+            std::min(most - 1, static_cast<double>(max_cuts))};
 }
 
 constexpr std::size_t chunk = 4096;
@@ -172,7 +173,7 @@ double scale_for(std::span<const Worth> worths, double spare, const Executor& ex
 
 Tree SpatialSahBuilder::build(Boxes boxes, const Executor& executor) const {
     BinnedSahBuilder binned;
-    binned.joined = binned.block = 8;
+    binned.agglomerate_below = binned.leaf_size = 8;
     return binned.build(boxes, executor);
 }
 
@@ -210,7 +211,7 @@ Tree SpatialSahBuilder::build_of_mesh(const TriangleMesh& mesh, const Executor& 
     std::vector<Parts> of_chunk(n_chunks(n));
     for_chunks(n, executor, [&](std::size_t c, std::size_t begin, std::size_t end) {
         Parts& parts = of_chunk[c];
-        Box cut[most_cuts + 1];
+        Box cut[max_cuts + 1];
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t cuts = worths[i].cuts(scale);
             const std::size_t m = cut_up(grid, mesh.triangle(i), boxes[i], cuts, cut);

@@ -20,12 +20,12 @@ struct SpatialSahBuilder {
     static constexpr std::string_view summary =
         "cuts triangles with large, empty boxes first, then binned_sah; for rays (Karras 2013)";
 
-    double references = 2; ///< most leaves per triangle, over the whole mesh
+    double references = 2; ///< leaves per triangle at most, over the whole mesh
 
     static auto settings() {
-        return std::array{Setting<SpatialSahBuilder>{
-            "references", "most leaves per triangle, over the whole mesh",
-            &SpatialSahBuilder::references, 1, 16}};
+        return std::array{Setting<SpatialSahBuilder>("references",
+                                                     "leaves per triangle at most, over the mesh",
+                                                     &SpatialSahBuilder::references, 1, 16)};
     }
 
     Tree build(Boxes boxes, const Executor& executor) const;

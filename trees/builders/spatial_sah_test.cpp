@@ -3,13 +3,14 @@
 #include "kernels/registry.h"
 #include "kernels/testing/closed_meshes.h"
 #include "trees/builders/detail/clip_triangle.h"
-#include "trees/testing/every_executor.h"
-#include "trees/layout.h"
 #include "trees/inspect/quality.h"
-#include "trees/testing/same_tree.h"
-#include "trees/testing/brute_force_rays.h"
-#include "trees/testing/triangle_soup.h"
 #include "trees/inspect/validate.h"
+#include "trees/layout.h"
+#include "trees/testing/brute_force_rays.h"
+#include "trees/testing/every_executor.h"
+#include "trees/testing/layouts_answering.h"
+#include "trees/testing/same_tree.h"
+#include "trees/testing/triangle_soup.h"
 
 #include <gtest/gtest.h>
 
@@ -19,6 +20,7 @@
 #include <random>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 using Point = Vec3<float>;
@@ -47,8 +49,8 @@ TriangleMesh slivers(std::uint32_t n, float size, float centre, std::uint32_t se
 }
 
 Tree build(const TriangleMesh& mesh, const Settings& settings = {},
-           const Executor& executor = serial(), std::string_view words = "spatial_sah") {
-    return make_builder(words, settings).build_of_mesh(mesh, executor);
+           const Executor& executor = serial(), std::string_view name = "spatial_sah") {
+    return make_builder(name, settings).build_of_mesh(mesh, executor);
 }
 
 TEST(ClippedTriangle, PartsHoldTheirSideAndLittleMore) {
@@ -226,7 +228,7 @@ TEST(SpatialSah, RaysThroughTheSeamsHitWhatTheyHitWithoutATree) {
         const auto n_hits = static_cast<std::size_t>(std::ranges::count_if(expected, &RayHit::hit));
         EXPECT_GT(n_hits, rays.size() / 20);
         EXPECT_LT(n_hits, rays.size());
-        for (const LayoutEntry& entry : layouts()) {
+        for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
             SCOPED_TRACE(entry.name);
             const auto layout = entry.make(tree, serial());
             const TriangleBlocks triangles = layout->triangles(mesh);
@@ -253,7 +255,7 @@ TEST(SpatialSah, NoRayLeaksFromAClosedMesh) {
         const Point from{place(random), place(random), place(random)};
         rays.push_back({from, a + along(random) * (b - a) - from});
     }
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
         const auto layout = entry.make(tree, serial());
         const TriangleBlocks triangles = layout->triangles(mesh);
         std::vector<RayHit> hits(rays.size());
@@ -267,7 +269,7 @@ TEST(SpatialSah, ASplitTreeRefusesPairs) {
     const Tree tree = build(mesh);
     std::vector<Pair> pairs;
     AppendPairs sink(pairs);
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::self_pairs, Query::tree_pairs})) {
         const auto layout = entry.make(tree, serial());
         EXPECT_THROW(layout->self_pairs(serial(), sink), std::invalid_argument) << entry.name;
         EXPECT_THROW(layout->tree_pairs(*layout, serial(), sink), std::invalid_argument);

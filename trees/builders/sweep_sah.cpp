@@ -6,6 +6,7 @@
 #include <hwy/highway.h>
 
 #include "trees/builders/detail/prim8-inl.h"
+#include "trees/builders/detail/top_down_loop.h"
 #include "trees/builders/sweep_sah.h"
 #include "trees/optimizers/refit.h"
 
@@ -15,13 +16,8 @@
 #include <vector>
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
-
-/// A subtree to build: the same items stand at [first, first + count) of all
-/// three orders.
-struct SweepRange {
-    std::uint32_t node, first, count, depth;
-};
+namespace boxwood::detail::HWY_NAMESPACE {
+namespace {
 
 /// The first `left` items of the order along an axis against the others.
 struct Split {
@@ -37,12 +33,15 @@ HWY_INLINE float HalfArea(F8 box, float edge) {
     return x * y + z * (x + y);
 }
 
-class SweepBuild {
+/// The same items of a part stand at [first, first + count) of three orders, one along each axis.
+class SweepSplitter {
   public:
-    SweepBuild(Boxes boxes, const Executor& executor)
+    using Part = Subtree;
+
+    SweepSplitter(Boxes boxes, const Executor& executor)
         : boxes_(boxes), executor_(executor), items_(boxes, executor),
           right_area_(3 * boxes.size()), goes_left_(boxes.size()), tree_(boxes.size()),
-          depth_limit_(2 * static_cast<std::uint32_t>(std::bit_width(boxes.size())) + 32) {}
+          max_depth_(2 * static_cast<std::uint32_t>(std::bit_width(boxes.size())) + 32) {}
 
     Tree Run() {
         const auto n = static_cast<std::uint32_t>(boxes_.size());
@@ -55,25 +54,54 @@ class SweepBuild {
         executor_.for_each(3, [&](std::size_t axis) {
             sort_by_centre(items_.prims.span(), static_cast<int>(axis), order_[axis].span());
         });
-        const std::vector<SweepRange> subtrees = SplitTop({0, 0, n, 0});
-        executor_.for_each(subtrees.size(), [&](std::size_t i) { BuildSubtree(subtrees[i]); });
+        build_by_splitter(*this, Part{0, 0, n, 0}, executor_, std::max(2048u, n / 16), max_depth_);
         if (items_.scale != 1)
             refit(tree_, boxes_);
         return std::move(tree_);
     }
 
-  private:
-    using Halves = std::pair<SweepRange, SweepRange>;
+    bool is_split(const Part& part) const { return part.count > 1; }
 
-    static Halves Children(const SweepRange& r, std::uint32_t left) {
-        return {{r.node + 1, r.first, left, r.depth + 1},
-                {r.node + 2 * left, r.first + left, r.count - left, r.depth + 1}};
+    Halves<Part> split(const Part& part) {
+        const Split split =
+            part.depth > max_depth_
+                ? Middle(part)
+                : Cheapest({BestAlong(part, 0), BestAlong(part, 1), BestAlong(part, 2)});
+        Mark(part, split);
+        for (std::uint32_t axis = 0; axis < 3; ++axis)
+            if (axis != split.axis)
+                PartOrder(part, axis);
+        return children_of(part, split.left);
     }
 
-    /// Tries every split along an axis, and writes the node's box if it is the
-    /// first axis. Of equal costs the more even split is cheaper by a little, so
-    /// that equal boxes make no chain.
-    Split BestAlong(const SweepRange& r, std::uint32_t axis) {
+    /// The axes at the same time.
+    void split_level(const std::vector<Part>& large, std::vector<Halves<Part>>& children) {
+        std::vector<std::array<Split, 3>> along(large.size());
+        executor_.for_each(3 * large.size(), [&](std::size_t i) {
+            along[i / 3][i % 3] = BestAlong(large[i / 3], static_cast<std::uint32_t>(i % 3));
+        });
+        executor_.for_each(large.size(),
+                           [&](std::size_t i) { Mark(large[i], Cheapest(along[i])); });
+        executor_.for_each(3 * large.size(), [&](std::size_t i) {
+            const auto axis = static_cast<std::uint32_t>(i % 3);
+            if (axis != Cheapest(along[i / 3]).axis)
+                PartOrder(large[i / 3], axis);
+        });
+        for (std::size_t i = 0; i < large.size(); ++i)
+            children[i] = children_of(large[i], Cheapest(along[i]).left);
+    }
+
+    void finish(const Part& leaf) {
+        const Prim8& p = order_[0][leaf.first];
+        WriteNode(LoadF8(p.v), leaf.first, 1, tree_.nodes[leaf.node]);
+        tree_.order[leaf.first] = p.item();
+    }
+    void build(const Part& part) { build_below(*this, part); }
+
+  private:
+    /// Tries every split along an axis, and writes the node if it is the first axis. Of equal costs
+    /// the more even split is cheaper by a little, so that equal boxes make no chain.
+    Split BestAlong(const Part& r, std::uint32_t axis) {
         const Prim8* items = order_[axis].data() + r.first;
         float* right_area = right_area_.data() + axis * boxes_.size() + r.first;
         const F8 lowest = LoadF8(items[0].v), highest = LoadF8(items[r.count - 1].v);
@@ -103,18 +131,17 @@ class SweepBuild {
         return best;
     }
 
-    float Spread(const SweepRange& r, std::uint32_t axis) const {
+    float Spread(const Part& r, std::uint32_t axis) const {
         const Prim8* items = order_[axis].data() + r.first;
         return items[r.count - 1].doubled_centre(static_cast<int>(axis)) -
                items[0].doubled_centre(static_cast<int>(axis));
     }
-    /// Next to nothing by the size of the node, so that boxes along a line have
-    /// areas too.
-    float Edge(const SweepRange& r) const {
+    /// Next to nothing by the size of the node, so that boxes along a line have areas too.
+    float Edge(const Part& r) const {
         return std::max({Spread(r, 0), Spread(r, 1), Spread(r, 2)}) * 0x1p-20f;
     }
 
-    Split Middle(const SweepRange& r) {
+    Split Middle(const Part& r) {
         WriteNode(BoundsOfBoxes(order_[0].data() + r.first, r.count), r.first, r.count,
                   tree_.nodes[r.node]);
         Split middle{0, 0, r.count / 2};
@@ -132,15 +159,14 @@ class SweepBuild {
         return best;
     }
 
-    void Mark(const SweepRange& r, Split split) {
+    void Mark(const Part& r, Split split) {
         const Prim8* items = order_[split.axis].data() + r.first;
         for (std::uint32_t i = 0; i < r.count; ++i)
             goes_left_[items[i].item()] = i < split.left;
     }
 
-    /// Parts the order along an axis, both sides in their old order and without a
-    /// branch.
-    void PartOrder(const SweepRange& r, std::uint32_t axis) {
+    /// Partitions the order along an axis, both sides in their old order and without a branch.
+    void PartOrder(const Part& r, std::uint32_t axis) {
         Prim8* items = order_[axis].data() + r.first;
         Prim8* aside = other_[axis].data() + r.first;
         std::size_t n_left = 0, n_right = 0;
@@ -155,72 +181,6 @@ class SweepBuild {
         std::copy_n(aside, n_right, items + n_left);
     }
 
-    void WriteLeaf(const SweepRange& r) {
-        const Prim8& p = order_[0][r.first];
-        WriteNode(LoadF8(p.v), r.first, 1, tree_.nodes[r.node]);
-        tree_.order[r.first] = p.item();
-    }
-
-    void BuildSubtree(const SweepRange& root) {
-        // The smaller half is taken at once and the larger waits, so 32 entries
-        // always suffice.
-        SweepRange waiting[32];
-        std::size_t n_waiting = 0;
-        for (SweepRange r = root;;) {
-            if (r.count > 1) {
-                const Split split =
-                    r.depth > depth_limit_
-                        ? Middle(r)
-                        : Cheapest({BestAlong(r, 0), BestAlong(r, 1), BestAlong(r, 2)});
-                Mark(r, split);
-                for (std::uint32_t axis = 0; axis < 3; ++axis)
-                    if (axis != split.axis)
-                        PartOrder(r, axis);
-                auto [a, b] = Children(r, split.left);
-                if (a.count > b.count)
-                    std::swap(a, b);
-                waiting[n_waiting++] = b;
-                r = a;
-                continue;
-            }
-            WriteLeaf(r);
-            if (n_waiting == 0)
-                break;
-            r = waiting[--n_waiting];
-        }
-    }
-
-    /// Splits the top of the tree a level at a time, the axes at the same time,
-    /// until no part is much of the whole.
-    std::vector<SweepRange> SplitTop(const SweepRange& root) {
-        const std::uint32_t enough = std::max(std::uint32_t{2048}, root.count / 16);
-        std::vector<SweepRange> frontier{root}, done;
-        while (!frontier.empty()) {
-            std::vector<SweepRange> large;
-            for (const SweepRange& r : frontier)
-                (r.count > enough && r.depth <= depth_limit_ ? large : done).push_back(r);
-            std::vector<std::array<Split, 3>> along(large.size());
-            executor_.for_each(3 * large.size(), [&](std::size_t i) {
-                along[i / 3][i % 3] = BestAlong(large[i / 3], static_cast<std::uint32_t>(i % 3));
-            });
-            executor_.for_each(large.size(),
-                               [&](std::size_t i) { Mark(large[i], Cheapest(along[i])); });
-            executor_.for_each(3 * large.size(), [&](std::size_t i) {
-                const auto axis = static_cast<std::uint32_t>(i % 3);
-                if (axis != Cheapest(along[i / 3]).axis)
-                    PartOrder(large[i / 3], axis);
-            });
-            frontier.clear();
-            for (std::size_t i = 0; i < large.size(); ++i) {
-                const Halves halves = Children(large[i], Cheapest(along[i]).left);
-                frontier.push_back(halves.first);
-                frontier.push_back(halves.second);
-            }
-        }
-        std::ranges::sort(done, std::ranges::greater{}, &SweepRange::count);
-        return done;
-    }
-
     Boxes boxes_;
     const Executor& executor_;
     Prims8 items_;
@@ -228,19 +188,24 @@ class SweepBuild {
     Buffer<float> right_area_;       ///< of each axis
     Buffer<std::uint8_t> goes_left_; ///< item -> 1 or 0
     Tree tree_;
-    const std::uint32_t depth_limit_;
+    const std::uint32_t max_depth_;
 };
 
 Tree BuildBySweep(Boxes boxes, const Executor& executor) {
-    return SweepBuild(boxes, executor).Run();
+    return SweepSplitter(boxes, executor).Run();
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace boxwood {
+namespace boxwood::detail {
 HWY_EXPORT(BuildBySweep);
+}
+
+namespace boxwood {
+using namespace detail;
 
 Tree SweepSahBuilder::build(Boxes boxes, const Executor& executor) const {
     return HWY_DYNAMIC_DISPATCH(BuildBySweep)(boxes, executor);

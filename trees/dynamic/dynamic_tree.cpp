@@ -204,11 +204,11 @@ void DynamicTree::detach(std::uint32_t item) {
 /// four choices the one with the largest gain, then with the least height.
 ///
 /// Both leans stay within max_lean, and the height of s within 1 of what it was before the change
-/// below. So one level up again one child has changed by at most 1, and the imbalance found there is at
-/// most max_lean + 1. Then a rotation is forced, and one that heals it is always there: the taller
-/// child T of the taller sibling goes up. With d = height(down), T has height d + max_lean and the
-/// child that stays one from d to d + max_lean: no imbalance after the swap exceeds max_lean, and s is
-/// as tall as before or 1 less.
+/// below. So one level up again one child has changed by at most 1, and the imbalance found there
+/// is at most max_lean + 1. Then a rotation is forced, and one that heals it is always there: the
+/// taller child T of the taller sibling goes up. With d = height(down), T has height d + max_lean
+/// and the child that stays one from d to d + max_lean: no imbalance after the swap exceeds
+/// max_lean, and s is as tall as before or 1 less.
 bool DynamicTree::rotate(Slot s, int old_height) {
     const std::uint32_t f = link_at(s);
     const NodePair& fork = forks_[f];

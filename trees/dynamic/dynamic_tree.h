@@ -28,7 +28,7 @@ class DynamicTree {
     void remove(std::uint32_t item);
 
     /// Gives the item a new box: in its place while the bounds of its grandparent hold that, else
-    /// by insertion anew. Throws as `insert` and `remove` do.
+    /// by insertion again. Throws as `insert` and `remove` do.
     void move(std::uint32_t item, Box box);
 
     /// Gives the item a box that holds its old one; the shape stays, bounds above grow. Cheaper
@@ -68,8 +68,9 @@ class DynamicTree {
     /// its height are kept there, so that a descent reads one cache line per level.
     using Slot = std::uint32_t;
 
-    /// The two children of an inner node: 64 bytes. NodePair 0 is the exception: its side 0 holds the
-    /// root, which has no sibling. A free fork keeps the next free one in `parent`.
+    /// The two children of an inner node: 64 bytes. NodePair 0 is the exception: its side 0 holds
+    /// the root, which has no sibling. A free pair holds the number of the next free one in
+    /// `parent`.
     struct alignas(64) NodePair {
         Box box[2];             ///< 48 bytes
         std::uint32_t link[2];  ///< 8 bytes: the fork of an inner node, or leaf_bit + item
@@ -107,8 +108,8 @@ class DynamicTree {
     bool rotate(Slot s, int old_height);
 
     std::vector<NodePair> forks_ = std::vector<NodePair>(1); ///< fork 0 is always there
-    std::vector<Slot> slot_of_;                      ///< item -> its leaf, or none
-    std::uint32_t free_ = none;                      ///< first free fork
+    std::vector<Slot> slot_of_;                              ///< item -> its leaf, or none
+    std::uint32_t free_ = none;                              ///< first free fork
     std::size_t size_ = 0;
     double pad_ = 0; ///< for measure: 2^-30 of the half-extents of the root, summed
 };

@@ -1,8 +1,8 @@
 #include "trees/dynamic/dynamic_tree.h"
 
-#include "trees/testing/box_families.h"
 #include "trees/inspect/quality.h"
 #include "trees/inspect/validate.h"
+#include "trees/testing/box_families.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -21,7 +21,7 @@ namespace {
 using Model = std::map<std::uint32_t, Box>;
 
 /// The bound that the header promises.
-std::size_t most_height(std::size_t n) {
+std::size_t max_height(std::size_t n) {
     return n < 2 ? 0 : static_cast<std::size_t>(3.5 * std::log2(static_cast<double>(n)));
 }
 
@@ -51,7 +51,7 @@ std::string fault(const DynamicTree& tree, const Model& model) {
         return *wrong;
     if (tree.height() != quality(frozen, boxes, {.epo_visits = 0}).depth_max)
         return "height " + std::to_string(tree.height()) + " is not the depth";
-    if (tree.height() > most_height(model.size()))
+    if (tree.height() > max_height(model.size()))
         return "height " + std::to_string(tree.height()) + " of " + std::to_string(model.size());
     return "";
 }

@@ -2,9 +2,9 @@
 
 #include "trees/builder.h"
 #include "trees/executor.h"
+#include "trees/inspect/work.h"
 #include "trees/queries/pairs.h"
 #include "trees/tree.h"
-#include "trees/inspect/work.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -18,12 +18,12 @@ namespace boxwood {
 /// What an updater did to take its newest frame.
 struct UpdateStep {
     std::size_t placed = 0; ///< items that were given a new place in the order of the tree
-    bool rebuilt = false;   ///< whether the whole order was made anew
+    bool rebuilt = false;   ///< whether a new order of all items was made
 
-    // Of kept pairs (cached_pairs.h):
-    bool renewed = false;     ///< whether all of them were found anew
-    std::size_t examined = 0; ///< pairs looked at again
-    std::size_t restless = 0; ///< items whose pairs are not kept but found in every frame
+    // Of cached pairs (detail/cached_pairs.h):
+    bool pairs_rebuilt = false; ///< whether all of them were searched for again
+    std::size_t examined = 0;   ///< pairs tested again
+    std::size_t fast = 0;       ///< items whose pairs are not cached but found in every frame
 };
 
 /// A tree over boxes that move from frame to frame, by one policy. The memory is used again, the
@@ -73,7 +73,7 @@ struct UpdateEntry {
 
 std::span<const UpdateEntry> updates();
 
-/// The policy by its registry word, or nullptr.
+/// The policy by its registered name, or nullptr.
 const UpdateEntry* find_update(std::string_view name);
 
 } // namespace boxwood

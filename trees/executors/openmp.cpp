@@ -1,10 +1,11 @@
 #include "trees/executor.h"
-#include "trees/executors/fork_join.h"
+#include "trees/executors/detail/fork_join.h"
 
 #include <exception>
 #include <mutex>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 class OpenMp final : public Executor {

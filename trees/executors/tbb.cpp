@@ -1,5 +1,5 @@
 #include "trees/executor.h"
-#include "trees/executors/fork_join.h"
+#include "trees/executors/detail/fork_join.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
@@ -10,12 +10,13 @@
 #include <optional>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 class Tbb final : public Executor {
   public:
     explicit Tbb(unsigned threads) : threads_(threads), arena_(static_cast<int>(threads)) {
-        // TBB starts no more workers than there are cores unless it is told to.
+        // TBB starts no more workers than there are cores unless asked to.
         if (static_cast<int>(threads) > tbb::info::default_concurrency())
             more_workers_.emplace(tbb::global_control::max_allowed_parallelism, threads);
     }

@@ -8,7 +8,7 @@
 namespace boxwood {
 namespace {
 
-constexpr std::uint32_t most_named = 8;
+constexpr std::uint32_t max_named = 8;
 
 /// A quantum for coordinates that leaves the largest of the box four digits, a power of ten.
 double quantum_of(const Box& box) {
@@ -49,7 +49,7 @@ std::string describe(const Tree& tree, std::size_t node, std::span<const std::st
     const auto [box, first, count] = tree.nodes[node];
     if (count == 1)
         return name_of_slot(first);
-    if (count > most_named)
+    if (count > max_named)
         return "{" + std::to_string(count) + " items}";
     std::string text = "{";
     for (std::uint32_t slot = first; slot < first + count; ++slot)

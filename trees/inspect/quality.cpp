@@ -50,8 +50,8 @@ std::size_t golden_step(std::size_t n) {
     return step;
 }
 
-/// Walks the tree once per item, subtrees that miss the item's box left out, until `epo_visits` are
-/// spent; at least one item, so at most 2n - 1 visits more. Items are taken by the golden step.
+/// Visits the tree once per item, subtrees that miss the item's box left out, until `epo_visits`
+/// are spent; at least one item, so at most 2n - 1 visits more. Items are taken by the golden step.
 void measure_epo(const Tree& tree, Boxes boxes, const QualityModel& model, Quality& q) {
     const std::size_t n = tree.size();
     std::vector<Box> parts(tree.is_split ? n : 0);

@@ -12,7 +12,7 @@ struct QualityModel {
     double c_trav = 1;  ///< visiting an inner node
     double c_isect = 1; ///< testing the item of a leaf
 
-    /// Node visits that the end-point overlap may take: it walks the tree once per item, and stops
+    /// Node visits that the end-point overlap may take: it visits the tree once per item, and stops
     /// taking items when these are spent. 0 leaves it out (epo = 0).
     std::uint64_t epo_visits = std::uint64_t{1} << 24;
 };

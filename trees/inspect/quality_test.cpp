@@ -1,7 +1,7 @@
 #include "trees/inspect/quality.h"
 
-#include "trees/testing/box_families.h"
 #include "trees/builders/incremental.h"
+#include "trees/testing/box_families.h"
 
 #include <gtest/gtest.h>
 

@@ -29,7 +29,7 @@ std::optional<std::string> fault_in_order(const Tree& tree) {
     return {};
 }
 
-/// Walks the nodes in index order. What a node's slots must be follows from its ancestors, and
+/// Visits the nodes in index order. What a node's slots must be follows from its ancestors, and
 /// waits on a stack: each node takes the top, an inner one pushes its right and then its left
 /// child. As the stack's counts always fill the nodes still to come, node i + 1 of an inner node i
 /// exists.

@@ -6,6 +6,7 @@
 #include <vector>
 
 namespace boxwood {
+using namespace detail;
 
 template <class Real>
 template <class BoxOf>

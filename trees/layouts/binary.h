@@ -1,8 +1,13 @@
 #pragma once
 
-#include "trees/layout.h"
+#include "trees/buffer.h"
+#include "trees/executor.h"
+#include "trees/layouts/layouts.h"
+#include "trees/tree.h"
 
 #include <concepts>
+#include <span>
+#include <string_view>
 #include <type_traits>
 
 namespace boxwood {
@@ -45,8 +50,5 @@ template <class Real_> class BinaryLayoutOf {
 
 extern template class BinaryLayoutOf<float>;
 extern template class BinaryLayoutOf<double>;
-
-using BinaryLayout = BinaryLayoutOf<float>;
-using BinaryLayoutF64 = BinaryLayoutOf<double>;
 
 } // namespace boxwood

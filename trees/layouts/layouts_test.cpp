@@ -1,10 +1,11 @@
 #include "kernels/arithmetic/rounding.h"
-#include "trees/testing/box_families.h"
 #include "trees/builder.h"
+#include "trees/layout.h"
 #include "trees/layouts/binary.h"
 #include "trees/layouts/quantised8.h"
 #include "trees/layouts/wide.h"
 #include "trees/queries/self_pairs.h"
+#include "trees/testing/box_families.h"
 
 #include <gtest/gtest.h>
 
@@ -105,9 +106,9 @@ TEST(WideLayouts, AreTheSameOnEveryExecutor) {
         std::vector<Pair> expected_pairs;
         AppendPairs expected_sink(expected_pairs);
         self_pairs(expected, serial(), expected_sink);
-        for (const std::string_view word : {"openmp", "tbb"})
+        for (const std::string_view name : {"openmp", "tbb"})
             for (const unsigned threads : {2u, 4u}) {
-                const auto executor = make_executor(word, threads);
+                const auto executor = make_executor(name, threads);
                 const L made(tree, *executor);
                 ASSERT_EQ(made.blocks().size(), expected.blocks().size());
                 EXPECT_EQ(made.bytes(), expected.bytes());

@@ -1,13 +1,14 @@
 #include "trees/layouts/packed.h"
+#include "trees/executors/chunks.h"
 #include "trees/layouts/detail/model.h"
 #include "trees/layouts/detail/packed_blocks.h"
-#include "trees/ordering/radix_sort.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <stdexcept>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 constexpr std::size_t w = PackedLayout::width;

@@ -1,13 +1,20 @@
 #pragma once
 
-#include "trees/layout.h"
+#include "trees/buffer.h"
+#include "trees/executor.h"
+#include "trees/layouts/layouts.h"
+#include "trees/tree.h"
 
 #include <array>
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace boxwood {
 
+namespace detail {
 struct PackedSource;
+}
 
 /// Sixteen boxes side by side, 384 bytes: one AVX-512 register per plane.
 struct alignas(64) PackedBlock {
@@ -24,8 +31,8 @@ struct alignas(64) PackedBlock {
 };
 static_assert(sizeof(PackedBlock) == 384);
 
-/// A block as walks over wide layouts see it (BoxBlock in wide.h): what is not stored follows from
-/// where the block is.
+/// A block as traversals of wide layouts see it (BoxBlock in wide.h): what is not stored follows
+/// from where the block is.
 struct PackedView {
     using Real = float;
     static constexpr std::uint32_t width = PackedBlock::width;
@@ -79,7 +86,7 @@ class PackedLayout {
     const Box& bounds() const { return bounds_; }
     std::size_t bytes() const { return blocks_.bytes() + items_.bytes(); }
 
-    // What walks over any wide layout ask.
+    // What traversals read of any wide layout.
     using Block = PackedView;
     using Leaf = PackedView;
     /// A reference: the index of a block, leaves first, and the top bit set if it is a leaf.
@@ -123,7 +130,7 @@ class PackedLayout {
     void refit(Boxes boxes, const Executor& executor);
     void refit(Boxes boxes, std::span<const std::uint32_t> slots);
     /// Sum of half the surface areas of all blocks but the root's, over that of the root: what a
-    /// walk has to pass. 0 if the root has none.
+    /// traversal has to pass. 0 if the root has none.
     double surface() const;
     /// The first block whose bounds are not exactly those of its lanes, or an unused lane that is
     /// not empty; empty if all is as it should be. O(n).
@@ -132,14 +139,14 @@ class PackedLayout {
   private:
     void hold(std::size_t n);
     /// `order` becomes the items; it may be where they are.
-    void make(const PackedSource& boxes, std::span<const std::uint32_t> order,
+    void make(const detail::PackedSource& boxes, std::span<const std::uint32_t> order,
               const Executor& executor);
 
     // 16^8 > max_items: there are at most eight levels.
-    static constexpr std::size_t most_levels = 8;
+    static constexpr std::size_t max_levels = 8;
     Buffer<PackedBlock> blocks_; ///< leaves first
     Buffer<std::uint32_t> items_;
-    std::array<std::size_t, most_levels + 1> first_{}; ///< first block of each level
+    std::array<std::size_t, max_levels + 1> first_{}; ///< first block of each level
     std::size_t size_ = 0, depth_ = 0;
     Box bounds_;
 };

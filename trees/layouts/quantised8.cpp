@@ -7,6 +7,7 @@
 #include <limits>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 /// A step with which 255 steps from `low` reach `high` as QuantisedBlock decodes them. The loop
@@ -21,9 +22,9 @@ float step_between(float low, float high) {
 /// Why a decoded box contains the exact one: on each axis the exact planes x lie between bounds.min
 /// and bounds.max of the block, decode(0) = bounds.min <= x and decode(255) >= bounds.max >= x, so
 /// from any guess the first loop finds a lower plane decode(q) <= x, and the second an upper one
-/// decode(q) >= x, before q runs out. What they compare is what walks decode: one product, one sum,
-/// in floats, which no instruction set rounds differently. Nothing is assumed about the guess or
-/// about monotony. A product may overflow: decode is then +inf, which is above every plane.
+/// decode(q) >= x, before q runs out. What they compare is what traversals decode: one product, one
+/// sum, in floats, which no instruction set rounds differently. Nothing is assumed about the guess
+/// or about monotony. A product may overflow: decode is then +inf, which is above every plane.
 std::uint8_t steps_below(const QuantisedBlock& block, int axis, float x, double per_step) {
     const double guess =
         (static_cast<double>(x) - static_cast<double>(block.bounds.min[axis])) * per_step;

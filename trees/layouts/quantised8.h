@@ -1,8 +1,13 @@
 #pragma once
 
-#include "trees/layout.h"
+#include "trees/buffer.h"
+#include "trees/executor.h"
+#include "trees/layouts/layouts.h"
+#include "trees/tree.h"
 
 #include <bit>
+#include <span>
+#include <string_view>
 
 namespace boxwood {
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 template <class Real, std::size_t W>

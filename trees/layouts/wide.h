@@ -1,14 +1,19 @@
 #pragma once
 
-#include "trees/layout.h"
+#include "trees/buffer.h"
+#include "trees/executor.h"
+#include "trees/layouts/layouts.h"
+#include "trees/tree.h"
 
 #include <concepts>
+#include <span>
+#include <string_view>
 #include <type_traits>
 
 namespace boxwood {
 
-/// W boxes side by side: an inner node's child boxes, or a leaf's items. Every walk asks the same
-/// of both: one box, point or ray against all lanes. W = 8 takes 256 bytes in floats, 512 in
+/// W boxes side by side: an inner node's child boxes, or a leaf's items. Every traversal tests the
+/// same in both: one box, point or ray against all lanes. W = 8 takes 256 bytes in floats, 512 in
 /// doubles; 4 takes 144 and 16 takes 512.
 template <class Real_, std::size_t W> struct alignas(W == 4 ? 16 : 64) BoxBlock {
     using Real = Real_;
@@ -31,11 +36,11 @@ using Block8 = BoxBlock<float, 8>;
 static_assert(sizeof(Block8) == 256 && sizeof(BoxBlock<double, 8>) == 512);
 static_assert(sizeof(BoxBlock<float, 4>) == 144 && sizeof(BoxBlock<float, 16>) == 512);
 
-/// W-wide tree: the binary tree collapsed so that its blocks have the least area in all; subtrees of
-/// at most W items become leaf blocks. The children of a node lie side by side.
+/// W-wide tree: the binary tree collapsed so that its blocks have the least area in all; subtrees
+/// of at most W items become leaf blocks. The children of a node lie side by side.
 ///
-/// Walks are templates over this interface, which Quantised8Layout has too: Real, width, Block,
-/// Leaf, is_leaf, index, root, block, leaf, bounds, depth.
+/// Traversals are templates over this interface, which Quantised8Layout has too: Real, width,
+/// Block, Leaf, is_leaf, index, root, block, leaf, bounds, depth.
 template <class Real_, std::size_t W> class WideLayout {
     static_assert(W == 4 || W == 8 || W == 16);
 
@@ -107,10 +112,5 @@ extern template class WideLayout<float, 4>;
 extern template class WideLayout<float, 8>;
 extern template class WideLayout<float, 16>;
 extern template class WideLayout<double, 8>;
-
-using Wide4Layout = WideLayout<float, 4>;
-using Wide8Layout = WideLayout<float, 8>;
-using Wide16Layout = WideLayout<float, 16>;
-using Wide8LayoutF64 = WideLayout<double, 8>;
 
 } // namespace boxwood

@@ -1,8 +1,8 @@
 #include "trees/optimizers/refit.h"
 
-#include "trees/testing/box_families.h"
 #include "trees/builders/incremental.h"
 #include "trees/inspect/validate.h"
+#include "trees/testing/box_families.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include "trees/optimizers/reinsertion.h"
 
-#include "trees/ordering/radix_sort.h"
-#include "trees/optimizers/linked_tree.h"
+#include "trees/executors/chunks.h"
+#include "trees/optimizers/detail/linked_tree.h"
 
 #include <algorithm>
 #include <array>
@@ -10,6 +10,7 @@
 #include <vector>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 struct Move {
@@ -279,16 +280,16 @@ bool Reinsertion::pass(double share) {
 
 } // namespace
 
-void ReinsertionStage::improve(Tree& tree, const Executor& executor) const {
+void ReinsertionOptimizer::improve(Tree& tree, const Executor& executor) const {
     if (tree.size() < 3 || passes < 1)
         return;
     Reinsertion work(tree, executor);
-    for (int i = 0; i < static_cast<int>(passes); ++i)
+    for (int i = 0; i < passes; ++i)
         if (!work.pass(share))
             break;
     tree = work.canonical();
 }
 
-OptimizerEntry reinsertion_stage() { return optimizer_entry<ReinsertionStage>(); }
+OptimizerEntry reinsertion_optimizer() { return optimizer_entry<ReinsertionOptimizer>(); }
 
 } // namespace boxwood

@@ -14,22 +14,22 @@ namespace boxwood {
 /// cut short. Sources: Bittner, Hapala and Havran 2013, "Fast Insertion-Based Optimization of
 /// Bounding Volume Hierarchies"; Meister and Bittner 2018, "Parallel Reinsertion for Bounding
 /// Volume Hierarchy Optimization".
-struct ReinsertionStage {
+struct ReinsertionOptimizer {
     static constexpr std::string_view name = "reinsertion";
     static constexpr std::string_view summary =
         "moves the nodes of the largest area to where they cost least (Meister and Bittner 2018)";
 
-    double passes = 2; ///< most times that all is gone through; one without a move is the last
-    double share = 1;  ///< part of all nodes that a pass searches for, those of the largest area
+    int passes = 2;   ///< times that all is gone through at most; one without a move is the last
+    double share = 1; ///< part of all nodes that a pass searches for, those of the largest area
 
     static auto settings() {
+        using Owner = ReinsertionOptimizer;
         return std::array{
-            Setting<ReinsertionStage>{"passes", "most times that all is gone through",
-                                      &ReinsertionStage::passes, 0, 100},
-            Setting<ReinsertionStage>{
-                "share", "part of all nodes that a pass searches for, largest area first",
-                &ReinsertionStage::share, 0, 1},
-        };
+            Setting<Owner>("passes", "times that all is gone through at most", &Owner::passes, 0,
+                           100),
+            Setting<Owner>("share",
+                           "part of all nodes that a pass searches for, largest area first",
+                           &Owner::share, 0, 1)};
     }
 
     /// Keeps the items and the leaf boxes of a valid tree; the sum of the inner areas does not

@@ -1,11 +1,11 @@
 #include "trees/optimizers/reinsertion.h"
 
+#include "trees/inspect/quality.h"
+#include "trees/inspect/validate.h"
+#include "trees/optimizers/refit.h"
 #include "trees/testing/box_families.h"
 #include "trees/testing/every_executor.h"
-#include "trees/inspect/quality.h"
-#include "trees/optimizers/refit.h"
 #include "trees/testing/same_tree.h"
-#include "trees/inspect/validate.h"
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ TEST(Reinsertion, KeepsEveryFamilyValidAndNeverCostsMore) {
         for (const BuilderEntry& builder : builders()) {
             Tree tree = builder.make({})(family.boxes, serial());
             const double before = inner_area(tree);
-            ReinsertionStage{}.improve(tree, serial());
+            ReinsertionOptimizer{}.improve(tree, serial());
             ASSERT_EQ(validate(tree, family.boxes).value_or(""), "")
                 << builder.name << " on " << family.name;
             EXPECT_LE(inner_area(tree), before * (1 + 1e-9)) << builder.name << family.name;
@@ -51,8 +51,8 @@ TEST(Reinsertion, KeepsEveryFamilyValidAndNeverCostsMore) {
 
 TEST(Reinsertion, IsReachedByItsWordWithItsSettings) {
     const std::vector<Box> boxes = random_boxes(2000, .05f, 3);
-    const auto cost = [&](std::string_view words, const Settings& settings) {
-        const Tree tree = make_builder(words, settings)(boxes, serial());
+    const auto cost = [&](std::string_view name, const Settings& settings) {
+        const Tree tree = make_builder(name, settings)(boxes, serial());
         EXPECT_EQ(validate(tree, boxes).value_or(""), "");
         return quality(tree, boxes).sah_cost;
     };
@@ -89,7 +89,7 @@ TEST(Reinsertion, UntanglesTwoPairs) {
         tree.nodes[i] = {{}, first[i], count[i]};
     refit(tree, boxes);
     ASSERT_EQ(validate(tree, boxes).value_or(""), "");
-    ReinsertionStage{}.improve(tree, serial());
+    ReinsertionOptimizer{}.improve(tree, serial());
     ASSERT_EQ(validate(tree, boxes).value_or(""), "");
     const double pair_area = 1 + 2 + 2;
     EXPECT_DOUBLE_EQ(inner_area(tree), 91 + 2 + 2 * 91 + 2 * pair_area);
@@ -148,9 +148,9 @@ TEST(Reinsertion, EndsWhereNoSingleMoveHelps) {
         const std::uint32_t n = 3 + seed % 9;
         const std::vector<Box> boxes = random_boxes(n, .3f, 100 + seed);
         Tree tree = seed % 2 ? chain_of(boxes) : make_builder("median")(boxes, serial());
-        ReinsertionStage stage;
-        stage.passes = 100;
-        stage.improve(tree, serial());
+        ReinsertionOptimizer optimizer;
+        optimizer.passes = 100;
+        optimizer.improve(tree, serial());
         ASSERT_EQ(validate(tree, boxes).value_or(""), "");
         const Nested reached = nested(tree, 0);
         double area = 0;
@@ -181,9 +181,9 @@ TEST(Reinsertion, TakesLittleTimeOnAChain) {
     const std::vector<Box> boxes = random_boxes(30000, .01f, 5);
     Tree tree = chain_of(boxes);
     const double before = inner_area(tree);
-    ReinsertionStage stage;
-    stage.passes = 1;
-    stage.improve(tree, serial());
+    ReinsertionOptimizer optimizer;
+    optimizer.passes = 1;
+    optimizer.improve(tree, serial());
     EXPECT_FALSE(validate(tree, boxes));
     EXPECT_LT(inner_area(tree), .5 * before);
 }
@@ -203,7 +203,7 @@ TEST(Reinsertion, KeepsTheLeavesOfASplitTree) {
         return all;
     };
     const auto before = leaves(tree);
-    ReinsertionStage{}.improve(tree, serial());
+    ReinsertionOptimizer{}.improve(tree, serial());
     EXPECT_TRUE(tree.is_split);
     EXPECT_EQ(leaves(tree), before);
 }

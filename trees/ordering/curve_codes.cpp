@@ -12,7 +12,8 @@
 #include <utility>
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
+namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -340,14 +341,19 @@ void CoarseCodes(Boxes boxes, Curve curve, const CurveGrid& grid,
 }
 #endif
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace boxwood {
+namespace boxwood::detail {
 HWY_EXPORT(MeasureCentres);
 HWY_EXPORT(FineCodes);
 HWY_EXPORT(CoarseCodes);
+} // namespace boxwood::detail
+
+namespace boxwood {
+using namespace detail;
 
 CentreBounds measure_centres(Boxes boxes) { return HWY_DYNAMIC_DISPATCH(MeasureCentres)(boxes); }
 void fine_codes(Boxes boxes, Curve curve, const CurveGrid& grid, std::uint64_t* codes) {

@@ -1,6 +1,7 @@
 #include "trees/ordering/curve_order.h"
-#include "trees/ordering/bucket_sort.h"
-#include "trees/ordering/radix_sort.h"
+#include "trees/executors/chunks.h"
+#include "trees/ordering/detail/bucket_sort.h"
+#include "trees/ordering/detail/radix_sort.h"
 
 #include <algorithm>
 #include <bit>
@@ -10,6 +11,7 @@
 #include <vector>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 /// Throws as `require_valid`.
@@ -212,9 +214,9 @@ Buffer<std::uint32_t> order_by(Boxes boxes, Curve curve, GroupOfBox group, Sorte
 
 } // namespace
 
-KeptOrder kept_curve_order(Boxes boxes, Curve curve, GroupOfBox group, const Executor& executor,
-                           const Box* centres) {
-    KeptOrder kept{coarse_grid(boxes, executor, centres), group, Records(boxes.size())};
+MergeableOrder mergeable_curve_order(Boxes boxes, Curve curve, GroupOfBox group,
+                                     const Executor& executor, const Box* centres) {
+    MergeableOrder kept{coarse_grid(boxes, executor, centres), group, Records(boxes.size())};
     const auto put = [&](std::size_t first, std::span<const std::uint64_t> records) {
         std::ranges::copy(records, kept.records.data() + first);
     };

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "trees/ordering/curve_codes.h"
 #include "trees/executor.h"
+#include "trees/ordering/curve_codes.h"
 
 #include <cstdint>
 
@@ -23,14 +23,14 @@ CurveOrder curve_order(Boxes boxes, Curve curve, const Executor& executor);
 using GroupOfBox = std::uint32_t (*)(const Box&);
 
 /// A coarse order that other boxes can be put into later: by 10 bits per axis.
-struct KeptOrder {
+struct MergeableOrder {
     CurveGrid grid;
     GroupOfBox group = nullptr; ///< no function, one group
     /// In order: the code above the item. Empty if the cells do not tell nearly all items apart.
     Buffer<std::uint64_t> records;
 };
-KeptOrder kept_curve_order(Boxes boxes, Curve curve, GroupOfBox group, const Executor& executor,
-                           const Box* centres = nullptr);
+MergeableOrder mergeable_curve_order(Boxes boxes, Curve curve, GroupOfBox group,
+                                     const Executor& executor, const Box* centres = nullptr);
 
 /// Unsorted records of these boxes, numbered from 0: of 64 bits, the item in the lower 32.
 void curve_records(Boxes boxes, Curve curve, const CurveGrid& grid, GroupOfBox group,

@@ -1,6 +1,6 @@
 #include "kernels/testing/every_target.h"
-#include "trees/testing/box_families.h"
 #include "trees/ordering/curve_order.h"
+#include "trees/testing/box_families.h"
 
 #include <gtest/gtest.h>
 
@@ -151,9 +151,9 @@ TEST(CurveOrder, IsTheSameOnEveryExecutorAndInstructionSet) {
                 EXPECT_TRUE(std::ranges::equal(found.order, expected.order));
                 EXPECT_TRUE(std::ranges::equal(coarse_curve_order(boxes, curve, executor), coarse));
             };
-            for (const std::string_view word : {"openmp", "tbb"})
+            for (const std::string_view name : {"openmp", "tbb"})
                 for (const unsigned threads : {2u, 4u})
-                    check(*make_executor(word, threads));
+                    check(*make_executor(name, threads));
             on_every_target([&] { check(serial()); });
         }
 }

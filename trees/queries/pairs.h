@@ -2,10 +2,12 @@
 
 #include <atomic>
 #include <compare>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -31,6 +33,10 @@ class PairSink {
     virtual void finish(std::size_t /*chunk*/) {}
     virtual void end() = 0;
 };
+
+/// What may be passed as a sink of pairs.
+template <class S>
+concept PairSinkType = std::derived_from<S, PairSink> && !std::is_abstract_v<S>;
 
 /// Counts pairs.
 class CountPairs final : public PairSink {

@@ -1,9 +1,10 @@
-#include "kernels/testing/every_target.h"
 #include "kernels/features/point_triangle.h"
-#include "trees/testing/box_families.h"
+#include "kernels/testing/every_target.h"
 #include "trees/builder.h"
-#include "trees/testing/every_executor.h"
 #include "trees/layout.h"
+#include "trees/testing/box_families.h"
+#include "trees/testing/every_executor.h"
+#include "trees/testing/layouts_answering.h"
 #include "trees/testing/triangle_soup.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ namespace {
 constexpr float inf = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-/// Points, boxes and balls to ask a family about: at corners of items, around them, anywhere, and
+/// Points, boxes and balls to query a family with: at corners of items, around them, anywhere, and
 /// such as hold nothing or everything.
 struct Queries {
     std::vector<Vec3<float>> points;
@@ -141,7 +142,8 @@ TEST(Points, RegionsAndNeighboursAgreeWithBruteForce) {
         const Expected e = brute_force(family.boxes, q);
         for (const BuilderEntry& builder : builders()) {
             const Tree tree = builder.make({})(family.boxes, serial());
-            for (const LayoutEntry& entry : layouts()) {
+            for (const LayoutEntry& entry : layouts_answering(
+                     {Query::points, Query::regions, Query::nearest, Query::closest_points})) {
                 SCOPED_TRACE(std::string(builder.name) + "." + std::string(entry.name));
                 const auto layout = entry.make(tree, serial());
                 Work work;
@@ -175,7 +177,8 @@ TEST(Points, AnswerInOneOrderOnEveryExecutor) {
     }
     const Expected e = brute_force(items, q);
     ASSERT_GT(e.points.size(), 500u);
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering(
+             {Query::points, Query::regions, Query::nearest, Query::closest_points})) {
         SCOPED_TRACE(entry.name);
         const auto layout = entry.make(builders().front().make({})(items, serial()), serial());
         for (const auto& [name, executor] : every_executor()) {
@@ -194,7 +197,7 @@ TEST(Points, RefuseAnswersOfTheWrongSize) {
     const std::vector<Vec3<float>> points(4);
     std::vector<Neighbour> near(7);
     std::vector<SurfacePoint> surface(3);
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::nearest, Query::closest_points})) {
         const auto layout = entry.make(builders().front().make({})(items, serial()), serial());
         EXPECT_THROW(layout->nearest(points, 2, serial(), near), std::invalid_argument);
         EXPECT_THROW(layout->closest_points(points, {}, serial(), surface), std::invalid_argument);
@@ -244,7 +247,7 @@ TEST(ClosestPoints, AgreeWithTheKernelOnEveryTriangle) {
         for (const Vec3<float> p : points)
             expected.push_back(closest_of_all(mesh, p));
         for (const BuilderEntry& builder : builders())
-            for (const LayoutEntry& entry : layouts()) {
+            for (const LayoutEntry& entry : layouts_answering({Query::closest_points})) {
                 SCOPED_TRACE(std::string(builder.name) + "." + std::string(entry.name));
                 const auto layout = entry.make(builder.make({})(items, serial()), serial());
                 const auto expect = [&](const Executor& executor, Work* work) {

@@ -1,9 +1,10 @@
 #include "kernels/registry.h"
 #include "kernels/testing/every_target.h"
 #include "trees/builder.h"
-#include "trees/testing/every_executor.h"
 #include "trees/layout.h"
 #include "trees/testing/brute_force_rays.h"
+#include "trees/testing/every_executor.h"
+#include "trees/testing/layouts_answering.h"
 #include "trees/testing/triangle_soup.h"
 
 #include <gtest/gtest.h>
@@ -143,7 +144,7 @@ TEST(Rays, AgreeWithBruteForceForEveryWayExecutorAndInstructionSet) {
             EXPECT_GT(std::ranges::count_if(expected, &RayHit::hit), 200);
         }
         for (const BuilderEntry& builder : builders())
-            for (const LayoutEntry& entry : layouts()) {
+            for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
                 SCOPED_TRACE(std::string(builder.name) + "." + std::string(entry.name));
                 const auto layout = entry.make(builder.make({})(boxes, serial()), serial());
                 expect_hits<Watertight>(*layout, mesh, rays, expected);
@@ -161,7 +162,7 @@ TEST(Rays, AgreeWithBruteForceForEveryKernel) {
                 const bool tight = K::name == "watertight" || K::name == "exact";
                 const std::span rays = std::span(all_rays).first(tight ? all_rays.size() : 600);
                 const std::vector<RayHit> expected = brute_force<K>(mesh, rays);
-                for (const LayoutEntry& entry : layouts()) {
+                for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
                     SCOPED_TRACE(std::string(K::name) + "." + std::string(entry.name));
                     const auto layout = entry.make(
                         builders()[0].make({})(triangle_boxes(mesh), serial()), serial());
@@ -179,7 +180,7 @@ TEST(Rays, FindEveryHitOnceForEveryWayExecutorAndInstructionSet) {
             EXPECT_GT(expected.size(), rays.size());
         }
         const Tree tree = make_builder("median")(triangle_boxes(mesh), serial());
-        for (const LayoutEntry& entry : layouts()) {
+        for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
             SCOPED_TRACE(entry.name);
             const auto layout = entry.make(tree, serial());
             const TriangleBlocks triangles = layout->triangles(mesh);
@@ -207,7 +208,7 @@ TEST(Rays, StopWhenTheSinkHasEnough) {
         void end() override {}
         int taken = 0;
     };
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
         const auto layout =
             entry.make(make_builder("median")(triangle_boxes(mesh), serial()), serial());
         Three sink;
@@ -234,7 +235,7 @@ TEST(Rays, AreRightAtEveryScaleAndFarFromTheOrigin) {
             rays.push_back({{0, 0, 0}, {INFINITY, 0, 0}});
             rays.push_back({{0x1p127f, 0, 0}, {-1, 0, 0}});
             const std::vector<RayHit> expected = brute_force<Watertight>(mesh, rays);
-            for (const LayoutEntry& entry : layouts()) {
+            for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
                 const auto layout =
                     entry.make(make_builder("median")(triangle_boxes(mesh), serial()), serial());
                 SCOPED_TRACE(std::string(entry.name) + " " + std::to_string(scale) + " " +
@@ -247,7 +248,7 @@ TEST(Rays, AreRightAtEveryScaleAndFarFromTheOrigin) {
 TEST(Rays, HaveTheSameBlocksOnEveryExecutor) {
     for (const TriangleMesh& mesh :
          {triangle_soup(20000), triangle_soup(9), triangle_soup(1), TriangleMesh{}})
-        for (const LayoutEntry& entry : layouts()) {
+        for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
             const auto layout =
                 entry.make(make_builder("median")(triangle_boxes(mesh), serial()), serial());
             const TriangleBlocks one = layout->triangles(mesh);
@@ -281,7 +282,7 @@ TEST(Rays, RefuseWrongArguments) {
     const Tree tree = builders()[0].make({})(triangle_boxes(mesh), serial());
     const std::vector<Ray<float>> rays(3, Ray<float>{{0, 0, 0}, {1, 0, 0}});
     std::vector<RayHit> hits(3), few(2);
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
         const auto layout = entry.make(tree, serial());
         const TriangleBlocks triangles = layout->triangles(mesh);
         EXPECT_THROW(layout->rays(rays, RayQuery::any, "nosuch", triangles, serial(), hits),

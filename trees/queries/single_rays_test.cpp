@@ -1,10 +1,12 @@
+#include "trees/layout.h"
 #include "trees/queries/single_rays.h"
 
 #include "kernels/registry.h"
-#include "kernels/testing/every_target.h"
 #include "kernels/testing/closed_meshes.h"
+#include "kernels/testing/every_target.h"
 #include "trees/builder.h"
 #include "trees/testing/brute_force_rays.h"
+#include "trees/testing/layouts_answering.h"
 #include "trees/testing/triangle_soup.h"
 
 #include <gtest/gtest.h>
@@ -86,7 +88,7 @@ TEST(SingleRays, AgreeWithBruteForceForEveryWayAndInstructionSet) {
         const std::vector<RayHit> expected = brute_force<Watertight>(mesh, rays);
         const std::vector<Box> boxes = triangle_boxes(mesh);
         for (const char* builder : {"binned_sah", "ploc"})
-            for (const LayoutEntry& entry : layouts()) {
+            for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
                 SCOPED_TRACE(std::string(builder) + "." + std::string(entry.name));
                 const auto layout = entry.make(make_builder(builder)(boxes, serial()), serial());
                 const TriangleBlocks triangles = layout->triangles(mesh);
@@ -102,7 +104,7 @@ TEST(SingleRays, AnswerAsABatchForEveryKernel) {
     std::vector<RayHit> batch(rays.size());
     for (const TriangleMesh& mesh : {uv_sphere(40, 20), triangle_soup(3000, 21)}) {
         const Tree tree = make_builder("binned_sah")(triangle_boxes(mesh), serial());
-        for (const LayoutEntry& entry : layouts()) {
+        for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
             const auto layout = entry.make(tree, serial());
             const TriangleBlocks triangles = layout->triangles(mesh);
             for (const KernelInfo& kernel : ray_kernels()) {
@@ -118,7 +120,7 @@ TEST(SingleRays, AreAnsweredOnManyThreadsAtATime) {
     const TriangleMesh mesh = triangle_soup(2000, 21);
     const std::vector<Ray<float>> rays = test_rays();
     const std::vector<RayHit> expected = brute_force<Watertight>(mesh, rays);
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
         const auto layout =
             entry.make(make_builder("median")(triangle_boxes(mesh), serial()), serial());
         const TriangleBlocks triangles = layout->triangles(mesh);
@@ -137,7 +139,7 @@ TEST(SingleRays, AreAnsweredOnManyThreadsAtATime) {
     }
 }
 
-TEST(SingleRays, WalkTreesThatAreTooDeepForTheirStack) {
+TEST(SingleRays, TraverseTreesThatAreTooDeepForTheirStack) {
     // A row of triangles along x, one split off after the other: as deep as a layout can be.
     constexpr std::uint32_t n = 2000;
     TriangleMesh mesh;
@@ -157,25 +159,27 @@ TEST(SingleRays, WalkTreesThatAreTooDeepForTheirStack) {
         rays.push_back({{static_cast<float>(k) + .25f, .25f, -1}, {0, 0, 1}});
     const std::vector<RayHit> expected = brute_force<Watertight>(mesh, rays);
     EXPECT_TRUE(expected.back().hit());
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
         SCOPED_TRACE(entry.name);
         const auto layout = entry.make(tree, serial());
         const TriangleBlocks triangles = layout->triangles(mesh);
         expect_answers(SingleRays(*layout, "watertight", triangles), rays, expected);
     }
-    EXPECT_EQ(find_layout("wide8")->make(tree, serial())->single_ray_walks("watertight").closest,
-              nullptr);
+    EXPECT_EQ(
+        find_layout("wide8")->make(tree, serial())->single_ray_functions("watertight").closest,
+        nullptr);
 }
 
-TEST(SingleRays, HaveWalksOfTheirOwnForTheKernelsOfTheBench) {
+TEST(SingleRays, HaveFunctionsOfTheirOwnForTheKernelsOfTheBench) {
     const TriangleMesh mesh = triangle_soup(100, 21);
     const Tree tree = make_builder("median")(triangle_boxes(mesh), serial());
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
         const auto layout = entry.make(tree, serial());
         for (const char* kernel : {"moller_trumbore_f32", "moller_trumbore_f64", "watertight"}) {
-            const SingleRayWalks walks = layout->single_ray_walks(kernel);
-            EXPECT_EQ(walks.closest != nullptr, !entry.name.starts_with("binary")) << entry.name;
-            EXPECT_EQ(walks.any != nullptr, walks.closest != nullptr);
+            const SingleRayFunctions functions = layout->single_ray_functions(kernel);
+            EXPECT_EQ(functions.closest != nullptr, !entry.name.starts_with("binary"))
+                << entry.name;
+            EXPECT_EQ(functions.any != nullptr, functions.closest != nullptr);
         }
     }
 }
@@ -183,7 +187,7 @@ TEST(SingleRays, HaveWalksOfTheirOwnForTheKernelsOfTheBench) {
 TEST(SingleRays, RefuseAnUnknownKernel) {
     const TriangleMesh mesh = triangle_soup(10, 21);
     const Tree tree = make_builder("median")(triangle_boxes(mesh), serial());
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
         const auto layout = entry.make(tree, serial());
         EXPECT_THROW(SingleRays(*layout, "watertigth", layout->triangles(mesh)),
                      std::invalid_argument);

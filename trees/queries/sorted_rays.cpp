@@ -1,6 +1,7 @@
 #include "trees/queries/sorted_rays.h"
 
-#include "trees/ordering/radix_sort.h"
+#include "trees/executors/chunks.h"
+#include "trees/ordering/detail/radix_sort.h"
 
 #include <algorithm>
 #include <array>
@@ -8,6 +9,7 @@
 #include <stdexcept>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 constexpr int bits = 7; ///< per axis: with the octant three digits of radix_sort

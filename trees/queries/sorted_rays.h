@@ -10,7 +10,7 @@ namespace boxwood {
 Buffer<std::uint32_t> ray_order(std::span<const Ray<float>> rays, const Box& bounds,
                                 const Executor& executor);
 
-/// Answers a batch as layout.rays does, bit for bit, but walks the rays in `ray_order`. The order
+/// Answers a batch as layout.rays does, bit for bit, but traces the rays in `ray_order`. The order
 /// costs 15 to 25 ns per ray; layout.rays, which waits for no memory, is faster below some 10^6
 /// triangles. Needs 20 bytes per ray, for no more than 2^24 rays at a time.
 void sorted_rays(const AnyLayout& layout, std::span<const Ray<float>> rays, RayQuery query,

@@ -1,5 +1,8 @@
-#include "trees/testing/every_executor.h"
+#include "trees/builder.h"
+#include "trees/layout.h"
 #include "trees/queries/sorted_rays.h"
+#include "trees/testing/every_executor.h"
+#include "trees/testing/layouts_answering.h"
 #include "trees/testing/triangle_soup.h"
 
 #include <gtest/gtest.h>
@@ -43,7 +46,7 @@ bool same_bits(std::span<const RayHit> a, std::span<const RayHit> b) {
 
 TEST(SortedRays, AnswerBitForBitAsTheRaysOneByOne) {
     const TriangleMesh mesh = triangle_soup(2000);
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
         const auto layout = layout_of(entry, mesh);
         const TriangleBlocks triangles = layout->triangles(mesh);
         for (const std::size_t n : {0, 1, 2, 500, 20000}) {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/ray_triangle/ray_kernel.h"
 #include "kernels/primitives/triangle.h"
+#include "kernels/ray_triangle/ray_kernel.h"
 
 #include <cstdint>
 #include <span>

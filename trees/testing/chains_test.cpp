@@ -1,9 +1,10 @@
 #include "trees/builder.h"
-#include "trees/layout.h"
 #include "trees/inspect/quality.h"
+#include "trees/inspect/validate.h"
+#include "trees/layout.h"
 #include "trees/optimizers/refit.h"
 #include "trees/queries/sorted_rays.h"
-#include "trees/inspect/validate.h"
+#include "trees/testing/layouts_answering.h"
 
 #include <gtest/gtest.h>
 #include <pthread.h>
@@ -90,10 +91,10 @@ void expect_answers(const AnyLayout& layout, const TriangleMesh& mesh) {
         balls.push_back({points.back(), .125f});
         rays.push_back({{x, 1, 0}, {0, -1, 1}});
     }
-    const auto expect_own = [&](const auto& ask) {
+    const auto expect_own = [&](const auto& query) {
         std::vector<Pair> pairs;
         AppendPairs sink(pairs);
-        ask(sink);
+        query(sink);
         ASSERT_EQ(pairs.size(), points.size());
         for (std::uint32_t i = 0; i < pairs.size(); ++i)
             EXPECT_EQ(pairs[i], (Pair{i, static_cast<std::uint32_t>(points[i].x)}));
@@ -127,7 +128,9 @@ TEST(Chains, EveryLayoutAnswersEveryQueryOnASmallStack) {
     const TriangleMesh mesh = strip();
     for (const bool to_the_right : {false, true}) {
         const Tree tree = chain(to_the_right);
-        for (const LayoutEntry& entry : layouts()) {
+        for (const LayoutEntry& entry :
+             layouts_answering({Query::self_pairs, Query::tree_pairs, Query::rays, Query::points,
+                                Query::regions, Query::nearest, Query::closest_points})) {
             SCOPED_TRACE(std::string(entry.name) + (to_the_right ? ", right" : ", left"));
             on_a_small_stack([&] { expect_answers(*entry.make(tree, serial()), mesh); });
         }
@@ -144,9 +147,9 @@ TEST(Chains, AreCheckedMeasuredRefittedAndImprovedOnASmallStack) {
             EXPECT_EQ(validate(tree, boxes).value_or(""), "");
             EXPECT_EQ(quality(tree, boxes, {1, 1, 0}).depth_max, n - 1);
             EXPECT_EQ(refit(tree, boxes), 0u);
-            for (const OptimizerEntry& stage : stages()) {
-                stage.make({})(tree, serial());
-                EXPECT_EQ(validate(tree, boxes).value_or(""), "") << stage.name;
+            for (const OptimizerEntry& optimizer : optimizers()) {
+                optimizer.make({})(tree, serial());
+                EXPECT_EQ(validate(tree, boxes).value_or(""), "") << optimizer.name;
             }
         });
 }
@@ -230,7 +233,8 @@ TEST(Chains, WorkOnIdenticalBoxesIsThatOfTheOutput) {
     const std::vector<Sphere<float>> balls(20, Sphere<float>{{2, .5f, .5f}, 1});
     for (const BuilderEntry& builder : builders()) {
         const Tree tree = builder.make({})(boxes, serial());
-        for (const LayoutEntry& entry : layouts()) {
+        for (const LayoutEntry& entry : layouts_answering(
+                 {Query::self_pairs, Query::tree_pairs, Query::points, Query::regions})) {
             SCOPED_TRACE(std::string(builder.name) + "." + std::string(entry.name));
             const auto layout = entry.make(tree, serial());
             CountPairs count;

@@ -1,12 +1,10 @@
-#include "trees/builder.h"
-#include "trees/builders/binned_sah.h"
-#include "trees/builders/hilbert.h"
-#include "trees/builders/incremental.h"
-#include "trees/builders/median.h"
-#include "trees/layouts/binary.h"
-#include "trees/layouts/packed.h"
-#include "trees/layouts/quantised8.h"
-#include "trees/layouts/wide.h"
+#include "kernels/settings.h"
+#include "trees/dynamic/detail/policy.h"
+#include "trees/layouts/detail/model.h"
+#include "trees/queries/filtered_pairs.h"
+#include "trees/queries/swapped_pairs.h"
+#include "trees/testing/pairs_only_layout.h"
+#include "trees/trees.h"
 
 #include <gtest/gtest.h>
 
@@ -15,12 +13,27 @@
 namespace boxwood {
 namespace {
 
-static_assert(Builder<MedianBuilder> && Builder<BinnedSahBuilder> && Builder<IncrementalBuilder>);
+// Builders, and what some of them do beyond boxes.
+static_assert(Builder<MedianBuilder> && Builder<BinnedSahBuilder> && Builder<SweepSahBuilder>);
+static_assert(Builder<BonsaiBuilder> && Builder<PlocBuilder> && Builder<IncrementalBuilder>);
+static_assert(OrderBuilder<HilbertBuilder> && OrderBuilder<LbvhBuilder>);
+static_assert(!OrderBuilder<MedianBuilder>);
+static_assert(MeshBuilder<SpatialSahBuilder> && !MeshBuilder<BinnedSahBuilder>);
+
+// Layouts, and what some of them are made of beyond a tree.
 static_assert(Layout<BinaryLayout> && Layout<BinaryLayoutF64>);
 static_assert(Layout<Wide8Layout> && Layout<Wide8LayoutF64> && Layout<Quantised8Layout>);
 static_assert(WideTree<Wide4Layout> && WideTree<Wide16Layout> && WideTree<Quantised8Layout>);
-static_assert(Builder<HilbertBuilder> && Layout<PackedLayout> && WideTree<PackedLayout>);
-static_assert(!WideTree<BinaryLayout>);
+static_assert(WideTree<PackedLayout> && !WideTree<BinaryLayout>);
+static_assert(OrderLayout<PackedLayout> && !OrderLayout<Wide8Layout>);
+static_assert(DoubleLayout<Wide8LayoutF64> && !DoubleLayout<Wide8Layout>);
+static_assert(Layout<PairsOnlyLayout> && answers_query<PairsOnlyLayout>(Query::self_pairs));
+static_assert(!answers_query<PairsOnlyLayout>(Query::tree_pairs));
+static_assert(answers_query<PackedLayout>(Query::closest_points));
+
+static_assert(Optimizer<ReinsertionOptimizer>);
+static_assert(PairSinkType<CountPairs> && PairSinkType<AppendPairs> && PairSinkType<SwappedPairs>);
+static_assert(detail::Splitter<detail::ItemSplitter<std::size_t (*)(std::span<BuildItem>)>>);
 
 struct Nameless {
     Tree build(Boxes, const Executor&) const;
@@ -29,28 +42,43 @@ struct ReturnsNothing {
     static constexpr std::string_view name = "x", summary = "x";
     void build(Boxes, const Executor&) const;
 };
+struct SettingsOfAnother {
+    static constexpr std::string_view name = "x", summary = "x";
+    static std::array<Setting<PlocBuilder>, 0> settings();
+    Tree build(Boxes, const Executor&) const;
+    void improve(Tree&, const Executor&) const;
+};
 struct NotFromATree {
     static constexpr std::string_view name = "x", summary = "x";
     std::size_t bytes() const;
 };
-static_assert(!Builder<Nameless> && !Builder<ReturnsNothing> && !Layout<NotFromATree>);
+struct NoPolicy {
+    static constexpr std::string_view name = "x", summary = "x";
+    void start(detail::MovingTree&, Boxes, const Executor&);
+};
+static_assert(!Builder<Nameless> && !Builder<ReturnsNothing> && !Builder<SettingsOfAnother>);
+static_assert(!Layout<NotFromATree> && !Optimizer<ReturnsNothing> && !Optimizer<SettingsOfAnother>);
+static_assert(!detail::UpdatePolicy<NoPolicy> && !PairSinkType<Nameless>);
+static_assert(!ExecutorType<Executor> && !ExecutorType<Nameless>);
 
-TEST(Catalogues, WordsAreUniqueAndExplained) {
+TEST(Registries, NamesAreUniqueAndExplained) {
     const auto check = [](const auto& entries) {
-        std::set<std::string_view> words;
+        std::set<std::string_view> names;
         for (const auto& entry : entries) {
-            EXPECT_TRUE(words.insert(entry.name).second) << entry.name;
+            EXPECT_TRUE(names.insert(entry.name).second) << entry.name;
             EXPECT_FALSE(entry.summary.empty()) << entry.name;
             EXPECT_EQ(entry.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_"),
                       std::string_view::npos)
                 << entry.name;
         }
-        EXPECT_FALSE(words.empty());
+        EXPECT_FALSE(names.empty());
     };
     check(builders());
     check(layouts());
     check(traversals());
     check(executors());
+    check(optimizers());
+    check(updates());
 }
 
 } // namespace

@@ -8,7 +8,7 @@
 
 namespace boxwood {
 
-/// An executor, with its word and threads for messages.
+/// An executor, with its name and threads for messages.
 struct ExecutorToTry {
     std::string name;
     std::unique_ptr<Executor> run;

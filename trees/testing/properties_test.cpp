@@ -1,10 +1,11 @@
-#include "trees/testing/brute_force.h"
 #include "trees/builder.h"
-#include "trees/testing/every_executor.h"
+#include "trees/inspect/validate.h"
 #include "trees/layout.h"
 #include "trees/queries/pairs.h"
+#include "trees/testing/brute_force.h"
+#include "trees/testing/every_executor.h"
+#include "trees/testing/layouts_answering.h"
 #include "trees/testing/same_tree.h"
-#include "trees/inspect/validate.h"
 #include "trees/testing/ways_to_build.h"
 
 #include <gtest/gtest.h>
@@ -14,8 +15,8 @@
 #include <cmath>
 #include <random>
 
-/// What holds for any boxes, every builder, stage, layout and executor. RapidCheck prints the boxes
-/// that a failure shrinks to, and the RC_PARAMS that bring it back.
+/// What holds for any boxes, every builder, optimizer, layout and executor. RapidCheck prints the
+/// boxes that a failure shrinks to, and the RC_PARAMS that bring it back.
 namespace boxwood {
 namespace {
 
@@ -65,7 +66,7 @@ RC_GTEST_PROP(Properties, EveryLayoutOfAnyTreeFindsThePairs, ()) {
     const Executor& executor = any_executor();
     const std::string way = *rc::gen::elementOf(ways_to_build());
     const BuildFunction build = make_builder(way);
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::self_pairs})) {
         Tree tree;
         const auto layout = make_layout(entry, build, boxes, executor, tree);
         std::vector<Pair> pairs;
@@ -87,7 +88,7 @@ RC_GTEST_PROP(Properties, EveryLayoutOfAnyTreeFindsWhatRegionsMeet, ()) {
                 expected.push_back({r, i});
     const std::string way = *rc::gen::elementOf(ways_to_build());
     const Tree tree = make_builder(way)(boxes, serial());
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::regions})) {
         std::vector<Pair> found;
         AppendPairs sink(found);
         entry.make(tree, serial())->regions(regions, serial(), sink);

@@ -1,6 +1,7 @@
-#include "trees/testing/box_families.h"
 #include "trees/builder.h"
 #include "trees/layout.h"
+#include "trees/testing/box_families.h"
+#include "trees/testing/layouts_answering.h"
 
 #include <gtest/gtest.h>
 
@@ -50,7 +51,7 @@ TEST(Balance, NoChunkOfOneTreeHasMostOfTheWork) {
     for (const std::vector<Box>& boxes : {giant_cluster(5), same})
         for (const std::string_view builder : {"median", "binned_sah"}) {
             const Tree tree = find_builder(builder)->make({})(boxes, serial());
-            for (const LayoutEntry& entry : layouts()) {
+            for (const LayoutEntry& entry : layouts_answering({Query::self_pairs})) {
                 SCOPED_TRACE(std::string(builder) + "." + std::string(entry.name));
                 ChunkSizes chunks;
                 entry.make(tree, serial())->self_pairs(serial(), chunks);
@@ -69,7 +70,7 @@ TEST(Balance, NoChunkOfTwoTreesHasMostOfTheWork) {
         };
         const Tree tree_a = tree_of(a), tree_b = tree_of(b), tree_same = tree_of(same),
                    tree_few = tree_of(few), tree_many = tree_of(many);
-        for (const LayoutEntry& entry : layouts()) {
+        for (const LayoutEntry& entry : layouts_answering({Query::tree_pairs})) {
             SCOPED_TRACE(std::string(builder) + "." + std::string(entry.name));
             const auto heaviest = [&](const Tree& first, const Tree& second) {
                 ChunkSizes chunks;
@@ -91,7 +92,7 @@ TEST(Balance, NoChunkOfQueriesHasMostOfTheWork) {
     std::vector<Sphere<float>> balls;
     for (const Box& region : regions)
         balls.push_back({region.min, .1f});
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::regions})) {
         SCOPED_TRACE(entry.name);
         const auto layout = entry.make(find_builder("median")->make({})(items, serial()), serial());
         ChunkSizes chunks;

@@ -1,9 +1,9 @@
 #include "trees/layouts/binary.h"
-#include "trees/traversals/pair_walk.h"
 #include "trees/queries/self_pairs.h"
 #include "trees/queries/tree_pairs.h"
+#include "trees/traversals/pair_traversal.h"
 
-namespace boxwood {
+namespace boxwood::detail {
 namespace {
 
 /// What opening a pair of nodes leads to: within one tree a node against itself gives both children
@@ -30,7 +30,8 @@ void open_nodes(const T& a, const T& b, Pair nodes, const Test& test) {
     }
 }
 
-template <bool Self, bool Counted, class T> void walk(PairWalk& state, const T& a, const T& b) {
+template <bool Self, bool Counted, class T>
+void traverse(PairTraversal& state, const T& a, const T& b) {
     Pair nodes{};
     while (state.next(nodes)) {
         const bool same = Self && nodes.a == nodes.b;
@@ -59,7 +60,8 @@ template <bool Self, bool Counted, class T> void walk(PairWalk& state, const T& 
     }
 }
 
-template <bool Self, bool Counted, class T>
+/// `work`, if given, is added to, and wants one thread.
+template <bool Self, class T>
 void pairs(const T& a, const T& b, const Executor& executor, PairSink& sink, Work* work) {
     std::vector<Pair> tasks;
     const bool can_start =
@@ -96,44 +98,26 @@ void pairs(const T& a, const T& b, const Executor& executor, PairSink& sink, Wor
             });
         });
     }
-    run_tasks(tasks, executor, sink, work,
-              [&](PairWalk& state) { walk<Self, Counted>(state, a, b); });
+    run_tasks(tasks, executor, sink, work, [&](PairTraversal& state) {
+        work ? traverse<Self, true>(state, a, b) : traverse<Self, false>(state, a, b);
+    });
 }
 
 } // namespace
 
-template <class Real>
-void self_pairs(const BinaryLayoutOf<Real>& tree, const Executor& executor, PairSink& sink) {
-    pairs<true, false>(tree.tree(), tree.tree(), executor, sink, nullptr);
-}
+} // namespace boxwood::detail
 
-template <class Real> Work self_pairs_counted(const BinaryLayoutOf<Real>& tree, PairSink& sink) {
-    Work work;
-    pairs<true, true>(tree.tree(), tree.tree(), serial(), sink, &work);
-    return work;
-}
+namespace boxwood {
 
-template <class Real>
-void tree_pairs(const BinaryLayoutOf<Real>& a, const BinaryLayoutOf<Real>& b,
-                const Executor& executor, PairSink& sink) {
-    pairs<false, false>(a.tree(), b.tree(), executor, sink, nullptr);
-}
-
-template <class Real>
-Work tree_pairs_counted(const BinaryLayoutOf<Real>& a, const BinaryLayoutOf<Real>& b,
-                        PairSink& sink) {
-    Work work;
-    pairs<false, true>(a.tree(), b.tree(), serial(), sink, &work);
-    return work;
-}
-
-#define X(Layout)                                                                                  \
-    template void self_pairs(const Layout&, const Executor&, PairSink&);                           \
-    template Work self_pairs_counted(const Layout&, PairSink&);                                    \
-    template void tree_pairs(const Layout&, const Layout&, const Executor&, PairSink&);            \
-    template Work tree_pairs_counted(const Layout&, const Layout&, PairSink&);
-X(BinaryLayout)
-X(BinaryLayoutF64)
+#define X(name, L)                                                                                 \
+    void self_pairs(const L& tree, const Executor& executor, PairSink& sink, Work* work) {         \
+        detail::pairs<true>(tree.tree(), tree.tree(), executor, sink, work);                       \
+    }                                                                                              \
+    void tree_pairs(const L& a, const L& b, const Executor& executor, PairSink& sink,              \
+                    Work* work) {                                                                  \
+        detail::pairs<false>(a.tree(), b.tree(), executor, sink, work);                            \
+    }
+BOXWOOD_BINARY_LAYOUTS(X)
 #undef X
 
 } // namespace boxwood

@@ -1,23 +1,24 @@
 #include "trees/layouts/binary.h"
-#include "trees/queries/points.h"
+#include "trees/traversals/nearest_traversal.h"
+#include "trees/traversals/region_traversal.h"
 
-namespace boxwood {
+namespace boxwood::detail {
 namespace {
 
 /// Opens every node that the region takes, the left child first; hands over the leaves' items.
 template <bool Counted, class L, class Takes>
-void collect(const L& layout, const Takes& takes, RegionWalk& walk) {
+void collect(const L& layout, const Takes& takes, RegionTraversal& traversal) {
     const auto& tree = layout.tree();
-    std::uint32_t* const stack = walk.stack();
+    std::uint32_t* const stack = traversal.stack();
     stack[0] = 0;
     for (std::size_t top = 1; top != 0;) {
         const std::uint32_t node = stack[--top];
-        walk.count<Counted>(1, top);
+        traversal.count<Counted>(1, top);
         if (!takes(tree.nodes[node].box))
             continue;
         if (tree.is_leaf(node)) {
-            *walk.items_to() = tree.item(node);
-            walk.found(1);
+            *traversal.items_to() = tree.item(node);
+            traversal.found(1);
             continue;
         }
         stack[top++] = static_cast<std::uint32_t>(tree.right(node));
@@ -26,8 +27,8 @@ void collect(const L& layout, const Takes& takes, RegionWalk& walk) {
 }
 
 template <bool Counted, class L>
-void answer(const L& layout, const RegionQueries& queries, RegionWalk& walk, std::size_t first,
-            std::size_t last) {
+void answer(const L& layout, const RegionQueries& queries, RegionTraversal& traversal,
+            std::size_t first, std::size_t last) {
     using Bounds = Aabb<typename L::Real>;
     const auto box = [&](const auto& region) {
         const std::optional<Box> b = finite_region(region);
@@ -36,7 +37,7 @@ void answer(const L& layout, const RegionQueries& queries, RegionWalk& walk, std
         using Corner = Vec3<typename L::Real>;
         const Bounds wanted{Corner(b->min), Corner(b->max)};
         collect<Counted>(
-            layout, [&](const Bounds& bounds) { return overlaps(bounds, wanted); }, walk);
+            layout, [&](const Bounds& bounds) { return overlaps(bounds, wanted); }, traversal);
     };
     const auto ball = [&](const Sphere<float>& sphere) {
         if (!is_region(sphere))
@@ -47,7 +48,7 @@ void answer(const L& layout, const RegionQueries& queries, RegionWalk& walk, std
             [&](const Bounds& bounds) {
                 return squared_distance(sphere.centre, bounds) <= radius * radius;
             },
-            walk);
+            traversal);
     };
     for (std::size_t i = first; i < last; ++i) {
         if (!queries.points.empty())
@@ -56,40 +57,41 @@ void answer(const L& layout, const RegionQueries& queries, RegionWalk& walk, std
             box(queries.boxes[i]);
         else
             ball(queries.spheres[i]);
-        std::ranges::sort(walk.items());
-        if (!walk.answer(static_cast<std::uint32_t>(i)))
+        std::ranges::sort(traversal.items());
+        if (!traversal.answer(static_cast<std::uint32_t>(i)))
             return;
     }
 }
 
 /// All nodes that may be near enough, the nearer child first.
 template <bool Counted, class L, class Best>
-void search(const L& layout, Vec3<float> point, Best& best, NearestWalk& walk) {
+void search(const L& layout, Vec3<float> point, Best& best, NearestTraversal& traversal) {
     const auto& tree = layout.tree();
     const DistanceScale scaled(point, layout.bounds());
     float bound = std::numeric_limits<float>::infinity();
-    std::uint64_t* const stack = walk.stack();
-    stack[0] = NearestWalk::waiting(0, 0);
+    std::uint64_t* const stack = traversal.stack();
+    stack[0] = NearestTraversal::waiting(0, 0);
     for (std::size_t top = 1; top != 0;) {
         const std::uint64_t next = stack[--top];
-        if (NearestWalk::bound(next) > bound)
+        if (NearestTraversal::bound(next) > bound)
             continue;
-        const std::uint32_t node = NearestWalk::ref(next);
+        const std::uint32_t node = NearestTraversal::ref(next);
         if (tree.is_leaf(node)) {
             if constexpr (std::is_same_v<Best, NearestItems>) {
                 best.offer({tree.item(node), squared_distance(point, tree.nodes[node].box)});
             } else {
-                walk.count_triangles<Counted>(1);
+                traversal.count_triangles<Counted>(1);
                 best.offer(tree.item(node));
             }
             bound = scaled.above(best.worst());
             continue;
         }
         const auto child = [&](std::size_t i) {
-            return NearestWalk::waiting(scaled.below(squared_distance(point, tree.nodes[i].box)),
-                                        static_cast<std::uint32_t>(i));
+            return NearestTraversal::waiting(
+                scaled.below(squared_distance(point, tree.nodes[i].box)),
+                static_cast<std::uint32_t>(i));
         };
-        walk.count<Counted>(2, top + 2);
+        traversal.count<Counted>(2, top + 2);
         const auto [near, far] = std::minmax({child(tree.right(node)), child(Tree::left(node))});
         stack[top++] = far;
         stack[top++] = near;
@@ -98,22 +100,23 @@ void search(const L& layout, Vec3<float> point, Best& best, NearestWalk& walk) {
 
 } // namespace
 
-#define X(L)                                                                                       \
-    void walk_regions(const L& layout, const RegionQueries& queries, RegionWalk& walk,             \
-                      std::size_t first, std::size_t last) {                                       \
-        walk.counted() ? answer<true>(layout, queries, walk, first, last)                          \
-                       : answer<false>(layout, queries, walk, first, last);                        \
+#define X(name, L)                                                                                 \
+    void traverse_regions(const L& layout, const RegionQueries& queries,                           \
+                          RegionTraversal& traversal, std::size_t first, std::size_t last) {       \
+        traversal.counted() ? answer<true>(layout, queries, traversal, first, last)                \
+                            : answer<false>(layout, queries, traversal, first, last);              \
     }                                                                                              \
-    void walk_nearest(const L& layout, Vec3<float> point, NearestItems& best, NearestWalk& walk) { \
-        walk.counted() ? search<true>(layout, point, best, walk)                                   \
-                       : search<false>(layout, point, best, walk);                                 \
+    void traverse_nearest(const L& layout, Vec3<float> point, NearestItems& best,                  \
+                          NearestTraversal& traversal) {                                           \
+        traversal.counted() ? search<true>(layout, point, best, traversal)                         \
+                            : search<false>(layout, point, best, traversal);                       \
     }                                                                                              \
-    void walk_closest_point(const L& layout, Vec3<float> point, NearestSurface& best,              \
-                            NearestWalk& walk) {                                                   \
-        walk.counted() ? search<true>(layout, point, best, walk)                                   \
-                       : search<false>(layout, point, best, walk);                                 \
+    void traverse_closest_point(const L& layout, Vec3<float> point, NearestSurface& best,          \
+                                NearestTraversal& traversal) {                                     \
+        traversal.counted() ? search<true>(layout, point, best, traversal)                         \
+                            : search<false>(layout, point, best, traversal);                       \
     }
 BOXWOOD_BINARY_LAYOUTS(X)
 #undef X
 
-} // namespace boxwood
+} // namespace boxwood::detail

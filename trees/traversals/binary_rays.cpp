@@ -1,8 +1,9 @@
-#include "kernels/ray_box/slabs.h"
 #include "kernels/arithmetic/rounding.h"
-#include "trees/queries/rays.h"
+#include "kernels/ray_box/slabs.h"
+#include "trees/layouts/binary.h"
+#include "trees/traversals/ray_traversal.h"
 
-namespace boxwood {
+namespace boxwood::detail {
 namespace {
 
 struct Waiting {
@@ -16,8 +17,8 @@ Box box_of(const TreeNodeOf<double>& node) { return round_outward(node.box); }
 using Block = TriangleBlock<8>;
 
 template <class L, class State>
-void walk(const L& layout, const Block* blocks, const Ray<float>& ray, State& state,
-          Buffer<Waiting>& stack) {
+void trace(const L& layout, const Block* blocks, const Ray<float>& ray, State& state,
+           Buffer<Waiting>& stack) {
     const auto& tree = layout.tree();
     const Box bounds = box_of(tree.nodes[0]);
     const RaySlabs slabs(ray, ray_margin(ray, bounds));
@@ -55,15 +56,15 @@ void walk(const L& layout, const Block* blocks, const Ray<float>& ray, State& st
     }
 }
 
-template <class L> void walk_job(const L& layout, const RayJob& job) {
+template <class L> void traverse_job(const L& layout, const RayJob& job) {
     Buffer<Waiting> stack(layout.depth() + 1);
     const auto* blocks = reinterpret_cast<const Block*>(job.triangles.blocks.data());
     with_job_types(job, [&]<class K, RayMode mode, bool Counted>(
                             std::type_identity<K>, std::integral_constant<RayMode, mode>,
                             std::bool_constant<Counted>) {
-        walk_each<mode>(job, [&](const Ray<float>& ray, std::vector<RayHit>& found) {
-            RayWalk<K, mode, Counted> state(ray, job.work, found);
-            walk(layout, blocks, ray, state, stack);
+        for_each_ray<mode>(job, [&](const Ray<float>& ray, std::vector<RayHit>& found) {
+            RayState<K, mode, Counted> state(ray, job.work, found);
+            trace(layout, blocks, ray, state, stack);
             return state.result();
         });
     });
@@ -93,17 +94,22 @@ TriangleBlocks blocks_in_order(const L& layout, const TriangleMesh& mesh,
 
 } // namespace
 
-void walk_rays(const BinaryLayout& layout, const RayJob& job) { walk_job(layout, job); }
-void walk_rays(const BinaryLayoutF64& layout, const RayJob& job) { walk_job(layout, job); }
-SingleRayWalks single_ray_walks(const BinaryLayout&, std::string_view) { return {}; }
-SingleRayWalks single_ray_walks(const BinaryLayoutF64&, std::string_view) { return {}; }
-TriangleBlocks triangles_of(const BinaryLayout& layout, const TriangleMesh& mesh,
-                            const Executor& executor) {
-    return blocks_in_order(layout, mesh, executor);
-}
-TriangleBlocks triangles_of(const BinaryLayoutF64& layout, const TriangleMesh& mesh,
-                            const Executor& executor) {
-    return blocks_in_order(layout, mesh, executor);
-}
+#define X(name, L)                                                                                 \
+    void traverse_rays(const L& layout, const RayJob& job) { traverse_job(layout, job); }
+BOXWOOD_BINARY_LAYOUTS(X)
+#undef X
+
+} // namespace boxwood::detail
+
+namespace boxwood {
+
+#define X(name, L)                                                                                 \
+    TriangleBlocks triangles_of(const L& layout, const TriangleMesh& mesh,                         \
+                                const Executor& executor) {                                        \
+        return detail::blocks_in_order(layout, mesh, executor);                                    \
+    }                                                                                              \
+    SingleRayFunctions single_ray_functions(const L&, std::string_view) { return {}; }
+BOXWOOD_BINARY_LAYOUTS(X)
+#undef X
 
 } // namespace boxwood

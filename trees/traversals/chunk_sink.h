@@ -1,11 +1,11 @@
 #pragma once
 
-#include "trees/queries/pairs.h"
 #include "trees/inspect/work.h"
+#include "trees/queries/pairs.h"
 
 #include <atomic>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// The way of one chunk's answers to the sink, and the word to all other chunks that it has had
 /// enough.
@@ -34,4 +34,4 @@ class ChunkSink {
     Work* work_;
 };
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -12,7 +12,7 @@
 #include <cstdint>
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
 
 /// of[m]: which bits of m are set, one in each byte from the lowest on.
 struct SetBits {
@@ -45,7 +45,7 @@ template <class D, class V, class M> HWY_INLINE V Compressed([[maybe_unused]] D 
     return hn::Compress(v, mask);
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -15,7 +15,7 @@
 #include <vector>
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
 
 /// The numbers that a mask of 16 lanes leaves, of registers of at most `most` lanes.
 template <std::size_t most> std::vector<std::uint32_t> Left(std::uint32_t mask) {
@@ -39,11 +39,12 @@ std::vector<std::uint32_t> LeftOf4(std::uint32_t mask) { return Left<4>(mask); }
 std::vector<std::uint32_t> LeftOf8(std::uint32_t mask) { return Left<8>(mask); }
 std::vector<std::uint32_t> LeftOf16(std::uint32_t mask) { return Left<16>(mask); }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace boxwood {
+using namespace detail;
 HWY_EXPORT(LeftOf4);
 HWY_EXPORT(LeftOf8);
 HWY_EXPORT(LeftOf16);

@@ -7,12 +7,12 @@
 #endif
 
 #include "trees/layouts/detail/lanes-inl.h"
-#include "trees/traversals/box_distance.h"
+#include "trees/queries/box_distance.h"
 
 #include <limits>
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
 
 /// Floats, as many as a register holds lanes of the block.
 template <class Block> using BoundTag = hwy::HWY_NAMESPACE::Rebind<float, LaneTag<Block>>;
@@ -54,7 +54,7 @@ DistanceBounds(const Block& block, std::size_t i, Vec3<float> point, float scale
     return hn::Max(smaller, hn::Zero(df));
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -18,7 +18,7 @@
 #include <cstring>
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
 
 template <class Node> using NodeTag = hwy::HWY_NAMESPACE::CappedTag<float, Node::width>;
 
@@ -177,7 +177,7 @@ template <class Node>
 inline constexpr bool in_register =
     HWY_TARGET != HWY_SCALAR&& HWY_TARGET <= HWY_AVX2&& Node::width == 8;
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

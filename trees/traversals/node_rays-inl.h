@@ -11,12 +11,13 @@
 #include "trees/traversals/ray_wave-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
 
 /// All hits of one ray; nodes in no order.
 template <class Node, RayKernel K>
-HWY_INLINE void WalkAll(const TriangleBlocks& tree, const FusedSlabs& slabs, const Ray<float>& ray,
-                        RayWalk<K, RayMode::all, false>& state, std::uint32_t* waiting) {
+HWY_INLINE void TraverseAll(const TriangleBlocks& tree, const FusedSlabs& slabs,
+                            const Ray<float>& ray, RayState<K, RayMode::all, false>& state,
+                            std::uint32_t* waiting) {
     namespace hn = hwy::HWY_NAMESPACE;
     const NodeTag<Node> df;
     const hn::Rebind<std::uint32_t, decltype(df)> du;
@@ -50,25 +51,27 @@ HWY_INLINE void WalkAll(const TriangleBlocks& tree, const FusedSlabs& slabs, con
     }
 }
 
-template <class Node> void WalkJob(const RayJob& job) {
+template <class Node> void TraverseJob(const RayJob& job) {
     const SlabBounds bounds(job.triangles.bounds);
     with_job_types(job, [&]<class K, RayMode mode, bool Counted>(
                             std::type_identity<K>, std::integral_constant<RayMode, mode>,
                             std::bool_constant<Counted>) HWY_ATTR {
         if constexpr (mode == RayMode::all) {
             Buffer<std::uint32_t> waiting(room_for<Node>(job.depth));
-            walk_each<mode>(job, [&](const Ray<float>& ray, std::vector<RayHit>& found) HWY_ATTR {
-                RayWalk<K, mode, false> state(ray, nullptr, found);
-                WalkAll<Node>(job.triangles, FusedSlabs(ray, bounds), ray, state, waiting.data());
-                return state.result();
-            });
+            for_each_ray<mode>(job,
+                               [&](const Ray<float>& ray, std::vector<RayHit>& found) HWY_ATTR {
+                                   RayState<K, mode, false> state(ray, nullptr, found);
+                                   TraverseAll<Node>(job.triangles, FusedSlabs(ray, bounds), ray,
+                                                     state, waiting.data());
+                                   return state.result();
+                               });
         } else {
-            RayWave<Node, K, mode, Counted>(job, bounds).walk();
+            RayWave<Node, K, mode, Counted>(job, bounds).run();
         }
     });
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -9,12 +9,12 @@
 #include <hwy/highway.h>
 
 #include "trees/traversals/compress-inl.h"
-#include "trees/traversals/packed_walk.h"
+#include "trees/traversals/packed_traversal.h"
 
 #include <algorithm>
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -113,7 +113,7 @@ HWY_INLINE void Refine(const PackedBlock* level, const PackedList& list, std::si
     }
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

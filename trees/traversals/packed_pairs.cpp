@@ -5,11 +5,11 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
-#include "trees/queries/swapped_pairs.h"
-#include "trees/traversals/packed_overlap-inl.h"
-#include "trees/traversals/packed_walk.h"
 #include "trees/queries/self_pairs.h"
+#include "trees/queries/swapped_pairs.h"
 #include "trees/queries/tree_pairs.h"
+#include "trees/traversals/packed_overlap-inl.h"
+#include "trees/traversals/packed_traversal.h"
 
 #include <algorithm>
 #include <array>
@@ -17,13 +17,14 @@
 #include <utility>
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
+namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-template <bool Self, bool Counted> class Walk {
+template <bool Self, bool Counted> class PackedTraversal {
   public:
-    Walk(PackedPairs& pairs, const PackedLayout& a, const PackedLayout& b, Work* work)
+    PackedTraversal(PackedPairs& pairs, const PackedLayout& a, const PackedLayout& b, Work* work)
         : pairs_(pairs), a_(a), b_(b), work_(work) {}
 
     /// All pairs whose first slot, in `a`, lies below node `node` of level `level`.
@@ -322,11 +323,11 @@ template <bool Self, bool Counted> class Walk {
 
 template <bool Self, bool Counted>
 void RunChunk(const PackedChunk& chunk, PackedPairs& pairs, Work* work) {
-    Walk<Self, Counted> walk(pairs, chunk.a, chunk.b, work);
+    PackedTraversal<Self, Counted> traversal(pairs, chunk.a, chunk.b, work);
     for (std::size_t node = chunk.begin; node < chunk.end; ++node)
-        if (!walk.run(chunk.level, node))
+        if (!traversal.run(chunk.level, node))
             return;
-    walk.finish();
+    traversal.finish();
 }
 
 void PackedChunkPairs(const PackedChunk& chunk, PackedPairs& pairs, bool self, Work* work) {
@@ -337,11 +338,12 @@ void PackedChunkPairs(const PackedChunk& chunk, PackedPairs& pairs, bool self, W
              : RunChunk<false, false>(chunk, pairs, work);
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace boxwood {
+namespace boxwood::detail {
 HWY_EXPORT(PackedChunkPairs);
 
 namespace {
@@ -376,36 +378,21 @@ void run(const PackedLayout& a, const PackedLayout& b, bool self, const Executor
 
 } // namespace
 
-void self_pairs(const PackedLayout& tree, const Executor& executor, PairSink& sink) {
-    run(tree, tree, true, executor, sink, nullptr);
-}
-Work self_pairs_counted(const PackedLayout& tree, PairSink& sink) {
-    Work work;
-    run(tree, tree, true, serial(), sink, &work);
-    return work;
-}
+} // namespace boxwood::detail
 
-namespace {
+namespace boxwood {
+
+void self_pairs(const PackedLayout& tree, const Executor& executor, PairSink& sink, Work* work) {
+    detail::run(tree, tree, true, executor, sink, work);
+}
 
 /// Chunks are cut from the first tree: where it is much the smaller, from the other.
-void run_two(const PackedLayout& a, const PackedLayout& b, const Executor& executor, PairSink& sink,
-             Work* work) {
-    if (16 * a.size() >= b.size())
-        return run(a, b, false, executor, sink, work);
-    SwappedPairs swapped(sink);
-    run(b, a, false, executor, swapped, work);
-}
-
-} // namespace
-
 void tree_pairs(const PackedLayout& a, const PackedLayout& b, const Executor& executor,
-                PairSink& sink) {
-    run_two(a, b, executor, sink, nullptr);
-}
-Work tree_pairs_counted(const PackedLayout& a, const PackedLayout& b, PairSink& sink) {
-    Work work;
-    run_two(a, b, serial(), sink, &work);
-    return work;
+                PairSink& sink, Work* work) {
+    if (16 * a.size() >= b.size())
+        return detail::run(a, b, false, executor, sink, work);
+    SwappedPairs swapped(sink);
+    detail::run(b, a, false, executor, swapped, work);
 }
 
 } // namespace boxwood

@@ -1,9 +1,9 @@
 #include "kernels/testing/every_target.h"
-#include "trees/testing/box_families.h"
-#include "trees/ordering/curve_order.h"
 #include "trees/layouts/packed.h"
+#include "trees/ordering/curve_order.h"
 #include "trees/queries/self_pairs.h"
 #include "trees/queries/tree_pairs.h"
+#include "trees/testing/box_families.h"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +12,7 @@
 #include <random>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 std::vector<std::uint32_t> shuffled(std::size_t n) {
@@ -66,7 +67,7 @@ TEST(PackedLayout, BoundsEveryBlockExactly) {
                  std::invalid_argument);
 }
 
-TEST(PackedLayout, ShowsItsBlocksToWalks) {
+TEST(PackedLayout, ShowsItsBlocksToTraversals) {
     for (const std::size_t n : {1u, 16u, 17u, 300u, 5000u}) {
         SCOPED_TRACE(n);
         const std::vector<Box> boxes = random_boxes(n, .1f, 5);
@@ -147,13 +148,13 @@ TEST(PackedPairs, ComeInTheSameOrderOnAnyNumberOfThreads) {
     AppendPairs serially(expected);
     self_pairs(layout, serial(), serially);
     EXPECT_GT(expected.size(), 30000u);
-    for (const std::string_view word : {"openmp", "tbb"})
+    for (const std::string_view name : {"openmp", "tbb"})
         for (const unsigned threads : {2u, 4u}) {
             std::vector<Pair> pairs;
             AppendPairs sink(pairs);
             for (int again = 0; again < 3; ++again) {
                 pairs.clear();
-                self_pairs(layout, *make_executor(word, threads), sink);
+                self_pairs(layout, *make_executor(name, threads), sink);
                 EXPECT_EQ(pairs, expected);
             }
         }

@@ -1,9 +1,10 @@
 #include "kernels/testing/every_target.h"
-#include "trees/testing/box_families.h"
 #include "trees/builder.h"
-#include "trees/testing/every_executor.h"
 #include "trees/layout.h"
 #include "trees/queries/pairs.h"
+#include "trees/testing/box_families.h"
+#include "trees/testing/every_executor.h"
+#include "trees/testing/layouts_answering.h"
 #include "trees/testing/same_tree.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,8 @@ namespace {
 
 void for_all_ways(const std::function<void(const BuilderEntry&, const LayoutEntry&)>& test) {
     for (const BuilderEntry& builder : builders())
-        for (const LayoutEntry& layout : layouts()) {
+        for (const LayoutEntry& layout :
+             layouts_answering({Query::self_pairs, Query::tree_pairs})) {
             SCOPED_TRACE(std::string(builder.name) + "." + std::string(layout.name));
             test(builder, layout);
         }
@@ -93,7 +95,7 @@ TEST(SelfPairs, AgreeOnEveryInstructionSet) {
     const Tree half_a = find_builder("median")->make({})({boxes.data(), 3000}, serial());
     const Tree half_b = find_builder("binned_sah")->make({})({boxes.data() + 3000, 3000}, serial());
     on_every_target([&] {
-        for (const LayoutEntry& entry : layouts()) {
+        for (const LayoutEntry& entry : layouts_answering({Query::self_pairs, Query::tree_pairs})) {
             SCOPED_TRACE(entry.name);
             std::vector<Pair> pairs, halves;
             AppendPairs sink(pairs), sink_halves(halves);
@@ -129,7 +131,7 @@ TEST(SelfPairs, TreesAreTheSameOnEveryExecutor) {
     }
 }
 
-TEST(SelfPairs, EarlyExitStopsTheWalk) {
+TEST(SelfPairs, EarlyExitStopsTheTraversal) {
     const std::vector<Box> boxes(500, Box{{0, 0, 0}, {1, 1, 1}});
     for_all_ways([&](const BuilderEntry& builder, const LayoutEntry& entry) {
         const auto layout = entry.make(builder.make({})(boxes, serial()), serial());
@@ -151,7 +153,7 @@ TEST(SelfPairs, WorkOnIdenticalBoxesIsThatOfTheOutput) {
     });
 }
 
-TEST(SelfPairs, WalkATreeThatIsAChain) {
+TEST(SelfPairs, TraverseATreeThatIsAChain) {
     constexpr std::uint32_t n = 30000;
     Tree tree(n);
     for (std::uint32_t k = 0; k < n; ++k) {
@@ -161,7 +163,7 @@ TEST(SelfPairs, WalkATreeThatIsAChain) {
             tree.nodes[2 * k] = {{{x, 0, 0}, {static_cast<float>(n), 1, 1}}, k, n - k};
         tree.nodes[k + 1 < n ? 2 * k + 1 : 2 * k] = {{{x, 0, 0}, {x + 1, 1, 1}}, k, 1};
     }
-    for (const LayoutEntry& entry : layouts()) {
+    for (const LayoutEntry& entry : layouts_answering({Query::self_pairs, Query::tree_pairs})) {
         SCOPED_TRACE(entry.name);
         const auto layout = entry.make(tree, serial());
         CountPairs serial_count, count;

@@ -6,31 +6,33 @@
 #include <hwy/highway.h>
 
 #include "trees/traversals/node_rays-inl.h"
-#include "trees/queries/rays.h"
+#include "trees/traversals/ray_traversal.h"
 #include "trees/traversals/single_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
 
-void Quantised8Rays(const RayJob& job) { WalkJob<QuantisedBlock>(job); }
-SingleRayWalks Quantised8SingleRays(std::size_t depth, std::string_view kernel) {
-    return WalksAlone<QuantisedBlock>(depth, kernel);
+void Quantised8Rays(const RayJob& job) { TraverseJob<QuantisedBlock>(job); }
+SingleRayFunctions Quantised8SingleRays(std::size_t depth, std::string_view kernel) {
+    return SingleRayFunctionsOf<QuantisedBlock>(depth, kernel);
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace boxwood {
+namespace boxwood::detail {
 HWY_EXPORT(Quantised8Rays);
 HWY_EXPORT(Quantised8SingleRays);
 
-void walk_rays(const Quantised8Layout&, const RayJob& job) {
+template <> void traverse_nodes<QuantisedBlock>(const RayJob& job) {
     HWY_DYNAMIC_DISPATCH(Quantised8Rays)(job);
 }
-SingleRayWalks single_ray_walks(const Quantised8Layout& layout, std::string_view kernel) {
-    return HWY_DYNAMIC_DISPATCH(Quantised8SingleRays)(layout.depth(), kernel);
+template <>
+SingleRayFunctions single_ray_functions_of<QuantisedBlock>(std::size_t depth,
+                                                           std::string_view kernel) {
+    return HWY_DYNAMIC_DISPATCH(Quantised8SingleRays)(depth, kernel);
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail
 #endif

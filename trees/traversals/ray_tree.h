@@ -1,12 +1,13 @@
 #pragma once
 
+#include "kernels/ray_triangle/triangle_block.h"
 #include "trees/layouts/packed.h"
 #include "trees/layouts/quantised8.h"
 #include "trees/layouts/wide.h"
 
 #include <type_traits>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// W child boxes side by side, and where they lead: all that a ray reads of an inner node. 128, 256
 /// and 448 bytes for W = 4, 8 and 16.
@@ -35,4 +36,4 @@ using RayNodeOf =
 template <class Node> inline constexpr std::size_t ray_lanes = Node::width == 4 ? 4 : 8;
 template <class Node> using RayBlock = TriangleBlock<ray_lanes<Node>>;
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -1,10 +1,11 @@
 #include "kernels/arithmetic/rounding.h"
 #include "trees/queries/rays.h"
+#include "trees/traversals/ray_tree.h"
 
 #include <stdexcept>
 #include <vector>
 
-namespace boxwood {
+namespace boxwood::detail {
 namespace {
 
 Box in_floats(const Box& box) { return box; }
@@ -188,17 +189,16 @@ TriangleBlocks copy_of(const PackedLayout& layout, const TriangleMesh& mesh,
 
 } // namespace
 
-#define X(L)                                                                                       \
+} // namespace boxwood::detail
+
+namespace boxwood {
+
+#define X(name, L)                                                                                 \
     TriangleBlocks triangles_of(const L& layout, const TriangleMesh& mesh,                         \
                                 const Executor& executor) {                                        \
-        return copy_of(layout, mesh, executor);                                                    \
+        return detail::copy_of(layout, mesh, executor);                                            \
     }
-X(Wide4Layout)
-X(Wide8Layout)
-X(Wide16Layout)
-X(Wide8LayoutF64)
-X(Quantised8Layout)
-X(PackedLayout)
+BOXWOOD_LANE_LAYOUTS(X)
 #undef X
 
 } // namespace boxwood

@@ -10,7 +10,7 @@
 #include "trees/traversals/ray_wave-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
 
 /// One ray from the root to its answer. Other than in RayWave nothing hides how long a step takes,
 /// from a node's planes to the next node: so a node with one child that is hit has a way of its
@@ -23,13 +23,13 @@ template <class Node, RayKernel K, RayMode mode> class RayAlone {
     using V = hwy::HWY_NAMESPACE::Vec<D>;
 
   public:
-    /// Deeper trees have no such walk: room_for<Node>(depth) > room.
+    /// Deeper trees are not traversed so: room_for<Node>(depth) > room.
     static constexpr std::size_t room = 4096 / sizeof(WaitingNode);
 
     HWY_INLINE RayAlone(const SingleRayTree& tree, const Ray<float>& ray)
         : tree_(tree), ray_(ray), state_(ray, nullptr, found_) {}
 
-    HWY_INLINE RayHit Walk() {
+    HWY_INLINE RayHit Trace() {
         namespace hn = hwy::HWY_NAMESPACE;
         const D df;
         const FusedSlabs slabs(ray_, tree_.bounds);
@@ -147,7 +147,7 @@ template <class Node, RayKernel K, RayMode mode> class RayAlone {
             hwy::Prefetch(place + line);
     }
 
-    /// One leaf; whether the walk is at its end.
+    /// One leaf; whether the traversal is at its end.
     HWY_INLINE bool Test(std::uint32_t at) {
         const auto* block =
             reinterpret_cast<const RayBlock<Node>*>(tree_.blocks) + ray_refs::index(at);
@@ -168,7 +168,7 @@ template <class Node, RayKernel K, RayMode mode> class RayAlone {
     const SingleRayTree& tree_;
     const Ray<float>& ray_;
     std::vector<RayHit> found_; ///< nothing: of RayMode::all
-    RayWalk<K, mode, false> state_;
+    RayState<K, mode, false> state_;
     Waiting* top_;
     alignas(64) Waiting stack_[room];
 };
@@ -177,27 +177,28 @@ template <class Node, RayKernel K>
 RayHit ClosestAlone(const SingleRayTree& tree, const Ray<float>& ray) {
     if (!is_finite(ray.origin) || !is_finite(ray.direction))
         return {};
-    return RayAlone<Node, K, RayMode::closest>(tree, ray).Walk();
+    return RayAlone<Node, K, RayMode::closest>(tree, ray).Trace();
 }
 
 template <class Node, RayKernel K> bool AnyAlone(const SingleRayTree& tree, const Ray<float>& ray) {
     if (!is_finite(ray.origin) || !is_finite(ray.direction))
         return false;
-    return RayAlone<Node, K, RayMode::any>(tree, ray).Walk().hit();
+    return RayAlone<Node, K, RayMode::any>(tree, ray).Trace().hit();
 }
 
 /// None for an empty tree, nor for one that is too deep.
-template <class Node> SingleRayWalks WalksAlone(std::size_t depth, std::string_view kernel) {
+template <class Node>
+SingleRayFunctions SingleRayFunctionsOf(std::size_t depth, std::string_view kernel) {
     using Kernels = std::tuple<MollerTrumbore<float>, MollerTrumbore<double>, Watertight>;
-    SingleRayWalks walks;
+    SingleRayFunctions functions;
     if (depth != 0 && room_for<Node>(depth) <= RayAlone<Node, Watertight, RayMode::closest>::room)
         with_kernel<Kernels>(kernel, [&]<class K>(std::type_identity<K>) {
-            walks = {ClosestAlone<Node, K>, AnyAlone<Node, K>};
+            functions = {ClosestAlone<Node, K>, AnyAlone<Node, K>};
         });
-    return walks;
+    return functions;
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

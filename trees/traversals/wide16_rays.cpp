@@ -6,33 +6,33 @@
 #include <hwy/highway.h>
 
 #include "trees/traversals/node_rays-inl.h"
-#include "trees/queries/rays.h"
+#include "trees/traversals/ray_traversal.h"
 #include "trees/traversals/single_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
 
-void Wide16Rays(const RayJob& job) { WalkJob<RayNode<16>>(job); }
-SingleRayWalks Wide16SingleRays(std::size_t depth, std::string_view kernel) {
-    return WalksAlone<RayNode<16>>(depth, kernel);
+void Wide16Rays(const RayJob& job) { TraverseJob<RayNode<16>>(job); }
+SingleRayFunctions Wide16SingleRays(std::size_t depth, std::string_view kernel) {
+    return SingleRayFunctionsOf<RayNode<16>>(depth, kernel);
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace boxwood {
+namespace boxwood::detail {
 HWY_EXPORT(Wide16Rays);
 HWY_EXPORT(Wide16SingleRays);
 
-void walk_rays(const Wide16Layout&, const RayJob& job) { HWY_DYNAMIC_DISPATCH(Wide16Rays)(job); }
-void walk_rays(const PackedLayout&, const RayJob& job) { HWY_DYNAMIC_DISPATCH(Wide16Rays)(job); }
-SingleRayWalks single_ray_walks(const Wide16Layout& layout, std::string_view kernel) {
-    return HWY_DYNAMIC_DISPATCH(Wide16SingleRays)(layout.depth(), kernel);
+template <> void traverse_nodes<RayNode<16>>(const RayJob& job) {
+    HWY_DYNAMIC_DISPATCH(Wide16Rays)(job);
 }
-SingleRayWalks single_ray_walks(const PackedLayout& layout, std::string_view kernel) {
-    return HWY_DYNAMIC_DISPATCH(Wide16SingleRays)(layout.depth(), kernel);
+template <>
+SingleRayFunctions single_ray_functions_of<RayNode<16>>(std::size_t depth,
+                                                        std::string_view kernel) {
+    return HWY_DYNAMIC_DISPATCH(Wide16SingleRays)(depth, kernel);
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail
 #endif

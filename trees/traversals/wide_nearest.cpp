@@ -5,19 +5,23 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
+#include "trees/layouts/packed.h"
+#include "trees/layouts/quantised8.h"
+#include "trees/layouts/wide.h"
 #include "trees/traversals/compress-inl.h"
 #include "trees/traversals/distance_lanes-inl.h"
-#include "trees/queries/points.h"
+#include "trees/traversals/nearest_traversal.h"
 #include "trees/traversals/triangle_lanes-inl.h"
 
 #include <bit>
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
+namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The lanes of a block that may be no farther than `bound`, as NearestWalk::waiting of their
+/// The lanes of a block that may be no farther than `bound`, as NearestTraversal::waiting of their
 /// references, or of their numbers; the nearest last. Returns how many. Up to a register is
 /// overwritten behind them.
 template <bool Numbers, class Block>
@@ -76,11 +80,11 @@ struct Goal {
 
 /// The items of a leaf, nearest first.
 template <bool Counted, class Leaf>
-HWY_INLINE void OfferAll(const Leaf& leaf, Goal& goal, NearestItems& best, NearestWalk&) {
-    alignas(64) std::uint64_t lanes[2 * RegionWalk::spare];
+HWY_INLINE void OfferAll(const Leaf& leaf, Goal& goal, NearestItems& best, NearestTraversal&) {
+    alignas(64) std::uint64_t lanes[2 * RegionTraversal::spare];
     const std::size_t n = AppendNear<true>(leaf, goal.point, goal.scaled.scale, goal.bound, lanes);
-    for (std::size_t i = n; i-- > 0 && NearestWalk::bound(lanes[i]) <= goal.bound;) {
-        const std::uint32_t lane = NearestWalk::ref(lanes[i]);
+    for (std::size_t i = n; i-- > 0 && NearestTraversal::bound(lanes[i]) <= goal.bound;) {
+        const std::uint32_t lane = NearestTraversal::ref(lanes[i]);
         best.offer({leaf.ref[lane], squared_distance(goal.point, leaf.lane(lane))});
         goal.bound = goal.scaled.above(best.worst());
     }
@@ -89,7 +93,8 @@ HWY_INLINE void OfferAll(const Leaf& leaf, Goal& goal, NearestItems& best, Neare
 /// The triangles of a leaf: all that are near by their boxes are bounded together in floats, and
 /// computed in doubles if they may still be nearer than what was found, the nearest first.
 template <bool Counted, class Leaf>
-HWY_INLINE void OfferAll(const Leaf& leaf, Goal& goal, NearestSurface& best, NearestWalk& walk) {
+HWY_INLINE void OfferAll(const Leaf& leaf, Goal& goal, NearestSurface& best,
+                         NearestTraversal& traversal) {
     const BoundTag<Leaf> df;
     const float scale = goal.scaled.scale;
     std::uint32_t near = 0;
@@ -102,16 +107,16 @@ HWY_INLINE void OfferAll(const Leaf& leaf, Goal& goal, NearestSurface& best, Nea
     if (near == 0)
         return;
     SeenTriangles seen{}; // denormals in unused lanes would cost ten times the whole search
-    std::uint32_t items[SeenTriangles::most];
+    std::uint32_t items[SeenTriangles::max];
     std::size_t n = 0;
     for (; near != 0; near &= near - 1) {
         items[n] = leaf.ref[static_cast<std::size_t>(std::countr_zero(near))];
         seen.Set(n, best.triangle(items[n]), goal.point, scale);
         ++n;
     }
-    walk.template count_triangles<Counted>(n);
-    const hn::CappedTag<float, SeenTriangles::most> d;
-    alignas(64) float bounds[SeenTriangles::most];
+    traversal.template count_triangles<Counted>(n);
+    const hn::CappedTag<float, SeenTriangles::max> d;
+    alignas(64) float bounds[SeenTriangles::max];
     for (std::size_t i = 0; i < n; i += hn::Lanes(d))
         hn::Store(TriangleBounds(d, seen, i), d, bounds + i);
     const std::size_t first =
@@ -130,66 +135,70 @@ HWY_INLINE void OfferAll(const Leaf& leaf, Goal& goal, NearestSurface& best, Nea
 
 /// Down to the nearest leaf first, for a bound; then all that may be as near, nearest first.
 template <bool Counted, class L, class Best>
-HWY_INLINE void Search(const L& tree, Vec3<float> point, Best& best, NearestWalk& walk) {
+HWY_INLINE void Search(const L& tree, Vec3<float> point, Best& best, NearestTraversal& traversal) {
     Goal goal{point, DistanceScale(point, tree.bounds())};
     const float scale = goal.scaled.scale;
     const auto open_leaf = [&](std::uint32_t ref, std::size_t waiting) HWY_ATTR {
-        walk.template count<Counted>(L::width, waiting);
-        OfferAll<Counted>(tree.leaf(ref), goal, best, walk);
+        traversal.template count<Counted>(L::width, waiting);
+        OfferAll<Counted>(tree.leaf(ref), goal, best, traversal);
     };
     std::uint32_t first = tree.root();
     while (!L::is_leaf(first)) {
         first = NearestLane(tree.block(first), point, scale);
-        walk.template count<Counted>(L::width, 0);
+        traversal.template count<Counted>(L::width, 0);
     }
     open_leaf(first, 0);
 
-    std::uint64_t* const stack = walk.stack();
-    stack[0] = NearestWalk::waiting(0, tree.root());
+    std::uint64_t* const stack = traversal.stack();
+    stack[0] = NearestTraversal::waiting(0, tree.root());
     for (std::size_t top = 1; top != 0;) {
         const std::uint64_t next = stack[--top];
-        const std::uint32_t ref = NearestWalk::ref(next);
-        if (NearestWalk::bound(next) > goal.bound || ref == first)
+        const std::uint32_t ref = NearestTraversal::ref(next);
+        if (NearestTraversal::bound(next) > goal.bound || ref == first)
             continue;
         if (L::is_leaf(ref)) {
             open_leaf(ref, top);
         } else {
             top += AppendNear<false>(tree.block(ref), point, scale, goal.bound, stack + top);
-            walk.template count<Counted>(L::width, top);
+            traversal.template count<Counted>(L::width, top);
         }
     }
 }
 
-#define X(L)                                                                                       \
-    void Nearest##L(const L& tree, Vec3<float> point, NearestItems& best, NearestWalk& walk) {     \
-        walk.counted() ? Search<true>(tree, point, best, walk)                                     \
-                       : Search<false>(tree, point, best, walk);                                   \
+#define X(name, L)                                                                                 \
+    void Nearest_##name(const L& tree, Vec3<float> point, NearestItems& best,                      \
+                        NearestTraversal& traversal) {                                             \
+        traversal.counted() ? Search<true>(tree, point, best, traversal)                           \
+                            : Search<false>(tree, point, best, traversal);                         \
     }                                                                                              \
-    void Surface##L(const L& tree, Vec3<float> point, NearestSurface& best, NearestWalk& walk) {   \
-        walk.counted() ? Search<true>(tree, point, best, walk)                                     \
-                       : Search<false>(tree, point, best, walk);                                   \
+    void Surface_##name(const L& tree, Vec3<float> point, NearestSurface& best,                    \
+                        NearestTraversal& traversal) {                                             \
+        traversal.counted() ? Search<true>(tree, point, best, traversal)                           \
+                            : Search<false>(tree, point, best, traversal);                         \
     }
 BOXWOOD_LANE_LAYOUTS(X)
 #undef X
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace boxwood {
+namespace boxwood::detail {
 
-#define X(L)                                                                                       \
-    HWY_EXPORT(Nearest##L);                                                                        \
-    void walk_nearest(const L& tree, Vec3<float> point, NearestItems& best, NearestWalk& walk) {   \
-        HWY_DYNAMIC_DISPATCH(Nearest##L)(tree, point, best, walk);                                 \
+#define X(name, L)                                                                                 \
+    HWY_EXPORT(Nearest_##name);                                                                    \
+    void traverse_nearest(const L& tree, Vec3<float> point, NearestItems& best,                    \
+                          NearestTraversal& traversal) {                                           \
+        HWY_DYNAMIC_DISPATCH(Nearest_##name)(tree, point, best, traversal);                        \
     }                                                                                              \
-    HWY_EXPORT(Surface##L);                                                                        \
-    void walk_closest_point(const L& tree, Vec3<float> point, NearestSurface& best,                \
-                            NearestWalk& walk) {                                                   \
-        HWY_DYNAMIC_DISPATCH(Surface##L)(tree, point, best, walk);                                 \
+    HWY_EXPORT(Surface_##name);                                                                    \
+    void traverse_closest_point(const L& tree, Vec3<float> point, NearestSurface& best,            \
+                                NearestTraversal& traversal) {                                     \
+        HWY_DYNAMIC_DISPATCH(Surface_##name)(tree, point, best, traversal);                        \
     }
 BOXWOOD_LANE_LAYOUTS(X)
 #undef X
 
-} // namespace boxwood
+} // namespace boxwood::detail
 #endif

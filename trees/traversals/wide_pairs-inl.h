@@ -8,14 +8,14 @@
 
 #include <hwy/highway.h>
 
-#include "trees/traversals/compress-inl.h"
 #include "trees/layouts/detail/lanes-inl.h"
-#include "trees/traversals/pair_walk.h"
+#include "trees/traversals/compress-inl.h"
+#include "trees/traversals/pair_traversal.h"
 
 #include <bit>
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
 
 /// How a fixed reference and those of the overlapping lanes become pairs.
 enum class Order { fixed_first, fixed_second, lower_first };
@@ -47,7 +47,7 @@ HWY_INLINE std::size_t Append(const Block& block, const Aabb<typename Block::Rea
 /// Appends all overlapping pairs of lanes of two blocks: those of `a` that reach into `b` against
 /// the lanes of `b`, or the other way round, whichever are fewer.
 template <bool LowerFirst, bool Counted, class A, class B>
-HWY_INLINE std::size_t AppendAll(PairWalk& state, const A& a, const B& b, Pair* to) {
+HWY_INLINE std::size_t AppendAll(PairTraversal& state, const A& a, const B& b, Pair* to) {
     std::uint32_t mask_a = OverlapBits(a, b.bounds);
     std::uint32_t mask_b = mask_a ? OverlapBits(b, a.bounds) : 0;
     const int few = std::min(std::popcount(mask_a), std::popcount(mask_b));
@@ -71,7 +71,7 @@ HWY_INLINE std::size_t AppendAll(PairWalk& state, const A& a, const B& b, Pair* 
 
 /// The pairs of overlapping lanes within one block, each once; of a leaf the lower item first.
 template <bool Leaf, bool Counted, class Block>
-HWY_INLINE std::size_t AppendSelf(PairWalk& state, const Block& block, Pair* const start) {
+HWY_INLINE std::size_t AppendSelf(PairTraversal& state, const Block& block, Pair* const start) {
     state.count<Counted>(Block::width * (block.count - 1));
     Pair* to = start;
     for (std::uint32_t i = 0; i + 1 < block.count; ++i) {
@@ -84,10 +84,10 @@ HWY_INLINE std::size_t AppendSelf(PairWalk& state, const Block& block, Pair* con
     return static_cast<std::size_t>(to - start);
 }
 
-/// The walk below the pairs of nodes on the stack. A pair of a leaf and an inner node opens the
-/// inner one, so the stack holds at most width^2 pairs per level of the two trees.
+/// The traversal below the pairs of nodes on the stack. A pair of a leaf and an inner node opens
+/// the inner one, so the stack holds at most width^2 pairs per level of the two trees.
 template <class L, bool Self, bool Counted>
-void WalkPairs(PairWalk& state, const L& tree_a, const L& tree_b) {
+void TraversePairs(PairTraversal& state, const L& tree_a, const L& tree_b) {
     Pair nodes{};
     while (state.next(nodes)) {
         const bool leaf_a = L::is_leaf(nodes.a), leaf_b = L::is_leaf(nodes.b);
@@ -122,14 +122,17 @@ void WalkPairs(PairWalk& state, const L& tree_a, const L& tree_b) {
 }
 
 /// self: `b` is `a`.
-template <class L> void AnyPairs(PairWalk& state, const L& a, const L& b, bool self, bool counted) {
+template <class L>
+void AnyPairs(PairTraversal& state, const L& a, const L& b, bool self, bool counted) {
     if (self)
-        counted ? WalkPairs<L, true, true>(state, a, b) : WalkPairs<L, true, false>(state, a, b);
+        counted ? TraversePairs<L, true, true>(state, a, b)
+                : TraversePairs<L, true, false>(state, a, b);
     else
-        counted ? WalkPairs<L, false, true>(state, a, b) : WalkPairs<L, false, false>(state, a, b);
+        counted ? TraversePairs<L, false, true>(state, a, b)
+                : TraversePairs<L, false, false>(state, a, b);
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

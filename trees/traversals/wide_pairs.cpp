@@ -9,37 +9,33 @@
 #include "trees/queries/tree_pairs.h"
 #include "trees/traversals/wide_pairs-inl.h"
 
-#define BOXWOOD_WIDE_LAYOUTS(X)                                                                    \
-    X(Wide4Layout) X(Wide8Layout) X(Wide16Layout) X(Wide8LayoutF64) X(Quantised8Layout)
-
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
 
-#define X(Layout)                                                                                  \
-    void PairsOf##Layout(PairWalk& state, const Layout& a, const Layout& b, bool self,             \
-                         bool counted) {                                                           \
+#define X(name, L)                                                                                 \
+    void PairsOf_##name(PairTraversal& state, const L& a, const L& b, bool self, bool counted) {   \
         AnyPairs(state, a, b, self, counted);                                                      \
     }
 BOXWOOD_WIDE_LAYOUTS(X)
 #undef X
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace boxwood {
+namespace boxwood::detail {
 namespace {
 
-#define X(Layout)                                                                                  \
-    HWY_EXPORT(PairsOf##Layout);                                                                   \
-    void walk(PairWalk& state, const Layout& a, const Layout& b, bool self, bool counted) {        \
-        HWY_DYNAMIC_DISPATCH(PairsOf##Layout)(state, a, b, self, counted);                         \
+#define X(name, L)                                                                                 \
+    HWY_EXPORT(PairsOf_##name);                                                                    \
+    void traverse(PairTraversal& state, const L& a, const L& b, bool self, bool counted) {         \
+        HWY_DYNAMIC_DISPATCH(PairsOf_##name)(state, a, b, self, counted);                          \
     }
 BOXWOOD_WIDE_LAYOUTS(X)
 #undef X
 
-/// The first tasks of a walk: pairs of inner blocks are opened, and of two trees also a leaf and an
-/// inner block, so that a tree of few items shares out the other.
+/// The first tasks of a traversal: pairs of inner blocks are opened, and of two trees also a leaf
+/// and an inner block, so that a tree of few items shares out the other.
 template <bool Self, class L> std::vector<Pair> first_tasks(const L& a, const L& b, Work* work) {
     if (a.empty() || b.empty())
         return {};
@@ -86,34 +82,23 @@ template <bool Self, class L> std::vector<Pair> first_tasks(const L& a, const L&
 template <bool Self, class L>
 void pairs(const L& a, const L& b, const Executor& executor, PairSink& sink, Work* work) {
     run_tasks(first_tasks<Self>(a, b, work), executor, sink, work,
-              [&](PairWalk& state) { walk(state, a, b, Self, work != nullptr); });
+              [&](PairTraversal& state) { traverse(state, a, b, Self, work != nullptr); });
 }
 
 } // namespace
 
-template <WideTree L> void self_pairs(const L& tree, const Executor& executor, PairSink& sink) {
-    pairs<true>(tree, tree, executor, sink, nullptr);
-}
-template <WideTree L> Work self_pairs_counted(const L& tree, PairSink& sink) {
-    Work work;
-    pairs<true>(tree, tree, serial(), sink, &work);
-    return work;
-}
-template <WideTree L>
-void tree_pairs(const L& a, const L& b, const Executor& executor, PairSink& sink) {
-    pairs<false>(a, b, executor, sink, nullptr);
-}
-template <WideTree L> Work tree_pairs_counted(const L& a, const L& b, PairSink& sink) {
-    Work work;
-    pairs<false>(a, b, serial(), sink, &work);
-    return work;
-}
+} // namespace boxwood::detail
 
-#define X(Layout)                                                                                  \
-    template void self_pairs(const Layout&, const Executor&, PairSink&);                           \
-    template Work self_pairs_counted(const Layout&, PairSink&);                                    \
-    template void tree_pairs(const Layout&, const Layout&, const Executor&, PairSink&);            \
-    template Work tree_pairs_counted(const Layout&, const Layout&, PairSink&);
+namespace boxwood {
+
+#define X(name, L)                                                                                 \
+    void self_pairs(const L& tree, const Executor& executor, PairSink& sink, Work* work) {         \
+        detail::pairs<true>(tree, tree, executor, sink, work);                                     \
+    }                                                                                              \
+    void tree_pairs(const L& a, const L& b, const Executor& executor, PairSink& sink,              \
+                    Work* work) {                                                                  \
+        detail::pairs<false>(a, b, executor, sink, work);                                          \
+    }
 BOXWOOD_WIDE_LAYOUTS(X)
 #undef X
 

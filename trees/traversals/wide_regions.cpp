@@ -5,14 +5,18 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
+#include "trees/layouts/packed.h"
+#include "trees/layouts/quantised8.h"
+#include "trees/layouts/wide.h"
 #include "trees/traversals/compress-inl.h"
 #include "trees/traversals/distance_lanes-inl.h"
-#include "trees/queries/points.h"
+#include "trees/traversals/region_traversal.h"
 
 #include <bit>
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
+namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -130,37 +134,38 @@ HWY_INLINE void SortItems(std::span<std::uint32_t> items) {
     std::copy_n(reinterpret_cast<const std::uint32_t*>(sorted), n, items.data());
 }
 
-/// All items of one region, into the walk.
+/// All items of one region, into the traversal.
 template <bool Counted, class L, class Region>
-HWY_INLINE void Collect(const L& tree, const Region& region, RegionWalk& walk) {
-    std::uint32_t* const stack = walk.stack();
+HWY_INLINE void Collect(const L& tree, const Region& region, RegionTraversal& traversal) {
+    std::uint32_t* const stack = traversal.stack();
     stack[0] = tree.root();
     for (std::size_t top = 1; top != 0;) {
         const std::uint32_t ref = stack[--top];
         if (L::is_leaf(ref)) {
-            walk.found(region.AppendItems(tree.leaf(ref), walk.items_to()));
+            traversal.found(region.AppendItems(tree.leaf(ref), traversal.items_to()));
         } else {
             top += region.Append(tree.block(ref), stack + top);
         }
-        walk.template count<Counted>(L::width, top);
+        traversal.template count<Counted>(L::width, top);
     }
 }
 
 template <bool Counted, class L>
-void Answer(const L& tree, const RegionQueries& queries, RegionWalk& walk, std::size_t first,
-            std::size_t last) {
+void Answer(const L& tree, const RegionQueries& queries, RegionTraversal& traversal,
+            std::size_t first, std::size_t last) {
     using Real = typename L::Real;
     const auto each = [&](const auto& regions, const auto& collect) HWY_ATTR {
         for (std::size_t i = first; i < last; ++i) {
             collect(regions[i]);
-            SortItems(walk.items());
-            if (!walk.answer(static_cast<std::uint32_t>(i)))
+            SortItems(traversal.items());
+            if (!traversal.answer(static_cast<std::uint32_t>(i)))
                 return;
         }
     };
     const auto box = [&](const auto& region) HWY_ATTR {
         if (const auto b = finite_region(region))
-            Collect<Counted>(tree, BoxRegion<Real>{{Vec3<Real>(b->min), Vec3<Real>(b->max)}}, walk);
+            Collect<Counted>(tree, BoxRegion<Real>{{Vec3<Real>(b->min), Vec3<Real>(b->max)}},
+                             traversal);
     };
     if (!queries.points.empty())
         each(queries.points, box);
@@ -169,33 +174,34 @@ void Answer(const L& tree, const RegionQueries& queries, RegionWalk& walk, std::
     else
         each(queries.spheres, [&](const Sphere<float>& ball) HWY_ATTR {
             if (is_region(ball))
-                Collect<Counted>(tree, Ball(ball, tree.bounds()), walk);
+                Collect<Counted>(tree, Ball(ball, tree.bounds()), traversal);
         });
 }
 
-#define X(L)                                                                                       \
-    void Regions##L(const L& tree, const RegionQueries& queries, RegionWalk& walk,                 \
-                    std::size_t first, std::size_t last) {                                         \
-        walk.counted() ? Answer<true>(tree, queries, walk, first, last)                            \
-                       : Answer<false>(tree, queries, walk, first, last);                          \
+#define X(name, L)                                                                                 \
+    void Regions_##name(const L& tree, const RegionQueries& queries, RegionTraversal& traversal,   \
+                        std::size_t first, std::size_t last) {                                     \
+        traversal.counted() ? Answer<true>(tree, queries, traversal, first, last)                  \
+                            : Answer<false>(tree, queries, traversal, first, last);                \
     }
 BOXWOOD_LANE_LAYOUTS(X)
 #undef X
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace boxwood {
+namespace boxwood::detail {
 
-#define X(L)                                                                                       \
-    HWY_EXPORT(Regions##L);                                                                        \
-    void walk_regions(const L& tree, const RegionQueries& queries, RegionWalk& walk,               \
-                      std::size_t first, std::size_t last) {                                       \
-        HWY_DYNAMIC_DISPATCH(Regions##L)(tree, queries, walk, first, last);                        \
+#define X(name, L)                                                                                 \
+    HWY_EXPORT(Regions_##name);                                                                    \
+    void traverse_regions(const L& tree, const RegionQueries& queries, RegionTraversal& traversal, \
+                          std::size_t first, std::size_t last) {                                   \
+        HWY_DYNAMIC_DISPATCH(Regions_##name)(tree, queries, traversal, first, last);               \
     }
 BOXWOOD_LANE_LAYOUTS(X)
 #undef X
 
-} // namespace boxwood
+} // namespace boxwood::detail
 #endif

@@ -1,6 +1,6 @@
 #include "bench/stages/playing.h"
 
-#include "trees/queries/points.h"
+#include "trees/queries/regions.h"
 
 namespace boxwood::bench {
 namespace {

@@ -1,7 +1,7 @@
 #include "bench/tasks/detail/kernel_task.h"
 
 #include "bench/plan/scenes.h"
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 
 #include <fmt/format.h>
 #include <xxhash.h>

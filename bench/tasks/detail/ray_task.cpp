@@ -2,7 +2,7 @@
 
 #include "bench/truth/hit_truth.h"
 #include "kernels/registry.h"
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 #include "trees/queries/single_rays.h"
 #include "trees/queries/sorted_rays.h"
 
@@ -156,7 +156,7 @@ TreeTask::Way HitTask::way(const Choice& choice) const {
     const RayOrderEntry& order = entry_named(choice.ray_order, ray_orders(), "ray order");
     const KernelInfo& kernel = entry_named(choice.kernel, ray_kernels(), "ray kernel");
     return {order.traversal, choice.kernel, kernel.promise,
-            maker<Hits>(choice.kernel, query_, order.name)};
+            maker<Hits>(choice.kernel, query_, order.name), Query::rays};
 }
 
 } // namespace boxwood::bench

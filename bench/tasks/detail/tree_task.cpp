@@ -1,7 +1,7 @@
 #include "bench/tasks/detail/tree_task.h"
 
 #include "bench/plan/scenes.h"
-#include "scenes/suggest.h"
+#include "kernels/suggest.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@ std::string name_with_settings(std::string word, const Settings& settings) {
     std::ranges::replace(word, '+', '_');
     for (const auto& [name, value] : settings) {
         word += fmt::format("_{}", name);
-        for (const char c : fmt::format("{}", value))
+        for (const char c : to_text(value))
             if (c != '+')
                 word += c == '.' ? '_' : c == '-' ? 'm' : c;
     }
@@ -23,7 +23,10 @@ std::string name_with_settings(std::string word, const Settings& settings) {
 std::string settings_json(const Settings& settings) {
     std::string all;
     for (const auto& [name, value] : settings)
-        all += fmt::format("{}\"{}\": {}", all.empty() ? "" : ", ", name, value);
+        all += fmt::format("{}\"{}\": {}", all.empty() ? "" : ", ", name,
+                           std::holds_alternative<std::string>(value)
+                               ? '"' + std::get<std::string>(value) + '"'
+                               : to_text(value));
     return "{" + all + "}";
 }
 
@@ -81,6 +84,11 @@ ContenderEntry TreeTask::contender(const Choice& choice) const {
     entry.notes = "build: boxes to tree to layout; answers in the same order for any number of "
                   "threads";
     entry.params_json = settings_json(choice.settings);
+    entry.cannot = [&layout, query = way.query](const Job&) -> std::optional<std::string> {
+        if (query && !layout.answers(*query))
+            return fmt::format("the layout {} does not answer {}", layout.name, to_string(*query));
+        return std::nullopt;
+    };
     entry.answers = {{std::string(name()), [build = make_builder(choice.builder, choice.settings),
                                             &layout, make = std::move(way.make)](const Job& job) {
                           return make(job, build, layout);

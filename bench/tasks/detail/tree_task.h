@@ -38,6 +38,7 @@ class TreeTask : public Task {
         Promise promise = Promise::none;
         std::function<std::unique_ptr<Contender>(const Job&, BuildFunction, const LayoutEntry&)>
             make;
+        std::optional<Query> query{}; ///< what a layout must answer for it
     };
     virtual Way way(const Choice& choice) const = 0;
     /// What triangles are needed for ("aim rays at"); empty if boxes are enough.

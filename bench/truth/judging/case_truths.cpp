@@ -36,7 +36,7 @@ Panel panel_of(const Scene& scene) {
 }
 
 bool breaks_promise(const results::KernelRow& row) {
-    return row.status == "wrong" && row.promise != to_string(Promise::none);
+    return row.status == results::Status::wrong && row.promise != to_string(Promise::none);
 }
 
 std::string replay_command(const CaseScene& scene, const std::string& kernel, std::size_t i) {

@@ -32,7 +32,7 @@ ContenderEntry named(Promise promise, const std::string& precision = "f64") {
 /// As a result file has it.
 results::KernelRow row_of(const Judgement& judgement) {
     results::KernelRow row = judgement.kernel.value();
-    row.status = to_string(judgement.status);
+    row.status = judgement.status;
     return row;
 }
 

@@ -14,7 +14,7 @@
 #include <limits>
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
 
 /// One bin on each axis: 128 bytes, so that 32 of them fill 4 KiB and no two share their low
 /// address bits.
@@ -23,7 +23,7 @@ struct alignas(128) Bin {
     std::uint32_t count[4];
     std::uint32_t unused[4];
 };
-inline constexpr int kMostBins = 32;
+inline constexpr int kMaxBins = 32;
 
 /// Which bin a doubled centre falls in on each axis: (centre - low) * scale + 1 lies in [1, 2), and
 /// the five upper bits of its mantissa are the bin. Clamped even where rounding "cannot" leave the
@@ -34,9 +34,9 @@ struct Binning {
     float last; ///< where the last bin starts
     float edge; ///< next to nothing by the size of the node; see `Join`
 
-    Binning(const float (&centres)[8], std::size_t n, int most_bins)
+    Binning(const float (&centres)[8], std::size_t n, int max_bins)
         : n_bins(static_cast<int>(
-              std::min<std::size_t>(static_cast<std::size_t>(most_bins), 4 + n / 8))),
+              std::min<std::size_t>(static_cast<std::size_t>(max_bins), 4 + n / 8))),
           last(Start(n_bins - 1)) {
         float most = 0;
         for (int axis = 0; axis < 3; ++axis) {
@@ -58,7 +58,7 @@ struct Binning {
 HWY_INLINE void Clear(Bin* bins, int n_bins) {
     for (int b = 0; b < n_bins; ++b) {
         for (auto& box : bins[b].box)
-            StoreF8(SetF8(kLeast), box);
+            StoreF8(SetF8(kLowest), box);
         for (std::uint32_t& count : bins[b].count)
             count = 0;
     }
@@ -145,8 +145,8 @@ HWY_INLINE Plane CheapestPlane(const Bin* bins, const Binning& binning, std::uin
     constexpr hn::FixedTag<float, 4> d;
     constexpr hn::FixedTag<std::int32_t, 4> di;
     const auto edge = hn::Set(d, binning.edge);
-    alignas(16) float right_area[kMostBins][4];
-    F8 x = SetF8(kLeast), y = x, z = x;
+    alignas(16) float right_area[kMaxBins][4];
+    F8 x = SetF8(kLowest), y = x, z = x;
     const auto grow = [&](const Bin& bin) {
         x = MaxF8(x, LoadF8(bin.box[0]));
         y = MaxF8(y, LoadF8(bin.box[1]));
@@ -156,7 +156,7 @@ HWY_INLINE Plane CheapestPlane(const Bin* bins, const Binning& binning, std::uin
         grow(bins[b]);
         hn::Store(HalfAreas(x, y, z, edge), d, right_area[b]);
     }
-    x = y = z = SetF8(kLeast);
+    x = y = z = SetF8(kLowest);
     const auto all = hn::Set(di, static_cast<std::int32_t>(n));
     const auto rest = hn::Set(di, (1 << block_bits) - 1);
     const auto blocks = [&](auto items) HWY_ATTR {
@@ -203,13 +203,13 @@ HWY_INLINE Plane CheapestPlane(const Bin* bins, const Binning& binning, std::uin
     };
     Plane plane;
     for (int axis = 0; axis < 3; ++axis) {
-        float right_area[kMostBins];
-        F8 side = SetF8(kLeast);
+        float right_area[kMaxBins];
+        F8 side = SetF8(kLowest);
         for (int b = binning.n_bins; --b > 0;) {
             side = MaxF8(side, LoadF8(bins[b].box[axis]));
             right_area[b] = half_area(side);
         }
-        side = SetF8(kLeast);
+        side = SetF8(kLowest);
         std::uint32_t left = 0;
         for (int b = 1; b < binning.n_bins; ++b) {
             side = MaxF8(side, LoadF8(bins[b - 1].box[axis]));
@@ -227,9 +227,9 @@ HWY_INLINE Plane CheapestPlane(const Bin* bins, const Binning& binning, std::uin
 /// Copies the items to `to`, those that go left from `left` on and the others from `right` on, each
 /// in their old order, and grows the bounds of the doubled centres of each side. Without a branch,
 /// which would be mispredicted half the time.
-HWY_INLINE void Part(const Prim8* prims, std::size_t n, const Binning& binning, Plane plane,
-                     Prim8* to, std::size_t left, std::size_t right, float (&left_centres)[8],
-                     float (&right_centres)[8]) {
+HWY_INLINE void Partition(const Prim8* prims, std::size_t n, const Binning& binning, Plane plane,
+                          Prim8* to, std::size_t left, std::size_t right, float (&left_centres)[8],
+                          float (&right_centres)[8]) {
     F8 l = LoadF8(left_centres), r = LoadF8(right_centres);
     const float start = Binning::Start(plane.bin);
     // One of the two places moves on at each step.
@@ -246,7 +246,7 @@ HWY_INLINE void Part(const Prim8* prims, std::size_t n, const Binning& binning, 
     const auto lane = hn::IndicesFromVec(d, hn::Set(di, plane.axis));
     const auto low = hn::Set(d, binning.low[plane.axis]),
                scale = hn::Set(d, binning.scale[plane.axis]), first = hn::Set(d, 1),
-               starts = hn::Set(d, start), least = hn::Set(d, kLeast);
+               starts = hn::Set(d, start), least = hn::Set(d, kLowest);
     for (std::size_t i = 0; i < n; ++i) {
         const F8 box = LoadF8(prims[i].v);
         const F8 centre = DoubledCentre(box);
@@ -270,7 +270,7 @@ HWY_INLINE void Part(const Prim8* prims, std::size_t n, const Binning& binning, 
     StoreF8(r, right_centres);
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// A triangle whose parts on either side of a plane across an axis are boxed, so that no ray that
 /// the watertight kernel lets hit the triangle slips between the boxes of its parts.
@@ -70,4 +70,4 @@ class ClippedTriangle {
     Vec3<double> pad_;
 };
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -14,7 +14,7 @@
 #include <algorithm>
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
 
 /// Where a subtree goes: its first node and its first slot.
 struct Place {
@@ -196,7 +196,7 @@ HWY_INLINE void HalveAsTheyLie(const Prim8* prims, std::uint32_t n, Place place,
     }
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

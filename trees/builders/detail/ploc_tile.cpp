@@ -12,7 +12,7 @@
 #include <cmath>
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -67,11 +67,11 @@ void FindNearest(const PlocTile::View& tile, std::size_t radius) {
     }
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace boxwood {
+namespace boxwood::detail {
 HWY_EXPORT(FindNearest);
 
 /// By a power of two, where areas might overflow or vanish.
@@ -168,5 +168,5 @@ std::size_t PlocTile::reduce(std::size_t wanted, std::size_t radius, std::uint32
     return n_merges_;
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail
 #endif

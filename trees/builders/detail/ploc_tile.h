@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// A subtree on its way to the root. Leaves are numbered along the curve from 0; each merge gets
 /// the next number.
@@ -81,4 +81,4 @@ class PlocTile {
     std::uint32_t first_node_ = 0;
 };
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -13,7 +13,7 @@
 #include <algorithm>
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
 
 // One register where there are registers of eight floats, else a plain array: the same numbers.
 #if HWY_MAX_BYTES >= 32 && !HWY_HAVE_SCALABLE
@@ -70,11 +70,11 @@ HWY_INLINE void WriteNode(const F8& box, std::uint32_t first, std::uint32_t coun
 #endif
 
 /// Less than any coordinate of a Prim8, and small enough that areas of it are finite.
-inline constexpr float kLeast = -0x1p62f;
+inline constexpr float kLowest = -0x1p62f;
 
 /// (max, -min) of the doubled centres.
 HWY_INLINE F8 BoundsOfCentres(const Prim8* prims, std::size_t n) {
-    F8 bounds = SetF8(kLeast);
+    F8 bounds = SetF8(kLowest);
     for (std::size_t i = 0; i < n; ++i)
         bounds = MaxF8(bounds, DoubledCentre(LoadF8(prims[i].v)));
     return bounds;
@@ -82,13 +82,13 @@ HWY_INLINE F8 BoundsOfCentres(const Prim8* prims, std::size_t n) {
 
 /// (max, -min) of the boxes.
 HWY_INLINE F8 BoundsOfBoxes(const Prim8* prims, std::size_t n) {
-    F8 bounds = SetF8(kLeast);
+    F8 bounds = SetF8(kLowest);
     for (std::size_t i = 0; i < n; ++i)
         bounds = MaxF8(bounds, LoadF8(prims[i].v));
     return bounds;
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-namespace boxwood {
+namespace boxwood::detail {
 namespace {
 
 constexpr std::size_t chunk = 1 << 13;
@@ -21,6 +21,17 @@ std::uint32_t largest_bits(Boxes boxes) {
             for (const float x : {p.x, p.y, p.z})
                 largest = std::max(largest, std::bit_cast<std::uint32_t>(x) & 0x7fffffff);
     return largest;
+}
+
+/// Less than any coordinate of a Prim8.
+constexpr float lowest = -0x1p62f;
+
+void add_centre(const Prim8& prim, float (&centres)[8]) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const float centre = prim.doubled_centre(axis);
+        centres[axis] = std::max(centres[axis], centre);
+        centres[4 + axis] = std::max(centres[4 + axis], -centre);
+    }
 }
 
 } // namespace
@@ -50,8 +61,8 @@ Prims8::Prims8(Boxes boxes, const Executor& executor) {
     std::vector<Bounds> bounds(chunks);
     std::atomic<bool> inverted = false;
     executor.for_each(chunks, [&](std::size_t c) {
-        float most[8];
-        std::fill_n(most, 8, -0x1p62f);
+        float largest_centres[8];
+        std::fill_n(largest_centres, 8, lowest);
         bool bad = false;
         std::size_t i = c * chunk;
         for (const Box& box : part(c)) {
@@ -60,19 +71,15 @@ Prims8::Prims8(Boxes boxes, const Executor& executor) {
             Prim8& p = prims[i];
             p = {{a.x, a.y, a.z, Prim8::lane_of_item(i), b.x, b.y, b.z, 0}};
             ++i;
-            for (int axis = 0; axis < 3; ++axis) {
-                const float centre = p.doubled_centre(axis);
-                most[axis] = std::max(most[axis], centre);
-                most[4 + axis] = std::max(most[4 + axis], -centre);
-            }
+            add_centre(p, largest_centres);
         }
         if (bad)
             inverted = true;
-        std::copy_n(most, 8, bounds[c].v);
+        std::copy_n(largest_centres, 8, bounds[c].v);
     });
     if (inverted)
         require_valid(boxes);
-    std::fill_n(centres, 8, -0x1p62f);
+    std::fill_n(centres, 8, lowest);
     for (const Bounds& each : bounds)
         for (int i = 0; i < 8; ++i)
             centres[i] = std::max(centres[i], each.v[i]);
@@ -89,6 +96,14 @@ std::size_t halve(std::span<Prim8> prims, const float (&centres)[8]) {
                          return at < bt || (at == bt && a.item() < b.item());
                      });
     return static_cast<std::size_t>(middle);
+}
+
+std::size_t halve(std::span<Prim8> prims) {
+    float centres[8];
+    std::fill_n(centres, 8, lowest);
+    for (const Prim8& prim : prims)
+        add_centre(prim, centres);
+    return halve(prims, centres);
 }
 
 void sort_by_centre(std::span<const Prim8> prims, int axis, std::span<Prim8> sorted) {
@@ -118,4 +133,4 @@ void sort_by_centre(std::span<const Prim8> prims, int axis, std::span<Prim8> sor
         sorted[i] = prims[static_cast<std::uint32_t>(keys[i])];
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail

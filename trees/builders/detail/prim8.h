@@ -6,8 +6,9 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// An item on its way to a leaf, 32 bytes: lanes 0-2 hold max, 4-6 hold -min, so that one maximum
 /// of eight lanes grows a box. Lane 3 holds the item: bits whose float is no denormal, arithmetic
@@ -40,8 +41,9 @@ struct Prims8 {
 /// Half of the items on each side of the median centre along the axis of largest spread, ties by
 /// item; returns how many go first. For `centres` see Prims8.
 std::size_t halve(std::span<Prim8> prims, const float (&centres)[8]);
+std::size_t halve(std::span<Prim8> prims);
 
 /// The items by their doubled centres along an axis, equal ones in their old order. O(n).
 void sort_by_centre(std::span<const Prim8> prims, int axis, std::span<Prim8> sorted);
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -11,7 +11,7 @@
 #include <cfloat>
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -32,8 +32,9 @@ bool AreAscending(std::span<const std::uint32_t> items) {
     return all;
 }
 
-std::size_t FollowBlocks(Boxes now, Box* HWY_RESTRICT kept, std::size_t begin, std::size_t end,
-                         float most, float* HWY_RESTRICT steps, std::uint32_t* HWY_RESTRICT far) {
+std::size_t FollowBlocks(Boxes now, Box* HWY_RESTRICT before, std::size_t begin, std::size_t end,
+                         float max_step, float* HWY_RESTRICT steps,
+                         std::uint32_t* HWY_RESTRICT far) {
     std::size_t n_far = 0;
     for (std::size_t b = begin; b < end; ++b) {
         const std::size_t first = b * follow_block,
@@ -42,10 +43,10 @@ std::size_t FollowBlocks(Boxes now, Box* HWY_RESTRICT kept, std::size_t begin, s
         const bool whole = count == follow_block;
         if (whole) {
             const float* const from = reinterpret_cast<const float*>(&now[first]);
-            const float* const before = reinterpret_cast<const float*>(kept + first);
+            const float* const last = reinterpret_cast<const float*>(before + first);
             auto all = hn::Zero(df);
             for (std::size_t i = 0; i < block_floats; i += lanes) {
-                const auto x = hn::LoadU(df, from + i), y = hn::LoadU(df, before + i);
+                const auto x = hn::LoadU(df, from + i), y = hn::LoadU(df, last + i);
                 // Infinities that are the same, of an absent box, have gone nowhere.
                 const auto d = hn::Max(hn::Abs(hn::Sub(x, y)), hn::Set(df, FLT_MIN));
                 all = hn::Max(all, hn::IfThenElseZero(hn::Ne(x, y), d));
@@ -53,28 +54,28 @@ std::size_t FollowBlocks(Boxes now, Box* HWY_RESTRICT kept, std::size_t begin, s
             step = hn::GetLane(hn::MaxOfLanes(df, all));
         } else {
             for (std::size_t i = first; i < first + count; ++i)
-                step = std::max(step, box_step(now[i], kept[i]));
+                step = std::max(step, box_step(now[i], before[i]));
         }
         steps[b] = step;
-        if (!(step <= most)) {
+        if (!(step <= max_step)) {
             far[n_far++] = static_cast<std::uint32_t>(b);
         } else if (whole) {
             const float* const from = reinterpret_cast<const float*>(&now[first]);
-            float* const to = reinterpret_cast<float*>(kept + first);
+            float* const to = reinterpret_cast<float*>(before + first);
             for (std::size_t i = 0; i < block_floats; i += lanes)
                 hn::StoreU(hn::LoadU(df, from + i), df, to + i);
         } else {
-            std::copy_n(&now[first], count, kept + first);
+            std::copy_n(&now[first], count, before + first);
         }
     }
     return n_far;
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace boxwood {
+namespace boxwood::detail {
 HWY_EXPORT(AreAscending);
 HWY_EXPORT(FollowBlocks);
 
@@ -82,10 +83,10 @@ bool are_ascending(std::span<const std::uint32_t> items) {
     return HWY_DYNAMIC_DISPATCH(AreAscending)(items);
 }
 
-std::size_t follow_blocks(Boxes now, Box* kept, std::size_t begin, std::size_t end, float most,
-                          float* steps, std::uint32_t* far) {
-    return HWY_DYNAMIC_DISPATCH(FollowBlocks)(now, kept, begin, end, most, steps, far);
+std::size_t follow_blocks(Boxes now, Box* before, std::size_t begin, std::size_t end,
+                          float max_step, float* steps, std::uint32_t* far) {
+    return HWY_DYNAMIC_DISPATCH(FollowBlocks)(now, before, begin, end, max_step, steps, far);
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail
 #endif

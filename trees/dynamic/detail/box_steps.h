@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <span>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// Whether each is greater than the one before.
 bool are_ascending(std::span<const std::uint32_t> items);
@@ -32,10 +32,10 @@ inline float box_step(const Box& now, const Box& before) {
 /// Boxes are followed sixteen at a time.
 inline constexpr std::size_t follow_block = 16;
 
-/// Takes the boxes of the blocks [begin, end) over to `kept`, all of a block if none of its boxes
-/// went farther than `most`, else none. The largest step of block b goes to steps[b]; the numbers
-/// of the blocks not taken over go to `far`. Returns how many these are.
-std::size_t follow_blocks(Boxes now, Box* kept, std::size_t begin, std::size_t end, float most,
-                          float* steps, std::uint32_t* far);
+/// Takes the boxes of the blocks [begin, end) over to `before`, all of a block if none of its boxes
+/// went farther than `max_step`, else none. The largest step of block b goes to steps[b]; the
+/// numbers of the blocks not taken over go to `far`. Returns how many these are.
+std::size_t follow_blocks(Boxes now, Box* before, std::size_t begin, std::size_t end,
+                          float max_step, float* steps, std::uint32_t* far);
 
-} // namespace boxwood
+} // namespace boxwood::detail

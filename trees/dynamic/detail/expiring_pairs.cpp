@@ -1,6 +1,6 @@
 #include "trees/dynamic/detail/expiring_pairs.h"
 
-namespace boxwood {
+namespace boxwood::detail {
 namespace {
 
 /// With room for n, what it held lost.
@@ -144,7 +144,7 @@ std::size_t ExpiringPairs::bytes() const {
 
 std::string ExpiringPairs::fault(const Box* boxes) const {
     const auto name = [](Pair p) {
-        return "kept pair (" + std::to_string(p.a) + ", " + std::to_string(p.b) + ") ";
+        return "cached pair (" + std::to_string(p.a) + ", " + std::to_string(p.b) + ") ";
     };
     for (const auto list : {sure(), now()})
         for (const Pair pair : list)
@@ -173,4 +173,4 @@ std::string ExpiringPairs::fault(const Box* boxes) const {
     return "";
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "trees/dynamic/detail/gap_codes.h"
 #include "trees/queries/pairs.h"
 #include "trees/tree.h"
-#include "trees/dynamic/detail/gap_codes.h"
 
 #include <algorithm>
 #include <array>
@@ -11,18 +11,18 @@
 #include <string>
 #include <vector>
 
-namespace boxwood {
+namespace boxwood::detail {
 
-/// Candidate pairs, each looked at again no sooner than motion can have changed whether they
-/// overlap. Motion is counted in `used`: twice the most that any face can have moved since `start`.
-/// A pair that was last looked at when u was used, with a gap that allows for g, is as it was while
-/// used <= u + g. So it waits in the bucket of u + g, of `n_buckets` between 0 and `reach`; beyond
-/// that it need not be looked at any more.
+/// Candidate pairs, each tested again no sooner than motion can have changed whether they overlap.
+/// Motion is counted in `used`: twice the most that any face can have moved since `start`. A pair
+/// that was last tested when u was used, with a gap that allows for g, is as it was while used <= u
+/// + g. So it waits in the bucket of u + g, of `n_buckets` between 0 and `reach`; beyond that it
+/// need not be tested any more.
 class ExpiringPairs {
   public:
     static constexpr std::size_t n_buckets = GapScale::last;
 
-    /// How much motion is waited for; the state is as it was, and all is kept, while
+    /// How much motion is waited for; the state is as it was, and all pairs hold, while
     /// !used_up(used).
     struct Reach {
         double per_used = 0; ///< buckets in a unit of motion
@@ -35,7 +35,7 @@ class ExpiringPairs {
 
     /// Forgets what was. The pairs come in several parts.
     void start(std::span<const std::vector<Pair>> parts, const Box* boxes, Reach reach);
-    /// Looks again at the pairs that `used` may have changed; returns how many.
+    /// Tests again the pairs that `used` may have changed; returns how many.
     std::size_t examine(const Box* boxes, double used);
     /// Takes out the pairs of the items marked 1, whose boxes are empty from now on.
     void leave_out(const std::uint8_t* marks);
@@ -45,7 +45,7 @@ class ExpiringPairs {
     std::span<const Pair> now() const { return {on_.data(), n_on_}; }
 
     std::size_t bytes() const;
-    /// What is wrong, given the boxes last looked at; empty if nothing. O(pairs).
+    /// What is wrong, given the boxes last tested; empty if nothing. O(pairs).
     std::string fault(const Box* boxes) const;
 
   private:
@@ -71,7 +71,7 @@ class ExpiringPairs {
     std::size_t n_unsure_ = 0;
     std::array<std::vector<Unsure>, n_buckets> waiting_;
     std::vector<std::uint32_t> codes_;
-    std::vector<Unsure> hot_, todo_; ///< hot: to be looked at whenever anything moves
+    std::vector<Unsure> hot_, todo_; ///< hot: to be tested whenever anything moves
 };
 
-} // namespace boxwood
+} // namespace boxwood::detail

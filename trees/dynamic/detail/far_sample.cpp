@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 void FarSample::start(Boxes boxes, double reach) {
     constexpr std::size_t most = 1024, few = 32;
@@ -21,7 +21,7 @@ void FarSample::start(Boxes boxes, double reach) {
         return;
     items_each_ = static_cast<double>(n) / static_cast<double>(items_.size());
     double sides = 0, present = 0;
-    Aabb<double> room;
+    Aabb<double> around;
     for (const std::uint32_t item : items_) {
         const Box& box = boxes[item];
         boxes_.push_back(box);
@@ -29,13 +29,13 @@ void FarSample::start(Boxes boxes, double reach) {
             continue;
         const Vec3<double> low(box.min), side = Vec3<double>(box.max) - low;
         sides += (side.x + side.y + side.z) / 3;
-        room.extend(low);
+        around.extend(low);
         ++present;
     }
     reach_ = 0;
     if (present == 0)
         return;
-    const Vec3<double> extent = room.max - room.min;
+    const Vec3<double> extent = around.max - around.min;
     const double share = extent.x * extent.y * extent.z / (present * items_each_);
     reach_ = reach * std::max(sides / present, std::cbrt(share));
 }
@@ -61,4 +61,4 @@ void FarSample::start_far(Boxes boxes) {
         boxes_[k] = boxes[items_[k]];
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail

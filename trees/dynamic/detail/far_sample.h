@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// About how many items have gone far since the start, by a sample of them: one in 32, but 256 at
 /// least and 1024 at most.
@@ -36,4 +36,4 @@ class FarSample {
     double reach_ = 0, items_each_ = 1;
 };
 
-} // namespace boxwood
+} // namespace boxwood::detail

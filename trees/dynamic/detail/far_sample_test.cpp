@@ -5,6 +5,7 @@
 #include <functional>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 Box cube(float x) { return {{x, 0, 0}, {x + 1, 1, 1}}; }

@@ -8,7 +8,7 @@
 #include "trees/dynamic/detail/gap_codes.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -56,11 +56,11 @@ void GapCodes(const Pair* pairs, std::size_t words, std::size_t n, const Box* bo
         codes[i] = scale.code(boxes[items[i * words]], boxes[items[i * words + 1]]);
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace boxwood {
+namespace boxwood::detail {
 HWY_EXPORT(GapCodes);
 
 void gap_codes(const Pair* pairs, std::size_t words, std::size_t n, const Box* boxes,
@@ -68,5 +68,5 @@ void gap_codes(const Pair* pairs, std::size_t words, std::size_t n, const Box* b
     HWY_DYNAMIC_DISPATCH(GapCodes)(pairs, words, n, boxes, scale, codes);
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail
 #endif

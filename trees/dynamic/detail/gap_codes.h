@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// How long two boxes stay as they are. The gap between them is how far apart they are on the axis
 /// on which they are farthest apart, or, negative, how deep they overlap: whatever the two move in
@@ -46,4 +46,4 @@ void gap_codes(const Pair* pairs, std::size_t words, std::size_t n, const Box* b
                GapScale scale, std::uint32_t* codes);
 inline constexpr std::size_t max_gap_items = std::size_t{1} << 28;
 
-} // namespace boxwood
+} // namespace boxwood::detail

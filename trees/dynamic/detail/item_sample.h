@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// One of each `most` equal parts of the items 0 .. n - 1, ascending, all of them if they are
 /// fewer: somewhere in its part, so that no pattern in the numbers goes unseen.
@@ -18,4 +18,4 @@ inline std::vector<std::uint32_t> sampled_items(std::size_t n, std::size_t most)
     return items;
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail

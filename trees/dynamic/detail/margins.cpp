@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 void Margins::start(Boxes boxes, double share) {
     double sides = 0;
@@ -55,4 +55,4 @@ void Margins::follow(Boxes boxes, std::span<const std::uint32_t> items) {
         fat_[item] = around(boxes[item]);
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail

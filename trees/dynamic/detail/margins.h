@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// A fat box around each item: while its box stays inside, the item keeps its place in the tree. An
 /// absent box is inside any, and around it no other is: who comes back to his place still has it.
@@ -18,7 +18,7 @@ class Margins {
     void start_wide(Boxes boxes, double margin);
     /// The items of `moved` whose boxes are not inside their fat boxes; valid until the next call.
     std::span<const std::uint32_t> left(Boxes boxes, std::span<const std::uint32_t> moved);
-    /// Puts the fat boxes of these items around their boxes anew.
+    /// Puts the fat boxes of these items around their present boxes.
     void follow(Boxes boxes, std::span<const std::uint32_t> items);
     const Box& fat(std::uint32_t item) const { return fat_[item]; }
     std::size_t bytes() const {
@@ -34,4 +34,4 @@ class Margins {
     std::vector<std::uint32_t> left_;
 };
 
-} // namespace boxwood
+} // namespace boxwood::detail

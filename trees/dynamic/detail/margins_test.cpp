@@ -7,6 +7,7 @@
 #include <numeric>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 Box cube(float x) { return {{x, 0, 0}, {x + 1, 1, 1}}; }

@@ -1,12 +1,12 @@
 #include "trees/dynamic/detail/moving_tree.h"
 
 #include "trees/builders/hilbert.h"
-#include "trees/ordering/radix_sort.h"
+#include "trees/ordering/detail/radix_sort.h"
 
 #include <algorithm>
 #include <limits>
 
-namespace boxwood {
+namespace boxwood::detail {
 namespace {
 
 std::uint32_t item_of(std::uint64_t record) { return static_cast<std::uint32_t>(record); }
@@ -50,22 +50,23 @@ std::size_t MovingTree::bytes() const {
            gathered_.capacity() * sizeof(Box) + gathered_items_.capacity() * sizeof(std::uint32_t);
 }
 
-double MovingTree::looseness() const {
+double MovingTree::area_ratio() const {
     const double now = surface();
     if (tight_ > 0)
         return now / tight_;
     return now > 0 ? std::numeric_limits<double>::infinity() : 1; // what was not there came
 }
 
-/// kept_curve_order; the records of absent items come last.
-KeptOrder MovingTree::kept_order(Boxes boxes, const Survey& found, const Executor& executor) {
+/// mergeable_curve_order; the records of absent items come last.
+MergeableOrder MovingTree::mergeable_order(Boxes boxes, const Survey& found,
+                                           const Executor& executor) {
     if (!found.some_absent)
-        return kept_curve_order(boxes, Curve::hilbert, HilbertBuilder::groups(boxes), executor,
-                                &found.centres);
+        return mergeable_curve_order(boxes, Curve::hilbert, HilbertBuilder::groups(boxes), executor,
+                                     &found.centres);
     const std::size_t n = gather_present(boxes, gathered_, gathered_items_);
-    const KeptOrder present = kept_curve_order(
+    const MergeableOrder present = mergeable_curve_order(
         gathered_, Curve::hilbert, HilbertBuilder::groups(gathered_), executor, &found.centres);
-    KeptOrder all{present.grid, present.group, {}};
+    MergeableOrder all{present.grid, present.group, {}};
     if (present.records.size() == n) {
         all.records = Buffer<std::uint64_t>(boxes.size());
         constexpr std::uint64_t beyond = ~std::uint64_t{0} << 32; // there is no fourth group
@@ -83,8 +84,8 @@ void MovingTree::place(Boxes boxes, const Executor& executor) {
     tight_ = surface();
 }
 
-void MovingTree::order_anew(Boxes boxes, const std::optional<Survey>& known,
-                            const Executor& executor) {
+void MovingTree::reorder(Boxes boxes, const std::optional<Survey>& known,
+                         const Executor& executor) {
     order_ = present_order(boxes, known ? *known : survey_of(boxes, executor), executor);
     records_ = {};
     place(boxes, executor);
@@ -95,9 +96,9 @@ void MovingTree::order_to_merge(Boxes boxes, const std::optional<Survey>& known,
                                 const Executor& executor) {
     const std::size_t n = boxes.size();
     const Survey found = known ? *known : survey_of(boxes, executor);
-    KeptOrder kept = kept_order(boxes, found, executor);
+    MergeableOrder kept = mergeable_order(boxes, found, executor);
     if (kept.records.size() != n)
-        return order_anew(boxes, found, executor);
+        return reorder(boxes, found, executor);
     grid_ = kept.grid;
     group_ = kept.group;
     records_ = std::move(kept.records);
@@ -197,9 +198,9 @@ void MovingTree::refit(Boxes boxes, std::span<const std::uint32_t> items,
 }
 
 void MovingTree::exchange(Boxes boxes, const Executor& executor) {
-    const double loose = looseness();
+    const double ratio = area_ratio();
     refit(boxes, executor);
-    tight_ = loose > 0 ? surface() / loose : surface();
+    tight_ = ratio > 0 ? surface() / ratio : surface();
 }
 
 std::string MovingTree::fault() const {
@@ -220,4 +221,4 @@ std::string MovingTree::fault() const {
     return layout_.fault();
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -1,16 +1,16 @@
 #pragma once
 
-#include "trees/ordering/curve_order.h"
-#include "trees/layouts/packed.h"
-#include "trees/dynamic/update.h"
 #include "trees/dynamic/detail/survey.h"
+#include "trees/dynamic/update.h"
+#include "trees/layouts/packed.h"
+#include "trees/ordering/curve_order.h"
 
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// The order of HilbertBuilder, and after it the absent items.
 Buffer<std::uint32_t> present_order(Boxes boxes, const Survey& survey, const Executor& executor);
@@ -28,9 +28,9 @@ class MovingTree {
     std::string fault() const;
 
     /// A new order: that of present_order. `known` of these boxes, if it is.
-    void order_anew(Boxes boxes, const std::optional<Survey>& known, const Executor& executor);
+    void reorder(Boxes boxes, const std::optional<Survey>& known, const Executor& executor);
     /// A new order along a curve, to which `merge_in` can add: takes twice as long. Where boxes are
-    /// too close together for that, as order_anew.
+    /// too close together for that, as reorder.
     void order_to_merge(Boxes boxes, const std::optional<Survey>& known, const Executor& executor);
     /// This order of all items.
     void set_order(Boxes boxes, Buffer<std::uint32_t> order, const Executor& executor);
@@ -38,7 +38,7 @@ class MovingTree {
     /// last order was made by order_to_merge or this; else as order_to_merge. Items ascending, all
     /// present.
     void merge_in(Boxes boxes, std::span<const std::uint32_t> items, const Executor& executor);
-    /// Sorts the slots [begin, end) along the curve anew.
+    /// Sorts the slots [begin, end) along the curve again.
     void sort_part(Boxes boxes, std::size_t begin, std::size_t end, const Executor& executor);
 
     /// The order stays. Of all boxes, in one pass over the levels; or of these items alone and of
@@ -47,20 +47,20 @@ class MovingTree {
     void refit(Boxes boxes, std::span<const std::uint32_t> items);
     /// Whichever of the two is quicker.
     void refit(Boxes boxes, std::span<const std::uint32_t> items, const Executor& executor);
-    /// To boxes of another kind, such as wider ones: the looseness stays.
+    /// To boxes of another kind, such as wider ones: the area ratio stays.
     void exchange(Boxes boxes, const Executor& executor);
 
-    /// Sum of the surface areas of all blocks over that of the root: what a walk has to pass.
+    /// Sum of the surface areas of all blocks over that of the root: what a traversal has to pass.
     double surface() const { return layout_.surface(); }
     /// That over what it was when the order was last made or changed.
-    double looseness() const;
+    double area_ratio() const;
 
     // Of the newest frame:
     UpdateStep step;
     std::optional<Survey> survey; ///< if nearly all of it moved
 
   private:
-    KeptOrder kept_order(Boxes boxes, const Survey& found, const Executor& executor);
+    MergeableOrder mergeable_order(Boxes boxes, const Survey& found, const Executor& executor);
     void place(Boxes boxes, const Executor& executor);
     void note_slots();
 
@@ -80,4 +80,4 @@ class MovingTree {
     std::vector<std::uint32_t> moved_slots_;
 };
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -1,7 +1,7 @@
 #include "trees/dynamic/detail/policy.h"
 #include "trees/dynamic/detail/box_steps.h"
 
-namespace boxwood {
+namespace boxwood::detail {
 namespace {
 
 [[noreturn]] void throw_bad_list(std::span<const std::uint32_t> moved, std::size_t size) {
@@ -24,7 +24,7 @@ std::optional<Survey> survey_frame(Boxes boxes, std::span<const std::uint32_t> m
     if (boxes.size() != size)
         throw std::invalid_argument("update: the tree holds " + std::to_string(size) +
                                     " items, but there are " + std::to_string(boxes.size()) +
-                                    " boxes; give one per item, or start anew");
+                                    " boxes; give one per item, or call start again");
     if (!are_ascending(moved) || (!moved.empty() && moved.back() >= size))
         throw_bad_list(moved, size);
     if (is_nearly_all(moved.size(), size))
@@ -34,4 +34,4 @@ std::optional<Survey> survey_frame(Boxes boxes, std::span<const std::uint32_t> m
     return {};
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail

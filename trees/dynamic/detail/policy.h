@@ -1,8 +1,8 @@
 #pragma once
 
-#include "trees/dynamic/cached_pairs.h"
-#include "trees/queries/self_pairs.h"
+#include "trees/dynamic/detail/cached_pairs.h"
 #include "trees/dynamic/detail/moving_tree.h"
+#include "trees/queries/self_pairs.h"
 
 #include <concepts>
 #include <limits>
@@ -11,15 +11,15 @@
 #include <string>
 #include <utility>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// A policy says how a MovingTree follows its boxes. Its settings are documented data members with
-/// defaults, listed by `settings()`; it may keep a state of its own. It sees good frames only. One
-/// that keeps pairs shows them by `cached_pairs()`: while they hold, they answer and not the tree.
-/// What policies go by: order_age.h (when a new order pays), margins.h and far_sample.h (who left
-/// his place), step_sample.h (how fast all go).
+/// defaults, listed by `settings()`; it may have a state of its own. It sees good frames only. One
+/// that caches pairs shows them by `cached_pairs()`: while they hold, they answer and not the tree.
+/// What policies decide by: order_degradation.h (when a new order pays), margins.h and far_sample.h
+/// (which items left their places), step_sample.h (how fast all move).
 template <class P>
-concept UpdatePolicy = std::default_initializable<P> &&
+concept UpdatePolicy = std::default_initializable<P> && ListsSettings<P> &&
     requires(P policy, MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
              const Executor& executor) {
     policy.start(tree, boxes, executor);
@@ -48,19 +48,19 @@ template <UpdatePolicy P> class UpdaterOf final : public Updater {
                 const Executor& executor) override {
         tree_.survey = survey_frame(boxes, moved, tree_.size(), executor);
         tree_.step = {};
-        if (keeps_pairs || !moved.empty())
+        if (caches_pairs || !moved.empty())
             policy_.update(tree_, boxes, moved, executor);
     }
     void self_pairs(const Executor& executor, PairSink& sink) const override {
-        if (const CachedPairs* kept = held_pairs())
-            kept->self_pairs(sink);
+        if (const CachedPairs* cached = valid_pairs())
+            cached->self_pairs(sink);
         else
             boxwood::self_pairs(tree_.layout(), executor, sink);
     }
     Work self_pairs_counted(PairSink& sink) const override {
-        const CachedPairs* kept = held_pairs();
-        return kept ? kept->self_pairs_counted(tree_, sink)
-                    : boxwood::self_pairs_counted(tree_.layout(), sink);
+        const CachedPairs* cached = valid_pairs();
+        return cached ? cached->self_pairs_counted(tree_, sink)
+                      : boxwood::self_pairs_counted(tree_.layout(), sink);
     }
     std::size_t size() const override { return tree_.size(); }
     std::size_t bytes() const override { return tree_.bytes() + policy_.bytes(); }
@@ -77,19 +77,19 @@ template <UpdatePolicy P> class UpdaterOf final : public Updater {
     }
     std::string fault() const override {
         std::string found = tree_.fault();
-        if constexpr (keeps_pairs)
+        if constexpr (caches_pairs)
             if (found.empty())
                 found = policy_.cached_pairs().fault();
         return found;
     }
 
   private:
-    static constexpr bool keeps_pairs = requires(const P& policy) {
+    static constexpr bool caches_pairs = requires(const P& policy) {
         { policy.cached_pairs() } -> std::same_as<const CachedPairs&>;
     };
 
-    const CachedPairs* held_pairs() const {
-        if constexpr (keeps_pairs)
+    const CachedPairs* valid_pairs() const {
+        if constexpr (caches_pairs)
             if (policy_.cached_pairs().holds())
                 return &policy_.cached_pairs();
         return nullptr;
@@ -107,4 +107,4 @@ template <UpdatePolicy P> UpdateEntry update_entry() {
             }};
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 void StepSample::start(Boxes boxes) {
     constexpr std::size_t most = 512;
@@ -37,4 +37,4 @@ std::span<const float> StepSample::follow(Boxes boxes, std::span<const std::uint
     return steps_;
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// How far some hundred of the items step in each frame.
 class StepSample {
@@ -28,4 +28,4 @@ class StepSample {
     std::vector<float> steps_;
 };
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -8,6 +8,7 @@
 #include <limits>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 /// n boxes of which all go by `step` along x and every seventh is listed, or all are.

@@ -5,16 +5,16 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
-#include "trees/ordering/curve_codes.h"
-#include "trees/ordering/radix_sort.h"
 #include "trees/dynamic/detail/survey.h"
+#include "trees/executors/chunks.h"
+#include "trees/ordering/curve_codes.h"
 
 #include <algorithm>
 #include <limits>
 #include <vector>
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -66,11 +66,11 @@ bool AddBoxes(Boxes boxes, Survey& to) {
     return good;
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace boxwood {
+namespace boxwood::detail {
 HWY_EXPORT(AddBoxes);
 
 /// Branches are for what is rare: half of an extent is below infinity only if both ends are finite.
@@ -124,5 +124,5 @@ Survey survey_of(Boxes boxes, const Executor& executor) {
     return survey;
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail
 #endif

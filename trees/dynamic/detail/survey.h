@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// Whether the box is the empty one: its item is absent from this frame.
 inline bool is_absent(const Box& box) { return box == Box{}; }
@@ -22,4 +22,4 @@ Survey survey_of(Boxes boxes, const Executor& executor);
 /// Throws the same for one item.
 void require_present_or_absent(std::uint32_t item, const Box& box);
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -7,6 +7,7 @@
 #include <limits>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity(),

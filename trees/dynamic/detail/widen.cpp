@@ -1,13 +1,13 @@
 #include "trees/dynamic/detail/widen.h"
 
-#include "trees/ordering/radix_sort.h"
 #include "trees/dynamic/detail/survey.h"
+#include "trees/executors/chunks.h"
 
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 double median_side(Boxes boxes) {
     constexpr std::size_t most = 1023;
@@ -46,4 +46,4 @@ void widen_boxes(Boxes boxes, double margin, std::vector<Box>& widened, const Ex
     });
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// The median of a sample's sides, each the mean of a box's three; at least FLT_MIN, 1 if no box is
 /// present.
@@ -15,4 +15,4 @@ double median_side(Boxes boxes);
 /// at the end of all floats; the absent stay absent.
 void widen_boxes(Boxes boxes, double margin, std::vector<Box>& widened, const Executor& executor);
 
-} // namespace boxwood
+} // namespace boxwood::detail

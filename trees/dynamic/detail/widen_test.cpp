@@ -7,6 +7,7 @@
 #include <cfloat>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 /// By long doubles, whose 64 bits hold every sum here that is not far beyond the margin.

@@ -1,26 +1,27 @@
-#include "trees/dynamic/cached_pairs.h"
+#include "trees/dynamic/detail/cached_pairs.h"
 #include "trees/dynamic/detail/far_sample.h"
 #include "trees/dynamic/detail/margins.h"
-#include "trees/dynamic/detail/order_age.h"
 #include "trees/dynamic/detail/policy.h"
 #include "trees/dynamic/detail/step_sample.h"
+#include "trees/dynamic/order_degradation.h"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 /// Picks by what moved, never by the clock, so that the answers and their order are the same
-/// everywhere. While the steps that a sample of the items takes foretell that it pays, pairs are
-/// kept; as long as what that did in fact bears it out. Otherwise the tree answers: bounds are
-/// refitted, until what queries lose by that exceeds what a new order takes (order_age.h). Then the
-/// items that went far (far_sample.h) are merged in at their new places if they are few, else all
-/// are ordered anew.
+/// everywhere. While a forecast from the steps of a sample of the items says that it pays, pairs
+/// are cached, as long as what was spent confirms it. Otherwise the tree answers: bounds are
+/// refitted until what queries lose by that exceeds what a new order takes (order_degradation.h).
+/// Then the items that went far (far_sample.h) are merged in at their new places if they are few,
+/// else all get a new order.
 struct Auto {
     static constexpr std::string_view name = "auto";
-    static constexpr std::string_view summary = "kept pairs, refit, merge or a new order, by how "
+    static constexpr std::string_view summary = "cached pairs, refit, merge or a new order, by how "
                                                 "many moved, how far, and what that came to";
 
     /// What goes beyond has gone far: of the mean side of a box, or of the cube that holds sixteen
@@ -35,21 +36,21 @@ struct Auto {
               "boxes' place",
               &Auto::margin, 0, 1e6},
              {"patience",
-              "what queries may lose by loose bounds before a new order, in times of making one",
+              "what queries may lose by grown bounds before a new order, in times of making one",
               &Auto::patience, 0, 1e6}}};
     }
 
     void start(MovingTree& tree, Boxes boxes, const Executor& executor) {
-        tree.order_anew(boxes, tree.survey, executor);
+        tree.reorder(boxes, tree.survey, executor);
         fresh_ = tree.surface();
         far_.start(boxes, margin);
         merges_ = false;
-        age_.patience = patience;
-        age_.start(per_order - per_refit, tree.layout(), boxes);
+        degradation_.patience = patience;
+        degradation_.start(per_order - per_refit, tree.layout(), boxes);
         wait_ = 0;
-        pause_ = least_pause;
+        pause_ = min_pause;
         constexpr double slow = 3e-3; // until steps have been seen
-        begin_to_keep(tree, boxes, slow, executor);
+        begin_caching(tree, boxes, slow, executor);
         sample_.start(boxes);
         is_first_ = true;
         tree.step = {};
@@ -57,8 +58,8 @@ struct Auto {
     void update(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
                 const Executor& executor) {
         const bool is_first = std::exchange(is_first_, false);
-        if (kept_.holds() && !is_first)
-            return keep(tree, boxes, moved, executor);
+        if (cached_.holds() && !is_first)
+            return follow_cached(tree, boxes, moved, executor);
         if (moved.empty())
             return;
         if (wait_ > 0) {
@@ -67,35 +68,35 @@ struct Auto {
             return follow(tree, boxes, moved, executor);
         }
         const auto steps = sample_.follow(boxes, moved);
-        const bool would_pay =
-            pays(kept_.forecast({steps.begin(), steps.end()}, sample_.items_each(), moved.size()));
-        if (kept_.holds())
-            return would_pay ? keep(tree, boxes, moved, executor)
-                             : do_not_begin(tree, boxes, moved, executor);
+        const bool would_pay = pays(
+            cached_.forecast({steps.begin(), steps.end()}, sample_.items_each(), moved.size()));
+        if (cached_.holds())
+            return would_pay ? follow_cached(tree, boxes, moved, executor)
+                             : do_without(tree, boxes, moved, executor);
         if (would_pay)
-            return begin_to_keep(tree, boxes, kept_.pace() / kept_.side(), executor);
+            return begin_caching(tree, boxes, cached_.pace() / cached_.side(), executor);
         wait_ = between_looks;
         follow(tree, boxes, moved, executor);
     }
-    const CachedPairs& cached_pairs() const { return kept_; }
+    const CachedPairs& cached_pairs() const { return cached_; }
     std::size_t bytes() const {
-        return far_.bytes() + margins_.bytes() + kept_.bytes() + sample_.bytes();
+        return far_.bytes() + margins_.bytes() + cached_.bytes() + sample_.bytes();
     }
 
   private:
-    /// Without kept pairs. Items that went far are merged in if they alone are to blame.
+    /// Without cached pairs. Items that went far are merged in if they alone are the cause.
     void follow(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
                 const Executor& executor) {
-        if (!age_.is_due_next()) {
+        if (!degradation_.is_due_next()) {
             tree.refit(boxes, moved, executor);
-            age_.aged(looseness(tree));
-            if (!age_.is_due())
+            degradation_.degraded(area_ratio(tree));
+            if (!degradation_.is_due())
                 return;
         }
-        renew_order(tree, boxes, moved, executor);
+        improve_order(tree, boxes, moved, executor);
     }
-    void renew_order(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
-                     const Executor& executor) {
+    void improve_order(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
+                       const Executor& executor) {
         const auto n = static_cast<double>(tree.size());
         const FarSample::Found far = far_.look(boxes);
         const double refit = std::min(1., 16 * static_cast<double>(moved.size()) / n) * per_refit,
@@ -105,8 +106,8 @@ struct Auto {
         if (merges)
             merge_in(tree, boxes, moved, executor);
         else
-            order_anew(tree, boxes, executor);
-        age_.renewed((merges ? merge : per_order) - refit, tree.layout(), boxes);
+            reorder(tree, boxes, executor);
+        degradation_.reordered((merges ? merge : per_order) - refit, tree.layout(), boxes);
     }
     /// At first an order that can be added to.
     void merge_in(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
@@ -124,57 +125,57 @@ struct Auto {
         margins_.start_wide(boxes, far_.reach());
         merges_ = true;
     }
-    void order_anew(MovingTree& tree, Boxes boxes, const Executor& executor) {
-        tree.order_anew(boxes, tree.survey, executor);
+    void reorder(MovingTree& tree, Boxes boxes, const Executor& executor) {
+        tree.reorder(boxes, tree.survey, executor);
         fresh_ = tree.surface();
         far_.start(boxes, margin);
         merges_ = false;
     }
-    double looseness(const MovingTree& tree) const {
+    double area_ratio(const MovingTree& tree) const {
         const double now = tree.surface();
         constexpr double all_new = 1e6; // boxes came where there were none
         return fresh_ > 0 ? now / fresh_ : now > 0 ? all_new : 1;
     }
 
-    bool pays(double nanoseconds) const { return nanoseconds < .75 * kept_.spent_anew(); }
+    bool pays(double nanoseconds) const { return nanoseconds < .75 * cached_.search_cost(); }
 
-    void begin_to_keep(MovingTree& tree, Boxes boxes, double step, const Executor& executor) {
-        kept_.drop();
-        kept_.start(boxes, step);
+    void begin_caching(MovingTree& tree, Boxes boxes, double step, const Executor& executor) {
+        cached_.drop();
+        cached_.start(boxes, step);
         lost_ = 0;
         paid_ = 0;
-        if (!kept_.renew(tree, boxes, executor))
-            cease(tree, boxes, executor);
+        if (!cached_.rebuild(tree, boxes, executor))
+            stop_caching(tree, boxes, executor);
     }
-    void keep(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
-              const Executor& executor) {
-        bool held = kept_.follow(tree, boxes, moved, executor);
-        if (!held && pays(kept_.forecast()))
-            held = kept_.renew(tree, boxes, executor);
-        lost_ = std::max(0., lost_ + kept_.spent() - kept_.spent_anew());
-        // The next frames are to make good for a renewal.
-        if (!held || lost_ > kept_.renewal_cost() + 2 * kept_.spent_anew() ||
-            kept_.churn_cost() > kept_.spent_anew())
-            cease(tree, boxes, executor);
+    void follow_cached(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
+                       const Executor& executor) {
+        bool held = cached_.follow(tree, boxes, moved, executor);
+        if (!held && pays(cached_.forecast()))
+            held = cached_.rebuild(tree, boxes, executor);
+        lost_ = std::max(0., lost_ + cached_.spent() - cached_.search_cost());
+        // The next frames are to make good for a rebuild.
+        if (!held || lost_ > cached_.rebuild_cost() + 2 * cached_.search_cost() ||
+            cached_.churn_cost() > cached_.search_cost())
+            stop_caching(tree, boxes, executor);
         else if (lost_ == 0 && ++paid_ == some_frames)
-            pause_ = least_pause;
+            pause_ = min_pause;
     }
     /// In the first frame the order is that of the start.
-    void do_not_begin(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
-                      const Executor& executor) {
-        kept_.drop();
+    void do_without(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
+                    const Executor& executor) {
+        cached_.drop();
         wait();
         tree.exchange(boxes, executor);
-        age_.aged(looseness(tree));
-        if (age_.is_due())
-            renew_order(tree, boxes, moved, executor);
+        degradation_.degraded(area_ratio(tree));
+        if (degradation_.is_due())
+            improve_order(tree, boxes, moved, executor);
     }
     /// It did not pay.
-    void cease(MovingTree& tree, Boxes boxes, const Executor& executor) {
-        kept_.drop();
+    void stop_caching(MovingTree& tree, Boxes boxes, const Executor& executor) {
+        cached_.drop();
         wait();
-        order_anew(tree, boxes, executor);
-        age_.renewed(per_order - per_refit, tree.layout(), boxes);
+        reorder(tree, boxes, executor);
+        degradation_.reordered(per_order - per_refit, tree.layout(), boxes);
     }
     /// Each time longer until it is tried again.
     void wait() {
@@ -182,21 +183,21 @@ struct Auto {
         pause_ = std::min<std::size_t>(2 * pause_, 1024);
     }
 
-    /// Nanoseconds for each item, as in OrderAge; `per_merged` for each that went far.
+    /// Nanoseconds for each item, as in OrderDegradation; `per_merged` for each that went far.
     static constexpr double per_refit = 8, per_order = 20, per_merge = 11, per_merged = 50;
-    static constexpr std::size_t least_pause = 32, some_frames = 64, between_looks = 8;
+    static constexpr std::size_t min_pause = 32, some_frames = 64, between_looks = 8;
 
     FarSample far_;
     Margins margins_; ///< while it merges
     bool merges_ = false;
-    OrderAge age_;
-    double fresh_ = 0; ///< surface of the blocks when all was last ordered anew
-    CachedPairs kept_;
-    StepSample sample_;                          ///< followed while no pairs are kept
-    bool is_first_ = false;                      ///< no frame has come since the start
-    double lost_ = 0;                            ///< by keeping pairs, of late
-    std::size_t paid_ = 0;                       ///< frames in which keeping them paid
-    std::size_t wait_ = 0, pause_ = least_pause; ///< frames until keeping may be tried again
+    OrderDegradation degradation_;
+    double fresh_ = 0; ///< surface of the blocks at the last new order
+    CachedPairs cached_;
+    StepSample sample_;                        ///< followed while no pairs are cached
+    bool is_first_ = false;                    ///< no frame has come since the start
+    double lost_ = 0;                          ///< by caching pairs, of late
+    std::size_t paid_ = 0;                     ///< frames in which caching them paid
+    std::size_t wait_ = 0, pause_ = min_pause; ///< frames until caching may be tried again
 };
 
 } // namespace

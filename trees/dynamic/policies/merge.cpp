@@ -4,6 +4,7 @@
 #include <array>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 /// Keeps the order along the curve: items whose boxes left their fat boxes are taken out, sorted

@@ -3,9 +3,10 @@
 #include <array>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
-/// Refits until the surface of the blocks has grown too far, then orders anew.
+/// Refits until the surface of the blocks has grown too far, then makes a new order.
 struct Rebuild {
     static constexpr std::string_view name = "rebuild";
     static constexpr std::string_view summary =
@@ -14,19 +15,19 @@ struct Rebuild {
     double trigger = 1.35; ///< surface of the blocks against that of the last new order; 0: always
 
     static std::array<Setting<Rebuild>, 1> settings() {
-        return {{{"trigger", "growth of the blocks' surface that asks for a new order; 0: always",
+        return {{{"trigger", "growth of the blocks' surface that calls for a new order; 0: always",
                   &Rebuild::trigger, 0, 1e6}}};
     }
 
     void start(MovingTree& tree, Boxes boxes, const Executor& executor) {
-        tree.order_anew(boxes, tree.survey, executor);
+        tree.reorder(boxes, tree.survey, executor);
     }
     void update(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
                 const Executor& executor) {
         if (trigger > 0)
             tree.refit(boxes, moved, executor);
-        if (!(trigger > 0 && tree.looseness() <= trigger))
-            tree.order_anew(boxes, tree.survey, executor);
+        if (!(trigger > 0 && tree.area_ratio() <= trigger))
+            tree.reorder(boxes, tree.survey, executor);
     }
     std::size_t bytes() const { return 0; }
 };

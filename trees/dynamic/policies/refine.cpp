@@ -4,24 +4,25 @@
 #include <array>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
-/// Refits, and in each frame sorts one part of the order anew, going round. Parts overlap by half,
+/// Refits, and in each frame sorts one part of the order again, in turn. Parts overlap by half,
 /// so that an item may wander on from part to part.
 /// Source of the idea: the Bepu physics engine, version 2, which refines a twentieth a frame.
 struct Refine {
     static constexpr std::string_view name = "refine";
     static constexpr std::string_view summary =
-        "refit, and one rotating part of the order made anew in each frame";
+        "refit, and one rotating part of the order sorted again in each frame";
 
-    double share = .05; ///< of the order, made anew in a frame
+    double share = .05; ///< of the order, sorted again in a frame
 
     static std::array<Setting<Refine>, 1> settings() {
-        return {{{"share", "of the order that is made anew in a frame", &Refine::share, 0, 1}}};
+        return {{{"share", "of the order that is sorted again in a frame", &Refine::share, 0, 1}}};
     }
 
     void start(MovingTree& tree, Boxes boxes, const Executor& executor) {
-        tree.order_anew(boxes, tree.survey, executor);
+        tree.reorder(boxes, tree.survey, executor);
         next_ = 0;
     }
     void update(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t>,

@@ -1,6 +1,7 @@
 #include "trees/dynamic/detail/policy.h"
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 /// The order of the start stays; bounds follow the boxes. Cheapest while boxes stay near their
@@ -11,7 +12,7 @@ struct Refit {
         "new bounds in the old order: of all blocks, or only above what moved";
 
     void start(MovingTree& tree, Boxes boxes, const Executor& executor) {
-        tree.order_anew(boxes, tree.survey, executor);
+        tree.reorder(boxes, tree.survey, executor);
     }
     void update(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
                 const Executor& executor) {

@@ -1,12 +1,13 @@
-#include "trees/dynamic/dynamic_tree.h"
 #include "trees/dynamic/detail/margins.h"
 #include "trees/dynamic/detail/policy.h"
 #include "trees/dynamic/detail/survey.h"
+#include "trees/dynamic/dynamic_tree.h"
 
 #include <algorithm>
 #include <array>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 /// A dynamic tree of fat boxes gives the order: an item whose box leaves its fat box is removed and
@@ -14,12 +15,12 @@ namespace {
 struct Reinsert {
     static constexpr std::string_view name = "reinsert";
     static constexpr std::string_view summary =
-        "what left its fat box is inserted anew into a dynamic tree, the rest refitted";
+        "what left its fat box is inserted again into a dynamic tree, the rest refitted";
 
     double margin = .5; ///< of the mean side of a box, on each side
 
     static std::array<Setting<Reinsert>, 1> settings() {
-        return {{{"margin", "how far a box may go before it is inserted anew, in mean sides",
+        return {{{"margin", "how far a box may go before it is inserted again, in mean sides",
                   &Reinsert::margin, 0, 1e6}}};
     }
 

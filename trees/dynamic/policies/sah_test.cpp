@@ -1,7 +1,7 @@
 /// Updater::sah against the blocks of the tree, and against lines that are shot through them.
 
-#include "trees/testing/box_families.h"
 #include "trees/dynamic/detail/policy.h"
+#include "trees/testing/box_families.h"
 
 #include <gtest/gtest.h>
 
@@ -14,6 +14,7 @@
 #include <vector>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 const MovingTree* seen_tree = nullptr;
@@ -23,7 +24,7 @@ struct Shown {
     static constexpr std::string_view name = "shown", summary = "for the test";
     static std::array<Setting<Shown>, 0> settings() { return {}; }
     void start(MovingTree& tree, Boxes boxes, const Executor& executor) {
-        tree.order_anew(boxes, tree.survey, executor);
+        tree.reorder(boxes, tree.survey, executor);
         seen_tree = &tree;
     }
     void update(MovingTree& tree, Boxes boxes, std::span<const std::uint32_t> moved,
@@ -148,7 +149,7 @@ TEST(Sah, OfNothingIsNothingAndOfPointsUnknown) {
         EXPECT_EQ(updater->sah(), 0) << entry.name << ", all absent";
         for (const float x : {1.f, 1e30f}) { // a point, and an area beyond floats
             updater->start(std::vector<Box>(40, Box{{1, 1, 1}, {x, x, x}}), serial());
-            if (x > 1 || !(entry.name == "keep" || entry.name == "auto")) { // they widen boxes
+            if (x > 1 || !(entry.name == "cached" || entry.name == "auto")) { // they widen boxes
                 EXPECT_TRUE(std::isnan(updater->sah())) << entry.name << " " << x;
             }
         }

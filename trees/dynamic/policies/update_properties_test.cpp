@@ -27,13 +27,15 @@ rc::Gen<Box> any_box() {
         });
 }
 
-/// Each setting at its least, its default or a value between: the most may be a million.
+/// Each setting, all of which are numbers, at its minimum, its default or between or above: the
+/// maximum may be a million.
 Settings any_settings(const UpdateEntry& entry) {
     Settings settings;
-    for (const SettingInfo& info : entry.settings)
-        settings[std::string(info.name)] =
-            *rc::gen::element(info.least, info.default_value, (info.least + info.default_value) / 2,
-                              std::min(info.most, 3 * info.default_value + 1));
+    for (const SettingInfo& info : entry.settings) {
+        const double usual = std::get<double>(info.default_value);
+        settings[std::string(info.name)] = *rc::gen::element(
+            info.min, usual, (info.min + usual) / 2, std::min(info.max, 3 * usual + 1));
+    }
     return settings;
 }
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-namespace boxwood {
+namespace boxwood::detail {
 namespace {
 
 /// least[i]: the least cost of the blocks of a subtree of which at most i + 1 stand side by side in
@@ -229,4 +229,4 @@ template Collapsed collapse<4>(const Tree&, const Executor&);
 template Collapsed collapse<8>(const Tree&, const Executor&);
 template Collapsed collapse<16>(const Tree&, const Executor&);
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -3,7 +3,7 @@
 #include "trees/executor.h"
 #include "trees/tree.h"
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// A block of a wide tree before it is filled.
 struct CollapsedBlock {
@@ -27,4 +27,4 @@ extern template Collapsed collapse<4>(const Tree&, const Executor&);
 extern template Collapsed collapse<8>(const Tree&, const Executor&);
 extern template Collapsed collapse<16>(const Tree&, const Executor&);
 
-} // namespace boxwood
+} // namespace boxwood::detail

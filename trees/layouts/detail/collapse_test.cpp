@@ -8,6 +8,7 @@
 #include <vector>
 
 namespace boxwood {
+using namespace detail;
 namespace {
 
 constexpr std::uint32_t width = 4;
@@ -77,7 +78,7 @@ TEST(Collapse, NeedsFewerBlocksOfTreesCountedInBlocks) {
         const Tree tree = find_builder("binned_sah")->make(settings)(boxes, serial());
         return collapse<8>(tree, serial()).blocks.size();
     };
-    EXPECT_LT(blocks({{"block", 8}, {"joined", 8}}), blocks({}) * 9 / 10);
+    EXPECT_LT(blocks({{"leaf_size", 8}, {"agglomerate_below", 8}}), blocks({}) * 9 / 10);
 }
 
 } // namespace

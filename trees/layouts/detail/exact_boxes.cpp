@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 Buffer<Aabb<double>> exact_boxes(const Tree& tree, std::span<const Aabb<double>> boxes) {
     if (tree.is_split || boxes.size() != tree.size())
@@ -19,4 +19,4 @@ Buffer<Aabb<double>> exact_boxes(const Tree& tree, std::span<const Aabb<double>>
     return exact;
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail

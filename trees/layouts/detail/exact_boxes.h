@@ -4,7 +4,7 @@
 
 #include <span>
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// The bounds in doubles of every node of a tree, from its items' double boxes: a tree's shape is
 /// decided by float boxes that contain them, its answers by these.
@@ -12,4 +12,4 @@ namespace boxwood {
 /// tree is split.
 Buffer<Aabb<double>> exact_boxes(const Tree& tree, std::span<const Aabb<double>> boxes);
 
-} // namespace boxwood
+} // namespace boxwood::detail

@@ -16,9 +16,9 @@
 #include <type_traits>
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
 
-/// The lanes of a block, or as many as a register holds: walks step through a block by
+/// The lanes of a block, or as many as a register holds: traversals step through a block by
 /// Lanes(LaneTag<Block>).
 template <class Block>
 using LaneTag = hwy::HWY_NAMESPACE::CappedTag<typename Block::Real, Block::width>;
@@ -142,7 +142,7 @@ HWY_INLINE std::uint32_t OverlapBits(const Block& block, const Aabb<typename Blo
     return bits;
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

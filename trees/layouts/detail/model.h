@@ -1,9 +1,11 @@
 #pragma once
 
+#include "kernels/primitives/sphere.h"
 #include "trees/layout.h"
 #include "trees/queries/points.h"
-#include "trees/queries/rays.h"
+#include "trees/queries/regions.h"
 #include "trees/queries/self_pairs.h"
+#include "trees/queries/single_rays.h"
 #include "trees/queries/tree_pairs.h"
 
 #include <stdexcept>
@@ -12,113 +14,197 @@
 
 namespace boxwood {
 
-/// Puts a layout and the traversals that are overloaded for it behind AnyLayout. The layout of a
-/// split tree refuses what it would answer wrongly (std::invalid_argument): all but rays and
-/// closest points.
+/// Whether the functions of a query are overloaded for L, in this namespace or beside L.
+template <class L> constexpr bool answers_query(Query query) {
+    using Points = std::span<const Vec3<float>>;
+    using Rays = std::span<const Ray<float>>;
+    switch (query) {
+    case Query::self_pairs:
+        return requires(const L& l, const Executor& e, PairSink& s, Work* w) {
+            self_pairs(l, e, s, w);
+        };
+    case Query::tree_pairs:
+        return requires(const L& l, const Executor& e, PairSink& s, Work* w) {
+            tree_pairs(l, l, e, s, w);
+        };
+    case Query::rays:
+        return requires(const L& l, const Executor& e, const TriangleMesh& mesh, Rays r,
+                        const TriangleBlocks& t, HitSink& s, std::span<RayHit> hits, Work* w) {
+            triangles_of(l, mesh, e);
+            rays(l, r, RayQuery::any, std::string_view(), t, e, hits, w);
+            rays_all(l, r, std::string_view(), t, e, s);
+        };
+    case Query::points:
+        return requires(const L& l, const Executor& e, Points p, PairSink& s, Work* w) {
+            points(l, p, e, s, w);
+        };
+    case Query::regions:
+        return requires(const L& l, const Executor& e, std::span<const Box> boxes,
+                        std::span<const Sphere<float>> balls, PairSink& s, Work* w) {
+            regions(l, boxes, e, s, w);
+            regions(l, balls, e, s, w);
+        };
+    case Query::nearest:
+        return requires(const L& l, const Executor& e, Points p, std::span<Neighbour> out,
+                        Work* w) {
+            nearest(l, p, std::size_t{1}, e, out, w);
+        };
+    case Query::closest_points:
+        return requires(const L& l, const Executor& e, Points p, const TriangleMesh& mesh,
+                        std::span<SurfacePoint> out, Work* w) {
+            closest_points(l, p, mesh, e, out, w);
+        };
+    }
+    return false;
+}
+
+template <class L> std::vector<Query> answered_queries() {
+    using enum Query;
+    std::vector<Query> answered;
+    for (const Query query :
+         {self_pairs, tree_pairs, rays, points, regions, nearest, closest_points})
+        if (answers_query<L>(query))
+            answered.push_back(query);
+    return answered;
+}
+
+/// Puts a layout behind AnyLayout, with the queries that are overloaded for it. The layout of a
+/// split tree refuses what it would answer wrongly: all but rays and closest points.
 template <Layout L> class LayoutModel final : public AnyLayout {
   public:
     explicit LayoutModel(L layout, bool is_split = false)
         : layout_(std::move(layout)), is_split_(is_split) {}
 
     std::size_t bytes() const override { return layout_.bytes(); }
+    bool answers(Query query) const override { return answers_query<L>(query); }
 
-    void self_pairs(const Executor& executor, PairSink& sink) const override {
-        require_whole();
-        boxwood::self_pairs(layout_, executor, sink);
+    void self_pairs(const Executor& executor, PairSink& sink, Work* work) const override {
+        require(Query::self_pairs);
+        if constexpr (answers_query<L>(Query::self_pairs)) {
+            using boxwood::self_pairs;
+            self_pairs(layout_, executor, sink, work);
+        }
     }
-    Work self_pairs_counted(PairSink& sink) const override {
-        require_whole();
-        return boxwood::self_pairs_counted(layout_, sink);
-    }
-    void tree_pairs(const AnyLayout& other, const Executor& executor,
-                    PairSink& sink) const override {
-        boxwood::tree_pairs(layout_, same(other), executor, sink);
-    }
-    Work tree_pairs_counted(const AnyLayout& other, PairSink& sink) const override {
-        return boxwood::tree_pairs_counted(layout_, same(other), sink);
+    void tree_pairs(const AnyLayout& other, const Executor& executor, PairSink& sink,
+                    Work* work) const override {
+        require(Query::tree_pairs);
+        if constexpr (answers_query<L>(Query::tree_pairs)) {
+            using boxwood::tree_pairs;
+            tree_pairs(layout_, same(other), executor, sink, work);
+        }
     }
     TriangleBlocks triangles(const TriangleMesh& mesh, const Executor& executor) const override {
-        return boxwood::triangles_of(layout_, mesh, executor);
+        require(Query::rays);
+        if constexpr (answers_query<L>(Query::rays))
+            return triangles_of(layout_, mesh, executor);
+        else
+            return {};
     }
-    void rays(std::span<const Ray<float>> rays, RayQuery query, std::string_view kernel,
-              const TriangleBlocks& triangles, const Executor& executor,
-              std::span<RayHit> hits) const override {
-        boxwood::rays(layout_, rays, query, kernel, triangles, executor, hits);
+    void rays(std::span<const Ray<float>> batch, RayQuery query, std::string_view kernel,
+              const TriangleBlocks& triangles, const Executor& executor, std::span<RayHit> hits,
+              Work* work) const override {
+        require(Query::rays);
+        if constexpr (answers_query<L>(Query::rays)) {
+            using boxwood::rays;
+            rays(layout_, batch, query, kernel, triangles, executor, hits, work);
+        }
     }
-    Work rays_counted(std::span<const Ray<float>> rays, RayQuery query, std::string_view kernel,
-                      const TriangleBlocks& triangles, std::span<RayHit> hits) const override {
-        return boxwood::rays_counted(layout_, rays, query, kernel, triangles, hits);
+    SingleRayFunctions single_ray_functions(std::string_view kernel) const override {
+        require(Query::rays);
+        using boxwood::single_ray_functions;
+        if constexpr (requires(const L& l) { single_ray_functions(l, kernel); })
+            return single_ray_functions(layout_, kernel);
+        else
+            return {};
     }
-
-    SingleRayWalks single_ray_walks(std::string_view kernel) const override {
-        return boxwood::single_ray_walks(layout_, kernel);
-    }
-    void rays_all(std::span<const Ray<float>> rays, std::string_view kernel,
+    void rays_all(std::span<const Ray<float>> batch, std::string_view kernel,
                   const TriangleBlocks& triangles, const Executor& executor,
                   HitSink& sink) const override {
-        boxwood::rays_all(layout_, rays, kernel, triangles, executor, sink);
+        require(Query::rays);
+        if constexpr (answers_query<L>(Query::rays)) {
+            using boxwood::rays_all;
+            rays_all(layout_, batch, kernel, triangles, executor, sink);
+        }
     }
-    void points(std::span<const Vec3<float>> points, const Executor& executor, PairSink& sink,
+    void points(std::span<const Vec3<float>> at, const Executor& executor, PairSink& sink,
                 Work* work) const override {
-        require_whole();
-        boxwood::points(layout_, points, executor, sink, work);
+        require(Query::points);
+        if constexpr (answers_query<L>(Query::points)) {
+            using boxwood::points;
+            points(layout_, at, executor, sink, work);
+        }
     }
-    void regions(std::span<const Box> regions, const Executor& executor, PairSink& sink,
+    void regions(std::span<const Box> boxes, const Executor& executor, PairSink& sink,
                  Work* work) const override {
-        require_whole();
-        boxwood::regions(layout_, regions, executor, sink, work);
+        answer_regions(boxes, executor, sink, work);
     }
-    void regions(std::span<const Sphere<float>> regions, const Executor& executor, PairSink& sink,
+    void regions(std::span<const Sphere<float>> balls, const Executor& executor, PairSink& sink,
                  Work* work) const override {
-        require_whole();
-        boxwood::regions(layout_, regions, executor, sink, work);
+        answer_regions(balls, executor, sink, work);
     }
-    void nearest(std::span<const Vec3<float>> points, std::size_t k, const Executor& executor,
+    void nearest(std::span<const Vec3<float>> at, std::size_t k, const Executor& executor,
                  std::span<Neighbour> out, Work* work) const override {
-        require_whole();
-        boxwood::nearest(layout_, points, k, executor, out, work);
+        require(Query::nearest);
+        if constexpr (answers_query<L>(Query::nearest)) {
+            using boxwood::nearest;
+            nearest(layout_, at, k, executor, out, work);
+        }
     }
-    void closest_points(std::span<const Vec3<float>> points, const TriangleMesh& mesh,
+    void closest_points(std::span<const Vec3<float>> at, const TriangleMesh& mesh,
                         const Executor& executor, std::span<SurfacePoint> out,
                         Work* work) const override {
-        boxwood::closest_points(layout_, points, mesh, executor, out, work);
+        require(Query::closest_points);
+        if constexpr (answers_query<L>(Query::closest_points)) {
+            using boxwood::closest_points;
+            closest_points(layout_, at, mesh, executor, out, work);
+        }
     }
 
   private:
-    void require_whole() const {
-        if (is_split_)
+    template <class Region>
+    void answer_regions(std::span<const Region> of, const Executor& executor, PairSink& sink,
+                        Work* work) const {
+        require(Query::regions);
+        if constexpr (answers_query<L>(Query::regions)) {
+            using boxwood::regions;
+            regions(layout_, of, executor, sink, work);
+        }
+    }
+
+    void require(Query query) const {
+        if (!answers_query<L>(query))
+            throw std::invalid_argument("the layout '" + std::string(L::name) +
+                                        "' does not answer " + std::string(to_string(query)));
+        if (is_split_ && query != Query::rays && query != Query::closest_points)
             throw std::invalid_argument("a split tree is for rays and closest points alone; build "
                                         "one of the boxes for other queries");
     }
     const L& same(const AnyLayout& other) const {
-        require_whole();
-        if (const auto* model = dynamic_cast<const LayoutModel*>(&other)) {
-            model->require_whole();
-            return model->layout_;
-        }
-        throw std::invalid_argument("tree_pairs wants two trees of the layout '" +
-                                    std::string(L::name) + "'");
+        const auto* model = dynamic_cast<const LayoutModel*>(&other);
+        if (!model)
+            throw std::invalid_argument("tree_pairs wants two trees of the layout '" +
+                                        std::string(L::name) + "'");
+        model->require(Query::tree_pairs);
+        return model->layout_;
     }
 
     L layout_;
     bool is_split_;
 };
 
-/// The registry row of a Layout type.
+/// The registry row of a Layout type. The functions that answer its queries must be declared
+/// before.
 template <Layout L> LayoutEntry layout_entry() {
-    LayoutEntry entry{L::name, L::summary,
+    LayoutEntry entry{L::name, L::summary, answered_queries<L>(),
                       [](const Tree& tree, const Executor& executor) -> std::unique_ptr<AnyLayout> {
                           return std::make_unique<LayoutModel<L>>(L(tree, executor), tree.is_split);
-                      },
-                      nullptr};
-    if constexpr (requires(Boxes boxes, std::span<const std::uint32_t> order,
-                           const Executor& executor) { L::of_order(boxes, order, executor); })
+                      }};
+    if constexpr (OrderLayout<L>)
         entry.make_of_order = [](Boxes boxes, std::span<const std::uint32_t> order,
                                  const Executor& executor) -> std::unique_ptr<AnyLayout> {
             return std::make_unique<LayoutModel<L>>(L::of_order(boxes, order, executor));
         };
-    if constexpr (requires(const Tree& tree, std::span<const Aabb<double>> boxes,
-                           const Executor& executor) { L::of_doubles(tree, boxes, executor); }) {
+    if constexpr (DoubleLayout<L>) {
         entry.make_of_doubles = [](const Tree& tree, std::span<const Aabb<double>> boxes,
                                    const Executor& executor) -> std::unique_ptr<AnyLayout> {
             return std::make_unique<LayoutModel<L>>(L::of_doubles(tree, boxes, executor));

@@ -11,7 +11,7 @@
 #include <limits>
 
 HWY_BEFORE_NAMESPACE();
-namespace boxwood::HWY_NAMESPACE {
+namespace boxwood::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -98,11 +98,11 @@ void FillPacked(const PackedSource& boxes, std::size_t begin, std::size_t end,
         bounds[b] = FillAny(boxes, b * w, blocks[b]);
 }
 
-} // namespace boxwood::HWY_NAMESPACE
+} // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace boxwood {
+namespace boxwood::detail {
 HWY_EXPORT(FillPacked);
 
 void fill_packed(const PackedSource& boxes, std::size_t begin, std::size_t end, PackedBlock* blocks,
@@ -110,5 +110,5 @@ void fill_packed(const PackedSource& boxes, std::size_t begin, std::size_t end, 
     HWY_DYNAMIC_DISPATCH(FillPacked)(boxes, begin, end, blocks, bounds);
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail
 #endif

@@ -2,7 +2,7 @@
 
 #include "trees/layouts/packed.h"
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// n boxes anywhere: box i lies `stride` bytes beyond the first times i, or times index[i].
 struct PackedSource {
@@ -21,4 +21,4 @@ struct PackedSource {
 void fill_packed(const PackedSource& boxes, std::size_t begin, std::size_t end, PackedBlock* blocks,
                  Box* bounds);
 
-} // namespace boxwood
+} // namespace boxwood::detail
