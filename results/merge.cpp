@@ -54,9 +54,9 @@ template <class Key, class Row> class Joined {
 /// How bad a status is; one that is not known is taken as worse than any that could be ranked.
 std::size_t badness(std::string_view status) {
     constexpr std::array<std::string_view, 3> ranked{"exact", "conservative", "within_bound"};
-    if (status == "wrong")
+    if (status == Status::wrong)
         return ranked.size() + 2;
-    if (status == "unsupported")
+    if (status == Status::unsupported)
         return ranked.size() + 1;
     return static_cast<std::size_t>(std::find(ranked.begin(), ranked.end(), status) -
                                     ranked.begin());
@@ -83,6 +83,7 @@ class Merger {
     Results all_;
     bool first_ = true;
     Joined<std::string, Env> env_{all_.env};
+    Joined<std::pair<std::uint32_t, std::string>, Package> packages_{all_.packages};
     Joined<std::tuple<std::string, std::uint64_t, std::uint64_t, std::uint64_t>, SceneRow> scenes_{
         all_.scenes};
     Joined<Strings, Variant> variants_{all_.variants};
@@ -95,8 +96,6 @@ class Merger {
     Joined<std::uint32_t, TreeRow> trees_{all_.trees};
     Joined<std::pair<std::uint32_t, std::string>, KernelRow> kernels_{all_.kernels};
     Joined<std::pair<std::uint32_t, double>, ConditionRow> conditions_{all_.conditions};
-    Joined<std::tuple<std::uint32_t, std::uint32_t, std::string>, Comparison> compare_{
-        all_.compare};
     std::map<std::string, std::uint64_t> content_of_; ///< of the scene of a cell name
     // Of the part that is being added.
     Renumbering env_ids_{"env"}, scene_ids_{"scenes"}, variant_ids_{"variants"}, cell_ids_{"cells"},
@@ -129,6 +128,10 @@ void Merger::add_machines_and_cells(const Results& part) {
     for (Env row : part.env) {
         const auto id = std::exchange(row.env_id, static_cast<std::uint32_t>(all_.env.size()));
         env_ids_.set(id, env_.add(row.env_hash, row).first);
+    }
+    for (Package row : part.packages) {
+        row.env_id = env_ids_(row.env_id);
+        packages_.add({row.env_id, row.library}, row);
     }
     scene_ids_ = Renumbering("scenes");
     for (SceneRow row : part.scenes) {
@@ -215,11 +218,6 @@ void Merger::add_facts(const Results& part) {
     for (ConditionRow row : part.conditions) {
         row.cell_id = cell_ids_(row.cell_id);
         conditions_.add({row.cell_id, row.log10_condition}, row);
-    }
-    for (Comparison row : part.compare) {
-        row.cell_a = cell_ids_(row.cell_a);
-        row.cell_b = cell_ids_(row.cell_b);
-        compare_.add({row.cell_a, row.cell_b, row.phase}, row);
     }
 }
 

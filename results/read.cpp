@@ -1,7 +1,7 @@
-#include "results/handle.h"
+#include "results/detail/handle.h"
+#include "results/detail/seal.h"
 #include "results/results.h"
 #include "results/schema.h"
-#include "results/seal.h"
 
 #include <fmt/format.h>
 
@@ -12,6 +12,8 @@
 
 namespace boxwood::results {
 namespace {
+
+using namespace detail;
 
 namespace fs = std::filesystem;
 
@@ -70,6 +72,13 @@ template <class Row> struct Placed {
     std::size_t offset, size;
 };
 
+template <Worded Enum> Enum known_word(const std::string& word, std::string_view column) {
+    const std::optional<Enum> value = from_string<Enum>(word);
+    if (!value)
+        fail(fmt::format("column {} holds the unknown word \"{}\"", column, word));
+    return *value;
+}
+
 /// Sets the member of each row from the records.
 template <class Row>
 void decode(const Placed<Row>& placed, const std::vector<std::byte>& records,
@@ -78,9 +87,13 @@ void decode(const Placed<Row>& placed, const std::vector<std::byte>& records,
         [&]<class Value>(Value Row::*member) {
             const std::byte* from = records.data() + placed.offset;
             for (Row& row : rows) {
-                if constexpr (std::is_same_v<Value, std::string>) {
-                    const auto* text = reinterpret_cast<const char*>(from);
-                    row.*member = std::string(text, std::find(text, text + placed.size, '\0'));
+                if constexpr (std::is_same_v<Value, std::string> || Worded<Value>) {
+                    const auto* start = reinterpret_cast<const char*>(from);
+                    const std::string text(start, std::find(start, start + placed.size, '\0'));
+                    if constexpr (Worded<Value>)
+                        row.*member = known_word<Value>(text, placed.column->name);
+                    else
+                        row.*member = text;
                 } else {
                     std::memcpy(&(row.*member), from, sizeof(Value));
                 }
@@ -96,7 +109,7 @@ Handle wanted_type(const Column<Row>& column, hid_t in_file, std::string_view wh
     const H5T_class_t found = H5Tget_class(in_file);
     return std::visit(
         [&]<class Value>(Value Row::*) {
-            constexpr bool text = std::is_same_v<Value, std::string>;
+            constexpr bool text = std::is_same_v<Value, std::string> || Worded<Value>;
             constexpr bool real = std::is_same_v<Value, double>;
             if (found != (text ? H5T_STRING : real ? H5T_FLOAT : H5T_INTEGER))
                 fail(fmt::format("column {} has the wrong type", where));
@@ -180,8 +193,8 @@ Results read_open(hid_t file) {
              "format=\"boxwood-results\")");
     const auto major = integer_attribute(file, "schema_major");
     if (major != schema_major)
-        fail(fmt::format("it has schema version {}, this program reads version {}; use the "
-                         "program that wrote it, or make the file again",
+        fail(fmt::format("it is of schema {}, and this program reads schema {}; measure again with "
+                         "this version",
                          major, schema_major));
     if (!has_attribute(file, "complete") || integer_attribute(file, "complete") != 1)
         fail("it is incomplete: its writer did not finish");

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "results/words.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -9,7 +11,7 @@
 #include <vector>
 
 /// The result file: relational tables, held whole in memory, written and read as one HDF5 file.
-/// Schema version 1; results/README.md documents every table and column.
+/// Schema version 2; results/README.md documents every table and column.
 namespace boxwood::results {
 
 inline constexpr double missing = std::numeric_limits<double>::quiet_NaN();
@@ -26,16 +28,23 @@ struct Env {
     std::uint32_t mxcsr = 0;
     std::string compiler, flags, build_type, git_commit;
     std::uint32_t git_dirty = 0;
-    std::string embree_version, fcl_version, cgal_version, bullet_version, tbb_version,
-        eigen_version, hdf5_version, gbench_version, highway_version;
     double stream_triad_gbs_1 = missing, stream_triad_gbs_all = missing;
     double core_ghz = missing;
     std::uint64_t seed = 0;
 };
 
+/// A library that the program was built with, or a peer that was looked for.
+struct Package {
+    std::uint32_t env_id = 0;
+    std::string library, version, revision;
+    std::string build; ///< what is known of how it was compiled: SIMD, precision, threads
+    std::uint32_t present = 1;
+};
+
 struct SceneRow {
     std::uint32_t scene_id = 0;
     std::string name, generator;
+    std::string human_name; ///< for readers: "100,000 boxes, 1 % drift"; empty if it has none
     std::uint64_t n_items = 0, n_triangles = 0, n_frames = 1, seed = 0;
     std::string effects, queries; ///< comma-separated words
     std::uint64_t content_hash = 0;
@@ -54,6 +63,9 @@ struct Cell {
     std::string name;
     std::uint32_t scene_id = 0, variant_id = 0;
     std::string task;
+    std::string classes; ///< derived: comma-separated; contenders of one job compare within a class
+    Status status = Status::unchecked; ///< derived: the worst of its checks and rounds
+    std::uint32_t builds = 0;          ///< derived: 0 if its build only copies the input
     std::uint64_t n_items = 0, n_queries = 0;
     std::string precision, executor;
     std::uint32_t threads = 1;
@@ -79,7 +91,7 @@ enum SampleFlag : std::uint32_t {
 /// One timed phase of one cell in one round; times are per iteration.
 struct Sample {
     std::uint32_t cell_id = 0, shard_id = 0, round = 0, position = 0;
-    std::string phase; ///< build | update | query
+    Phase phase = Phase::none;
     double wall_ns = missing, cpu_ns = missing;
     std::uint64_t iterations = 0, nvcsw = 0, nivcsw = 0, minflt = 0;
     std::uint32_t flags = 0;
@@ -95,8 +107,8 @@ struct FrameRow {
 };
 
 /// One stage of the plan of a moving scene in one round of one cell: sums over the frames of one
-/// pass through the scene (means over the passes, where the round makes several). A stage that is
-/// not called for has a row of zeros, so that what was left out can be seen.
+/// pass through the scene (means over the passes, where the round makes several). A stage that the
+/// scene does not require has a row of zeros, so that what was left out can be seen.
 struct EffectRow {
     std::uint32_t cell_id = 0, shard_id = 0, round = 0;
     std::string stage; ///< advance_<effect> | move | fit | update | pairs | filter | ...
@@ -114,7 +126,8 @@ struct Counter {
 
 struct Check {
     std::uint32_t cell_id = 0;
-    std::string oracle, status; ///< exact | conservative | within_bound | wrong | unsupported
+    std::string oracle;
+    Status status = Status::unchecked;
     std::uint64_t n_checked = 0, n_expected = 0, n_got = 0, missing = 0, extra = 0;
     double max_ulp = results::missing, max_abs_err = results::missing,
            max_rel_err = results::missing;
@@ -131,12 +144,12 @@ struct TreeRow {
            overlap = missing;
 };
 
-/// One rung of a kernel, ours or a peer's, on one family of hard cases.
+/// One kernel, ours or a peer's, on one family of hard cases.
 struct KernelRow {
     std::uint32_t cell_id = 0;
-    std::string family;        ///< hard-case family, or "typical"
-    std::string panel;         ///< generic | touching | degenerate
-    std::string task; ///< triangle_triangle, ray_triangle, ...
+    std::string family; ///< hard-case family, or "typical"
+    std::string panel;  ///< generic | touching | degenerate
+    std::string task;   ///< triangle_triangle, ray_triangle, ...
     std::string kernel, promise;
     std::uint64_t n = 0;
     double ns_per_call = missing; ///< of the check's own timing; a sweep's samples are better
@@ -145,26 +158,103 @@ struct KernelRow {
     std::uint64_t bound_violations = 0;
     double escalation_rate = missing; ///< share of the calls that tier 0 did not decide
     std::uint64_t tier_0 = 0, tier_1 = 0, tier_2 = 0, tier_3 = 0; ///< calls decided by each tier
-    std::string status;  ///< exact | conservative | within_bound | wrong | unsupported
-    std::string witness; ///< a wrong case and the command that replays it
+    Status status = Status::unchecked;
+    std::string witness;         ///< a wrong case and the command that replays it
+    std::uint32_t is_broken = 0; ///< derived: a kernel of ours does not keep its promise
 };
 
-/// The error of one rung at one condition number (a decade each).
+/// The error of one kernel at one condition number (a decade each).
 struct ConditionRow {
     std::uint32_t cell_id = 0;
     double log10_condition = missing; ///< L/d of a distance, 1/sin^2 of a segment pair
     std::uint64_t n = 0;
     double max_rel_err = missing;
-    double bound = missing; ///< the greatest relative bound that the rung itself gave
+    double bound = missing; ///< the greatest relative bound that the kernel itself gave
 };
 
-/// Derived; can be made again from `samples`.
+// Derived from the rows above by bench/analysis when a file is written. Readers take them as they
+// are.
+
+/// One phase of one cell over its rounds, the A/A twin left out. p95 and p99 as numpy's percentile.
+struct Median {
+    std::uint32_t cell_id = 0;
+    Phase phase = Phase::none;
+    std::uint64_t n = 0;
+    double median_ns = missing, mad_ns = missing, min_ns = missing, p95_ns = missing,
+           p99_ns = missing;
+    double limit_ns = missing; ///< the least time that the machine could take; NaN if not known
+};
+
+/// Cell b against cell a: the time of b over that of a, paired by round.
 struct Comparison {
     std::uint32_t cell_a = 0, cell_b = 0;
-    std::string phase;
-    std::uint64_t n_pairs = 0;                                                 ///< paired rounds
-    double ratio = missing, ci_lo = missing, ci_hi = missing, p_adj = missing; ///< time of b / a
-    std::string verdict; ///< faster | slower | same | cannot_tell | wrong (b against a)
+    Phase phase = Phase::none;
+    std::string contender_class; ///< the one that both are of
+    std::uint64_t n_pairs = 0;
+    double ratio = missing;
+    /// The interval that decided: at the level of the claim within its family; of the verdict
+    /// "same" at 95 %. NaN if there are too few rounds for one.
+    double ci_lo = missing, ci_hi = missing;
+    double p_adj = missing;
+    double floor = missing; ///< the noise floor, relative; NaN if not known
+    double delta = missing; ///< "same" is within this, relative
+    Family family = Family::none;
+    Verdict verdict = Verdict::none;
+    Reason reason = Reason::none;
+};
+
+/// How the time of one variant grows with the number of items: time ~ n^exponent.
+struct SizeScaling {
+    std::uint32_t cell_id = 0; ///< of the largest size
+    Phase phase = Phase::none;
+    std::uint64_t n_sizes = 0;
+    double exponent = missing, exponent_lo = missing, exponent_hi = missing;
+    double off_line = missing; ///< how far the farthest median is from the fitted line, relative
+};
+
+/// After so many queries the longer build of b has paid for itself against a. Both are the best at
+/// something: no other of their job builds and queries in less time.
+struct BreakEven {
+    std::uint32_t cell_a = 0, cell_b = 0;
+    double queries = missing;
+};
+
+/// One kernel on all families of one panel: time per call and errors.
+struct KernelCost {
+    std::string task, panel, kernel, library, promise;
+    std::uint32_t is_peer = 0;
+    double ns = missing; ///< mean over the families
+    std::uint64_t n = 0, wrong = 0, maybe = 0;
+    double max_rel_err = missing;
+};
+
+/// One question of a run and its answer, in words: the rows of the one screen and of the report.
+struct Finding {
+    std::uint32_t place = 0; ///< in the order in which they are told: losses first
+    Topic topic = Topic::none;
+    std::uint32_t is_headline = 0; ///< 1 if it stands for its question on one screen
+    std::uint32_t scene_id = no_id;
+    std::string task;
+    std::uint32_t threads = 1;
+    std::string contender_class;
+    std::string question;
+    std::string together; ///< build and query, against the best rival
+    std::string alone;    ///< query alone, against the best rival
+    std::string certainty;
+    /// Ours and the rival of both measures; no_id where there is none.
+    std::uint32_t ours = no_id, rival = no_id, ours_alone = no_id, rival_alone = no_id;
+};
+
+/// Whether the run can be believed.
+struct Health {
+    std::uint64_t rounds = 0, samples = 0;
+    std::uint64_t disturbed = 0;    ///< samples that lost time to the hypervisor or a switch
+    double floor = missing;         ///< the A/A noise floor, relative
+    double delta = missing;         ///< with which the verdicts were made
+    std::uint32_t is_too_noisy = 0; ///< the floor is above 20 %: measure again
+    std::uint64_t answers = 0;      ///< cells whose answers were checked
+    std::uint64_t wrong_ours = 0, wrong_peers = 0;
+    std::uint64_t broken_promises = 0; ///< of kernels of ours
 };
 
 /// Everything in one file. Ids are those of the `*_id` columns, unique within the file.
@@ -173,6 +263,7 @@ struct Results {
     bool complete = true;
     std::map<std::string, std::string> texts; ///< /text/*: argv, sweep_toml, lscpu, cmake_cache
     std::vector<Env> env;
+    std::vector<Package> packages;
     std::vector<SceneRow> scenes;
     std::vector<Variant> variants;
     std::vector<Cell> cells;
@@ -185,7 +276,13 @@ struct Results {
     std::vector<TreeRow> trees;
     std::vector<KernelRow> kernels;
     std::vector<ConditionRow> conditions;
+    std::vector<Median> medians;
     std::vector<Comparison> compare;
+    std::vector<SizeScaling> size_scaling;
+    std::vector<BreakEven> break_even;
+    std::vector<KernelCost> kernel_costs;
+    std::vector<Finding> findings;
+    std::vector<Health> health; ///< one row
 };
 
 /// Writes to a temporary name beside `file`, marks it complete last, closes, syncs and renames: a
@@ -194,12 +291,13 @@ struct Results {
 void write(const std::filesystem::path& file, const Results& results);
 
 /// Throws std::runtime_error naming the file for one that is missing, truncated, not HDF5, not
-/// ours, incomplete, or of another major version. Unknown tables and columns are passed over.
+/// ours, incomplete, or of another major version. Unknown tables and columns are skipped.
 Results read(const std::filesystem::path& file);
 
 /// Joins results of one or several machines: equal scenes, variants, cells and machine states (by
 /// content key) become one row, and ids are remapped. Shards that stand in several parts are kept
-/// once. Throws std::runtime_error if the same cell name stands for different scene contents.
+/// once; what is derived is left out. Throws std::runtime_error if the same cell name stands for
+/// different scene contents.
 Results merge(std::span<const Results> parts);
 
 } // namespace boxwood::results

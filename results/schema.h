@@ -14,15 +14,20 @@
 namespace boxwood::results {
 
 inline constexpr std::string_view format_name = "boxwood-results";
-inline constexpr std::uint32_t schema_major = 1, schema_minor = 4;
+inline constexpr std::uint32_t schema_major = 2, schema_minor = 0;
+
+/// Bytes of a column that holds an enum's word.
+inline constexpr std::size_t word_width = 32;
 
 /// One column of a table of `Row`s.
 template <class Row> struct Column {
     std::string_view name;
-    std::variant<std::uint32_t Row::*, std::uint64_t Row::*, double Row::*, std::string Row::*>
+    std::variant<std::uint32_t Row::*, std::uint64_t Row::*, double Row::*, std::string Row::*,
+                 Phase Row::*, Status Row::*, Verdict Row::*, Reason Row::*, Family Row::*,
+                 Topic Row::*>
         member;
     std::string_view unit, summary;
-    std::size_t width = 0; ///< bytes, for strings alone; a longer one is an error, never cut
+    std::size_t width = 0; ///< bytes of a string; a longer one is an error, never cut
 };
 
 /// One compound dataset of the file.
@@ -32,10 +37,11 @@ template <class Row> struct Table {
     std::vector<Column<Row>> columns;
 };
 
-using Tables =
-    std::tuple<Table<Env>, Table<SceneRow>, Table<Variant>, Table<Cell>, Table<Shard>,
-               Table<Sample>, Table<FrameRow>, Table<EffectRow>, Table<Counter>, Table<Check>,
-               Table<TreeRow>, Table<KernelRow>, Table<ConditionRow>, Table<Comparison>>;
+using Tables = std::tuple<Table<Env>, Table<Package>, Table<SceneRow>, Table<Variant>, Table<Cell>,
+                          Table<Shard>, Table<Sample>, Table<FrameRow>, Table<EffectRow>,
+                          Table<Counter>, Table<Check>, Table<TreeRow>, Table<KernelRow>,
+                          Table<ConditionRow>, Table<Median>, Table<Comparison>, Table<SizeScaling>,
+                          Table<BreakEven>, Table<KernelCost>, Table<Finding>, Table<Health>>;
 const Tables& tables();
 
 /// Calls visit(table) for every table, in the order of results.h.

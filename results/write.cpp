@@ -1,7 +1,7 @@
-#include "results/handle.h"
+#include "results/detail/handle.h"
+#include "results/detail/seal.h"
 #include "results/results.h"
 #include "results/schema.h"
-#include "results/seal.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -18,6 +18,8 @@
 namespace boxwood::results {
 namespace {
 
+using namespace detail;
+
 namespace fs = std::filesystem;
 
 constexpr hsize_t rows_per_chunk = 4096;
@@ -27,7 +29,9 @@ constexpr hsize_t rows_per_chunk = 4096;
 template <class Row> std::size_t size_of(const Column<Row>& column) {
     return std::visit(
         [&]<class Value>(Value Row::*) {
-            return std::is_same_v<Value, std::string> ? column.width : sizeof(Value);
+            return Worded<Value>                        ? word_width
+                   : std::is_same_v<Value, std::string> ? column.width
+                                                        : sizeof(Value);
         },
         column.member);
 }
@@ -35,8 +39,8 @@ template <class Row> std::size_t size_of(const Column<Row>& column) {
 template <class Row> Handle type_of(const Column<Row>& column) {
     return std::visit(
         [&]<class Value>(Value Row::*) {
-            if constexpr (std::is_same_v<Value, std::string>)
-                return string_type(column.width);
+            if constexpr (std::is_same_v<Value, std::string> || Worded<Value>)
+                return string_type(size_of(column));
             else
                 return Handle(H5Tcopy(std::is_same_v<Value, double>          ? H5T_NATIVE_DOUBLE
                                       : std::is_same_v<Value, std::uint32_t> ? H5T_NATIVE_UINT32
@@ -57,7 +61,11 @@ std::vector<std::byte> encode(const Table<Row>& table, const std::vector<Row>& r
             std::visit(
                 [&]<class Value>(Value Row::*member) {
                     const Value& value = row.*member;
-                    if constexpr (!std::is_same_v<Value, std::string>) {
+                    if constexpr (Worded<Value>) {
+                        const std::string_view word = to_string(value);
+                        std::copy_n(reinterpret_cast<const std::byte*>(word.data()), word.size(),
+                                    out);
+                    } else if constexpr (!std::is_same_v<Value, std::string>) {
                         std::memcpy(out, &value, sizeof value);
                         return;
                     } else if (value.size() > column.width) {

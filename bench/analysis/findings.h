@@ -3,16 +3,16 @@
 #include "results/results.h"
 
 #include <string>
+#include <vector>
 
 namespace boxwood::bench {
 
-/// What a sweep found, for the terminal: per scene, ask and number of threads the cell of ours with
-/// the least time to build and query, to query alone, or to update and query, each against the same
-/// choice of each library, from `compare`; then the noise floor, and every wrong cell with its
-/// witness. Wrong and unchecked cells are not chosen.
-std::string findings_text(const results::Results& results);
-
-/// Whether an answer of ours is wrong, or any contender brought its process down.
-bool is_promise_broken(const results::Results& results);
+/// What a run found, in words, losses first: for each scene, task, number of threads and class our
+/// best against the best rival (a peer, or our reference where there is none), by build and query
+/// together and by the query alone; for each family of kernels and panel the cheapest that is never
+/// wrong; for each scene that is played, what a frame takes and what all stages would. A headline
+/// stands for its question: the largest size, and of several numbers of threads the worst for us.
+/// Needs all other derived tables.
+std::vector<results::Finding> findings_of(const results::Results& results);
 
 } // namespace boxwood::bench

@@ -1,150 +1,228 @@
-#include "bench/analysis/findings.h"
-
-#include "bench/analysis/compare.h"
+#include "bench/analysis/analyse.h"
+#include "bench/analysis/promises.h"
+#include "bench/analysis/screen.h"
+#include "bench/testing/run.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <sstream>
+
 namespace boxwood::bench {
 namespace {
 
+using results::Finding;
+using results::Phase;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-/// One scene and ask; each cell of a variant of its own, timed in nine rounds.
 struct Findings : testing::Test {
-    results::Results r;
+    RunForTest run;
 
-    Findings() {
-        r.scenes.push_back({});
-        r.scenes[0].name = "uniform";
-        r.shards.push_back({});
-        r.env.push_back({});
+    std::uint32_t add(const std::string& scene, const std::string& task, const std::string& variant,
+                      double build_ns, double query_ns, std::uint32_t threads = 1,
+                      std::uint64_t n = 10) {
+        const auto cell = run.cell(scene, n, task, variant, threads);
+        run.time(cell, Phase::build, build_ns);
+        run.time(cell, Phase::query, query_ns);
+        return cell;
     }
-
-    void add(const std::string& name, const std::string& library, double build_ns, double query_ns,
-             const std::string& status = "exact", const std::string& witness = "") {
-        const auto id = static_cast<std::uint32_t>(r.cells.size());
-        results::Variant variant;
-        variant.variant_id = id;
-        variant.name = name;
-        variant.library = library;
-        variant.is_peer = library != "boxwood";
-        r.variants.push_back(variant);
-        results::Cell cell;
-        cell.cell_id = cell.variant_id = id;
-        cell.name = "cell/" + name;
-        cell.task = "pairs";
-        r.cells.push_back(cell);
-        results::Check check;
-        check.cell_id = id;
-        check.status = status;
-        check.witness = witness;
-        r.checks.push_back(check);
-        for (std::uint32_t round = 0; round < 9; ++round)
-            for (const bool is_query : {false, true}) {
-                results::Sample sample;
-                sample.cell_id = id;
-                sample.round = round;
-                sample.phase = is_query ? "query" : "build";
-                sample.wall_ns = is_query ? query_ns : build_ns;
-                r.samples.push_back(sample);
-            }
-        r.compare = compare_to_peers(r);
+    std::string screen() {
+        analyse(run.results);
+        return screen_text(run.results);
+    }
+    const Finding& only() {
+        analyse(run.results);
+        EXPECT_EQ(run.results.findings.size(), 1u);
+        return run.results.findings.at(0);
     }
 };
 
-TEST_F(Findings, ShowTheBestOfEachLibraryAndItsRatio) {
-    add("ours_slow", "boxwood", 100, 900);
-    add("ours_best", "boxwood", 100, 300);
-    add("peer_best", "fcl", 100, 1100);
-    add("peer_slow", "fcl", 100, 5000);
-    const std::string text = findings_text(r);
-    EXPECT_THAT(text, HasSubstr("ours_best"));
-    EXPECT_THAT(text, HasSubstr("peer_best"));
-    EXPECT_THAT(text, HasSubstr("3.00 [3.00, 3.00] faster")); // 1200 / 400
-    EXPECT_THAT(text, HasSubstr("3.67 [3.67, 3.67] faster")); // 1100 / 300
-    EXPECT_THAT(text, Not(HasSubstr("slow")));
-    EXPECT_FALSE(is_promise_broken(r));
+TEST_F(Findings, HoldTheBestOfOursAgainstTheBestRival) {
+    add("uniform", "pairs", "slow.packed", 100, 900);
+    const auto ours = add("uniform", "pairs", "quick.packed", 100, 300);
+    const auto rival = add("uniform", "pairs", "fcl.best", 100, 1100);
+    add("uniform", "pairs", "fcl.slow", 100, 5000);
+    const Finding& row = only();
+    EXPECT_EQ(row.ours, ours);
+    EXPECT_EQ(row.rival, rival);
+    EXPECT_EQ(row.together, "wins 3.00x over FCL"); // 1200 / 400
+    EXPECT_EQ(row.alone, "wins 3.67x");             // 1100 / 300, over the same
+    EXPECT_EQ(row.certainty, "3.00-3.00");
+    EXPECT_EQ(row.question, "overlapping pairs, uniform 10");
+    EXPECT_FALSE(is_promise_broken(run.results));
 }
 
 TEST_F(Findings, ChooseTheBestOfEachMeasureByItself) {
-    add("ours_quick_build", "boxwood", 100, 300);
-    add("ours_quick_query", "boxwood", 900, 200);
-    add("peer", "fcl", 700, 600);
-    const std::string text = findings_text(r);
-    EXPECT_THAT(text, HasSubstr("3.25 [3.25, 3.25] faster")); // 1300 / 400, build and query
-    EXPECT_THAT(text, HasSubstr("3.00 [3.00, 3.00] faster")); // 600 / 200, query alone
+    const auto builds = add("uniform", "pairs", "builds.packed", 100, 300),
+               queries = add("uniform", "pairs", "queries.packed", 900, 200);
+    add("uniform", "pairs", "fcl.tree", 700, 600);
+    const Finding& row = only();
+    EXPECT_EQ(row.ours, builds);
+    EXPECT_EQ(row.ours_alone, queries);
+    EXPECT_EQ(row.together, "wins 3.25x over FCL"); // 1300 / 400
+    EXPECT_EQ(row.alone, "wins 3.00x");             // 600 / 200
 }
 
 TEST_F(Findings, RankUpdatesWithTheirQueriesAndBuildsThatNothingFollows) {
-    add("ours", "boxwood", 100, 300);
-    add("peer", "fcl", 700, 500);
-    for (results::Sample& sample : r.samples)
-        if (sample.phase == "build")
-            sample.phase = "update";
-    r.compare = compare_to_peers(r);
-    EXPECT_THAT(findings_text(r), HasSubstr("3.00 [3.00, 3.00] faster")); // 1200 / 400
-    std::erase_if(r.samples, [](const auto& sample) { return sample.phase == "query"; });
-    for (results::Sample& sample : r.samples)
-        sample.phase = "build";
-    r.compare = compare_to_peers(r);
-    EXPECT_THAT(findings_text(r), HasSubstr("7.00 [7.00, 7.00] faster"));
+    for (const auto& [name, update, query] :
+         {std::tuple{"auto", 100., 300.}, {"fcl.moved", 700., 500.}}) {
+        const auto cell = add("drift", "moving_pairs", name, 1, query);
+        run.time(cell, Phase::update, update);
+    }
+    EXPECT_EQ(only().together, "wins 3.00x over FCL"); // 1200 / 400
+    EXPECT_EQ(only().alone, "");
+    run = {};
+    for (const auto& [name, build] : {std::pair{"hilbert", 1000.}, {"embree.low", 700.}})
+        run.time(run.cell("uniform", 10, "tree", name), Phase::build, build);
+    EXPECT_EQ(only().together, "LOSES 0.70x to Embree");
+}
+
+TEST_F(Findings, LossesComeFirstAndOneRowStandsForAQuestion) {
+    for (const std::uint64_t n : {10u, 1000u})
+        for (const std::uint32_t threads : {1u, 2u}) {
+            add("uniform", "pairs", "ours.packed", 10, threads == 2 ? 200 : 100, threads, n);
+            add("uniform", "pairs", "fcl.tree", 10, 150, threads, n);
+        }
+    add("bars", "pairs", "ours.packed", 10, 100);
+    add("bars", "pairs", "embree.bvh", 10, 101);
+    analyse(run.results);
+    std::vector<std::string> headlines;
+    for (const Finding& row : run.results.findings)
+        if (row.is_headline)
+            headlines.push_back(row.question + ": " + row.together);
+    EXPECT_THAT(headlines, ElementsAre("overlapping pairs, uniform 1k, 2 threads: LOSES 0.76x to "
+                                       "FCL",
+                                       "overlapping pairs, bars 10: even with Embree"));
+    EXPECT_EQ(run.results.findings.size(), 5u);
+    EXPECT_THAT(screen(), HasSubstr("and 3 more"));
+}
+
+TEST_F(Findings, WithoutPeersOursStandAgainstTheirReference) {
+    add("uniform", "pairs", "hilbert.packed", 100, 300);
+    add("uniform", "pairs", "mine.packed", 100, 100);
+    EXPECT_EQ(only().together, "wins 2.00x over hilbert");
+    EXPECT_EQ(only().alone, "wins 3.00x");
+}
+
+TEST_F(Findings, SayWhyNothingCanBeTold) {
+    run.rounds = 5;
+    add("uniform", "pairs", "ours.packed", 100, 300);
+    add("uniform", "pairs", "fcl.tree", 100, 900);
+    const Finding& row = only();
+    EXPECT_EQ(row.together, "unsure, 2.50x FCL");
+    EXPECT_EQ(row.certainty, "too few rounds");
+    EXPECT_THAT(screen(), Not(HasSubstr("wins")));
 }
 
 TEST_F(Findings, NeverRankWhatIsWrong) {
-    add("ours", "boxwood", 100, 300);
-    add("rogue", "fcl", 1, 1, "wrong", "pair 3 4");
-    const std::string text = findings_text(r);
-    EXPECT_THAT(text.substr(0, text.find("Wrong")), Not(HasSubstr("rogue")));
-    EXPECT_THAT(text, HasSubstr("cell/rogue: 0 missing, 0 extra; pair 3 4"));
-    EXPECT_FALSE(is_promise_broken(r)); // a peer promised nothing
-    add("ours_wrong", "boxwood", 1, 1, "wrong", "pair 1 2");
-    EXPECT_TRUE(is_promise_broken(r));
+    add("uniform", "pairs", "ours.packed", 100, 300);
+    const auto rogue = add("uniform", "pairs", "fcl.rogue", 1, 1);
+    run.results.checks[rogue].status = results::Status::wrong;
+    EXPECT_THAT(screen(), HasSubstr("2 answers checked: 0 of ours wrong, 1 of the peers' wrong"));
+    EXPECT_TRUE(run.results.findings.empty());
+    EXPECT_FALSE(is_promise_broken(run.results)); // a peer promised nothing
+    run.results.checks[add("uniform", "pairs", "bad.packed", 1, 1)].status = results::Status::wrong;
+    EXPECT_THAT(screen(), HasSubstr("1 of ours wrong"));
+    EXPECT_TRUE(is_promise_broken(run.results));
 }
 
 TEST_F(Findings, ALaterWrongAnswerOrACrashBreaksThePromise) {
-    add("ours", "boxwood", 100, 300);
-    r.samples[3].flags |= results::wrong_answer;
-    EXPECT_TRUE(is_promise_broken(r));
-    EXPECT_THAT(findings_text(r), HasSubstr("a timed round answered otherwise"));
-    r.samples[3].flags = 0;
-    EXPECT_FALSE(is_promise_broken(r));
-    add("peer", "fcl", 1, 1, "wrong", "crashed: signal 11 in round 2");
-    EXPECT_TRUE(is_promise_broken(r));
+    add("uniform", "pairs", "ours.packed", 100, 300);
+    run.results.samples[3].flags |= results::wrong_answer;
+    analyse(run.results);
+    EXPECT_TRUE(is_promise_broken(run.results));
+    run.results.samples[3].flags = 0;
+    analyse(run.results);
+    EXPECT_FALSE(is_promise_broken(run.results));
+    results::Check& check = run.results.checks[add("uniform", "pairs", "fcl.tree", 1, 1)];
+    check.status = results::Status::wrong;
+    check.witness = "crashed: signal 11 in round 2";
+    analyse(run.results);
+    EXPECT_TRUE(is_promise_broken(run.results));
 }
 
 TEST_F(Findings, AKernelWithoutAPromiseMayErrAndOneWithMayNot) {
-    const auto add_kernel = [&](const std::string& rung, const std::string& promise,
+    const auto add_kernel = [&](const std::string& kernel, const std::string& promise,
                                 std::uint64_t false_neg, double ns) {
-        add(rung, "boxwood", results::missing, 100 * ns, false_neg > 0 ? "wrong" : "exact");
-        r.cells.back().task = "triangle_triangle";
+        const auto cell = run.cell("slivers", 100, "triangle_triangle", kernel);
+        run.time(cell, Phase::query, 100 * ns);
+        run.results.checks[cell].status = false_neg > 0 ? results::Status::wrong : results::Status::exact;
         results::KernelRow row;
-        row.cell_id = r.cells.back().cell_id;
+        row.cell_id = cell;
         row.family = "slivers";
         row.panel = "degenerate";
         row.task = "triangle_triangle";
-        row.kernel = rung;
+        row.kernel = kernel;
         row.promise = promise;
         row.n = row.tier_0 = 100;
         row.false_neg = false_neg;
-        row.status = false_neg > 0 ? "wrong" : "exact";
+        row.status = false_neg > 0 ? results::Status::wrong : results::Status::exact;
         row.witness = "case 7";
-        r.kernels.push_back(row);
+        run.results.kernels.push_back(row);
     };
     add_kernel("plain", "no promise", 3, 10);
+    EXPECT_EQ(only().together, "none is always right");
+    EXPECT_EQ(only().certainty, "3 of 100 wrong");
     add_kernel("sure", "exact", 0, 25);
-    const std::string text = findings_text(r);
-    EXPECT_FALSE(is_promise_broken(r));
-    EXPECT_THAT(text, HasSubstr("plain errs on slivers 3/100"));
-    EXPECT_THAT(text, HasSubstr("degenerate input: cheapest rung with no wrong answer on these "
-                                "cases: sure, at 2.50 times the fastest (plain)"));
-    EXPECT_THAT(text, HasSubstr("Every promise is kept."));
-    EXPECT_THAT(text, Not(HasSubstr("not ranked")));
+    EXPECT_FALSE((analyse(run.results), is_promise_broken(run.results)));
+    EXPECT_EQ(only().question, "triangle triangle, degenerate");
+    EXPECT_EQ(only().together, "sure, 25.0 ns");
+    EXPECT_EQ(only().alone, "2.50x plain");
+    EXPECT_EQ(promises_text(run.results), "Every promise is kept.\n");
+    EXPECT_EQ(run.results.health[0].wrong_ours, 0u);
     add_kernel("liar", "never-miss", 1, 5);
-    EXPECT_TRUE(is_promise_broken(r));
-    EXPECT_THAT(findings_text(r), HasSubstr("BROKEN PROMISE: liar promises never-miss on slivers/"
-                                            "triangle_triangle\n  case 7"));
+    EXPECT_THAT(screen(), HasSubstr("1 BROKEN PROMISE"));
+    EXPECT_TRUE(is_promise_broken(run.results));
+    EXPECT_THAT(promises_text(run.results),
+                HasSubstr("BROKEN PROMISE: liar promises never-miss on slivers/"
+                          "triangle_triangle\n  case 7"));
+}
+
+TEST_F(Findings, AScenePlayedSaysItsFrameAndWhatEverythingWouldTake) {
+    for (const auto& [name, update] : {std::pair{"required", 2e6}, {"all_stages", 5e6}}) {
+        const auto cell = add("warehouse", "scene_queries", name, 1, 1e6);
+        run.time(cell, Phase::update, update);
+    }
+    const Finding& row = only();
+    EXPECT_EQ(row.topic, results::Topic::scene);
+    EXPECT_EQ(row.together, "3.00 ms a frame");
+    EXPECT_EQ(row.alone, "2.00x the time"); // 6 / 3
+}
+
+TEST_F(Findings, ANoisyRunSaysRepeatThisInstead) {
+    const auto cell = add("uniform", "pairs", "ours.packed", 100, 300);
+    add("uniform", "pairs", "fcl.tree", 100, 900);
+    run.time(cell, Phase::query, 300);
+    for (auto sample = run.results.samples.end() - 9; sample != run.results.samples.end();
+         ++sample) {
+        sample->flags = results::aa_twin;
+        sample->wall_ns = 400;
+    }
+    const std::string text = screen();
+    EXPECT_EQ(run.results.health[0].is_too_noisy, 1u);
+    EXPECT_THAT(text, HasSubstr("REPEAT THIS"));
+    EXPECT_THAT(text, Not(HasSubstr("FCL")));
+}
+
+TEST_F(Findings, OneScreenHoldsAHundredQuestions) {
+    for (int i = 0; i < 100; ++i) {
+        const std::string scene =
+            "a_scene_with_a_name_that_is_longer_than_a_screen_can_hold_in_its_first_column_" +
+            std::to_string(i);
+        add(scene, "pairs", "ours.packed", 100, 300);
+        add(scene, "pairs", "fcl.tree", 100, 200 + 10 * i);
+    }
+    std::istringstream lines(screen());
+    std::size_t n = 0;
+    for (std::string line; std::getline(lines, line); ++n) {
+        EXPECT_LE(line.size(), 100u) << line;
+        EXPECT_EQ(line.find("overlapping") == 0, line.find(" FCL") != line.npos) << line;
+    }
+    EXPECT_LE(n, 21u); // four more say where the files are
+    EXPECT_GE(n, 18u);
 }
 
 } // namespace

@@ -2,15 +2,13 @@
 
 #include "results/results.h"
 
-#include <string_view>
-
 namespace boxwood::bench {
 
 /// The least time in ns that the machine of a result file could take for a phase of one of our
 /// cells, by its own memory bandwidth and clock: what must be moved (a box is 24 bytes, the two
 /// nodes of an item 64, a pair 8; to update, of the items that moved) and, of pairs, what must be
 /// done (0.31 cycles for a box test sixteen at a time, a cycle for a pair). No such bound is known
-/// of other work: NaN.
-double limit_ns(const results::Results& results, const results::Cell& cell, std::string_view phase);
+/// of other work: NaN. Of a sum of two phases the sum.
+double limit_ns(const results::Results& results, const results::Cell& cell, results::Phase phase);
 
 } // namespace boxwood::bench

@@ -30,12 +30,12 @@ double percentile_of_sorted(std::span<const double> sorted, double q) {
     return std::lerp(sorted[below], sorted[above], place - std::floor(place));
 }
 
-std::optional<Ranks> median_ranks(std::size_t n) {
+std::optional<Ranks> median_ranks(std::size_t n, double error) {
     // The interval from rank k misses the median if fewer than k values lie below it, or above it.
     std::size_t k = 0;
     for (double misses = 0; k < n / 2; ++k) {
         misses += 2 * binomial(k, n);
-        if (misses > 0.05)
+        if (misses > error)
             break;
     }
     if (k == 0)
@@ -52,34 +52,37 @@ double sign_test(std::span<const double> log_ratios) {
     return std::min(1.0, p);
 }
 
-std::vector<double> holm(std::span<const double> p) {
+Holm holm(std::span<const double> p) {
     std::vector<std::size_t> order(p.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, {}, [&](std::size_t i) { return p[i]; });
-    std::vector<double> adjusted(p.size());
-    double running = 0;
+    Holm result{std::vector<double>(p.size()), std::vector<double>(p.size())};
+    double running = 0, level = 0;
     for (std::size_t place = 0; place < order.size(); ++place) {
         const auto claims_left = static_cast<double>(p.size() - place);
+        if (running <= family_error) // all before it passed
+            level = family_error / claims_left;
         running = std::max(running, std::min(1.0, claims_left * p[order[place]]));
-        adjusted[order[place]] = running;
+        result.p_adj[order[place]] = running;
+        result.level[order[place]] = level;
     }
-    return adjusted;
+    return result;
 }
 
 std::size_t rounds_needed(std::size_t family_size) {
-    std::size_t n = least_pairs_verdict;
+    std::size_t n = min_pairs_verdict;
     while (static_cast<double>(family_size) * std::ldexp(1.0, 1 - static_cast<int>(n)) >
            family_error)
         ++n;
     return n;
 }
 
-MedianInterval median_interval(std::vector<double> values) {
+MedianInterval median_interval(std::vector<double> values, double error) {
     if (values.empty())
         return {};
     std::ranges::sort(values);
     MedianInterval result{values.size(), median_of_sorted(values)};
-    if (const auto ranks = median_ranks(values.size())) {
+    if (const auto ranks = median_ranks(values.size(), error)) {
         result.lo = values[ranks->lo - 1];
         result.hi = values[ranks->hi - 1];
     }
@@ -98,33 +101,59 @@ Line fitted_line(std::span<const double> x, std::span<const double> y) {
     return {xy / xx, mean_y - xy / xx * mean_x};
 }
 
-PairedRatio paired_ratio(std::span<const double> log_ratios) {
-    PairedRatio result;
-    result.n_pairs = log_ratios.size();
-    if (log_ratios.empty())
-        return result;
-    const MedianInterval logs = median_interval({log_ratios.begin(), log_ratios.end()});
-    result.ratio = std::exp(logs.mid);
-    result.ci_lo = std::exp(logs.lo);
-    result.ci_hi = std::exp(logs.hi);
-    result.p = sign_test(log_ratios);
-    result.is_identical = std::ranges::all_of(log_ratios, [](double x) { return x == 0; });
-    return result;
+PairedRatio paired_ratio(std::span<const double> log_ratios, double error) {
+    const MedianInterval logs = median_interval({log_ratios.begin(), log_ratios.end()}, error);
+    return {logs.n, std::exp(logs.mid), std::exp(logs.lo), std::exp(logs.hi)};
 }
 
-std::string verdict(const PairedRatio& ratio, double p_adj, double delta, double floor) {
-    if (ratio.is_identical)
-        return "same";
-    if (ratio.n_pairs < least_pairs_verdict)
-        return "cannot_tell";
-    const auto is_within = [](double value, double band) {
-        return 1 / (1 + band) <= value && value <= 1 + band;
+namespace {
+
+bool is_within(double value, double band) { return 1 / (1 + band) <= value && value <= 1 + band; }
+
+Decision decide_one(std::span<const double> logs, double p_adj, double level, double delta,
+                    double floor) {
+    using results::Reason, results::Verdict;
+    Decision claim{paired_ratio(logs), p_adj};
+    if (!logs.empty() && std::ranges::all_of(logs, [](double x) { return x == 0; })) {
+        claim.verdict = Verdict::same;
+        return claim;
+    }
+    const auto open = [&](Reason reason) {
+        claim.reason = reason;
+        return claim;
     };
-    if (is_within(ratio.ci_lo, delta) && is_within(ratio.ci_hi, delta) && !(floor > delta))
-        return "same"; // which a machine noisier than delta cannot tell
-    if (p_adj > family_error || is_within(ratio.ratio, floor))
-        return "cannot_tell";
-    return ratio.ci_hi < 1 ? "faster" : ratio.ci_lo > 1 ? "slower" : "cannot_tell";
+    if (logs.size() < min_pairs_verdict)
+        return open(Reason::too_few_rounds);
+    if (is_within(claim.ratio.ci_lo, delta) && is_within(claim.ratio.ci_hi, delta)) {
+        if (floor > delta)
+            return open(Reason::below_the_floor);
+        claim.verdict = Verdict::same;
+        return claim;
+    }
+    claim.ratio = paired_ratio(logs, level);
+    if (!median_ranks(logs.size(), level))
+        return open(Reason::too_few_rounds);
+    if (claim.ratio.ci_lo <= 1 && claim.ratio.ci_hi >= 1)
+        return open(Reason::crosses_1);
+    if (is_within(claim.ratio.ratio, floor))
+        return open(Reason::below_the_floor);
+    claim.verdict = claim.ratio.ci_hi < 1 ? Verdict::faster : Verdict::slower;
+    return claim;
+}
+
+} // namespace
+
+std::vector<Decision> decide(std::span<const std::vector<double>> family, double delta,
+                             double floor) {
+    std::vector<double> p;
+    for (const std::vector<double>& logs : family)
+        p.push_back(sign_test(logs));
+    const Holm corrected = holm(p);
+    std::vector<Decision> decisions;
+    for (std::size_t i = 0; i < family.size(); ++i)
+        decisions.push_back(
+            decide_one(family[i], corrected.p_adj[i], corrected.level[i], delta, floor));
+    return decisions;
 }
 
 } // namespace boxwood::bench

@@ -1,48 +1,54 @@
 #pragma once
 
+#include "results/words.h"
+
 #include <cstddef>
 #include <limits>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 /// Statistics on plain numbers that assume nothing of the noise but that rounds are alike.
 namespace boxwood::bench {
 
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-inline constexpr double default_delta = 0.05;          ///< "same" means within +-5 %
-inline constexpr double family_error = 0.05;           ///< of a family of claims, after Holm
-inline constexpr std::size_t least_pairs_interval = 6; ///< fewer give no 95 % interval
-inline constexpr std::size_t least_pairs_verdict = 9;  ///< fewer give no verdict
+inline constexpr double default_delta = 0.05;        ///< "same" means within +-5 %
+inline constexpr double family_error = 0.05;         ///< of a family of claims, after Holm
+inline constexpr std::size_t min_pairs_interval = 6; ///< fewer give no 95 % interval
+inline constexpr std::size_t min_pairs_verdict = 9;  ///< fewer give no verdict
 
 /// Of sorted values, at least one: the median, and numpy's percentile for q in [0, 1].
 double median_of_sorted(std::span<const double> sorted);
 double percentile_of_sorted(std::span<const double> sorted, double q);
 
-/// Ranks, from 1, of the sorted values that refit_upward the median with at least 95 %: exact for any
-/// continuous distribution (the number of values below the median is binomial). Nothing for n < 6.
+/// Ranks, from 1, of the sorted values that enclose the median with an error of at most `error`:
+/// exact for any continuous distribution (the number of values below the median is binomial).
+/// Nothing if n is too small for that.
 struct Ranks {
     std::size_t lo, hi;
     bool operator==(const Ranks&) const = default;
 };
-std::optional<Ranks> median_ranks(std::size_t n);
+std::optional<Ranks> median_ranks(std::size_t n, double error = 0.05);
 
 /// Two-sided exact p of "the median of the log-ratios is 0"; zeros count for neither side.
 double sign_test(std::span<const double> log_ratios);
 
-/// Holm's step-down adjustment, in the order given.
-std::vector<double> holm(std::span<const double> p);
+/// Holm's step-down procedure, in the order given: the adjusted p of each claim, and the level at
+/// which it was tested (for those after the first that fails, the level of that one).
+struct Holm {
+    std::vector<double> p_adj, level;
+};
+Holm holm(std::span<const double> p);
 
 /// The fewest rounds in which a family of this size can reach any verdict.
 std::size_t rounds_needed(std::size_t family_size);
 
-/// The median of values with its exact interval; NaN for none, the interval for n < 6.
+/// The median of values with its exact interval; NaN for none, the interval if n is too small.
 struct MedianInterval {
     std::size_t n = 0;
     double mid = unknown, lo = unknown, hi = unknown;
 };
-MedianInterval median_interval(std::vector<double> values);
+MedianInterval median_interval(std::vector<double> values, double error = 0.05);
 
 /// A straight line by least squares: y = at_0 + slope x. Needs two different x.
 struct Line {
@@ -50,18 +56,26 @@ struct Line {
 };
 Line fitted_line(std::span<const double> x, std::span<const double> y);
 
-/// Time of b over time of a, from one log-ratio per paired round. The interval is NaN for n < 6.
+/// Time of b over time of a, from one log-ratio per paired round.
 struct PairedRatio {
     std::size_t n_pairs = 0;
-    double ratio = unknown, ci_lo = unknown, ci_hi = unknown, p = 1;
-    bool is_identical = false; ///< every ratio is exactly 1: the same data
+    double ratio = unknown, ci_lo = unknown, ci_hi = unknown;
 };
-PairedRatio paired_ratio(std::span<const double> log_ratios);
+PairedRatio paired_ratio(std::span<const double> log_ratios, double error = 0.05);
 
-/// b against a: "same" if the whole interval lies within a factor 1 + delta and the noise floor is
-/// no wider; "faster" or "slower" if it lies on one side of 1, p_adj is at most 5 % and the ratio
-/// is beyond the noise floor; else "cannot_tell", as for fewer than 9 pairs. Identical data are the
-/// same whatever their number.
-std::string verdict(const PairedRatio& ratio, double p_adj, double delta, double floor);
+/// What is said of one claim of a family, with the interval that decided.
+struct Decision {
+    PairedRatio ratio;
+    double p_adj = 1;
+    results::Verdict verdict = results::Verdict::cannot_tell;
+    results::Reason reason = results::Reason::none;
+};
+/// The claims of one family, each the log-ratios of b against a by paired round, decided together.
+/// "same": the 95 % interval lies within a factor 1 + delta and the noise floor is no wider.
+/// "faster", "slower": the interval at the claim's level within the family excludes 1, and the
+/// ratio is beyond the noise floor. Else "cannot_tell", as for fewer than 9 pairs. Identical data
+/// are the same whatever their number.
+std::vector<Decision> decide(std::span<const std::vector<double>> family, double delta,
+                             double floor);
 
 } // namespace boxwood::bench

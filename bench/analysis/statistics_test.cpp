@@ -52,14 +52,17 @@ TEST(SignTest, IsExact) {
 }
 
 TEST(Holm, StepsDown) {
-    const auto adjusted = holm(std::vector{0.01, 0.04, 0.03, 0.005});
-    const std::vector expected{0.03, 0.06, 0.06,
-                               0.02}; // smallest first: x4, x3, x2, x1, never falling
-    ASSERT_EQ(adjusted.size(), expected.size());
-    for (std::size_t i = 0; i < expected.size(); ++i)
-        EXPECT_DOUBLE_EQ(adjusted[i], expected[i]);
-    EXPECT_TRUE(holm({}).empty());
-    EXPECT_EQ(holm(std::vector{0.9, 0.8}), (std::vector{1.0, 1.0}));
+    const Holm four = holm(std::vector{0.01, 0.04, 0.03, 0.005});
+    const std::vector p_adj{0.03, 0.06, 0.06,
+                            0.02}; // smallest first: x4, x3, x2, x1, never falling
+    const std::vector level{0.05 / 3, 0.05 / 2, 0.05 / 2, 0.05 / 4}; // 0.03 > 0.05 / 2 stops
+    ASSERT_EQ(four.p_adj.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_DOUBLE_EQ(four.p_adj[i], p_adj[i]);
+        EXPECT_DOUBLE_EQ(four.level[i], level[i]);
+    }
+    EXPECT_TRUE(holm({}).p_adj.empty());
+    EXPECT_EQ(holm(std::vector{0.9, 0.8}).p_adj, (std::vector{1.0, 1.0}));
 }
 
 TEST(RoundsNeeded, IsTheFirstThatCanPass) {
@@ -78,28 +81,71 @@ TEST(PairedRatio, MedianAndInterval) {
     EXPECT_NEAR(six.ratio, std::sqrt(1.2 * 1.3), 1e-12);
     EXPECT_NEAR(six.ci_lo, 0.5, 1e-12);
     EXPECT_NEAR(six.ci_hi, 2.0, 1e-12);
-    EXPECT_FALSE(six.is_identical);
-    EXPECT_TRUE(paired_ratio(std::vector{0.0}).is_identical);
-    EXPECT_FALSE(paired_ratio({}).is_identical);
     EXPECT_TRUE(std::isnan(paired_ratio({}).ratio));
     EXPECT_TRUE(std::isnan(paired_ratio(std::vector(5, 0.1)).ci_lo));
 }
 
-TEST(Verdict, CaseByCase) {
-    const auto of = [](std::size_t n, double lo, double mid, double hi, double p, double floor) {
-        return verdict({n, mid, lo, hi, p, false}, p, 0.05, floor);
+using results::Reason, results::Verdict;
+using Logs = std::vector<double>;
+
+/// Ratios of as many rounds.
+Logs logs_of(std::initializer_list<double> ratios) {
+    Logs logs;
+    for (const double ratio : ratios)
+        logs.push_back(std::log(ratio));
+    return logs;
+}
+
+TEST(Decide, CaseByCase) {
+    const auto of = [](std::initializer_list<double> ratios, double floor = 0) {
+        const Decision one = decide(std::vector<Logs>{logs_of(ratios)}, 0.05, floor)[0];
+        return std::pair{one.verdict, one.reason};
     };
-    EXPECT_EQ(of(9, 0.7, 0.8, 0.9, 0.01, 0), "faster");
-    EXPECT_EQ(of(9, 1.1, 1.2, 1.3, 0.01, 0), "slower");
-    EXPECT_EQ(of(9, 0.96, 1.0, 1.04, 0.9, 0), "same");
-    EXPECT_EQ(of(9, 0.96, 1.0, 1.04, 0.9, 0.5), "cannot_tell"); // the machine cannot tell 5 %
-    EXPECT_EQ(of(9, 1.01, 1.02, 1.04, 0.01, 0), "same");        // different, but by less than delta
-    EXPECT_EQ(of(9, 0.9, 1.0, 1.1, 0.9, 0), "cannot_tell");     // wide
-    EXPECT_EQ(of(9, 1.1, 1.2, 1.3, 0.06, 0), "cannot_tell");    // not significant in its family
-    EXPECT_EQ(of(8, 0.7, 0.8, 0.9, 0.01, 0), "cannot_tell");    // too few
-    EXPECT_EQ(of(9, 1.02, 1.15, 1.5, 0.01, 0.2), "cannot_tell"); // within the noise floor
-    EXPECT_EQ(of(9, 0.85, 0.9, 1.15, 0.01, 0.2), "cannot_tell"); // noise does not make them equal
-    EXPECT_EQ(verdict({1, 1, unknown, unknown, 1, true}, 1, 0.05, 0), "same");
+    const auto open = [](Reason reason) { return std::pair{Verdict::cannot_tell, reason}; };
+    const auto said = [](Verdict verdict) { return std::pair{verdict, Reason::none}; };
+    EXPECT_EQ(of({.7, .7, .8, .8, .8, .8, .8, .9, .9}), said(Verdict::faster));
+    EXPECT_EQ(of({1.1, 1.1, 1.2, 1.2, 1.2, 1.2, 1.2, 1.3, 1.3}), said(Verdict::slower));
+    EXPECT_EQ(of({.5, 1.1, 1.2, 1.2, 1.2, 1.2, 1.2, 1.3, 9}), said(Verdict::slower)); // two bad
+    EXPECT_EQ(of({.5, .96, 1, 1, 1, 1, 1, 1.04, 2}), said(Verdict::same));
+    EXPECT_EQ(of({.96, .96, 1, 1, 1, 1, 1, 1.04, 1.04}, .5), open(Reason::below_the_floor));
+    EXPECT_EQ(of({1.01, 1.01, 1.02, 1.02, 1.02, 1.02, 1.02, 1.03, 1.03}), said(Verdict::same));
+    EXPECT_EQ(of({.9, .9, .9, 1, 1, 1, 1.1, 1.1, 1.1}), open(Reason::crosses_1));
+    EXPECT_EQ(of({.7, .7, .7, .8, .8, .8, .8, .8}), open(Reason::too_few_rounds));
+    EXPECT_EQ(of({1.1, 1.1, 1.15, 1.15, 1.15, 1.15, 1.15, 1.5, 1.5}, .2),
+              open(Reason::below_the_floor));
+    EXPECT_EQ(of({1}), said(Verdict::same)); // the same data, whatever their number
+}
+
+TEST(Decide, TheIntervalIsTheOneThatDecided) {
+    // One bad round of nine: alone a claim stands, beside another it does not, and its interval
+    // says so.
+    const Logs bad = logs_of({.5, 1.2, 1.3, 1.3, 1.3, 1.3, 1.3, 1.4, 1.5}), good(9, std::log(1.3));
+    const Decision alone = decide(std::vector<Logs>{bad}, 0.05, 0)[0];
+    EXPECT_EQ(alone.verdict, Verdict::slower);
+    EXPECT_NEAR(alone.ratio.ci_lo, 1.2, 1e-12);
+    const auto both = decide(std::vector{bad, bad, good}, 0.05, 0);
+    EXPECT_EQ(both[2].verdict, Verdict::slower);
+    for (const std::size_t i : {0u, 1u}) {
+        EXPECT_EQ(both[i].reason, Reason::crosses_1);
+        EXPECT_GT(both[i].p_adj, 0.05);
+        EXPECT_NEAR(both[i].ratio.ci_lo, .5, 1e-12);
+    }
+    const auto many = decide(std::vector(13, good), 0.05, 0); // 13 * 2 / 512 > 0.05
+    EXPECT_EQ(many[0].reason, Reason::too_few_rounds);
+    EXPECT_TRUE(std::isnan(many[0].ratio.ci_lo));
+}
+
+TEST(Decide, VerdictAndCorrectedPAgree) {
+    // The interval at the level of a claim inverts the sign test: no verdict without the other.
+    for (std::size_t claims = 1; claims < 6; ++claims)
+        for (std::size_t n = 9; n < 20; ++n)
+            for (std::size_t below = 0; below < n / 2; ++below) {
+                Logs logs(n, 0.5);
+                std::fill_n(logs.begin(), below, -0.25);
+                for (const Decision& claim : decide(std::vector(claims, logs), 0.05, 0))
+                    EXPECT_EQ(claim.verdict == Verdict::slower, claim.p_adj <= family_error)
+                        << claims << " claims, " << below << " of " << n << " below";
+            }
 }
 
 TEST(Statistics, MedianIntervalAgreesWithItsRanks) {

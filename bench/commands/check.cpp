@@ -1,9 +1,11 @@
 #include "bench/running/check.h"
 
-#include "bench/analysis/ladders.h"
+#include "bench/analysis/analyse.h"
+#include "bench/analysis/kernel_costs.h"
+#include "bench/analysis/promises.h"
 #include "bench/commands/command.h"
 #include "bench/running/environment.h"
-#include "bench/truth/judging/judge.h"
+#include "bench/truth/judging/case_truths.h"
 
 #include <fmt/format.h>
 
@@ -39,22 +41,23 @@ int run(const CheckOptions& options, const std::filesystem::path& out) {
     const auto start = std::chrono::steady_clock::now();
     for (const SceneSpec& spec : specs) {
         const Scene scene = checked_scene(spec, options);
-        check.judge(scene, [&](Ask ask) {
+        check.judge(scene, [&](const Task& task) {
             const double elapsed =
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
             progress.show({"checking", eta.fraction(), eta.left_s(elapsed),
-                           fmt::format("{}/{}", scene.name, to_string(ask))});
+                           fmt::format("{}/{}", scene.name, task.name())});
         });
         eta.done(1);
     }
     progress.show({"checking", 1, 0, ""});
+    results::Results results = check.results();
+    analyse(results);
     if (!out.empty())
-        results::write(out, check.results());
-    fmt::print("{}{}\n{}", check.details(), ladders_text(check.results()),
-               promises_text(check.results()));
+        results::write(out, results);
+    fmt::print("{}{}\n{}", check.details(), kernel_costs_text(results), promises_text(results));
     if (!out.empty())
         fmt::print("results: {}\n", out.string());
-    return broken_promises(check.results()) > 0 ? exit_failed : exit_success;
+    return broken_promises(results) > 0 ? exit_failed : exit_success;
 }
 
 } // namespace

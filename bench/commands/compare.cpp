@@ -1,6 +1,8 @@
 #include "bench/commands/compare.h"
 
+#include "bench/analysis/wording.h"
 #include "bench/commands/command.h"
+#include "bench/io/json.h"
 #include "bench/io/text_table.h"
 
 #include <fmt/format.h>
@@ -17,13 +19,23 @@ namespace boxwood::bench {
 namespace {
 
 using results::Comparison;
+using results::Reason;
 using results::Results;
+using results::Verdict;
 
 /// Whether a slowdown by more than `limit` is not excluded. (Identical data need no interval.)
-bool may_be_slower(const Comparison& row, double limit) {
-    if (row.verdict == "wrong" || (row.verdict == "same" && std::isnan(row.ci_hi)))
+bool may_be_slower(const FileRow& row, double limit) {
+    const Verdict verdict = row.comparison.verdict;
+    if (verdict == Verdict::wrong || (verdict == Verdict::same && std::isnan(row.hi_95)))
         return false;
-    return std::isnan(row.ci_hi) || row.ci_hi > 1 + limit;
+    return std::isnan(row.hi_95) || row.hi_95 > 1 + limit;
+}
+
+std::string said_of(const FileRow& row) {
+    return row.is_newly_wrong ? "newly wrong"
+           : row.comparison.verdict == Verdict::cannot_tell
+               ? "can't tell"
+               : std::string(to_string(row.comparison.verdict));
 }
 
 std::string commit_of(const Results& results) {
@@ -73,41 +85,32 @@ double fail_threshold(const std::string& condition) {
 int exit_code_of(const FileComparison& comparison, double delta, std::optional<double> fail_if) {
     bool is_open = !comparison.only_base.empty() || !comparison.other_content.empty();
     for (const FileRow& row : comparison.rows) {
-        if (row.is_newly_wrong ||
-            (row.comparison.verdict == "slower" && row.comparison.ratio > 1 + fail_if.value_or(0)))
+        if (row.is_newly_wrong || (row.comparison.verdict == Verdict::slower &&
+                                   row.comparison.ratio > 1 + fail_if.value_or(0)))
             return exit_failed;
-        is_open = is_open || may_be_slower(row.comparison, fail_if.value_or(delta));
+        is_open = is_open || may_be_slower(row, fail_if.value_or(delta));
     }
     return is_open ? exit_cannot_tell : exit_success;
 }
 
 std::string comparison_text(const Results& base, const Results& head,
                             const FileComparison& comparison, bool markdown) {
-    std::map<std::pair<std::uint32_t, std::string>, double> base_ns, head_ns;
-    for (const CellStats& stats : cell_stats(base))
-        base_ns[{stats.cell_id, stats.phase}] = stats.median_ns;
-    for (const CellStats& stats : cell_stats(head))
-        head_ns[{stats.cell_id, stats.phase}] = stats.median_ns;
-    const auto median = [](const auto& medians, std::uint32_t cell, const std::string& phase) {
-        const auto found = medians.find({cell, phase});
-        return time_text(found == medians.end() ? unknown : found->second);
-    };
-
-    TextTable table({"cell", "phase", ">rounds", ">base", ">head", ">head/base", ">95 % interval",
-                     ">p", "head is"});
+    const MedianIndex base_ns(base), head_ns(head);
+    TextTable table(
+        {"cell", "phase", ">rounds", ">base", ">head", ">head/base", ">interval", ">p", "head is"});
     std::map<std::string, std::size_t> count;
     bool is_short = false;
-    for (const auto& [name, row, is_newly_wrong] : comparison.rows) {
-        const std::string said = row.verdict == "cannot_tell" ? "can't tell"
-                                 : is_newly_wrong             ? "newly wrong"
-                                                              : row.verdict;
+    for (const FileRow& file_row : comparison.rows) {
+        const Comparison& row = file_row.comparison;
+        const std::string said = said_of(file_row);
         ++count[said];
-        is_short = is_short || (said == "can't tell" && row.n_pairs < least_pairs_verdict);
-        table.add({name, row.phase, std::to_string(row.n_pairs),
-                   median(base_ns, row.cell_a, row.phase), median(head_ns, row.cell_b, row.phase),
-                   ratio_text(row.ratio),
+        is_short = is_short || row.reason == Reason::too_few_rounds;
+        table.add({file_row.name, std::string(to_string(row.phase)), std::to_string(row.n_pairs),
+                   time_text(base_ns.ns(row.cell_a, row.phase)),
+                   time_text(head_ns.ns(row.cell_b, row.phase)), ratio_text(row.ratio),
                    fmt::format("{} to {}", ratio_text(row.ci_lo), ratio_text(row.ci_hi)),
-                   std::isnan(row.p_adj) ? "-" : fmt::format("{:.2g}", row.p_adj), said});
+                   std::isnan(row.p_adj) ? "-" : fmt::format("{:.2g}", row.p_adj),
+                   row.verdict == Verdict::cannot_tell ? verdict_text(row) : said});
     }
 
     std::string text = fmt::format("base: {}\nhead: {}\n\n", commit_of(base), commit_of(head));
@@ -124,7 +127,7 @@ std::string comparison_text(const Results& base, const Results& head,
         text += "The two files are of different machine states (another machine, build or "
                 "commit): rounds are paired in order of time.\n";
     const std::size_t needed = rounds_needed(comparison.family_size);
-    if (is_short || (count["can't tell"] > 0 && needed > least_pairs_verdict))
+    if (is_short || (count["can't tell"] > 0 && needed > min_pairs_verdict))
         text += fmt::format("More rounds are needed: a verdict on {} comparisons at once takes at "
                             "least {} rounds in both files.\n",
                             comparison.family_size, needed);
@@ -134,10 +137,37 @@ std::string comparison_text(const Results& base, const Results& head,
     return text;
 }
 
+std::string comparison_json(const FileComparison& comparison) {
+    const auto list_of = [](const std::vector<std::string>& names) {
+        std::string text;
+        for (const std::string& name : names)
+            text += (text.empty() ? "" : ", ") + json_string(name);
+        return "[" + text + "]";
+    };
+    std::string rows;
+    for (const FileRow& row : comparison.rows) {
+        const Comparison& c = row.comparison;
+        rows += fmt::format(
+            "{}\n  {{\"cell\": {}, \"phase\": \"{}\", \"n_pairs\": {}, \"ratio\": {}, \"ci_lo\": "
+            "{}, "
+            "\"ci_hi\": {}, \"p_adj\": {}, \"verdict\": \"{}\", \"reason\": \"{}\", "
+            "\"newly_wrong\": {}}}",
+            rows.empty() ? "" : ",", json_string(row.name), to_string(c.phase), c.n_pairs,
+            json_number(c.ratio), json_number(c.ci_lo), json_number(c.ci_hi), json_number(c.p_adj),
+            to_string(c.verdict), to_string(c.reason), row.is_newly_wrong);
+    }
+    return fmt::format(
+        "{{\"floor\": {}, \"same_machine\": {}, \"only_base\": {}, \"only_head\": {}, "
+        "\"other_content\": {}, \"rows\": [{}]}}\n",
+        json_number(comparison.floor.value_or(unknown)), comparison.is_same_machine,
+        list_of(comparison.only_base), list_of(comparison.only_head),
+        list_of(comparison.other_content), rows);
+}
+
 void add_compare(CLI::App& app, int& exit_code) {
     struct Options {
         std::string base, head, fail_if, delta = "5%";
-        bool markdown = false;
+        bool markdown = false, json = false;
     };
     auto options = std::make_shared<Options>();
     CLI::App* compare = app.add_subcommand(
@@ -149,7 +179,9 @@ void add_compare(CLI::App& app, int& exit_code) {
                         "\"slower\" if not given");
     compare->add_option("--delta", options->delta, "\"same\" means within this")
         ->capture_default_str();
-    compare->add_flag("--markdown", options->markdown, "the table in Markdown");
+    CLI::Option* markdown =
+        compare->add_flag("--markdown", options->markdown, "the table in Markdown");
+    compare->add_flag("--json", options->json, "all of it as JSON")->excludes(markdown);
     compare->footer(
         "Example: boxwood compare base.h5 head.h5 --fail-if \"slower>5%\"\n"
         "Exit codes: 0 fine, 1 a regression, 2 bad input, 3 can't tell (too few or too noisy "
@@ -164,7 +196,8 @@ void add_compare(CLI::App& app, int& exit_code) {
         if (comparison.rows.empty() && comparison.other_content.empty())
             throw BadInput(fmt::format("compare: '{}' and '{}' have no timed cell in common",
                                        options->base, options->head));
-        std::cout << comparison_text(base, head, comparison, options->markdown);
+        std::cout << (options->json ? comparison_json(comparison)
+                                    : comparison_text(base, head, comparison, options->markdown));
         exit_code = exit_code_of(comparison, delta, fail_if);
     });
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/analysis/compare.h"
+#include "bench/analysis/comparisons.h"
 #include "results/results.h"
 
 #include <optional>
@@ -22,5 +22,6 @@ int exit_code_of(const FileComparison& comparison, double delta, std::optional<d
 /// The table and what is to be said about it.
 std::string comparison_text(const results::Results& base, const results::Results& head,
                             const FileComparison& comparison, bool markdown);
+std::string comparison_json(const FileComparison& comparison);
 
 } // namespace boxwood::bench

@@ -1,5 +1,6 @@
 #include "bench/commands/compare.h"
 
+#include "bench/analysis/analyse.h"
 #include "bench/commands/command.h"
 
 #include <gmock/gmock.h>
@@ -12,7 +13,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 /// One cell timed in some rounds, the same in each but for one part in a thousand.
-results::Results timed(double ns, std::uint32_t rounds = 9, const std::string& status = "exact") {
+results::Results timed(double ns, std::uint32_t rounds = 9, const std::string& status = results::Status::exact) {
     results::Results results;
     results.env.resize(1);
     results.env[0].git_commit = "0123456789abcdef";
@@ -28,10 +29,11 @@ results::Results timed(double ns, std::uint32_t rounds = 9, const std::string& s
         results.shards.push_back(shard);
         results::Sample sample;
         sample.shard_id = sample.round = round;
-        sample.phase = "query";
+        sample.phase = results::Phase::query;
         sample.wall_ns = ns * (1 + 0.001 * (round % 3));
         results.samples.push_back(sample);
     }
+    analyse(results);
     return results;
 }
 
@@ -87,12 +89,20 @@ TEST(CompareCommand, CellsThatAreGoneCannotBeTold) {
     base.cells[1].name = "soup/gone";
     base.samples.push_back(base.samples[0]);
     base.samples.back().cell_id = 1;
+    analyse(base);
     EXPECT_EQ(exit_of(base, timed(100)), exit_cannot_tell);
     EXPECT_THAT(text_of(base, timed(100)), HasSubstr("Only in the base:\n- soup/gone"));
     EXPECT_EQ(exit_of(timed(100), base), exit_success);
     auto other = timed(100);
     other.scenes[0].content_hash = 1;
     EXPECT_EQ(exit_of(timed(100), other), exit_cannot_tell);
+}
+
+TEST(CompareCommand, JsonHasEveryRowAndItsReason) {
+    const std::string json = comparison_json(compare_files(timed(100, 3), timed(110, 3)));
+    EXPECT_THAT(json, HasSubstr("\"cell\": \"soup/ours\", \"phase\": \"query\", \"n_pairs\": 3"));
+    EXPECT_THAT(json, HasSubstr("\"verdict\": \"cannot_tell\", \"reason\": \"too_few_rounds\""));
+    EXPECT_THAT(json, HasSubstr("\"ci_lo\": null"));
 }
 
 TEST(CompareCommand, SaysWhatItSaw) {
@@ -102,7 +112,7 @@ TEST(CompareCommand, SaysWhatItSaw) {
     EXPECT_THAT(slower, HasSubstr("1 slower"));
     EXPECT_THAT(slower, Not(HasSubstr("More rounds")));
     const std::string few = text_of(timed(100, 3), timed(110, 3));
-    EXPECT_THAT(few, HasSubstr("can't tell"));
+    EXPECT_THAT(few, HasSubstr("can't tell (too few rounds)"));
     EXPECT_THAT(few, HasSubstr("at least 9 rounds"));
     EXPECT_THAT(text_of(timed(100), timed(110), true),
                 HasSubstr("| cell | phase | rounds | base | head | head/base |"));

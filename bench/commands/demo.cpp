@@ -22,12 +22,12 @@
 namespace boxwood::bench {
 namespace {
 
-const std::vector<std::string> names(four_link_names.begin(), four_link_names.end());
+const std::vector<std::string> link_names(four_link_names.begin(), four_link_names.end());
 using FourBoxes = std::array<Box, 4>;
 
-std::string name_of(Pair p) { return fmt::format("({}, {})", names[p.a], names[p.b]); }
+std::string name_of(Pair p) { return fmt::format("({}, {})", link_names[p.a], link_names[p.b]); }
 
-std::string names_of(const std::vector<Pair>& pairs) {
+std::string pair_names(const std::vector<Pair>& pairs) {
     if (pairs.empty())
         return "none";
     std::string text;
@@ -53,7 +53,7 @@ std::string sketch(const FourBoxes& boxes) {
             char mark = ' ';
             for (std::size_t i = 0; i < boxes.size(); ++i)
                 if (boxes[i].contains(p))
-                    mark = mark == ' ' ? names[i][0] : '#';
+                    mark = mark == ' ' ? link_names[i][0] : '#';
             line += mark;
         }
         text += "     " + line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
@@ -64,8 +64,9 @@ std::string sketch(const FourBoxes& boxes) {
 std::string box_lines(const FourBoxes& boxes) {
     std::string text;
     for (std::size_t i = 0; i < boxes.size(); ++i)
-        text += fmt::format("     {:<9} x [{:5.2f}, {:5.2f}]  y [{:5.2f}, {:5.2f}]\n", names[i],
-                            boxes[i].min.x, boxes[i].max.x, boxes[i].min.y, boxes[i].max.y);
+        text +=
+            fmt::format("     {:<9} x [{:5.2f}, {:5.2f}]  y [{:5.2f}, {:5.2f}]\n", link_names[i],
+                        boxes[i].min.x, boxes[i].max.x, boxes[i].min.y, boxes[i].max.y);
     return text;
 }
 
@@ -95,8 +96,8 @@ struct Traversal {
     void across(std::size_t a, std::size_t b) {
         const TreeNode &x = tree.nodes[a], &y = tree.nodes[b];
         const std::size_t below = std::size_t{x.count} * y.count;
-        text += fmt::format("     test {}: {} against {}: ", ++tests, describe(tree, a, names),
-                            describe(tree, b, names));
+        text += fmt::format("     test {}: {} against {}: ", ++tests, describe(tree, a, link_names),
+                            describe(tree, b, link_names));
         if (!overlaps(x.box, y.box)) {
             pruned += below;
             text += below == 1 ? "apart\n"
@@ -129,7 +130,8 @@ Traversal confirmed_traversal(const Tree& tree) {
     std::sort(found.begin(), found.end());
     if (found != traversal.pairs)
         throw std::logic_error("demo four-link: the traversal shown finds " +
-                               names_of(traversal.pairs) + ", self_pairs finds " + names_of(found));
+                               pair_names(traversal.pairs) + ", self_pairs finds " +
+                               pair_names(found));
     return traversal;
 }
 
@@ -152,7 +154,8 @@ std::string refit_text(Tree& tree, const FourBoxes& boxes) {
     std::vector<std::string> changed, unchanged;
     for (std::size_t i = tree.nodes.size();
          i-- > 0;) // children before their parents, as refit goes
-        (tree.nodes[i].box == before[i] ? unchanged : changed).push_back(describe(tree, i, names));
+        (tree.nodes[i].box == before[i] ? unchanged : changed)
+            .push_back(describe(tree, i, link_names));
     return fmt::format("   {} of {} nodes changed, bottom-up: {}.\n   As before: {}.\n",
                        changed.size(), tree.nodes.size(), fmt::join(changed, ", "),
                        unchanged.empty() ? "none" : fmt::format("{}", fmt::join(unchanged, ", ")));
@@ -161,7 +164,7 @@ std::string refit_text(Tree& tree, const FourBoxes& boxes) {
 std::string pair_step(const Tree& tree, const AllowedCollisions& allowed) {
     const Traversal traversal = confirmed_traversal(tree);
     return fmt::format("{}   Overlapping: {}.\n   Not allowed, so reported: {}.\n", traversal.text,
-                       names_of(traversal.pairs), names_of(reported_pairs(tree, allowed)));
+                       pair_names(traversal.pairs), pair_names(reported_pairs(tree, allowed)));
 }
 
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
@@ -210,7 +213,7 @@ std::string four_link_demo() {
         "3. The tree, built by median split\n"
         "   Sort the links by their centres along the axis of largest spread (x), cut the row in\n"
         "   the middle, and do the same with each half. A node's box holds all boxes below it.\n\n";
-    text += draw(tree, names) + "\n";
+    text += draw(tree, link_names) + "\n";
 
     const Traversal traversal = confirmed_traversal(tree);
     text += fmt::format(
@@ -219,7 +222,7 @@ std::string four_link_demo() {
         "   is everything inside them: all pairs across are pruned by that one test.\n\n"
         "{}\n   Pairs found: {}.\n   {} box tests instead of {}; {} of {} pairs were never looked "
         "at.\n{}\n",
-        traversal.text, names_of(traversal.pairs), traversal.tests, all_pairs,
+        traversal.text, pair_names(traversal.pairs), traversal.tests, all_pairs,
         all_pairs - std::min(all_pairs, traversal.tests), all_pairs, large_case());
 
     const AllowedCollisions allowed = allow_neighbours(n);
@@ -233,7 +236,7 @@ std::string four_link_demo() {
         "   Links that share a joint always touch; that is no collision. An allowed collision\n"
         "   matrix marks the {} adjacent pairs, and a filter drops them from what is found.\n"
         "   Dropped: {}. Left to report: {}.\n\n",
-        allowed.size(), names_of(filtered), reported.size());
+        allowed.size(), pair_names(filtered), reported.size());
 
     const FourBoxes bent = four_link_boxes(four_link_bent);
     text += fmt::format(
@@ -252,7 +255,7 @@ std::string four_link_demo() {
                         degrees(four_link_folded[2] - four_link_bent[2]), box_lines(folded),
                         sketch(folded));
     text += refit_text(tree, folded) + "\n";
-    text += draw(tree, names) + "\n";
+    text += draw(tree, link_names) + "\n";
 
     text += "8. Pairs again\n" + pair_step(tree, allowed);
     const std::size_t tests = confirmed_traversal(tree).tests;
@@ -262,7 +265,7 @@ std::string four_link_demo() {
             "the\n"
             "   traversal finds them, since it tests the two sides of every node against each "
             "other.\n",
-            names[p.b], names[p.a]);
+            link_names[p.b], link_names[p.a]);
     text += fmt::format("   It took {} box tests, {} than the {} of brute force: nodes that "
                         "overlap must be opened.\n"
                         "   A tree pays where boxes are many and most pairs are far apart.\n",

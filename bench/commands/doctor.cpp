@@ -102,18 +102,18 @@ Finding huge_pages(const Machine& m) {
 }
 
 /// All that was found, to be written as text or JSON.
-struct Report {
+struct Examination {
     Machine machine = read_machine(lscpu_text());
     double triad_one = triad_gbs(machine, 1), triad_all = triad_gbs(machine, machine.cores);
     std::vector<Finding> findings = examine(machine);
 
-    Report() {
+    Examination() {
         for (auto more : {examine_program(), examine_disk(".")})
             std::move(more.begin(), more.end(), std::back_inserter(findings));
     }
 };
 
-std::string as_text(const Report& r) {
+std::string as_text(const Examination& r) {
     const Machine& m = r.machine;
     std::string text = fmt::format(
         "This machine\n  {}, {}\n  caches: L1d {}, L2 {}, L3 {}; memory {}\n"
@@ -148,7 +148,7 @@ std::string as_text(const Report& r) {
                             : "\nNo warnings.\n");
 }
 
-std::string as_json(const Report& r) {
+std::string as_json(const Examination& r) {
     const Machine& m = r.machine;
     std::string findings, isas, found, package_list;
     for (const Finding& f : r.findings)
@@ -215,7 +215,7 @@ std::vector<Finding> examine_disk(const std::filesystem::path& folder) {
              enough ? "" : "a full sweep may fill it; free some, or give --out another folder"}};
 }
 
-std::string doctor(bool json) { return json ? as_json(Report()) : as_text(Report()); }
+std::string doctor(bool json) { return json ? as_json(Examination()) : as_text(Examination()); }
 
 void add_doctor(CLI::App& app, int&) {
     auto json = std::make_shared<bool>(false);

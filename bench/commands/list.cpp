@@ -3,8 +3,7 @@
 #include "bench/commands/command.h"
 #include "bench/io/json.h"
 #include "bench/io/text_table.h"
-#include "bench/tasks/contender.h"
-#include "bench/tasks/kernels/kernels.h"
+#include "bench/tasks/task.h"
 #include "kernels/registry.h"
 #include "kernels/suggest.h"
 #include "scenes/effects/effect.h"
@@ -90,12 +89,18 @@ Row kernel_row(const KernelInfo& kernel) {
 Rows kernel_rows() {
     Rows rows;
     for (const KernelInfo& kernel : kernels())
-        if (!ask_of(kernel.family))
+        if (!find_task(kernel.family))
             rows.push_back(kernel_row(kernel));
-    for (const AskEntry& entry : asks())
-        if (is_kernel_ask(entry.task))
-            for (const KernelInfo& kernel : rungs(entry.task))
-                rows.push_back(kernel_row(kernel));
+    for (const Task* task : tasks())
+        for (const KernelInfo& kernel : task->kernels())
+            rows.push_back(kernel_row(kernel));
+    return rows;
+}
+
+Rows task_rows() {
+    Rows rows;
+    for (const Task* task : tasks())
+        rows.push_back({std::string(task->name()), std::string(task->summary()), {}, {}});
     return rows;
 }
 
@@ -170,7 +175,7 @@ struct Registry {
 
 constexpr std::array registries{
     Registry{"builders", "build a tree from boxes", [] { return with_settings(builders()); }},
-    Registry{"optimizers", "improve a finished tree: BUILDER+OPTIMIZER",
+    Registry{"optimizers", "improve a tree: BUILDER+OPTIMIZER",
              [] { return with_settings(optimizers()); }},
     Registry{"layouts", "store a tree in memory", [] { return plain(layouts()); }},
     Registry{"queries", "what a layout can be searched for", [] { return plain(traversals()); }},
@@ -179,18 +184,16 @@ constexpr std::array registries{
     Registry{"devices", "run work on a GPU", [] { return Rows{}; },
              "none: this build has no GPU code"},
     Registry{"kernels", "decide one primitive or pair", kernel_rows},
-    Registry{"families", "hard cases for kernels; each is a scene too", family_rows},
-    Registry{"scenes", "generate the same input on every machine",
-             [] { return plain(scene_generators()); }},
+    Registry{"families", "hard cases for kernels", family_rows},
+    Registry{"scenes", "generate boxes and meshes", [] { return plain(scene_generators()); }},
     Registry{"moving_scenes", "bodies that move: `boxwood scene`", moving_scene_rows},
     Registry{"effects", "what happens to the bodies of a scene",
              [] { return with_settings(effects()); }},
-    Registry{"scene_queries", "what a moving scene wants of each frame",
+    Registry{"scene_queries", "what a scene wants of each frame",
              [] { return plain(scene_queries()); }},
-    Registry{"query_kinds", "where the queries of a moving scene lie",
-             [] { return plain(query_kinds()); }},
-    Registry{"tasks", "what the bench times", [] { return plain(asks()); }},
-    Registry{"peers", "libraries timed and checked beside ours", peer_rows},
+    Registry{"query_kinds", "where its queries lie", [] { return plain(query_kinds()); }},
+    Registry{"tasks", "what the bench times", task_rows},
+    Registry{"peers", "libraries compared with ours", peer_rows},
 };
 
 std::string as_text(const Registry& registry) {
@@ -236,7 +239,7 @@ std::string first_names(const Rows& rows, std::size_t width) {
 
 /// A line per registry: how many names, what they are for, and the first of them.
 std::string summary_text() {
-    constexpr std::size_t names_width = 32;
+    constexpr std::size_t names_width = 38;
     TextTable table({"registry", ">names", "what they do", "the first"});
     for (const Registry& registry : registries) {
         const Rows rows = registry.rows();

@@ -1,5 +1,5 @@
+#include "bench/analysis/analyse.h"
 #include "bench/commands/command.h"
-#include "bench/analysis/compare.h"
 #include "results/results.h"
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ void merge_files(const std::vector<std::string>& files, const std::string& out) 
         parts.push_back(results::read(file));
     }
     results::Results merged = results::merge(parts);
-    merged.compare = compare_to_peers(merged); // of the samples of all parts
+    analyse(merged, delta_of(parts)); // from the samples of all parts
     results::write(out, merged);
     std::cout << fmt::format("{}: machine states {}, shards {}, cells {}, samples {}\n", out,
                              merged.env.size(), merged.shards.size(), merged.cells.size(),

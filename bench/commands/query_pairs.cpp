@@ -24,22 +24,23 @@
 namespace boxwood::bench {
 namespace {
 
-constexpr CsvFormat row_format{"min_x,min_y,min_z,max_x,max_y,max_z", 6, 6};
-constexpr std::array names{"min_x", "min_y", "min_z", "max_x", "max_y", "max_z"};
+constexpr CsvFormat box_format{"min_x,min_y,min_z,max_x,max_y,max_z", 6, 6};
+constexpr std::array box_columns{"min_x", "min_y", "min_z", "max_x", "max_y", "max_z"};
 
 std::vector<Aabb<double>> read_boxes(const std::string& path) {
     const std::string source = source_name(path);
     std::vector<Aabb<double>> boxes;
-    read_csv(read_text(path), source, row_format, [&](std::span<const double> v, std::size_t line) {
+    read_csv(read_text(path), source, box_format, [&](std::span<const double> v, std::size_t line) {
         for (std::size_t i = 0; i < 6; ++i)
             if (!std::isfinite(v[i]))
-                throw_bad_row(source, line,
-                              fmt::format("{} is {}; a box needs finite numbers", names[i], v[i]));
+                throw_bad_row(
+                    source, line,
+                    fmt::format("{} is {}; a box needs finite numbers", box_columns[i], v[i]));
         for (std::size_t i = 0; i < 3; ++i)
             if (v[i] > v[i + 3])
                 throw_bad_row(source, line,
-                              fmt::format("{} {} is larger than {} {}; swap them", names[i], v[i],
-                                          names[i + 3], v[i + 3]));
+                              fmt::format("{} {} is larger than {} {}; swap them", box_columns[i],
+                                          v[i], box_columns[i + 3], v[i + 3]));
         boxes.push_back({{v[0], v[1], v[2]}, {v[3], v[4], v[5]}});
     });
     return boxes;

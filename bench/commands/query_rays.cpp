@@ -16,21 +16,21 @@
 namespace boxwood::bench {
 namespace {
 
-constexpr CsvFormat row_format{"ox,oy,oz,dx,dy,dz[,tmax]", 6, 7};
-constexpr std::array names{"ox", "oy", "oz", "dx", "dy", "dz"};
+constexpr CsvFormat ray_format{"ox,oy,oz,dx,dy,dz[,tmax]", 6, 7};
+constexpr std::array ray_columns{"ox", "oy", "oz", "dx", "dy", "dz"};
 constexpr double max_coordinate = 0x1p126; // beyond it the ray kernels make no promise
 
 /// Rays are rounded to floats, to nearest: the kernels' own numbers.
 std::vector<Ray<float>> read_rays(const std::string& path) {
     const std::string source = source_name(path);
     std::vector<Ray<float>> rays;
-    read_csv(read_text(path), source, row_format, [&](std::span<const double> v, std::size_t line) {
+    read_csv(read_text(path), source, ray_format, [&](std::span<const double> v, std::size_t line) {
         for (std::size_t i = 0; i < 6; ++i)
             if (!(std::abs(v[i]) < max_coordinate))
                 throw_bad_row(source, line,
                               fmt::format("{} is {}; a ray needs finite numbers below 2^126 "
                                           "(8.5e37) in size",
-                                          names[i], v[i]));
+                                          ray_columns[i], v[i]));
         Ray<float> ray;
         ray.origin = static_cast<Vec3<float>>(Vec3<double>{v[0], v[1], v[2]});
         ray.direction = static_cast<Vec3<float>>(Vec3<double>{v[3], v[4], v[5]});

@@ -23,23 +23,29 @@ template <class... Tuples> using Joined = decltype(std::tuple_cat(std::declval<T
 using TouchKernels = Joined<TriangleKernels, oracle::RationalTriangleKernels>;
 using AllDistanceKernels = Joined<DistanceKernels, oracle::RationalTriangleDistanceKernels>;
 
-constexpr CsvFormat row_format{"ax,ay,az,bx,by,bz,cx,cy,cz of A, then the same of B", 18, 18};
+constexpr CsvFormat triangle_pair_format{"ax,ay,az,bx,by,bz,cx,cy,cz of A, then the same of B", 18,
+                                         18};
 
 using TrianglePair = std::array<Triangle<double>, 2>;
 
 std::vector<TrianglePair> read_pairs(const std::string& path) {
     const std::string source = source_name(path);
     std::vector<TrianglePair> pairs;
-    read_csv(read_text(path), source, row_format, [&](std::span<const double> v, std::size_t line) {
-        for (std::size_t i = 0; i < v.size(); ++i)
-            if (!std::isfinite(v[i]))
-                throw_bad_row(source, line,
-                              fmt::format("number {} of the row is {}; triangles need finite "
-                                          "numbers",
-                                          i + 1, v[i]));
-        const auto corner = [&](std::size_t i) { return Vec3<double>{v[i], v[i + 1], v[i + 2]}; };
-        pairs.push_back({{{corner(0), corner(3), corner(6)}, {corner(9), corner(12), corner(15)}}});
-    });
+    read_csv(read_text(path), source, triangle_pair_format,
+             [&](std::span<const double> v, std::size_t line) {
+                 for (std::size_t i = 0; i < v.size(); ++i)
+                     if (!std::isfinite(v[i]))
+                         throw_bad_row(
+                             source, line,
+                             fmt::format("number {} of the row is {}; triangles need finite "
+                                         "numbers",
+                                         i + 1, v[i]));
+                 const auto corner = [&](std::size_t i) {
+                     return Vec3<double>{v[i], v[i + 1], v[i + 2]};
+                 };
+                 pairs.push_back(
+                     {{{corner(0), corner(3), corner(6)}, {corner(9), corner(12), corner(15)}}});
+             });
     return pairs;
 }
 
@@ -80,7 +86,7 @@ void answer_touch(std::span<const TrianglePair> pairs, const Format& format, Blo
     text << head<K>(format, pairs.size(), "touch");
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         using Real = typename K::Real;
-        const Verdict v = K::intersect(rounded<Real>(pairs[i][0]), rounded<Real>(pairs[i][1]));
+        const Decision v = K::intersect(rounded<Real>(pairs[i][0]), rounded<Real>(pairs[i][1]));
         if (v.answer == Answer::maybe)
             undecided.push_back(i);
         const std::string_view separator = i ? "," : "";

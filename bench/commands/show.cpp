@@ -1,13 +1,14 @@
 #include "bench/commands/show.h"
 
+#include "bench/analysis/comparisons.h"
+#include "bench/analysis/kernel_costs.h"
+#include "bench/analysis/promises.h"
+#include "bench/analysis/screen.h"
+#include "bench/analysis/wording.h"
 #include "bench/commands/command.h"
-#include "bench/analysis/compare.h"
-#include "bench/tasks/contender.h"
-#include "bench/analysis/ladders.h"
-#include "bench/analysis/limits.h"
-#include "bench/analysis/run_index.h"
-#include "bench/analysis/sections.h"
+#include "bench/io/json.h"
 #include "bench/io/text_table.h"
+#include "results/schema.h"
 
 #include <fmt/format.h>
 
@@ -25,6 +26,8 @@ namespace {
 using results::Cell;
 using results::Check;
 using results::Comparison;
+using results::Median;
+using results::Phase;
 using results::Results;
 
 std::string bytes_text(std::uint64_t bytes) {
@@ -35,7 +38,7 @@ std::string bytes_text(std::uint64_t bytes) {
 
 std::string or_unknown(const std::string& text) { return text.empty() ? "?" : text; }
 
-std::string machine_text(const results::Env& env, std::size_t rounds) {
+std::string machine_text(const Results& results, const results::Env& env, std::size_t rounds) {
     std::string text =
         fmt::format("machine {}: {}, {} processors, L1d {}, L2 {}, L3 {}, {} rounds\n",
                     or_unknown(env.host), or_unknown(env.cpu), env.ncpu, bytes_text(env.l1d_bytes),
@@ -51,17 +54,11 @@ std::string machine_text(const results::Env& env, std::size_t rounds) {
     text += fmt::format("  built by {} {} ({}), commit {}{}, seed {}\n", or_unknown(env.compiler),
                         env.flags, or_unknown(env.build_type), or_unknown(env.git_commit),
                         env.git_dirty ? " with changes" : "", env.seed);
-    const std::pair<const char*, const std::string*> packages[] = {
-        {"Embree", &env.embree_version},   {"FCL", &env.fcl_version},
-        {"CGAL", &env.cgal_version},       {"Bullet", &env.bullet_version},
-        {"TBB", &env.tbb_version},         {"Eigen", &env.eigen_version},
-        {"HDF5", &env.hdf5_version},       {"benchmark", &env.gbench_version},
-        {"Highway", &env.highway_version},
-    };
     std::string versions;
-    for (const auto& [name, version] : packages)
-        versions += fmt::format("{}{} {}", versions.empty() ? "" : ", ", name,
-                                version->empty() ? "absent" : *version);
+    for (const results::Package& package : results.packages)
+        if (package.env_id == env.env_id)
+            versions += fmt::format("{}{} {}", versions.empty() ? "" : ", ", package.library,
+                                    package.present ? package.version : "absent");
     return text + "  " + versions + "\n";
 }
 
@@ -79,20 +76,12 @@ std::string header_text(const Results& results) {
                     or_unknown(results.created_utc), or_unknown(results.generator),
                     or_unknown(results.sweep_hash), results.complete ? "complete" : "incomplete");
     for (const auto& env : results.env)
-        text += machine_text(env, rounds_on[env.env_id].size());
+        text += machine_text(results, env, rounds_on[env.env_id].size());
     text += fmt::format("{} cells, {} samples in {} shards; of the samples {} lost time to the "
                         "hypervisor, {} were switched out, {} gave another answer\n",
                         results.cells.size(), results.samples.size(), results.shards.size(),
                         flags[results::disturbed_steal], flags[results::disturbed_switches],
                         flags[results::wrong_answer]);
-    if (const auto floor = noise_floor(results))
-        text += fmt::format("A/A noise floor +-{:.1f} %: no difference below it is claimed\n",
-                            100 * *floor);
-    else
-        text += flags[results::aa_twin] > 0
-                    ? fmt::format("A/A noise floor not known: it takes {} rounds\n",
-                                  least_pairs_interval)
-                    : "A/A noise floor not known: no cell was timed twice\n";
     return text;
 }
 
@@ -107,23 +96,20 @@ std::string scenes_text(const Results& results) {
 /// The cells that do the same work, and what is known of them.
 class Group {
   public:
-    Group(const Results& results, const std::vector<CellStats>& stats,
-          const std::vector<Comparison>& comparisons, std::vector<const Cell*> cells)
-        : results_(results), comparisons_(comparisons), cells_(std::move(cells)) {
+    Group(const Results& results, std::vector<const Cell*> cells)
+        : results_(results), cells_(std::move(cells)) {
         for (const auto& variant : results.variants)
             variants_[variant.variant_id] = &variant;
         for (const Cell* cell : cells_)
             labels_[cell->cell_id] = label_of(*cell);
-        for (const CellStats& row : stats)
+        for (const Median& row : results.medians)
             if (labels_.contains(row.cell_id))
-                stats_[row.cell_id][row.phase] = row;
+                medians_[row.cell_id].push_back(&row);
         for (const Check& check : results.checks)
             if (labels_.contains(check.cell_id))
                 checks_[check.cell_id].push_back(&check);
     }
-    std::string text() const {
-        return title() + times() + failures() + work() + limits() + verdicts();
-    }
+    std::string text() const { return title() + times() + failures() + work() + comparisons(); }
 
   private:
     std::string label_of(const Cell& cell) const {
@@ -145,44 +131,35 @@ class Group {
                            cell.threads == 1 ? "" : "s");
     }
 
-    std::string status_of(std::uint32_t cell) const {
-        const auto found = checks_.find(cell);
-        if (found == checks_.end())
-            return "unchecked";
-        std::string text;
-        for (const Check* check : found->second)
-            text += (text.empty() ? "" : ", ") + check->status;
-        return text;
-    }
-
     std::string times() const {
-        std::set<std::string> phases;
-        for (const auto& [cell, by_phase] : stats_)
-            for (const auto& [phase, row] : by_phase)
-                phases.insert(phase);
-        std::vector<std::string> headings{"  cell", "check", ">rounds"};
-        for (const std::string& phase : phases)
-            for (const std::string& heading :
-                 {phase + " median", std::string("MAD"), std::string("min"), std::string("p95"),
-                  std::string("p99")})
-                headings.push_back(">" + heading);
-        TextTable table(headings);
+        TextTable table({"  cell", "answer", "phase", ">n", ">median", ">MAD", ">min", ">p95",
+                         ">p99", ">times the limit"});
         for (const Cell* cell : cells_) {
-            std::vector<std::string> row{"  " + labels_.at(cell->cell_id), status_of(cell->cell_id),
-                                         "0"};
-            const auto timed = stats_.find(cell->cell_id);
-            for (const std::string& phase : phases) {
-                CellStats stats;
-                if (timed != stats_.end() && timed->second.contains(phase))
-                    stats = timed->second.at(phase);
-                row[2] = std::to_string(std::max<std::size_t>(stats.n, std::stoul(row[2])));
-                for (const double ns :
-                     {stats.median_ns, stats.mad_ns, stats.min_ns, stats.p95_ns, stats.p99_ns})
-                    row.push_back(time_text(ns));
+            std::vector<std::string> row{"  " + labels_.at(cell->cell_id),
+                                         std::string(to_string(cell->status))};
+            const auto timed = medians_.find(cell->cell_id);
+            if (timed == medians_.end()) {
+                table.add(row);
+                continue;
             }
-            table.add(std::move(row));
+            for (const Median* median : timed->second) {
+                row.insert(row.end(),
+                           {std::string(to_string(median->phase)), std::to_string(median->n)});
+                for (const double ns : {median->median_ns, median->mad_ns, median->min_ns,
+                                        median->p95_ns, median->p99_ns})
+                    row.push_back(time_text(ns));
+                row.push_back(is_peer(*cell) ? ""
+                                             : ratio_text(median->median_ns / median->limit_ns));
+                table.add(std::move(row));
+                row = {"", ""};
+            }
         }
         return table.text();
+    }
+
+    bool is_peer(const Cell& cell) const {
+        const auto variant = variants_.find(cell.variant_id);
+        return variant != variants_.end() && variant->second->is_peer;
     }
 
     /// What is wrong or unsupported, with the witness or the reason.
@@ -192,12 +169,12 @@ class Group {
             if (const auto found = checks_.find(cell->cell_id); found != checks_.end())
                 for (const Check* check : found->second) {
                     const std::string& label = labels_.at(cell->cell_id);
-                    if (check->status == "wrong")
+                    if (check->status == results::Status::wrong)
                         text += fmt::format("  wrong, not ranked: {}: {} missing and {} extra of "
                                             "{}; {}\n",
                                             label, check->missing, check->extra, check->n_expected,
                                             check->witness);
-                    else if (check->status == "unsupported")
+                    else if (check->status == results::Status::unsupported)
                         text += fmt::format("  unsupported: {}: {}\n", label, check->witness);
                 }
         return text;
@@ -229,150 +206,153 @@ class Group {
         return table.empty() ? "" : table.text();
     }
 
-    /// How many times the least time that the machine could take.
-    std::string limits() const {
-        TextTable table({"  times the machine's limit", ">build", ">update", ">query"});
-        for (const Cell* cell : cells_) {
-            if (variants_.contains(cell->variant_id) && variants_.at(cell->variant_id)->is_peer)
+    /// Cell b against cell a: the time of a over that of b, and so above 1 where b is the faster.
+    std::string comparisons() const {
+        TextTable table(
+            {"  compared", "with", "family", "phase", ">rounds", ">time of that/this", "verdict"});
+        for (const Comparison& row : results_.compare) {
+            if (!labels_.contains(row.cell_b))
                 continue;
-            std::vector<std::string> row{"  " + labels_.at(cell->cell_id)};
-            bool known = false;
-            for (const char* phase : {"build", "update", "query"}) {
-                const auto timed = stats_.find(cell->cell_id);
-                const double limit = limit_ns(results_, *cell, phase);
-                const bool has =
-                    timed != stats_.end() && timed->second.contains(phase) && !std::isnan(limit);
-                row.push_back(has ? ratio_text(timed->second.at(phase).median_ns / limit) : "-");
-                known |= has;
-            }
-            if (known)
-                table.add(std::move(row));
+            const auto other = labels_.find(row.cell_a);
+            const std::string family =
+                fmt::format("{}{}{}", to_string(row.family),
+                            row.contender_class.empty() ? "" : ", ", row.contender_class);
+            table.add({"  " + labels_.at(row.cell_b),
+                       other == labels_.end() ? "itself on one thread" : other->second, family,
+                       std::string(to_string(row.phase)), std::to_string(row.n_pairs),
+                       interval_text(1 / row.ratio, 1 / row.ci_hi, 1 / row.ci_lo),
+                       verdict_text(row)});
         }
         return table.empty() ? "" : table.text();
-    }
-
-    /// One row for each of ours and each peer, with the ratio of every phase.
-    std::string verdicts() const {
-        std::vector<std::string> phases;
-        for (const char* phase : {"build", "update", "query", "build+query", "update+query"})
-            if (std::ranges::any_of(comparisons_, [&](const auto& row) {
-                    return row.phase == phase && labels_.contains(row.cell_b);
-                }))
-                phases.push_back(phase);
-        if (std::ranges::count(phases, "update+query") > 0)
-            std::erase(phases, "build+query"); // frames follow the build, not one query
-        std::vector<std::string> headings{"  ours", "peer", ">rounds"};
-        for (const std::string& phase : phases)
-            headings.push_back(phase + ", peer/ours");
-        std::map<std::pair<std::uint32_t, std::uint32_t>, std::map<std::string, Comparison>> rows;
-        std::vector<std::pair<std::uint32_t, std::uint32_t>> order;
-        for (const Comparison& row : comparisons_)
-            if (labels_.contains(row.cell_a) && labels_.contains(row.cell_b)) {
-                auto& by_phase = rows[{row.cell_b, row.cell_a}];
-                if (by_phase.empty())
-                    order.emplace_back(row.cell_b, row.cell_a);
-                by_phase[row.phase] = row;
-            }
-        TextTable table(headings);
-        for (const auto& key : order) {
-            auto& by_phase = rows[key];
-            std::size_t rounds = 0;
-            for (const auto& [phase, row] : by_phase)
-                rounds = std::max<std::size_t>(rounds, row.n_pairs);
-            std::vector<std::string> row{"  " + labels_.at(key.first), labels_.at(key.second),
-                                         std::to_string(rounds)};
-            for (const std::string& phase : phases)
-                row.push_back(by_phase.contains(phase) ? comparison_text(by_phase[phase]) : "-");
-            table.add(std::move(row));
-        }
-        return table.empty() ? "" : table.text();
-    }
-
-    static std::string comparison_text(const Comparison& row) {
-        if (row.verdict == "wrong")
-            return verdict_text(row.verdict);
-        return interval_text(1 / row.ratio, 1 / row.ci_hi, 1 / row.ci_lo) + " " +
-               verdict_text(row.verdict);
     }
 
     const Results& results_;
-    const std::vector<Comparison>& comparisons_;
     std::vector<const Cell*> cells_;
     std::map<std::uint32_t, const results::Variant*> variants_;
     std::map<std::uint32_t, std::string> labels_;
-    std::map<std::uint32_t, std::map<std::string, CellStats>> stats_;
+    std::map<std::uint32_t, std::vector<const Median*>> medians_;
     std::map<std::uint32_t, std::vector<const Check*>> checks_;
 };
 
-/// Why so many verdicts are open, if they are.
-std::string advice_text(const std::vector<Comparison>& comparisons) {
-    std::size_t open = 0, short_of = 0;
-    for (const auto& row : comparisons)
-        if (row.verdict == "cannot_tell") {
-            ++open;
-            short_of += row.n_pairs < least_pairs_verdict;
-        }
-    std::string text = "\npeer/ours above 1: ours takes less time; medians of paired rounds, p "
-                       "corrected (Holm) over the peers of a cell.\n";
-    if (short_of > 0)
-        text += fmt::format("{} of {} comparisons have fewer than {} rounds, too few for a "
-                            "verdict: run the sweep with --rounds {} or more.\n",
-                            short_of, comparisons.size(), least_pairs_verdict, least_pairs_verdict);
-    else if (open > 0)
-        text += fmt::format("{} of {} comparisons cannot be told: more rounds narrow the "
-                            "intervals.\n",
-                            open, comparisons.size());
-    return text;
+/// A row as a JSON object.
+template <class Row> std::string json_of(const results::Table<Row>& table, const Row& row) {
+    std::string text;
+    for (const auto& column : table.columns) {
+        text += (text.empty() ? "{" : ", ") + json_string(column.name) + ": ";
+        std::visit(
+            [&]<class Value>(Value Row::*member) {
+                const Value& value = row.*member;
+                if constexpr (std::is_same_v<Value, std::string>)
+                    text += json_string(value);
+                else if constexpr (results::Worded<Value>)
+                    text += json_string(to_string(value));
+                else if constexpr (std::is_same_v<Value, double>)
+                    text += json_number(value);
+                else
+                    text +=
+                        value == std::numeric_limits<Value>::max() ? "null" : std::to_string(value);
+            },
+            column.member);
+    }
+    return text + "}";
 }
+
+std::string csv_field(const std::string& text) {
+    if (text.find_first_of(",\"\n") == std::string::npos)
+        return text;
+    std::string quoted = "\"";
+    for (const char c : text)
+        quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return quoted + "\"";
+}
+
+std::string csv_number(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
 
 } // namespace
 
-std::string show_text(const Results& results, bool with_kernels, bool brief) {
-    std::string text = header_text(results);
-    const auto comparisons = compare_to_peers(results);
-    const auto advice = [&] { return comparisons.empty() ? "" : advice_text(comparisons); };
-    if (brief)
-        return text + sections_text(results, comparisons, brief) + advice();
-    text += scenes_text(results);
+std::string all_text(const Results& results) {
+    std::string text = header_text(results) + scenes_text(results);
     if (!results.kernels.empty())
-        text += "\n" + ladders_text(results) + "\n" + promises_text(results);
+        text += "\n" + kernel_costs_text(results) + "\n" + promises_text(results);
+    std::set<std::uint32_t> kernels;
+    for (const results::KernelRow& row : results.kernels)
+        kernels.insert(row.cell_id);
     using Work = std::tuple<std::uint32_t, std::string, std::uint32_t>;
     std::map<Work, std::vector<const Cell*>> groups;
     std::vector<Work> order;
-    std::size_t passed_over = 0;
     for (const Cell& cell : results.cells) {
-        const auto ask = ask_of(cell.task);
-        if (ask && is_kernel_ask(*ask) && !with_kernels) {
-            ++passed_over; // summed up in the ladders
-            continue;
-        }
         const Work work{cell.scene_id, cell.task, cell.threads};
         if (!groups.contains(work))
             order.push_back(work);
         groups[work].push_back(&cell);
     }
-    const auto stats = cell_stats(results);
     for (const Work& work : order)
-        text += Group(results, stats, comparisons, groups[work]).text();
-    if (passed_over > 0)
-        text += fmt::format("\n{} cells of kernels are summed up above; --kernels prints each.\n",
-                            passed_over);
-    return text + sections_text(results, comparisons, brief) + advice();
+        text += Group(results, groups[work]).text();
+    TextTable findings({"finding", "build + query", "query alone", "interval"});
+    for (const results::Finding& row : results.findings)
+        findings.add({row.question, row.together, row.alone, row.certainty});
+    return text + (findings.empty() ? "" : "\n" + findings.text());
+}
+
+std::string csv_text(const Results& results) {
+    std::map<std::uint32_t, const Cell*> cells;
+    for (const Cell& cell : results.cells)
+        cells[cell.cell_id] = &cell;
+    std::string text = "cell,status,phase,n,median_ns,mad_ns,min_ns,p95_ns,p99_ns,limit_ns\n";
+    for (const Median& row : results.medians) {
+        const Cell& cell = *cells.at(row.cell_id);
+        text += fmt::format("{},{},{},{}", csv_field(cell.name), to_string(cell.status),
+                            to_string(row.phase), row.n);
+        for (const double ns :
+             {row.median_ns, row.mad_ns, row.min_ns, row.p95_ns, row.p99_ns, row.limit_ns})
+            text += "," + csv_number(ns);
+        text += "\n";
+    }
+    return text;
+}
+
+std::string json_text(const Results& results) {
+    static const std::set<std::string_view> shown{"cells",        "medians",    "compare",
+                                                  "size_scaling", "break_even", "kernel_costs",
+                                                  "findings",     "health"};
+    std::string text;
+    results::for_each_table([&]<class Row>(const results::Table<Row>& table) {
+        if (!shown.contains(table.name))
+            return;
+        std::string rows;
+        for (const Row& row : results.*table.rows)
+            rows += (rows.empty() ? "\n  " : ",\n  ") + json_of(table, row);
+        text += fmt::format("{}\"{}\": [{}]", text.empty() ? "{" : ",\n ", table.name, rows);
+    });
+    return text + "}\n";
 }
 
 void add_show(CLI::App& app, int&) {
-    auto file = std::make_shared<std::string>();
-    auto with_kernels = std::make_shared<bool>(false);
-    CLI::App* show = app.add_subcommand(
-        "show", "what is in a result file: machine, cells, times, checks, verdicts");
-    show->add_option("file", *file, "a result file (HDF5)")->required();
-    show->add_flag("--kernels", *with_kernels, "each cell of a kernel, not only their sums");
-    auto brief = std::make_shared<bool>(false);
-    show->add_flag("--brief", *brief, "what the cells come to, without the cells");
+    struct Options {
+        std::string file;
+        bool all = false, csv = false, json = false;
+    };
+    auto options = std::make_shared<Options>();
+    CLI::App* show = app.add_subcommand("show", "what a result file says: one screen of findings");
+    show->add_option("file", options->file, "a result file (HDF5)")->required();
+    CLI::Option* all = show->add_flag("--all", options->all,
+                                      "every cell with its times and checks, every comparison");
+    CLI::Option* csv =
+        show->add_flag("--csv", options->csv, "the times of every cell as CSV")->excludes(all);
+    show->add_flag("--json", options->json, "cells, times, comparisons and findings as JSON")
+        ->excludes(all)
+        ->excludes(csv);
     show->footer("Example: boxwood show quick.h5");
-    show->callback([file, with_kernels, brief] {
-        const Results results = results::read(*file);
-        std::cout << *file << ": " << show_text(results, *with_kernels, *brief);
+    show->callback([options] {
+        const Results results = results::read(options->file);
+        if (options->csv)
+            std::cout << csv_text(results);
+        else if (options->json)
+            std::cout << json_text(results);
+        else if (options->all)
+            std::cout << all_text(results);
+        else
+            std::cout << screen_text(results) << paths_text(options->file);
     });
 }
 

@@ -6,11 +6,15 @@
 
 namespace boxwood::bench {
 
-/// What is in a result file, for the terminal: machines and file state, then for each scene, ask
-/// and number of threads the times, checks, work and verdicts of its cells, and what was wrong or
-/// unsupported; last what they come to (see sections.h), which is all of it if `brief`. Verdicts
-/// are made again from the samples.
-std::string show_text(const results::Results& results, bool with_kernels = false,
-                      bool brief = false);
+/// All of a result file, for the terminal: machines and file state, then for each scene, task and
+/// number of threads the times, checks and work of its cells; every comparison; what was wrong or
+/// unsupported. As the file has it: nothing is derived here.
+std::string all_text(const results::Results& results);
+
+/// One line for each phase of each cell, with a header.
+std::string csv_text(const results::Results& results);
+
+/// The derived tables, and the cells that they refer to, as one JSON object of lists.
+std::string json_text(const results::Results& results);
 
 } // namespace boxwood::bench

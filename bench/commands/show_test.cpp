@@ -1,10 +1,12 @@
 #include "bench/commands/show.h"
 
+#include "bench/analysis/analyse.h"
 #include "bench/io/text_table.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace boxwood::bench {
@@ -19,7 +21,11 @@ results::Results four_cells() {
     results.run_uuid = "the-run";
     results.env.resize(1);
     results.env[0].host = "the-host";
-    results.env[0].fcl_version = "0.7.0";
+    results.packages.resize(2);
+    results.packages[0].library = "fcl";
+    results.packages[0].version = "0.7.0";
+    results.packages[1].library = "embree";
+    results.packages[1].present = 0;
     results.scenes.resize(1);
     results.scenes[0].name = "soup";
     results.scenes[0].n_items = 1000;
@@ -34,11 +40,13 @@ results::Results four_cells() {
         results::Variant variant;
         variant.variant_id = id;
         variant.name = names[id];
+        variant.library = id == 0 ? "boxwood" : variant.name.substr(0, variant.name.find('.'));
         variant.is_peer = id > 0;
         results.variants.push_back(variant);
         results::Cell cell;
         cell.cell_id = cell.variant_id = id;
         cell.task = "pairs";
+        cell.n_items = 1000;
         cell.precision = "f32";
         cell.executor = "serial";
         results.cells.push_back(cell);
@@ -53,50 +61,52 @@ results::Results four_cells() {
             results::Sample sample;
             sample.cell_id = id;
             sample.shard_id = sample.round = round;
-            sample.phase = "query";
+            sample.phase = results::Phase::query;
             sample.wall_ns = 1000.0 * (id + 1) + round;
             results.samples.push_back(sample);
         }
     }
     results.counters.push_back({0, "box_tests", 12345});
+    analyse(results);
     return results;
 }
 
-TEST(Show, SaysWhatIsInTheFile) {
-    const std::string text = show_text(four_cells());
+TEST(Show, AllSaysWhatIsInTheFile) {
+    const std::string text = all_text(four_cells());
     for (const char* part :
-         {"the-run", "the-host", "FCL 0.7.0", "Embree absent", "9 rounds", "4 cells, 27 samples",
+         {"the-run", "the-host", "fcl 0.7.0", "embree absent", "9 rounds", "4 cells, 27 samples",
           "soup, 1000 items, pairs, 1 thread\n", "1.00 us", "2.00 us", "box_tests", "12345",
           "wrong, not ranked: embree.fast f32 serial: 3 missing and 0 extra of 70; pair 4,9",
-          "unsupported: bullet.dbvt f32 serial: no rays", "no cell was timed twice"})
+          "unsupported: bullet.dbvt f32 serial: no rays"})
         EXPECT_THAT(text, HasSubstr(part));
     EXPECT_THAT(text, ::testing::ContainsRegex("binned_sah.wide8 f32 serial +fcl.tree f32 serial "
-                                               "+9 +2.00 \\[1.[0-9]+, 2.[0-9]+\\] faster"));
+                                               "+peers +query +9 +2.00 \\[1.[0-9]+, 2.[0-9]+\\] +"
+                                               "faster"));
     EXPECT_THAT(text, HasSubstr("not ranked: a wrong answer"));
+    EXPECT_THAT(text, ::testing::ContainsRegex("overlapping pairs, soup 1k +wins 2.00x over FCL"));
 }
 
-TEST(Show, BriefLeavesTheCellsOut) {
-    const std::string whole = show_text(four_cells()), brief = show_text(four_cells(), false, true);
-    for (const char* part : {"the-run", "The best of each library", "peer/ours above 1"}) {
-        EXPECT_THAT(whole, HasSubstr(part));
-        EXPECT_THAT(brief, HasSubstr(part));
-    }
-    for (const char* part : {"work of one query", "unsupported: bullet.dbvt", "content hash"}) {
-        EXPECT_THAT(whole, HasSubstr(part));
-        EXPECT_THAT(brief, Not(HasSubstr(part)));
-    }
-}
-
-TEST(Show, FewRoundsAreSaid) {
+TEST(Show, TakesWhatTheFileSaysAndDerivesNothing) {
     results::Results results = four_cells();
-    std::erase_if(results.samples, [](const auto& sample) { return sample.round > 2; });
-    const std::string text = show_text(results);
-    EXPECT_THAT(text, HasSubstr("can't tell"));
-    EXPECT_THAT(text, HasSubstr("run the sweep with --rounds 9"));
-    EXPECT_THAT(text, Not(HasSubstr("faster")));
+    results.medians[0].median_ns = 77e6;
+    results.compare[0].verdict = results::Verdict::slower;
+    results.findings[0].together = "a word of its own";
+    EXPECT_THAT(all_text(results), HasSubstr("77.0 ms"));
+    EXPECT_THAT(all_text(results), HasSubstr("slower"));
+    EXPECT_THAT(all_text(results), HasSubstr("a word of its own"));
+    EXPECT_THAT(json_text(results), HasSubstr("\"together\": \"a word of its own\""));
+    EXPECT_THAT(csv_text(results), HasSubstr(",exact,query,9,77000000"));
 }
 
-TEST(Show, AnEmptyFileIsFine) { EXPECT_THAT(show_text({}), HasSubstr("0 cells, 0 samples")); }
+TEST(Show, JsonAndCsvHoldEveryCell) {
+    const std::string json = json_text(four_cells()), csv = csv_text(four_cells());
+    EXPECT_THAT(json, HasSubstr("\"verdict\": \"faster\", \"reason\": \"\""));
+    EXPECT_THAT(json, HasSubstr("\"p_adj\": null")); // of the wrong one
+    EXPECT_THAT(json, Not(HasSubstr("nan")));
+    EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 3); // timed ones
+}
+
+TEST(Show, AnEmptyFileIsFine) { EXPECT_THAT(all_text({}), HasSubstr("0 cells, 0 samples")); }
 
 TEST(TextTable, AlignsAndEscapes) {
     TextTable table({"name", ">n"});

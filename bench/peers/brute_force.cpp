@@ -2,8 +2,8 @@
 #define HWY_TARGET_INCLUDE "bench/peers/brute_force.cpp"
 #include <hwy/foreach_target.h> // compiles this file once per instruction set
 
+#include "bench/peers/answering.h"
 #include "bench/peers/brute_force.h"
-#include "bench/peers/capability.h"
 
 #include <fmt/format.h>
 #include <hwy/highway.h>
@@ -89,19 +89,20 @@ namespace {
 
 class BruteForceContender final : public Contender {
   public:
-    explicit BruteForceContender(const Job& job)
-        : scene_(*job.scene), between_halves_(job.task == Ask::tree_pairs) {}
+    BruteForceContender(const Job& job, Sides sides)
+        : scene_(*job.scene), between_halves_(sides == Sides::two_halves) {}
 
     void build() override { boxes_.emplace(scene_.boxes); }
 
     void query(Answers& answers) override {
-        answers.pairs.clear();
+        std::vector<Pair>& pairs = list_of<Pair>(answers);
+        pairs.clear();
         const std::size_t n = boxes_->size();
         const std::size_t split = tree_pairs_split(n);
         if (between_halves_)
-            boxes_->append_columns(split, n, split, answers.pairs);
+            boxes_->append_columns(split, n, split, pairs);
         else
-            boxes_->append_columns(0, n, n, answers.pairs);
+            boxes_->append_columns(0, n, n, pairs);
     }
 
     std::optional<Work> counted_query(Answers& answers) override {
@@ -109,7 +110,7 @@ class BruteForceContender final : public Contender {
         const std::uint64_t n = boxes_->size(), split = tree_pairs_split(n);
         Work work;
         work.box_tests = between_halves_ ? split * (n - split) : n * (n - 1) / 2;
-        work.answers = answers.pairs.size();
+        work.answers = answers.size();
         return work;
     }
 
@@ -128,16 +129,12 @@ Peer brute_force_peer() {
     entry.notes = "no structure: build only turns the boxes into arrays; columns in tiles of 1024 "
                   "that stay in the first-level cache; one thread";
     entry.precision = "f32";
-    entry.unsupported = [](const Job& job) -> Unsupported {
-        if (auto why = not_box_ask(job))
-            return why;
-        return not_serial(job);
-    };
-    entry.make = [](const Job& job) { return std::make_unique<BruteForceContender>(job); };
+    entry.runs_on = RunsOn::one_thread;
+    entry.answers = answering_pairs<BruteForceContender>();
 
     Peer peer;
     peer.name = "brute_force";
-    peer.summary = "all pairs with SIMD, the oracle of the pair asks";
+    peer.summary = "all pairs with SIMD, the oracle of pairs";
     peer.version = fmt::format("Highway {}.{}.{}", HWY_MAJOR, HWY_MINOR, HWY_PATCH);
     peer.build = "ours: instruction set chosen at run time";
     peer.contenders.push_back(std::move(entry));

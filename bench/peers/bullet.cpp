@@ -1,4 +1,4 @@
-#include "bench/peers/capability.h"
+#include "bench/peers/answering.h"
 #include "bench/peers/kernel_peers.h"
 #include "bench/peers/point_peers.h"
 #include "scenes/moving/frames.h"
@@ -41,9 +41,9 @@ struct AppendFiltered final : btDbvt::ICollide {
 
 /// How leaves follow their boxes from frame to frame.
 enum class Way {
-    reinsert,            ///< each moved leaf inserted anew
-    top_down,            ///< built from the top anew
-    reinsert_with_margin ///< each leaf inserted anew, with a margin, once its box leaves it
+    reinsert,            ///< each moved leaf inserted again
+    top_down,            ///< rebuilt from the top
+    reinsert_with_margin ///< each leaf inserted again, with a margin, once its box leaves it
 };
 
 btDbvtVolume volume_of(const Aabb<float>& box) {
@@ -53,8 +53,8 @@ btDbvtVolume volume_of(const Aabb<float>& box) {
 
 class DbvtContender final : public Contender {
   public:
-    DbvtContender(const Job& job, Way way)
-        : scene_(*job.scene), way_(way), between_halves_(job.task == Ask::tree_pairs),
+    DbvtContender(const Job& job, Sides sides, Way way)
+        : scene_(*job.scene), way_(way), between_halves_(sides == Sides::two_halves),
           split_(between_halves_ ? tree_pairs_split(job.scene->boxes.size()) : 0) {
         leaves_.resize(scene_.boxes.size());
         take_boxes();
@@ -91,9 +91,10 @@ class DbvtContender final : public Contender {
     }
 
     void query(Answers& answers) override {
-        answers.pairs.clear();
-        Append append(answers.pairs);
-        AppendFiltered append_filtered(answers.pairs, volumes_);
+        std::vector<Pair>& pairs = list_of<Pair>(answers);
+        pairs.clear();
+        Append append(pairs);
+        AppendFiltered append_filtered(pairs, volumes_);
         const btDbvtNode* const side = between_halves_ ? first_->m_root : rest_->m_root;
         if (way_ == Way::reinsert_with_margin)
             rest_->collideTTpersistentStack(side, rest_->m_root, append_filtered);
@@ -143,7 +144,7 @@ class DbvtContender final : public Contender {
     std::vector<btDbvtNode*> leaves_;   ///< by item; null if it is not present
     btScalar margin_ = 0;
     bool moved_ = false;                   ///< whether the volumes are those of a frame
-    std::unique_ptr<btDbvt> first_, rest_; ///< all boxes in `rest_` for Ask::pairs
+    std::unique_ptr<btDbvt> first_, rest_; ///< all boxes in `rest_` but for two halves
 };
 
 ContenderEntry entry(std::string name, std::string summary, std::string build, Way way) {
@@ -155,14 +156,10 @@ ContenderEntry entry(std::string name, std::string summary, std::string build, W
                                  "with a virtual callback that appends the pair; one "
                                  "thread; a build also frees the tree before it";
     e.precision = "f32";
-    e.unsupported = [way](const Job& job) -> Unsupported {
-        if (way == Way::reinsert_with_margin && job.task != Ask::moving_pairs)
-            return "answers moving_pairs only";
-        if (auto why = not_frame_or_box_ask(job))
-            return why;
-        return not_serial(job);
-    };
-    e.make = [way](const Job& job) { return std::make_unique<DbvtContender>(job, way); };
+    e.runs_on = RunsOn::one_thread;
+    e.answers = way == Way::reinsert_with_margin
+                    ? std::vector{answering<DbvtContender>("moving_pairs", Sides::all, way)}
+                    : answering_all_pairs<DbvtContender>(way);
     return e;
 }
 

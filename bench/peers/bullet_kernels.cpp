@@ -66,13 +66,13 @@ Distance gjk(const ShapePair& p) {
 
 std::vector<ContenderEntry> bullet_kernels() {
     return {
-        each_case<TrianglePairCase, GimpactPair, gimpact, &Answers::verdicts>(
-            Ask::triangle_triangle, "bullet", "gimpact", "f32",
+        each_case<TrianglePairCase, GimpactPair, gimpact>(
+            "triangle_triangle", "bullet", "gimpact", "f32",
             "Bullet's GIMPACT: plane test, then clipping",
             "input rounded to float; margin 0; each call makes both planes and one contact, as its "
             "mesh collision does"),
-        each_case<TrianglePairCase, ShapePair, gjk, &Answers::distances>(
-            Ask::triangle_distance, "bullet", "gjk", "f32",
+        each_case<TrianglePairCase, ShapePair, gjk>(
+            "triangle_distance", "bullet", "gjk", "f32",
             "Bullet's btGjkPairDetector on two btTriangleShape",
             "input rounded to float; margin 0; no penetration solver: no result is read as 0"),
     };

@@ -1,3 +1,4 @@
+#include "bench/peers/answering.h"
 #include "bench/peers/point_peers.h"
 
 #include <BulletCollision/BroadphaseCollision/btDbvt.h>
@@ -31,10 +32,10 @@ struct Append final : btDbvt::ICollide {
 
 class CollideVolumes final : public Contender {
   public:
-    explicit CollideVolumes(const Job& job) : scene_(*job.scene) {
+    CollideVolumes(const Job& job, PointQuery query) : scene_(*job.scene) {
         for (const Aabb<float>& box : scene_.boxes)
             items_.push_back(volume_of(box));
-        for (const Aabb<float>& box : query_boxes(scene_, job.task))
+        for (const Aabb<float>& box : query_boxes(scene_, query))
             queries_.push_back(volume_of(box));
     }
 
@@ -46,9 +47,10 @@ class CollideVolumes final : public Contender {
     }
 
     void query(Answers& answers) override {
-        answers.pairs.clear();
+        std::vector<Pair>& pairs = list_of<Pair>(answers);
+        pairs.clear();
         Append append(scene_);
-        append.out = &answers.pairs;
+        append.out = &pairs;
         for (const btDbvtVolume& volume : queries_) {
             tree_->collideTVNoStackAlloc(tree_->m_root, volume, stack_, append);
             ++append.query;
@@ -68,19 +70,14 @@ std::vector<ContenderEntry> bullet_points() {
     ContenderEntry e;
     e.name = "bullet.dbvt.collide_tv";
     e.library = "bullet";
-    e.summary = "Bullet's btDbvt asked about one volume after another";
+    e.summary = "Bullet's btDbvt queried with one volume after another";
     e.notes = "build = insert each box + optimizeTopDown(32); query = collideTVNoStackAlloc with "
               "one stack for all and a virtual callback; points are flat boxes; balls go by their "
               "boxes and are tested in doubles by the callback; one thread";
     e.precision = "f32";
-    e.unsupported = [](const Job& job) -> Unsupported {
-        if (job.task != Ask::points && job.task != Ask::regions)
-            return "answers points and regions only";
-        if (auto why = no_queries(job.scene, job.task))
-            return why;
-        return not_serial(job);
-    };
-    e.make = [](const Job& job) { return std::make_unique<CollideVolumes>(job); };
+    e.runs_on = RunsOn::one_thread;
+    e.answers = {answering<CollideVolumes>("points", PointQuery::containing),
+                 answering<CollideVolumes>("regions", PointQuery::overlapping)};
     return {e};
 }
 

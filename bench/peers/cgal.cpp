@@ -1,6 +1,6 @@
-// The CMake target of CGAL asks for -frounding-math: this file alone is compiled with it.
+// The CMake target of CGAL sets -frounding-math: this file alone is compiled with it.
 #define CGAL_LINKED_WITH_TBB
-#include "bench/peers/capability.h"
+#include "bench/peers/answering.h"
 #include "bench/peers/kernel_peers.h"
 #include "bench/peers/point_peers.h"
 #include "scenes/moving/frames.h"
@@ -39,18 +39,19 @@ constexpr std::ptrdiff_t cutoff = 500;
 
 class BoxIntersection final : public Contender {
   public:
-    explicit BoxIntersection(const Job& job)
-        : scene_(*job.scene), between_halves_(job.task == Ask::tree_pairs),
+    BoxIntersection(const Job& job, Sides sides)
+        : scene_(*job.scene), between_halves_(sides == Sides::two_halves),
           parallel_(job.executor == "tbb"), arena_(static_cast<int>(job.threads)) {}
 
     void build() override { take(scene_.boxes); }
     void update(const Frame& frame) override { take(frame.boxes); }
 
     void query(Answers& answers) override {
-        answers.pairs.clear();
+        std::vector<Pair>& pairs = list_of<Pair>(answers);
+        pairs.clear();
         sorted_ = boxes_; // CGAL reorders its input; each query starts from the same order
         if (!parallel_) {
-            intersect<CGAL::Sequential_tag>([out = &answers.pairs](const Box& a, const Box& b) {
+            intersect<CGAL::Sequential_tag>([out = &pairs](const Box& a, const Box& b) {
                 out->push_back(ordered_pair(a.item, b.item));
             });
             return;
@@ -63,7 +64,7 @@ class BoxIntersection final : public Contender {
             });
         });
         for (const std::vector<Pair>& part : parts_)
-            answers.pairs.insert(answers.pairs.end(), part.begin(), part.end());
+            pairs.insert(pairs.end(), part.begin(), part.end());
     }
 
   private:
@@ -95,25 +96,19 @@ class BoxIntersection final : public Contender {
     tbb::enumerable_thread_specific<std::vector<Pair>> parts_;
 };
 
-ContenderEntry entry(Ask ask, std::string name, std::string summary) {
+ContenderEntry entry(std::vector<Answering> answers, std::string name, std::string summary) {
     ContenderEntry e;
     e.name = std::move(name);
     e.library = "cgal";
     e.summary = std::move(summary);
     e.notes =
         "build and query are one: build only fills the box array, and a query copies and sorts "
-        "it; a frame: the boxes of the bodies that are present copied anew; closed boxes, cutoff "
+        "it; a frame: the boxes of the bodies that are present copied again; closed boxes, cutoff "
         "500; with TBB CGAL cuts its input into 4 x 4 parts, whatever "
         "the number of threads, and pairs go to one list per thread that are joined at the end";
     e.precision = "f32";
-    e.unsupported = [ask](const Job& job) -> Unsupported {
-        if (ask == Ask::pairs && job.task != Ask::pairs && job.task != Ask::moving_pairs)
-            return "answers pairs and moving_pairs only";
-        if (ask == Ask::tree_pairs && job.task != Ask::tree_pairs)
-            return "answers tree_pairs only";
-        return not_tbb(job);
-    };
-    e.make = [](const Job& job) { return std::make_unique<BoxIntersection>(job); };
+    e.runs_on = RunsOn::tbb;
+    e.answers = std::move(answers);
     return e;
 }
 
@@ -126,9 +121,12 @@ Peer cgal_peer() {
     peer.version = CGAL_VERSION_STR;
     peer.build = "headers compiled here with single-precision boxes and TBB";
     peer.contenders.push_back(
-        entry(Ask::pairs, "cgal.box_self_intersection_d",
+        entry({answering<BoxIntersection>("pairs", Sides::all),
+               answering<BoxIntersection>("moving_pairs", Sides::all)},
+              "cgal.box_self_intersection_d",
               "CGAL's box_self_intersection_d (Zomorodian and Edelsbrunner)"));
-    peer.contenders.push_back(entry(Ask::tree_pairs, "cgal.box_intersection_d",
+    peer.contenders.push_back(entry({answering<BoxIntersection>("tree_pairs", Sides::two_halves)},
+                                    "cgal.box_intersection_d",
                                     "CGAL's box_intersection_d between two sets of boxes"));
     for (ContenderEntry& e : cgal_points())
         peer.contenders.push_back(std::move(e));

@@ -1,4 +1,4 @@
-// Compiled with -frounding-math, which CGAL's target asks for.
+// Compiled with -frounding-math, which CGAL's target sets.
 #include "bench/peers/each_case.h"
 #include "bench/peers/kernel_peers.h"
 
@@ -14,7 +14,7 @@ namespace {
 using Inexact = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 
-/// CGAL asks for triangles that are not degenerate, and segments likewise: `valid` is found before
+/// CGAL requires triangles that are not degenerate, and segments likewise: `valid` is found before
 /// timing, and other cases are answered `maybe` or NaN.
 template <class K> struct TrianglePair {
     typename K::Triangle_3 a, b;
@@ -35,15 +35,15 @@ template <class K> Decision intersect(const TrianglePair<K>& p) {
 
 /// The root of an exact square, also where the square itself is beyond the doubles.
 double root(const Exact::FT& squared) {
-    constexpr double usual_least = 0x1p-900, usual_most = 0x1p900;
+    constexpr double usual_min = 0x1p-900, usual_max = 0x1p900;
     squared.exact(); // else a double within 1e-5 would do for CGAL
     const double nearest = CGAL::to_double(squared);
-    if ((nearest > usual_least && nearest < usual_most) || CGAL::is_zero(squared))
+    if ((nearest > usual_min && nearest < usual_max) || CGAL::is_zero(squared))
         return std::sqrt(nearest);
-    const bool small = nearest <= usual_least;
+    const bool small = nearest <= usual_min;
     Exact::FT scaled = squared;
     int exponent = 0;
-    for (double x = nearest; !(x > usual_least && x < usual_most); x = CGAL::to_double(scaled)) {
+    for (double x = nearest; !(x > usual_min && x < usual_max); x = CGAL::to_double(scaled)) {
         scaled *= small ? Exact::FT(0x1p600) : Exact::FT(0x1p-600);
         exponent += small ? -300 : 300;
     }
@@ -64,17 +64,17 @@ std::vector<ContenderEntry> cgal_kernels() {
                               "one pair per call";
     using Pair = TrianglePairCase;
     return {
-        each_case<Pair, TrianglePair<Inexact>, intersect<Inexact>, &Answers::verdicts>(
-            Ask::triangle_triangle, "cgal", "epick.do_intersect", "f64",
+        each_case<Pair, TrianglePair<Inexact>, intersect<Inexact>>(
+            "triangle_triangle", "cgal", "epick.do_intersect", "f64",
             "CGAL's do_intersect, exact predicates and inexact constructions", notes),
-        each_case<Pair, TrianglePair<Exact>, intersect<Exact>, &Answers::verdicts>(
-            Ask::triangle_triangle, "cgal", "epeck.do_intersect", "f64",
+        each_case<Pair, TrianglePair<Exact>, intersect<Exact>>(
+            "triangle_triangle", "cgal", "epeck.do_intersect", "f64",
             "CGAL's do_intersect, exact predicates and exact constructions", notes),
-        each_case<Pair, TrianglePair<Inexact>, distance<Inexact>, &Answers::distances>(
-            Ask::triangle_distance, "cgal", "epick.squared_distance", "f64",
+        each_case<Pair, TrianglePair<Inexact>, distance<Inexact>>(
+            "triangle_distance", "cgal", "epick.squared_distance", "f64",
             "CGAL's squared_distance in doubles", notes + "; the root is taken of its answer"),
-        each_case<Pair, TrianglePair<Exact>, distance<Exact>, &Answers::distances>(
-            Ask::triangle_distance, "cgal", "epeck.squared_distance", "f64",
+        each_case<Pair, TrianglePair<Exact>, distance<Exact>>(
+            "triangle_distance", "cgal", "epeck.squared_distance", "f64",
             "CGAL's squared_distance, exact", notes + "; the root is taken of its answer"),
     };
 }

@@ -1,3 +1,4 @@
+#include "bench/peers/answering.h"
 #include "bench/peers/point_peers.h"
 
 #include <CGAL/AABB_traits.h>
@@ -37,13 +38,14 @@ class ClosestPoint final : public Contender {
     }
 
     void query(Answers& answers) override {
-        answers.surface_points.resize(scene_.points.size());
+        std::vector<SurfacePoint>& nearest = list_of<SurfacePoint>(answers);
+        nearest.resize(scene_.points.size());
         const auto answer = [&](std::size_t i) {
             const Kernel::Point_3 p = point_of(scene_.points[i]);
             const auto [at, triangle] = tree_.closest_point_and_primitive(p);
-            answers.surface_points[i] = {Vec3<float>(Vec3<double>{at.x(), at.y(), at.z()}),
-                                         static_cast<std::uint32_t>(triangle - triangles_.cbegin()),
-                                         CGAL::squared_distance(p, at)};
+            nearest[i] = {Vec3<float>(Vec3<double>{at.x(), at.y(), at.z()}),
+                          static_cast<std::uint32_t>(triangle - triangles_.cbegin()),
+                          CGAL::squared_distance(p, at)};
         };
         if (threads_ == 1)
             for (std::size_t i = 0; i < scene_.points.size(); ++i)
@@ -67,18 +69,12 @@ std::vector<ContenderEntry> cgal_points() {
     ContenderEntry e;
     e.name = "cgal.aabb_tree.closest_point";
     e.library = "cgal";
-    e.summary = "CGAL's AABB_tree asked for the closest point and primitive";
+    e.summary = "CGAL's AABB_tree: the closest point and primitive";
     e.notes = "Simple_cartesian<double>; build = insert, build and accelerate_distance_queries (a "
               "search tree of the corners that gives the first bound)";
     e.precision = "f64";
-    e.unsupported = [](const Job& job) -> Unsupported {
-        if (job.task != Ask::closest_points)
-            return "answers closest_points only";
-        if (auto why = no_queries(job.scene, job.task))
-            return why;
-        return not_tbb(job);
-    };
-    e.make = [](const Job& job) { return std::make_unique<ClosestPoint>(job); };
+    e.runs_on = RunsOn::tbb;
+    e.answers = {answering<ClosestPoint>("closest_points")};
     return {e};
 }
 

@@ -1,4 +1,4 @@
-#include "bench/peers/capability.h"
+#include "bench/peers/answering.h"
 #include "bench/peers/embree_handles.h"
 #include "bench/peers/kernel_peers.h"
 #include "bench/peers/point_peers.h"
@@ -21,7 +21,7 @@ namespace {
 
 /// Whether bodies of the scene come and go.
 bool has_comers(const Job& job) {
-    if (!job.scene || !job.scene->spec.moving)
+    if (!job.scene->spec.moving)
         return false;
     for (const BodyGroup& group : job.scene->spec.moving->groups)
         for (const EffectChoice& effect : group.effects)
@@ -38,10 +38,10 @@ void bounds_of_box(const RTCBoundsFunctionArguments* args) {
 
 class Collide final : public Contender {
   public:
-    Collide(const Job& job, RTCBuildQuality quality)
+    Collide(const Job& job, Sides sides, RTCBuildQuality quality)
         : scene_(*job.scene), boxes_(scene_.boxes), quality_(quality),
-          split_(job.task == Ask::tree_pairs ? tree_pairs_split(boxes_.size()) : 0),
-          between_halves_(job.task == Ask::tree_pairs), threads_(job.threads),
+          split_(sides == Sides::two_halves ? tree_pairs_split(boxes_.size()) : 0),
+          between_halves_(sides == Sides::two_halves), threads_(job.threads),
           device_(make_device(job.threads)), arena_(static_cast<int>(job.threads)) {}
 
     void build() override {
@@ -52,8 +52,8 @@ class Collide final : public Contender {
         });
     }
 
-    /// The same geometry told that its bounds have changed, and committed again: a build anew, or
-    /// where the quality is `refit` new bounds for the nodes that are there.
+    /// The same geometry with its new bounds, committed again: a rebuild, or where the quality is
+    /// `refit` new bounds for the nodes that are there.
     void update(const Frame& frame) override {
         boxes_ = frame.boxes;
         if (!rest_)
@@ -68,10 +68,11 @@ class Collide final : public Contender {
     }
 
     void query(Answers& answers) override {
-        answers.pairs.clear();
+        std::vector<Pair>& pairs = list_of<Pair>(answers);
+        pairs.clear();
         if (!rest_ || (between_halves_ && !first_))
             return;
-        out_ = threads_ == 1 ? &answers.pairs : nullptr;
+        out_ = threads_ == 1 ? &pairs : nullptr;
         for (std::vector<Pair>& part : parts_)
             part.clear();
         arena_.execute([&] {
@@ -79,7 +80,7 @@ class Collide final : public Contender {
         });
         throw_if_failed(device_.get(), "rtcCollide");
         for (const std::vector<Pair>& part : parts_)
-            answers.pairs.insert(answers.pairs.end(), part.begin(), part.end());
+            pairs.insert(pairs.end(), part.begin(), part.end());
     }
 
   private:
@@ -116,7 +117,7 @@ class Collide final : public Contender {
     unsigned threads_;
     Device device_;
     tbb::task_arena arena_;
-    SceneHandle first_, rest_; ///< all boxes in `rest_` for Ask::pairs; null if empty
+    SceneHandle first_, rest_; ///< all boxes in `rest_` but for two halves; null if empty
     std::vector<Pair>* out_ = nullptr;
     mutable tbb::enumerable_thread_specific<std::vector<Pair>> parts_;
 };
@@ -144,17 +145,18 @@ ContenderEntry collide(const char* word, RTCBuildQuality quality) {
               "1.8e18 are dropped by Embree; a build also frees the scene before it");
     const bool refit = quality == RTC_BUILD_QUALITY_REFIT;
     e.notes += refit ? "; a dynamic scene whose nodes are refitted in each frame"
-                     : "; a frame: the geometry committed anew and the scene built anew";
-    e.unsupported = [refit](const Job& job) -> Unsupported {
-        if (refit && job.task != Ask::moving_pairs)
-            return "answers moving_pairs only";
-        if (refit && has_comers(job))
+                     : "; a frame: the geometry committed again and the scene rebuilt";
+    e.runs_on = RunsOn::tbb;
+    if (!refit) {
+        e.answers = answering_all_pairs<Collide>(quality);
+        return e;
+    }
+    e.answers = {answering<Collide>("moving_pairs", Sides::all, quality)};
+    e.cannot = [](const Job& job) -> std::optional<std::string> {
+        if (has_comers(job))
             return "a refit cannot take in bodies that were not there when the scene was built";
-        if (auto why = not_frame_or_box_ask(job))
-            return why;
-        return not_tbb(job);
+        return std::nullopt;
     };
-    e.make = [quality](const Job& job) { return std::make_unique<Collide>(job, quality); };
     return e;
 }
 

@@ -1,6 +1,7 @@
-#include "bench/peers/capability.h"
+#include "bench/peers/answering.h"
 #include "bench/peers/embree_handles.h"
 #include "bench/peers/tree_peers.h"
+#include "bench/tasks/tree_answers.h"
 
 #include <tbb/task_arena.h>
 
@@ -11,7 +12,7 @@
 namespace boxwood::bench {
 namespace {
 
-/// As small as the library's tutorial has them: a leaf is told by its null children.
+/// As small as the library's tutorial has them: a leaf has null children.
 struct Node {
     std::array<Node*, 2> children;
 };
@@ -87,12 +88,13 @@ class BuildBvh final : public Contender {
         arena_.execute([&] { root_ = static_cast<Node*>(rtcBuildBVH(&args)); });
         throw_if_failed(device_.get(), "rtcBuildBVH");
     }
-    /// Nothing is asked of the tree.
-    void query(Answers&) override {}
-
     /// Its tree as ours, node by node.
-    std::optional<StructureInfo> structure() const override {
+    void query(Answers& answers) override {
         tree_ = n_ == 0 ? Tree() : converted();
+        dynamic_cast<TreeAnswers&>(answers).tree = &tree_;
+    }
+    /// After a query.
+    std::optional<StructureInfo> structure() const override {
         const std::size_t inner = n_ == 0 ? 0 : tree_.size() - 1;
         return StructureInfo{inner * sizeof(Inner) + tree_.size() * sizeof(Leaf), &tree_};
     }
@@ -134,7 +136,7 @@ class BuildBvh final : public Contender {
     Owned<RTCBVH, rtcReleaseBVH> bvh_;
     std::vector<RTCBuildPrimitive> boxes_, spoilt_; ///< a build changes its primitives
     Node* root_ = nullptr;
-    mutable Tree tree_;
+    Tree tree_;
 };
 
 ContenderEntry entry(const char* word, RTCBuildQuality quality) {
@@ -147,12 +149,8 @@ ContenderEntry entry(const char* word, RTCBuildQuality quality) {
     if (quality == RTC_BUILD_QUALITY_HIGH)
         e.notes += "; splits boxes, with room for as many parts again";
     e.precision = "f32";
-    e.unsupported = [](const Job& job) -> Unsupported {
-        if (job.task != Ask::tree)
-            return "answers tree only";
-        return not_tbb(job);
-    };
-    e.make = [quality](const Job& job) { return std::make_unique<BuildBvh>(job, quality); };
+    e.runs_on = RunsOn::tbb;
+    e.answers = {answering<BuildBvh>("build", quality)};
     return e;
 }
 

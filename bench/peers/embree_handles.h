@@ -17,7 +17,7 @@
 /// Embree's handles with owners, for the files of its peer.
 namespace boxwood::bench {
 
-/// Embree asks its callers to flush denormals; the thread's own setting comes back at the end.
+/// Embree wants its callers to flush denormals; the thread's own setting comes back at the end.
 class FlushDenormals {
   public:
 #if defined(__SSE2__)

@@ -1,4 +1,4 @@
-#include "bench/peers/capability.h"
+#include "bench/peers/answering.h"
 #include "bench/peers/embree_handles.h"
 #include "bench/peers/kernel_peers.h"
 
@@ -29,9 +29,10 @@ class RayCasesContender final : public Contender {
 
     void query(Answers& answers) override {
         const FlushDenormals flush;
-        answers.hits.resize(cases_.rays.size());
+        std::vector<RayHit>& hits = list_of<RayHit>(answers);
+        hits.resize(cases_.rays.size());
         for (std::size_t i = 0; i < cases_.rays.size(); ++i)
-            answers.hits[i] = closest(scene_of_case_[i], cases_.rays[i].ray);
+            hits[i] = closest(scene_of_case_[i], cases_.rays[i].ray);
     }
 
   private:
@@ -68,15 +69,11 @@ ContenderEntry entry(bool robust) {
     e.summary = robust ? "Embree's triangle test in a ROBUST scene (watertight)"
                        : "Embree's triangle test in a default scene";
     e.notes = "a scene per triangle or fan, made before timing; the time holds rtcIntersect1 with "
-              "its walk of that scene; denormals flushed, as Embree asks";
+              "its traversal of that scene; denormals flushed, as Embree wants";
     e.precision = "f32";
-    e.unsupported = [](const Job& job) -> Unsupported {
-        if (job.task != Ask::ray_triangle)
-            return "answers ray_triangle only";
-        return not_serial(job);
-    };
-    const RTCSceneFlags flags = robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE;
-    e.make = [flags](const Job& job) { return std::make_unique<RayCasesContender>(job, flags); };
+    e.runs_on = RunsOn::one_thread;
+    e.answers = {answering<RayCasesContender>("ray_triangle", robust ? RTC_SCENE_FLAG_ROBUST
+                                                                     : RTC_SCENE_FLAG_NONE)};
     return e;
 }
 

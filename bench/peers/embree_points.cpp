@@ -1,3 +1,4 @@
+#include "bench/peers/answering.h"
 #include "bench/peers/embree_handles.h"
 #include "bench/peers/point_peers.h"
 #include "kernels/features/point_triangle.h"
@@ -16,10 +17,10 @@ void bounds_of_item(const RTCBoundsFunctionArguments* args) {
 }
 
 /// rtcPointQuery around points: all within a radius, or the nearest with a radius that shrinks.
-class PointQuery final : public Contender {
+class EmbreePoints final : public Contender {
   public:
-    explicit PointQuery(const Job& job)
-        : scene_(*job.scene), ask_(job.task), k_(neighbours_of(scene_)), threads_(job.threads),
+    EmbreePoints(const Job& job, PointQuery query)
+        : scene_(*job.scene), query_(query), k_(neighbours_of(scene_)), threads_(job.threads),
           vertices_(scene_.mesh.vertices), device_(make_device(job.threads)),
           arena_(static_cast<int>(job.threads)) {
         vertices_.emplace_back(); // Embree reads 16 bytes at the last vertex
@@ -27,38 +28,47 @@ class PointQuery final : public Contender {
 
     void build() override {
         arena_.execute([&] {
-            embree_scene_ = commit(device_.get(), ask_ == Ask::closest_points ? mesh() : items(),
-                                   RTC_BUILD_QUALITY_HIGH, RTC_SCENE_FLAG_NONE);
+            embree_scene_ =
+                commit(device_.get(), query_ == PointQuery::surface_point ? mesh() : items(),
+                       RTC_BUILD_QUALITY_HIGH, RTC_SCENE_FLAG_NONE);
         });
     }
 
     void query(Answers& answers) override {
-        answers.pairs.clear();
-        const std::size_t n = ask_ == Ask::regions ? scene_.spheres.size() : scene_.points.size();
-        if (ask_ == Ask::nearest)
-            answers.neighbours.resize(k_ * n);
-        if (ask_ == Ask::closest_points)
-            answers.surface_points.resize(n);
-        const auto ask = [&](std::size_t begin, std::size_t end, std::vector<Pair>& pairs) {
-            const FlushDenormals flush;
-            for (std::size_t i = begin; i < end; ++i)
-                answer(i, answers, pairs);
-        };
+        const std::size_t n =
+            query_ == PointQuery::overlapping ? scene_.spheres.size() : scene_.points.size();
+        Out out;
+        if (query_ == PointQuery::nearest)
+            (out.neighbours = &list_of<Neighbour>(answers))->resize(k_ * n);
+        else if (query_ == PointQuery::surface_point)
+            (out.surface = &list_of<SurfacePoint>(answers))->resize(n);
+        else
+            (out.pairs = &list_of<Pair>(answers))->clear();
         if (threads_ == 1)
-            return ask(0, n, answers.pairs);
+            return answer_all(0, n, out);
         for (std::vector<Pair>& part : parts_)
             part.clear();
         arena_.execute([&] {
             tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 256),
                               [&](const tbb::blocked_range<std::size_t>& r) {
-                                  ask(r.begin(), r.end(), parts_.local());
+                                  Out own = out;
+                                  own.pairs = &parts_.local();
+                                  answer_all(r.begin(), r.end(), own);
                               });
         });
-        for (const std::vector<Pair>& part : parts_)
-            answers.pairs.insert(answers.pairs.end(), part.begin(), part.end());
+        if (out.pairs)
+            for (const std::vector<Pair>& part : parts_)
+                out.pairs->insert(out.pairs->end(), part.begin(), part.end());
     }
 
   private:
+    /// Where the answers go, by the kind of query.
+    struct Out {
+        std::vector<Pair>* pairs = nullptr;
+        std::vector<Neighbour>* neighbours = nullptr;
+        std::vector<SurfacePoint>* surface = nullptr;
+    };
+
     Geometry items() const {
         Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER));
         rtcSetGeometryUserPrimitiveCount(geometry.get(),
@@ -77,53 +87,60 @@ class PointQuery final : public Contender {
         return geometry;
     }
 
-    struct Asked {
-        const PointQuery* self;
+    struct Current {
+        const EmbreePoints* self;
         std::uint32_t query;
         std::vector<Pair>* pairs;
         NearestOfPeer* nearest;
         SurfacePoint* surface;
     };
 
-    void answer(std::size_t i, Answers& answers, std::vector<Pair>& pairs) const {
-        Asked asked{this, static_cast<std::uint32_t>(i), &pairs, nullptr, nullptr};
-        const Vec3<float> p = ask_ == Ask::regions ? scene_.spheres[i].centre : scene_.points[i];
+    void answer_all(std::size_t begin, std::size_t end, const Out& out) const {
+        const FlushDenormals flush;
+        for (std::size_t i = begin; i < end; ++i)
+            answer(i, out);
+    }
+
+    void answer(std::size_t i, const Out& out) const {
+        Current current{this, static_cast<std::uint32_t>(i), out.pairs, nullptr, nullptr};
+        const Vec3<float> p =
+            query_ == PointQuery::overlapping ? scene_.spheres[i].centre : scene_.points[i];
         RTCPointQueryContext context;
         rtcInitPointQueryContext(&context);
         RTCPointQuery query{p.x, p.y, p.z, 0, std::numeric_limits<float>::infinity()};
-        switch (ask_) {
-        case Ask::points:
+        switch (query_) {
+        case PointQuery::containing:
             query.radius = 0;
-            rtcPointQuery(embree_scene_.get(), &query, &context, take_point, &asked);
+            rtcPointQuery(embree_scene_.get(), &query, &context, take_point, &current);
             return;
-        case Ask::regions:
+        case PointQuery::overlapping:
             query.radius = scene_.spheres[i].radius * (1 + 0x1p-20f);
-            rtcPointQuery(embree_scene_.get(), &query, &context, take_ball, &asked);
+            rtcPointQuery(embree_scene_.get(), &query, &context, take_ball, &current);
             return;
-        case Ask::nearest: {
-            NearestOfPeer nearest(std::span(answers.neighbours).subspan(i * k_, k_));
-            asked.nearest = &nearest;
-            rtcPointQuery(embree_scene_.get(), &query, &context, take_nearest, &asked);
+        case PointQuery::nearest: {
+            NearestOfPeer nearest(std::span(*out.neighbours).subspan(i * k_, k_));
+            current.nearest = &nearest;
+            rtcPointQuery(embree_scene_.get(), &query, &context, take_nearest, &current);
             return;
         }
-        default:
-            asked.surface = &(answers.surface_points[i] = {});
-            rtcPointQuery(embree_scene_.get(), &query, &context, take_triangle, &asked);
+        case PointQuery::surface_point:
+            current.surface = &((*out.surface)[i] = {});
+            rtcPointQuery(embree_scene_.get(), &query, &context, take_triangle, &current);
         }
     }
 
     static bool take_point(RTCPointQueryFunctionArguments* args) {
-        const Asked& asked = *static_cast<const Asked*>(args->userPtr);
-        const Scene& scene = asked.self->scene_;
-        if (scene.boxes[args->primID].contains(scene.points[asked.query]))
-            asked.pairs->push_back({asked.query, args->primID});
+        const Current& current = *static_cast<const Current*>(args->userPtr);
+        const Scene& scene = current.self->scene_;
+        if (scene.boxes[args->primID].contains(scene.points[current.query]))
+            current.pairs->push_back({current.query, args->primID});
         return false;
     }
     static bool take_ball(RTCPointQueryFunctionArguments* args) {
-        const Asked& asked = *static_cast<const Asked*>(args->userPtr);
-        const Scene& scene = asked.self->scene_;
-        if (meets(scene.spheres[asked.query], scene.boxes[args->primID]))
-            asked.pairs->push_back({asked.query, args->primID});
+        const Current& current = *static_cast<const Current*>(args->userPtr);
+        const Scene& scene = current.self->scene_;
+        if (meets(scene.spheres[current.query], scene.boxes[args->primID]))
+            current.pairs->push_back({current.query, args->primID});
         return false;
     }
     /// True once the radius has shrunk.
@@ -135,26 +152,26 @@ class PointQuery final : public Contender {
         return true;
     }
     static bool take_nearest(RTCPointQueryFunctionArguments* args) {
-        const Asked& asked = *static_cast<const Asked*>(args->userPtr);
-        const Scene& scene = asked.self->scene_;
-        asked.nearest->offer(
-            {args->primID, squared_distance(scene.points[asked.query], scene.boxes[args->primID])});
-        return shrink(args, asked.nearest->worst());
+        const Current& current = *static_cast<const Current*>(args->userPtr);
+        const Scene& scene = current.self->scene_;
+        current.nearest->offer({args->primID, squared_distance(scene.points[current.query],
+                                                               scene.boxes[args->primID])});
+        return shrink(args, current.nearest->worst());
     }
     static bool take_triangle(RTCPointQueryFunctionArguments* args) {
-        const Asked& asked = *static_cast<const Asked*>(args->userPtr);
-        const Scene& scene = asked.self->scene_;
-        const auto at = point_triangle::Regions::nearest(scene.points[asked.query],
+        const Current& current = *static_cast<const Current*>(args->userPtr);
+        const Scene& scene = current.self->scene_;
+        const auto at = point_triangle::Regions::nearest(scene.points[current.query],
                                                          scene.mesh.triangle(args->primID));
         const auto squared = static_cast<double>(dot(at.offset, at.offset));
-        if (!(squared < asked.surface->squared_distance))
+        if (!(squared < current.surface->squared_distance))
             return false;
-        *asked.surface = {at.b, args->primID, squared};
+        *current.surface = {at.b, args->primID, squared};
         return shrink(args, squared);
     }
 
     const Scene& scene_;
-    Ask ask_;
+    PointQuery query_;
     std::size_t k_;
     unsigned threads_;
     std::vector<Vec3<float>> vertices_;
@@ -177,16 +194,16 @@ std::vector<ContenderEntry> embree_points() {
               "Embree brings none; no regions that are boxes; with several threads pairs go to "
               "one list per thread that are joined at the end";
     e.precision = "f32";
-    e.unsupported = [](const Job& job) -> Unsupported {
-        if (!is_point_ask(job.task))
-            return "answers points, regions, nearest and closest_points only";
-        if (job.task == Ask::regions && job.scene && !job.scene->regions.empty())
-            return "asks about balls, not boxes";
-        if (auto why = no_queries(job.scene, job.task))
-            return why;
-        return not_tbb(job);
+    e.runs_on = RunsOn::tbb;
+    e.answers = {answering<EmbreePoints>("points", PointQuery::containing),
+                 answering<EmbreePoints>("regions", PointQuery::overlapping),
+                 answering<EmbreePoints>("nearest", PointQuery::nearest),
+                 answering<EmbreePoints>("closest_points", PointQuery::surface_point)};
+    e.cannot = [](const Job& job) -> std::optional<std::string> {
+        if (!job.scene->regions.empty())
+            return "takes balls as regions, not boxes";
+        return std::nullopt;
     };
-    e.make = [](const Job& job) { return std::make_unique<PointQuery>(job); };
     return {e};
 }
 

@@ -1,4 +1,4 @@
-#include "bench/peers/capability.h"
+#include "bench/peers/answering.h"
 #include "bench/peers/embree_handles.h"
 #include "bench/peers/ray_peers.h"
 
@@ -44,11 +44,14 @@ void collect(const RTCFilterFunctionNArguments* args) {
     args->valid[0] = 0;
 }
 
+/// What is wanted of each ray.
+enum class Wanted { closest, any, all };
+
 /// Rays `width` at a time.
 class Rays final : public Contender {
   public:
-    Rays(const Job& job, RTCSceneFlags flags, int width)
-        : scene_(*job.scene), flags_(flags), ask_(job.task), width_(width), threads_(job.threads),
+    Rays(const Job& job, RTCSceneFlags flags, Wanted wanted, int width)
+        : scene_(*job.scene), flags_(flags), wanted_(wanted), width_(width), threads_(job.threads),
           vertices_(scene_.mesh.vertices), device_(make_device(job.threads)),
           arena_(static_cast<int>(job.threads)) {
         vertices_.emplace_back(); // Embree reads 16 bytes at the last vertex
@@ -64,7 +67,7 @@ class Rays final : public Contender {
                                        scene_.mesh.triangles.data(), 0,
                                        sizeof(scene_.mesh.triangles[0]),
                                        scene_.mesh.triangles.size());
-            if (ask_ == Ask::rays_all)
+            if (wanted_ == Wanted::all)
                 rtcSetGeometryIntersectFilterFunction(geometry.get(), collect);
             embree_scene_ =
                 commit(device_.get(), std::move(geometry), RTC_BUILD_QUALITY_MEDIUM, flags_);
@@ -72,26 +75,25 @@ class Rays final : public Contender {
     }
 
     void query(Answers& answers) override {
-        if (ask_ == Ask::rays_all) {
-            answers.pairs.clear();
-            for (std::vector<Pair>& part : parts_)
-                part.clear();
-        } else {
-            answers.hits.resize(scene_.rays.size());
-        }
-        const auto cast = [&](std::size_t begin, std::size_t end) {
+        if (wanted_ == Wanted::all)
+            return find_all(list_of<Pair>(answers));
+        std::vector<RayHit>& hits = list_of<RayHit>(answers);
+        hits.resize(scene_.rays.size());
+        for_chunks([&](std::size_t begin, std::size_t end) {
             const FlushDenormals flush;
-            if (ask_ == Ask::rays_all)
-                return all(begin, end, threads_ == 1 ? answers.pairs : parts_.local());
             if (width_ == 8)
-                return packets<8>(begin, end, answers.hits);
+                return packets<8>(begin, end, hits);
             if (width_ == 16)
-                return packets<16>(begin, end, answers.hits);
+                return packets<16>(begin, end, hits);
             for (std::size_t i = begin; i < end; ++i)
-                answers.hits[i] = ask_ == Ask::rays_any
-                                      ? occluded(scene_.rays[i])
-                                      : closest(embree_scene_.get(), scene_.rays[i]);
-        };
+                hits[i] = wanted_ == Wanted::any ? occluded(scene_.rays[i])
+                                                 : closest(embree_scene_.get(), scene_.rays[i]);
+        });
+    }
+
+  private:
+    /// cast(begin, end) on the threads of the job.
+    template <class Cast> void for_chunks(const Cast& cast) {
         if (threads_ == 1)
             return cast(0, scene_.rays.size());
         arena_.execute([&] {
@@ -99,13 +101,21 @@ class Rays final : public Contender {
                 tbb::blocked_range<std::size_t>(0, scene_.rays.size(), 256),
                 [&](const tbb::blocked_range<std::size_t>& r) { cast(r.begin(), r.end()); });
         });
-        if (ask_ == Ask::rays_all)
-            for (const std::vector<Pair>& part : parts_)
-                answers.pairs.insert(answers.pairs.end(), part.begin(), part.end());
     }
 
-  private:
-    /// A hit is told by some triangle number; Embree does not say which triangle it was.
+    void find_all(std::vector<Pair>& pairs) {
+        pairs.clear();
+        for (std::vector<Pair>& part : parts_)
+            part.clear();
+        for_chunks([&](std::size_t begin, std::size_t end) {
+            const FlushDenormals flush;
+            all(begin, end, threads_ == 1 ? pairs : parts_.local());
+        });
+        for (const std::vector<Pair>& part : parts_)
+            pairs.insert(pairs.end(), part.begin(), part.end());
+    }
+
+    /// A hit has some triangle number; Embree does not say which triangle it was.
     RayHit occluded(const Ray<float>& ray) const {
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
@@ -155,7 +165,7 @@ class Rays final : public Contender {
             RTCIntersectContext context;
             rtcInitIntersectContext(&context);
             const std::size_t n = std::min<std::size_t>(W, end - first);
-            if (ask_ == Ask::rays_any) {
+            if (wanted_ == Wanted::any) {
                 Types::occluded(valid, embree_scene_.get(), &context,
                                 reinterpret_cast<typename Types::Rays*>(&packet.ray));
                 for (std::size_t k = 0; k < n; ++k) {
@@ -176,7 +186,7 @@ class Rays final : public Contender {
 
     const Scene& scene_;
     RTCSceneFlags flags_;
-    Ask ask_;
+    Wanted wanted_;
     int width_;
     unsigned threads_;
     std::vector<Vec3<float>> vertices_;
@@ -186,12 +196,12 @@ class Rays final : public Contender {
     tbb::enumerable_thread_specific<std::vector<Pair>> parts_; ///< of rays_all
 };
 
-ContenderEntry rays(Ask ask, int width, bool robust) {
+ContenderEntry rays(Wanted wanted, int width, bool robust) {
     const std::string function =
-        fmt::format("{}{}", ask == Ask::rays_any ? "Occluded" : "Intersect", width);
+        fmt::format("{}{}", wanted == Wanted::any ? "Occluded" : "Intersect", width);
     ContenderEntry e;
-    e.name = fmt::format("embree.rtc_{}{}{}{}", ask == Ask::rays_any ? "occluded" : "intersect",
-                         width, ask == Ask::rays_all ? ".filter" : "", robust ? ".robust" : "");
+    e.name = fmt::format("embree.rtc_{}{}{}{}", wanted == Wanted::any ? "occluded" : "intersect",
+                         width, wanted == Wanted::all ? ".filter" : "", robust ? ".robust" : "");
     e.library = "embree";
     e.precision = "f32";
     e.summary =
@@ -199,21 +209,18 @@ ContenderEntry rays(Ask ask, int width, bool robust) {
                     robust ? "ROBUST scene (watertight)" : "default scene (not watertight)");
     e.notes = fmt::format(
         "{}, build quality medium; rays are converted to Embree's struct in the query; denormals "
-        "flushed during the query, as Embree asks; vertex and index buffers shared; a build also "
+        "flushed during the query, as Embree wants; vertex and index buffers shared; a build also "
         "frees the scene before it",
-        ask == Ask::rays_all ? "single rays, whose intersection filter takes each hit down and "
-                               "refuses it"
-        : width == 1         ? "single rays"
-                             : "packets of rays in the order given, context flag INCOHERENT");
-    e.unsupported = [ask](const Job& job) -> Unsupported {
-        if (job.task != ask)
-            return fmt::format("answers {} only", to_string(ask));
-        if (job.scene && job.scene->mesh.triangles.empty())
-            return "the scene has no triangles";
-        return not_tbb(job);
-    };
-    const RTCSceneFlags flags = robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE;
-    e.make = [=](const Job& job) { return std::make_unique<Rays>(job, flags, width); };
+        wanted == Wanted::all ? "single rays, whose intersection filter takes each hit down and "
+                                "refuses it"
+        : width == 1          ? "single rays"
+                              : "packets of rays in the order given, context flag INCOHERENT");
+    e.runs_on = RunsOn::tbb;
+    e.answers = {answering<Rays>(wanted == Wanted::closest ? "rays_closest"
+                                 : wanted == Wanted::any   ? "rays_any"
+                                                           : "rays_all",
+                                 robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE, wanted,
+                                 width)};
     return e;
 }
 
@@ -221,12 +228,12 @@ ContenderEntry rays(Ask ask, int width, bool robust) {
 
 std::vector<ContenderEntry> embree_rays() {
     std::vector<ContenderEntry> all;
-    for (const Ask ask : {Ask::rays_closest, Ask::rays_any})
+    for (const Wanted wanted : {Wanted::closest, Wanted::any})
         for (const int width : {1, 8, 16})
             for (const bool robust : {false, true})
-                all.push_back(rays(ask, width, robust));
+                all.push_back(rays(wanted, width, robust));
     for (const bool robust : {false, true})
-        all.push_back(rays(Ask::rays_all, 1, robust));
+        all.push_back(rays(Wanted::all, 1, robust));
     return all;
 }
 

@@ -1,4 +1,4 @@
-#include "bench/peers/capability.h"
+#include "bench/peers/answering.h"
 #include "bench/peers/kernel_peers.h"
 #include "bench/peers/point_peers.h"
 #include "scenes/moving/frames.h"
@@ -46,10 +46,11 @@ bool append(Object* a, Object* b, void* pairs) {
 /// Manager: DynamicAABBTreeCollisionManager or its array twin.
 template <class Manager> class FclContender final : public Contender {
   public:
-    FclContender(const Job& job, bool moved_alone) : scene_(*job.scene), moved_alone_(moved_alone) {
+    FclContender(const Job& job, Sides sides, bool moved_alone)
+        : scene_(*job.scene), moved_alone_(moved_alone),
+          between_halves_(sides == Sides::two_halves) {
         const std::vector<Aabb<float>>& boxes = scene_.boxes;
-        const std::size_t split = job.task == Ask::tree_pairs ? tree_pairs_split(boxes.size()) : 0;
-        between_halves_ = job.task == Ask::tree_pairs;
+        const std::size_t split = between_halves_ ? tree_pairs_split(boxes.size()) : 0;
         is_present_.resize(boxes.size());
         for (std::size_t i = 0; i < boxes.size(); ++i) {
             bounds_.push_back(std::make_shared<BoundsOnly>(boxes[i]));
@@ -71,11 +72,12 @@ template <class Manager> class FclContender final : public Contender {
     }
 
     void query(Answers& answers) override {
-        answers.pairs.clear();
+        std::vector<Pair>& pairs = list_of<Pair>(answers);
+        pairs.clear();
         if (between_halves_)
-            first_tree_->collide(rest_tree_.get(), &answers.pairs, append);
+            first_tree_->collide(rest_tree_.get(), &pairs, append);
         else
-            rest_tree_->collide(&answers.pairs, append);
+            rest_tree_->collide(&pairs, append);
     }
 
     void update(const Frame& now) override {
@@ -127,7 +129,7 @@ template <class Manager> class FclContender final : public Contender {
     std::vector<std::shared_ptr<BoundsOnly>> bounds_;
     std::vector<std::unique_ptr<Object>> objects_;
     std::vector<Object*> changed_;
-    std::vector<Object*> first_, rest_; ///< all of them in `rest_` for Ask::pairs
+    std::vector<Object*> first_, rest_; ///< all of them in `rest_` but for two halves
     std::unique_ptr<Manager> first_tree_, rest_tree_;
 };
 
@@ -146,16 +148,11 @@ ContenderEntry entry(std::string name, std::string summary, bool moved_alone = f
     e.notes += moved_alone ? "; a frame: boxes of the moved, update(moved)"
                            : "; a frame: boxes of the moved, update() of all";
     e.notes += "; bodies that come and go: registerObject, unregisterObject";
-    e.unsupported = [moved_alone](const Job& job) -> Unsupported {
-        if (moved_alone && job.task != Ask::moving_pairs)
-            return "answers moving_pairs only";
-        if (auto why = not_frame_or_box_ask(job))
-            return why;
-        return not_serial(job);
-    };
-    e.make = [moved_alone](const Job& job) {
-        return std::make_unique<FclContender<Manager>>(job, moved_alone);
-    };
+    e.runs_on = RunsOn::one_thread;
+    e.answers =
+        moved_alone
+            ? std::vector{answering<FclContender<Manager>>("moving_pairs", Sides::all, true)}
+            : answering_all_pairs<FclContender<Manager>>(false);
     return e;
 }
 
@@ -175,7 +172,7 @@ Peer fcl_peer() {
     peer.contenders.back().notes += "; FCL 0.7 loses the memory of the leaves at each bulk build";
     peer.contenders.push_back(entry<fcl::DynamicAABBTreeCollisionManager<double>>(
         "fcl.dynamic_aabb_tree.moved",
-        "FCL's DynamicAABBTreeCollisionManager, told which objects moved", true));
+        "FCL's DynamicAABBTreeCollisionManager, given which objects moved", true));
     for (ContenderEntry& e : fcl_points())
         peer.contenders.push_back(std::move(e));
     for (ContenderEntry& e : fcl_kernels())

@@ -1,5 +1,6 @@
 #include "bench/peers/each_case.h"
 #include "bench/peers/kernel_peers.h"
+#include "kernels/continuous/continuous_kernel.h"
 
 #include <fcl/math/bv/OBB.h>
 #include <fcl/narrowphase/detail/primitive_shape_algorithm/triangle_distance.h>
@@ -86,30 +87,30 @@ Decision obbs(const ObbPair& p) { return yes_or_no(p.a.overlap(p.b)); }
 
 std::vector<ContenderEntry> fcl_kernels() {
     using Pair = TrianglePairCase;
-    const std::string stateless = "yes or no alone: no contact points asked; one pair per call";
+    const std::string stateless = "yes or no alone: no contact points; one pair per call";
     return {
-        each_case<Pair, TrianglePair<double>, intersect<double>, &Answers::verdicts>(
-            Ask::triangle_triangle, "fcl", "intersect_triangle", "f64",
+        each_case<Pair, TrianglePair<double>, intersect<double>>(
+            "triangle_triangle", "fcl", "intersect_triangle", "f64",
             "FCL's Intersect::intersect_Triangle: separating axes", stateless),
-        each_case<Pair, TrianglePair<float>, intersect<float>, &Answers::verdicts>(
-            Ask::triangle_triangle, "fcl", "intersect_triangle_f32", "f32",
+        each_case<Pair, TrianglePair<float>, intersect<float>>(
+            "triangle_triangle", "fcl", "intersect_triangle_f32", "f32",
             "FCL's Intersect::intersect_Triangle in floats",
             stateless + "; input rounded to float"),
-        each_case<Pair, TrianglePair<double>, distance<double>, &Answers::distances>(
-            Ask::triangle_distance, "fcl", "tri_distance", "f64",
+        each_case<Pair, TrianglePair<double>, distance<double>>(
+            "triangle_distance", "fcl", "tri_distance", "f64",
             "FCL's TriangleDistance::triDistance, after PQP", "one pair per call"),
-        each_case<Pair, TrianglePair<float>, distance<float>, &Answers::distances>(
-            Ask::triangle_distance, "fcl", "tri_distance_f32", "f32",
+        each_case<Pair, TrianglePair<float>, distance<float>>(
+            "triangle_distance", "fcl", "tri_distance_f32", "f32",
             "FCL's TriangleDistance::triDistance in floats",
             "one pair per call; input rounded to float"),
-        each_case<MotionCase, Motion, vertex_face, &Answers::impacts>(
-            Ask::vertex_face, "fcl", "intersect_vf", "f64",
+        each_case<MotionCase, Motion, vertex_face>(
+            "vertex_face", "fcl", "intersect_vf", "f64",
             "FCL's Intersect::intersect_VF: cubic with Newton", "one query per call"),
-        each_case<MotionCase, Motion, edge_edge, &Answers::impacts>(
-            Ask::edge_edge, "fcl", "intersect_ee", "f64",
-            "FCL's Intersect::intersect_EE: cubic with Newton", "one query per call"),
-        each_case<ObbPairCase, ObbPair, obbs, &Answers::verdicts>(
-            Ask::obb_obb, "fcl", "obb_overlap", "f64",
+        each_case<MotionCase, Motion, edge_edge>("edge_edge", "fcl", "intersect_ee", "f64",
+                                                 "FCL's Intersect::intersect_EE: cubic with Newton",
+                                                 "one query per call"),
+        each_case<ObbPairCase, ObbPair, obbs>(
+            "obb_obb", "fcl", "obb_overlap", "f64",
             "FCL's OBB::overlap: 15 separating axes with an absolute margin of 1e-6",
             "the same axes as ours; one pair per call"),
     };

@@ -1,3 +1,4 @@
+#include "bench/peers/answering.h"
 #include "bench/peers/point_peers.h"
 
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
@@ -35,11 +36,11 @@ std::vector<std::unique_ptr<Object>> objects_of(const std::vector<Aabb<float>>& 
     return objects;
 }
 
-class AskManager final : public Contender {
+class QueryManager final : public Contender {
   public:
-    explicit AskManager(const Job& job)
-        : scene_(*job.scene), ask_(job.task), k_(neighbours_of(scene_)),
-          items_(objects_of(scene_.boxes)), queries_(objects_of(query_boxes(scene_, job.task))) {
+    QueryManager(const Job& job, PointQuery query)
+        : scene_(*job.scene), query_(query), k_(neighbours_of(scene_)),
+          items_(objects_of(scene_.boxes)), queries_(objects_of(query_boxes(scene_, query))) {
         for (const std::unique_ptr<Object>& item : items_)
             registered_.push_back(item.get());
     }
@@ -52,54 +53,58 @@ class AskManager final : public Contender {
     }
 
     void query(Answers& answers) override {
-        answers.pairs.clear();
-        if (ask_ == Ask::nearest)
-            answers.neighbours.resize(k_ * queries_.size());
+        if (query_ == PointQuery::nearest)
+            return find_nearest(list_of<Neighbour>(answers));
+        std::vector<Pair>& pairs = list_of<Pair>(answers);
+        pairs.clear();
         for (std::uint32_t i = 0; i < queries_.size(); ++i) {
-            Asked asked{*this, i, answers.pairs, nullptr};
-            if (ask_ != Ask::nearest) {
-                tree_->collide(queries_[i].get(), &asked, append);
-                continue;
-            }
-            NearestOfPeer nearest(std::span(answers.neighbours).subspan(i * k_, k_));
-            asked.nearest = &nearest;
-            tree_->distance(queries_[i].get(), &asked, offer);
+            Query query{*this, i, &pairs, nullptr};
+            tree_->collide(queries_[i].get(), &query, append);
         }
     }
 
   private:
-    struct Asked {
-        const AskManager& self;
-        std::uint32_t query;
-        std::vector<Pair>& pairs;
+    struct Query {
+        const QueryManager& self;
+        std::uint32_t number;
+        std::vector<Pair>* pairs;
         NearestOfPeer* nearest;
     };
 
+    void find_nearest(std::vector<Neighbour>& neighbours) {
+        neighbours.resize(k_ * queries_.size());
+        for (std::uint32_t i = 0; i < queries_.size(); ++i) {
+            NearestOfPeer nearest(std::span<Neighbour>(neighbours).subspan(i * k_, k_));
+            Query query{*this, i, nullptr, &nearest};
+            tree_->distance(queries_[i].get(), &query, offer);
+        }
+    }
+
     /// The item of the two: the other is the query itself.
-    static std::uint32_t item(const Asked& asked, const Object* a, const Object* b) {
-        const Object* query = asked.self.queries_[asked.query].get();
+    static std::uint32_t item(const Query& q, const Object* a, const Object* b) {
+        const Object* own = q.self.queries_[q.number].get();
         return static_cast<std::uint32_t>(
-            reinterpret_cast<std::uintptr_t>((a == query ? b : a)->getUserData()));
+            reinterpret_cast<std::uintptr_t>((a == own ? b : a)->getUserData()));
     }
     static bool append(Object* a, Object* b, void* data) {
-        const Asked& asked = *static_cast<const Asked*>(data);
-        const Scene& scene = asked.self.scene_;
-        const std::uint32_t i = item(asked, a, b);
-        if (scene.spheres.empty() || meets(scene.spheres[asked.query], scene.boxes[i]))
-            asked.pairs.push_back({asked.query, i});
+        const Query& q = *static_cast<const Query*>(data);
+        const Scene& scene = q.self.scene_;
+        const std::uint32_t i = item(q, a, b);
+        if (scene.spheres.empty() || meets(scene.spheres[q.number], scene.boxes[i]))
+            q.pairs->push_back({q.number, i});
         return false; // go on
     }
     static bool offer(Object* a, Object* b, void* data, double& worst) {
-        const Asked& asked = *static_cast<const Asked*>(data);
-        const Scene& scene = asked.self.scene_;
-        const std::uint32_t i = item(asked, a, b);
-        asked.nearest->offer({i, squared_distance(scene.points[asked.query], scene.boxes[i])});
-        worst = std::sqrt(asked.nearest->worst());
+        const Query& q = *static_cast<const Query*>(data);
+        const Scene& scene = q.self.scene_;
+        const std::uint32_t i = item(q, a, b);
+        q.nearest->offer({i, squared_distance(scene.points[q.number], scene.boxes[i])});
+        worst = std::sqrt(q.nearest->worst());
         return worst == 0; // nothing can be nearer
     }
 
     const Scene& scene_;
-    Ask ask_;
+    PointQuery query_;
     std::size_t k_;
     std::vector<std::unique_ptr<Object>> items_, queries_;
     std::vector<Object*> registered_;
@@ -112,19 +117,15 @@ std::vector<ContenderEntry> fcl_points() {
     ContenderEntry e;
     e.name = "fcl.dynamic_aabb_tree.object";
     e.library = "fcl";
-    e.summary = "FCL's DynamicAABBTreeCollisionManager asked about one object after another";
+    e.summary = "FCL's DynamicAABBTreeCollisionManager queried with one object after another";
     e.notes = "tree_init_level 2; query = collide (nearest: distance) of an object that is nothing "
               "but its bounds with a callback; balls go by their boxes and are tested in doubles "
               "by the callback; one thread";
     e.precision = "f64";
-    e.unsupported = [](const Job& job) -> Unsupported {
-        if (!is_point_ask(job.task) || job.task == Ask::closest_points)
-            return "answers points, regions and nearest only";
-        if (auto why = no_queries(job.scene, job.task))
-            return why;
-        return not_serial(job);
-    };
-    e.make = [](const Job& job) { return std::make_unique<AskManager>(job); };
+    e.runs_on = RunsOn::one_thread;
+    e.answers = {answering<QueryManager>("points", PointQuery::containing),
+                 answering<QueryManager>("regions", PointQuery::overlapping),
+                 answering<QueryManager>("nearest", PointQuery::nearest)};
     return {e};
 }
 

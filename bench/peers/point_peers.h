@@ -1,8 +1,13 @@
 #pragma once
 
-#include "bench/peers/capability.h"
-#include "bench/tasks/points.h"
+#include "bench/tasks/contender.h"
+#include "bench/truth/point_truth.h"
+#include "trees/layout.h"
 #include "trees/queries/box_distance.h"
+
+#include <cmath>
+#include <limits>
+#include <span>
 
 #include <vector>
 
@@ -30,10 +35,10 @@ inline Aabb<float> bounds_of(const Sphere<float>& ball) {
     return box;
 }
 
-/// The boxes that contain what is asked of points or regions: flat ones for points.
-inline std::vector<Aabb<float>> query_boxes(const Scene& scene, Ask ask) {
+/// The boxes that contain the queries: flat ones for points.
+inline std::vector<Aabb<float>> query_boxes(const Scene& scene, PointQuery query) {
     std::vector<Aabb<float>> boxes;
-    if (ask != Ask::regions)
+    if (query != PointQuery::overlapping)
         for (const Vec3<float> p : scene.points)
             boxes.push_back({p, p});
     else if (scene.spheres.empty())

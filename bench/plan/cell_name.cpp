@@ -61,7 +61,7 @@ std::optional<CellName> parse_cell_name(std::string_view text) {
         parts[i] = text.substr(0, slash);
         text.remove_prefix(std::min(text.size(), parts[i].size() + 1));
     }
-    const auto& [scene, size, ask, contender, precision, place] = parts;
+    const auto& [scene, size, task, contender, precision, place] = parts;
     const std::size_t seed_at = size.find("-s");
     const std::size_t threads_at = place.find('-');
     if (!size.starts_with('n') || seed_at == std::string_view::npos ||
@@ -70,13 +70,13 @@ std::optional<CellName> parse_cell_name(std::string_view text) {
 
     CellName name;
     const std::string_view executor = place.substr(0, threads_at);
-    if (!is_word(scene) || !is_word(ask) || !is_dotted_words(contender) || !is_word(precision) ||
+    if (!is_word(scene) || !is_word(task) || !is_dotted_words(contender) || !is_word(precision) ||
         !is_word(executor) || !parse_number(size.substr(1, seed_at - 1), name.n_items) ||
         !parse_number(size.substr(seed_at + 2), name.seed) ||
         !parse_number(place.substr(threads_at + 1), name.threads))
         return std::nullopt;
     name.scene = scene;
-    name.task = ask;
+    name.task = task;
     name.contender = contender;
     name.precision = precision;
     name.executor = executor;

@@ -8,7 +8,7 @@
 namespace boxwood::bench {
 
 /// The parts of a cell's name
-/// `<scene>/n<items>-s<seed>/<ask>/<contender>/<precision>/<executor>-<threads>`.
+/// `<scene>/n<items>-s<seed>/<task>/<contender>/<precision>/<executor>-<threads>`.
 /// Words are [a-z0-9_]+; a contender is words joined by dots.
 struct CellName {
     std::string scene;

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "bench/plan/config.h"
+#include "bench/plan/block_reader.h"
 #include "scenes/effects/read_effect.h"
+#include "scenes/moving/toml_reader.h"
 #include "scenes/scene.h"
-#include "trees/dynamic/update.h"
 
 #include <algorithm>
 #include <string>
@@ -28,25 +28,22 @@ class ConfigReader : public TomlReader {
         return static_cast<unsigned>(whole(node, "threads", 1, 1024));
     }
 
-    /// A builder: its words, or `{name = "binned_sah", bins = 16}`.
+    /// A builder: its names, or `{name = "binned_sah", bins = 16}`.
     BuilderChoice builder(const toml::node& node) const {
         return choice(
-            node, "a builder", [&](const toml::node& name) { return builder_words(name); },
+            node, "a builder", [&](const toml::node& name) { return builder_name(name); },
             [](const std::string& name, const Settings& settings) {
                 make_builder(name, settings);
             });
     }
 
     /// "refit", or `{name = "rebuild", trigger = 1.3}`.
-    BuilderChoice update(const toml::node& node) const {
-        return choice(
-            node, "an update",
-            [&](const toml::node& name) {
-                return word(name, "updates", names_of(boxwood::updates()));
-            },
-            [](const std::string& name, const Settings& settings) {
-                find_update(name)->make(settings);
-            });
+    template <class Read, class TryOut>
+    BuilderChoice choice(const toml::node& node, std::string_view what, Read read,
+                         TryOut try_out) const {
+        auto [name, settings] = with_settings(node, what, read, try_out,
+                                              [](std::string_view, const auto&) { return false; });
+        return {std::move(name), std::move(settings)};
     }
 
     /// Effects that are laid together: one, or a list of them.
@@ -82,7 +79,7 @@ class ConfigReader : public TomlReader {
     }
 
     /// "ploc", or with an optimizer after it "ploc+reinsertion".
-    std::string builder_words(const toml::node& node) const {
+    std::string builder_name(const toml::node& node) const {
         const std::string words = node.value_or(std::string());
         const std::size_t plus = words.find('+');
         if (!node.is_string() || plus == std::string::npos)

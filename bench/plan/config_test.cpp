@@ -1,30 +1,51 @@
 #include "bench/plan/config.h"
 
 #include "bench/io/bad_input.h"
-#include "bench/tasks/kernels/kernels.h"
+#include "bench/plan/plan.h"
 #include "kernels/registry.h"
+#include "kernels/suggest.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+
 namespace boxwood::bench {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 
+/// Why a sweep file is refused, by the blocks or by their tasks.
 std::string complaint(const std::string& text) {
     try {
-        parse_config(text, "x.toml");
+        make_plan(text, "x.toml", {});
     } catch (const BadInput& error) {
         return error.what();
     }
     return "(accepted)";
 }
 
+/// What `of` says of the cells, each answer once.
+template <class Of> auto each(const Plan& plan, const Of& of) {
+    std::set<std::remove_cvref_t<decltype(of(plan.cells[0]))>> all;
+    for (const PlannedCell& cell : plan.cells)
+        all.insert(of(cell));
+    return all;
+}
+std::set<std::string> kernels_of(const std::string& text, std::string_view task) {
+    std::set<std::string> all;
+    for (const PlannedCell& cell : make_plan(text, "x.toml", {}).cells)
+        if (cell.task->name() == task && !cell.contender.is_peer)
+            all.insert(cell.contender.kernel);
+    return all;
+}
+
 const std::string block = "[[cells]]\nscene = \"uniform\"\ntask = \"pairs\"\n";
 
 TEST(Config, ReadsWordsAndLists) {
-    const Config config = parse_config(R"(
+    const std::string text = R"(
 rounds = 9
 min_time_ms = 2.5
 seed = 7
@@ -38,29 +59,35 @@ task = ["pairs", "tree_pairs"]
 builders = ["median", {name = "binned_sah", bins = 16}]
 layouts = "binary"
 peers = "all"
-
-[[cells]]
-scene = "sphere_mesh"
-task = "rays_any"
-rays = "occlusion"
-n_rays = 5
-threads = 3
-builders = "median"
-)",
-                                       "x.toml");
+)";
+    const Config config = parse_config(text, "x.toml");
     EXPECT_EQ(config.rounds, 9u);
     EXPECT_EQ(config.min_time_ms, 2.5);
     EXPECT_EQ(config.seed, 7u);
-    ASSERT_EQ(config.blocks.size(), 2u);
-    const Block& pairs = config.blocks[0];
-    EXPECT_EQ(pairs.scenes, (std::vector<std::string>{"uniform", "bars"}));
-    EXPECT_EQ(pairs.n, (std::vector<std::size_t>{10, 20}));
-    EXPECT_EQ(pairs.overlaps, std::vector<double>{1});
-    EXPECT_EQ(pairs.queries, (std::vector<Ask>{Ask::pairs, Ask::tree_pairs}));
-    EXPECT_EQ(pairs.builders[1].settings.at("bins"), SettingValue(16));
-    EXPECT_EQ(pairs.threads, (std::vector<unsigned>{1, 2}));
-    EXPECT_EQ(config.blocks[1].threads, std::vector<unsigned>{3});
-    EXPECT_EQ(config.blocks[1].n_rays, 5u);
+    EXPECT_EQ(config.threads, (std::vector<unsigned>{1, 2}));
+    ASSERT_EQ(config.blocks.size(), 1u);
+    EXPECT_THAT(config.blocks[0].tasks, ElementsAre(find_task("pairs"), find_task("tree_pairs")));
+
+    const Plan pairs = make_plan(text, "x.toml", {});
+    EXPECT_EQ(each(pairs, [](const PlannedCell& c) { return c.scene.generator; }),
+              (std::set<std::string>{"uniform", "bars"}));
+    EXPECT_EQ(each(pairs, [](const PlannedCell& c) { return c.scene.n; }),
+              (std::set<std::size_t>{10, 20}));
+    EXPECT_EQ(each(pairs, [](const PlannedCell& c) { return c.scene.overlaps; }),
+              std::set<double>{1});
+    EXPECT_EQ(each(pairs, [](const PlannedCell& c) { return c.threads; }),
+              (std::set<unsigned>{1, 2}));
+    EXPECT_TRUE(each(pairs, [](const PlannedCell& c) {
+                    return c.contender.builder;
+                }).contains("binned_sah_bins16"));
+
+    const Plan rays = make_plan("threads = [1, 2]\n[[cells]]\nscene = \"sphere_mesh\"\n"
+                                "task = \"rays_any\"\nrays = \"occlusion\"\nn_rays = 5\n"
+                                "threads = 3\nbuilders = \"median\"\n",
+                                "x.toml", {});
+    EXPECT_EQ(each(rays, [](const PlannedCell& c) { return c.threads; }), std::set<unsigned>{3});
+    EXPECT_EQ(each(rays, [](const PlannedCell& c) { return c.scene.n_rays; }),
+              std::set<std::size_t>{5});
 }
 
 TEST(Config, SaysWhereAMisspeltWordStandsAndSuggests) {
@@ -93,11 +120,11 @@ TEST(Config, RefusesNumbersOutOfRangeAndOfTheWrongKind) {
 TEST(Config, PoliciesTakeTheirSettings) {
     const std::string moving = "[[cells]]\nscene = \"uniform\"\ntask = \"moving_pairs\"\n"
                                "effects = \"teleport\"\nupdates = ";
-    const Config config = parse_config(
-        moving + "[{name = \"merge\", margin = 2}, {name = \"refine\", share = 0.2}]\n", "x.toml");
-    ASSERT_EQ(config.blocks[0].updates.size(), 2u);
-    EXPECT_EQ(config.blocks[0].updates[0].settings, (Settings{{"margin", 2}}));
-    EXPECT_EQ(config.blocks[0].updates[1].settings, (Settings{{"share", 0.2}}));
+    const Plan plan =
+        make_plan(moving + "[{name = \"merge\", margin = 2}, {name = \"refine\", share = 0.2}]\n",
+                  "x.toml", {});
+    EXPECT_EQ(each(plan, [](const PlannedCell& c) { return c.contender.builder; }),
+              (std::set<std::string>{"merge_margin2", "refine_share0_2"}));
     EXPECT_THAT(complaint(moving + "{name = \"refine\", margin = 2}\n"), HasSubstr("margin"));
     EXPECT_THAT(complaint(moving + "{margin = 2}\n"), HasSubstr("an update is a name"));
 }
@@ -109,7 +136,7 @@ TEST(Config, RefusesBlocksThatMeanNothing) {
     EXPECT_THAT(complaint("[[cells]]\ntask = \"pairs\"\nbuilders = \"median\"\n"),
                 HasSubstr("needs a scene"));
     EXPECT_THAT(complaint("[[cells]]\nscene = \"uniform\"\nbuilders = \"median\"\n"),
-                HasSubstr("needs an ask"));
+                HasSubstr("needs a task"));
     EXPECT_THAT(complaint(block), HasSubstr("needs builders, peers, or both"));
     EXPECT_THAT(complaint("[[cells]]\nscene = \"sphere_mesh\"\ntask = \"rays_any\"\n"
                           "builders = \"median\"\n"),
@@ -120,59 +147,51 @@ TEST(Config, RefusesBlocksThatMeanNothing) {
     EXPECT_THAT(complaint("[[cells]]\nscene = \"mesh\"\nn = 5\ntask = \"pairs\"\n"),
                 HasSubstr("x.toml:3:"));
     for (const char* key : {"effects = \"teleport\"", "frames = 3", "updates = \"auto\"",
-                            "stages = \"everything\"", "rays = \"random\"", "n_rays = 5"})
+                            "stages = \"all_stages\"", "rays = \"random\"", "n_rays = 5"})
         EXPECT_THAT(complaint(block + "builders = \"median\"\n" + key + "\n"),
-                    testing::AllOf(HasSubstr("x.toml:5:"), HasSubstr("is for the ask")))
+                    testing::AllOf(HasSubstr("x.toml:5:"), HasSubstr("is for the task")))
             << key;
 }
 
 const std::string kernel_block = "[[cells]]\ntask = \"triangle_triangle\"\n";
 
-TEST(Config, BlocksOfKernelAsksNameFamilies) {
-    const Config config = parse_config(R"(
-threads = [1, 2]
-[[cells]]
-scene = ["slivers", "degenerate"]
-task = ["triangle_triangle", "point_segment"]
-n = 50
-scale = [-3, 5]
+TEST(Config, BlocksOfKernelTasksNameFamilies) {
+    const std::string all = "threads = [1, 2]\n[[cells]]\nscene = [\"slivers\", \"degenerate\"]\n"
+                            "task = [\"triangle_triangle\", \"point_segment\"]\nn = 50\n"
+                            "scale = [-3, 5]\n";
+    const Plan plan = make_plan(all, "x.toml", {});
+    const std::set<std::string> families =
+        each(plan, [](const PlannedCell& c) { return c.scene.generator; });
+    EXPECT_TRUE(families.contains("slivers"));
+    EXPECT_GT(families.size(), 1u); // those of the panel, too
+    EXPECT_EQ(each(plan, [](const PlannedCell& c) { return c.scene.scale; }),
+              (std::set<int>{-3, 5}));
+    for (const char* task : {"triangle_triangle", "point_segment"})
+        EXPECT_EQ(kernels_of(all, task).size(), find_task(task)->kernels().size());
 
-[[cells]]
-scene = "slivers"
-task = "triangle_triangle"
-k = [1, 2]
-kernels = ["rational", "guigue_devillers_f64"]
-peers = "all"
-)",
-                                       "x.toml");
-    ASSERT_EQ(config.blocks.size(), 2u);
-    const Block& all = config.blocks[0];
-    EXPECT_EQ(all.scenes, (std::vector<std::string>{"slivers", "degenerate"}));
-    EXPECT_EQ(all.scales, (std::vector<int>{-3, 5}));
-    EXPECT_EQ(kernels_of(all, Ask::triangle_triangle).size(), rungs(Ask::triangle_triangle).size());
-    EXPECT_EQ(kernels_of(all, Ask::point_segment).size(), rungs(Ask::point_segment).size());
-    const Block& some = config.blocks[1];
-    EXPECT_EQ(some.k, (std::vector<int>{1, 2}));
-    EXPECT_EQ(kernels_of(some, Ask::triangle_triangle),
-              (std::vector<std::string>{"rational", "guigue_devillers_f64"}));
+    const std::string some = "[[cells]]\nscene = \"slivers\"\ntask = \"triangle_triangle\"\n"
+                             "k = [1, 2]\nkernels = [\"rational\", \"guigue_devillers_f64\"]\n"
+                             "peers = \"all\"\n";
+    EXPECT_EQ(each(make_plan(some, "x.toml", {}), [](const PlannedCell& c) { return *c.scene.k; }),
+              (std::set<int>{1, 2}));
+    EXPECT_EQ(kernels_of(some, "triangle_triangle"),
+              (std::set<std::string>{"rational", "guigue_devillers_f64"}));
 }
 
 TEST(Config, KernelsHaveTheirDefaults) {
-    const Config config =
-        parse_config("[[cells]]\nscene = \"sphere_mesh\"\ntask = [\"rays_any\", "
-                     "\"triangle_pairs\"]\nrays = \"random\"\nbuilders = \"median\"\n",
-                     "x.toml");
-    EXPECT_EQ(kernels_of(config.blocks[0], Ask::rays_any), std::vector<std::string>{"watertight"});
-    EXPECT_EQ(kernels_of(config.blocks[0], Ask::triangle_pairs).size(), triangle_kernels().size());
+    const std::string text = "[[cells]]\nscene = \"sphere_mesh\"\ntask = [\"rays_any\", "
+                             "\"triangle_pairs\"]\nrays = \"random\"\nbuilders = \"median\"\n";
+    EXPECT_EQ(kernels_of(text, "rays_any"), std::set<std::string>{"watertight"});
+    EXPECT_EQ(kernels_of(text, "triangle_pairs").size(), triangle_kernels().size());
 }
 
-TEST(Config, RefusesWhatKernelAsksDoNotTake) {
+TEST(Config, RefusesWhatKernelTasksDoNotTake) {
     EXPECT_THAT(complaint(kernel_block + "scene = \"uniform\"\n"), HasSubstr("uniform"));
     EXPECT_THAT(complaint(kernel_block + "scene = \"slivres\"\n"), HasSubstr("'slivers'"));
     EXPECT_THAT(complaint(kernel_block + "scene = \"ray_grazing\"\n"),
-                HasSubstr("no cases for the ask triangle_triangle"));
+                HasSubstr("no cases for the task triangle_triangle"));
     EXPECT_THAT(complaint(kernel_block + "scene = \"all\"\nbuilders = \"median\"\n"),
-                HasSubstr("builders is for the asks of trees"));
+                HasSubstr("builders is for the tasks pairs, tree_pairs, "));
     EXPECT_THAT(complaint(kernel_block + "scene = \"all\"\nk = 3\n"),
                 HasSubstr("name the families"));
     EXPECT_THAT(complaint(kernel_block + "scene = \"slivers\"\nkernels = \"watertight\"\n"),
@@ -183,9 +202,9 @@ TEST(Config, RefusesWhatKernelAsksDoNotTake) {
     EXPECT_THAT(complaint("[[cells]]\ntask = [\"pairs\", \"obb_obb\"]\nscene = \"uniform\"\n"),
                 HasSubstr("blocks of their own"));
     EXPECT_THAT(complaint(block + "builders = \"median\"\nk = 1\n"),
-                HasSubstr("k is for the asks of kernels"));
+                HasSubstr("k is for the tasks nearest, triangle_triangle, "));
     EXPECT_THAT(complaint(block + "builders = \"median\"\nkernels = \"watertight\"\n"),
-                HasSubstr("takes no kernels"));
+                HasSubstr("kernels is for the tasks rays_closest, "));
     EXPECT_THAT(complaint("[[cells]]\nscene = \"uniform\"\ntask = \"triangle_pairs\"\n"
                           "builders = \"median\"\n"),
                 HasSubstr("no triangles to test"));

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "bench/plan/config.h"
-#include "bench/tasks/contender.h"
+#include "bench/tasks/task.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -20,11 +19,11 @@ struct Overrides {
     std::filesystem::path mesh; ///< the file of `mesh` blocks; without it they are left out
 };
 
-/// One thing to time: a contender that does an ask of a scene.
+/// One thing to time: a contender that does a task on a scene.
 struct PlannedCell {
     std::string name; ///< see cell_name.h
     SceneSpec scene;
-    Ask task = Ask::pairs;
+    const Task* task = nullptr;
     ContenderEntry contender;
     std::string executor;
     unsigned threads = 1;

@@ -56,7 +56,7 @@ Calibrations calibrations_of(std::string_view text) {
 std::string choose_aa(const results::Results& prepared, const Calibrations& calibrations) {
     std::map<std::uint32_t, bool> wrong, peer;
     for (const results::Check& check : prepared.checks)
-        wrong[check.cell_id] |= check.status == "wrong";
+        wrong[check.cell_id] |= check.status == results::Status::wrong;
     for (const results::Variant& variant : prepared.variants)
         peer[variant.variant_id] = variant.is_peer != 0;
 

@@ -1,13 +1,15 @@
-/// Checks of rungs that lie, and the command as a whole.
+/// Checks of kernels that lie, and the command as a whole.
 
 #include "bench/running/check.h"
 
-#include "bench/analysis/findings.h"
-#include "bench/analysis/ladders.h"
+#include "bench/analysis/analyse.h"
+#include "bench/analysis/promises.h"
 #include "bench/io/bad_input.h"
 #include "bench/plan/families.h"
-#include "bench/tasks/kernels/kernels.h"
-#include "bench/truth/judging/judge.h"
+#include "bench/tasks/task.h"
+#include "bench/truth/judging/case_truths.h"
+#include "kernels/triangle_distance/distance_kernel.h"
+#include "trees/queries/pairs.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -30,7 +32,7 @@ using testing::Not;
 
 Scene touching_triangles() {
     SceneSpec spec;
-    spec.generator = families_of("touching", Ask::triangle_triangle).front()->name;
+    spec.generator = families_of("touching", *find_task("triangle_triangle")).front()->name;
     spec.n = 40;
     return make_scene(spec);
 }
@@ -48,6 +50,7 @@ class MadeUp final : public Contender {
     Answer answer_;
 };
 
+/// Of any task.
 ContenderEntry made_up(Promise promise, MadeUp::Answer answer, bool is_peer = false) {
     ContenderEntry entry;
     entry.name = "made_up";
@@ -55,31 +58,37 @@ ContenderEntry made_up(Promise promise, MadeUp::Answer answer, bool is_peer = fa
     entry.precision = "f64";
     entry.is_peer = is_peer;
     entry.promise = promise;
-    entry.make = [answer](const Job& job) { return std::make_unique<MadeUp>(*job.scene, answer); };
+    for (const Task* task : tasks())
+        entry.answers.push_back({std::string(task->name()), [answer](const Job& job) {
+                                     return std::make_unique<MadeUp>(*job.scene, answer);
+                                 }});
     return entry;
 }
 
-/// The result of a check in which `contender` alone answers `ask`.
-results::Results checked(const Scene& scene, Ask ask, const ContenderEntry& contender) {
+/// The result of a check in which `contender` alone does the task.
+results::Results checked(const Scene& scene, std::string_view task,
+                         const ContenderEntry& contender) {
     const CheckOptions options;
-    CheckRun run(options, results::Env{}, [&](Ask asked) {
-        return asked == ask ? std::vector{contender} : std::vector<ContenderEntry>{};
+    CheckRun run(options, results::Env{}, [&](const Task& wanted) {
+        return wanted.name() == task ? std::vector{contender} : std::vector<ContenderEntry>{};
     });
-    run.judge(scene, [](Ask) {});
-    return run.results();
+    run.judge(scene, [](const Task&) {});
+    results::Results results = run.results();
+    analyse(results);
+    return results;
 }
 
 /// All answers the same.
 MadeUp::Answer always(Answer answer) {
     return [answer](const Scene& scene, Answers& answers) {
-        answers.verdicts.assign(n_cases(scene.cases), {answer, 0});
+        list_of<Decision>(answers).assign(n_cases(scene.cases), {answer, 0});
     };
 }
 
-TEST(Check, ARungThatMissesBreaksItsPromiseToNeverMiss) {
+TEST(Check, AKernelThatMissesBreaksItsPromiseToNeverMiss) {
     const Scene scene = touching_triangles();
     const results::Results lie =
-        checked(scene, Ask::triangle_triangle, made_up(Promise::never_miss, always(Answer::no)));
+        checked(scene, "triangle_triangle", made_up(Promise::never_miss, always(Answer::no)));
     ASSERT_EQ(lie.kernels.size(), 1u);
     EXPECT_GT(lie.kernels[0].false_neg, 0u);
     EXPECT_EQ(broken_promises(lie), 1u);
@@ -87,10 +96,10 @@ TEST(Check, ARungThatMissesBreaksItsPromiseToNeverMiss) {
     EXPECT_THAT(promises_text(lie), AllOf(HasSubstr("BROKEN PROMISE: made_up promises never-miss"),
                                           HasSubstr("said no, truth yes"), HasSubstr("--case "),
                                           HasSubstr("1 broken promise.")));
-    EXPECT_THAT(ladders_text(lie), HasSubstr("BROKEN"));
+    EXPECT_EQ(lie.kernels[0].is_broken, 1u);
 
     const results::Results safe =
-        checked(scene, Ask::triangle_triangle, made_up(Promise::never_miss, always(Answer::yes)));
+        checked(scene, "triangle_triangle", made_up(Promise::never_miss, always(Answer::yes)));
     EXPECT_EQ(broken_promises(safe), 0u);
     EXPECT_FALSE(is_promise_broken(safe));
     EXPECT_EQ(promises_text(safe), "Every promise is kept.\n");
@@ -100,7 +109,7 @@ TEST(Check, EveryLieOfEveryPromiseIsFound) {
     const Scene scene = touching_triangles();
     const auto is_broken = [&](Promise promise, Answer answer) {
         return broken_promises(
-                   checked(scene, Ask::triangle_triangle, made_up(promise, always(answer)))) > 0;
+                   checked(scene, "triangle_triangle", made_up(promise, always(answer)))) > 0;
     };
     EXPECT_TRUE(is_broken(Promise::exact, Answer::maybe));
     EXPECT_TRUE(is_broken(Promise::certified, Answer::no));
@@ -111,15 +120,16 @@ TEST(Check, EveryLieOfEveryPromiseIsFound) {
 
 TEST(Check, ACertificateThatDoesNotEncloseIsAViolation) {
     const Scene scene = touching_triangles();
-    const ContenderEntry truth = rung_contender(Ask::triangle_distance, "rational");
+    const Task& task = *find_task("triangle_distance");
+    const ContenderEntry truth = task.kernel_contender("rational");
     const auto shifted = [&](double ratio) {
-        return made_up(Promise::certified, [&truth, ratio](const Scene& s, Answers& answers) {
-            truth.make(Job{&s, Ask::triangle_distance})->query(answers);
-            answers.distances.back().lo = 1e300 * ratio; // above every distance
+        return made_up(Promise::certified, [&, ratio](const Scene& s, Answers& answers) {
+            truth.make(Job{&s, &task})->query(answers);
+            list_of<Distance>(answers).back().lo = 1e300 * ratio; // above every distance
         });
     };
-    EXPECT_EQ(broken_promises(checked(scene, Ask::triangle_distance, shifted(0))), 0u);
-    const results::Results lie = checked(scene, Ask::triangle_distance, shifted(1));
+    EXPECT_EQ(broken_promises(checked(scene, "triangle_distance", shifted(0))), 0u);
+    const results::Results lie = checked(scene, "triangle_distance", shifted(1));
     EXPECT_EQ(broken_promises(lie), 1u);
     EXPECT_EQ(lie.kernels[0].bound_violations, 1u);
     EXPECT_THAT(lie.kernels[0].witness, HasSubstr("case 39: said"));
@@ -128,21 +138,21 @@ TEST(Check, ACertificateThatDoesNotEncloseIsAViolation) {
 TEST(Check, PeersMayErrAndCrashAndHaveNoPromise) {
     const Scene scene = touching_triangles();
     const results::Results wrong =
-        checked(scene, Ask::triangle_triangle, made_up(Promise::none, always(Answer::no), true));
-    EXPECT_EQ(wrong.kernels[0].status, "wrong");
+        checked(scene, "triangle_triangle", made_up(Promise::none, always(Answer::no), true));
+    EXPECT_EQ(wrong.kernels[0].status, results::Status::wrong);
     EXPECT_FALSE(is_promise_broken(wrong));
     const results::Results crash =
-        checked(scene, Ask::triangle_triangle,
+        checked(scene, "triangle_triangle",
                 made_up(
                     Promise::none, [](const Scene&, Answers&) { raise(SIGKILL); }, true));
-    EXPECT_EQ(crash.kernels[0].status, "wrong");
+    EXPECT_EQ(crash.kernels[0].status, results::Status::wrong);
     EXPECT_THAT(crash.checks[0].witness, HasSubstr("crashed: signal 9"));
     EXPECT_EQ(broken_promises(crash), 0u);
 }
 
 TEST(Check, AThrowBreaksAPromise) {
     const results::Results thrown = checked(
-        touching_triangles(), Ask::triangle_triangle,
+        touching_triangles(), "triangle_triangle",
         made_up(Promise::exact, [](const Scene&, Answers&) { throw std::logic_error("oh"); }));
     EXPECT_EQ(broken_promises(thrown), 1u);
     EXPECT_THAT(promises_text(thrown), HasSubstr("oh"));
@@ -155,14 +165,15 @@ TEST(Check, BoxFamiliesAreHeldAgainstTheirKnownNumberOfPairs) {
     const Scene scene = make_scene(spec);
     const auto all_but = [](std::uint32_t lost) {
         return made_up(Promise::exact, [lost](const Scene& s, Answers& answers) {
-            answers.pairs.clear();
+            std::vector<Pair>& pairs = list_of<Pair>(answers);
+            pairs.clear();
             for (std::uint32_t b = 0; b < s.boxes.size(); ++b)
                 for (std::uint32_t a = 0; a + lost < b; ++a)
-                    answers.pairs.push_back({a, b});
+                    pairs.push_back({a, b});
         });
     };
-    EXPECT_EQ(broken_promises(checked(scene, Ask::pairs, all_but(0))), 0u);
-    const results::Results lost = checked(scene, Ask::pairs, all_but(1));
+    EXPECT_EQ(broken_promises(checked(scene, "pairs", all_but(0))), 0u);
+    const results::Results lost = checked(scene, "pairs", all_but(1));
     EXPECT_EQ(broken_promises(lost), 1u);
     EXPECT_EQ(lost.kernels[0].false_neg, 29u);
 }
@@ -214,7 +225,7 @@ struct CheckCommand : testing::Test {
     }
 };
 
-TEST_F(CheckCommand, WritesAResultFileWithARowPerRungAndScale) {
+TEST_F(CheckCommand, WritesAResultFileWithARowPerKernelAndScale) {
     ASSERT_EQ(run("--only '^slivers/triangle_(triangle|distance)/' --n 50 --out " + out.string()),
               0)
         << text;
@@ -226,13 +237,13 @@ TEST_F(CheckCommand, WritesAResultFileWithARowPerRungAndScale) {
     EXPECT_EQ(r.scenes.size(), 3u);
     EXPECT_EQ(r.kernels.size(), r.cells.size());
     EXPECT_EQ(r.checks.size(), r.cells.size());
-    EXPECT_GE(r.cells.size(),
-              3 * (rungs(Ask::triangle_triangle).size() + rungs(Ask::triangle_distance).size()));
+    EXPECT_GE(r.cells.size(), 3 * (find_task("triangle_triangle")->kernels().size() +
+                                   find_task("triangle_distance")->kernels().size()));
     EXPECT_FALSE(r.conditions.empty());
     for (const results::KernelRow& row : r.kernels) {
         EXPECT_EQ(row.family, "slivers");
         EXPECT_EQ(row.panel, "degenerate");
-        EXPECT_TRUE(row.status == "unsupported" || row.ns_per_call > 0) << row.kernel;
+        EXPECT_TRUE(row.status == results::Status::unsupported || row.ns_per_call > 0) << row.kernel;
     }
 }
 

@@ -18,7 +18,7 @@
 namespace boxwood::bench {
 namespace {
 
-/// libgomp's threads spin for milliseconds after a region unless told not to; google-benchmark
+/// libgomp's threads spin for milliseconds after a region unless set not to; google-benchmark
 /// reads BENCHMARK_* variables as if they were options.
 std::vector<std::string> child_environment(unsigned max_threads) {
     std::vector<std::string> variables;

@@ -22,13 +22,6 @@
 namespace boxwood::bench {
 namespace {
 
-std::string peer_version(std::string_view name) {
-    for (const Peer& peer : peers())
-        if (peer.name == name)
-            return peer.version;
-    return "absent";
-}
-
 std::string highway_version() { return fmt::format("{}.{}.{}", HWY_MAJOR, HWY_MINOR, HWY_PATCH); }
 
 /// Names of the targets in a mask, best (lowest bit) first.
@@ -46,8 +39,8 @@ std::string hash_of(const results::Env& e) {
     add(e.host, e.cpu, e.ncpu, e.l1d_bytes, e.l2_bytes, e.l3_bytes, e.isa_max, e.isa_used);
     add(e.governor, e.thp, e.virt, e.kernel, e.mxcsr);
     add(e.compiler, e.flags, e.build_type, e.git_commit, e.git_dirty);
-    add(e.embree_version, e.fcl_version, e.cgal_version, e.bullet_version, e.tbb_version);
-    add(e.eigen_version, e.hdf5_version, e.gbench_version, e.highway_version);
+    for (const auto& [name, version] : packages())
+        add(name, version);
     return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size()));
 }
 
@@ -93,6 +86,7 @@ std::vector<std::pair<std::string, std::string>> packages() {
     std::vector<std::pair<std::string, std::string>> list{
         {"highway", highway_version()},
         {"tbb", TBB_VERSION_STRING},
+        {"eigen", BOXWOOD_EIGEN_VERSION},
         {"hdf5", BOXWOOD_HDF5_VERSION},
         {"google-benchmark", BOXWOOD_GBENCH_VERSION},
         {"assimp", BOXWOOD_ASSIMP_VERSION},
@@ -107,6 +101,21 @@ std::vector<std::pair<std::string, std::string>> packages() {
     for (const std::string_view name : absent_peers())
         list.emplace_back(name, "absent");
     return list;
+}
+
+std::vector<results::Package> package_rows() {
+    std::vector<results::Package> rows;
+    for (auto& [name, version] : packages()) {
+        results::Package row;
+        row.library = name;
+        row.present = version != "absent";
+        row.version = row.present ? version : "";
+        for (const Peer& peer : peers())
+            if (peer.name == name)
+                row.build = peer.build;
+        rows.push_back(row);
+    }
+    return rows;
 }
 
 std::uint32_t mxcsr() {
@@ -143,15 +152,6 @@ results::Env environment(bool measure_bandwidth) {
     e.build_type = BOXWOOD_BUILD_TYPE;
     e.git_commit = BOXWOOD_GIT_COMMIT;
     e.git_dirty = BOXWOOD_GIT_DIRTY;
-    e.embree_version = peer_version("embree");
-    e.fcl_version = peer_version("fcl");
-    e.cgal_version = peer_version("cgal");
-    e.bullet_version = peer_version("bullet");
-    e.tbb_version = TBB_VERSION_STRING;
-    e.eigen_version = BOXWOOD_EIGEN_VERSION;
-    e.hdf5_version = BOXWOOD_HDF5_VERSION;
-    e.gbench_version = BOXWOOD_GBENCH_VERSION;
-    e.highway_version = highway_version();
     if (measure_bandwidth) {
         e.stream_triad_gbs_1 = triad_gbs(machine, 1);
         e.stream_triad_gbs_all = triad_gbs(machine, machine.cores);

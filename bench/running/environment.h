@@ -11,7 +11,7 @@ namespace boxwood::bench {
 
 /// The machine, the compiler and the libraries as they are now; env_hash covers what must be equal
 /// for two shards to belong together (not load, not time). The memory bandwidth is measured (about
-/// 0.3 s) only if asked for.
+/// 0.3 s) only if wanted.
 results::Env environment(bool measure_bandwidth);
 
 /// The instruction set that Highway picks on this machine ("AVX3_ZEN4", ...): the best of those
@@ -33,7 +33,10 @@ std::string compiler();        ///< "g++ 12.2.0"
 /// Name and version of each library, ours to use and peers alike.
 std::vector<std::pair<std::string, std::string>> packages();
 
-/// The control register of SSE arithmetic (0 elsewhere), and whether it asks for anything but the
+/// The same as rows of a result file, for env_id 0.
+std::vector<results::Package> package_rows();
+
+/// The control register of SSE arithmetic (0 elsewhere), and whether it sets anything but the
 /// IEEE default: rounding to nearest, subnormals kept.
 std::uint32_t mxcsr();
 bool ieee_arithmetic();

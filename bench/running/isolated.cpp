@@ -17,62 +17,35 @@
 namespace boxwood::bench {
 namespace {
 
-/// Everything of an outcome, list by list: a length, then the elements' bytes.
-template <class Body> void for_each_list(Outcome& outcome, const Body& body) {
-    body(outcome.answers.pairs);
-    body(outcome.answers.hits);
-    body(outcome.answers.verdicts);
-    body(outcome.answers.distances);
-    body(outcome.answers.impacts);
-    body(outcome.answers.boxes);
-    body(outcome.failure);
-}
-
-std::string bytes_of(Outcome& outcome) {
-    std::string bytes(reinterpret_cast<const char*>(&outcome.ns), sizeof outcome.ns);
-    for_each_list(outcome, [&]<class List>(List& list) {
-        static_assert(std::is_trivially_copyable_v<typename List::value_type>);
-        const std::size_t n = list.size();
-        bytes.append(reinterpret_cast<const char*>(&n), sizeof n);
-        bytes.append(reinterpret_cast<const char*>(list.data()),
-                     n * sizeof(typename List::value_type));
-    });
-    return bytes;
+/// What the child says: 'd' and the time and the answers, or 't' and why it threw.
+std::string message_of(Answers& answers, const std::function<double(Answers&)>& work) {
+    try {
+        const double ns = work(answers);
+        return "d" + std::string(reinterpret_cast<const char*>(&ns), sizeof ns) + answers.bytes();
+    } catch (const std::exception& error) {
+        return fmt::format("tthrew: {:.500}", error.what());
+    }
 }
 
 /// The inverse; false if bytes are missing.
-bool read_bytes(std::string_view bytes, Outcome& outcome) {
-    const auto take = [&](void* to, std::size_t n) {
-        if (n > bytes.size())
-            return false;
-        if (n > 0)
-            std::memcpy(to, bytes.data(), n);
-        bytes.remove_prefix(n);
+bool read_message(std::string_view message, Answers& answers, Outcome& outcome) {
+    if (message.starts_with('t')) {
+        outcome.failure = message.substr(1);
         return true;
-    };
-    bool good = take(&outcome.ns, sizeof outcome.ns);
-    for_each_list(outcome, [&]<class List>(List& list) {
-        std::size_t n = 0;
-        good = good && take(&n, sizeof n) && n <= bytes.size();
-        if (good)
-            list.resize(n);
-        good = good && take(list.data(), n * sizeof(typename List::value_type));
-    });
-    return good;
+    }
+    if (!message.starts_with('d') || message.size() < 1 + sizeof outcome.ns)
+        return false;
+    std::memcpy(&outcome.ns, message.data() + 1, sizeof outcome.ns);
+    answers.assign_bytes(message.substr(1 + sizeof outcome.ns));
+    return true;
 }
 
-[[noreturn]] void be_child(int pipe, const std::function<void(Outcome&)>& work) {
+[[noreturn]] void be_child(int pipe, Answers& answers,
+                           const std::function<double(Answers&)>& work) {
     dup2(open("/dev/null", O_WRONLY), STDERR_FILENO);
     for (const int fatal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL})
         std::signal(fatal, SIG_DFL);
-    Outcome outcome;
-    try {
-        work(outcome);
-    } catch (const std::exception& error) {
-        outcome = {};
-        outcome.failure = fmt::format("threw: {:.500}", error.what());
-    }
-    const std::string bytes = bytes_of(outcome);
+    const std::string bytes = message_of(answers, work);
     for (std::size_t done = 0; done < bytes.size();) {
         const ssize_t written = write(pipe, bytes.data() + done, bytes.size() - done);
         if (written < 0 && errno != EINTR)
@@ -106,7 +79,7 @@ bool read_all(int pipe, int timeout_s, std::string& bytes) {
 
 } // namespace
 
-Outcome isolated(const std::function<void(Outcome&)>& work, int timeout_s) {
+Outcome isolated(Answers& answers, const std::function<double(Answers&)>& work, int timeout_s) {
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0)
         throw std::system_error(errno, std::generic_category(), "pipe");
@@ -119,7 +92,7 @@ Outcome isolated(const std::function<void(Outcome&)>& work, int timeout_s) {
     }
     if (child == 0) {
         close(ends[0]);
-        be_child(ends[1], work);
+        be_child(ends[1], answers, work);
     }
     close(ends[1]);
     std::string bytes;
@@ -136,7 +109,7 @@ Outcome isolated(const std::function<void(Outcome&)>& work, int timeout_s) {
     else if (WIFSIGNALED(status))
         outcome.failure =
             fmt::format("crashed: signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
-    else if (WEXITSTATUS(status) != 0 || !read_bytes(bytes, outcome))
+    else if (WEXITSTATUS(status) != 0 || !read_message(bytes, answers, outcome))
         outcome.failure = fmt::format("crashed: exit code {}", WEXITSTATUS(status));
     return outcome;
 }

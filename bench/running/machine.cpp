@@ -151,7 +151,7 @@ Machine read_machine(const std::string& lscpu, const path& root) {
 }
 
 double triad_gbs(const Machine& machine, unsigned threads) {
-    // STREAM asks for arrays of four times the last cache; a quarter of the memory must do.
+    // STREAM prescribes arrays of four times the last cache; a quarter of the memory must do.
     constexpr std::uint64_t least = 32 << 20, most = 128 << 20;
     std::uint64_t bytes = std::clamp(4 * machine.l3_bytes.value_or(0), least, most);
     if (machine.memory_bytes)

@@ -1,11 +1,8 @@
 #include "bench/running/prepare.h"
 
 #include "bench/running/calibration.h"
-#include "bench/truth/judging/judge.h"
+#include "bench/running/play.h"
 #include "bench/running/record.h"
-#include "bench/tasks/scene_queries.h"
-#include "bench/io/scene_strip.h"
-#include "bench/tasks/tree_builds.h"
 #include "bench/truth/truth.h"
 #include "trees/inspect/quality.h"
 
@@ -72,9 +69,6 @@ class Preparation {
   private:
     void prepare_scene(const std::vector<const PlannedCell*>& cells) {
         truths_.clear();
-        judges_.clear();
-        moving_truth_.reset();
-        scene_truth_.reset();
         frames_.reset();
         scene_ = make_scene(cells.front()->scene);
         if (scene_.spec.moving) {
@@ -83,13 +77,13 @@ class Preparation {
         }
         quality_of_.clear();
 
-        std::set<std::string_view> asked;
-        for (const PlannedCell* cell : cells)
-            asked.insert(to_string(cell->task));
+        std::set<std::string_view> names;
+        for (const PlannedCell* cell : cells) {
+            names.insert(cell->task->name());
+            out_.texts.merge(cell->task->texts(scene_));
+        }
         const std::uint32_t scene_id =
-            record_.add_scene(scene_, fmt::format("{}", fmt::join(asked, ",")));
-        if (asked.contains(to_string(Ask::scene_queries)))
-            out_.texts.try_emplace("strip_" + scene_.name, scene_strip(*scene_.spec.moving));
+            record_.add_scene(scene_, fmt::format("{}", fmt::join(names, ",")));
         for (const PlannedCell* cell : cells) {
             report_(out_.cells.size(), plan_.cells.size(), cell->name);
             prepare_cell(*cell, scene_id);
@@ -97,218 +91,106 @@ class Preparation {
     }
 
     void prepare_cell(const PlannedCell& cell, std::uint32_t scene_id) {
-        results::Cell row = record_.cell(cell.name, scene_, scene_id, cell.task, cell.contender,
+        results::Cell row = record_.cell(cell.name, scene_, scene_id, *cell.task, cell.contender,
                                          cell.executor, cell.threads);
-        results::Check check;
         const Job job{&scene_, cell.task, cell.executor, cell.threads};
-        const std::optional<std::string> why =
-            cell.contender.unsupported ? cell.contender.unsupported(job) : std::nullopt;
-        if (why) {
-            check.status = "unsupported";
-            check.witness = *why;
+        Judgement judgement;
+        Calibration calibration;
+        if (const std::optional<std::string> why = cell.contender.unsupported(job)) {
+            judgement.status = Status::unsupported;
+            judgement.check.witness = *why;
         } else if (!skip_.contains(cell.name)) {
             try {
-                const Calibration calibration =
-                    is_kernel_ask(cell.task)         ? measure_kernel(cell, job, row.cell_id, check)
-                    : cell.task == Ask::moving_pairs ? measure_moving(cell, job, row.cell_id, check)
-                    : cell.task == Ask::scene_queries   ? measure_scene(cell, job, row.cell_id, check)
-                    : cell.task == Ask::tree         ? measure_tree(cell, job, row.cell_id, check)
-                                                    : measure(cell, job, row.cell_id, check);
+                calibration = measure(cell, job, row.cell_id, judgement);
                 row.iterations = calibration.query_iterations;
                 calibrations_.emplace(cell.name, calibration);
             } catch (const std::exception& error) {
-                check.status = "wrong";
-                check.witness = fmt::format("threw: {:.500}", error.what());
+                judgement = {};
+                judgement.status = Status::wrong;
+                judgement.check.witness = fmt::format("threw: {:.500}", error.what());
             }
         }
-        check.cell_id = row.cell_id;
         out_.cells.push_back(row);
-        if (!check.status.empty())
-            out_.checks.push_back(check);
+        if (!skip_.contains(cell.name) || judgement.status == Status::unsupported)
+            record_.add(std::move(judgement), row.cell_id, calibration.query_ns);
     }
 
+    /// Times each phase, judges the answers, counts the work and measures the structure.
     Calibration measure(const PlannedCell& cell, const Job& job, std::uint32_t cell_id,
-                        results::Check& check) {
-        const Truth& truth = truth_of(cell.task);
+                        Judgement& judgement) {
+        const Task& task = *cell.task;
+        Truth& truth = truth_of(task);
         const KeepFloatingPointMode keep;
         const std::unique_ptr<Contender> contender = cell.contender.make(job);
-        Answers answers;
+        const std::unique_ptr<Answers> answers = task.make_answers();
         Calibration calibration;
-        calibration.build_ns = calibrate_ns(target_ns_, [&] { contender->build(); });
-        calibration.query_ns = calibrate_ns(target_ns_, [&] { contender->query(answers); });
-        calibration.build_iterations = iterations_for(target_ns_, calibration.build_ns);
-        calibration.query_iterations = iterations_for(target_ns_, calibration.query_ns);
-        check = truth.check(answers);
-        check.result_hash = answer_hash(answers, cell.task);
-        if (cell.task == Ask::triangle_pairs)
-            add_kernel_row(cell, cell_id, check);
+        if (task.phases() == Phases::query) {
+            contender->build();
+            calibration.build_iterations = 0;
+        } else {
+            calibration.build_ns = calibrate_ns(target_ns_, [&] { contender->build(); });
+            calibration.build_iterations = iterations_for(target_ns_, calibration.build_ns);
+        }
+        std::uint64_t hash = 0;
+        if (task.phases() == Phases::frames) {
+            hash = measure_frames(cell, *contender, *answers, truth, calibration, cell_id);
+        } else if (task.phases() == Phases::build) {
+            contender->query(*answers);
+            calibration.query_iterations = 0;
+        } else {
+            calibration.query_ns = calibrate_ns(target_ns_, [&] { contender->query(*answers); });
+        }
+        if (task.phases() != Phases::build)
+            calibration.query_iterations = iterations_for(target_ns_, calibration.query_ns);
 
-        count(cell.task, *contender, answers, cell_id, check);
+        judgement = truth.judge(*answers, cell.contender);
+        judgement.check.result_hash = task.phases() == Phases::frames ? hash : task.hash(*answers);
+        count(task, *contender, *answers, cell_id, judgement);
         if (const auto structure = contender->structure()) {
             out_.counters.push_back({cell_id, "bytes", structure->bytes});
-            if (structure->tree && !structure->tree->empty())
-                add_tree(cell.contender.builder, *structure->tree, cell_id);
+            if (structure->tree && !structure->tree->empty() && !judgement.has_faulty_tree)
+                add_tree(cell.contender.is_peer ? cell.contender.name : cell.contender.builder,
+                         *structure->tree, cell_id);
         }
         return calibration;
     }
 
-    /// A tree of which nothing is asked: all its time is in the build.
-    Calibration measure_tree(const PlannedCell& cell, const Job& job, std::uint32_t cell_id,
-                             results::Check& check) {
-        const KeepFloatingPointMode keep;
-        const std::unique_ptr<Contender> contender = cell.contender.make(job);
-        Calibration calibration;
-        calibration.query_iterations = 0;
-        calibration.build_ns = calibrate_ns(target_ns_, [&] { contender->build(); });
-        calibration.build_iterations = iterations_for(target_ns_, calibration.build_ns);
-        check = check_tree(*contender, scene_);
-        const StructureInfo structure = contender->structure().value();
-        out_.counters.push_back({cell_id, "bytes", structure.bytes});
-        if (check.status == "exact" && !structure.tree->empty())
-            add_tree(cell.contender.is_peer ? cell.contender.name : cell.contender.builder,
-                     *structure.tree, cell_id);
-        return calibration;
-    }
-
-    /// The query of a moving scene is a pass through all of its frames, updates included.
-    Calibration measure_moving(const PlannedCell& cell, const Job& job, std::uint32_t cell_id,
-                               results::Check& check) {
-        if (!moving_truth_)
-            moving_truth_.emplace(*frames_, std::max(1u, std::thread::hardware_concurrency()));
-        const KeepFloatingPointMode keep;
-        const std::unique_ptr<Contender> contender = cell.contender.make(job);
-        Answers answers;
+    /// The query of a moving scene is a pass through all of its frames, updates included: one that
+    /// is judged, and one that is timed. Gives the hash of all answers.
+    std::uint64_t measure_frames(const PlannedCell& cell, Contender& contender, Answers& answers,
+                                 Truth& truth, Calibration& calibration, std::uint32_t cell_id) {
+        Frames* const frames = cell.task->plays_own_frames() ? nullptr : &*frames_;
         FramesHash hash;
         std::vector<FrameTime> times(frames_->size());
-        Calibration calibration;
-        calibration.build_ns = calibrate_ns(target_ns_, [&] { contender->build(); });
         std::uint64_t moved = 0;
-        play(*contender, *frames_, answers, times, [&](std::size_t index, const Frame& frame) {
+        play(contender, frames, answers, times, [&](std::size_t index, const Frame& frame) {
             moved += frame.moved.size();
-            hash.add(answers.pairs);
-            moving_truth_->check(index, frame, answers, check);
+            hash.add(cell.task->hash(answers));
+            truth.note_frame(index, frame, answers, cell.contender);
         });
-        contender->build();
+        contender.build();
         std::ranges::fill(times, FrameTime{});
-        play(*contender, *frames_, answers, times, [](std::size_t, const Frame&) {});
+        play(contender, frames, answers, times, [](std::size_t, const Frame&) {});
         for (const FrameTime& time : times)
             calibration.query_ns += time.update_ns + time.query_ns;
-        calibration.build_iterations = iterations_for(target_ns_, calibration.build_ns);
-        calibration.query_iterations = iterations_for(target_ns_, calibration.query_ns);
-
-        check.result_hash = hash.value();
-        const PairsDigest last = digest_of(answers.pairs);
-        const auto add = [&](std::string counter, std::uint64_t value) {
-            out_.counters.push_back({cell_id, std::move(counter), value});
-        };
-        add("pairs", answers.pairs.size());
-        add("items_moved", moved); // in all frames
-        for (const NamedCount& count : contender->more_counts())
-            add(count.name, count.value);
-        if (const auto structure = contender->structure())
-            add("bytes", structure->bytes);
-        if (const std::optional<Work> work = contender->counted_query(answers)) {
-            add("node_visits", work->node_visits);
-            add("box_tests", work->box_tests);
-            add("stack_max", work->stack_max);
-            if (digest_of(answers.pairs) != last) {
-                check.status = "wrong";
-                check.witness = "the counted pass answered otherwise than the timed one";
-            }
-        }
-        return calibration;
+        if (frames)
+            out_.counters.push_back({cell_id, "items_moved", moved}); // in all frames
+        return hash.value();
     }
 
-    /// The same of all that a scene asks.
-    Calibration measure_scene(const PlannedCell& cell, const Job& job, std::uint32_t cell_id,
-                              results::Check& check) {
-        if (!scene_truth_)
-            scene_truth_.emplace(scene_.spec.moving,
-                                 std::max(1u, std::thread::hardware_concurrency()));
-        const KeepFloatingPointMode keep;
-        const std::unique_ptr<Contender> contender = cell.contender.make(job);
-        auto& stages = dynamic_cast<StagesContender&>(*contender);
-        std::vector<FrameTime> times(frames_->size());
-        Calibration calibration;
-        calibration.build_ns = calibrate_ns(target_ns_, [&] { contender->build(); });
-        check.result_hash = scene_truth_->check(stages, cell.contender.name, times, check);
-        contender->build();
-        std::ranges::fill(times, FrameTime{});
-        play_scene(stages, times.size(), times, [](std::size_t, const FrameAnswers&) {});
-        for (const FrameTime& time : times)
-            calibration.query_ns += time.update_ns + time.query_ns;
-        calibration.build_iterations = iterations_for(target_ns_, calibration.build_ns);
-        calibration.query_iterations = iterations_for(target_ns_, calibration.query_ns);
-        out_.counters.push_back({cell_id, "pairs", stages.frame_answers().pairs.size()});
-        return calibration;
-    }
-
-    /// A kernel has nothing to build: all its time is in the query.
-    Calibration measure_kernel(const PlannedCell& cell, const Job& job, std::uint32_t cell_id,
-                               results::Check& check) {
-        Judge& judge = judge_of(cell.task);
-        const KeepFloatingPointMode keep;
-        const std::unique_ptr<Contender> contender = cell.contender.make(job);
-        contender->build();
-        Answers answers;
-        Calibration calibration;
-        calibration.build_iterations = 0;
-        calibration.query_ns = calibrate_ns(target_ns_, [&] { contender->query(answers); });
-        calibration.query_iterations = iterations_for(target_ns_, calibration.query_ns);
-
-        Judgement judgement = judge.judge(answers, cell.contender);
-        judgement.kernel.ns_per_call =
-            calibration.query_ns /
-            static_cast<double>(std::max<std::uint64_t>(1, items_of(scene_)));
-        check = judgement.check;
-        check.result_hash = answer_hash(answers, cell.task);
-        record_.add(std::move(judgement), cell_id);
-        return calibration;
-    }
-
-    void count(Ask ask, Contender& contender, Answers& answers, std::uint32_t cell_id,
-               results::Check& check) {
-        const bool is_rays = is_ray_ask(ask);
-        const std::uint64_t found =
-            is_rays && ask != Ask::rays_all
-                ? static_cast<std::uint64_t>(std::ranges::count_if(
-                      answers.hits, [](const RayHit& hit) { return hit.hit(); }))
-                : answers.pairs.size() + answers.neighbours.size() + answers.surface_points.size();
-        const auto add = [&](const char* counter, std::uint64_t value) {
-            out_.counters.push_back({cell_id, counter, value});
-        };
-        const bool is_nearest = ask == Ask::nearest || ask == Ask::closest_points;
-        add(is_rays || is_nearest ? "hits" : "pairs", found);
+    /// In a pass of its own, which must answer as the timed one.
+    void count(const Task& task, Contender& contender, Answers& answers, std::uint32_t cell_id,
+               Judgement& judgement) {
+        const std::uint64_t timed = task.hash(answers);
         const std::optional<Work> work = contender.counted_query(answers);
-        if (!work)
-            return;
-        add("node_visits", work->node_visits);
-        add("box_tests", work->box_tests);
-        if (is_rays || ask == Ask::triangle_pairs || ask == Ask::closest_points)
-            add("triangle_tests", work->triangle_tests);
-        add("stack_max", work->stack_max);
-        if (answer_hash(answers, ask) != check.result_hash) {
-            check.status = "wrong";
-            check.witness = "the counted pass answered otherwise than the timed one";
+        for (const std::vector<NamedCount>& counts :
+             {task.counters(answers, work ? &*work : nullptr), contender.more_counts()})
+            for (const NamedCount& count : counts)
+                out_.counters.push_back({cell_id, count.name, count.value});
+        if (work && task.hash(answers) != timed) {
+            judgement.status = Status::wrong;
+            judgement.check.witness = "the counted pass answered otherwise than the timed one";
         }
-    }
-
-    /// Whole queries are rows of the kernel they use, too: what its wrong answers come to.
-    void add_kernel_row(const PlannedCell& cell, std::uint32_t cell_id,
-                        const results::Check& check) {
-        results::KernelRow row;
-        row.cell_id = cell_id;
-        row.family = "typical";
-        row.panel = to_string(Panel::generic);
-        row.task = to_string(cell.task);
-        row.kernel = cell.contender.kernel.empty() ? cell.contender.name : cell.contender.kernel;
-        row.promise = to_string(cell.contender.promise);
-        row.n = row.tier_0 = check.n_expected;
-        row.false_pos = check.extra;
-        row.false_neg = check.missing;
-        row.status = check.status;
-        row.witness = check.witness;
-        out_.kernels.push_back(std::move(row));
     }
 
     /// One measurement per builder and scene: the tree is the same in all of its cells.
@@ -323,18 +205,11 @@ class Preparation {
                               q.overlap});
     }
 
-    const Truth& truth_of(Ask ask) {
-        std::unique_ptr<Truth>& truth = truths_[ask];
+    Truth& truth_of(const Task& task) {
+        std::unique_ptr<Truth>& truth = truths_[&task];
         if (!truth)
-            truth = make_truth(scene_, ask, std::max(1u, std::thread::hardware_concurrency()));
+            truth = task.make_truth(scene_, std::max(1u, std::thread::hardware_concurrency()));
         return *truth;
-    }
-
-    Judge& judge_of(Ask ask) {
-        std::unique_ptr<Judge>& judge = judges_[ask];
-        if (!judge)
-            judge = make_judge(scene_, ask, std::max(1u, std::thread::hardware_concurrency()));
-        return *judge;
     }
 
     const Plan& plan_;
@@ -346,11 +221,8 @@ class Preparation {
     Calibrations calibrations_;
     // Of the scene at hand.
     Scene scene_;
-    std::map<Ask, std::unique_ptr<Truth>> truths_;
-    std::map<Ask, std::unique_ptr<Judge>> judges_;
-    std::optional<Frames> frames_; ///< of a scene that moves
-    std::optional<MovingTruth> moving_truth_;
-    std::optional<SceneTruth> scene_truth_;
+    std::map<const Task*, std::unique_ptr<Truth>> truths_;
+    std::optional<Frames> frames_;              ///< of a scene that moves
     std::map<std::string, Quality> quality_of_; ///< by builder
 };
 
@@ -375,7 +247,7 @@ bool mark_crashed(results::Results& prepared, const std::string& cell, const std
         results::Check& check = *seen;
         is_new |= check.witness != witness;
         check.cell_id = row.cell_id;
-        check.status = "wrong";
+        check.status = Status::wrong;
         check.witness = witness;
     }
     return is_new;

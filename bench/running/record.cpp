@@ -1,5 +1,6 @@
 #include "bench/running/record.h"
 
+#include "bench/running/environment.h"
 #include "scenes/moving/frames.h"
 
 #include <fmt/chrono.h>
@@ -33,9 +34,10 @@ Record::Record(const results::Env& env, std::string generator) {
         fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::now()));
     out.generator = std::move(generator);
     out.env.push_back(env);
+    out.packages = package_rows();
 }
 
-std::uint32_t Record::add_scene(const Scene& scene, std::string asks) {
+std::uint32_t Record::add_scene(const Scene& scene, std::string tasks) {
     results::SceneRow row;
     row.scene_id = static_cast<std::uint32_t>(out.scenes.size());
     row.name = scene.name;
@@ -47,7 +49,7 @@ std::uint32_t Record::add_scene(const Scene& scene, std::string asks) {
         row.effects = effect_names(*scene.spec.moving);
     }
     row.seed = scene.spec.seed;
-    row.queries = std::move(asks);
+    row.queries = std::move(tasks);
     if (scene.spec.moving)
         row.queries += ',' + query_names(*scene.spec.moving);
     row.content_hash = scene.content_hash;
@@ -56,17 +58,17 @@ std::uint32_t Record::add_scene(const Scene& scene, std::string asks) {
     return row.scene_id;
 }
 
-results::Cell Record::cell(std::string name, const Scene& scene, std::uint32_t scene_id, Ask ask,
-                           const ContenderEntry& contender, const std::string& executor,
-                           unsigned threads) {
+results::Cell Record::cell(std::string name, const Scene& scene, std::uint32_t scene_id,
+                           const Task& task, const ContenderEntry& contender,
+                           const std::string& executor, unsigned threads) {
     results::Cell row;
     row.cell_id = static_cast<std::uint32_t>(out.cells.size());
     row.name = std::move(name);
     row.scene_id = scene_id;
     row.variant_id = variant_id_of(contender);
-    row.task = to_string(ask);
+    row.task = task.name();
     row.n_items = items_of(scene);
-    row.n_queries = is_kernel_ask(ask) ? row.n_items : scene.rays.size();
+    row.n_queries = task.n_queries(scene);
     row.precision = contender.precision;
     row.executor = executor;
     row.threads = threads;
@@ -74,13 +76,22 @@ results::Cell Record::cell(std::string name, const Scene& scene, std::uint32_t s
     return row;
 }
 
-void Record::add(Judgement judgement, std::uint32_t cell_id) {
-    judgement.kernel.cell_id = cell_id;
-    out.kernels.push_back(std::move(judgement.kernel));
+void Record::add(Judgement judgement, std::uint32_t cell_id, double query_ns) {
+    judgement.check.cell_id = cell_id;
+    judgement.check.status = judgement.status;
+    if (judgement.kernel) {
+        results::KernelRow& row = *judgement.kernel;
+        row.cell_id = cell_id;
+        row.status = judgement.check.status;
+        if (judgement.calls > 0)
+            row.ns_per_call = query_ns / static_cast<double>(judgement.calls);
+        out.kernels.push_back(std::move(row));
+    }
     for (results::ConditionRow& row : judgement.conditions) {
         row.cell_id = cell_id;
         out.conditions.push_back(row);
     }
+    out.checks.push_back(std::move(judgement.check));
 }
 
 std::uint32_t Record::variant_id_of(const ContenderEntry& contender) {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "bench/tasks/contender.h"
-#include "bench/truth/judging/judge.h"
+#include "bench/tasks/task.h"
+#include "bench/truth/truth.h"
 #include "results/results.h"
 
 #include <cfenv>
@@ -16,15 +16,15 @@ class Record {
     /// A run that starts now. generator: the command.
     Record(const results::Env& env, std::string generator);
 
-    /// Of a scene with its cells asked for `asks` (comma-separated words); gives its scene_id.
-    std::uint32_t add_scene(const Scene& scene, std::string asks);
+    /// Of a scene on which these tasks are done (comma-separated); gives its scene_id.
+    std::uint32_t add_scene(const Scene& scene, std::string tasks);
     /// The row of a cell that is about to be added. Adds the contender's variant if it is new.
-    results::Cell cell(std::string name, const Scene& scene, std::uint32_t scene_id, Ask ask,
-                       const ContenderEntry& contender, const std::string& executor,
-                       unsigned threads);
+    results::Cell cell(std::string name, const Scene& scene, std::uint32_t scene_id,
+                       const Task& task, const ContenderEntry& contender,
+                       const std::string& executor, unsigned threads);
 
-    /// The kernel row and the condition rows of a cell; its check is the caller's.
-    void add(Judgement judgement, std::uint32_t cell_id);
+    /// Check, kernel row and condition rows of a cell, whose query took so long.
+    void add(Judgement judgement, std::uint32_t cell_id, double query_ns);
 
     results::Results out;
 

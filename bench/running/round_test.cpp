@@ -4,9 +4,10 @@
 
 #include "bench/running/calibration.h"
 #include "bench/running/prepare.h"
-#include "bench/tasks/kernels/kernels.h"
+#include "bench/tasks/task.h"
 #include "scenes/moving/frames.h"
 #include "trees/dynamic/update.h"
+#include "trees/queries/pairs.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -24,14 +25,14 @@ namespace {
 /// What a made-up contender does wrong.
 enum class Fault { none, loses_a_pair, loses_a_pair_later, throws, cannot, counts_otherwise };
 
-int alive = 0, most_alive = 0;
+int alive = 0, max_alive = 0;
 
 /// All pairs of four boxes by comparing each with each.
 class Made final : public Contender {
   public:
     Made(const Job& job, Fault fault, int& queries)
         : scene_(*job.scene), fault_(fault), queries_(queries) {
-        most_alive = std::max(most_alive, ++alive);
+        max_alive = std::max(max_alive, ++alive);
     }
     ~Made() override { --alive; }
     void build() override { std::this_thread::sleep_for(std::chrono::microseconds(50)); }
@@ -39,19 +40,20 @@ class Made final : public Contender {
         ++queries_;
         if (fault_ == Fault::throws)
             throw std::runtime_error("no more\nmemory");
-        answers.pairs.clear();
+        std::vector<Pair>& pairs = list_of<Pair>(answers);
+        pairs.clear();
         for (std::uint32_t b = 0; b < scene_.boxes.size(); ++b)
             for (std::uint32_t a = 0; a < b; ++a)
                 if (overlaps(scene_.boxes[a], scene_.boxes[b]))
-                    answers.pairs.push_back({a, b});
+                    pairs.push_back({a, b});
         if (fault_ == Fault::loses_a_pair || (fault_ == Fault::loses_a_pair_later && is_late))
-            answers.pairs.pop_back();
+            pairs.pop_back();
     }
     std::optional<Work> counted_query(Answers& answers) override {
         query(answers);
         if (fault_ == Fault::counts_otherwise)
-            answers.pairs.pop_back();
-        return Work{5, 6, 0, answers.pairs.size(), 2};
+            list_of<Pair>(answers).pop_back();
+        return Work{5, 6, 0, answers.size(), 2};
     }
     std::optional<StructureInfo> structure() const override { return StructureInfo{123, nullptr}; }
 
@@ -74,7 +76,7 @@ struct RoundTest : testing::Test {
         plan.sweep_hash = "hash";
         env.env_hash = "machine";
         Made::is_late = false;
-        alive = most_alive = 0;
+        alive = max_alive = 0;
     }
 
     void add(const std::string& name, Fault fault, bool is_peer = false) {
@@ -85,12 +87,13 @@ struct RoundTest : testing::Test {
         cell.contender.name = name;
         cell.contender.library = is_peer ? "brute_force" : "boxwood";
         cell.contender.is_peer = is_peer;
-        cell.contender.unsupported = [fault](const Job&) -> std::optional<std::string> {
+        cell.contender.cannot = [fault](const Job&) -> std::optional<std::string> {
             return fault == Fault::cannot ? std::optional("has no arms") : std::nullopt;
         };
-        cell.contender.make = [this, name, fault](const Job& job) {
-            return std::make_unique<Made>(job, fault, queries[name]);
-        };
+        cell.contender.answers = {{"pairs", [this, name, fault](const Job& job) {
+                                       return std::make_unique<Made>(job, fault, queries[name]);
+                                   }}};
+        cell.task = find_task("pairs");
         cell.executor = "serial";
         plan.cells.push_back(cell);
     }
@@ -126,17 +129,17 @@ TEST_F(RoundTest, PreparationChecksCountsAndCalibrates) {
     EXPECT_EQ(r.scenes.size(), 1u);
     EXPECT_EQ(r.variants.size(), 6u);
     EXPECT_TRUE(r.samples.empty());
-    EXPECT_EQ(check_of(r, "right")->status, "exact");
+    EXPECT_EQ(check_of(r, "right")->status, results::Status::exact);
     EXPECT_NE(check_of(r, "right")->result_hash, 0u);
-    EXPECT_EQ(check_of(r, "wrong")->status, "wrong");
+    EXPECT_EQ(check_of(r, "wrong")->status, results::Status::wrong);
     EXPECT_EQ(check_of(r, "wrong")->missing, 1u);
-    EXPECT_EQ(check_of(r, "throws")->status, "wrong");
+    EXPECT_EQ(check_of(r, "throws")->status, results::Status::wrong);
     EXPECT_EQ(check_of(r, "throws")->witness, "threw: no more\nmemory");
-    EXPECT_EQ(check_of(r, "cannot")->status, "unsupported");
+    EXPECT_EQ(check_of(r, "cannot")->status, results::Status::unsupported);
     EXPECT_EQ(check_of(r, "cannot")->witness, "has no arms");
     EXPECT_EQ(check_of(r, "skipped"), nullptr);
     EXPECT_EQ(queries["skipped"], 0);
-    EXPECT_EQ(check_of(r, "counts")->status, "wrong");
+    EXPECT_EQ(check_of(r, "counts")->status, results::Status::wrong);
 
     const Calibrations calibrations = calibrations_of(r.texts.at("calibration"));
     EXPECT_EQ(calibrations.size(), 3u); // wrong ones are timed too; nobody ranks them
@@ -161,7 +164,7 @@ TEST_F(RoundTest, ARoundTimesEveryCellOnceAndTheAaCellTwice) {
     add("throws", Fault::throws);
     const results::Results p = prepared();
     const std::string aa = choose_aa(p, calibrations_of(p.texts.at("calibration")));
-    most_alive = 0;
+    max_alive = 0;
     std::set<std::vector<std::uint32_t>> orders;
     for (const unsigned round : {0u, 1u, 2u, 0u}) {
         reported.clear();
@@ -177,7 +180,7 @@ TEST_F(RoundTest, ARoundTimesEveryCellOnceAndTheAaCellTwice) {
             const results::Sample& s = r.samples[i];
             EXPECT_EQ(s.position, i);
             EXPECT_EQ(s.round, round);
-            EXPECT_EQ(s.phase, i % 2 ? "query" : "build");
+            EXPECT_EQ(s.phase, i % 2 ? results::Phase::query : results::Phase::build);
             EXPECT_EQ(s.cell_id, r.samples[i & ~std::size_t{1}].cell_id);
             EXPECT_FALSE(s.flags & results::wrong_answer);
             const std::string& name = r.cells[s.cell_id].name;
@@ -195,7 +198,7 @@ TEST_F(RoundTest, ARoundTimesEveryCellOnceAndTheAaCellTwice) {
         orders.insert(order);
     }
     EXPECT_EQ(orders.size(), 3u); // another order in each round, the same one again for round 0
-    EXPECT_EQ(most_alive, 1);
+    EXPECT_EQ(max_alive, 1);
     EXPECT_EQ(alive, 0);
 }
 
@@ -205,7 +208,7 @@ TEST_F(RoundTest, AnotherAnswerThanTheCheckedOneIsFlagged) {
     const results::Results p = prepared();
     Made::is_late = true;
     for (const results::Sample& s : run_round(plan, p, 0, report()).samples)
-        EXPECT_EQ((s.flags & results::wrong_answer) != 0, s.cell_id == 1 && s.phase == "query");
+        EXPECT_EQ((s.flags & results::wrong_answer) != 0, s.cell_id == 1 && s.phase == results::Phase::query);
 }
 
 TEST_F(RoundTest, ACrashedCellIsOutAndSaysWhy) {
@@ -216,7 +219,7 @@ TEST_F(RoundTest, ACrashedCellIsOutAndSaysWhy) {
     EXPECT_TRUE(mark_crashed(p, "a", "crashed: signal 6 in round 2"));
     EXPECT_FALSE(mark_crashed(p, "a", "crashed: signal 6 in round 2"));
     for (const char* name : {"a", "b"}) {
-        EXPECT_EQ(check_of(p, name)->status, "wrong");
+        EXPECT_EQ(check_of(p, name)->status, results::Status::wrong);
         EXPECT_TRUE(check_of(p, name)->witness.starts_with("crashed: signal"));
     }
     EXPECT_EQ(p.checks.size(), 2u);
@@ -226,7 +229,7 @@ TEST_F(RoundTest, ACrashedCellIsOutAndSaysWhy) {
 TEST_F(RoundTest, WhatAContenderThrowsInARoundComesOut) {
     add("a", Fault::none);
     const results::Results p = prepared();
-    plan.cells[0].contender.make = [this](const Job& job) {
+    plan.cells[0].contender.answers[0].make = [this](const Job& job) {
         return std::make_unique<Made>(job, Fault::throws, queries["a"]);
     };
     EXPECT_THROW(run_round(plan, p, 0, report()), std::runtime_error);
@@ -237,10 +240,10 @@ TEST_F(RoundTest, KernelsAreJudgedAndHaveAQueryAlone) {
     cell.scene.generator = "generic_triangles";
     cell.scene.n = 20;
     cell.executor = "serial";
-    for (const Ask ask : {Ask::triangle_triangle, Ask::triangle_distance}) {
-        cell.task = ask;
-        cell.contender = rung_contender(ask, "rational");
-        cell.name = std::string(to_string(ask));
+    for (const char* name : {"triangle_triangle", "triangle_distance"}) {
+        cell.task = find_task(name);
+        cell.contender = cell.task->kernel_contender("rational");
+        cell.name = name;
         plan.cells.push_back(cell);
     }
     add("tree", Fault::none);
@@ -248,20 +251,20 @@ TEST_F(RoundTest, KernelsAreJudgedAndHaveAQueryAlone) {
     ASSERT_EQ(r.kernels.size(), 2u);
     EXPECT_EQ(r.kernels[0].family, "generic_triangles");
     EXPECT_EQ(r.kernels[0].n, 20u);
-    EXPECT_EQ(r.kernels[0].status, "exact");
+    EXPECT_EQ(r.kernels[0].status, results::Status::exact);
     EXPECT_GT(r.kernels[0].ns_per_call, 0);
     EXPECT_EQ(r.kernels[1].cell_id, 1u);
     EXPECT_FALSE(r.conditions.empty());
     EXPECT_EQ(r.conditions[0].cell_id, 1u);
-    EXPECT_EQ(check_of(r, "triangle_triangle")->status, "exact");
+    EXPECT_EQ(check_of(r, "triangle_triangle")->status, results::Status::exact);
     EXPECT_EQ(r.cells[0].n_items, 20u);
     EXPECT_EQ(r.cells[0].n_queries, 20u);
 
     const results::Results round = run_round(plan, r, 0, report());
     std::multiset<std::string> phases;
     for (const results::Sample& sample : round.samples) {
-        phases.insert(fmt::format("{} {}", sample.cell_id, sample.phase));
-        EXPECT_EQ(sample.flags & results::wrong_answer, 0u) << sample.phase;
+        phases.insert(fmt::format("{} {}", sample.cell_id, to_string(sample.phase)));
+        EXPECT_EQ(sample.flags & results::wrong_answer, 0u) << to_string(sample.phase);
     }
     // The A/A cell, one of ours, is there twice.
     EXPECT_EQ(phases.count("0 build") + phases.count("1 build"), 0u);
@@ -287,7 +290,7 @@ class Follower final : public Contender {
             return std::nullopt;
         const std::optional<Work> work = policy_->counted_query(answers);
         if (fault_ == Fault::counts_otherwise && Made::is_late && frame_ == 2)
-            answers.pairs.pop_back();
+            list_of<Pair>(answers).pop_back();
         return work;
     }
     std::optional<StructureInfo> structure() const override {
@@ -312,8 +315,8 @@ TEST_F(RoundTest, Round0CountsTheFramesOfMovingScenes) {
     for (const Fault fault : {Fault::cannot, Fault::counts_otherwise}) {
         PlannedCell cell = plan.cells[1];
         cell.name = fault == Fault::cannot ? "cannot" : "counts_otherwise";
-        cell.contender.make = [fault, make = plan.cells[1].contender.make](const Job& job) {
-            return std::make_unique<Follower>(make(job), fault);
+        cell.contender.answers[0].make = [fault, policy = plan.cells[1].contender](const Job& job) {
+            return std::make_unique<Follower>(policy.make(job), fault);
         };
         plan.cells.push_back(cell);
     }
@@ -354,7 +357,7 @@ TEST_F(RoundTest, Round0CountsTheFramesOfMovingScenes) {
         for (const results::Sample& sample : round->samples)
             EXPECT_EQ((sample.flags & results::wrong_answer) != 0,
                       round == &counted && sample.cell_id == policies.size() + 1 &&
-                          sample.phase != "build" && !(sample.flags & results::aa_twin));
+                          sample.phase != results::Phase::build && !(sample.flags & results::aa_twin));
 }
 
 TEST_F(RoundTest, ACellWithFewerRoundsIsNotInTheLaterOnes) {

@@ -3,10 +3,11 @@
 #include "bench/running/calibration.h"
 #include "bench/running/child.h"
 #include "bench/io/bad_input.h"
-#include "bench/analysis/compare.h"
+#include "bench/analysis/analyse.h"
 #include "bench/io/csv.h"
 #include "bench/running/environment.h"
-#include "bench/analysis/findings.h"
+#include "bench/analysis/promises.h"
+#include "bench/analysis/screen.h"
 #include "bench/running/prepare.h"
 #include "bench/running/shards.h"
 
@@ -234,7 +235,7 @@ class Sweep {
         merged_.texts["argv"] = options_.command_line;
         merged_.texts["lscpu"] = lscpu_text();
         merged_.texts["cmake_cache"] = cmake_cache_text();
-        merged_.compare = compare_to_peers(merged_, plan_.delta);
+        analyse(merged_, plan_.delta);
         const fs::path merged_file = shards_.folder() / "merged.h5";
         results::write(merged_file, merged_);
         fs::rename(merged_file, options_.out);
@@ -256,8 +257,7 @@ class Sweep {
         write_output();
         shards_.remove();
         progress_.say("");
-        fmt::print("{}", findings_text(merged_));
-        fmt::print("\nresults: {}\n", options_.out.string());
+        fmt::print("{}{}", screen_text(merged_), paths_text(options_.out));
         return is_promise_broken(merged_) ? exit_failed : exit_success;
     }
 

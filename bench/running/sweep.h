@@ -35,7 +35,7 @@ struct ChildOptions {
     int report_fd = -1;
 };
 
-/// Gives an exit code; what goes wrong is told to the parent.
+/// Gives an exit code; what goes wrong is reported to the parent.
 int run_sweep_child(const ChildOptions& options);
 
 } // namespace boxwood::bench

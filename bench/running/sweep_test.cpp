@@ -178,12 +178,15 @@ TEST_F(SweepTest, MeasuresChecksAndCleansUp) {
     EXPECT_EQ(r.samples.size(), 3u * 2 * (3 + 1)); // rounds, phases, cells and the A/A twin
     EXPECT_EQ(r.checks.size(), 3u);
     for (const results::Check& check : r.checks)
-        EXPECT_EQ(check.status, "exact");
+        EXPECT_EQ(check.status, results::Status::exact);
     EXPECT_EQ(r.trees.size(), 2u);
     EXPECT_EQ(r.env.size(), 1u);
     EXPECT_FALSE(r.compare.empty());
+    EXPECT_EQ(r.health.size(), 1u);
+    EXPECT_FALSE(r.medians.empty());
+    EXPECT_FALSE(r.packages.empty());
     EXPECT_FALSE(fs::exists(out().string() + ".shards"));
-    EXPECT_THAT(text_of(log()), HasSubstr("brute_force"));
+    EXPECT_THAT(text_of(log()), HasSubstr("brute force"));
     EXPECT_THAT(text_of(log()), testing::Not(HasSubstr("DEBUG")));
 }
 
@@ -197,16 +200,17 @@ TEST_F(SweepTest, KernelsAreTimedWhereTheyErrAndJudgedByTheirPromise) {
     EXPECT_FALSE(r.conditions.empty());
     std::set<std::uint32_t> wrong, timed;
     for (const results::KernelRow& row : r.kernels)
-        if (row.status == "wrong")
+        if (row.status == results::Status::wrong)
             wrong.insert(row.cell_id);
     for (const results::Sample& sample : r.samples) {
-        EXPECT_EQ(sample.phase, "query");
+        EXPECT_EQ(sample.phase, results::Phase::query);
         timed.insert(sample.cell_id);
     }
     EXPECT_FALSE(wrong.empty()); // plain doubles do not get these right
     EXPECT_TRUE(std::ranges::includes(timed, wrong));
-    EXPECT_THAT(text_of(log()), HasSubstr("cheapest rung with no wrong answer on these cases: "));
-    EXPECT_THAT(text_of(log()), HasSubstr("Every promise is kept."));
+    EXPECT_THAT(text_of(log()), HasSubstr("kernels on hard cases"));
+    EXPECT_FALSE(r.kernel_costs.empty());
+    EXPECT_EQ(r.health.at(0).broken_promises, 0u);
 }
 
 TEST_F(SweepTest, MoreRoundsExtendAndShardsShareThem) {
@@ -279,7 +283,7 @@ TEST_F(SweepTest, ACellThatCrashesTwiceIsLeftOut) {
     EXPECT_EQ(wait_for(parent), 1) << text_of(log());
     const results::Results r = results::read(out());
     ASSERT_EQ(r.checks.size(), 1u);
-    EXPECT_EQ(r.checks[0].status, "wrong");
+    EXPECT_EQ(r.checks[0].status, results::Status::wrong);
     EXPECT_THAT(r.checks[0].witness, HasSubstr("crashed: signal 9"));
     EXPECT_EQ(rounds_in(r).size(), 3u);
     EXPECT_TRUE(r.samples.empty());

@@ -8,12 +8,12 @@ namespace boxwood::bench {
 namespace {
 
 /// What the frame has changed, for the stages after this: not bodies that were absent and are,
-/// whatever effects do to them, unless everything is on.
+/// whatever effects do to them, unless all stages run.
 class FrameEnd {
   public:
     void start(const Playing& playing) {
         was_present_.clear();
-        if (playing.scene.changes().presence && !playing.is_everything())
+        if (playing.scene.changes().presence && !playing.is_full())
             was_present_ = playing.scene.bodies().present;
     }
     void end(Playing& playing) {
@@ -65,11 +65,11 @@ class Advance final : public SceneStage {
     FrameEnd end_;
 };
 
-/// Bodies with a velocity; with everything on, all.
+/// Bodies with a velocity; of the extent all_stages, all.
 class Move final : public SceneStage {
   public:
     std::size_t start(Playing& playing) override {
-        if (playing.is_everything() && all_.empty()) {
+        if (playing.is_full() && all_.empty()) {
             all_.resize(playing.scene.bodies().size());
             std::iota(all_.begin(), all_.end(), 0u);
         }
@@ -77,11 +77,11 @@ class Move final : public SceneStage {
         return 0;
     }
     std::size_t run(Playing& playing) override {
-        const auto moving = playing.is_everything() ? std::span<const std::uint32_t>(all_)
-                                                    : playing.scene.with_velocity();
+        const auto moving = playing.is_full() ? std::span<const std::uint32_t>(all_)
+                                              : playing.scene.with_velocity();
         playing.scene.move(moving);
         end_.end(playing);
-        if (playing.is_everything())
+        if (playing.is_full())
             playing.changed = all_;
         return moving.size();
     }

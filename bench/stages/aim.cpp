@@ -9,16 +9,16 @@ class Aim final : public SceneStage {
     std::size_t run(Playing& playing) override {
         const MovingScene& scene = playing.scene;
         std::size_t n = 0;
-        for (const SceneQuery& ask : scene.file().queries) {
-            if (ask.name == "rays")
-                rays_of_frame(scene, ask, playing.rays);
-            else if (ask.name == "points")
-                points_of_frame(scene, ask, playing.points);
-            else if (ask.name == "nearest")
-                points_of_frame(scene, ask, playing.places);
-            else if (ask.name == "regions")
-                regions_of_frame(scene, ask, playing.regions);
-            n += ask.n;
+        for (const SceneQuery& query : scene.file().queries) {
+            if (query.name == "rays")
+                rays_of_frame(scene, query, playing.rays);
+            else if (query.name == "points")
+                points_of_frame(scene, query, playing.points);
+            else if (query.name == "nearest")
+                points_of_frame(scene, query, playing.places);
+            else if (query.name == "regions")
+                regions_of_frame(scene, query, playing.regions);
+            n += query.n;
         }
         return n;
     }

@@ -1,9 +1,9 @@
-/// What a scene asks, answered by its plan, against everything on and against brute force.
+/// What a scene queries, answered by its plan, against all stages and against brute force.
 
 #include "bench/stages/body_surface.h"
 #include "bench/stages/scene_player.h"
 #include "bench/truth/ray_truth.h"
-#include "kernels/oracle/oracle.h"
+#include "kernels/oracle/exact_answers.h"
 
 #include <gtest/gtest.h>
 
@@ -35,8 +35,8 @@ SceneFile built_in(std::string_view name, std::size_t n) {
     return file;
 }
 
-/// Asks all there is to ask.
-SceneFile asking_all(SceneFile file) {
+/// With all queries that there are.
+SceneFile with_all_queries(SceneFile file) {
     file.queries.clear();
     for (const SceneQueryEntry& entry : scene_queries()) {
         file.queries.push_back(entry.defaults);
@@ -51,22 +51,22 @@ SceneFile asking_all(SceneFile file) {
 TEST(Answers, EverythingOnGivesTheSameFrameByFrame) {
     for (const BuiltInScene& entry : built_in_scenes())
         for (const bool all : {false, true}) {
-            SCOPED_TRACE(std::string(entry.name) + (all ? ", all asked" : ""));
+            SCOPED_TRACE(std::string(entry.name) + (all ? ", all queries" : ""));
             SceneFile file = built_in(entry.name, 150);
             if (all)
-                file = asking_all(file);
+                file = with_all_queries(file);
             ScenePlayer some(MovingScene(file), Extent::required, serial());
-            ScenePlayer everything(MovingScene(file), Extent::all_stages, serial());
+            ScenePlayer full(MovingScene(file), Extent::all_stages, serial());
             some.start();
-            everything.start();
+            full.start();
             for (int frame = 0; frame < 20; ++frame) {
-                const FrameAnswers &a = some.query(), &b = everything.query();
+                const FrameAnswers &a = some.query(), &b = full.query();
                 EXPECT_EQ(answers_hash(a), answers_hash(b));
                 expect_same(sorted(a), sorted(b));
                 if (testing::Test::HasFailure())
                     return;
                 some.advance();
-                everything.advance();
+                full.advance();
             }
         }
 }
@@ -74,7 +74,7 @@ TEST(Answers, EverythingOnGivesTheSameFrameByFrame) {
 TEST(Answers, AndTheirOrderAreTheSameOnEveryExecutor) {
     for (const char* name : {"tumbling_rocks", "crowd", "fly_through", "cloth_on_sphere"}) {
         SCOPED_TRACE(name);
-        const SceneFile file = asking_all(built_in(name, 600));
+        const SceneFile file = with_all_queries(built_in(name, 600));
         ScenePlayer one(MovingScene(file), Extent::required, serial());
         one.start();
         std::vector<FrameAnswers> expected;
@@ -253,7 +253,7 @@ TEST(Answers, AreThoseOfBruteForce) {
     std::size_t pairs = 0, triangles = 0, hits = 0;
     for (const BuiltInScene& entry : built_in_scenes()) {
         SCOPED_TRACE(entry.name);
-        const SceneFile file = asking_all(built_in(entry.name, 120));
+        const SceneFile file = with_all_queries(built_in(entry.name, 120));
         ScenePlayer player(MovingScene(file), Extent::required, serial());
         player.start();
         for (int frame = 0; frame < 12; ++frame) {
@@ -298,7 +298,7 @@ TEST(Answers, OfRaysAreThoseOfBruteForceInOneTreeAndInTwo) {
     for (const char* name : {"tumbling_rocks", "crowd", "warehouse", "popcorn", "cloth_on_sphere"})
         for (const std::size_t frames : {1u, 100000u}) {
             SCOPED_TRACE(name);
-            SceneFile file = asking_all(built_in(name, 150));
+            SceneFile file = with_all_queries(built_in(name, 150));
             file.frames = frames;
             const auto executor = make_executor("tbb", 2);
             ScenePlayer player(MovingScene(file), Extent::required, serial());
@@ -317,7 +317,7 @@ TEST(Answers, OfRaysAreThoseOfBruteForceInOneTreeAndInTwo) {
 }
 
 // An arm that rests and one that moves lie in the same place: a ray that meets both at the same t
-// is told of the one that comes first, whichever tree it is in.
+// reports the one that comes first, whichever tree it is in.
 TEST(Answers, OfRaysThatMeetTwoBodiesAtOnceNameTheFirst) {
     const std::string arm = "[[bodies]]\ngenerator = \"four_link\"\nn = 4\n";
     const std::string moves = "effects = \"drift\"\n";
@@ -345,14 +345,14 @@ TEST(Answers, OfOneBodyAndOfNobody) {
     for (const std::string& text : {cubes + "1\n", cubes + "1\n" + gone, cubes + "40\n" + gone,
                                     cubes + "2\nshape = \"sphere_mesh\"\ntriangles = 1\n" + gone}) {
         SCOPED_TRACE(text);
-        const SceneFile file = asking_all(parse_scene_file(text, "mine.toml"));
+        const SceneFile file = with_all_queries(parse_scene_file(text, "mine.toml"));
         ScenePlayer some(MovingScene(file), Extent::required, serial());
-        ScenePlayer everything(MovingScene(file), Extent::all_stages, serial());
+        ScenePlayer full(MovingScene(file), Extent::all_stages, serial());
         some.start();
-        everything.start();
+        full.start();
         for (int frame = 0; frame < 4; ++frame) {
             const FrameAnswers answers = sorted(some.query());
-            expect_same(answers, sorted(everything.query()));
+            expect_same(answers, sorted(full.query()));
             EXPECT_EQ(answers.pairs, true_body_pairs(some.scene()));
             EXPECT_EQ(answers.rays.size(), 60u);
             std::vector<Vec3<float>> points;
@@ -360,7 +360,7 @@ TEST(Answers, OfOneBodyAndOfNobody) {
             EXPECT_EQ(answers.nearest,
                       true_nearest(some.scene(), points, query_named(file, "nearest")->k));
             some.advance();
-            everything.advance();
+            full.advance();
         }
         if (text.find("despawn") != std::string::npos) {
             EXPECT_TRUE(some.query().pairs.empty());

@@ -97,19 +97,19 @@ std::size_t BodySurface::follow(const Bodies& bodies, std::span<const std::uint3
     const auto is_there = [&](std::uint32_t at) {
         return first_vertex_[at + 1] > first_vertex_[at];
     };
-    bool anew = std::ranges::any_of(changed, [&](std::uint32_t body) {
+    bool is_rebuild = std::ranges::any_of(changed, [&](std::uint32_t body) {
         return (bodies.present[body] != 0) != is_there(place_[body]);
     });
     // The price of an order, and what rays lose, for each triangle.
     const double n = static_cast<double>(std::max<std::size_t>(all, 1));
     const double query = per_ray * static_cast<double>(rays) / n;
-    if (!anew && !has_degradation_) {
+    if (!is_rebuild && !has_degradation_) {
         refit_.start(blocks_, all);
         fresh_ = refit_.surface(blocks_);
         degradation_.start(per_order - per_refit, query);
         has_degradation_ = true;
     }
-    if (!anew && !degradation_.is_due_next()) {
+    if (!is_rebuild && !degradation_.is_due_next()) {
         std::size_t written = 0;
         for_rows(changed.size(), executor,
                  [&](std::size_t i) { write_vertices(bodies, place_[changed[i]]); });

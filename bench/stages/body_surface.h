@@ -1,9 +1,9 @@
 #pragma once
 
 #include "scenes/moving/bodies.h"
-#include "trees/layout.h"
-#include "trees/dynamic/ray_refit.h"
 #include "trees/dynamic/order_degradation.h"
+#include "trees/dynamic/ray_refit.h"
+#include "trees/layout.h"
 
 #include <array>
 #include <cstdint>
@@ -43,7 +43,7 @@ class BodySurface {
                 const Executor& executor);
 
     /// Some of the bodies have changed. Their triangles are written where they are and the tree is
-    /// refitted; it is made anew if bodies have come or gone, or once it is so loose that for so
+    /// refitted; it is rebuilt if bodies have come or gone, or once it is so loose that for so
     /// many rays a frame it pays. Gives the number of triangles written.
     std::size_t follow(const Bodies& bodies, std::span<const std::uint32_t> changed,
                        std::size_t rays, const Executor& executor);

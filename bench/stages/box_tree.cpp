@@ -1,4 +1,4 @@
-/// The tree that points, regions and nearest are asked of: over the boxes as they are.
+/// The tree that answers points, regions and nearest: over the boxes as they are.
 
 #include "bench/stages/playing.h"
 
@@ -9,7 +9,7 @@
 namespace boxwood::bench {
 namespace {
 
-/// Refitted where bodies have changed; ordered anew once the excess of the blocks' surface, added
+/// Refitted where bodies have changed; ordered again once the excess of the blocks' surface, added
 /// up over frames, is that of the policy `auto`.
 class BoxTree final : public SceneStage {
   public:

@@ -51,7 +51,7 @@ class Fit final : public SceneStage {
         if (with_wide_)
             playing.wide_boxes.resize(n);
         turned_.clear();
-        if (!playing.is_everything() && only_shifts(playing.scene))
+        if (!playing.is_full() && only_shifts(playing.scene))
             for (std::size_t i = 0; i < n; ++i)
                 turned_.emplace_back(playing.scene.bodies().pose[i].rotation,
                                      playing.scene.bodies().rest[i]);

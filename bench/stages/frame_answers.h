@@ -25,7 +25,7 @@ struct SurfaceHit {
     constexpr auto operator<=>(const SurfaceHit&) const = default;
 };
 
-/// What a scene asked of one frame; what it did not ask stays empty.
+/// The answers to the queries of a scene in one frame; those it does not have stay empty.
 struct FrameAnswers {
     std::vector<Pair> pairs;                       ///< a < b, in the order in which they were found
     std::vector<TouchingTriangles> triangle_pairs; ///< in the order of the pairs

@@ -20,9 +20,8 @@ class Transform final : public SceneStage {
     std::size_t run(Playing& playing) override {
         if (!playing.pairs_are_new)
             return 0;
-        meshes_->want(*playing.pairs, playing.is_everything());
-        return meshes_->transform(playing.scene.bodies(), playing.is_everything(),
-                                  playing.executor);
+        meshes_->want(*playing.pairs, playing.is_full());
+        return meshes_->transform(playing.scene.bodies(), playing.is_full(), playing.executor);
     }
     std::size_t bytes(const Playing&) const override {
         return meshes_ ? meshes_->vertex_bytes() : 0;
@@ -36,7 +35,7 @@ class MeshTrees final : public SceneStage {
   public:
     std::size_t run(Playing& playing) override {
         return playing.pairs_are_new
-                   ? playing.meshes->update_trees(playing.scene.bodies(), playing.is_everything(),
+                   ? playing.meshes->update_trees(playing.scene.bodies(), playing.is_full(),
                                                   playing.executor)
                    : 0;
     }

@@ -15,22 +15,22 @@ struct Wants {
         n = bodies.size();
         meshed = static_cast<std::size_t>(
             std::ranges::count_if(bodies.mesh, [](std::uint32_t m) { return m != no_mesh; }));
-        for (const SceneQuery& ask : scene.file().queries) {
-            asked.push_back(ask.name);
-            if (ask.name == "points" || ask.name == "regions" || ask.name == "nearest")
-                box_asks.push_back(ask.name);
+        for (const SceneQuery& query : scene.file().queries) {
+            names.push_back(query.name);
+            if (query.name == "points" || query.name == "regions" || query.name == "nearest")
+                box_queries.push_back(query.name);
         }
         moves = !scene.effects().empty();
         pairs = queries("pairs") || (queries("triangle_pairs") && meshed >= 2);
         triangles = queries("triangle_pairs") && meshed >= 2;
         filters = scene.ignored().size();
     }
-    bool queries(std::string_view word) const {
-        return std::ranges::find(asked, word) != asked.end();
+    bool queries(std::string_view name) const {
+        return std::ranges::find(names, name) != names.end();
     }
 
     std::size_t n = 0, meshed = 0, filters = 0;
-    std::vector<std::string_view> asked, box_asks;
+    std::vector<std::string_view> names, box_queries; ///< of queries
     bool moves = false, pairs = false, triangles = false;
 };
 
@@ -41,7 +41,7 @@ std::string counted(std::size_t n, std::string_view one, std::string_view many) 
 class Plan {
   public:
     Plan(const MovingScene& scene, Extent extent)
-        : scene_(scene), wants_(scene), everything_(extent == Extent::all_stages) {}
+        : scene_(scene), wants_(scene), all_(extent == Extent::all_stages) {}
 
     std::vector<PlannedStage> stages() {
         changing();
@@ -52,11 +52,11 @@ class Plan {
     }
 
   private:
-    /// A stage that everything on runs all the same.
+    /// A stage that the extent all_stages runs all the same.
     void add(std::string_view name, bool required, std::string why) {
-        stages_.push_back({std::string(name), required, required || everything_, std::move(why)});
+        stages_.push_back({std::string(name), required, required || all_, std::move(why)});
     }
-    /// One that cannot run unless it is called for.
+    /// One that cannot run unless it is required.
     void add_only(std::string_view name, bool required, std::string why) {
         stages_.push_back({std::string(name), required, required, std::move(why)});
     }
@@ -78,8 +78,8 @@ class Plan {
     }
 
     void boxes_and_trees() {
-        const bool boxes = wants_.pairs || !wants_.box_asks.empty();
-        std::string fit = "nothing is asked of boxes";
+        const bool boxes = wants_.pairs || !wants_.box_queries.empty();
+        std::string fit = "no query needs boxes";
         if (boxes)
             fit = wants_.moves ? "all at the start, then the bodies that have changed"
                                : "once at the start: nothing moves";
@@ -87,24 +87,24 @@ class Plan {
             fit += "; widened by margins for pairs";
         add("fit", boxes, fit);
         add("tree", wants_.pairs,
-            wants_.pairs ? "made once at the start, to find pairs with" : "no pairs are asked");
+            wants_.pairs ? "made once at the start, to find pairs with" : "no query needs pairs");
         add("update", wants_.pairs && wants_.moves,
-            !wants_.pairs  ? "no pairs are asked"
-            : wants_.moves ? fmt::format("{}: told of the bodies that have changed",
+            !wants_.pairs  ? "no query needs pairs"
+            : wants_.moves ? fmt::format("{}: given the bodies that have changed",
                                          counted(scene_.effects().size(), "effect changes bodies",
                                                  "effects change bodies"))
                            : "nothing moves");
-        const bool box_tree = !wants_.box_asks.empty();
+        const bool box_tree = !wants_.box_queries.empty();
         add_only("box_tree", box_tree,
-                 box_tree ? fmt::format("{} of boxes{}", fmt::join(wants_.box_asks, ", "),
+                 box_tree ? fmt::format("{} of boxes{}", fmt::join(wants_.box_queries, ", "),
                                         wants_.moves ? "" : "; made once, as nothing moves")
-                          : "no points, regions or nearest are asked");
+                          : "no queries of points, regions or nearest");
     }
 
     void meetings() {
-        std::string why = "not asked";
+        std::string why = "not queried";
         if (wants_.pairs)
-            why = wants_.queries("pairs") ? "asked" : "the candidates of triangle_pairs";
+            why = wants_.queries("pairs") ? "queried" : "the candidates of triangle_pairs";
         if (wants_.pairs && !wants_.moves)
             why += "; found once and given again, as nothing moves";
         add("pairs", wants_.pairs, why);
@@ -112,11 +112,11 @@ class Plan {
         add("filter", filter,
             filter               ? fmt::format("pairs within {} are ignored",
                                                counted(wants_.filters, "group", "groups"))
-            : wants_.filters > 0 ? "no pairs are asked"
+            : wants_.filters > 0 ? "no query needs pairs"
                                  : "no pairs are ignored");
         const std::string no_triangles = wants_.queries("triangle_pairs")
                                              ? "fewer than two bodies have meshes"
-                                             : "no triangle_pairs are asked";
+                                             : "no query of triangle_pairs";
         add("transform", wants_.triangles,
             wants_.triangles ? fmt::format("vertices of those of {} bodies with meshes that are in "
                                            "a pair, if they have changed",
@@ -126,26 +126,27 @@ class Plan {
             wants_.triangles ? "made when a mesh is first in a pair, refitted when it has changed"
                              : no_triangles);
         add_only("triangle_pairs", wants_.triangles,
-                 wants_.triangles ? "asked; those of two bodies at rest are kept" : no_triangles);
+                 wants_.triangles ? "queried; those of two bodies at rest are cached"
+                                  : no_triangles);
     }
 
     void queries() {
-        const bool rays = wants_.queries("rays"), aim = rays || !wants_.box_asks.empty();
+        const bool rays = wants_.queries("rays"), aim = rays || !wants_.box_queries.empty();
         add_only("surface", rays,
-                 !rays          ? "no rays are asked"
+                 !rays          ? "no query of rays"
                  : wants_.moves ? "rays meet it; bodies that have changed are written in place"
                                 : "rays meet it; made once, as nothing moves");
-        add_only("aim", aim, aim ? "queries go with the frame" : "no queries are asked");
-        for (const std::string_view word : {"rays", "points", "regions", "nearest"}) {
-            const SceneQuery* ask = query_named(scene_.file(), word);
-            add_only(word, ask != nullptr,
-                     ask ? fmt::format("{} {} asked", ask->n, ask->kind) : "not asked");
+        add_only("aim", aim, aim ? "queries go with the frame" : "no queries to place");
+        for (const std::string_view name : {"rays", "points", "regions", "nearest"}) {
+            const SceneQuery* query = query_named(scene_.file(), name);
+            add_only(name, query != nullptr,
+                     query ? fmt::format("{} {}", query->n, query->kind) : "not queried");
         }
     }
 
     const MovingScene& scene_;
     Wants wants_;
-    bool everything_;
+    bool all_;
     std::vector<PlannedStage> stages_;
 };
 

@@ -12,16 +12,16 @@ namespace boxwood::bench {
 
 /// How much of what could be done for a scene is done. The answers are the same.
 enum class Extent : std::uint8_t {
-    required, ///< what the scene calls for, for the bodies that it calls for
-    all_stages  ///< every stage that its asks could need, for every body in every frame
+    required,  ///< what the scene requires, for the bodies that it requires
+    all_stages ///< every stage that its queries could need, for every body in every frame
 };
 
 /// One stage of the plan of a scene.
 struct PlannedStage {
     std::string name;
     bool is_required = false; ///< by the scene, whatever the extent
-    bool runs = false;          ///< in this extent; what does not run is not made and has no memory
-    std::string why;            ///< called for, or not: one clause of plain English
+    bool runs = false;        ///< in this extent; what does not run is not made and has no memory
+    std::string why;          ///< required, or not: one clause of plain English
 };
 
 /// All stages there are, in the order in which they run: advance_<effect> of each word of

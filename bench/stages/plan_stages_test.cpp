@@ -31,7 +31,7 @@ std::vector<std::string> required(const MovingScene& scene) {
 const std::string uniform = "[[bodies]]\ngenerator = \"uniform\"\n";
 const std::string meshes = uniform + "shape = \"sphere_mesh\"\ntriangles = 20\n";
 
-TEST(PlanStages, AStaticSceneThatAsksForPairsNeedsThreeStages) {
+TEST(PlanStages, AStaticSceneThatQueriesPairsNeedsThreeStages) {
     EXPECT_THAT(required(MovingScene(load_scene("still_life"), 100)),
                 ElementsAre("fit", "tree", "pairs"));
 }
@@ -53,33 +53,33 @@ TEST(PlanStages, EachEffectBringsItsOwnStageAndNoOther) {
 TEST(PlanStages, AnEffectOnNobodyIsNotThere) {
     for (const EffectEntry& effect : effects())
         EXPECT_THAT(required(scene_of(meshes + "effects = {name = \"" + std::string(effect.name) +
-                                        "\", share = 0}\n")),
+                                      "\", share = 0}\n")),
                     ElementsAre("fit", "tree", "pairs"));
     // and what has no vertices is not deformed
     EXPECT_THAT(required(scene_of(uniform + "effects = \"deform\"\n")),
                 ElementsAre("fit", "tree", "pairs"));
 }
 
-TEST(PlanStages, EachAskBringsWhatItNeeds) {
-    const auto of = [](const std::string& ask, const std::string& bodies = meshes) {
-        return required(scene_of("queries = \"" + ask + "\"\n" + bodies));
+TEST(PlanStages, EachQueryBringsWhatItNeeds) {
+    const auto of = [](const std::string& query, const std::string& bodies = meshes) {
+        return required(scene_of("queries = \"" + query + "\"\n" + bodies));
     };
     EXPECT_THAT(of("triangle_pairs"),
                 ElementsAre("fit", "tree", "pairs", "transform", "mesh_trees", "triangle_pairs"));
     EXPECT_THAT(of("triangle_pairs", uniform), ElementsAre()); // nobody has a mesh
     EXPECT_THAT(of("rays"), ElementsAre("surface", "aim", "rays"));
-    for (const char* ask : {"points", "regions", "nearest"})
-        EXPECT_THAT(of(ask), ElementsAre("fit", "box_tree", "aim", ask));
+    for (const char* query : {"points", "regions", "nearest"})
+        EXPECT_THAT(of(query), ElementsAre("fit", "box_tree", "aim", query));
     EXPECT_THAT(of("pairs", uniform + "neighbours_ignored = true\n"), Contains("filter"));
     EXPECT_THAT(of("pairs", uniform + "group_ignored = true\n"), Contains("filter"));
     EXPECT_THAT(of("rays", uniform + "group_ignored = true\n"), testing::Not(Contains("filter")));
 }
 
-TEST(PlanStages, EveryAskHasAStageOfItsWord) {
+TEST(PlanStages, EveryQueryHasAStageOfItsName) {
     const auto plan = plan_stages(scene_of(uniform), Extent::required);
-    for (const SceneQueryEntry& ask : scene_queries()) {
-        EXPECT_NE(ask_stage(ask.name), nullptr);
-        EXPECT_THAT(plan, Contains(testing::Field(&PlannedStage::name, std::string(ask.name))));
+    for (const SceneQueryEntry& query : scene_queries()) {
+        EXPECT_NE(query_stage(query.name), nullptr);
+        EXPECT_THAT(plan, Contains(testing::Field(&PlannedStage::name, std::string(query.name))));
     }
 }
 

@@ -3,9 +3,9 @@
 #include "bench/stages/frame_answers.h"
 #include "bench/stages/plan_stages.h"
 #include "scenes/moving/moving_scene.h"
+#include "trees/dynamic/update.h"
 #include "trees/executor.h"
 #include "trees/layouts/packed.h"
-#include "trees/dynamic/update.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -25,7 +25,7 @@ struct Playing {
     const Executor& executor;
     Extent extent;
 
-    /// Of the present frame; of all bodies if everything is on.
+    /// Of the present frame; of the extent all_stages, of all bodies.
     std::span<const std::uint32_t> changed{};
     std::uint64_t last_change = 0; ///< the last frame that changed a body; 0: none has
 
@@ -42,10 +42,10 @@ struct Playing {
     std::vector<Box> regions{};                  ///< aim
     FrameAnswers answers{};
 
-    bool is_everything() const { return extent == Extent::all_stages; }
+    bool is_full() const { return extent == Extent::all_stages; }
     std::span<const Box> pair_boxes() const { return wide_boxes.empty() ? boxes : wide_boxes; }
-    /// Whether what was made in that frame is still so: never if everything is on.
-    bool still_holds(std::uint64_t frame) const { return !is_everything() && last_change <= frame; }
+    /// Whether what was made in that frame is still so: never of the extent all_stages.
+    bool still_holds(std::uint64_t frame) const { return !is_full() && last_change <= frame; }
 };
 
 /// A stage of the plan. Each gives the number of items that it handled. Stages that make something
@@ -55,7 +55,7 @@ class SceneStage {
     virtual ~SceneStage() = default;
     virtual std::size_t start(Playing&) { return 0; }
     virtual std::size_t run(Playing&) { return 0; }
-    /// For a stage that runs when something is asked, and must know what frames before have
+    /// For a stage that runs with the queries, and must know what frames before have
     /// changed.
     virtual void note_changes(const Playing&) {}
     /// Memory that the stage holds; what it answers does not count.
@@ -80,7 +80,7 @@ std::unique_ptr<SceneStage> mesh_trees_stage();
 std::unique_ptr<SceneStage> surface_stage();
 std::unique_ptr<SceneStage> aim_stage();
 
-/// The stage of a word of `scene_queries()`: bench/stages/queries/WORD.cpp.
-std::unique_ptr<SceneStage> ask_stage(std::string_view word);
+/// The stage of a name of `scene_queries()`: bench/stages/queries/NAME.cpp.
+std::unique_ptr<SceneStage> query_stage(std::string_view name);
 
 } // namespace boxwood::bench

@@ -12,8 +12,8 @@ ScenePlayer::ScenePlayer(MovingScene scene, Extent extent, const Executor& execu
       plan_(plan_stages(playing_->scene, extent)), ledger_(plan_) {
     const auto runs = [&](std::string_view name) { return stage_of(plan_, name).runs; };
     const MovingScene& played = playing_->scene;
-    const bool everything = extent == Extent::all_stages;
-    const bool moves = everything || !played.effects().empty();
+    const bool full = extent == Extent::all_stages;
+    const bool moves = full || !played.effects().empty();
 
     for (std::size_t i = 0; i < played.effects().size(); ++i)
         add("advance_" + std::string(played.effects()[i].entry->name),
@@ -33,28 +33,28 @@ ScenePlayer::ScenePlayer(MovingScene scene, Extent extent, const Executor& execu
         add("box_tree", box_tree_stage(), moves ? Runs::from_the_start : Runs::at_the_start);
 
     if (runs("pairs"))
-        add("pairs", ask_stage("pairs"), Runs::asking);
+        add("pairs", query_stage("pairs"), Runs::querying);
     if (runs("filter"))
-        add("filter", filter_stage(), Runs::asking);
+        add("filter", filter_stage(), Runs::querying);
     if (runs("transform")) {
-        add("transform", transform_stage(), Runs::asking);
+        add("transform", transform_stage(), Runs::querying);
         if (moves)
             noting_.push_back(stages_.size() - 1);
     }
     if (runs("mesh_trees"))
-        add("mesh_trees", mesh_trees_stage(), Runs::asking);
+        add("mesh_trees", mesh_trees_stage(), Runs::querying);
     if (runs("triangle_pairs"))
-        add("triangle_pairs", ask_stage("triangle_pairs"), Runs::asking);
+        add("triangle_pairs", query_stage("triangle_pairs"), Runs::querying);
     if (runs("surface")) {
-        add("surface", surface_stage(), Runs::asking);
+        add("surface", surface_stage(), Runs::querying);
         if (moves)
             noting_.push_back(stages_.size() - 1);
     }
     if (runs("aim"))
-        add("aim", aim_stage(), Runs::asking);
+        add("aim", aim_stage(), Runs::querying);
     for (const std::string_view word : {"rays", "points", "regions", "nearest"})
         if (runs(word))
-            add(word, ask_stage(word), Runs::asking);
+            add(word, query_stage(word), Runs::querying);
 }
 
 ScenePlayer::~ScenePlayer() = default;
@@ -66,8 +66,8 @@ void ScenePlayer::add(std::string_view name, std::unique_ptr<SceneStage> stage, 
         starting_.push_back(at);
     if (when == Runs::advancing || when == Runs::from_the_start)
         advancing_.push_back(at);
-    if (when == Runs::asking)
-        asking_.push_back(at);
+    if (when == Runs::querying)
+        querying_.push_back(at);
     stages_.push_back(std::move(made));
 }
 
@@ -104,7 +104,7 @@ void ScenePlayer::advance() {
 }
 
 const FrameAnswers& ScenePlayer::query() {
-    for (const std::size_t i : asking_)
+    for (const std::size_t i : querying_)
         timed(stages_[i], 1, [&](SceneStage& stage) { return stage.run(*playing_); });
     return playing_->answers;
 }

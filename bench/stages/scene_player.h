@@ -17,7 +17,7 @@ struct Playing;
 
 /// Plays a scene by its plan: a stage that does not run is not made. One virtual call per stage and
 /// frame. The answers and their order are the same on every executor.
-/// start, ask, then advance and ask for each further frame; a frame may go unasked.
+/// start, query, then advance and query for each further frame; a frame may go without a query.
 class ScenePlayer {
   public:
     /// The scene stands at frame 0, the executor outlives this.
@@ -31,11 +31,12 @@ class ScenePlayer {
     void start();
     /// To the next frame: effects, boxes and trees.
     void advance();
-    /// What the scene asks of the present frame; good until the next advance or start.
+    /// The answers to all queries of the scene in the present frame; good until the next advance or
+    /// start.
     const FrameAnswers& query();
-    /// What the last ask gave.
+    /// What the last query gave.
     const FrameAnswers& answers() const;
-    /// The work of the walk for pairs in the present frame; zero if no pairs are wanted.
+    /// The work of the traversal for pairs in the present frame; zero if no pairs are wanted.
     Work counted_pairs() const;
 
     const MovingScene& scene() const;
@@ -48,7 +49,7 @@ class ScenePlayer {
         std::size_t row; ///< of the ledger
         std::unique_ptr<SceneStage> stage;
     };
-    enum class Runs { at_the_start, from_the_start, advancing, asking };
+    enum class Runs { at_the_start, from_the_start, advancing, querying };
 
     void add(std::string_view name, std::unique_ptr<SceneStage> stage, Runs when);
     template <class Run> void timed(Made& made, std::size_t calls, const Run& run);
@@ -57,7 +58,7 @@ class ScenePlayer {
     std::vector<PlannedStage> plan_;
     Ledger ledger_;
     std::vector<Made> stages_;
-    std::vector<std::size_t> starting_, advancing_, noting_, asking_; ///< of stages_
+    std::vector<std::size_t> starting_, advancing_, noting_, querying_; ///< of stages_
 };
 
 } // namespace boxwood::bench

@@ -97,7 +97,7 @@ TEST(ScenePlayer, MeshesThatNeverMeetBuildNoTree) {
     EXPECT_EQ(player->ledger().row("transform").items, 0u);
     EXPECT_EQ(player->ledger().row("mesh_trees").items, 0u);
     EXPECT_EQ(player->ledger().row("triangle_pairs").items, 0u);
-    EXPECT_TRUE(player->query().pairs.empty()); // nobody asked for them
+    EXPECT_TRUE(player->query().pairs.empty()); // no query of them
 }
 
 // What must be done follows from which bodies changed and who met whom, counted here by itself.
@@ -229,13 +229,13 @@ TEST(ScenePlayer, StartsAgain) {
     EXPECT_THROW(once.start(), std::logic_error);
 }
 
-TEST(ScenePlayer, FramesMayGoUnasked) {
+TEST(ScenePlayer, FramesMayGoWithoutAQuery) {
     SceneFile file = load_scene("tumbling_rocks");
     file.n = 200;
     file.queries.push_back({.name = "rays", .kind = "scattered", .n = 100});
     ScenePlayer player(MovingScene(file), Extent::required, serial());
     player.start();
-    for (const int frames : {0, 3, 4}) { // the first is asked, and then a few
+    for (const int frames : {0, 3, 4}) { // the first is queried, and then a few
         for (int frame = 0; frame < frames; ++frame)
             player.advance();
         player.query();

@@ -10,9 +10,9 @@
 namespace boxwood::bench {
 namespace {
 
-bool has_effect(const SceneFile& file, std::string_view word) {
+bool has_effect(const SceneFile& file, std::string_view name) {
     return std::ranges::any_of(file.groups, [&](const BodyGroup& group) {
-        return std::ranges::find(group.effects, word, &EffectChoice::name) != group.effects.end();
+        return std::ranges::find(group.effects, name, &EffectChoice::name) != group.effects.end();
     });
 }
 
@@ -27,7 +27,7 @@ SceneFile file_of(const Job& job, std::string_view without) {
     return file;
 }
 
-class Played final : public StagesContender {
+class Played final : public Contender {
   public:
     Played(const Job& job, Extent extent, std::string_view without)
         : executor_(make_executor(job.executor, job.threads)),
@@ -35,10 +35,8 @@ class Played final : public StagesContender {
 
     void build() override { player_.start(); }
     void update(const Frame&) override { player_.advance(); }
-    void query(Answers&) override { answers_ = &player_.query(); }
-    std::optional<Work> counted_query(Answers&) override {
-        answers_ = &player_.query();
-        return player_.counted_pairs();
+    void query(Answers& answers) override {
+        dynamic_cast<StageAnswers&>(answers).frame = &player_.query();
     }
     std::optional<StructureInfo> structure() const override {
         StructureInfo info;
@@ -46,13 +44,11 @@ class Played final : public StagesContender {
             info.bytes += row.bytes;
         return info;
     }
-    const FrameAnswers& frame_answers() const override { return *answers_; }
-    const Ledger& ledger() override { return player_.ledger(); }
+    const Ledger* ledger() override { return &player_.ledger(); }
 
   private:
     std::unique_ptr<Executor> executor_;
     mutable ScenePlayer player_;
-    const FrameAnswers* answers_ = nullptr;
 };
 
 } // namespace
@@ -68,28 +64,23 @@ ContenderEntry stages_contender(Extent extent, std::string_view without_effect) 
     entry.name = extent == Extent::all_stages ? "all_stages" : "required";
     entry.summary = extent == Extent::all_stages
                         ? "every stage, for every body in every frame"
-                        : "the stages that the scene calls for, for the bodies that it calls for";
+                        : "the stages that the scene requires, for the bodies that it requires";
     if (!without_effect.empty()) {
         entry.name += fmt::format(".without_{}", without_effect);
         entry.summary += fmt::format("; the scene without {}", without_effect);
     }
     entry.notes = "build makes what frame 0 needs; update advances the scene itself, so that the "
-                  "price of its effects is in it";
-    entry.unsupported =
-        [without = std::string(without_effect)](const Job& job) -> std::optional<std::string> {
-        if (job.task != Ask::scene_queries)
-            return "answers scene_queries only";
-        if (job.executor == "serial" && job.threads != 1)
-            return "the executor serial has one thread";
-        if (!job.scene->spec.moving)
-            return "plays moving scenes only";
+                  "cost of its effects is in it";
+    entry.cannot = [without =
+                        std::string(without_effect)](const Job& job) -> std::optional<std::string> {
         if (!without.empty() && !has_effect(*job.scene->spec.moving, without))
             return fmt::format("the scene has no {}", without);
         return std::nullopt;
     };
-    entry.make = [extent, without = std::string(without_effect)](const Job& job) {
-        return std::make_unique<Played>(job, extent, without);
-    };
+    entry.answers = {
+        {"scene_queries", [extent, without = std::string(without_effect)](const Job& job) {
+             return std::make_unique<Played>(job, extent, without);
+         }}};
     return entry;
 }
 

@@ -7,9 +7,9 @@
 namespace boxwood::bench {
 namespace {
 
-/// Whether any effect is laid on each body; with everything on, all may move.
+/// Whether any effect is laid on each body; of the extent all_stages, all may move.
 std::vector<std::uint8_t> may_move(const Playing& playing) {
-    std::vector<std::uint8_t> moves(playing.scene.bodies().size(), playing.is_everything());
+    std::vector<std::uint8_t> moves(playing.scene.bodies().size(), playing.is_full());
     for (const MovingScene::Laid& laid : playing.scene.effects())
         for (const std::uint32_t body : laid.chosen)
             moves[body] = 1;
@@ -18,10 +18,10 @@ std::vector<std::uint8_t> may_move(const Playing& playing) {
 
 /// Whether a tree made with care of the bodies at rest, beside that of the others, is worth its
 /// time. Measured, of 120,000 triangles: it takes 470 ns more per triangle, and saves 590 ns a ray
-/// where all rest, 240 ns where a ray has to ask two trees.
+/// where all rest, 240 ns where a ray has to go through two trees.
 bool is_worth_care(const Playing& playing, std::span<const std::uint8_t> moves) {
     constexpr double rays_per_triangle = 1.5;
-    if (playing.is_everything())
+    if (playing.is_full())
         return false;
     const Bodies& bodies = playing.scene.bodies();
     std::size_t triangles = 0;
@@ -90,7 +90,7 @@ std::size_t Surface::bytes() const {
 
 namespace {
 
-/// Follows the bodies that have changed; with everything on, it is made anew in every frame.
+/// Follows the bodies that have changed; of the extent all_stages, it is rebuilt in every frame.
 class MakeSurface final : public SceneStage {
   public:
     std::size_t start(Playing& playing) override {
@@ -99,12 +99,12 @@ class MakeSurface final : public SceneStage {
         return 0;
     }
     void note_changes(const Playing& playing) override {
-        if (surface_ && !playing.is_everything())
+        if (surface_ && !playing.is_full())
             for (const std::uint32_t body : playing.changed)
                 changed_.add(body);
     }
     std::size_t run(Playing& playing) override {
-        if (!surface_ || playing.is_everything()) {
+        if (!surface_ || playing.is_full()) {
             surface_.reset();
             surface_.emplace(playing);
             playing.surface = &*surface_;

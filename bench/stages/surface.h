@@ -9,9 +9,9 @@
 
 namespace boxwood::bench {
 
-/// What rays meet: a tree of all bodies that follows those that move. Where enough rays are asked,
+/// What rays meet: a tree of all bodies that follows those that move. Where there are enough rays,
 /// the bodies that no effect is laid on have one of their own, made once and with care; a ray then
-/// asks both, and takes the nearer hit.
+/// goes through both, and takes the nearer hit.
 class Surface {
   public:
     explicit Surface(const Playing& playing);

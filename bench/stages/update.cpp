@@ -1,4 +1,4 @@
-/// The tree that pairs are found with: made at the start, then told of what has changed.
+/// The tree that pairs are found with: made at the start, then given what has changed.
 
 #include "bench/stages/playing.h"
 
@@ -16,9 +16,9 @@ class MakeTree final : public SceneStage {
     std::size_t bytes(const Playing& playing) const override { return playing.tree->bytes(); }
 
   private:
-    /// With everything on, pairs are found anew in every frame; without motion, once.
+    /// Of the extent all_stages, pairs are found again in every frame; without motion, once.
     static std::string_view policy(const Playing& playing) {
-        if (playing.is_everything())
+        if (playing.is_full())
             return "merge";
         return playing.scene.effects().empty() ? "refit" : "auto";
     }

@@ -35,7 +35,7 @@ void WorldMeshes::note(std::span<const std::uint32_t> changed, std::uint64_t fra
             changed_in_[index_[body]] = frame;
 }
 
-std::span<const std::uint32_t> WorldMeshes::want(std::span<const Pair> pairs, bool everything) {
+std::span<const std::uint32_t> WorldMeshes::want(std::span<const Pair> pairs, bool full) {
     for (const std::uint32_t i : wanted_)
         is_wanted_[i] = 0;
     wanted_.clear();
@@ -45,7 +45,7 @@ std::span<const std::uint32_t> WorldMeshes::want(std::span<const Pair> pairs, bo
             wanted_.push_back(i);
         }
     };
-    if (everything)
+    if (full)
         for (std::uint32_t i = 0; i < meshes_.size(); ++i)
             add(i);
     else
@@ -57,12 +57,11 @@ std::span<const std::uint32_t> WorldMeshes::want(std::span<const Pair> pairs, bo
     return wanted_;
 }
 
-std::size_t WorldMeshes::transform(const Bodies& bodies, bool everything,
-                                   const Executor& executor) {
+std::size_t WorldMeshes::transform(const Bodies& bodies, bool full, const Executor& executor) {
     stale_.clear();
     std::size_t moved = 0;
     for (const std::uint32_t i : wanted_)
-        if (everything || meshes_[i].vertices_of != changed_in_[i]) {
+        if (full || meshes_[i].vertices_of != changed_in_[i]) {
             stale_.push_back(i);
             moved += bodies.meshes[bodies.mesh[meshes_[i].body]].vertices.size();
         }
@@ -79,12 +78,11 @@ std::size_t WorldMeshes::transform(const Bodies& bodies, bool everything,
     return moved;
 }
 
-std::size_t WorldMeshes::update_trees(const Bodies& bodies, bool everything,
-                                      const Executor& executor) {
+std::size_t WorldMeshes::update_trees(const Bodies& bodies, bool full, const Executor& executor) {
     stale_.clear();
     std::size_t moved = 0;
     for (const std::uint32_t i : wanted_)
-        if (everything || meshes_[i].tree_of != meshes_[i].vertices_of) {
+        if (full || meshes_[i].tree_of != meshes_[i].vertices_of) {
             stale_.push_back(i);
             const std::uint32_t mesh = bodies.mesh[meshes_[i].body];
             const auto& triangles = bodies.meshes[mesh].triangles;

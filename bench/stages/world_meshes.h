@@ -10,7 +10,7 @@
 namespace boxwood::bench {
 
 /// A mesh as a body carries it, in the scene, and a tree of its triangles. Vertices are rounded to
-/// floats: these are what all asks are about. Made when it is first wanted.
+/// floats: these are what all queries are about. Made when it is first wanted.
 struct WorldMesh {
     static constexpr std::uint64_t never = ~std::uint64_t{0};
 
@@ -36,14 +36,14 @@ class WorldMeshes {
         return changed_in_[index_[bodies.a]] <= frame && changed_in_[index_[bodies.b]] <= frame;
     }
     /// The meshes of the bodies in a pair of which both have a mesh, each once; of all if
-    /// `everything`. They stay listed until the next call.
-    std::span<const std::uint32_t> want(std::span<const Pair> pairs, bool everything);
+    /// `full`. They stay listed until the next call.
+    std::span<const std::uint32_t> want(std::span<const Pair> pairs, bool full);
 
     /// Brings the vertices of those wanted up to date; gives the number of vertices moved.
-    std::size_t transform(const Bodies& bodies, bool everything, const Executor& executor);
+    std::size_t transform(const Bodies& bodies, bool full, const Executor& executor);
     /// The same with their trees, and triangles. A tree keeps the order of its first frame, that of
     /// the mesh in its own frame, and is refitted.
-    std::size_t update_trees(const Bodies& bodies, bool everything, const Executor& executor);
+    std::size_t update_trees(const Bodies& bodies, bool full, const Executor& executor);
 
     std::size_t vertex_bytes() const;
     std::size_t tree_bytes() const;

@@ -1,22 +1,26 @@
+/// Frame after frame of a moving scene: take the new boxes, then every overlapping pair. Ours are
+/// the update policies.
+
 #include "bench/tasks/moving_pairs.h"
 
-#include "bench/truth/column_sweep.h"
-#include "bench/tasks/ours.h"
+#include "bench/plan/scenes.h"
+#include "bench/tasks/detail/pair_answers.h"
+#include "bench/tasks/detail/tree_contender.h"
+#include "bench/tasks/detail/tree_task.h"
+#include "bench/truth/moving_truth.h"
+#include "bench/truth/truth.h"
 #include "kernels/suggest.h"
+#include "scenes/moving/frames.h"
 #include "trees/dynamic/update.h"
 
 #include <fmt/format.h>
 
-#include <chrono>
-#include <ctime>
-#include <stdexcept>
-
 namespace boxwood::bench {
 namespace {
 
-class MovingPairs final : public Contender {
+class Follower final : public Contender {
   public:
-    MovingPairs(const Job& job, std::unique_ptr<Updater> updater)
+    Follower(const Job& job, std::unique_ptr<Updater> updater)
         : scene_(*job.scene), executor_(make_executor(job.executor, job.threads)),
           updater_(std::move(updater)) {}
 
@@ -29,11 +33,9 @@ class MovingPairs final : public Contender {
         placed_ += updater_->last_step().placed;
         rebuilds_ += updater_->last_step().rebuilt;
     }
-    void query(Answers& answers) override {
-        updater_->self_pairs(*executor_, sink_.to(answers.pairs));
-    }
+    void query(Answers& answers) override { updater_->self_pairs(*executor_, pairs_.to(answers)); }
     std::optional<Work> counted_query(Answers& answers) override {
-        return updater_->self_pairs_counted(sink_.to(answers.pairs));
+        return updater_->self_pairs_counted(pairs_.to(answers));
     }
     std::vector<NamedCount> more_counts() const override {
         return {{"items_placed", placed_}, {"rebuilds", rebuilds_}};
@@ -46,126 +48,88 @@ class MovingPairs final : public Contender {
     const Scene& scene_;
     std::unique_ptr<Executor> executor_;
     std::unique_ptr<Updater> updater_;
-    PairsInto sink_;
+    PairsInto pairs_;
     std::uint64_t placed_ = 0, rebuilds_ = 0; ///< in all frames since the build
 };
 
-double ns_of(const timespec& t) {
-    return static_cast<double>(t.tv_sec) * 1e9 + static_cast<double>(t.tv_nsec);
-}
+class FramesTruth final : public Truth {
+  public:
+    explicit FramesTruth(unsigned threads) : truth_(threads) {}
 
-/// Both clocks of one moment.
-struct Moment {
-    std::chrono::steady_clock::time_point wall = std::chrono::steady_clock::now();
-    double cpu_ns = [] {
-        timespec t{};
-        clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-        return ns_of(t);
-    }();
-    double wall_since(const Moment& before) const {
-        return std::chrono::duration<double, std::nano>(wall - before.wall).count();
+    void note_frame(std::size_t index, const Frame& frame, const Answers& answers,
+                    const ContenderEntry&) override {
+        if (index == 0)
+            judgement_ = {};
+        if (!truth_.check(index, frame, list_of<Pair>(answers), judgement_.check))
+            judgement_.status = Status::wrong;
+    }
+    Judgement judge(const Answers&, const ContenderEntry&) override { return judgement_; }
+
+  private:
+    MovingTruth truth_;
+    Judgement judgement_; ///< of the frames since frame 0
+};
+
+class MovingPairs final : public PairAnswers<Task> {
+  public:
+    std::string_view name() const override { return "moving_pairs"; }
+    std::string_view summary() const override {
+        return "frame after frame: the new boxes taken, then every overlapping pair";
+    }
+    std::vector<std::string_view> keys() const override {
+        return {"scene",   "n",         "overlaps", "effects", "frames",
+                "updates", "executors", "threads",  "peers"};
+    }
+    SceneKind scenes() const override { return SceneKind::moving; }
+    Phases phases() const override { return Phases::frames; }
+    std::unique_ptr<Truth> make_truth(const Scene&, unsigned threads) const override {
+        return std::make_unique<FramesTruth>(threads);
+    }
+
+    void expand(const BlockReader& block, AddCell add) const override {
+        const std::vector<BuilderChoice> policies =
+            block.choices("updates", "an update", names_of(updates()),
+                          [](const std::string& policy, const Settings& settings) {
+                              find_update(policy)->make(settings);
+                          });
+        if (policies.empty() && !block.has("peers"))
+            block.fail("[[cells]] needs updates, peers, or both");
+        std::vector<ContenderEntry> ours;
+        for (const BuilderChoice& policy : policies)
+            ours.push_back(moving_contender(policy));
+        const std::vector<ContenderEntry> peers = block.peers(name());
+        for (const SceneSpec& scene : moving_scenes(block))
+            add_cells(block, scene, ours, peers, add);
     }
 };
 
 } // namespace
 
-void play_frame(Contender& contender, const Frame& frame, Answers& answers, FrameTime& time) {
-    const Moment start;
-    contender.update(frame);
-    const Moment updated;
-    contender.query(answers);
-    const Moment end;
-    time.update_ns += updated.wall_since(start);
-    time.query_ns += end.wall_since(updated);
-    time.update_cpu_ns += updated.cpu_ns - start.cpu_ns;
-    time.query_cpu_ns += end.cpu_ns - updated.cpu_ns;
-    time.pairs = answers.pairs.size();
-}
-
-FrameCount count_frame(Contender& contender, Answers& answers) {
-    FrameCount count;
-    if (const std::optional<Work> work = contender.counted_query(answers))
-        count.box_tests = work->box_tests;
-    if (const std::optional<StructureInfo> structure = contender.structure())
-        count.sah = structure->sah;
-    return count;
-}
-
 ContenderEntry moving_contender(const BuilderChoice& policy) {
-    const UpdateEntry* update = find_update(policy.name);
-    if (!update) {
-        std::vector<std::string_view> known;
-        for (const UpdateEntry& entry : updates())
-            known.push_back(entry.name);
-        throw std::invalid_argument(unknown_word("update policy", policy.name, known));
-    }
-    update->make(policy.settings); // throws for a bad setting
+    const UpdateEntry& update = entry_named(policy.name, updates(), "update policy");
+    update.make(policy.settings); // throws for a bad setting
 
     ContenderEntry entry;
     entry.library = "boxwood";
     entry.is_peer = false;
     entry.precision = "f32";
-    entry.builder = word_with_settings(policy.name, policy.settings);
+    entry.builder = name_with_settings(policy.name, policy.settings);
     entry.layout = "packed";
     entry.traversal = "self_pairs";
     entry.name = fmt::format("{}.{}.{}", entry.builder, entry.layout, entry.traversal);
-    entry.summary = update->summary;
+    entry.summary = update.summary;
     entry.notes = "update: the frame's boxes and the list of those that moved; answers in the same "
                   "order for any number of threads";
     entry.params_json = settings_json(policy.settings);
-    entry.unsupported = [](const Job& job) -> std::optional<std::string> {
-        if (job.task != Ask::moving_pairs)
-            return "answers moving_pairs only";
-        if (job.executor == "serial" && job.threads != 1)
-            return "the executor serial has one thread";
-        return std::nullopt;
-    };
-    entry.make = [update, settings = policy.settings](const Job& job) {
-        return std::make_unique<MovingPairs>(job, update->make(settings));
-    };
+    entry.answers = {{"moving_pairs", [&update, settings = policy.settings](const Job& job) {
+                          return std::make_unique<Follower>(job, update.make(settings));
+                      }}};
     return entry;
 }
 
-void play(Contender& contender, Frames& frames, Answers& answers, std::span<FrameTime> times,
-          FunctionRef<void(std::size_t index, const Frame& frame)> after_frame) {
-    frames.rewind();
-    for (std::size_t index = 0; const Frame* const frame = frames.next(); ++index) {
-        play_frame(contender, *frame, answers, times[index]);
-        after_frame(index, *frame);
-    }
-}
-
-MovingTruth::MovingTruth(Frames& frames, unsigned threads, std::function<bool(Pair)> is_left_out)
-    : threads_(threads), is_left_out_(std::move(is_left_out)) {
-    frames.rewind();
-    while (const Frame* const frame = frames.next()) {
-        const ColumnSweep sweep(frame->boxes, threads_);
-        expected_.push_back(is_left_out_ ? sweep.digest(is_left_out_) : sweep.digest());
-    }
-    frames.rewind();
-}
-
-void MovingTruth::check(std::size_t index, const Frame& frame, const Answers& answers,
-                        results::Check& check) const {
-    const PairsDigest& expected = expected_[index];
-    if (index == 0) {
-        check.status = "exact";
-        check.oracle = "sweep";
-    }
-    check.n_checked += answers.pairs.size();
-    check.n_got += answers.pairs.size();
-    check.n_expected += expected.count;
-    if (digest_of(answers.pairs) == expected)
-        return;
-    std::vector<Pair> right = ColumnSweep(frame.boxes, threads_).pairs();
-    if (is_left_out_)
-        std::erase_if(right, is_left_out_);
-    const PairsDifference wrong = difference(right, answers.pairs);
-    check.missing += wrong.missing;
-    check.extra += wrong.extra;
-    check.status = "wrong";
-    if (check.witness.empty())
-        check.witness = fmt::format("frame {}: {}", index, wrong.witness);
+const Task& moving_pairs_task() {
+    static const MovingPairs task;
+    return task;
 }
 
 } // namespace boxwood::bench

@@ -1,9 +1,11 @@
-#include "bench/tasks/scene_queries.h"
-
 #include "bench/io/bad_input.h"
 #include "bench/plan/plan.h"
+#include "bench/running/play.h"
 #include "bench/running/prepare.h"
 #include "bench/running/round.h"
+#include "bench/stages/stages_contender.h"
+#include "bench/tasks/task.h"
+#include "bench/truth/truth.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,19 +20,20 @@ using testing::HasSubstr;
 const Report silent = [](std::size_t, std::size_t, const std::string&) {};
 
 Plan plan_of(const std::string& keys) {
-    return make_plan("min_time_ms = 0.1\n[[cells]]\ntask = \"scene_queries\"\n" + keys, "x.toml", {});
+    return make_plan("min_time_ms = 0.1\n[[cells]]\ntask = \"scene_queries\"\n" + keys, "x.toml",
+                     {});
 }
 
-TEST(SceneAsks, ASweepChecksEveryFrameAndKeepsTheLedger) {
+TEST(SceneQueries, ASweepChecksEveryFrameAndKeepsTheLedger) {
     const Plan plan = plan_of("scene = [\"crowd\", \"arm_in_clutter\"]\nn = 150\nframes = 4\n"
-                              "stages = [\"required\", \"everything\"]\nwithout = \"each\"\n");
+                              "stages = [\"required\", \"all_stages\"]\nwithout = \"each\"\n");
     std::set<std::string> names;
     for (const PlannedCell& cell : plan.cells)
         names.insert(cell.name);
     EXPECT_EQ(plan.cells.size(), 2u * 2 + 3 + 1);
     EXPECT_TRUE(names.contains("crowd_frames4/n150-s1/scene_queries/required.without_spawn/f32/"
                                "serial-1"));
-    EXPECT_TRUE(names.contains("arm_in_clutter_frames4/n150-s1/scene_queries/everything/f32/"
+    EXPECT_TRUE(names.contains("arm_in_clutter_frames4/n150-s1/scene_queries/all_stages/f32/"
                                "serial-1"));
 
     results::Env env;
@@ -38,7 +41,7 @@ TEST(SceneAsks, ASweepChecksEveryFrameAndKeepsTheLedger) {
     const results::Results prepared = prepare(plan, env, {}, silent);
     ASSERT_EQ(prepared.checks.size(), plan.cells.size());
     for (const results::Check& check : prepared.checks) {
-        EXPECT_EQ(check.status, "exact")
+        EXPECT_EQ(check.status, results::Status::exact)
             << prepared.cells[check.cell_id].name << ": " << check.witness;
         EXPECT_EQ(check.oracle, "sweep");
     }
@@ -54,9 +57,9 @@ TEST(SceneAsks, ASweepChecksEveryFrameAndKeepsTheLedger) {
     std::set<std::uint32_t> with_ledger;
     for (const results::EffectRow& row : round.effects) {
         with_ledger.insert(row.cell_id);
-        const bool everything =
+        const bool all_stages =
             round.cells[row.cell_id].name.find("all_stages") != std::string::npos;
-        if (!row.required && !everything) {
+        if (!row.required && !all_stages) {
             EXPECT_EQ(row.calls, 0u) << row.stage;
             EXPECT_EQ(row.total_ns, 0) << row.stage;
             EXPECT_EQ(row.bytes, 0u) << row.stage;
@@ -70,7 +73,7 @@ TEST(SceneAsks, ASweepChecksEveryFrameAndKeepsTheLedger) {
 }
 
 /// Plays as another contender does, but for one pair.
-class LosesAPair final : public StagesContender {
+class LosesAPair final : public Contender {
   public:
     LosesAPair(const Job& job, std::size_t frame)
         : right_(stages_contender(Extent::required).make(job)), frame_(frame) {}
@@ -81,12 +84,12 @@ class LosesAPair final : public StagesContender {
     void update(const Frame& frame) override { right_->update(frame); }
     void query(Answers& answers) override {
         right_->query(answers);
-        answers_ = dynamic_cast<StagesContender&>(*right_).frame_answers();
+        auto& found = dynamic_cast<StageAnswers&>(answers);
+        answers_ = *found.frame;
         if (at_++ == frame_)
             answers_.pairs.pop_back();
+        found.frame = &answers_;
     }
-    const FrameAnswers& frame_answers() const override { return answers_; }
-    const Ledger& ledger() override { return dynamic_cast<StagesContender&>(*right_).ledger(); }
 
   private:
     std::unique_ptr<Contender> right_;
@@ -94,30 +97,34 @@ class LosesAPair final : public StagesContender {
     FrameAnswers answers_;
 };
 
-TEST(SceneAsks, ALostPairIsSeenAndNamed) {
-    const Plan plan =
-        plan_of("scene = \"popcorn\"\nn = 300\nframes = 5\nstages = \"required\"\n");
+TEST(SceneQueries, ALostPairIsSeenAndNamed) {
+    const Plan plan = plan_of("scene = \"popcorn\"\nn = 300\nframes = 5\nstages = \"required\"\n");
     const Scene scene = make_scene(plan.cells.at(0).scene);
-    const Job job{&scene, Ask::scene_queries, "serial", 1};
-    SceneTruth truth(scene.spec.moving, 1);
-    std::vector<FrameTime> times(5);
-    results::Check check;
-    const auto right = stages_contender(Extent::all_stages).make(job);
-    right->build();
-    truth.check(dynamic_cast<StagesContender&>(*right), "all_stages", times, check);
-    EXPECT_EQ(check.status, "exact") << check.witness;
-    EXPECT_GT(check.n_expected, 100u);
-    LosesAPair wrong(job, 2);
-    wrong.build();
-    check = {};
-    truth.check(wrong, "required", times, check);
-    EXPECT_EQ(check.status, "wrong");
-    EXPECT_EQ(check.missing, 1u);
-    EXPECT_EQ(check.extra, 0u);
-    EXPECT_THAT(check.witness, HasSubstr("frame 2: missing ("));
+    const Task& task = *find_task("scene_queries");
+    const Job job{&scene, &task, "serial", 1};
+    const auto truth = task.make_truth(scene, 1);
+    const auto judged = [&](Contender& contender, const ContenderEntry& entry) {
+        const auto answers = task.make_answers();
+        std::vector<FrameTime> times(5);
+        contender.build();
+        play(contender, nullptr, *answers, times, [&](std::size_t index, const Frame& frame) {
+            truth->note_frame(index, frame, *answers, entry);
+        });
+        return truth->judge(*answers, entry);
+    };
+    const ContenderEntry all_stages = stages_contender(Extent::all_stages);
+    const Judgement right = judged(*all_stages.make(job), all_stages);
+    EXPECT_EQ(right.status, Status::exact) << right.check.witness;
+    EXPECT_GT(right.check.n_expected, 100u);
+    LosesAPair contender(job, 2);
+    const Judgement wrong = judged(contender, stages_contender(Extent::required));
+    EXPECT_EQ(wrong.status, Status::wrong);
+    EXPECT_EQ(wrong.check.missing, 1u);
+    EXPECT_EQ(wrong.check.extra, 0u);
+    EXPECT_THAT(wrong.check.witness, HasSubstr("frame 2: missing ("));
 }
 
-TEST(SceneAsks, SweepFilesSayWhatIsWrong) {
+TEST(SceneQueries, SweepFilesSayWhatIsWrong) {
     const auto error_of = [](const std::string& keys) -> std::string {
         try {
             plan_of(keys);
@@ -127,12 +134,12 @@ TEST(SceneAsks, SweepFilesSayWhatIsWrong) {
         return "no error";
     };
     EXPECT_THAT(error_of("scene = \"crowd\"\n"), HasSubstr("needs stages"));
-    EXPECT_THAT(error_of("scene = \"crowd\"\nstages = \"everthing\"\n"), HasSubstr("'everything'"));
+    EXPECT_THAT(error_of("scene = \"crowd\"\nstages = \"all_stage\"\n"), HasSubstr("'all_stages'"));
     EXPECT_THAT(error_of("scene = \"crowd\"\nwithout = \"spwan\"\n"), HasSubstr("'spawn'"));
-    EXPECT_THAT(error_of("scene = \"crowd\"\nstages = \"everything\"\nupdates = \"auto\"\n"),
-                HasSubstr("updates is for the ask moving_pairs"));
-    EXPECT_THAT(error_of("scene = \"crowd\"\nstages = \"everything\"\npeers = \"fcl\"\n"),
-                HasSubstr("peers is for the ask moving_pairs"));
+    EXPECT_THAT(error_of("scene = \"crowd\"\nstages = \"all_stages\"\nupdates = \"auto\"\n"),
+                HasSubstr("updates is for the task moving_pairs"));
+    EXPECT_THAT(error_of("scene = \"crowd\"\nstages = \"all_stages\"\npeers = \"fcl\"\n"),
+                HasSubstr("peers is for the tasks "));
 }
 
 } // namespace

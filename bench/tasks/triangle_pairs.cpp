@@ -1,7 +1,12 @@
-#include "bench/tasks/triangle_pairs.h"
+/// Every unordered pair of a scene's triangles that share a point: a tree over their boxes, its
+/// self-pairs, and a kernel for each candidate.
 
-#include "bench/tasks/tree_contender.h"
+#include "bench/tasks/detail/pair_answers.h"
+#include "bench/tasks/detail/tree_contender.h"
+#include "bench/tasks/detail/tree_task.h"
+#include "bench/truth/pair_truth.h"
 #include "kernels/registry.h"
+#include "kernels/suggest.h"
 #include "trees/queries/touching_pairs.h"
 
 #include <stdexcept>
@@ -11,25 +16,27 @@
 namespace boxwood::bench {
 namespace {
 
-template <TriangleKernel K> class TrianglePairs final : public TreeContender {
+template <TriangleKernel K> class TouchingTriangles final : public TreeContender {
   public:
     using TreeContender::TreeContender;
 
     void query(Answers& answers) override {
-        answers.pairs.clear();
-        AppendPairs append(answers.pairs);
+        std::vector<Pair>& pairs = list_of<Pair>(answers);
+        pairs.clear();
+        AppendPairs append(pairs);
         TouchingPairs<K> touching(scene_.mesh, append);
         layout_->self_pairs(*executor_, touching);
     }
 
     std::optional<Work> counted_query(Answers& answers) override {
-        answers.pairs.clear();
+        std::vector<Pair>& pairs = list_of<Pair>(answers);
+        pairs.clear();
         tiers_ = {};
-        AppendPairs append(answers.pairs);
+        AppendPairs append(pairs);
         TouchingPairs<K> touching(scene_.mesh, append, &tiers_);
         Work work = layout_->self_pairs_counted(touching);
         work.triangle_tests = work.answers; // every candidate
-        work.answers = answers.pairs.size();
+        work.answers = pairs.size();
         return work;
     }
 
@@ -45,17 +52,89 @@ template <TriangleKernel K> class TrianglePairs final : public TreeContender {
     TierCounts tiers_;
 };
 
-} // namespace
-
-std::unique_ptr<Contender> make_triangle_pairs(const Job& job, BuildFunction build,
-                                               const LayoutEntry& layout, std::string_view kernel) {
+std::unique_ptr<Contender> make_touching(const Job& job, BuildFunction build,
+                                         const LayoutEntry& layout, std::string_view kernel) {
     std::unique_ptr<Contender> made;
     with_kernel<TriangleKernels>(kernel, [&]<class K>(std::type_identity<K>) {
-        made = std::make_unique<TrianglePairs<K>>(job, std::move(build), layout);
+        made = std::make_unique<TouchingTriangles<K>>(job, std::move(build), layout);
     });
-    if (!made)
-        throw std::invalid_argument("no triangle kernel " + std::string(kernel));
     return made;
+}
+
+/// What the wrong answers of the whole query come to, as a row of its kernel, too.
+class TouchingTruth final : public Truth {
+  public:
+    TouchingTruth(const Scene& scene, std::string_view task, unsigned threads)
+        : truth_(make_pair_truth(scene, PairsOf::triangles, threads)), task_(task) {}
+
+    Judgement judge(const Answers& answers, const ContenderEntry& contender) override {
+        Judgement judgement = truth_->judge(answers, contender);
+        const results::Check& check = judgement.check;
+        results::KernelRow& row = judgement.kernel.emplace();
+        row.family = "typical";
+        row.panel = to_string(Panel::generic);
+        row.task = task_;
+        row.kernel = contender.kernel.empty() ? contender.name : contender.kernel;
+        row.promise = to_string(contender.promise);
+        row.n = row.tier_0 = check.n_expected;
+        row.false_pos = check.extra;
+        row.false_neg = check.missing;
+        row.witness = check.witness;
+        return judgement;
+    }
+
+  private:
+    std::unique_ptr<Truth> truth_;
+    std::string task_;
+};
+
+class TrianglePairs final : public PairAnswers<TreeTask> {
+  public:
+    std::string_view name() const override { return "triangle_pairs"; }
+    std::string_view summary() const override {
+        return "every unordered pair of the scene's triangles that share a point";
+    }
+    std::vector<std::string_view> keys() const override {
+        std::vector<std::string_view> all = PairAnswers::keys();
+        all.push_back("kernels");
+        return all;
+    }
+    std::unique_ptr<Truth> make_truth(const Scene& scene, unsigned threads) const override {
+        return std::make_unique<TouchingTruth>(scene, name(), threads);
+    }
+    std::vector<NamedCount> counters(const Answers& answers, const Work* work) const override {
+        std::vector<NamedCount> counts{{"pairs", answers.size()}};
+        append_work(counts, work, true);
+        return counts;
+    }
+
+  protected:
+    std::string_view mesh_is_for() const override { return "test"; }
+    std::vector<Choice> variants(const BlockReader& block, const Choice& choice) const override {
+        std::vector<Choice> all;
+        for (const std::string& kernel : block.kernels(names_of(triangle_kernels()), {"all"})) {
+            all.push_back(choice);
+            all.back().kernel = kernel;
+        }
+        return all;
+    }
+    Way way(const Choice& choice) const override {
+        const KernelInfo& kernel =
+            entry_named(choice.kernel, triangle_kernels(), "triangle kernel");
+        return {
+            "self_pairs", choice.kernel, kernel.promise,
+            [name = choice.kernel](const Job& job, BuildFunction build, const LayoutEntry& layout) {
+                return make_touching(job, std::move(build), layout, name);
+            },
+            Query::self_pairs};
+    }
+};
+
+} // namespace
+
+const Task& triangle_pairs_task() {
+    static const TrianglePairs task;
+    return task;
 }
 
 } // namespace boxwood::bench

@@ -1,3 +1,5 @@
+#include "bench/tasks/detail/halves.h"
+#include "bench/tasks/task.h"
 #include "bench/truth/truth.h"
 #include "scenes/scenes.h"
 #include "trees/builder.h"
@@ -33,13 +35,13 @@ std::filesystem::path octahedron_file() {
 /// A question about a scene.
 struct Question {
     Scene scene;
-    Ask ask;
+    std::string_view task;
 };
 
-/// All that can be asked of a scene of boxes or triangles, with n points, regions and rays of each
+/// All tasks on a scene of boxes or triangles, with n points, regions and rays of each
 /// kind.
 std::vector<Question> questions_of(Scene scene, std::size_t n) {
-    std::vector<Question> all{{scene, Ask::pairs}, {scene, Ask::tree_pairs}};
+    std::vector<Question> all{{scene, "pairs"}, {scene, "tree_pairs"}};
     if (scene.boxes.empty())
         return all;
     const bool has_mesh = !scene.mesh.triangles.empty();
@@ -48,18 +50,18 @@ std::vector<Question> questions_of(Scene scene, std::size_t n) {
     with_boxes.regions = make_box_regions(scene.boxes, n, 2);
     with_balls.spheres = make_sphere_regions(scene.boxes, n, 3);
     with_points.points = make_points(scene.boxes, n, 4);
-    all.push_back({with_boxes, Ask::regions});
-    all.push_back({with_balls, Ask::regions});
-    all.push_back({with_points, Ask::points});
-    all.push_back({with_points, Ask::nearest});
+    all.push_back({with_boxes, "regions"});
+    all.push_back({with_balls, "regions"});
+    all.push_back({with_points, "points"});
+    all.push_back({with_points, "nearest"});
     if (!has_mesh)
         return all;
-    all.push_back({with_points, Ask::closest_points});
+    all.push_back({with_points, "closest_points"});
     scene.rays = make_rays("random", scene.mesh, n, 5);
     const auto more = make_rays("primary", scene.mesh, n, 6);
     scene.rays.insert(scene.rays.end(), more.begin(), more.end());
-    for (const Ask ask : {Ask::rays_closest, Ask::rays_any, Ask::rays_all})
-        all.push_back({scene, ask});
+    for (const char* task : {"rays_closest", "rays_any", "rays_all"})
+        all.push_back({scene, task});
     return all;
 }
 
@@ -145,102 +147,118 @@ class HitsAsPairs final : public HitSink {
 /// Hands the pairs of a question to a sink; false if its answers are no pairs.
 bool pairs_to(PairSink& sink, const Question& q, const Built& built, const Executor& executor,
               Work* work) {
-    switch (q.task) {
-    case Ask::pairs:
+    if (q.task == "pairs") {
         if (work)
             *work = built.all->self_pairs_counted(sink);
         else
             built.all->self_pairs(executor, sink);
-        return true;
-    case Ask::tree_pairs:
+    } else if (q.task == "tree_pairs") {
         if (work)
             *work = built.low->tree_pairs_counted(*built.high, sink);
         else
             built.low->tree_pairs(*built.high, executor, sink);
-        return true;
-    case Ask::points:
+    } else if (q.task == "points") {
         built.all->points(q.scene.points, executor, sink, work);
-        return true;
-    case Ask::regions:
+    } else if (q.task == "regions") {
         if (q.scene.spheres.empty())
             built.all->regions(q.scene.regions, executor, sink, work);
         else
             built.all->regions(q.scene.spheres, executor, sink, work);
-        return true;
-    default:
+    } else {
         return false;
     }
+    return true;
 }
 
-Answers answers_to(const Question& q, const Built& built, const Executor& executor,
-                   Work* work = nullptr) {
-    Answers answers;
-    AppendPairs append(answers.pairs);
+/// The answers to one question: one of the lists.
+struct Found {
+    AnswerList<Pair> pairs;
+    AnswerList<Neighbour> neighbours;
+    AnswerList<SurfacePoint> surface_points;
+    AnswerList<RayHit> hits;
+
+    const Answers& of(const Question& q) const {
+        if (q.task == "nearest")
+            return neighbours;
+        if (q.task == "closest_points")
+            return surface_points;
+        if (q.task == "rays_closest" || q.task == "rays_any")
+            return hits;
+        return pairs;
+    }
+};
+
+Found answers_to(const Question& q, const Built& built, const Executor& executor,
+                 Work* work = nullptr) {
+    Found answers;
+    AppendPairs append(answers.pairs.list);
     const Scene& scene = q.scene;
     const AnyLayout& surface = built.surface();
     if (pairs_to(append, q, built, executor, work)) {
-        if (q.task == Ask::tree_pairs)
-            for (Pair& pair : answers.pairs)
+        if (q.task == "tree_pairs")
+            for (Pair& pair : answers.pairs.list)
                 pair.b += static_cast<std::uint32_t>(tree_pairs_split(scene.boxes.size()));
-    } else if (q.task == Ask::nearest) {
+    } else if (q.task == "nearest") {
         const auto k = static_cast<std::size_t>(*scene.spec.k);
-        answers.neighbours.resize(k * scene.points.size());
-        built.all->nearest(scene.points, k, executor, answers.neighbours, work);
-    } else if (q.task == Ask::closest_points) {
-        answers.surface_points.resize(scene.points.size());
-        surface.closest_points(scene.points, scene.mesh, executor, answers.surface_points, work);
-    } else if (q.task == Ask::rays_all) {
-        HitsAsPairs hits(answers.pairs);
+        answers.neighbours.list.resize(k * scene.points.size());
+        built.all->nearest(scene.points, k, executor, answers.neighbours.list, work);
+    } else if (q.task == "closest_points") {
+        answers.surface_points.list.resize(scene.points.size());
+        surface.closest_points(scene.points, scene.mesh, executor, answers.surface_points.list,
+                               work);
+    } else if (q.task == "rays_all") {
+        HitsAsPairs hits(answers.pairs.list);
         surface.rays_all(scene.rays, "watertight", built.triangles, executor, hits);
     } else {
-        const RayQuery query = q.task == Ask::rays_any ? RayQuery::any : RayQuery::closest;
-        answers.hits.resize(scene.rays.size());
+        const RayQuery query = q.task == "rays_any" ? RayQuery::any : RayQuery::closest;
+        answers.hits.list.resize(scene.rays.size());
         if (work)
             *work = surface.rays_counted(scene.rays, query, "watertight", built.triangles,
-                                         answers.hits);
+                                         answers.hits.list);
         else if (executor.threads() == 4)
             sorted_rays(surface, scene.rays, query, "watertight", built.triangles, executor,
-                        answers.hits);
+                        answers.hits.list);
         else
-            surface.rays(scene.rays, query, "watertight", built.triangles, executor, answers.hits);
+            surface.rays(scene.rays, query, "watertight", built.triangles, executor,
+                         answers.hits.list);
     }
     return answers;
 }
 
 /// Bit for bit and in the same order.
-bool same(const Answers& a, const Answers& b) {
-    return a.pairs == b.pairs && a.neighbours == b.neighbours && a.hits == b.hits &&
-           std::ranges::equal(a.surface_points, b.surface_points,
+bool same(const Found& a, const Found& b) {
+    return a.pairs.list == b.pairs.list && a.neighbours.list == b.neighbours.list &&
+           a.hits.list == b.hits.list &&
+           std::ranges::equal(a.surface_points.list, b.surface_points.list,
                               [](const SurfacePoint& x, const SurfacePoint& y) {
                                   return x.point == y.point && x.triangle == y.triangle &&
                                          x.squared_distance == y.squared_distance;
                               });
 }
 
-std::uint64_t number_of(const Answers& answers) {
+std::uint64_t number_of(const Found& answers) {
     const auto found = [](const auto& list, const auto& is) {
         return static_cast<std::uint64_t>(std::ranges::count_if(list, is));
     };
-    return answers.pairs.size() + found(answers.hits, &RayHit::hit) +
-           found(answers.neighbours, [](const auto& x) { return x.item != Neighbour::none; }) +
-           found(answers.surface_points,
+    return answers.pairs.list.size() + found(answers.hits.list, &RayHit::hit) +
+           found(answers.neighbours.list, [](const auto& x) { return x.item != Neighbour::none; }) +
+           found(answers.surface_points.list,
                  [](const auto& x) { return x.triangle != Neighbour::none; });
 }
 
 std::string title(const Question& q) {
-    return q.scene.name + " n " + std::to_string(q.scene.boxes.size()) + " " +
-           std::string(to_string(q.task));
+    return q.scene.name + " n " + std::to_string(q.scene.boxes.size()) + " " + std::string(q.task);
 }
 
 TEST(EveryWay, AnswersEveryQuestionOfEveryScene) {
     const auto parallel = parallel_executors();
-    std::size_t turn = 0, asked = 0;
+    std::size_t turn = 0, answered = 0;
     for (const std::size_t n : {1u, 2u, 140u})
         for (const Scene& scene : every_scene(n)) {
             const std::vector<Question> questions = questions_of(scene, 40);
             std::vector<std::unique_ptr<Truth>> truths;
             for (const Question& q : questions)
-                truths.push_back(make_truth(q.scene, q.task, 1));
+                truths.push_back(find_task(q.task)->make_truth(q.scene, 1));
             for (const std::string& way : ways_to_build()) {
                 const BuildFunction build = make_builder(way);
                 const bool staged = way.find('+') != std::string::npos; // one layout each time
@@ -251,20 +269,21 @@ TEST(EveryWay, AnswersEveryQuestionOfEveryScene) {
                     for (std::size_t i = 0; i < questions.size(); ++i) {
                         const Question& q = questions[i];
                         const Executor& executor = *parallel[++turn % parallel.size()].run;
-                        const Answers answers = answers_to(q, built, serial());
-                        const results::Check check = truths[i]->check(answers);
-                        ASSERT_TRUE(check.status != "wrong" && check.missing + check.extra == 0)
+                        const Found answers = answers_to(q, built, serial());
+                        const Judgement judged = truths[i]->judge(answers.of(q), {});
+                        ASSERT_TRUE(judged.status != Status::wrong &&
+                                    judged.check.missing + judged.check.extra == 0)
                             << way << "." << layout.name << ", " << title(q) << ": "
-                            << check.witness;
+                            << judged.check.witness;
                         ASSERT_TRUE(same(answers_to(q, built, executor), answers))
                             << way << "." << layout.name << ", " << title(q) << ", "
                             << executor.threads() << " threads";
-                        ++asked;
+                        ++answered;
                     }
                 }
             }
         }
-    EXPECT_GT(asked, 3 * 10 * builders().size() * layouts().size());
+    EXPECT_GT(answered, 3 * 10 * builders().size() * layouts().size());
 }
 
 /// Large enough for every query to be cut into chunks.
@@ -280,17 +299,18 @@ TEST(EveryWay, AnswersAlikeOnAnyNumberOfThreadsAndCounted) {
             const Built built(scene, build, layout, serial());
             for (const Question& q : questions) {
                 SCOPED_TRACE(way + "." + std::string(layout.name) + ", " + title(q));
-                const Answers answers = answers_to(q, built, serial());
+                const Found answers = answers_to(q, built, serial());
                 for (const auto& [name, executor] : parallel) {
-                    const Answers again = answers_to(q, built, *executor);
+                    const Found again = answers_to(q, built, *executor);
                     EXPECT_TRUE(same(again, answers)) << name;
-                    EXPECT_EQ(answer_hash(again, q.task), answer_hash(answers, q.task));
+                    EXPECT_EQ(find_task(q.task)->hash(again.of(q)),
+                              find_task(q.task)->hash(answers.of(q)));
                 }
-                if (q.task == Ask::rays_all)
+                if (q.task == "rays_all")
                     continue; // has no counted form
                 Work work;
                 EXPECT_TRUE(same(answers_to(q, built, serial(), &work), answers) ||
-                            q.task == Ask::rays_any);
+                            q.task == "rays_any");
                 EXPECT_EQ(work.answers, number_of(answers));
                 if (scene.boxes.size() > 100) { // more than one block
                     EXPECT_GT(work.node_visits, 0u);

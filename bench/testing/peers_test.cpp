@@ -1,5 +1,8 @@
-#include "bench/tasks/contender.h"
 #include "bench/plan/families.h"
+#include "bench/tasks/contender.h"
+#include "bench/tasks/detail/halves.h"
+#include "bench/tasks/task.h"
+#include "trees/queries/pairs.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -85,11 +88,11 @@ std::vector<NamedBoxes> box_scenes() {
     return scenes;
 }
 
-std::vector<Pair> expected_pairs(const std::vector<Box>& boxes, Ask ask) {
+std::vector<Pair> expected_pairs(const std::vector<Box>& boxes, bool of_two_halves) {
     std::vector<Pair> pairs;
     const std::size_t n = boxes.size(), split = tree_pairs_split(n);
-    for (std::uint32_t i = 0; i < (ask == Ask::pairs ? n : split); ++i)
-        for (auto j = static_cast<std::uint32_t>(ask == Ask::pairs ? i + 1 : split); j < n; ++j) {
+    for (std::uint32_t i = 0; i < (of_two_halves ? split : n); ++i)
+        for (auto j = static_cast<std::uint32_t>(of_two_halves ? split : i + 1); j < n; ++j) {
             bool apart = false;
             for (int axis = 0; axis < 3; ++axis)
                 apart |= static_cast<double>(boxes[i].min[axis]) >
@@ -103,37 +106,38 @@ std::vector<Pair> expected_pairs(const std::vector<Box>& boxes, Ask ask) {
 }
 
 /// Calls f(entry, job) for each contender and each way it can run.
-template <class F> void for_each_way(const Scene& scene, Ask ask, F f) {
+template <class F> void for_each_way(const Scene& scene, const Task& task, F f) {
     for (const Peer& peer : peers())
         for (const ContenderEntry& entry : peer.contenders)
             for (const auto& [executor, threads] :
                  {std::pair{"serial", 1u}, std::pair{"tbb", 1u}, std::pair{"tbb", 2u}}) {
-                const Job job{&scene, ask, executor, threads};
+                const Job job{&scene, &task, executor, threads};
                 if (!entry.unsupported(job))
                     f(entry, job);
             }
 }
 
-class PeersOnBoxes : public testing::TestWithParam<Ask> {};
+class PeersOnBoxes : public testing::TestWithParam<const char*> {};
 
 TEST_P(PeersOnBoxes, AgreeWithTwoLoops) {
     for (const NamedBoxes& named : box_scenes()) {
         const Scene scene = scene_of(named.boxes);
-        const std::vector<Pair> expected = expected_pairs(scene.boxes, GetParam());
+        const Task& task = *find_task(GetParam());
+        const std::vector<Pair> expected = expected_pairs(scene.boxes, task.name() == "tree_pairs");
         int ways = 0;
-        for_each_way(scene, GetParam(), [&](const ContenderEntry& entry, const Job& job) {
+        for_each_way(scene, task, [&](const ContenderEntry& entry, const Job& job) {
             SCOPED_TRACE(entry.name + " on " + named.name + ", " + job.executor + " " +
                          std::to_string(job.threads));
             ++ways;
             const auto contender = entry.make(job);
-            Answers answers;
-            answers.pairs.push_back({7, 8}); // what an earlier query left
+            AnswerList<Pair> answers;
+            answers.list.push_back({7, 8}); // what an earlier query left
             for (int again = 0; again < 2; ++again) {
                 contender->build();
                 for (int query = 0; query < 2; ++query) {
                     contender->query(answers);
-                    std::ranges::sort(answers.pairs);
-                    EXPECT_EQ(answers.pairs, expected);
+                    std::ranges::sort(answers.list);
+                    EXPECT_EQ(answers.list, expected);
                 }
             }
         });
@@ -141,10 +145,10 @@ TEST_P(PeersOnBoxes, AgreeWithTwoLoops) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Asks, PeersOnBoxes, testing::Values(Ask::pairs, Ask::tree_pairs),
-                         [](const auto& p) { return std::string(to_string(p.param)); });
+INSTANTIATE_TEST_SUITE_P(Tasks, PeersOnBoxes, testing::Values("pairs", "tree_pairs"),
+                         [](const auto& p) { return std::string(p.param); });
 
-TEST(Peers, CatalogueIsWellFormed) {
+TEST(Peers, RegistryIsWellFormed) {
     std::vector<std::string> names;
     ASSERT_FALSE(peers().empty());
     EXPECT_EQ(peers()[0].name, "brute_force");
@@ -173,29 +177,32 @@ TEST(Peers, SayWhatTheyCannotDo) {
     const Scene scene = scene_of(random_boxes(2, 1, 1));
     for (const Peer& peer : peers())
         for (const ContenderEntry& entry : peer.contenders) {
-            int asks_answered = 0;
-            for (const AskEntry& ask : asks()) {
-                EXPECT_TRUE(entry.unsupported({&scene, ask.task, "openmp", 2})) << entry.name;
-                asks_answered += !entry.unsupported({nullptr, ask.task, "serial", 1});
+            std::size_t tasks_answered = 0;
+            for (const Task* task : tasks()) {
+                EXPECT_TRUE(entry.unsupported({&scene, task, "openmp", 2})) << entry.name;
+                tasks_answered += !entry.unsupported({nullptr, task, "serial", 1});
             }
-            EXPECT_GT(asks_answered, 0) << entry.name;
+            EXPECT_GT(tasks_answered, 0u) << entry.name;
+            EXPECT_EQ(tasks_answered, entry.answers.size()) << entry.name;
         }
 }
 
-TEST(Asks, WordsGoBothWays) {
-    for (const AskEntry& entry : asks()) {
-        EXPECT_EQ(to_string(entry.task), entry.name);
-        EXPECT_EQ(ask_of(entry.name), entry.task);
+TEST(Tasks, AreFoundByTheirNames) {
+    for (const Task* task : tasks()) {
+        EXPECT_EQ(find_task(task->name()), task);
+        EXPECT_FALSE(task->summary().empty());
+        EXPECT_FALSE(task->keys().empty());
+        EXPECT_EQ(task->make_answers()->size(), 0u);
     }
-    EXPECT_EQ(ask_of("pears"), std::nullopt);
+    EXPECT_EQ(find_task("pears"), nullptr);
 }
 
 TEST(Peers, GiveTheThreadsBack) {
     using tbb::global_control;
     const Scene scene = scene_of(random_boxes(10, 1, 1));
     const auto before = global_control::active_value(global_control::max_allowed_parallelism);
-    for_each_way(scene, Ask::pairs, [&](const ContenderEntry& entry, const Job& job) {
-        Answers answers;
+    for_each_way(scene, *find_task("pairs"), [&](const ContenderEntry& entry, const Job& job) {
+        AnswerList<Pair> answers;
         {
             const auto contender = entry.make(job);
             contender->build();
@@ -213,15 +220,15 @@ TEST(Peers, LeaveTheFloatingPointModeAlone) {
     scene.mesh.triangles = {{0, 1, 2}};
     scene.rays.assign(1000, {{0.2f, 0.2f, -1}, {0, 0, 1}});
     const unsigned before = _mm_getcsr() & ~0x3fu; // without the sticky exception flags
-    for (const AskEntry& ask : asks()) {
-        if (is_kernel_ask(ask.task))
-            scene.cases = sample_of(*families_of("all", ask.task).front());
-        for_each_way(scene, ask.task, [&](const ContenderEntry& entry, const Job& job) {
-            Answers answers;
+    for (const Task* task : tasks()) {
+        if (task->scenes() == SceneKind::cases)
+            scene.cases = sample_of(*families_of("all", *task).front());
+        for_each_way(scene, *task, [&](const ContenderEntry& entry, const Job& job) {
             {
+                const auto answers = task->make_answers();
                 const auto contender = entry.make(job);
                 contender->build();
-                contender->query(answers);
+                contender->query(*answers);
             }
             EXPECT_EQ(_mm_getcsr() & ~0x3fu, before) << entry.name;
             volatile float tiny = std::numeric_limits<float>::min();
@@ -243,20 +250,20 @@ TEST(PeersOnRays, AgreeOnOneTriangle) {
                   {{0.25f, 0.5f, -1}, {0, 0, 1}, 2, 5.5f}}; // between the two
     const std::vector<RayHit> expected{
         {0.5f, 0.25f, 0.5f, 1}, {1, 0.25f, 0.5f, 0}, {}, {6, 0.25f, 0.5f, 0}, {}, {}};
-    for (const Ask ask : {Ask::rays_closest, Ask::rays_any})
-        for_each_way(scene, ask, [&](const ContenderEntry& entry, const Job& job) {
+    for (const char* name : {"rays_closest", "rays_any"})
+        for_each_way(scene, *find_task(name), [&](const ContenderEntry& entry, const Job& job) {
             SCOPED_TRACE(entry.name);
             const auto contender = entry.make(job);
-            Answers answers;
+            AnswerList<RayHit> answers;
             contender->build();
             contender->build();
             contender->query(answers);
-            ASSERT_EQ(answers.hits.size(), expected.size());
+            ASSERT_EQ(answers.list.size(), expected.size());
             for (std::size_t i = 0; i < expected.size(); ++i)
-                if (ask == Ask::rays_any)
-                    EXPECT_EQ(answers.hits[i].hit(), expected[i].hit()) << i;
+                if (job.task->name() == "rays_any")
+                    EXPECT_EQ(answers.list[i].hit(), expected[i].hit()) << i;
                 else
-                    EXPECT_EQ(answers.hits[i], expected[i]) << i;
+                    EXPECT_EQ(answers.list[i], expected[i]) << i;
         });
 }
 

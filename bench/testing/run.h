@@ -21,26 +21,26 @@ struct RunForTest {
     }
 
     /// Of a scene with n items and a variant, both made where they are new; right when checked.
-    std::uint32_t cell(const std::string& scene, std::uint64_t n, const std::string& ask,
+    std::uint32_t cell(const std::string& scene, std::uint64_t n, const std::string& task,
                        const std::string& variant, std::uint32_t threads = 1) {
         results::Cell cell;
         cell.cell_id = static_cast<std::uint32_t>(results.cells.size());
         cell.name = scene + "/" + variant;
         cell.scene_id = scene_id(scene, n);
         cell.variant_id = variant_id(variant);
-        cell.task = ask;
+        cell.task = task;
         cell.n_items = n;
         cell.executor = threads == 1 ? "serial" : "tbb";
         cell.threads = threads;
         results.cells.push_back(cell);
         results::Check check;
         check.cell_id = cell.cell_id;
-        check.status = "exact";
+        check.status = results::Status::exact;
         results.checks.push_back(check);
         return cell.cell_id;
     }
 
-    void time(std::uint32_t cell, const std::string& phase,
+    void time(std::uint32_t cell, results::Phase phase,
               const std::function<double(std::uint32_t round)>& ns) {
         for (std::uint32_t round = 0; round < rounds; ++round) {
             results::Sample sample;
@@ -51,7 +51,7 @@ struct RunForTest {
             results.samples.push_back(sample);
         }
     }
-    void time(std::uint32_t cell, const std::string& phase, double ns) {
+    void time(std::uint32_t cell, results::Phase phase, double ns) {
         time(cell, phase, [ns](std::uint32_t) { return ns; });
     }
 

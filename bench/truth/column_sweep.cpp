@@ -11,11 +11,11 @@ namespace boxwood::bench {
 namespace {
 
 /// Boxes whose places and sizes say where to cut.
-constexpr std::size_t most_sampled = 4096;
+constexpr std::size_t max_sampled = 4096;
 /// A column has about so many boxes at least, each box is in so many columns at most in the mean.
-constexpr std::size_t least_per_column = 64;
-constexpr double most_columns_of_box = 4;
-constexpr std::uint32_t most_along_axis = 4096;
+constexpr std::size_t min_per_column = 64;
+constexpr double max_columns_of_box = 4;
+constexpr std::uint32_t max_along_axis = 4096;
 
 bool is_box(const Aabb<float>& b) { // false for NaN
     return b.min.x <= b.max.x && b.min.y <= b.max.y && b.min.z <= b.max.z;
@@ -33,7 +33,7 @@ double quantile(std::vector<double>& numbers, double share) {
 
 ColumnSweep::ColumnSweep(std::span<const Aabb<float>> boxes, unsigned threads)
     : boxes_(boxes), threads_(threads) {
-    cut(most_columns_of_box * static_cast<double>(boxes.size()));
+    cut(max_columns_of_box * static_cast<double>(boxes.size()));
     list();
 }
 
@@ -47,14 +47,14 @@ std::uint32_t ColumnSweep::column_of(float at, int axis) const {
 
 /// Columns twice as wide as the median box, fewer where they would be nearly empty or where long
 /// boxes would fill too many.
-void ColumnSweep::cut(double entries_most) {
+void ColumnSweep::cut(double max_entries) {
     std::vector<double> places, sides;
     double extent[2]{};
     std::uint32_t wanted[2]{1, 1};
     for (const int axis : {0, 1}) {
         places.clear();
         sides.clear();
-        const std::size_t n = std::min(boxes_.size(), most_sampled);
+        const std::size_t n = std::min(boxes_.size(), max_sampled);
         for (std::size_t k = 0; k < n; ++k) {
             const Aabb<float>& box = boxes_[k * boxes_.size() / n];
             if (!is_box(box))
@@ -69,13 +69,13 @@ void ColumnSweep::cut(double entries_most) {
         low_[axis] = quantile(places, .01);
         extent[axis] = quantile(places, .99) - low_[axis];
         const double columns = extent[axis] / (2 * quantile(sides, .5)); // NaN or inf if flat
-        wanted[axis] = columns >= most_along_axis ? most_along_axis
-                       : columns > 1              ? static_cast<std::uint32_t>(columns)
-                                                  : 1;
+        wanted[axis] = columns >= max_along_axis ? max_along_axis
+                       : columns > 1             ? static_cast<std::uint32_t>(columns)
+                                                 : 1;
         if (!(extent[axis] > 0))
             wanted[axis] = 1;
     }
-    const std::size_t most = std::max<std::size_t>(1, boxes_.size() / least_per_column);
+    const std::size_t most = std::max<std::size_t>(1, boxes_.size() / min_per_column);
     for (bool fits = false; !fits;) {
         while (std::size_t{wanted[0]} * wanted[1] > most)
             wanted[wanted[1] > wanted[0]] /= 2;
@@ -89,7 +89,7 @@ void ColumnSweep::cut(double entries_most) {
                 entries +=
                     static_cast<double>(column_of(box.max.y, 0) - column_of(box.min.y, 0) + 1) *
                     static_cast<double>(column_of(box.max.z, 1) - column_of(box.min.z, 1) + 1);
-        fits = entries <= entries_most || std::max(wanted[0], wanted[1]) == 1;
+        fits = entries <= max_entries || std::max(wanted[0], wanted[1]) == 1;
         for (std::uint32_t& columns : wanted)
             columns = std::max(1u, columns / 2);
     }

@@ -14,11 +14,11 @@ namespace boxwood::bench {
 
 /// Every unordered pair of overlapping boxes, by an oracle that uses no tree: the y-z plane is cut
 /// into columns, each box is listed in every column that it reaches, and the boxes of a column,
-/// sorted by their least x, meet those that begin before they end. A pair is told in the column of
-/// the lower corner of its overlap alone. A box that is none (empty, or with NaN) is left out.
+/// sorted by their least x, meet those that begin before they end. A pair is reported in the column
+/// of the lower corner of its overlap alone. A box that is none (empty, or with NaN) is left out.
 class ColumnSweep {
   public:
-    /// The boxes must outlive it. `threads` may be used for everything.
+    /// The boxes must outlive it. `threads` may be used.
     ColumnSweep(std::span<const Aabb<float>> boxes, unsigned threads);
 
     /// Number and hash of the pairs, of which no list is held; without those of which is_left_out.
@@ -29,7 +29,7 @@ class ColumnSweep {
   private:
     template <class Take> void for_each_column(const Take& take) const;
     std::uint32_t column_of(float at, int axis) const;
-    void cut(double entries_most);
+    void cut(double max_entries);
     void list();
 
     std::span<const Aabb<float>> boxes_;

@@ -33,7 +33,7 @@ PairsDigest digest_of(std::span<const Pair> pairs);
 /// The pairs of all parts, ascending.
 std::vector<Pair> sorted_pairs(std::vector<std::vector<Pair>> parts);
 
-/// What is wrong with an answer, each pair that is told twice extra once.
+/// What is wrong with an answer, each pair that is there twice extra once.
 struct PairsDifference {
     std::size_t missing = 0, extra = 0;
     std::string witness; ///< "missing (3,7)", or "extra (3,7)" if none is missing

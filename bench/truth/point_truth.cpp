@@ -1,15 +1,14 @@
 #include "bench/truth/point_truth.h"
 
-#include "bench/tasks/points.h"
 #include "kernels/features/point_triangle.h"
 #include "kernels/oracle/exact_answers.h"
 #include "trees/executor.h"
+#include "trees/layout.h"
 
 #include <fmt/format.h>
 #include <xxhash.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <set>
 
@@ -52,8 +51,9 @@ struct Answer {
 
 class PointTruth final : public Truth {
   public:
-    PointTruth(const Scene& scene, Ask ask, unsigned threads)
-        : scene_(scene), ask_(ask), k_(ask == Ask::nearest ? neighbours_of(scene) : 1) {
+    PointTruth(const Scene& scene, PointQuery query, unsigned threads)
+        : scene_(scene), query_(query),
+          k_(query == PointQuery::nearest ? neighbours_of(scene) : 1) {
         sample();
         answers_.resize(sample_.size());
         make_executor("tbb", threads)->for_each(sample_.size(), [&](std::size_t s) {
@@ -61,37 +61,40 @@ class PointTruth final : public Truth {
         });
     }
 
-    results::Check check(const Answers& answers) const override {
-        results::Check check;
-        check.oracle = ask_ == Ask::closest_points ? "rational" : "brute_force_f64";
-        check.result_hash = point_answer_hash(answers, ask_);
+    Judgement judge(const Answers& answers, const ContenderEntry&) override {
+        Judgement judgement;
+        results::Check& check = judgement.check;
+        check.oracle = query_ == PointQuery::surface_point ? "rational" : "brute_force_f64";
         check.n_checked = sample_.size();
         bool exact = true;
         if (is_pairs()) {
-            check_pairs(answers.pairs, check);
+            check_pairs(list_of<Pair>(answers), check);
         } else {
-            const std::size_t got =
-                ask_ == Ask::nearest ? answers.neighbours.size() : answers.surface_points.size();
             check.max_abs_err = check.max_rel_err = 0;
-            if (got != k_ * n_queries()) {
-                check.n_got = got;
+            if (answers.size() != k_ * n_queries()) {
+                check.n_got = answers.size();
                 check.n_expected = check.missing = k_ * n_queries();
-                check.witness = fmt::format("{} answers for {} points", got, n_queries());
-            } else if (ask_ == Ask::nearest) {
-                check_nearest(answers.neighbours, check, exact);
+                check.witness =
+                    fmt::format("{} answers for {} points", answers.size(), n_queries());
+            } else if (query_ == PointQuery::nearest) {
+                check_nearest(list_of<Neighbour>(answers), check, exact);
             } else {
-                check_surface(answers.surface_points, check, exact);
+                check_surface(list_of<SurfacePoint>(answers), check, exact);
             }
         }
-        check.status = check.missing || check.extra ? "wrong" : exact ? "exact" : "within_bound";
-        return check;
+        judgement.status = check.missing || check.extra ? Status::wrong
+                           : exact                      ? Status::exact
+                                                        : Status::within_bound;
+        return judgement;
     }
 
   private:
-    bool is_pairs() const { return ask_ == Ask::points || ask_ == Ask::regions; }
+    bool is_pairs() const {
+        return query_ == PointQuery::containing || query_ == PointQuery::overlapping;
+    }
     std::size_t n_queries() const {
-        return ask_ == Ask::regions ? scene_.regions.size() + scene_.spheres.size()
-                                    : scene_.points.size();
+        return query_ == PointQuery::overlapping ? scene_.regions.size() + scene_.spheres.size()
+                                                 : scene_.points.size();
     }
 
     /// One query of each of m equal runs, picked by a hash of the scene's seed.
@@ -106,7 +109,7 @@ class PointTruth final : public Truth {
     }
 
     bool meets(std::size_t query, const Aabb<float>& box) const {
-        if (ask_ == Ask::points)
+        if (query_ == PointQuery::containing)
             return distance(Vec(scene_.points[query]), box) == 0;
         if (!scene_.spheres.empty()) {
             const Sphere<float>& ball = scene_.spheres[query];
@@ -129,7 +132,7 @@ class PointTruth final : public Truth {
             return answer;
         }
         const Vec p(scene_.points[query]);
-        if (ask_ == Ask::nearest) {
+        if (query_ == PointQuery::nearest) {
             std::vector<std::pair<double, std::uint32_t>> all;
             for (std::uint32_t i = 0; i < scene_.boxes.size(); ++i)
                 all.emplace_back(distance(p, scene_.boxes[i]), i);
@@ -179,7 +182,7 @@ class PointTruth final : public Truth {
         }
         if (!got.empty() && got.back().a >= n_queries()) {
             ++check.extra;
-            check.witness = fmt::format("a query {} that was not asked", got.back().a);
+            check.witness = fmt::format("there is no query {}", got.back().a);
         }
     }
 
@@ -254,7 +257,7 @@ class PointTruth final : public Truth {
     }
 
     const Scene& scene_;
-    Ask ask_;
+    PointQuery query_;
     std::size_t k_;
     std::vector<std::size_t> sample_;
     std::vector<Answer> answers_;
@@ -262,25 +265,8 @@ class PointTruth final : public Truth {
 
 } // namespace
 
-std::unique_ptr<Truth> make_point_truth(const Scene& scene, Ask ask, unsigned threads) {
-    return std::make_unique<PointTruth>(scene, ask, threads);
-}
-
-std::uint64_t point_answer_hash(const Answers& answers, Ask ask) {
-    std::vector<std::uint64_t> words;
-    if (ask == Ask::nearest)
-        for (const Neighbour& near : answers.neighbours) {
-            words.push_back(near.item);
-            words.push_back(std::bit_cast<std::uint64_t>(near.squared_distance));
-        }
-    else
-        for (const SurfacePoint& near : answers.surface_points) {
-            words.push_back(near.triangle);
-            words.push_back(std::bit_cast<std::uint64_t>(near.squared_distance));
-            for (int axis = 0; axis < 3; ++axis)
-                words.push_back(std::bit_cast<std::uint32_t>(near.point[axis]));
-        }
-    return XXH3_64bits(words.data(), words.size() * sizeof(words[0]));
+std::unique_ptr<Truth> make_point_truth(const Scene& scene, PointQuery query, unsigned threads) {
+    return std::make_unique<PointTruth>(scene, query, threads);
 }
 
 } // namespace boxwood::bench

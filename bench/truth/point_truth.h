@@ -4,17 +4,26 @@
 
 namespace boxwood::bench {
 
-/// The truth of the asks of points and regions (is_point_ask), for a seeded sample of the queries:
-/// every item tested in doubles. Items of equal distance may differ between libraries, and those of
-/// floats round: an answer of nearest or closest_points is right if its distance is within
-/// `point_bound` of the least (of the k least, in order).
-std::unique_ptr<Truth> make_point_truth(const Scene& scene, Ask ask, unsigned threads);
+enum class PointQuery : std::uint8_t {
+    containing,   ///< for each point the boxes that contain it
+    overlapping,  ///< for each box or sphere the boxes that share a point with it
+    nearest,      ///< for each point the k nearest boxes
+    surface_point ///< for each point the nearest point of the mesh
+};
+
+/// The right answers to a seeded sample of a scene's points or regions: every item tested in
+/// doubles. Items of equal distance may differ between libraries, and those of floats round: an
+/// answer of the last two is right if its distance is within `point_bound` of the least (of the k
+/// least, in order), and exact where it equals the truth.
+std::unique_ptr<Truth> make_point_truth(const Scene& scene, PointQuery query, unsigned threads);
 
 /// How far a distance may be off: this share of itself, and of the size of the triangle if there is
-/// one. Our answers are judged alike, and recorded as exact where they equal the truth.
+/// one.
 inline constexpr double point_bound = 0x1p-16;
 
-/// As answer_hash, of nearest and closest_points.
-std::uint64_t point_answer_hash(const Answers& answers, Ask ask);
+/// How many neighbours of each point `nearest` wants: the scene's k, or 1.
+inline std::size_t neighbours_of(const Scene& scene) {
+    return static_cast<std::size_t>(scene.spec.k.value_or(1));
+}
 
 } // namespace boxwood::bench

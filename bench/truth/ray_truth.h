@@ -27,7 +27,7 @@ struct RayTruth {
     bool must_hit() const { return t_limit < std::numeric_limits<double>::infinity(); }
 };
 
-/// The oracle of ray asks. The mesh must outlive it.
+/// The oracle of rays. The mesh must outlive it.
 class RayOracle {
   public:
     explicit RayOracle(const TriangleMesh& mesh);

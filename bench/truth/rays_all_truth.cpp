@@ -2,6 +2,7 @@
 
 #include "bench/truth/ray_truth.h"
 #include "trees/executor.h"
+#include "trees/queries/pairs.h"
 
 #include <fmt/format.h>
 #include <xxhash.h>
@@ -22,21 +23,21 @@ class AllHitsTruth final : public Truth {
         });
     }
 
-    results::Check check(const Answers& answers) const override {
-        results::Check check;
+    Judgement judge(const Answers& answers, const ContenderEntry&) override {
+        Judgement judgement;
+        results::Check& check = judgement.check;
         check.oracle = "brute_force_f64";
-        check.result_hash = answer_hash(answers, Ask::rays_all);
         check.n_checked = sample_.size();
-        std::vector<Pair> got = answers.pairs;
+        std::vector<Pair> got = list_of<Pair>(answers);
         std::ranges::sort(got);
-        const auto tell = [&](const char* what, Pair p) {
+        const auto note = [&](const char* what, Pair p) {
             if (check.witness.empty())
                 check.witness = fmt::format("{} (ray {}, triangle {})", what, p.a, p.b);
         };
         for (const Pair& p : got)
             if (p.a >= n_rays_ || p.b >= n_triangles_) {
                 ++check.extra;
-                tell("no such answer", p);
+                note("no such answer", p);
             }
         bool all_certain = true;
         for (std::size_t k = 0; k < sample_.size(); ++k) {
@@ -48,7 +49,7 @@ class AllHitsTruth final : public Truth {
                 check.n_expected += c.certain;
                 if (c.certain && !std::ranges::binary_search(own, Pair{ray, c.triangle})) {
                     ++check.missing;
-                    tell("missing", {ray, c.triangle});
+                    note("missing", {ray, c.triangle});
                 }
             }
             for (auto p = own.begin(); p != own.end(); ++p) {
@@ -57,14 +58,14 @@ class AllHitsTruth final : public Truth {
                     (twice || !std::ranges::binary_search(truths_[k], p->b, {},
                                                           &RayTruth::Candidate::triangle))) {
                     ++check.extra;
-                    tell(twice ? "twice" : "extra", *p);
+                    note(twice ? "twice" : "extra", *p);
                 }
             }
         }
-        check.status = check.missing || check.extra ? "wrong"
-                       : all_certain                ? "exact"
-                                                    : "within_bound";
-        return check;
+        judgement.status = check.missing || check.extra ? Status::wrong
+                           : all_certain                ? Status::exact
+                                                        : Status::within_bound;
+        return judgement;
     }
 
   private:

@@ -1,29 +1,49 @@
 #pragma once
 
 #include "bench/tasks/contender.h"
-#include "bench/truth/pairs_digest.h"
 #include "results/results.h"
 
+#include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace boxwood::bench {
 
-/// The right answer to (scene, ask), by an oracle that uses no tree: brute force for pairs, or a
-/// sweep by columns beyond 20,000 boxes, with rational arithmetic for those of triangles; brute
-/// force in double for a seeded sample of rays. Computed once, shared by all contenders. The kernel
-/// asks have `judging/judge.h` instead.
+using results::Status;
+
+/// What one contender's answers are worth, as rows of a result file. Ids, times, status and hash
+/// are left unset in the rows.
+struct Judgement {
+    Status status = Status::exact;
+    results::Check check;
+    std::optional<results::KernelRow> kernel; ///< of the kernel that decided, if it is one's doing
+    std::vector<results::ConditionRow> conditions;
+    std::uint64_t calls = 0;      ///< of that kernel in one query; 0: not known
+    bool breaks_promise = false;  ///< a kernel of ours does not keep what it states
+    bool has_faulty_tree = false; ///< its tree is not to be measured
+};
+
+/// The right answers to one task on one scene, by an oracle that uses no tree. Computed once,
+/// shared by all contenders.
 class Truth {
   public:
     virtual ~Truth() = default;
-    /// Counts missing and extra answers and says what the answer is worth (cell_id is left unset).
-    virtual results::Check check(const Answers& answers) const = 0;
+    /// Counts missing and extra answers. Of tasks of frames: those of all frames since frame 0.
+    virtual Judgement judge(const Answers& answers, const ContenderEntry& contender) = 0;
+    /// Of tasks of frames: looks at the answers to a frame, numbered from 0 in order.
+    virtual void note_frame(std::size_t /*index*/, const Frame& /*frame*/,
+                            const Answers& /*answers*/, const ContenderEntry& /*contender*/) {}
 };
 
-/// `threads` may be used to compute it. The scene must outlive the truth.
-std::unique_ptr<Truth> make_truth(const Scene& scene, Ask ask, unsigned threads);
-
-/// A hash of an answer that does not depend on the order of its pairs. It tells whether two rounds
-/// of one contender gave the same answer.
-std::uint64_t answer_hash(const Answers& answers, Ask ask);
+/// The truth of a scene of hard cases, which can say each case in words, with numbers as hex floats
+/// that read back exactly.
+class CaseTruth : public Truth {
+  public:
+    virtual std::string case_text(std::size_t i) const = 0;
+    virtual std::string truth_text(std::size_t i, const std::string& precision) = 0;
+    virtual std::string answer_text(const Answers& answers, std::size_t i) const = 0;
+};
 
 } // namespace boxwood::bench

@@ -1,6 +1,11 @@
 #include "bench/truth/truth.h"
 
+#include "bench/tasks/detail/halves.h"
+#include "bench/tasks/task.h"
+#include "bench/truth/hit_truth.h"
+#include "bench/truth/pair_truth.h"
 #include "bench/truth/ray_truth.h"
+#include "trees/queries/pairs.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,68 +30,78 @@ Scene random_boxes(std::size_t n, float size) {
     return scene;
 }
 
-Answers all_overlaps(const Scene& scene, Ask ask) {
-    Answers answers;
+using PairList = AnswerList<Pair>;
+using HitList = AnswerList<RayHit>;
+
+PairList all_overlaps(const Scene& scene, PairsOf what) {
+    PairList answers;
     const std::size_t n = scene.boxes.size(), split = tree_pairs_split(n);
     for (std::uint32_t j = 0; j < n; ++j)
         for (std::uint32_t i = 0; i < j; ++i)
             if (overlaps(scene.boxes[i], scene.boxes[j]) &&
-                (ask == Ask::pairs || (i < split && j >= split)))
-                answers.pairs.push_back({i, j});
+                (what == PairsOf::all_boxes || (i < split && j >= split)))
+                answers.list.push_back({i, j});
     return answers;
 }
 
-class PairTruthTest : public testing::TestWithParam<Ask> {};
+const ContenderEntry nobody;
+
+class PairTruthTest : public testing::TestWithParam<PairsOf> {};
 
 TEST_P(PairTruthTest, ExactOrWrongWithAWitness) {
     const Scene scene = random_boxes(9000, 0.02f);
-    const auto truth = make_truth(scene, GetParam(), 2);
-    const Answers right = all_overlaps(scene, GetParam());
-    ASSERT_GT(right.pairs.size(), 100u);
+    const auto truth = make_pair_truth(scene, GetParam(), 2);
+    const PairList right = all_overlaps(scene, GetParam());
+    ASSERT_GT(right.list.size(), 100u);
 
-    results::Check check = truth->check(right);
-    EXPECT_EQ(check.status, "exact");
+    const Task& task = *find_task("pairs");
+    const auto judged = [&](const Answers& given) { return truth->judge(given, nobody); };
+    EXPECT_EQ(judged(right).status, Status::exact);
+    results::Check check = judged(right).check;
     EXPECT_EQ(check.oracle, "brute_force");
-    EXPECT_EQ(check.n_expected, right.pairs.size());
-    EXPECT_EQ(check.n_got, right.pairs.size());
+    EXPECT_EQ(check.n_expected, right.list.size());
+    EXPECT_EQ(check.n_got, right.list.size());
     EXPECT_EQ(check.missing + check.extra, 0u);
     EXPECT_EQ(check.witness, "");
 
-    Answers answers = right;
-    std::ranges::reverse(answers.pairs);
-    EXPECT_EQ(truth->check(answers).status, "exact");
-    EXPECT_EQ(truth->check(answers).result_hash, check.result_hash);
+    PairList answers = right;
+    std::ranges::reverse(answers.list);
+    EXPECT_EQ(judged(answers).status, Status::exact);
+    EXPECT_EQ(task.hash(answers), task.hash(right));
 
-    const Pair lost = answers.pairs.back();
-    answers.pairs.pop_back();
-    check = truth->check(answers);
-    EXPECT_EQ(check.status, "wrong");
+    const Pair lost = answers.list.back();
+    answers.list.pop_back();
+    EXPECT_EQ(judged(answers).status, Status::wrong);
+    check = judged(answers).check;
     EXPECT_EQ(check.missing, 1u);
     EXPECT_EQ(check.extra, 0u);
     EXPECT_EQ(check.witness,
               "missing (" + std::to_string(lost.a) + "," + std::to_string(lost.b) + ")");
-    EXPECT_NE(check.result_hash, truth->check(right).result_hash);
+    EXPECT_NE(task.hash(answers), task.hash(right));
 
-    answers.pairs.push_back({lost.b, lost.a}); // the right pair the wrong way round
-    check = truth->check(answers);
+    answers.list.push_back({lost.b, lost.a}); // the right pair the wrong way round
+    check = judged(answers).check;
     EXPECT_EQ(check.missing, 1u);
     EXPECT_EQ(check.extra, 1u);
 
     answers = right;
-    answers.pairs.push_back(right.pairs[5]);
-    check = truth->check(answers);
-    EXPECT_EQ(check.status, "wrong");
+    answers.list.push_back(right.list[5]);
+    EXPECT_EQ(judged(answers).status, Status::wrong);
+    check = judged(answers).check;
     EXPECT_EQ(check.missing, 0u);
     EXPECT_EQ(check.extra, 1u);
     EXPECT_THAT(check.witness, testing::StartsWith("extra ("));
 
     answers = right;
-    answers.pairs.push_back({3, 3});
-    EXPECT_EQ(truth->check(answers).extra, 1u);
+    answers.list.push_back({3, 3});
+    EXPECT_EQ(judged(answers).check.extra, 1u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Asks, PairTruthTest, testing::Values(Ask::pairs, Ask::tree_pairs),
-                         [](const auto& p) { return std::string(to_string(p.param)); });
+INSTANTIATE_TEST_SUITE_P(Tasks, PairTruthTest,
+                         testing::Values(PairsOf::all_boxes, PairsOf::two_halves),
+                         [](const auto& p) {
+                             return p.param == PairsOf::all_boxes ? "pairs" : "tree_pairs";
+                         });
 
 TEST(PairTruth, SweepBeyondAllPairs) {
     // One row of touching unit cubes, so many that the oracle sweeps: the pairs are known. The
@@ -102,25 +117,27 @@ TEST(PairTruth, SweepBeyondAllPairs) {
         const auto x = static_cast<float>(i);
         scene.boxes[place[i]] = {{x, 0, 0}, {x + 1, 1, 1}};
     }
-    for (const Ask ask : {Ask::pairs, Ask::tree_pairs}) {
-        Answers answers;
+    for (const PairsOf what : {PairsOf::all_boxes, PairsOf::two_halves}) {
+        PairList answers;
         for (std::uint32_t i = 0; i + 1 < n; ++i) {
             const auto [a, b] = std::minmax(place[i], place[i + 1]);
-            if (ask == Ask::pairs || (a < n / 2 && b >= n / 2))
-                answers.pairs.push_back({a, b});
+            if (what == PairsOf::all_boxes || (a < n / 2 && b >= n / 2))
+                answers.list.push_back({a, b});
         }
-        const results::Check check = make_truth(scene, ask, 2)->check(answers);
-        EXPECT_EQ(check.oracle, "sweep");
-        EXPECT_EQ(check.status, "exact") << check.witness;
+        const Judgement judged = make_pair_truth(scene, what, 2)->judge(answers, nobody);
+        EXPECT_EQ(judged.check.oracle, "sweep");
+        EXPECT_EQ(judged.status, Status::exact) << judged.check.witness;
     }
 }
 
 TEST(PairTruth, NoBoxesNoPairs) {
     const Scene scene;
-    EXPECT_EQ(make_truth(scene, Ask::pairs, 1)->check({}).status, "exact");
-    Answers answers;
-    answers.pairs.push_back({0, 1});
-    EXPECT_EQ(make_truth(scene, Ask::tree_pairs, 1)->check(answers).status, "wrong");
+    PairList answers;
+    EXPECT_EQ(make_pair_truth(scene, PairsOf::all_boxes, 1)->judge(answers, nobody).status,
+              Status::exact);
+    answers.list.push_back({0, 1});
+    EXPECT_EQ(make_pair_truth(scene, PairsOf::two_halves, 1)->judge(answers, nobody).status,
+              Status::wrong);
 }
 
 /// A closed sphere of `around` x `along` quads, poles shared by fans.
@@ -178,41 +195,43 @@ RayHit moeller_trumbore(const TriangleMesh& mesh, const Ray<float>& ray) {
     return best;
 }
 
-Answers right_hits(const Scene& scene) {
-    Answers answers;
+HitList right_hits(const Scene& scene) {
+    HitList answers;
     for (const Ray<float>& ray : scene.rays)
-        answers.hits.push_back(moeller_trumbore(scene.mesh, ray));
+        answers.list.push_back(moeller_trumbore(scene.mesh, ray));
     return answers;
 }
 
 TEST(RaysTruth, CatchesEachKindOfWrongAnswer) {
     const Scene scene = sphere_scene(600);
-    const auto truth = make_truth(scene, Ask::rays_closest, 2);
-    const Answers right = right_hits(scene);
-    results::Check check = truth->check(right);
-    EXPECT_TRUE(check.status == "exact" || check.status == "within_bound") << check.witness;
+    const auto truth = make_hit_truth(scene, RayQuery::closest, 2);
+    const HitList right = right_hits(scene);
+    const Task& task = *find_task("rays_closest");
+    const auto judged = [&](const Answers& given) { return truth->judge(given, nobody); };
+    const results::Check check = judged(right).check;
+    EXPECT_NE(judged(right).status, Status::wrong) << check.witness;
     EXPECT_EQ(check.n_checked, 600u);
     EXPECT_GT(check.n_expected, 60u);
     EXPECT_LT(check.n_expected, 550u);
     EXPECT_EQ(check.n_got, check.n_expected);
     EXPECT_LT(check.max_rel_err, 1e-5);
 
-    const auto hit = static_cast<std::size_t>(std::ranges::find_if(right.hits, &RayHit::hit) -
-                                              right.hits.begin());
-    const auto miss = static_cast<std::size_t>(std::ranges::find_if_not(right.hits, &RayHit::hit) -
-                                               right.hits.begin());
+    const auto hit = static_cast<std::size_t>(std::ranges::find_if(right.list, &RayHit::hit) -
+                                              right.list.begin());
+    const auto miss = static_cast<std::size_t>(std::ranges::find_if_not(right.list, &RayHit::hit) -
+                                               right.list.begin());
     const auto expect_wrong = [&](std::size_t ray, RayHit answer, std::uint64_t missing,
                                   std::uint64_t extra) {
-        Answers answers = right;
-        answers.hits[ray] = answer;
-        const results::Check c = truth->check(answers);
-        EXPECT_EQ(c.status, "wrong");
+        HitList answers = right;
+        answers.list[ray] = answer;
+        EXPECT_EQ(judged(answers).status, Status::wrong);
+        const results::Check c = judged(answers).check;
         EXPECT_EQ(c.missing, missing);
         EXPECT_EQ(c.extra, extra);
         EXPECT_THAT(c.witness, testing::StartsWith("ray " + std::to_string(ray) + " "));
-        EXPECT_NE(c.result_hash, check.result_hash);
+        EXPECT_NE(task.hash(answers), task.hash(right));
     };
-    const RayHit good = right.hits[hit];
+    const RayHit good = right.list[hit];
     expect_wrong(hit, {}, 1, 0);
     expect_wrong(hit, {good.t * 1.001f, 0, 0, good.triangle}, 1, 0); // farther than the nearest
     expect_wrong(hit, {good.t * 0.999f, 0, 0, good.triangle}, 0, 1); // nearer than anything
@@ -221,40 +240,42 @@ TEST(RaysTruth, CatchesEachKindOfWrongAnswer) {
     expect_wrong(hit, {std::nanf(""), 0, 0, good.triangle}, 1, 0);
     expect_wrong(miss, {1, 0, 0, 3}, 0, 1);
 
-    Answers answers = right;
-    answers.hits.pop_back();
-    EXPECT_EQ(truth->check(answers).status, "wrong");
+    HitList answers = right;
+    answers.list.pop_back();
+    EXPECT_EQ(judged(answers).status, Status::wrong);
 }
 
 TEST(RaysTruth, AnyHit) {
     const Scene scene = sphere_scene(300);
-    const auto truth = make_truth(scene, Ask::rays_any, 1);
-    Answers answers = right_hits(scene);
-    for (RayHit& hit : answers.hits) // which triangle it was does not count
+    const auto truth = make_hit_truth(scene, RayQuery::any, 1);
+    HitList answers = right_hits(scene);
+    for (RayHit& hit : answers.list) // which triangle it was does not count
         if (hit.hit())
             hit.triangle = 0;
-    EXPECT_NE(truth->check(answers).status, "wrong");
-    for (std::size_t i = 0; i < answers.hits.size(); i += 50) {
-        Answers changed = answers;
-        changed.hits[i] = answers.hits[i].hit() ? RayHit{} : RayHit{1, 0, 0, 0};
-        const results::Check check = truth->check(changed);
-        EXPECT_EQ(check.status, "wrong");
-        EXPECT_EQ(check.missing, answers.hits[i].hit() ? 1u : 0u);
-        EXPECT_EQ(check.extra, answers.hits[i].hit() ? 0u : 1u);
-        EXPECT_NE(answer_hash(changed, Ask::rays_any), answer_hash(answers, Ask::rays_any));
+    const Task& task = *find_task("rays_any");
+    const auto judged = [&](const Answers& given) { return truth->judge(given, nobody); };
+    EXPECT_NE(judged(answers).status, Status::wrong);
+    for (std::size_t i = 0; i < answers.list.size(); i += 50) {
+        HitList changed = answers;
+        changed.list[i] = answers.list[i].hit() ? RayHit{} : RayHit{1, 0, 0, 0};
+        EXPECT_EQ(judged(changed).status, Status::wrong);
+        const results::Check check = judged(changed).check;
+        EXPECT_EQ(check.missing, answers.list[i].hit() ? 1u : 0u);
+        EXPECT_EQ(check.extra, answers.list[i].hit() ? 0u : 1u);
+        EXPECT_NE(task.hash(changed), task.hash(answers));
     }
 }
 
 TEST(RaysTruth, ASampleOfManyRaysIsSpread) {
     Scene scene = sphere_scene(1);
     scene.rays.assign(10'000, {{0, 0, 3}, {0.01f, 0.02f, -1}});
-    Answers answers = right_hits(scene);
-    const auto truth = make_truth(scene, Ask::rays_closest, 2);
-    EXPECT_EQ(truth->check(answers).n_checked, 1024u);
-    EXPECT_EQ(truth->check(answers).missing, 0u);
+    HitList answers = right_hits(scene);
+    const auto truth = make_hit_truth(scene, RayQuery::closest, 2);
+    EXPECT_EQ(truth->judge(answers, nobody).check.n_checked, 1024u);
+    EXPECT_EQ(truth->judge(answers, nobody).check.missing, 0u);
     for (std::size_t i = 9'000; i < 10'000; ++i)
-        answers.hits[i] = {};
-    EXPECT_NEAR(static_cast<double>(truth->check(answers).missing), 102, 2);
+        answers.list[i] = {};
+    EXPECT_NEAR(static_cast<double>(truth->judge(answers, nobody).check.missing), 102, 2);
 }
 
 TEST(RayOracle, ClosedSurfaceMustBeHitThroughItsCorners) {
@@ -308,18 +329,20 @@ TEST(RaysTruth, EmbreeOnASphere) {
     int ways = 0;
     for (const Peer& peer : peers())
         for (const ContenderEntry& entry : peer.contenders)
-            for (const Ask ask : {Ask::rays_closest, Ask::rays_any})
+            for (const char* name : {"rays_closest", "rays_any"})
                 for (const unsigned threads : {1u, 2u}) {
-                    const Job job{&scene, ask, "tbb", threads};
+                    const Task& task = *find_task(name);
+                    const Job job{&scene, &task, "tbb", threads};
                     if (entry.unsupported(job))
                         continue;
                     ++ways;
                     const auto contender = entry.make(job);
-                    Answers answers;
+                    HitList answers;
                     contender->build();
                     contender->query(answers);
-                    const results::Check check = make_truth(scene, ask, 2)->check(answers);
-                    EXPECT_NE(check.status, "wrong") << entry.name << ": " << check.witness;
+                    const Judgement judged = task.make_truth(scene, 2)->judge(answers, entry);
+                    EXPECT_NE(judged.status, Status::wrong)
+                        << entry.name << ": " << judged.check.witness;
                 }
     if (ways == 0)
         GTEST_SKIP() << "no peer with rays was compiled in: libembree-dev was not found";

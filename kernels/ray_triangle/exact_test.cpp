@@ -301,7 +301,7 @@ TEST(FloatProducts, AreExactSums) {
     Draw draw(4);
     std::vector<float> f(4);
     for (int i = 0; i < 3000; ++i) {
-        FloatProducts sum;
+        detail::FloatProducts sum;
         mpq_class truth;
         const int spread = i % 3 == 0 ? 2 : i % 3 == 1 ? 40 : 148;
         for (int k = draw.integer(1, 30); k > 0; --k) {

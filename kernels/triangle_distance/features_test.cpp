@@ -1,5 +1,6 @@
 #include "kernels/triangle_distance/features.h"
 
+#include "kernels/detail/rescale.h"
 #include "kernels/testing/distance_pairs.h"
 #include "kernels/testing/every_target.h"
 #include "kernels/triangle_distance/features_batch.h"
@@ -102,10 +103,10 @@ TYPED_TEST(Features, PowersOfTwoChangeNothing) {
         const int k = make.below(2 * reach) - reach;
         const Distance one = TypeParam::distance(a, b);
         const Distance other =
-            TypeParam::distance(times_power_of_two(a, k), times_power_of_two(b, k));
+            TypeParam::distance(detail::times_power_of_two(a, k), detail::times_power_of_two(b, k));
         ASSERT_EQ(other.distance, std::ldexp(one.distance, k)) << k;
-        ASSERT_EQ(other.point_a, times_power_of_two(one.point_a, k)) << k;
-        ASSERT_EQ(other.point_b, times_power_of_two(one.point_b, k)) << k;
+        ASSERT_EQ(other.point_a, detail::times_power_of_two(one.point_a, k)) << k;
+        ASSERT_EQ(other.point_b, detail::times_power_of_two(one.point_b, k)) << k;
     }
 }
 

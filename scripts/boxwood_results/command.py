@@ -1,4 +1,4 @@
-"""What plot, report and summary share: arguments, errors, exit codes."""
+"""What plot and report share: arguments, errors, exit codes."""
 
 import argparse
 import os

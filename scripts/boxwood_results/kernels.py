@@ -1,6 +1,5 @@
 """Kernels on hard cases: what each kernel costs and how often it is wrong."""
 
-import math
 from collections import defaultdict
 from dataclasses import dataclass
 
@@ -67,22 +66,16 @@ class KernelPoint:
         return float(self.row["max_rel_err"])
 
     @property
-    def breaks_promise(self):
-        """Whether one of ours did what its kernel promises not to do."""
-        row, promise = self.row, self.row["promise"]
-        misses = promise in ("never-miss", "certified", "exact") and row["false_neg"]
-        falsehoods = promise in ("never-false", "certified", "exact") and row["false_pos"]
-        return self.ours and promise != "no promise" and bool(misses or falsehoods or row["bound_violations"])
-
-    @property
     def tiers(self):
         return [int(self.row[f"tier_{k}"]) for k in range(4)]
 
 
 @dataclass
 class Kernel:
-    """One kernel over all families of one panel."""
+    """A row of /kernel_costs: one kernel over all families of one panel."""
 
+    task: str
+    panel: str
     name: str
     ours: bool
     library: str
@@ -98,21 +91,13 @@ class Kernel:
         return 1e6 * self.wrong / self.n
 
 
-def kernels(points):
-    """The kernels of some points of one kernel family, those of ours first, by rising time."""
-    groups = defaultdict(list)
-    for point in points:
-        if point.supported and point.ns == point.ns:
-            groups[point.ours, point.library, point.kernel].append(point)
-    made = []
-    for (ours, library, name), members in groups.items():
-        errors = [p.error for p in members if p.error == p.error]
-        made.append(
-            Kernel(name, ours, library, members[0].row["promise"], sum(p.ns for p in members) / len(members),
-                 sum(p.n for p in members), sum(p.wrong for p in members),
-                 sum(int(p.row["maybe"]) for p in members), max(errors, default=math.nan))
-        )
-    return sorted(made, key=lambda r: (not r.ours, r.ns))
+def read_costs(table):
+    """In the order of the file: those of ours first, by rising time."""
+    return [
+        Kernel(row["task"], row["panel"], row["kernel"], not row["is_peer"], row["library"], row["promise"],
+               float(row["ns"]), int(row["n"]), int(row["wrong"]), int(row["maybe"]), float(row["max_rel_err"]))
+        for row in table
+    ]
 
 
 def by_kernel_family(run):
@@ -125,25 +110,3 @@ def by_kernel_family(run):
 def is_measured(task):
     """Whether a kernel is judged by its error (distances), not by yes or no."""
     return task in DISTANCES
-
-
-def take_home(run):
-    """A sentence per kernel family and panel: the cheapest of our kernels without a wrong answer."""
-    lines = []
-    for task, points in by_kernel_family(run).items():
-        for panel in PANELS:
-            ours = [r for r in kernels([p for p in points if p.panel == panel]) if r.ours]
-            if not ours:
-                continue
-            fastest = ours[0]
-            right = [r for r in ours if r.wrong == 0 and r.maybe == 0]
-            start = f"{task}, {panel} input: "
-            if not right:
-                lines.append(start + f"no kernel without a wrong answer; the fastest is {fastest.name}")
-                continue
-            best = right[0]
-            lines.append(
-                start + f"cheapest kernel with no wrong answer: {best.name}, {best.ns:,.{0 if best.ns >= 100 else 1}f} ns, at "
-                f"{best.ns / fastest.ns:,.2f} times the fastest ({fastest.name})"
-            )
-    return lines

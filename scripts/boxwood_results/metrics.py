@@ -23,7 +23,7 @@ METRICS = {
     "frame": Metric("time of one frame", "ns", "lower is better"),
     "n": Metric("items n", "", ""),
     "ratio": Metric("peer's time / Boxwood's time", "", "right: Boxwood is faster"),
-    "speedup": Metric("speed-up over one thread", "", "higher is better"),
+    "thread_scaling": Metric("time on one thread / on t", "", "higher is better"),
     "threads": Metric("threads t", "", ""),
     "box_tests": Metric("box tests per box or ray", "", "lower is better"),
     "node_visits": Metric("node visits per box or ray", "", "lower is better"),

@@ -4,12 +4,11 @@ import json
 from dataclasses import dataclass, field
 from statistics import median
 
-from . import stats
-from .findings import ratio_text, time_text
-from .run import SCENE_ASKS, TOTAL
+from .findings import STAGES
+from .run import SCENE_QUERIES, TOTAL
 from .selection import largest_jobs
 
-CALLED_FOR, EVERYTHING, WITHOUT = "required", "all_stages", "required.without_"
+REQUIRED, ALL_STAGES, WITHOUT = "required", "all_stages", "required.without_"
 SCREEN_NS = 1e9 / 60
 
 
@@ -29,39 +28,46 @@ def percentile(values, part):
 
 @dataclass
 class PlayedScene:
-    """A scene with everything it tasks, on one number of threads, and the ways it was played."""
+    """A scene on one number of threads, and the ways it was played."""
 
     job: object
     required: object = None
-    everything: object = None
+    all_stages: object = None
     without: dict = field(default_factory=dict)  # effect -> cell
+    ratios: dict = field(default_factory=dict)  # cell id of the other way -> Ratio
 
-    def ratio(self, cell):
-        """Time of a frame of `cell` over that of what is called for."""
-        return stats.paired_ratio(cell.rounds(TOTAL), self.required.rounds(TOTAL))
+    def ratio(self):
+        """Time of a frame with all stages over that with the required ones; None if it was not compared."""
+        return self.all_stages and self.ratios.get(self.all_stages.cell_id)
 
-    def price(self, effect):
-        """Time of a frame with the effect over the same without it."""
-        return stats.paired_ratio(self.required.rounds(TOTAL), self.without[effect].rounds(TOTAL))
+    def cost(self, effect):
+        """Time of a frame with the effect over the same without it; None if it was not compared."""
+        return self.ratios.get(self.without[effect].cell_id)
 
 
 def played_scenes(run, largest=True):
-    """What was played as it is called for and answered rightly; of each scene its largest size."""
+    """What was played with its required stages and answered rightly; of each scene its largest size."""
     played = {}
     for job in largest_jobs(run.jobs) if largest else run.jobs:
-        if job.task != SCENE_ASKS:
+        if job.task != SCENE_QUERIES:
             continue
         for cell in run.of(job):
             if cell.status == "wrong":
                 continue
             scene = played.setdefault((job, cell.executor), PlayedScene(job))
-            if cell.contender == CALLED_FOR:
+            if cell.contender == REQUIRED:
                 scene.required = cell
-            elif cell.contender == EVERYTHING:
-                scene.everything = cell
+            elif cell.contender == ALL_STAGES:
+                scene.all_stages = cell
             elif cell.contender.startswith(WITHOUT):
                 scene.without[cell.contender.removeprefix(WITHOUT)] = cell
-    return [scene for scene in played.values() if scene.required]
+    scenes = [scene for scene in played.values() if scene.required]
+    for scene in scenes:
+        for row in run.family(STAGES, scene.required.total):
+            if scene.required in (row.a, row.b):
+                other = row.b if row.a is scene.required else row.a
+                scene.ratios[other.cell_id] = row.ratio
+    return scenes
 
 
 def moved_share(cell):
@@ -84,24 +90,5 @@ def moved_share(cell):
     return f"{groups[0].get('generator', '?')}, {words}", shares.pop()
 
 
-def interval_text(ratio):
-    text = ratio_text(ratio.mid)
-    return f"{text} ({ratio_text(ratio.lo, '')} to {ratio_text(ratio.hi, '')})" if ratio.known else text
-
-
 def frame_ns(cell):
     return cell.median(TOTAL)
-
-
-def take_home(run):
-    """Sentences: only what is called for against everything on, and what effects cost."""
-    lines = []
-    for scene in played_scenes(run):
-        said = f"{scene.job}: a frame of what the scene calls for takes {time_text(frame_ns(scene.required))}"
-        if scene.everything:
-            said += f"; with everything on {interval_text(scene.ratio(scene.everything))} as long"
-        lines.append(said)
-        prices = [f"{effect} {ratio_text(scene.price(effect).mid)}" for effect in sorted(scene.without)]
-        if prices:
-            lines.append(f"{scene.job}: with an effect over without it: {', '.join(prices)}")
-    return lines

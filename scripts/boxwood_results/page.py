@@ -3,12 +3,11 @@
 import base64
 from html import escape
 
-from . import moving, registry
-from .findings import comparison_rows, findings, floor_text, rounds_text, sentence, time_text
-from .kernels import take_home
+from . import registry
+from .findings import KERNEL, RACE, SCENE, comparison_rows, floor_text, rounds_text
 from .picture import as_inline_svg, cell_text
-from .run import TOTAL
-from .selection import largest_jobs, wrong_text
+from .selection import wrong_text
+from .words import time_text
 
 STYLE = """
 body { font: 15px/1.5 system-ui, "DejaVu Sans", sans-serif; color: #222; background: #fff;
@@ -81,29 +80,64 @@ def figures_html(run):
     return "".join(parts)
 
 
+HEADINGS = {
+    RACE: ("rival's time / ours", "build + query", "query alone", "interval"),
+    KERNEL: ("kernels on hard cases", "cheapest without a wrong answer", "against our fastest", "errors"),
+    SCENE: ("moving scenes", "a frame of what they require", "with all stages", "interval"),
+}
+
+
+def findings_html(run, headlines):
+    """The rows that `boxwood show` prints, in the same words."""
+    parts = []
+    for topic, columns in HEADINGS.items():
+        rows = [(f.question, f.together, f.alone, f.certainty)
+                for f in run.findings if f.topic == topic and f.is_headline == headlines]
+        if rows:
+            parts.append(table(columns, rows))
+    return "".join(parts)
+
+
+def trust_html(run):
+    """Machine and noise, and how many answers were wrong: whether the rest can be believed."""
+    health, env = run.health, run.source["env"][0]
+    share = 100 * int(health["disturbed"]) / max(1, int(health["samples"]))
+    broken = (f" <span class=wrong>{int(health['broken_promises'])} broken promises.</span>"
+              if health["broken_promises"] else "")
+    return (f"<p class=lead>{escape(env['cpu'])}, {env['ncpu']} cores, host {escape(env['host'])}.<br>"
+            f"{escape(rounds_text(run))}.<br>{escape(floor_text(run))}; {share:.1f} % of the samples were disturbed.<br>"
+            f"{int(health['answers']):,} answers checked: {int(health['wrong_ours'])} of ours wrong, "
+            f"{int(health['wrong_peers'])} of the peers' wrong.{broken}</p>")
+
+
+def main_findings_html(run):
+    if run.health["is_too_noisy"]:
+        return ("<p class=wrong>Repeat this: the same work timed twice differed by more than 20 %, so no time here means "
+                "anything.</p>")
+    rest = findings_html(run, False)
+    return findings_html(run, True) + (folded("Other sizes and numbers of threads", rest) if rest else "")
+
+
 def kernels_html(run):
     if not run.kernels:
         return ""
-    lines = "".join(f"<li>{escape(line)}.</li>" for line in take_home(run))
     columns = ("kernels", "cases", "kernel", "library", "promise", "status", "n", "ns", "false pos", "false neg", "maybe",
-               "out of bound", "worst relative error", "witness")
+               "out of bound", "worst relative error", "promise broken", "witness")
     rows = [
         (p.task, p.cases, p.kernel, p.library, p.row["promise"], p.row["status"], p.n, p.ns,
          int(p.row["false_pos"]), int(p.row["false_neg"]), int(p.row["maybe"]), int(p.row["bound_violations"]), p.error,
-         p.row["witness"])
+         "BROKEN" if p.row["is_broken"] else "", p.row["witness"])
         for p in run.kernels
     ]
-    return (f"<h2>What accuracy costs, in words</h2><ul>{lines}</ul>"
-            + folded(f"All {len(rows):,} kernels on hard cases", table(columns, rows)))
+    return "<h2>Kernels on hard cases</h2>" + folded(f"All {len(rows):,} kernels on hard cases", table(columns, rows))
 
 
 STRIP = "strip_"  # texts that hold frames of a scene side by side, as SVG
 
 
 def scenes_html(run):
-    """What moving scenes come to in words, and their frames. A picture from a file cannot run scripts as an image."""
-    lines = "".join(f"<li>{escape(line)}.</li>" for line in moving.take_home(run))
-    parts = [f"<ul>{lines}</ul>"] if lines else []
+    """Frames of moving scenes. A picture from a file cannot run scripts as an image."""
+    parts = []
     for name, svg in sorted(run.source.texts.items()):
         if name.startswith(STRIP):
             scene = name.removeprefix(STRIP)
@@ -113,28 +147,19 @@ def scenes_html(run):
     return f"<h2>Scenes that move</h2>{''.join(parts)}" if parts else ""
 
 
-def quantile(times, part):
-    """The value that `part` of the samples do not exceed."""
-    return times[min(int(part * len(times)), len(times) - 1)]
-
-
 def cells_html(run):
-    columns = ("cell", "check", "phase", "rounds", "median", "MAD", "min", "p95", "p99")
-    rows = []
-    for cell in run.cells:
-        for phase in ("build", "update", "query"):
-            times = sorted(cell.rounds(phase).values())
-            if not times:
-                continue
-            middle = cell.median(phase)
-            spread = sorted(abs(time - middle) for time in times)[len(times) // 2]
-            rows.append((cell.name, cell.status, phase, len(times), time_text(middle), time_text(spread),
-                         time_text(times[0]), time_text(quantile(times, 0.95)), time_text(quantile(times, 0.99))))
+    columns = ("cell", "check", "phase", "rounds", "median", "MAD", "min", "p95", "p99", "times the machine's limit")
+    rows = [
+        (cell.name, cell.status, phase, int(row["n"]),
+         *(time_text(float(row[name])) for name in ("median_ns", "mad_ns", "min_ns", "p95_ns", "p99_ns")),
+         float(row["median_ns"]) / float(row["limit_ns"]) if cell.ours else None)
+        for cell in run.cells for phase, row in cell.medians.items()
+    ]
     return folded(f"All {len(rows):,} timings", table(columns, rows))
 
 
 def checks_html(run):
-    timed = [cell for cell in run.cells if cell.rounds(TOTAL)]
+    timed = [cell for cell in run.cells if cell.timed]
     counts = {}
     for cell in timed:
         key = (cell.library, cell.status)
@@ -158,10 +183,8 @@ def checks_html(run):
 def unsupported_html(run):
     rows = [(cell.name, cell.check["witness"]) for cell in run.cells if cell.status == "unsupported"]
     parts = [folded(f"{len(rows):,} cells are unsupported", table(("cell", "why"), rows)) if rows
-             else "<p>Nothing that was asked is unsupported.</p>"]
-    env = run.source["env"]
-    absent = [name.removesuffix("_version") for name in env.dtype.names
-              if name.removesuffix("_version") in ("embree", "fcl", "cgal", "bullet") and not env[0][name]]
+             else "<p>Nothing is unsupported.</p>"]
+    absent = sorted({row["library"] for row in run.source["packages"] if not row["present"]})
     if absent:
         parts.append(f"<p>Peers absent on this machine: {escape(', '.join(absent))}.</p>")
     notes = [(row["name"], row["notes"]) for row in run.source["variants"] if row["notes"]]
@@ -177,7 +200,8 @@ def machine_html(run):
     columns = ("", *(f"machine state {row['env_id']}" for row in env))
     texts = "".join(folded(name, f"<pre>{escape(text)}</pre>") for name, text in sorted(run.source.texts.items())
                     if text and not name.startswith(STRIP))
-    return table(columns, rows) + texts
+    packages = [(row["library"], row["version"] or "absent", row["build"]) for row in run.source["packages"]]
+    return (table(columns, rows) + folded("Libraries and peers", table(("library", "version", "build"), packages)) + texts)
 
 
 def as_plain(value):
@@ -186,11 +210,7 @@ def as_plain(value):
 
 def report(run):
     """The whole page as text."""
-    found = findings(run)
-    attrs = run.source.attrs
-    largest = set(largest_jobs(run.jobs))
-    sentences = "".join(f"<li>{escape(sentence(f))}</li>" for f in found if f.job in largest)
-    columns, rows = comparison_rows(found)
+    columns, rows = comparison_rows(run.comparisons)
     missing = (f"<p class=note>{run.missing_samples} samples hold no time and are left out.</p>"
                if run.missing_samples else "")
     return "".join(
@@ -199,15 +219,13 @@ def report(run):
             '<meta name=viewport content="width=device-width, initial-scale=1">',
             f"<title>Boxwood: {escape(run.name)}</title><style>{STYLE}</style></head><body>",
             f"<h1>Boxwood: {escape(run.name)}</h1>",
-            f"<p class=lead>{escape(cell_text(attrs.get('created_utc')))} · {escape(rounds_text(run))}.<br>"
-            f"{escape(floor_text(run))}.</p>{missing}",
-            "<h2>Main findings</h2><p class=note>Times are medians. A ratio is the peer's time over ours, "
-            "paired within rounds: above 1 Boxwood is the faster. Ours is the variant with the least build and "
-            f"query together, chosen from this same run.</p><ul>{sentences}</ul>",
-            folded(f"All {len(rows):,} comparisons, smaller sizes too", table(columns, rows)),
+            f"<p class=note>{escape(cell_text(run.source.attrs.get('created_utc')))}</p>{trust_html(run)}{missing}",
+            "<h2>Main findings</h2><p class=note>Losses first. Our best against the best rival of the same run: above 1 "
+            "Boxwood is the faster.</p>", main_findings_html(run),
+            folded(f"All {len(rows):,} comparisons, ours against ours and threads too", table(columns, rows)),
+            figures_html(run),
             scenes_html(run),
             kernels_html(run),
-            figures_html(run),
             "<h2>Is it right</h2>", checks_html(run),
             "<h2>Unsupported and absent</h2>", unsupported_html(run),
             "<h2>All timings</h2>", cells_html(run),

@@ -6,33 +6,51 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-SCHEMA_MAJOR = 1
+SCHEMA_MAJOR = 2
 REMEDY = "run the sweep again (it keeps its finished rounds)"
 
-# The columns that the figures stand on; other columns and tables are passed over.
+# The columns that the figures stand on; other columns and tables are skipped.
 REQUIRED = {
     "env": ("env_id", "host", "cpu", "ncpu"),
     "scenes": ("scene_id", "name", "n_items", "seed"),
     "variants": ("variant_id", "name", "library", "builder", "traversal", "kernel", "notes"),
     "cells": (
         "cell_id", "name", "scene_id", "variant_id", "task", "n_items", "n_queries", "precision",
-        "executor", "threads",
+        "executor", "threads", "class", "status", "builds",
     ),
     "shards": ("shard_id", "round", "env_id", "load1"),
     "samples": ("cell_id", "shard_id", "round", "position", "phase", "wall_ns", "flags"),
     "checks": ("cell_id", "status", "n_checked", "missing", "extra", "witness"),
-}
-OPTIONAL = {
+    "packages": ("env_id", "library", "version", "build", "present"),
     "counters": ("cell_id", "counter", "value"),
     "trees": ("cell_id", "sah_cost", "epo", "depth_max", "bytes"),
     "kernels": (
         "cell_id", "family", "panel", "task", "kernel", "promise", "n", "ns_per_call", "false_pos",
         "false_neg", "maybe", "max_ulp", "max_rel_err", "bound_violations", "tier_0", "tier_1", "tier_2",
-        "tier_3", "status", "witness",
+        "tier_3", "status", "witness", "is_broken",
     ),
-    "frames": ("cell_id", "shard_id", "frame", "update_ns", "query_ns"),
+    "frames": ("cell_id", "shard_id", "frame", "update_ns", "query_ns", "box_tests", "sah"),
     "effects": ("cell_id", "shard_id", "stage", "required", "calls", "items", "total_ns", "bytes"),
     "conditions": ("cell_id", "log10_condition", "n", "max_rel_err", "bound"),
+    # What `boxwood` derived when it wrote the file: nothing of it is derived here.
+    "medians": ("cell_id", "phase", "n", "median_ns", "mad_ns", "min_ns", "p95_ns", "p99_ns", "limit_ns"),
+    "compare": (
+        "cell_a", "cell_b", "phase", "class", "n_pairs", "ratio", "ci_lo", "ci_hi", "p_adj", "floor", "delta", "family",
+        "verdict", "reason",
+    ),
+    "size_scaling": ("cell_id", "phase", "exponent", "exponent_lo", "exponent_hi", "off_line"),
+    "break_even": ("cell_a", "cell_b", "queries"),
+    "kernel_costs": (
+        "task", "panel", "kernel", "library", "promise", "is_peer", "ns", "n", "wrong", "maybe", "max_rel_err",
+    ),
+    "findings": (
+        "place", "topic", "is_headline", "task", "threads", "class", "question", "together", "alone", "certainty",
+        "ours", "rival", "ours_alone", "rival_alone",
+    ),
+    "health": (
+        "rounds", "samples", "disturbed", "floor", "delta", "is_too_noisy", "answers", "wrong_ours", "wrong_peers",
+        "broken_promises",
+    ),
 }
 
 
@@ -42,7 +60,7 @@ class BadFile(Exception):
 
 @dataclass
 class Tables:
-    """One result file. Tables are structured arrays with text as str; absent optional ones are None."""
+    """One result file. Tables are structured arrays with text as str."""
 
     path: Path
     attrs: dict
@@ -87,8 +105,8 @@ def check_header(path, attrs):
     major = int(attrs.get("schema_major", -1))
     if major != SCHEMA_MAJOR:
         raise BadFile(
-            f"{path}: schema version {major}, and these scripts read version {SCHEMA_MAJOR}; "
-            "use the scripts of the Boxwood that wrote it"
+            f"{path}: of schema {major}, and these scripts read schema {SCHEMA_MAJOR}; "
+            "measure again with this version"
         )
     if not attrs.get("complete", 0):
         raise BadFile(f"{path}: incomplete: it is still being written, or the writer was killed; {REMEDY}")
@@ -107,11 +125,12 @@ def load(path):
     with file:
         attrs = {key: as_text(value) for key, value in file.attrs.items()}
         check_header(path, attrs)
-        tables = dict.fromkeys(OPTIONAL)
-        for name, columns in (REQUIRED | OPTIONAL).items():
-            if name in file:
-                tables[name] = read_table(file, path, name, columns)
-            elif name in REQUIRED:
+        tables = {}
+        for name, columns in REQUIRED.items():
+            if name not in file:
                 raise BadFile(f"{path}: table '{name}' is missing; {REMEDY}")
+            tables[name] = read_table(file, path, name, columns)
+        if len(tables["health"]) != 1:
+            raise BadFile(f"{path}: not analysed; boxwood merge {path} --out NEW.h5 does that")
         texts = {name: as_text(text[()]) for name, text in file.get("text", {}).items()}
     return Tables(path, attrs, texts, tables)

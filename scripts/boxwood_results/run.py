@@ -4,29 +4,27 @@ import math
 from dataclasses import dataclass, field
 from statistics import median
 
-from . import stats
-from .kernels import KernelPoint
+from .findings import read_comparisons, read_findings
+from .kernels import KernelPoint, read_costs
 from .reader import load
 
 NO_COUNT = 2**64 - 1  # a missing whole number
-AA_TWIN, WRONG_ANSWER, DISTURBED = 4, 8, 1 | 2
+AA_TWIN, DISTURBED = 4, 1 | 2
 RANKED = ("exact", "conservative", "within_bound")
-STATUSES = ("wrong", "unsupported", "within_bound", "conservative", "exact")  # the worst first
 OURS = "boxwood"
-SCENE_ASKS = "scene_queries"  # frames of a moving scene with all that it tasks: ways to play it, not rivals
+SCENE_QUERIES = "scene_queries"  # frames of a moving scene with all that it requires: ways to play it, not rivals
 ORDERS_OF_RAYS = ("sorted_rays", "single_rays")  # other than one call in the order given
 WHOLE_QUERY = "typical"  # a kernel row about a whole query, whose cell stays among the others
-TOTAL = "build+query"  # within a round: what one use costs; of moving boxes update and query, of trees the build
-TOTAL_WORDS = {"moving_pairs": "update and one query", "tree": "build", SCENE_ASKS: "update and queries of a frame"}
+TOTALS = ("update+query", "build+query", "query", "build")  # what one use costs: the first that was timed
+TOTAL = "total"
+TOTAL_WORDS = {"moving_pairs": "update and one query", "tree": "build", SCENE_QUERIES: "update and queries of a frame"}
 # Of these an update may have done the work of the query: its time alone says nothing.
-WHOLE_FRAMES = ("moving_pairs", SCENE_ASKS)
-# Under both of these a "build" only copies the input: no structure is made (ns per item; part of the query).
-COPY_NS, COPY_PART = 8, 0.05
+WHOLE_FRAMES = ("moving_pairs", SCENE_QUERIES)
 
 
 @dataclass(frozen=True)
 class Job:
-    """What was asked: contenders of one job can be compared."""
+    """What is done: contenders of one job can be compared."""
 
     scene: str
     n: int
@@ -67,10 +65,10 @@ class Cell:
     precision: str
     executor: str
     n_queries: int
-    status: str = "unchecked"
+    status: str
+    builds: bool  # else its build only copies the input
     check: object = None
-    times: dict = field(default_factory=dict)  # phase -> {shard_id: ns per iteration}
-    twin: dict = field(default_factory=dict)  # the same of the A/A twin
+    medians: dict = field(default_factory=dict)  # phase -> row of /medians
     counters: dict = field(default_factory=dict)
     tree: object = None
     n_frames: int = 1
@@ -86,7 +84,7 @@ class Cell:
     @property
     def family(self):
         """What colour stands for: our builder or policy, how a scene is played, or the peer's library."""
-        if self.job.task == SCENE_ASKS and self.ours:
+        if self.job.task == SCENE_QUERIES and self.ours:
             return self.contender
         return self.builder if self.ours and self.builder else self.library
 
@@ -102,29 +100,23 @@ class Cell:
 
     @property
     def ranked(self):
-        return self.status in RANKED and bool(self.rounds(TOTAL))
+        return self.status in RANKED and self.timed
 
     @property
-    def has_build(self):
-        build = self.median("build")
-        return build > COPY_NS * self.job.n or build > COPY_PART * self.median("query")
+    def timed(self):
+        return bool(self.medians)
 
-    def rounds(self, phase):
-        """{shard_id: ns}. A contender without a build phase takes 0 ns to build."""
-        if phase != TOTAL:
-            return self.times.get(phase, {})
-        first = self.times.get("update" if "update" in self.times else "build")
-        query = self.times.get("query")
-        if first is None or query is None:
-            return query or first or {}
-        return {shard: first[shard] + query[shard] for shard in query if shard in first}
+    @property
+    def total(self):
+        """The phase that says what one use costs."""
+        return next((phase for phase in TOTALS if phase in self.medians), "")
+
+    def has(self, phase):
+        return (self.total if phase == TOTAL else phase) in self.medians
 
     def median(self, phase):
-        times = self.rounds(phase)
-        return median(times.values()) if times else math.nan if phase != "build" else 0.0
-
-    def interval(self, phase):
-        return stats.median_interval(self.rounds(phase).values())
+        row = self.medians.get(self.total if phase == TOTAL else phase)
+        return math.nan if row is None else float(row["median_ns"])
 
 
 @dataclass
@@ -135,7 +127,10 @@ class Run:
     cells: list
     jobs: list
     missing_samples: int
+    comparisons: list
+    findings: list
     kernels: list = field(default_factory=list)  # KernelPoint
+    kernel_costs: list = field(default_factory=list)  # kernels.Kernel
 
     @property
     def name(self):
@@ -143,24 +138,24 @@ class Run:
 
     def of(self, job):
         """Timed cells of a job."""
-        return [cell for cell in self.cells if cell.job == job and cell.rounds(TOTAL)]
+        return [cell for cell in self.cells if cell.job == job and cell.timed]
+
+    @property
+    def health(self):
+        return self.source["health"][0]
 
     @property
     def rounds(self):
-        return len(self.source["shards"])
+        return int(self.health["rounds"])
 
     @property
     def noise_floor(self):
         """Relative difference that the A/A cell shows between two timings of the same thing."""
-        return stats.noise_floor(
-            stats.paired_logs(cell.twin[phase], cell.times.get(phase, {}))
-            for cell in (*self.cells, *(point.cell for point in self.kernels))
-            for phase in cell.twin
-        )
+        return float(self.health["floor"])
 
-
-def worst(status, other):
-    return min(status, other, key=STATUSES.index)
+    def family(self, family, phase=None):
+        """The comparisons of one family, of one phase if it is given."""
+        return [c for c in self.comparisons if c.family == family and phase in (None, c.phase)]
 
 
 def read_cells(source):
@@ -176,7 +171,7 @@ def read_cells(source):
         cells[row["cell_id"]] = Cell(
             int(row["cell_id"]), row["name"], job, variant["name"], variant["library"],
             variant["builder"], variant["traversal"], variant["kernel"], row["precision"], row["executor"],
-            int(row["n_queries"]), n_frames=max(1, int(column(scene, "n_frames", 1))),
+            int(row["n_queries"]), row["status"], bool(row["builds"]), n_frames=max(1, int(column(scene, "n_frames", 1))),
             scene_json=column(scene, "params_json", ""),
         )
     return cells
@@ -187,26 +182,17 @@ def column(row, name, default):
     return row[name] if name in row.dtype.names else default
 
 
-def add_samples(cells, samples):
-    missing = 0
-    for row in samples:
-        cell = cells[row["cell_id"]]
-        if row["flags"] & WRONG_ANSWER:
-            cell.status = "wrong"
-        if not row["wall_ns"] >= 0 or (row["phase"] != "build" and row["wall_ns"] == 0):
-            missing += 1
-            continue
-        phases = cell.twin if row["flags"] & AA_TWIN else cell.times
-        phases.setdefault(row["phase"], {})[int(row["shard_id"])] = float(row["wall_ns"])
-    return missing
+def add_medians(cells, medians):
+    for row in medians:
+        cells[row["cell_id"]].medians[row["phase"]] = row
 
 
 def add_checks(cells, checks):
+    """Of several checks the one that explains the status."""
     for row in checks:
         cell = cells[row["cell_id"]]
-        status = row["status"] if row["status"] in STATUSES else "wrong"
-        if cell.status == "unchecked" or worst(status, cell.status) == status:
-            cell.status, cell.check = status, row
+        if cell.check is None or row["status"] == cell.status:
+            cell.check = row
 
 
 def add_frames(cells, table):
@@ -214,8 +200,6 @@ def add_frames(cells, table):
     for cell_id, frame, update, query in zip(*(table[name].tolist() for name in names)):
         if update + query >= 0:
             cells[cell_id].frames.setdefault(frame, []).append((update, query))
-    if not {"box_tests", "sah"} <= set(table.dtype.names):  # before schema minor 4
-        return
     for cell_id, frame, tests, sah in zip(*(table[name].tolist() for name in ("cell_id", "frame", "box_tests", "sah"))):
         if tests != NO_COUNT or sah == sah:
             cells[cell_id].counted[frame] = (math.nan if tests == NO_COUNT else float(tests), sah)
@@ -232,11 +216,11 @@ def add_stages(cells, table):
 def kernel_points(cells, source):
     """The kernels' rows with their times; their cells are taken out of `cells`."""
     conditions = {}
-    for row in source["conditions"] if source["conditions"] is not None else ():
+    for row in source["conditions"]:
         conditions.setdefault(row["cell_id"], []).append(row)
     points = [
         KernelPoint(row, cells[row["cell_id"]], conditions.get(row["cell_id"], []))
-        for row in (source["kernels"] if source["kernels"] is not None else ())
+        for row in source["kernels"]
         if row["family"] != WHOLE_QUERY
     ]
     for point in points:
@@ -248,20 +232,21 @@ def read(path):
     """Loads a result file; raises reader.BadFile."""
     source = load(path)
     cells = read_cells(source)
-    missing = add_samples(cells, source["samples"])
+    add_medians(cells, source["medians"])
     add_checks(cells, source["checks"])
-    for row in source["counters"] if source["counters"] is not None else ():
+    for row in source["counters"]:
         cells[row["cell_id"]].counters[row["counter"]] = int(row["value"])
-    for row in source["trees"] if source["trees"] is not None else ():
+    for row in source["trees"]:
         cells[row["cell_id"]].tree = row
-    if source["frames"] is not None:
-        add_frames(cells, source["frames"])
-    if source["effects"] is not None:
-        add_stages(cells, source["effects"])
+    add_frames(cells, source["frames"])
+    add_stages(cells, source["effects"])
+    everything = dict(cells)
     kernels = kernel_points(cells, source)
     ordered = list(cells.values())
     jobs = sorted(
-        {cell.job for cell in ordered if cell.rounds(TOTAL)},
+        {cell.job for cell in ordered if cell.timed},
         key=lambda job: (job.task, job.scene, job.n, job.threads, job.seed),
     )
-    return Run(source, ordered, jobs, missing, kernels)
+    missing = sum(not row["wall_ns"] >= 0 for row in source["samples"])
+    return Run(source, ordered, jobs, missing, read_comparisons(source["compare"], everything),
+               read_findings(source["findings"], everything), kernels, read_costs(source["kernel_costs"]))

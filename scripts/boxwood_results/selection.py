@@ -15,15 +15,6 @@ def largest_jobs(jobs):
     return list(largest.values())
 
 
-def front(cells):
-    """Those that no other beats in both build and query time, by rising build time."""
-    best = []
-    for cell in sorted(cells, key=lambda c: (c.median("build"), c.median("query"))):
-        if not best or cell.median("query") < best[-1].median("query"):
-            best.append(cell)
-    return best
-
-
 def choose(cells, keep=(), limit=MOST_LINES):
     """At most `limit` of the cells of one job: those in `keep`, then the best of each family, then the
     best of the rest; wrong ones last. Returns them and how many were left out."""

@@ -11,7 +11,7 @@ from matplotlib import colors
 from matplotlib import pyplot as plt
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullFormatter, NullLocator
 
-from .findings import time_text
+from .words import time_text
 
 # Okabe and Ito 2008 without its yellow, which is faint on white.
 FAMILIES = {

@@ -16,7 +16,7 @@ def folder(tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def full(folder):
-    """15 rounds of everything."""
+    """15 rounds of all kinds of cells."""
     return synthetic.full().write(folder / "full.h5")
 
 

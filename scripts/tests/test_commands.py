@@ -9,7 +9,7 @@ import pytest
 from conftest import SCRIPTS
 
 
-@pytest.mark.parametrize("command", ["setup", "test", "sweep"])
+@pytest.mark.parametrize("command", ["setup", "test", "sweep", "format"])
 def test_help_has_an_example(script, command):
     done = script(command, "--help")
     assert done.returncode == 0 and f"Example: scripts/{command} " in done.stdout and "Exit codes" in done.stdout
@@ -28,23 +28,28 @@ def mesh(tmp_path):
         (("setup", "--nix"), "unknown argument '--nix'"),
         (("setup", "--preset"), "--preset needs a name"),
         (("setup", "--preset", "nix"), "unknown preset 'nix': one of release, debug, tsan, ci"),
+        (("setup", "--for", "nix"), "unknown purpose 'nix': one of sweep, test, style"),
         (("test", "nix"), "unknown argument 'nix'"),
+        (("test", "--only", "a|b"), "--only 'a|b': give letters, digits and underscores"),
         (("sweep", "--nix"), "unknown argument '--nix'"),
         (("sweep", "--only"), "--only needs a value"),
         (("sweep", "--config", "nix.toml"), "no readable configuration file 'nix.toml'"),
         (("sweep", "--quick", "--config", "x"), "exclude each other"),
         (("sweep", "--config", "{config}", "--mesh", "nix.obj"), "no readable mesh file 'nix.obj'"),
+        (("sweep", "--config", "{config}", "--mesh", "{config}"), "the mesh file '{config}' is empty"),
+        (("sweep", "--quick", "--mesh", SCRIPTS / "setup"), "is not a mesh file: its name ends in none of"),
+        (("sweep", "--quick", "--mesh", SCRIPTS.parent / "CMakeLists.txt"), "is not a mesh file"),
         (("sweep", "--config", "{config}", "--out", "/proc/nix/a.h5"), "the folder '/proc/nix' cannot be made"),
         (("sweep", "--config", "{config}", "--out", "/proc/a.h5"), "the folder '/proc' cannot be written to"),
         (("sweep", "--config={config}", "--out={config}/a.h5"), "cannot be made"),
         (("sweep", "--config", "{config}", "--out", "a.hdf"), "ends in .h5"),
     ],
 )
-def test_bad_usage_is_told_before_any_work(script, tmp_path, arguments, said):
+def test_bad_usage_is_reported_before_any_work(script, tmp_path, arguments, said):
     config = tmp_path / "a.toml"
     config.write_text("")
-    done = script(*(a.format(config=config) for a in arguments), cwd=tmp_path)
-    assert done.returncode == 2 and said in done.stderr, done.stderr
+    done = script(*(str(a).format(config=config) for a in arguments), cwd=tmp_path)
+    assert done.returncode == 2 and said.format(config=config) in done.stderr, done.stderr
     assert "setup:" not in done.stderr or arguments[0] == "setup"
     assert [p.name for p in tmp_path.iterdir()] == ["a.toml"]
 
@@ -55,12 +60,12 @@ def test_packages_are_listed_once_and_well_formed():
     packages = [w[0] for w in words if w]
     assert len(packages) == len(set(packages)) > 20
     assert all(re.fullmatch(r"[a-z0-9+.-]+", name) for name in packages)
-    assert all(w[1:] in ([], ["peer"]) for w in words if w)
+    assert all(w[1:] in ([], ["peer"], ["figures"], ["test"], ["style"]) for w in words if w)
 
 
 def test_without_apt_the_list_is_said_and_nothing_installed(script, tmp_path):
     """A PATH with no apt-get: setup says what the build needs, and goes on."""
-    for tool in ("bash", "dirname", "sed", "awk", "grep", "cat", "env"):
+    for tool in ("bash", "dirname", "sed", "awk", "grep", "cat", "env", "mkdir", "mktemp", "rm"):
         os.symlink(f"/usr/bin/{tool}", tmp_path / tool)
     done = script("setup", "--no-build", env={"PATH": str(tmp_path)})
     assert done.returncode == 0 and "not a Debian system" in done.stderr and "libhdf5-dev" in done.stderr
@@ -95,9 +100,27 @@ def test_nothing_missing_means_no_apt(script, tmp_path):
 def test_only_what_is_missing_is_installed(script, tmp_path):
     env = tools(tmp_path, ALL_BUT_HDF5, "exit 0")
     done = script("setup", "--no-build", env=env)
-    assert done.returncode == 0 and "installing libhdf5-dev\n" in done.stderr
+    assert done.returncode == 0 and "installing libhdf5-dev\n" in done.stderr and "packages: done in" in done.stderr
     log = (tmp_path / "log").read_text()
     assert re.search(r" install -y --no-install-recommends libhdf5-dev$", log, re.M)
+
+
+@root_alone
+def test_each_purpose_installs_what_it_needs(script, tmp_path):
+    """Nothing is there: what would be installed, in how many calls of apt-get?"""
+    env = tools(tmp_path, "true", "exit 0")
+    installed = {}
+    for purpose in ("sweep", "test", "style"):
+        done = script("setup", "--no-build", "--for", purpose, env=env)
+        assert done.returncode == 0, done.stderr
+        calls = re.findall(r" install -y --no-install-recommends (.*)$", (tmp_path / "log").read_text(), re.M)
+        assert len(calls) <= 2, "one call for the build, one for what draws"
+        installed[purpose] = set(" ".join(calls).split())
+        (tmp_path / "log").unlink()
+    tests = {"libgtest-dev", "libgmock-dev", "librapidcheck-dev", "python3-pytest", "python3-pandas", "hdf5-tools"}
+    assert tests <= installed["test"] and not tests & installed["sweep"]
+    assert {"g++", "libfcl-dev", "python3-matplotlib"} <= installed["sweep"] < installed["test"]
+    assert installed["style"] == {"clang-format-14"}
 
 
 @root_alone
@@ -123,7 +146,7 @@ PRESETS = """{"version": 6, "configurePresets": [{"name": "release", "generator"
 def toy(tmp_path):
     """toy(c_test, py_test, build): a checkout with one test of each kind, and scripts/test run in it."""
 
-    def make(c_test="true", py_test="pass", build="true"):
+    def make(*arguments, c_test="true", py_test="pass", build="true"):
         (tmp_path / "scripts").mkdir()
         for name in ("setup", "test", "packages.txt"):
             shutil.copy2(SCRIPTS / name, tmp_path / "scripts" / name)
@@ -137,7 +160,7 @@ def toy(tmp_path):
         fakes.mkdir()
         env = tools(fakes, 'for p in "${@:4}"; do echo "$p installed"; done', "exit 1")
         done = subprocess.run(
-            [tmp_path / "scripts" / "test"], env=env, capture_output=True, text=True, timeout=120
+            [tmp_path / "scripts" / "test", *arguments], env=env, capture_output=True, text=True, timeout=120
         )
         return done.returncode, done.stdout + done.stderr
 
@@ -164,3 +187,37 @@ def test_a_failing_test_of_either_kind_fails(toy, failing, said_of_it):
 def test_a_broken_build_fails(toy):
     code, said = toy(build="false")
     assert code == 1 and "the build failed" in said and "all C++ and Python" not in said
+
+
+def test_a_broken_build_shows_its_last_lines_and_no_others(toy):
+    code, said = toy(build="ls the-cause")
+    assert code == 1 and "cannot access 'the-cause'" in said and "FAILED: " in said
+    assert "Configuring done" not in said and "build/setup.log" in said
+
+
+def test_the_steps_are_counted(toy):
+    code, said = toy()
+    assert code == 0, said
+    steps = re.findall(r"^\[(\d)/4\] (\w+)", said, re.M)
+    assert [step for step, _ in steps] == ["1", "2", "3", "4"], said
+
+
+@pytest.mark.parametrize("name, ran", [("CTest", "C++"), ("test_TOY", "Python")])
+def test_only_runs_the_tests_of_that_name(toy, name, ran):
+    code, said = toy("--only", name)
+    assert code == 0 and f"test: all tests named '{name}' passed" in said, said
+    assert ("out of 1" in said) == (ran == "C++") and ("1 passed" in said) == (ran == "Python")
+
+
+def test_only_of_no_test_is_bad_usage(toy):
+    code, said = toy("--only", "nix")
+    assert code == 2 and "no test has such a name" in said
+
+
+def test_fast_leaves_out_what_was_slow(toy, tmp_path):
+    costs = tmp_path / "build" / "release" / "Testing" / "Temporary"
+    costs.mkdir(parents=True)
+    (costs / "CTestCostData.txt").write_text("a_test 1 0.1\nc_test 3 1.5\n---\n")
+    code, said = toy("--fast")
+    assert code == 1 and "No tests were found" in said  # c_test was the only one
+    assert "1 passed" not in said

@@ -1,4 +1,4 @@
-"""The house rules hold here, and the check sees each kind of breach."""
+"""The rules for modules hold here, and the check sees each kind of breach."""
 
 import subprocess
 from pathlib import Path
@@ -10,12 +10,12 @@ ROOT = Path(__file__).resolve().parents[2]
 
 def check(root):
     done = subprocess.run(
-        [ROOT / "scripts" / "check_rooms", root], capture_output=True, text=True, timeout=60
+        [ROOT / "scripts" / "check_modules", root], capture_output=True, text=True, timeout=60
     )
     return done.returncode, done.stdout
 
 
-def test_this_house_is_in_order():
+def test_this_checkout_is_in_order():
     code, said = check(ROOT)
     assert code == 0, said
 
@@ -23,7 +23,7 @@ def test_this_house_is_in_order():
 def plant(root, name, text):
     file = root / name
     file.parent.mkdir(parents=True, exist_ok=True)
-    (file.parent / "README.md").write_text("# A room\n")
+    (file.parent / "README.md").write_text("# A module\n")
     file.write_text(text)
 
 
@@ -35,8 +35,11 @@ def plant(root, name, text):
         ("kernels/a.h", "#  include <trees/tree.h>\n", "kernels/a.h:1: kernels/ must not"),
         ("results/a.h", '#include "bench/tasks/contender.h"\n', "results/a.h:1: results/ must not"),
         ("bench/a.cpp", "#include <hdf5.h>\n", "only results/ includes HDF5"),
-        ("kernels/a.h", '#include "kernels/oracle/oracle.h"\n', "a.h:1: only tests and bench/ task"),
-        ("trees/a.h", '#include "kernels/oracle/nearest.h"\n', "a.h:1: only tests and bench/ task"),
+        ("kernels/a.h", '#include "kernels/oracle/oracle.h"\n', "a.h:1: only tests and bench/ include the oracle"),
+        ("trees/a.h", '#include "kernels/oracle/nearest.h"\n', "a.h:1: only tests and bench/ include the oracle"),
+        ("bench/a.cpp", '#include "trees/layouts/detail/wide.h"\n', "bench/a.cpp:1: detail/ is for trees/ alone"),
+        ("bench/a.h", "#include <CLI/CLI.hpp>\n", "a.h:1: only bench/commands/ and bench/main.cpp"),
+        ("trees/a.h", '#include "kernels/testing/thinned.h"\n', "a.h:1: only tests include what is in"),
         ("trees/mesh_utils.h", "", "'mesh_utils' says nothing"),
         ("trees/a.cpp", "//\n" * 451, "451 lines; at most 450"),
         ("trees/README.md", "line\n" * 41, "41 lines; at most 40"),
@@ -54,12 +57,25 @@ def test_what_is_allowed_passes(tmp_path):
     plant(tmp_path, "bench/a.cpp", '#include "trees/tree.h"\n#include "results/results.h"\n')
     plant(tmp_path, "results/a.cpp", "#include <hdf5.h>\n")
     plant(tmp_path, "trees/a.h", '#include "kernels/primitives/aabb.h"\n#include <vector>\n')
-    asks_oracle = '#include "kernels/oracle/oracle.h"\n'
-    for file in ("kernels/oracle/a.cpp", "kernels/b_test.cpp", "kernels/pairs_for_test.h",
+    plant(tmp_path, "trees/c.cpp", '#include "trees/layouts/detail/wide.h"\n')
+    plant(tmp_path, "trees/testing/d.h", '#include "kernels/testing/thinned.h"\n')
+    plant(tmp_path, "bench/commands/e.cpp", "#include <CLI/CLI.hpp>\n")
+    needs_oracle = '#include "kernels/oracle/oracle.h"\n'
+    for file in ("kernels/oracle/a.cpp", "kernels/b_test.cpp", "kernels/testing/pairs.h",
                  "bench/b.cpp", "trees/b_test.cpp"):
-        plant(tmp_path, file, asks_oracle)
+        plant(tmp_path, file, needs_oracle)
     plant(tmp_path, "build/utils.h", '#include "scenes/scene.h"\n')
     assert check(tmp_path)[0] == 0
+
+
+def test_a_crowded_folder_is_found(tmp_path):
+    for number in range(41):
+        plant(tmp_path, f"trees/layouts/layout{number}.h", "")
+    plant(tmp_path, "trees/a.h", "")
+    (tmp_path / "trees" / "layouts" / "README.md").unlink()
+    code, said = check(tmp_path)
+    assert code == 1 and "trees/layouts: 41 files; at most 40" in said
+    assert said.count("\n") == 2, said
 
 
 def test_a_missing_readme_is_found(tmp_path):

@@ -7,7 +7,7 @@ import pytest
 import synthetic
 
 from boxwood_results import labels, registry, run, selection, style
-from boxwood_results.figures import accuracy, effect_price, work
+from boxwood_results.figures import accuracy, effect_cost, work
 from boxwood_results.kernels import Kernel
 
 
@@ -17,7 +17,7 @@ def results(full):
 
 
 def kernel(name, ns, wrong=0, error=math.nan):
-    return Kernel(name, True, "boxwood", "no promise", ns, 1000, wrong, 0, error)
+    return Kernel("triangle_triangle", "generic", name, True, "boxwood", "no promise", ns, 1000, wrong, 0, error)
 
 
 def test_the_axis_of_wrong_answers_ends_at_all():
@@ -94,21 +94,21 @@ def test_no_panel_is_empty(results, name):
         style.plt.close(made.figure)
 
 
-def test_intervals_of_speed_ups_are_not_cut(results):
-    for made in registry.draw("speedup", results).pictures:
+def test_intervals_of_thread_scaling_are_not_cut(results):
+    for made in registry.draw("thread_scaling", results).pictures:
         for ax in made.figure.axes:
             low, high = ax.get_ylim()
             assert all(low <= y <= high for line in ax.lines for y in line.get_ydata())
         style.plt.close(made.figure)
 
 
-def test_a_price_has_the_sign_of_its_ratio():
+def test_a_cost_has_the_sign_of_its_ratio():
     for ratio, sign in ((0.99, "-"), (1.3, "+")):
-        assert effect_price.price_text(1e6, SimpleNamespace(mid=ratio)).startswith(sign)
-    assert effect_price.price_text(2e6, SimpleNamespace(mid=2.0)) == "+1 ms"
+        assert effect_cost.cost_text(1e6, SimpleNamespace(mid=ratio)).startswith(sign)
+    assert effect_cost.cost_text(2e6, SimpleNamespace(mid=2.0)) == "+1 ms"
 
 
-def test_a_tall_picture_tells_its_axis_at_the_top_too(tmp_path):
+def test_a_tall_picture_shows_its_axis_at_the_top_too(tmp_path):
     made = synthetic.Maker(9)
     for k in range(20):
         for contender in ("median.packed", "fcl.dynamic_aabb_tree", "bullet.dbvt"):

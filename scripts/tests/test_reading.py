@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import synthetic
 
-from boxwood_results import findings, reader, run, stats
+from boxwood_results import findings, reader, run
 
 
 def test_reads_what_was_written(full):
@@ -16,43 +16,61 @@ def test_reads_what_was_written(full):
     cell = next(c for c in results.cells if c.name == "uniform/n1000-s1/pairs/binned_sah.wide8.self_pairs/f32/tbb-2")
     assert (cell.label, cell.family, cell.ours, cell.job.threads) == ("binned_sah.wide8 tbb", "binned_sah", True, 2)
     assert cell.status == "exact" and cell.counters["box_tests"] == 41000
-    one = cell.rounds("build")[3] + cell.rounds("query")[3]
-    assert cell.rounds(run.TOTAL)[3] == one
+    assert cell.has("build") and cell.total == "build+query"
+    assert cell.median("build") < cell.median(run.TOTAL) < 1.1 * (cell.median("build") + cell.median("query"))
     assert 0 < results.noise_floor < 0.05
 
 
 def test_the_twin_is_no_sample_of_its_cell(full):
-    twin = [c for c in run.read(full).cells if c.twin]
-    assert len(twin) == 1 and len(twin[0].rounds("query")) == 15 and len(twin[0].twin["query"]) == 15
-    assert twin[0].rounds("query") != twin[0].twin["query"]
+    results = run.read(full)
+    twin = {int(row["cell_id"]) for row in results.source["samples"] if row["flags"] & run.AA_TWIN}
+    assert len(twin) == 1
+    cell = next(c for c in results.cells if c.cell_id in twin)
+    assert int(cell.medians["query"]["n"]) == 15
+
+
+def race(results, task, threads=1, scene="uniform", contender_class=""):
+    """The finding about the largest size."""
+    found = [f for f in results.findings
+             if f.topic == findings.RACE and (f.task, f.contender_class, f.threads) == (task, contender_class, threads)
+             and f.ours.job.scene == scene]
+    return max(found, key=lambda f: f.ours.job.n)
 
 
 def test_findings_know_what_was_put_in(full):
-    found = {str(f.job): f for f in findings.findings(run.read(full))}
-    uniform = found["uniform 100,000 · pairs · 1 thread"]
+    results = run.read(full)
+    uniform = race(results, "pairs")
     assert uniform.ours.label == "median.wide8"  # 62 + 128 ns per item, against 130 + 95
-    peer = next(p for p in uniform.peers if p.label == "fcl.dynamic_aabb_tree")
-    assert uniform.quickest.label == "binned_sah.wide8"
-    comparison = uniform.against(peer, "query")
-    assert comparison.ratio.lo < 1500 / 95 * 1.02 and comparison.ratio.hi > 1500 / 95 * 0.98
-    assert comparison.verdict == stats.FASTER
-    cgal = next(p for p in uniform.peers if p.library == "cgal")
-    assert uniform.against(cgal, "query") is None and uniform.against(cgal, run.TOTAL) is not None
-    rays = found["mesh_stanford_bunny_primary 69,451 · rays_closest · 1 thread"]
-    assert {c.verdict for c in rays.comparisons} == {stats.SLOWER}
+    assert uniform.ours_alone.label == "binned_sah.wide8"
+    assert uniform.ours.job.n == 100000
+    alone = next(c for c in results.family(findings.PEERS, "query")
+                 if c.b is uniform.ours_alone and c.a.label == "fcl.dynamic_aabb_tree")
+    assert alone.gain.lo < 1500 / 95 * 1.02 and alone.gain.hi > 1500 / 95 * 0.98
+    assert alone.verdict == "faster" and alone.reason == ""
+    cgal = [c for c in results.family(findings.PEERS) if c.a.library == "cgal" and c.b.job.task == "pairs"]
+    assert {c.phase for c in cgal} == {"build+query"}  # it has no build of its own
+    rays = race(results, "rays_closest", 1, "mesh_stanford_bunny_primary", "batches against single rays")
+    assert rays.together.startswith("LOSES") and rays.alone.startswith("LOSES")
+
+
+def test_losses_come_first(full):
+    order = [f.together.startswith("LOSES") or f.alone.startswith("LOSES")
+             for f in run.read(full).findings if f.topic == findings.RACE]
+    assert order == sorted(order, reverse=True) and any(order) and not all(order)
 
 
 def test_builders_alone_have_no_query(full):
-    tree = next(f for f in findings.findings(run.read(full)) if f.job.task == "tree")
-    assert tree.ours.label == "lbvh" and tree.quickest is None
-    assert [c.phase for c in tree.comparisons] == [run.TOTAL]
-    assert abs(tree.comparisons[0].ratio.mid / (100 / 30) - 1) < 0.05
+    tree = race(run.read(full), "tree")
+    assert tree.ours.label == "lbvh" and tree.ours_alone is None and tree.alone == ""
+    assert tree.together.startswith("wins 3.3") and tree.together.endswith("over Embree")
 
 
 def test_a_wrong_cell_is_never_ranked(full):
-    bars = next(f for f in findings.findings(run.read(full)) if str(f.job) == "bars 100,000 · pairs · 1 thread")
-    assert [c.label for c in bars.wrong] == ["bullet.dbvt"]
-    assert "bullet" not in {p.library for p in bars.peers}
+    results = run.read(full)
+    wrong = next(c for c in results.cells if c.job.scene == "bars" and c.label == "bullet.dbvt")
+    assert wrong.status == "wrong" and not wrong.ranked
+    assert {c.verdict for c in results.comparisons if wrong in (c.a, c.b)} == {"wrong"}
+    assert not any(wrong in (f.rival, f.rival_alone) for f in results.findings)
 
 
 @pytest.mark.parametrize("status", ["wrong", "a_word_of_the_future"])
@@ -61,13 +79,13 @@ def test_our_own_wrong_cell_is_never_ranked(tmp_path, status):
     spec = synthetic.PAIR_CONTENDERS
     made.cell("uniform", 1000, "pairs", "median.wide8", spec["median.wide8"], 1, status=status)
     made.cell("uniform", 1000, "pairs", "fcl.dynamic_aabb_tree", spec["fcl.dynamic_aabb_tree"], 1)
-    finding = findings.findings(run.read(made.write(tmp_path / "a.h5")))[0]
-    assert finding.ours is None and not finding.comparisons and len(finding.wrong) == 1
+    results = run.read(made.write(tmp_path / "a.h5"))
+    assert results.findings == [] and [c.status for c in results.cells] == ["wrong", "exact"]
 
 
 def test_an_answer_that_changed_between_rounds_is_wrong(tmp_path):
     made = synthetic.small(rounds=3)
-    made.rows["samples"][1]["flags"] = run.WRONG_ANSWER
+    made.rows["samples"][1]["flags"] = 8
     cells = run.read(made.write(tmp_path / "a.h5")).cells
     assert [c.status for c in cells].count("wrong") == 1
 
@@ -78,20 +96,14 @@ def test_nan_samples_are_left_out_and_counted(tmp_path):
         row["wall_ns"] = math.nan
     results = run.read(made.write(tmp_path / "a.h5"))
     assert results.missing_samples == 4
-    assert all(math.isfinite(t) for c in results.cells for phase in c.times.values() for t in phase.values())
-    assert min(len(c.rounds("query")) for c in results.cells if c.job.task != "tree") == 5
+    assert min(int(c.medians["query"]["n"]) for c in results.cells if c.job.task != "tree") == 5
 
 
 def test_one_round_claims_nothing(small):
     results = run.read(small)
     assert math.isnan(results.noise_floor)
-    verdicts = {c.verdict for f in findings.findings(results) for c in f.comparisons}
-    assert verdicts == {stats.CANNOT_TELL}
-
-
-def test_no_optional_tables(tmp_path):
-    results = run.read(synthetic.small().write(tmp_path / "a.h5", drop=("counters", "trees", "frames", "effects")))
-    assert results.cells[0].tree is None and results.cells[0].counters == {}
+    assert {(c.verdict, c.reason) for c in results.comparisons} == {("cannot_tell", "too_few_rounds")}
+    assert {f.certainty for f in results.findings} == {"too few rounds"}
 
 
 def broken_header(**attrs):
@@ -134,7 +146,8 @@ def without_column(path):
         (cut(0.98), "cannot be read as HDF5"),
         (flipped, "table 'samples' is damaged"),
         (broken_header(format="else"), "not a Boxwood result file"),
-        (broken_header(schema_major=np.uint32(2)), "schema version 2, and these scripts read version 1"),
+        (broken_header(schema_major=np.uint32(1)), "of schema 1, and these scripts read schema 2; measure again"),
+        (lambda path: synthetic.small().write(path, drop=("compare",)), "table 'compare' is missing"),
         (broken_header(complete=np.uint32(0)), "incomplete"),
         (lambda path: synthetic.small().write(path, drop=("samples",)), "table 'samples' is missing"),
         (without_column, "table 'samples' has no column 'phase'"),
@@ -148,7 +161,7 @@ def test_bad_files_are_refused(tmp_path, script, make, said):
     assert said in str(refusal.value) and "bad.h5" in str(refusal.value)
 
 
-@pytest.mark.parametrize("command", ["summary", "plot", "report"])
+@pytest.mark.parametrize("command", ["plot", "report"])
 def test_the_commands_say_so_and_write_nothing(tmp_path, script, command):
     cut(0.5)(tmp_path / "bad.h5")
     done = script(command, tmp_path / "bad.h5")

@@ -21,6 +21,6 @@ class Nearest final : public SceneStage {
 
 } // namespace
 
-std::unique_ptr<SceneStage> nearest_ask() { return std::make_unique<Nearest>(); }
+std::unique_ptr<SceneStage> nearest_query() { return std::make_unique<Nearest>(); }
 
 } // namespace boxwood::bench

@@ -28,7 +28,7 @@ class Pairs final : public SceneStage {
     std::size_t bytes(const Playing&) const override { return bytes_of(hidden_); }
 
   private:
-    std::vector<Pair> hidden_; ///< if nobody asks for them but the stages that follow
+    std::vector<Pair> hidden_; ///< if only the stages that follow need them
     std::optional<AppendPairs> sink_;
     bool is_found_ = false;
     std::uint64_t found_in_ = 0;
@@ -36,6 +36,6 @@ class Pairs final : public SceneStage {
 
 } // namespace
 
-std::unique_ptr<SceneStage> pairs_ask() { return std::make_unique<Pairs>(); }
+std::unique_ptr<SceneStage> pairs_query() { return std::make_unique<Pairs>(); }
 
 } // namespace boxwood::bench

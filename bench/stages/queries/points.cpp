@@ -17,6 +17,6 @@ class Points final : public SceneStage {
 
 } // namespace
 
-std::unique_ptr<SceneStage> points_ask() { return std::make_unique<Points>(); }
+std::unique_ptr<SceneStage> points_query() { return std::make_unique<Points>(); }
 
 } // namespace boxwood::bench

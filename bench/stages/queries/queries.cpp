@@ -1,27 +1,27 @@
-/// The stages of what a scene may ask. To add an ask: its row in scenes/moving/query.cpp, the file
-/// WORD.cpp here, which defines `std::unique_ptr<SceneStage> WORD_ask()`, its word here, and its
-/// line in plan_stages.cpp.
+/// The stages of what a scene may query. To add a query: its row in scenes/moving/query.cpp, the
+/// file NAME.cpp here, which defines `std::unique_ptr<SceneStage> NAME_query()`, its name here, and
+/// its line in plan_stages.cpp.
 
 #include "bench/stages/playing.h"
 
 #include <stdexcept>
 #include <string>
 
-#define BOXWOOD_SCENE_ASKS(X) X(pairs) X(triangle_pairs) X(rays) X(points) X(regions) X(nearest)
+#define BOXWOOD_SCENE_QUERIES(X) X(pairs) X(triangle_pairs) X(rays) X(points) X(regions) X(nearest)
 
 namespace boxwood::bench {
 
-#define X(word) std::unique_ptr<SceneStage> word##_ask();
-BOXWOOD_SCENE_ASKS(X)
+#define X(name) std::unique_ptr<SceneStage> name##_query();
+BOXWOOD_SCENE_QUERIES(X)
 #undef X
 
-std::unique_ptr<SceneStage> ask_stage(std::string_view word) {
+std::unique_ptr<SceneStage> query_stage(std::string_view wanted) {
 #define X(name)                                                                                    \
-    if (word == #name)                                                                             \
-        return name##_ask();
-    BOXWOOD_SCENE_ASKS(X)
+    if (wanted == #name)                                                                           \
+        return name##_query();
+    BOXWOOD_SCENE_QUERIES(X)
 #undef X
-    throw std::logic_error("no stage answers " + std::string(word));
+    throw std::logic_error("no stage answers " + std::string(wanted));
 }
 
 } // namespace boxwood::bench

@@ -13,6 +13,6 @@ class Rays final : public SceneStage {
 
 } // namespace
 
-std::unique_ptr<SceneStage> rays_ask() { return std::make_unique<Rays>(); }
+std::unique_ptr<SceneStage> rays_query() { return std::make_unique<Rays>(); }
 
 } // namespace boxwood::bench

@@ -17,6 +17,6 @@ class Regions final : public SceneStage {
 
 } // namespace
 
-std::unique_ptr<SceneStage> regions_ask() { return std::make_unique<Regions>(); }
+std::unique_ptr<SceneStage> regions_query() { return std::make_unique<Regions>(); }
 
 } // namespace boxwood::bench

@@ -24,7 +24,7 @@ struct PosedMesh {
 };
 
 /// The triangles of two meshes that share a point, of each candidate pair of bodies with meshes.
-/// Where neither of the two has changed since triangles were last asked, they are the same.
+/// Where neither of the two has changed since triangles were last found, they are the same.
 class TrianglePairs final : public SceneStage {
   public:
     std::size_t start(Playing&) override {
@@ -81,7 +81,7 @@ class TrianglePairs final : public SceneStage {
         const WorldMeshes& meshes = *playing.meshes;
         std::unordered_map<std::uint64_t, std::size_t> before;
         const bool may_keep =
-            !playing.is_everything() && playing.changed.size() < playing.scene.bodies().size();
+            !playing.is_full() && playing.changed.size() < playing.scene.bodies().size();
         const auto key = [](Pair p) { return std::uint64_t{p.a} << 32 | p.b; };
         if (may_keep)
             for (std::size_t i = 0; i < meetings_.size(); ++i)
@@ -142,6 +142,6 @@ class TrianglePairs final : public SceneStage {
 
 } // namespace
 
-std::unique_ptr<SceneStage> triangle_pairs_ask() { return std::make_unique<TrianglePairs>(); }
+std::unique_ptr<SceneStage> triangle_pairs_query() { return std::make_unique<TrianglePairs>(); }
 
 } // namespace boxwood::bench

@@ -5,19 +5,19 @@
 namespace boxwood::bench {
 namespace {
 
-std::string_view status_of(Worth worst) {
+Status status_of(Worth worst) {
     switch (worst) {
     case Worth::exact:
-        return "exact";
+        return Status::exact;
     case Worth::conservative:
-        return "conservative";
+        return Status::conservative;
     case Worth::within_bound:
-        return "within_bound";
+        return Status::within_bound;
     case Worth::wrong:
     case Worth::broken_promise:
         break;
     }
-    return "wrong";
+    return Status::wrong;
 }
 
 /// The greater one; a missing one is less than any.
@@ -42,6 +42,16 @@ Worth worth_of(Promise promise, Answer said, bool truth) {
         break;
     }
     return Worth::broken_promise;
+}
+
+Tally::Tally(const CaseScene& scene, const ContenderEntry& contender)
+    : promise_(contender.promise), n_cases_(n_cases(scene.scene.cases)) {
+    const HardCaseFamily* family = find_hard_case_family(scene.scene.spec.generator);
+    row_.family = family ? std::string(family->name) : "typical";
+    row_.panel = to_string(panel_of(scene.scene));
+    row_.task = scene.task;
+    row_.kernel = contender.name;
+    row_.promise = to_string(promise_);
 }
 
 void Tally::called(std::uint8_t tier) {
@@ -83,16 +93,15 @@ Judgement Tally::rows(std::string witness) const {
         witness = "no case has only finite numbers in this precision";
     Judgement all;
     all.breaks_promise = worst_ == Worth::broken_promise;
-    all.kernel = row_;
-    all.kernel.promise = to_string(promise_);
-    all.kernel.status = row_.n > 0 ? status_of(worst_) : "unsupported";
-    all.kernel.witness = witness;
-    all.kernel.escalation_rate =
+    all.status = row_.n > 0 ? status_of(worst_) : Status::unsupported;
+    all.calls = n_cases_;
+    results::KernelRow& kernel = all.kernel.emplace(row_);
+    kernel.witness = witness;
+    kernel.escalation_rate =
         row_.n > 0 ? 1 - static_cast<double>(row_.tier_0) / static_cast<double>(row_.n)
                    : results::missing;
     results::Check& check = all.check;
     check.oracle = "rational";
-    check.status = all.kernel.status;
     check.n_checked = row_.n;
     check.n_expected = is_yes_no_ ? true_yes_ : row_.n;
     check.n_got = is_yes_no_ ? said_yes_ : row_.n;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/truth/judging/judge.h"
+#include "bench/truth/judging/case_truths.h"
 
 #include <cmath>
 #include <cstdint>
@@ -11,13 +11,13 @@ namespace boxwood::bench {
 /// What one answer is worth, worst last.
 enum class Worth { exact, conservative, within_bound, wrong, broken_promise };
 
-/// A yes/no answer against the truth, by what its rung promises.
+/// A yes/no answer against the truth, by what its kernel promises.
 Worth worth_of(Promise promise, Answer said, bool truth);
 
 /// Counts over the cases of one contender, and the first of its worst cases.
 class Tally {
   public:
-    explicit Tally(const ContenderEntry& contender) : promise_(contender.promise) {}
+    Tally(const CaseScene& scene, const ContenderEntry& contender);
 
     Promise promise() const { return promise_; }
 
@@ -33,7 +33,7 @@ class Tally {
     /// Notes what case `i` is worth; NaN and zero errors do not matter here.
     void note(std::size_t i, Worth worth);
 
-    /// The rows. `witness` says in words what was asked and answered in a case.
+    /// The rows. `witness` says a case and its answer in words.
     template <class Witness> Judgement finish(const Witness& witness) {
         return rows(worst_ >= Worth::wrong ? witness(worst_case_) : std::string());
     }
@@ -42,6 +42,7 @@ class Tally {
     Judgement rows(std::string witness) const;
 
     Promise promise_;
+    std::size_t n_cases_;
     results::KernelRow row_;
     bool is_yes_no_ = false;
     std::uint64_t true_yes_ = 0, said_yes_ = 0;

@@ -25,7 +25,7 @@ bool is_finite(const RayCase& c); ///< of the ray: its triangles are looked at b
 bool is_finite(const RayBoxCase& c);
 bool is_finite(const MotionCase& c);
 
-/// The truths of cases, found by an oracle on several threads when they are first asked for, for
+/// The truths of cases, found by an oracle on several threads when they are first needed, for
 /// kernels of either precision. No truth of a case that is not finite.
 template <class Case, class Truth> class Truths {
   public:

@@ -5,7 +5,7 @@ import math
 from matplotlib.ticker import FixedFormatter, FixedLocator, NullLocator
 
 from .. import labels, style
-from ..kernels import LEAST_ERROR, PANELS, by_kernel_family, is_measured, kernels
+from ..kernels import LEAST_ERROR, PANELS, is_measured
 from ..picture import Picture, Skip
 
 NAME = "accuracy"
@@ -88,9 +88,9 @@ def draw_panel(ax, panel, found, measured):
 
 def draw(run):
     pictures = []
-    for task, points in by_kernel_family(run).items():
+    for task in dict.fromkeys(kernel.task for kernel in run.kernel_costs):
         measured = is_measured(task)
-        panels = [(p, kernels([q for q in points if q.panel == p])) for p in PANELS]
+        panels = [(p, [k for k in run.kernel_costs if (k.task, k.panel) == (task, p)]) for p in PANELS]
         panels = [(panel, found) for panel, found in panels if found]
         if not panels:
             continue

@@ -3,40 +3,48 @@
 import math
 
 from .. import labels, style
-from ..findings import time_text
 from ..metrics import METRICS
 from ..picture import Picture, Skip
-from ..selection import choose, front, largest_jobs, VERY_LONG, left_out_note, short_labels, wrong_notes
+from ..selection import choose, largest_jobs, VERY_LONG, left_out_note, short_labels, wrong_notes
+from ..words import time_text
 
 NAME = "builder_tradeoff"
 TITLE = "What a build buys"
 HOW_TO_READ = (
     "Lower left is better. The line joins the variants that none beats in both; the number on a "
     "piece is how many queries it takes until the slower build has paid for itself (no number: the "
-    "first query does). A contender "
+    "first query does, or the noise hides it). A contender "
     "without a build of its own stands at the left edge: its query holds all the work. What the long names "
     "of ours have in common stands in the title."
 )
 COLUMNS = ("task", "scene", "n", "threads", "variant", "library", "status", "build_ns", "query_ns", "break_even_queries")
 
 
-def break_even(cheap, dear):
-    """Queries after which the dearer build has paid for itself."""
-    return (dear.median("build") - cheap.median("build")) / (cheap.median("query") - dear.median("query"))
+def front(cells, run):
+    """[(cell, queries after which it has paid for itself against the one before, or NaN)]: those that none beats in
+    both build and query, by rising build time."""
+    cells = {cell.cell_id: cell for cell in cells}
+    steps = [row for row in run.source["break_even"] if row["cell_b"] in cells]
+    found = [(cells[steps[0]["cell_a"]], math.nan)] if steps else []
+    found += [(cells[row["cell_b"]], float(row["queries"])) for row in steps]
+    if not found and any(cell.ranked for cell in cells.values()):  # one alone is best at both
+        found = [(min((c for c in cells.values() if c.ranked), key=lambda c: c.median("query")), math.nan)]
+    return found
 
 
-def draw_panel(ax, job, cells, rows):
+def draw_panel(ax, job, cells, run, rows):
     timed = [cell for cell in cells if not math.isnan(cell.median("query"))]
-    best = front([cell for cell in timed if cell.ranked])
+    steps = front(timed, run)
+    best = [cell for cell, _ in steps]
     shown, left_out = choose(timed, keep=best)
-    builds = [cell.median("build") for cell in shown if cell.has_build]
+    builds = [cell.median("build") for cell in shown if cell.builds]
     queries = [cell.median("query") for cell in shown]
     edge = min(builds) / 3 if len(builds) < len(shown) else min(builds)
     style.time_axis(ax.xaxis, edge, max(builds), room=0.12)
     style.time_axis(ax.yaxis, min(queries), max(queries), room=0.08)
 
     def at(cell):
-        return (cell.median("build") if cell.has_build else edge), cell.median("query")
+        return (cell.median("build") if cell.builds else edge), cell.median("query")
 
     if len(builds) < len(shown):
         ax.axvline(edge, color=style.FAINT, linewidth=5, alpha=0.35, zorder=0)
@@ -52,11 +60,11 @@ def draw_panel(ax, job, cells, rows):
         if cell.status == "wrong":
             style.cross_out(ax, x, y)
         marks.append((x, y, names[id(cell)], style.text_colour(cell.family)))
-    pays = {id(dear): break_even(cheap, dear) for cheap, dear in zip(best, best[1:])}
+    pays = {id(cell): queries for cell, queries in steps if queries == queries}
     joints = []
     for cheap, dear in zip(best, best[1:]):
         (x0, y0), (x1, y1) = at(cheap), at(dear)
-        count = math.ceil(pays[id(dear)])
+        count = math.ceil(pays.get(id(dear), 0))
         if count > 1:
             joints.append((math.sqrt(x0 * x1), math.sqrt(y0 * y1), f"{count:,} queries", "#555555"))
     style.title(ax, f"{job} · ours: {shared}" if shared else str(job))
@@ -72,27 +80,27 @@ def draw_panel(ax, job, cells, rows):
 
 
 def draw(run):
-    by_ask = {}
+    by_task = {}
     for job in largest_jobs(run.jobs):
         cells = run.of(job)
-        cells = [cell for cell in cells if cell.rounds("query") and not cell.rounds("update")]
-        if sum(cell.has_build for cell in cells) >= 2:
-            by_ask.setdefault(job.task, []).append((job, cells))
-    if not by_ask:
+        cells = [cell for cell in cells if cell.has("query") and not cell.has("update")]
+        if sum(cell.builds for cell in cells) >= 2:
+            by_task.setdefault(job.task, []).append((job, cells))
+    if not by_task:
         raise Skip("it takes at least two variants with a build time on one job")
     pictures = []
-    for task, jobs in by_ask.items():
+    for task, jobs in by_task.items():
         crowded = max(len(cell.label) for _, cells in jobs for cell in cells) > VERY_LONG
         figure, axes = style.panels(len(jobs), **style.pair_of_panels(crowded))
         rows, notes = [], []
         for ax, (job, cells) in zip(axes, jobs):
-            left_out = draw_panel(ax, job, cells, rows)
+            left_out = draw_panel(ax, job, cells, run, rows)
             notes += left_out_note(left_out, f"variants of {job}") + wrong_notes(cells)
         alt = "; ".join(
             f"{job}: no variant beats "
             + ", ".join(
                 f"{cell.label} (build {time_text(cell.median('build'))}, query {time_text(cell.median('query'))})"
-                for cell in front([c for c in cells if c.ranked])
+                for cell, _ in front(cells, run)
             )
             for job, cells in jobs
         )

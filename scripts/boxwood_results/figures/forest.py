@@ -1,25 +1,70 @@
 """Every peer's time over ours, with intervals, and the band in which nothing is claimed."""
 
 import math
+from dataclasses import dataclass
 
-from .. import stats, style
-from ..findings import VERDICT_WORDS, findings, floor_text, ratio_text, rounds_text
+from .. import style
+from ..findings import PEERS, RACE, floor_text, rounds_text
 from ..metrics import METRICS
 from ..picture import Picture, Skip
 from ..run import TOTAL, TOTAL_WORDS, WHOLE_FRAMES
 from ..selection import largest_jobs, wrong_notes
+from ..words import VERDICTS, ratio_text
 
 NAME = "forest"
 TITLE = "Against the peers"
 HOW_TO_READ = (
     "Each mark is a peer's time divided by the time of our best variant, paired within rounds: right of "
-    "the line Boxwood is faster, left of it the peer. Bars are intervals of at least 95 %. The "
+    "the line Boxwood is faster, left of it the peer. Bars are the intervals that decided. The "
     "shaded band is the A/A noise floor, within which nothing is claimed; marks without a verdict are pale."
 )
-COLUMNS = ("task", "lane", "scene", "n", "threads", "ours", "peer", "peer_library", "phase", "rounds", "ratio", "ratio_lo",
-           "ratio_hi", "verdict")
-TALL = 8  # inches from which the axis is told at the top, too
+COLUMNS = ("task", "class", "scene", "n", "threads", "ours", "peer", "peer_library", "phase", "rounds",
+           "ratio", "ratio_lo", "ratio_hi", "verdict", "reason")
+TALL = 8  # inches from which the axis stands at the top, too
 ROW, GAP, OURS = 0.23, 0.34, 0.17  # inches; the last: a line for our variant below a long heading
+
+
+@dataclass
+class Block:
+    """A finding of the file with the comparisons of our two cells against every peer."""
+
+    finding: object
+    together: dict  # peer's cell id -> Comparison
+    alone: dict
+
+    @property
+    def cell(self):
+        return self.finding.ours or self.finding.ours_alone
+
+    @property
+    def job(self):
+        return self.cell.job
+
+    @property
+    def peers(self):
+        rows = {**self.alone, **self.together}
+        return [row.a for row in sorted(rows.values(), key=lambda row: -row.gain.mid)]
+
+    def against(self, peer, column):
+        return (self.alone if column else self.together).get(peer.cell_id)
+
+
+def blocks(run):
+    """One for each race against peers, the largest jobs alone; builds alone stand in tree_quality."""
+    rows = {}
+    for row in run.family(PEERS):
+        if row.verdict != "wrong":
+            rows.setdefault((row.b.cell_id, row.phase, row.contender_class), {})[row.a.cell_id] = row
+    found = []
+    for finding in run.findings:
+        if finding.topic != RACE or finding.task == "tree" or not (finding.rival or finding.rival_alone):
+            continue
+        sides = [rows.get((ours.cell_id, ours.total if phase == TOTAL else phase, finding.contender_class), {})
+                 if ours else {} for ours, phase in ((finding.ours, TOTAL), (finding.ours_alone, "query"))]
+        if any(sides):
+            found.append(Block(finding, *sides))
+    shown = set(largest_jobs(block.job for block in found))
+    return sorted((b for b in found if b.job in shown), key=lambda b: (b.job.task, b.job.threads, b.job.scene))
 
 
 def draw_marks(ax, comparisons, heights, floor):
@@ -29,8 +74,8 @@ def draw_marks(ax, comparisons, heights, floor):
     for comparison, height in zip(comparisons, heights):
         if comparison is None:
             continue
-        ratio, peer = comparison.ratio, comparison.peer
-        strength = 0.45 if comparison.verdict == stats.CANNOT_TELL else 1.0
+        ratio, peer = comparison.gain, comparison.a
+        strength = 0.45 if comparison.verdict == "cannot_tell" else 1.0
         colour, marker = style.look(peer.family)
         if ratio.known:
             ax.plot([ratio.lo, ratio.hi], [height, height], color=colour, linewidth=1.8, alpha=strength, zorder=3)
@@ -38,15 +83,15 @@ def draw_marks(ax, comparisons, heights, floor):
                 markeredgecolor="white", markeredgewidth=0.6, zorder=4)
 
 
-def said_of(verdict):
-    words = VERDICT_WORDS[verdict]
-    return f"Boxwood {words}" if verdict in (stats.FASTER, stats.SLOWER) else words
+def said_of(comparison):
+    words = comparison.verdict_text
+    return f"Boxwood {words}" if comparison.verdict in ("faster", "slower") else words
 
 
 def ratio_axis(ax, comparisons):
     ends = [1.0]
     for comparison in filter(None, comparisons):
-        ratio = comparison.ratio
+        ratio = comparison.gain
         ends += [ratio.lo, ratio.hi] if ratio.known else [ratio.mid]
     # The same room on both sides of 1 would hide small ratios beside large ones; some is kept.
     style.log_axis(ax.xaxis, min(min(ends), 0.7), max(max(ends), 1.4), lambda v: f"{v:g}x", room=0.05)
@@ -55,25 +100,27 @@ def ratio_axis(ax, comparisons):
     ax.spines["left"].set_visible(False)
 
 
-def heading(finding, column):
+def heading(block, column):
     """(heading, a line below it) of a block; rays have long ones."""
+    finding = block.finding
     if column:
-        ours = "" if finding.quickest is finding.ours else f"ours: {finding.quickest.label}"
-        return ("", ours) if finding.lane else (ours, "")
-    head, ours = f"{finding.job.scene} {finding.job.n:,}", f"ours: {finding.ours.label}"
-    return (f"{head}, {finding.lane}", ours) if finding.lane else (f"{head}   {ours}", "")
+        alone = finding.ours_alone
+        ours = f"ours: {alone.label}" if alone and alone is not finding.ours else ""
+        return ("", ours) if finding.contender_class else (ours, "")
+    head, ours = f"{block.job.scene} {block.job.n:,}", f"ours: {block.cell.label}"
+    return (f"{head}, {finding.contender_class}", ours) if finding.contender_class else (f"{head}   {ours}", "")
 
 
 def draw_one(run, task, threads, found, floor):
     """One picture: a block of rows per scene, a column for build + query and one for the query."""
     entries, y = [], 0.0
-    for finding in found:
+    for block in found:
         y -= GAP
-        entries.append((y, finding, None))
-        y -= OURS if finding.lane else 0
-        for peer in sorted(finding.peers, key=lambda p: -finding.against(p, TOTAL).ratio.mid):
+        entries.append((y, block, None))
+        y -= OURS if block.finding.contender_class else 0
+        for peer in block.peers:
             y -= ROW
-            entries.append((y, finding, peer))
+            entries.append((y, block, peer))
     height = -y + 0.12
     names, panel, texts, top, bottom = 2.5, 2.9, 2.35, 0.35, 0.8
     phases = (TOTAL,) if task in WHOLE_FRAMES else (TOTAL, "query")
@@ -83,7 +130,7 @@ def draw_one(run, task, threads, found, floor):
     for column, phase in enumerate(phases):
         left = names + column * (panel + texts)
         ax = figure.add_axes((left / size[0], bottom / size[1], panel / size[0], height / size[1]))
-        comparisons = [finding.against(peer, phase) if peer else None for _, finding, peer in entries]
+        comparisons = [block.against(peer, column) if peer else None for _, block, peer in entries]
         draw_marks(ax, comparisons, [entry[0] for entry in entries], floor)
         ratio_axis(ax, comparisons)
         ax.tick_params(axis="x", labeltop=height > TALL)
@@ -91,9 +138,9 @@ def draw_one(run, task, threads, found, floor):
         ax.set_yticks([])
         ax.set_title(TOTAL_WORDS.get(task, "build and one query") if phase == TOTAL else "query alone", fontsize=10,
                      weight="bold")
-        for (at, finding, peer), comparison in zip(entries, comparisons):
+        for (at, block, peer), comparison in zip(entries, comparisons):
             if peer is None:
-                head, ours = heading(finding, column)
+                head, ours = heading(block, column)
                 for text, down, size_of in ((head, 0, 8.5), (ours, OURS, 7.5)):
                     if text:
                         ax.text(0.02 if column else -names / panel, at - down, text, weight="bold" if down == 0 else None,
@@ -104,32 +151,31 @@ def draw_one(run, task, threads, found, floor):
                 ax.text(-0.03, at, peer.label, transform=ax.get_yaxis_transform(), ha="right", va="center",
                         fontsize=8, color=style.text_colour(peer.family))
             if comparison is None:
-                said = "the peer has no build" if not peer.has_build else "no build"
+                said = "the peer has no build" if not peer.builds else "no build"
                 ax.text(1.03, at, said, transform=ax.get_yaxis_transform(), va="center", fontsize=7.5,
                         color="#777777")
                 continue
-            said = f"{comparison.text}  {said_of(comparison.verdict)}"
+            said = f"{comparison.text}  {said_of(comparison)}"
             ax.text(1.03, at, said, transform=ax.get_yaxis_transform(), va="center", fontsize=7.5)
-            rows.append((task, finding.lane, finding.job.scene, finding.job.n, threads, comparison.ours.label, peer.label,
-                         peer.library, phase, comparison.ratio.n, comparison.ratio.mid, comparison.ratio.lo,
-                         comparison.ratio.hi, comparison.verdict))
+            gain = comparison.gain
+            rows.append((task, block.finding.contender_class, block.job.scene, block.job.n, threads, comparison.b.label,
+                         peer.label, peer.library, comparison.phase, comparison.rounds, gain.mid, gain.lo, gain.hi,
+                         comparison.verdict, comparison.reason))
     said = "; ".join(
-        f"{row[2]}, {row[6]}, {row[8]}: {ratio_text(row[10])} {VERDICT_WORDS[row[13]]}" for row in rows
+        f"{row[2]}, {row[6]}, {row[8]}: {ratio_text(row[10])} {VERDICTS[row[13]]}" for row in rows
     )
     figure.text(0.02 / size[0], 0.06 / size[1], f"{rounds_text(run)}. {floor_text(run)}.", fontsize=7.5, color="#666666")
-    notes = [note for finding in found for note in wrong_notes(finding.wrong)]
+    jobs = {block.job for block in found}
+    notes = wrong_notes([cell for cell in run.cells if cell.job in jobs])
     words = "1 thread" if threads == 1 else f"{threads} threads"
     return Picture(f"{NAME}_{task}_{threads}", figure, f"{TITLE}: {task}, {words}",
                    f"Peer's time over Boxwood's. {said}.", COLUMNS, rows, notes)
 
 
 def draw(run):
-    ranked = [f for f in findings(run) if f.comparisons and f.job.task != "tree"]  # builds alone: see tree_quality
-    shown = set(largest_jobs(f.job for f in ranked))
     groups = {}
-    for finding in ranked:
-        if finding.job in shown:
-            groups.setdefault((finding.job.task, finding.job.threads), []).append(finding)
+    for block in blocks(run):
+        groups.setdefault((block.job.task, block.job.threads), []).append(block)
     if not groups:
         raise Skip("no job has both a ranked variant of ours and a ranked peer")
     floor = run.noise_floor

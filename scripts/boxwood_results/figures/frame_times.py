@@ -1,11 +1,11 @@
 """How long frames take, the usual one and the worst, against what an application can spend."""
 
 from .. import style
-from ..findings import time_text
 from ..metrics import METRICS
 from ..moving import SCREEN_NS, WITHOUT, frame_medians, percentile
 from ..picture import Picture, Skip
 from ..selection import choose, largest_jobs, left_out_note, wrong_notes
+from ..words import time_text
 
 NAME = "frame_times"
 TITLE = "Frame times"

@@ -1,16 +1,16 @@
-"""The effects ledger: where a frame's time goes, stage by stage, beside the same with everything on."""
+"""The effects ledger: where a frame's time goes, stage by stage, beside the same with all stages."""
 
 from .. import labels, style
-from ..findings import time_text
-from ..moving import frame_ns, interval_text, played_scenes
+from ..moving import frame_ns, played_scenes
 from ..picture import Picture, Skip
+from ..words import interval_text, time_text
 
 NAME = "ledger"
-TITLE = "Only what the scene calls for"
+TITLE = "Only what the scene requires"
 HOW_TO_READ = (
-    "Shorter is better. Each pair of bars is one scene: the stages that it calls for, and the same answers with every "
-    "stage on. A piece is the time of one stage in a mean frame; pieces too narrow for their name stand below "
-    "the bar. What neither calls for is named: it has no call, no time and no memory."
+    "Shorter is better. Each pair of bars is one scene: the stages that it requires, and the same answers with all "
+    "stages. A piece is the time of one stage in a mean frame; pieces too narrow for their name stand below "
+    "the bar. What neither runs is named: it has no call, no time and no memory."
 )
 COLUMNS = ("scene", "n", "threads", "played", "stage", "required", "calls", "items", "ns_a_frame", "share", "bytes")
 COLOURS = {
@@ -73,17 +73,17 @@ def narrow_lines(narrow):
 
 def idle_lines(scene):
     """What neither way to play the scene runs, in lines."""
-    both = scene.everything.stages if scene.everything else {}
+    both = scene.all_stages.stages if scene.all_stages else {}
     idle = [name for name, stage in scene.required.stages.items()
             if not stage.calls and not both.get(name, stage).calls]
     effects = [name.removeprefix("advance_") for name in idle if name.startswith("advance_")]
     stages = [name for name in idle if not name.startswith("advance_")]
-    lines = wrapped(stages, "not called for (0):", LETTERS) if stages else []
-    return lines + (wrapped(effects, "effects not called for (0):", LETTERS) if effects else [])
+    lines = wrapped(stages, "not required (0):", LETTERS) if stages else []
+    return lines + (wrapped(effects, "effects not required (0):", LETTERS) if effects else [])
 
 
 def sides_of(scene):
-    sides = [("called for", scene.required), ("everything on", scene.everything)]
+    sides = [("required", scene.required), ("all stages", scene.all_stages)]
     return [(words, cell) for words, cell in sides if cell and cell.stages]
 
 
@@ -110,7 +110,7 @@ def draw_scene(ax, scene, rows):
                   int(stage.required), stage.calls, stage.items, stage.ns / cell.n_frames if stage.calls else 0.0,
                   stage.ns / cell.n_frames / total if stage.calls and total else 0.0, stage.bytes)
                  for name, stage in cell.stages.items()]
-    ratio = f": everything on takes {interval_text(scene.ratio(scene.everything))} as long" if scene.everything else ""
+    ratio = f": all stages take {interval_text(scene.ratio())} as long" if scene.ratio() else ""
     ax.set_title(f"{scene.job}".replace(f" · {scene.job.task}", "") + ratio, fontsize=9.5)
     ax.set_yticks([])
     ax.spines["left"].set_visible(False)
@@ -126,7 +126,7 @@ def draw_scene(ax, scene, rows):
 def draw(run):
     scenes = [scene for scene in played_scenes(run) if scene.required.stages]
     if not scenes:
-        raise Skip("no scene was played with what it tasks (bench/configs/effects.toml does)")
+        raise Skip("no scene was played with its queries (bench/configs/effects.toml does)")
     heights = [HEAD + FOOT + height_of(scene) for scene in scenes]
     figure = style.plt.figure(figsize=(WIDTH, sum(heights)))
     rows, top = [], sum(heights)
@@ -136,8 +136,8 @@ def draw(run):
         draw_scene(ax, scene, rows)
         top -= height
     said = "; ".join(
-        f"{s.job}: {time_text(frame_ns(s.required))} a frame for what is called for"
-        + (f", everything on {interval_text(s.ratio(s.everything))} as long" if s.everything else "")
+        f"{s.job}: {time_text(frame_ns(s.required))} a frame for what is required"
+        + (f", all stages {interval_text(s.ratio())} as long" if s.ratio() else "")
         for s in scenes
     )
     return [Picture(NAME, figure, TITLE, f"Time of a frame by stage. {said}.", COLUMNS, rows)]

@@ -1,12 +1,12 @@
 """Time of a frame against the share of the bodies that move."""
 
 from .. import labels, style
-from ..findings import time_text
 from ..metrics import METRICS
 from ..moving import WITHOUT, moved_share
 from ..picture import Picture, Skip
 from ..run import TOTAL
 from ..selection import MOST_LINES, wrong_notes
+from ..words import time_text
 
 NAME = "moved_share"
 TITLE = "How time grows with the share that moves"
@@ -21,7 +21,7 @@ def groups_of(run):
     """{(task, scene and effects, n, threads, seed): {contender: {share: cell}}}."""
     groups = {}
     for cell in run.cells:
-        if not cell.rounds(TOTAL) or cell.contender.startswith(WITHOUT):
+        if not cell.timed or cell.contender.startswith(WITHOUT):
             continue
         found = moved_share(cell)
         if found:

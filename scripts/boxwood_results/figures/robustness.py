@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.colors import LinearSegmentedColormap
 
 from .. import style
-from ..kernels import LEAST_ERROR, by_kernel_family, is_measured, kernels
+from ..kernels import LEAST_ERROR, by_kernel_family, is_measured
 from ..picture import Picture, Skip
 
 NAME = "robustness"
@@ -46,7 +46,8 @@ def draw(run):
     pictures = []
     for task, points in by_kernel_family(run).items():
         measured = is_measured(task)
-        columns = [(r.ours, r.library, r.name) for r in kernels(points)]
+        kernels = sorted((k for k in run.kernel_costs if k.task == task), key=lambda k: (not k.ours, k.ns))
+        columns = list(dict.fromkeys((k.ours, k.library, k.name) for k in kernels))
         families = list(dict.fromkeys(p.cases for p in points))
         if not columns:
             continue

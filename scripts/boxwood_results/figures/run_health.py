@@ -1,7 +1,6 @@
 """Did the machine hold still: each sample against its cell's median, by round and position."""
 
 import math
-from statistics import median
 
 import numpy as np
 from matplotlib.colors import TwoSlopeNorm
@@ -30,10 +29,7 @@ def draw(run):
     shards = sorted({(int(row["round"]), int(row["shard_id"])) for row in samples})
     if len(shards) < 3:
         raise Skip("it takes at least 3 rounds to tell drift from chance")
-    by_cell = {}
-    for row in samples:
-        by_cell.setdefault(int(row["cell_id"]), []).append(float(row["wall_ns"]))
-    middle = {cell: median(times) for cell, times in by_cell.items()}
+    middle = {int(row["cell_id"]): float(row["median_ns"]) for row in run.source["medians"] if row["phase"] == "query"}
     names = {cell.cell_id: cell.name for cell in (*run.cells, *(point.cell for point in run.kernels))}
 
     line = {shard: place for place, (_, shard) in enumerate(shards)}

@@ -3,15 +3,15 @@
 import math
 
 from .. import labels, style
-from ..findings import time_text
 from ..metrics import METRICS
 from ..picture import Picture, Skip
 from ..selection import largest_jobs, wrong_notes
+from ..words import time_text
 
 NAME = "tree_quality"
 TITLE = "How good a tree a build time buys"
 HOW_TO_READ = (
-    "Lower left is better: less time to build a binary tree, and a tree that costs less to walk by the "
+    "Lower left is better: less time to build a binary tree, and a tree that costs less to traverse by the "
     "surface-area model. The line joins the builders that none beats in both. A "
     "builder that splits items makes more leaves than items."
 )
@@ -49,7 +49,7 @@ def draw_panel(ax, job, cells, rows):
 def draw(run):
     jobs = []
     for job in largest_jobs(run.jobs):
-        cells = [c for c in run.of(job) if job.task == "tree" and c.rounds("build") and sah(c) > 0]
+        cells = [c for c in run.of(job) if job.task == "tree" and c.has("build") and sah(c) > 0]
         if len(cells) >= 2:
             jobs.append((job, cells))
     if not jobs:

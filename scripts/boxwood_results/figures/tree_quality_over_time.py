@@ -1,4 +1,4 @@
-"""How structures age: the query of each frame against one by a structure made anew for the frame, and counted."""
+"""How structures degrade: the query of each frame against one by a structure rebuilt for the frame, and counted."""
 
 from .. import labels, style
 from ..metrics import METRICS
@@ -7,11 +7,11 @@ from ..picture import Picture, Skip
 from ..selection import choose, largest_jobs, left_out_note, wrong_notes
 
 NAME = "tree_quality_over_time"
-TITLE = "How trees age"
+TITLE = "How trees degrade"
 HOW_TO_READ = (
     "Lower is better. Each line is the query of each frame by one way to keep the structure, over the query of the same "
-    "frame by our structure that is built anew for every frame (where there is none, over its own first frame). A "
-    "structure that ages climbs. The policy cached, which answers from the pairs that it found, is left out; auto "
+    "frame by our structure that is rebuilt for every frame (where there is none, over its own first frame). A "
+    "structure that degrades climbs. The policy cached, which answers from the pairs that it found, is left out; auto "
     "stands below 1 where it does the same. Where it was counted, a second picture holds what does not depend on the "
     "machine: the tests of boxes that the query of each frame made, per item, and those that a random ray "
     "would make by the surface-area heuristic."
@@ -19,8 +19,8 @@ HOW_TO_READ = (
 COLUMNS = ("scene", "n", "threads", "contender", "library", "status", "frame", "query_ns", "over_a_fresh_one")
 COUNTED_COLUMNS = ("scene", "n", "threads", "contender", "library", "status", "frame", "box_tests_per_item", "sah")
 MEASURES = ((7, METRICS["box_tests"].axis.replace("box or ray", "item")), (8, METRICS["sah"].axis))  # column, axis
-LEAST_FRAMES = 10
-MOST_SCENES = 8  # of these the pictures tell; the CSV files tell of all
+MIN_FRAMES = 10
+MAX_SCENES = 8  # of these the pictures show; the CSV files hold all
 FRESH = "rebuild_trigger0"
 
 
@@ -35,8 +35,8 @@ def ratio_rows(job, cell, fresh):
             for frame, time, other in zip(sorted(cell.frames), times, base)]
 
 
-def ageing(panel):
-    """The last frame over the first of the way that ages most."""
+def degradation(panel):
+    """The last frame over the first of the way that degrades most."""
     job, cells, fresh, _ = panel
     ratios = [[row[8] for row in ratio_rows(job, cell, fresh)] for cell in cells]
     return max(line[-1] / line[0] for line in ratios)
@@ -53,7 +53,7 @@ def draw_panel(ax, job, cells, fresh):
             all_ratios += ratios
     ax.axhline(1, color="#555555", linewidth=1, zorder=1)
     last = max(max(cell.frames) for cell in cells)
-    ends.append((last, 1.0, "built anew: 1" if fresh else "its first frame: 1", "#555555"))
+    ends.append((last, 1.0, "rebuilt: 1" if fresh else "its first frame: 1", "#555555"))
     style.log_axis(ax.yaxis, min(all_ratios), max(all_ratios), lambda value: f"{value:g}x")
     ax.set_xlim(0, last)
     ax.xaxis.set_major_locator(style.MaxNLocator(6, integer=True))
@@ -102,7 +102,7 @@ def counted(panels):
 
 
 def draw_counted(drawn, all_panels, notes):
-    """The second picture, of the cells that were counted; none in files from before."""
+    """The second picture, of the cells that were counted; none if nothing was."""
     panels = counted(drawn)
     if not panels:
         return []
@@ -114,26 +114,26 @@ def draw_counted(drawn, all_panels, notes):
     ends = {(row[0], row[3]): row for job, cells in panels for cell in cells for row in counted_rows(job, cell)}
     said = "; ".join(f"{name} on {scene} {row[7]:.3g} and {row[8]:.3g}" for (scene, name), row in ends.items())
     alt = f"Box tests per item of the query of each frame, and of a random ray, at the last frame: {said}."
-    return [Picture(f"{NAME}_counted", figure, "How trees age, counted", alt, COUNTED_COLUMNS, rows, notes)]
+    return [Picture(f"{NAME}_counted", figure, "How trees degrade, counted", alt, COUNTED_COLUMNS, rows, notes)]
 
 
 def draw(run):
     panels = []
     for job in largest_jobs(run.jobs):
-        cells = [c for c in run.of(job) if len(c.frames) >= LEAST_FRAMES and not c.builder.startswith("cached")]
+        cells = [c for c in run.of(job) if len(c.frames) >= MIN_FRAMES and not c.builder.startswith("cached")]
         if job.task == "moving_pairs" and len(cells) >= 2 and job.threads == 1:
             fresh = next((c for c in cells if c.builder == FRESH and c.status != "wrong"), None)
             shown, left_out = choose(cells, keep=[fresh] if fresh else (), limit=9)
             panels.append((job, shown, fresh, left_out_note(left_out, f"ways to play {job}") + wrong_notes(cells)))
     if not panels:
-        raise Skip(f"no scene of {LEAST_FRAMES} or more frames was played in two ways")
-    telling = sorted(panels, key=ageing, reverse=True)[:MOST_SCENES]
+        raise Skip(f"no scene of {MIN_FRAMES} or more frames was played in two ways")
+    telling = sorted(panels, key=degradation, reverse=True)[:MAX_SCENES]
     drawn = [panel for panel in panels if panel in telling]
     figure, axes = style.panels(len(drawn), width=4.3, labels_right=2.5)
     rows = [row for job, cells, fresh, _ in panels for cell in cells for row in ratio_rows(job, cell, fresh)]
     last, cut = {}, []
     if len(drawn) < len(panels):
-        cut = [f"Of {len(panels)} scenes the {len(drawn)} on which one of the ways ages most; "
+        cut = [f"Of {len(panels)} scenes the {len(drawn)} on which one of the ways degrades most; "
                "the CSV file holds all."]
     notes = list(cut)
     for ax, (job, cells, fresh, said) in zip(axes, drawn):

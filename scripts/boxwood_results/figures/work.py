@@ -21,7 +21,7 @@ COLUMNS = ("task", "scene", "n", "variant", "status", "sah_cost", "node_visits_e
 
 
 def measures(cell):
-    """(SAH cost, node visits, box tests, ns), the last three per item asked about; NaN if missing."""
+    """(SAH cost, node visits, box tests, ns), the last three per item; NaN if missing."""
     each = max(cell.n_queries if 0 < cell.n_queries < 2**63 else cell.job.n, 1)
     sah = float(cell.tree["sah_cost"]) if cell.tree is not None else math.nan
     count = [cell.counters.get(name, 0) / each or math.nan for name in ("node_visits", "box_tests")]
@@ -60,15 +60,15 @@ def scatter(ax, job, points, x_name, y_name, time_on_y):
 
 
 def draw(run):
-    by_ask = {}
+    by_task = {}
     for job in largest_jobs(run.jobs):
         counted = [c for c in run.of(job) if not math.isnan(measures(c)[2]) and c.executor == "serial"]
         if job.threads == 1 and len(counted) >= 2 and job.task not in WHOLE_FRAMES:
-            by_ask.setdefault(job.task, []).append((job, counted))
-    if not by_ask:
+            by_task.setdefault(job.task, []).append((job, counted))
+    if not by_task:
         raise Skip("no job has two variants with work counters")
     pictures = []
-    for task, jobs in by_ask.items():
+    for task, jobs in by_task.items():
         rows, notes, panels = [], [], []
         for job, counted in jobs:
             shown, left_out = choose(counted)

@@ -1,0 +1,255 @@
+#include "bench/analysis/comparisons.h"
+
+#include "bench/analysis/classes.h"
+#include "bench/analysis/status.h"
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+#include <utility>
+
+namespace boxwood::bench {
+namespace {
+
+using results::Cell;
+using results::Comparison;
+using results::Family;
+using results::Phase;
+using results::Reason;
+using results::Results;
+using results::Status;
+using results::Verdict;
+
+/// What is the same for all contenders of one job: scene, task, threads.
+using Job = std::tuple<std::uint32_t, std::string, std::uint32_t>;
+Job job_of(const Cell& cell) { return {cell.scene_id, cell.task, cell.threads}; }
+
+bool is_a_way_to_play(const std::string& variant) {
+    return variant == required_stages || variant == all_stages ||
+           variant.starts_with(without_effect);
+}
+
+/// The rows of a file by id.
+class Index {
+  public:
+    explicit Index(const Results& results) : results_(results) {
+        for (const results::Variant& variant : results.variants)
+            variants_[variant.variant_id] = &variant;
+        for (const results::KernelRow& row : results.kernels)
+            kernels_.insert(row.cell_id);
+    }
+    const Results& results() const { return results_; }
+    const results::Variant& variant(const Cell& cell) const {
+        return *variants_.at(cell.variant_id);
+    }
+    bool is_peer(const Cell& cell) const { return variant(cell).is_peer != 0; }
+    bool is_kernel(const Cell& cell) const { return kernels_.contains(cell.cell_id); }
+    bool is_played(const Cell& cell) const {
+        return !is_peer(cell) && is_a_way_to_play(variant(cell).name);
+    }
+
+  private:
+    const Results& results_;
+    std::map<std::uint32_t, const results::Variant*> variants_;
+    std::set<std::uint32_t> kernels_;
+};
+
+/// Makes the rows of one family after another.
+class Judge {
+  public:
+    Judge(const Results& results, const Times& times, double delta)
+        : times_(times), delta_(delta), floor_(noise_floor(results)) {}
+
+    /// b against a in one phase, to be decided with the others of the open family.
+    void claim(const Cell& a, const Cell& b, Phase phase, const std::string& name = "") {
+        std::vector<double> logs = times_.log_ratios(a.cell_id, b.cell_id, phase);
+        if (logs.empty())
+            return;
+        Comparison row;
+        row.cell_a = a.cell_id;
+        row.cell_b = b.cell_id;
+        row.phase = phase;
+        row.contender_class = name;
+        row.n_pairs = logs.size();
+        row.delta = delta_;
+        row.floor = floor_.value_or(results::missing);
+        if (a.status == Status::wrong || b.status == Status::wrong) {
+            row.verdict = Verdict::wrong;
+        } else if (!is_right(a.status) || !is_right(b.status)) {
+            set_decision(row, {paired_ratio(logs), results::missing, Verdict::cannot_tell,
+                               Reason::unchecked});
+        } else {
+            open_.push_back(rows_.size());
+            logs_.push_back(std::move(logs));
+        }
+        rows_.push_back(row);
+    }
+    void close(Family family) {
+        const auto decisions = decide(logs_, delta_, floor_.value_or(0));
+        for (std::size_t i = 0; i < open_.size(); ++i)
+            set_decision(rows_[open_[i]], decisions[i]);
+        for (; closed_ < rows_.size(); ++closed_)
+            rows_[closed_].family = family;
+        open_.clear();
+        logs_.clear();
+    }
+    std::vector<Comparison> take() { return std::move(rows_); }
+
+  private:
+    const Times& times_;
+    double delta_;
+    std::optional<double> floor_;
+    std::vector<Comparison> rows_;
+    std::size_t closed_ = 0;
+    std::vector<std::size_t> open_; ///< rows of the open family that are to be decided
+    std::vector<std::vector<double>> logs_;
+};
+
+std::vector<Phase> phases_of(const Times& times, const Cell& cell) {
+    std::vector<Phase> phases;
+    if (const auto timed = times.by_cell().find(cell.cell_id); timed != times.by_cell().end())
+        for (const auto& [phase, rounds] : timed->second)
+            phases.push_back(phase);
+    return phases;
+}
+
+void against_peers(const Index& index, const Times& times, Judge& judge) {
+    std::map<std::pair<Job, std::string>, std::vector<const Cell*>> peers_of; // and class
+    for (const Cell& cell : index.results().cells)
+        if (index.is_peer(cell))
+            for (const std::string& name : split_classes(cell.classes))
+                peers_of[{job_of(cell), name}].push_back(&cell);
+    for (const Cell& ours : index.results().cells) {
+        if (index.is_peer(ours))
+            continue;
+        for (const std::string& name : split_classes(ours.classes))
+            for (const Phase phase : phases_of(times, ours)) {
+                for (const Cell* peer : peers_of[{job_of(ours), name}])
+                    if ((phase != Phase::build && phase != Phase::query) ||
+                        ours.builds == peer->builds)
+                        judge.claim(*peer, ours, phase, name);
+                judge.close(Family::peers);
+            }
+    }
+}
+
+const Cell* reference_in(const Index& index, const Cell& judged) {
+    if (index.is_peer(judged) || index.is_kernel(judged) || index.is_played(judged))
+        return nullptr;
+    const results::Variant& variant = index.variant(judged);
+    const Cell* best = nullptr;
+    int best_fit = -1;
+    for (const Cell& cell : index.results().cells) {
+        if (cell.scene_id != judged.scene_id || cell.task != judged.task ||
+            cell.threads != judged.threads || index.is_peer(cell) || !is_right(cell.status) ||
+            cell.executor != judged.executor || cell.precision != judged.precision ||
+            cell.classes != judged.classes)
+            continue;
+        const results::Variant& other = index.variant(cell);
+        const bool is_alike = variant.builder != "hilbert" && other.layout == variant.layout &&
+                              other.kernel == variant.kernel;
+        const int fit = other.builder != "hilbert" ? 0 : is_alike ? 2 : 1;
+        if (fit > best_fit) {
+            best = &cell;
+            best_fit = fit;
+        }
+    }
+    return best == &judged ? nullptr : best;
+}
+
+/// Claims that come one by one, put together by a key and the phase.
+template <class Key> class Grouped {
+  public:
+    void add(const Key& key, const Times& times, const Cell& a, const Cell& b) {
+        for (const Phase phase : phases_of(times, b))
+            claims_[{key, phase}].emplace_back(&a, &b);
+    }
+    void judge(Judge& judge, Family family) const {
+        for (const auto& [key, pairs] : claims_) {
+            for (const auto& [a, b] : pairs)
+                judge.claim(*a, *b, key.second);
+            judge.close(family);
+        }
+    }
+
+  private:
+    std::map<std::pair<Key, Phase>, std::vector<std::pair<const Cell*, const Cell*>>> claims_;
+};
+
+void against_ours(const Index& index, const Times& times, Judge& judge) {
+    Grouped<Job> claims;
+    for (const Cell& cell : index.results().cells)
+        if (const Cell* reference = reference_in(index, cell))
+            claims.add(job_of(cell), times, *reference, cell);
+    claims.judge(judge, Family::ours);
+}
+
+void against_one_thread(const Index& index, const Times& times, Judge& judge) {
+    using Contender = std::tuple<std::uint32_t, std::string, std::uint32_t, std::string>;
+    const auto contender_of = [](const Cell& cell) {
+        return Contender{cell.scene_id, cell.task, cell.variant_id, cell.precision};
+    };
+    std::map<Contender, const Cell*> single; // serial if there is one
+    for (const Cell& cell : index.results().cells)
+        if (cell.threads == 1 && !index.is_kernel(cell)) {
+            const Cell*& kept = single[contender_of(cell)];
+            if (!kept || (kept->executor != "serial" && cell.executor == "serial"))
+                kept = &cell;
+        }
+    Grouped<Job> claims;
+    for (const Cell& cell : index.results().cells)
+        if (cell.threads > 1)
+            if (const auto one = single.find(contender_of(cell)); one != single.end())
+                claims.add(job_of(cell), times, *one->second, cell);
+    claims.judge(judge, Family::threads);
+}
+
+void against_fewer_stages(const Index& index, const Times& times, Judge& judge) {
+    using Scene = std::tuple<Job, std::string, std::string>; // executor, precision
+    const auto scene_of = [](const Cell& cell) {
+        return Scene{job_of(cell), cell.executor, cell.precision};
+    };
+    std::map<Scene, const Cell*> required;
+    for (const Cell& cell : index.results().cells)
+        if (index.is_played(cell) && index.variant(cell).name == required_stages)
+            required[scene_of(cell)] = &cell;
+    Grouped<Scene> claims;
+    for (const Cell& cell : index.results().cells) {
+        if (!index.is_played(cell) || !required.contains(scene_of(cell)))
+            continue;
+        const Cell& base = *required.at(scene_of(cell));
+        if (index.variant(cell).name == all_stages)
+            claims.add(scene_of(cell), times, base, cell);
+        else if (&base != &cell)
+            claims.add(scene_of(cell), times, cell, base);
+    }
+    claims.judge(judge, Family::stages);
+}
+
+} // namespace
+
+void set_decision(Comparison& row, const Decision& decision) {
+    row.n_pairs = decision.ratio.n_pairs;
+    row.ratio = decision.ratio.ratio;
+    row.ci_lo = decision.ratio.ci_lo;
+    row.ci_hi = decision.ratio.ci_hi;
+    row.p_adj = decision.p_adj;
+    row.verdict = decision.verdict;
+    row.reason = decision.reason;
+}
+
+std::vector<Comparison> comparisons_of(const Results& results, const Times& times, double delta) {
+    const Index index(results);
+    Judge judge(results, times, delta);
+    against_peers(index, times, judge);
+    against_ours(index, times, judge);
+    against_one_thread(index, times, judge);
+    against_fewer_stages(index, times, judge);
+    return judge.take();
+}
+
+const Cell* reference_of(const Results& results, const Cell& judged) {
+    return reference_in(Index(results), judged);
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,389 @@
+#include "bench/analysis/comparisons.h"
+
+#include "bench/analysis/classes.h"
+#include "bench/analysis/status.h"
+#include "bench/testing/run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <set>
+#include <tuple>
+
+namespace boxwood::bench {
+namespace {
+
+using results::Comparison;
+using results::Family;
+using results::Phase;
+using results::Reason;
+using results::Results;
+using results::Verdict;
+
+/// Time in ns of a cell in a round.
+using Clock = std::function<double(std::uint32_t round)>;
+
+struct Maker {
+    Results results;
+
+    explicit Maker(std::uint32_t rounds, const std::string& machine = "m", std::uint64_t t0 = 0) {
+        results.env.resize(1);
+        results.env[0].env_hash = machine;
+        results.scenes.resize(1);
+        results.scenes[0].content_hash = 11;
+        for (std::uint32_t round = 0; round < rounds; ++round) {
+            results::Shard shard;
+            shard.shard_id = shard.round = round;
+            shard.t0_utc_ns = t0 + round;
+            results.shards.push_back(shard);
+        }
+    }
+    std::uint32_t cell(const std::string& name, bool is_peer, const std::string& status = results::Status::exact) {
+        const auto id = static_cast<std::uint32_t>(results.cells.size());
+        results::Variant variant;
+        variant.variant_id = id;
+        variant.name = name;
+        variant.is_peer = is_peer;
+        results.variants.push_back(variant);
+        results::Cell cell;
+        cell.cell_id = cell.variant_id = id;
+        cell.name = name;
+        cell.task = "pairs";
+        results.cells.push_back(cell);
+        results::Check check;
+        check.cell_id = id;
+        check.status = status;
+        if (!status.empty())
+            results.checks.push_back(check);
+        return id;
+    }
+    void time(std::uint32_t cell, Phase phase, const Clock& ns, std::uint32_t flags = 0) {
+        for (const auto& shard : results.shards) {
+            results::Sample sample;
+            sample.cell_id = cell;
+            sample.shard_id = shard.shard_id;
+            sample.round = shard.round;
+            sample.phase = phase;
+            sample.wall_ns = ns(shard.round);
+            sample.flags = flags;
+            results.samples.push_back(sample);
+        }
+    }
+};
+
+Clock steady(double ns) {
+    return [ns](std::uint32_t round) { return ns * (1 + 0.001 * (round * 7 % 5)); };
+}
+
+/// The machine slows down from round to round; pairing takes that out.
+Clock drifting(double ns) {
+    return [ns](std::uint32_t round) { return ns * (1 + round) * (1 + 0.001 * (round * 7 % 5)); };
+}
+
+const Comparison& row_of(const std::vector<Comparison>& rows, std::uint32_t a, std::uint32_t b,
+                         Phase phase) {
+    for (const auto& row : rows)
+        if (row.cell_a == a && row.cell_b == b && row.phase == phase)
+            return row;
+    static const Comparison none;
+    ADD_FAILURE() << "no row " << a << " " << b << " " << to_string(phase);
+    return none;
+}
+
+/// The claims against peers, as a file would have them.
+std::vector<Comparison> against_peers(Results& results) {
+    set_statuses(results);
+    set_classes(results);
+    results.medians = medians_of(results, Times(results));
+    set_builds(results);
+    std::vector<Comparison> rows = comparisons_of(results, Times(results), default_delta);
+    std::erase_if(rows, [](const Comparison& row) { return row.family != Family::peers; });
+    return rows;
+}
+
+/// As two files read from disk are compared.
+FileComparison compared(Results& base, Results& head) {
+    set_statuses(base);
+    set_statuses(head);
+    return compare_files(base, head);
+}
+
+TEST(Medians, MedianSpreadAndTails) {
+    Maker maker(5);
+    const auto id = maker.cell("x", false);
+    maker.time(id, Phase::query, [](std::uint32_t round) {
+        return std::array{5., 1., 3., 2., 100.}[round];
+    });
+    maker.time(id, Phase::query, steady(7), results::aa_twin);
+    maker.results.samples.push_back(maker.results.samples[0]);
+    maker.results.samples.back().wall_ns = results::missing;
+    const auto stats = medians_of(maker.results, Times(maker.results));
+    ASSERT_EQ(stats.size(), 1u);
+    EXPECT_EQ(stats[0].phase, Phase::query);
+    EXPECT_EQ(stats[0].n, 5u);
+    EXPECT_EQ(stats[0].median_ns, 3);
+    EXPECT_EQ(stats[0].mad_ns, 2); // of 2 2 0 1 97
+    EXPECT_EQ(stats[0].min_ns, 1);
+    EXPECT_DOUBLE_EQ(stats[0].p95_ns, 81); // numpy.percentile([1, 2, 3, 5, 100], 95)
+    EXPECT_DOUBLE_EQ(stats[0].p99_ns, 96.2);
+}
+
+TEST(ComparePeers, PairedRoundsSeeThroughDrift) {
+    Maker maker(9);
+    const auto ours = maker.cell("ours", false), peer = maker.cell("peer", true);
+    maker.time(ours, Phase::build, drifting(100));
+    maker.time(peer, Phase::build, drifting(300));
+    maker.time(ours, Phase::query, drifting(100));
+    maker.time(peer, Phase::query, drifting(50));
+    const auto rows = against_peers(maker.results);
+    ASSERT_EQ(rows.size(), 3u);
+    const Comparison& build = row_of(rows, peer, ours, Phase::build);
+    EXPECT_EQ(build.verdict, Verdict::faster);
+    EXPECT_EQ(build.n_pairs, 9u);
+    EXPECT_NEAR(build.ratio, 1.0 / 3, 1e-12);
+    EXPECT_NEAR(build.p_adj, 2.0 / 512, 1e-12);
+    EXPECT_EQ(row_of(rows, peer, ours, Phase::query).verdict, Verdict::slower);
+    const Comparison& sum = row_of(rows, peer, ours, Phase::build_and_query);
+    EXPECT_EQ(sum.verdict, Verdict::faster);
+    EXPECT_NEAR(sum.ratio, 200.0 / 350, 1e-12);
+}
+
+TEST(ComparePeers, FewRoundsTellNothing) {
+    for (const std::uint32_t rounds : {1u, 5u, 6u, 8u}) {
+        Maker maker(rounds);
+        const auto ours = maker.cell("ours", false), peer = maker.cell("peer", true);
+        maker.time(ours, Phase::query, steady(1));
+        maker.time(peer, Phase::query, steady(50));
+        const auto rows = against_peers(maker.results);
+        ASSERT_EQ(rows.size(), 1u);
+        EXPECT_EQ(rows[0].verdict, Verdict::cannot_tell);
+        EXPECT_EQ(rows[0].reason, Reason::too_few_rounds);
+        EXPECT_EQ(std::isnan(rows[0].ci_lo), rounds < 6);
+    }
+}
+
+TEST(ComparePeers, OnlyTheSameJob) {
+    Maker maker(9);
+    const auto ours = maker.cell("ours", false);
+    maker.time(ours, Phase::query, steady(1));
+    for (int i = 0; i < 3; ++i) {
+        const auto peer = maker.cell("peer", true);
+        maker.time(peer, Phase::query, steady(2));
+        results::Cell& cell = maker.results.cells[peer];
+        if (i == 0)
+            cell.task = "tree_pairs";
+        else if (i == 1)
+            cell.threads = 2;
+        else
+            cell.scene_id = 5;
+    }
+    EXPECT_TRUE(against_peers(maker.results).empty());
+}
+
+TEST(ComparePeers, WrongIsNeverRanked) {
+    Maker maker(9);
+    const auto ours = maker.cell("ours", false), wrong = maker.cell("wrong", true, "wrong"),
+               unchecked = maker.cell("unchecked", true, ""), right = maker.cell("right", true);
+    for (const auto cell : {ours, wrong, unchecked, right})
+        maker.time(cell, Phase::query, steady(10.0 * (cell + 1)));
+    auto rows = against_peers(maker.results);
+    EXPECT_EQ(row_of(rows, wrong, ours, Phase::query).verdict, Verdict::wrong);
+    EXPECT_TRUE(std::isnan(row_of(rows, wrong, ours, Phase::query).ratio));
+    EXPECT_EQ(row_of(rows, unchecked, ours, Phase::query).verdict, Verdict::cannot_tell);
+    EXPECT_EQ(row_of(rows, unchecked, ours, Phase::query).reason, Reason::unchecked);
+    EXPECT_EQ(row_of(rows, right, ours, Phase::query).verdict, Verdict::faster);
+    maker.results.samples[3].flags |= results::wrong_answer; // one round of ours
+    rows = against_peers(maker.results);
+    EXPECT_EQ(row_of(rows, right, ours, Phase::query).verdict, Verdict::wrong);
+}
+
+TEST(ComparePeers, AFamilyIsCorrected) {
+    Maker maker(9); // p of one claim is 2/512: at most 12 of them can be told
+    const auto ours = maker.cell("ours", false);
+    maker.time(ours, Phase::query, steady(1));
+    for (int i = 0; i < 12; ++i)
+        maker.time(maker.cell("peer", true), Phase::query, steady(2));
+    for (const auto& row : against_peers(maker.results))
+        EXPECT_EQ(row.verdict, Verdict::faster);
+    maker.time(maker.cell("peer", true), Phase::query, steady(2));
+    for (const auto& row : against_peers(maker.results))
+        EXPECT_EQ(row.verdict, Verdict::cannot_tell);
+}
+
+TEST(NoiseFloor, FromTheTwinAndBoundsClaims) {
+    Maker maker(9);
+    const auto ours = maker.cell("ours", false), peer = maker.cell("peer", true);
+    maker.time(ours, Phase::query, steady(100));
+    maker.time(peer, Phase::query, steady(112));
+    EXPECT_FALSE(noise_floor(maker.results));
+    EXPECT_EQ(against_peers(maker.results)[0].verdict, Verdict::faster);
+    maker.time(ours, Phase::query, steady(100 / 1.25), results::aa_twin);
+    ASSERT_TRUE(noise_floor(maker.results));
+    EXPECT_NEAR(*noise_floor(maker.results), 0.25, 1e-9); // below 1 counts as much as above
+    const Comparison row = against_peers(maker.results)[0];
+    EXPECT_EQ(row.verdict, Verdict::cannot_tell);
+    EXPECT_EQ(row.reason, Reason::below_the_floor);
+    EXPECT_NEAR(row.floor, 0.25, 1e-9);
+    EXPECT_EQ(row.delta, default_delta);
+}
+
+TEST(ComparePeers, WhereOneSideHasNoBuildOnlyTheSumIsCompared) {
+    Maker maker(9);
+    const auto ours = maker.cell("ours", false), copies = maker.cell("copies", true);
+    maker.results.cells[ours].n_items = maker.results.cells[copies].n_items = 100;
+    maker.time(ours, Phase::build, steady(5000)); // 50 ns per item
+    maker.time(ours, Phase::query, steady(1000));
+    maker.time(copies, Phase::build, steady(200)); // 2 ns per item, 2 % of its query
+    maker.time(copies, Phase::query, steady(10'000));
+    const auto rows = against_peers(maker.results);
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(rows[0].phase, Phase::build_and_query);
+    EXPECT_EQ(rows[0].verdict, Verdict::faster);
+}
+
+TEST(CompareFamilies, OursThreadsAndStages) {
+    RunForTest run;
+    const auto hilbert = run.cell("uniform", 1000, "pairs", "hilbert.packed"),
+               wide = run.cell("uniform", 1000, "pairs", "hilbert.wide8"),
+               mine = run.cell("uniform", 1000, "pairs", "mine.wide8"),
+               two = run.cell("uniform", 1000, "pairs", "mine.wide8", 2),
+               required = run.cell("warehouse", 10, "scene_queries", "required"),
+               all = run.cell("warehouse", 10, "scene_queries", "all_stages"),
+               without = run.cell("warehouse", 10, "scene_queries", "required.without_drift");
+    for (const auto& [cell, ns] : {std::pair{hilbert, 100.},
+                                   {wide, 80.},
+                                   {mine, 40.},
+                                   {two, 25.},
+                                   {required, 100.},
+                                   {all, 300.},
+                                   {without, 80.}})
+        run.time(cell, Phase::query, ns);
+    set_statuses(run.results);
+    set_classes(run.results);
+    const auto rows = comparisons_of(run.results, Times(run.results), default_delta);
+    ASSERT_EQ(rows.size(), 5u);
+    const auto expect = [&](std::uint32_t a, std::uint32_t b, Family family, double ratio) {
+        const Comparison& row = row_of(rows, a, b, Phase::query);
+        EXPECT_EQ(row.family, family);
+        EXPECT_NEAR(row.ratio, ratio, 1e-12);
+    };
+    expect(hilbert, wide, Family::ours, 0.8); // the first of hilbert, whose layout differs
+    expect(wide, mine, Family::ours, 0.5);    // hilbert with the same layout
+    expect(mine, two, Family::threads, 25. / 40);
+    expect(required, all, Family::stages, 3);
+    expect(without, required, Family::stages, 1.25);
+    EXPECT_EQ(reference_of(run.results, run.results.cells[hilbert]), nullptr); // itself
+}
+
+TEST(CompareClasses, RaysAreComparedWithinTheirClass) {
+    RunForTest run;
+    const auto batch = run.cell("bunny_primary", 100, "rays_closest", "sah.wide8.rays"),
+               tight = run.cell("bunny_primary", 100, "rays_closest", "sah.wide8.rays.watertight"),
+               one = run.cell("bunny_primary", 100, "rays_closest", "sah.wide8.single_rays"),
+               packet = run.cell("bunny_primary", 100, "rays_closest", "embree.rtc_intersect8"),
+               loop = run.cell("bunny_primary", 100, "rays_closest", "embree.rtc_intersect1"),
+               robust =
+                   run.cell("bunny_primary", 100, "rays_closest", "embree.rtc_intersect1.robust");
+    for (const auto cell : {batch, tight, one, packet, loop, robust})
+        run.time(cell, Phase::query, 100.0 + cell);
+    std::set<std::tuple<std::uint32_t, std::uint32_t, std::string>> pairs;
+    for (const Comparison& row : against_peers(run.results))
+        pairs.insert({row.cell_b, row.cell_a, row.contender_class});
+    const std::string batches = "batches against single rays";
+    EXPECT_EQ(pairs, (decltype(pairs){{batch, packet, "packets"},
+                                      {batch, loop, batches},
+                                      {tight, packet, "packets"},
+                                      {tight, loop, batches},
+                                      {tight, robust, "watertight " + batches},
+                                      {one, loop, "single rays"}}));
+}
+
+TEST(CompareMachines, RoundsOfTwoMachinesDoNotMix) {
+    Maker maker(10);
+    const auto ours = maker.cell("ours", false), peer = maker.cell("peer", true);
+    maker.results.env.push_back({});
+    maker.results.env[1].env_id = 1;
+    maker.results.env[1].env_hash = "slow";
+    for (std::uint32_t i = 5; i < 10; ++i) { // the same round numbers on a slow machine
+        maker.results.shards[i].env_id = 1;
+        maker.results.shards[i].round = i - 5;
+    }
+    const auto on = [](double ns) {
+        return [ns](std::uint32_t round) { return ns * (1 + round); };
+    };
+    maker.time(ours, Phase::query, on(10));
+    maker.time(peer, Phase::query, on(20));
+    for (auto& sample : maker.results.samples)
+        if (sample.shard_id >= 5)
+            sample.wall_ns *= 1000;
+    const auto rows = against_peers(maker.results);
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(rows[0].n_pairs, 10u);
+    EXPECT_EQ(rows[0].ci_lo, 0.5);
+    EXPECT_EQ(rows[0].ci_hi, 0.5);
+}
+
+TEST(CompareFiles, AFileWithItselfIsTheSame) {
+    Maker maker(1); // even after one round
+    maker.time(maker.cell("a", false), Phase::query, steady(100));
+    maker.time(maker.cell("b", true), Phase::build, steady(100));
+    const auto same = compared(maker.results, maker.results);
+    ASSERT_EQ(same.rows.size(), 2u);
+    for (const auto& row : same.rows) {
+        EXPECT_EQ(row.comparison.verdict, Verdict::same);
+        EXPECT_EQ(row.comparison.ratio, 1);
+    }
+    EXPECT_TRUE(same.is_same_machine);
+}
+
+TEST(CompareFiles, FasterSlowerAndIdsOfBothFiles) {
+    Maker base(9, "commit1"), head(9, "commit2", 1'000'000);
+    base.time(base.cell("slower", false), Phase::query, steady(100));
+    base.time(base.cell("faster", false), Phase::query, steady(100));
+    base.time(base.cell("same", false), Phase::query, steady(100));
+    head.cell("new", false);
+    head.time(head.cell("same", false), Phase::query, steady(101));
+    head.time(head.cell("faster", false), Phase::query, steady(80));
+    head.time(head.cell("slower", false), Phase::query, steady(130));
+    const auto result = compared(base.results, head.results);
+    ASSERT_EQ(result.rows.size(), 3u);
+    EXPECT_FALSE(result.is_same_machine);
+    for (const auto& row : result.rows) {
+        EXPECT_EQ(to_string(row.comparison.verdict), row.name);
+        EXPECT_EQ(base.results.cells[row.comparison.cell_a].name, row.name);
+        EXPECT_EQ(head.results.cells[row.comparison.cell_b].name, row.name);
+    }
+    EXPECT_NEAR(result.rows[2].comparison.ratio, 1.3, 0.01);
+    EXPECT_TRUE(result.only_head.empty()); // never timed
+}
+
+TEST(CompareFiles, WhatCannotBeCompared) {
+    Maker base(9), head(9);
+    base.time(base.cell("gone", false), Phase::query, steady(100));
+    base.time(base.cell("crashes", false), Phase::query, steady(100));
+    base.time(base.cell("turns_wrong", false), Phase::query, steady(100));
+    base.time(base.cell("other_scene", false), Phase::query, steady(100));
+    head.time(head.cell("turns_wrong", false, "wrong"), Phase::query, steady(100));
+    head.cell("crashes", false, "wrong");
+    head.time(head.cell("new", false), Phase::query, steady(100));
+    head.results.scenes.push_back({});
+    head.results.scenes[1].scene_id = 1;
+    head.results.scenes[1].content_hash = 12;
+    const auto other = head.cell("other_scene", false);
+    head.results.cells[other].scene_id = 1;
+    head.time(other, Phase::query, steady(100));
+    const auto result = compared(base.results, head.results);
+    EXPECT_EQ(result.only_base, (std::vector<std::string>{"crashes", "gone"}));
+    EXPECT_EQ(result.only_head, std::vector<std::string>{"new"});
+    EXPECT_EQ(result.other_content, std::vector<std::string>{"other_scene"});
+    ASSERT_EQ(result.rows.size(), 2u);
+    for (const auto& row : result.rows) {
+        EXPECT_TRUE(row.is_newly_wrong) << row.name;
+        EXPECT_EQ(row.comparison.verdict, Verdict::wrong);
+    }
+    EXPECT_FALSE(compared(head.results, head.results).rows[0].is_newly_wrong);
+}
+
+} // namespace
+} // namespace boxwood::bench

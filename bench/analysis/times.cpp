@@ -1,0 +1,158 @@
+#include "bench/analysis/times.h"
+
+#include "bench/analysis/limits.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace boxwood::bench {
+namespace {
+
+using results::Phase;
+using results::Results;
+using results::Sample;
+using Rounds = Times::Rounds;
+using ByCell = std::map<std::uint32_t, Times::Phases>;
+
+/// Times that are missing or not positive are left out.
+ByCell times_of(const Results& results, const std::set<std::string>& machines, bool twins) {
+    std::map<std::uint32_t, std::string> machine_of;
+    for (const auto& env : results.env)
+        machine_of[env.env_id] = machines.contains(env.env_hash) ? env.env_hash : "";
+    std::map<std::uint32_t, const results::Shard*> shard_of;
+    for (const auto& shard : results.shards)
+        shard_of[shard.shard_id] = &shard;
+
+    std::vector<const Sample*> samples;
+    for (const Sample& sample : results.samples)
+        if (sample.wall_ns > 0 && std::isfinite(sample.wall_ns) &&
+            ((sample.flags & results::aa_twin) != 0) == twins)
+            samples.push_back(&sample);
+    const auto start_of = [&](const Sample* sample) {
+        const auto shard = shard_of.find(sample->shard_id);
+        return shard == shard_of.end() ? std::uint64_t{0} : shard->second->t0_utc_ns;
+    };
+    std::ranges::stable_sort(samples, {}, start_of);
+
+    ByCell times;
+    for (const Sample* sample : samples) {
+        const auto shard = shard_of.find(sample->shard_id);
+        const std::string machine =
+            shard == shard_of.end() ? "" : machine_of[shard->second->env_id];
+        times[sample->cell_id][sample->phase][{machine, sample->round}].push_back(sample->wall_ns);
+    }
+    return times;
+}
+
+/// combine(a, b) for every round that both have, the i-th of a round number with the i-th.
+template <class Combine> void for_each_pair(const Rounds& a, const Rounds& b, Combine&& combine) {
+    for (const auto& [key, left] : a)
+        if (const auto right = b.find(key); right != b.end())
+            for (std::size_t i = 0; i < std::min(left.size(), right->second.size()); ++i)
+                combine(key, left[i], right->second[i]);
+}
+
+} // namespace
+
+std::vector<double> log_ratios(const Rounds& a, const Rounds& b) {
+    std::vector<double> logs;
+    for_each_pair(a, b, [&](const Times::RoundKey&, double ns_a, double ns_b) {
+        logs.push_back(std::log(ns_b / ns_a));
+    });
+    return logs;
+}
+
+std::set<std::string> machines_of(const Results& results) {
+    std::set<std::string> machines;
+    for (const auto& env : results.env)
+        machines.insert(env.env_hash);
+    return machines;
+}
+
+Times::Times(const Results& results) : Times(results, machines_of(results)) {}
+
+Times::Times(const Results& results, const std::set<std::string>& machines)
+    : cells_(times_of(results, machines, false)) {
+    for (auto& [cell, phases] : cells_)
+        for (const auto& [first, both] : {std::pair{Phase::build, Phase::build_and_query},
+                                          std::pair{Phase::update, Phase::update_and_query}}) {
+            if (!phases.contains(first) || !phases.contains(Phase::query))
+                continue;
+            Rounds sum;
+            for_each_pair(phases[first], phases[Phase::query],
+                          [&](const RoundKey& key, double ns, double query_ns) {
+                              sum[key].push_back(ns + query_ns);
+                          });
+            phases[both] = std::move(sum);
+        }
+}
+
+const Rounds* Times::rounds(std::uint32_t cell, Phase phase) const {
+    const auto phases = cells_.find(cell);
+    if (phases == cells_.end())
+        return nullptr;
+    const auto found = phases->second.find(phase);
+    return found == phases->second.end() ? nullptr : &found->second;
+}
+
+std::vector<double> Times::log_ratios(std::uint32_t a, std::uint32_t b, Phase phase) const {
+    const Rounds *left = rounds(a, phase), *right = rounds(b, phase);
+    return left && right ? bench::log_ratios(*left, *right) : std::vector<double>{};
+}
+
+std::optional<double> noise_floor(const Results& results) {
+    const auto machines = machines_of(results);
+    const ByCell times = times_of(results, machines, false);
+    std::optional<double> floor;
+    for (const auto& [cell, phases] : times_of(results, machines, true))
+        for (const auto& [phase, twin] : phases) {
+            const auto first = times.find(cell);
+            if (first == times.end() || !first->second.contains(phase))
+                continue;
+            const PairedRatio ratio = paired_ratio(log_ratios(first->second.at(phase), twin));
+            if (!std::isnan(ratio.ci_lo))
+                floor = std::max({floor.value_or(0), ratio.ci_hi - 1, 1 / ratio.ci_lo - 1});
+        }
+    return floor;
+}
+
+void set_builds(Results& results) {
+    constexpr double copy_ns_per_item = 8, copy_part_of_query = 0.05; // a copy is below both
+    const MedianIndex medians(results);
+    for (results::Cell& cell : results.cells) {
+        const double build = medians.ns(cell.cell_id, Phase::build);
+        cell.builds = build > copy_ns_per_item * static_cast<double>(cell.n_items) ||
+                      build > copy_part_of_query * medians.ns(cell.cell_id, Phase::query);
+    }
+}
+
+std::vector<results::Median> medians_of(const Results& results, const Times& times) {
+    std::vector<results::Median> all;
+    for (const results::Cell& cell : results.cells) {
+        const auto timed = times.by_cell().find(cell.cell_id);
+        if (timed == times.by_cell().end())
+            continue;
+        for (const auto& [phase, rounds] : timed->second) {
+            std::vector<double> ns;
+            for (const auto& [round, values] : rounds)
+                ns.insert(ns.end(), values.begin(), values.end());
+            if (ns.empty())
+                continue;
+            std::ranges::sort(ns);
+            results::Median row{cell.cell_id, phase, ns.size()};
+            row.median_ns = median_of_sorted(ns);
+            row.min_ns = ns.front();
+            row.p95_ns = percentile_of_sorted(ns, 0.95);
+            row.p99_ns = percentile_of_sorted(ns, 0.99);
+            for (double& value : ns)
+                value = std::abs(value - row.median_ns);
+            std::ranges::sort(ns);
+            row.mad_ns = median_of_sorted(ns);
+            row.limit_ns = limit_ns(results, cell, phase);
+            all.push_back(row);
+        }
+    }
+    return all;
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "bench/analysis/statistics.h"
+#include "results/results.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// The samples of a result file by cell, phase and round.
+namespace boxwood::bench {
+
+/// The times of every cell round by round, the A/A twin left out, with the sums of build or update
+/// and query where a cell has both phases.
+class Times {
+  public:
+    /// Machine and round number; in a merged file a machine may have a number several times.
+    using RoundKey = std::pair<std::string, std::uint32_t>;
+    using Rounds = std::map<RoundKey, std::vector<double>>; ///< wall_ns in order of time
+    using Phases = std::map<results::Phase, Rounds>;
+
+    explicit Times(const results::Results& results);
+    /// Machine states outside `machines` are taken as one.
+    Times(const results::Results& results, const std::set<std::string>& machines);
+
+    const std::map<std::uint32_t, Phases>& by_cell() const { return cells_; }
+    /// Null if the phase of the cell was not timed.
+    const Rounds* rounds(std::uint32_t cell, results::Phase phase) const;
+    /// Log of the time of b over that of a for every round that both have.
+    std::vector<double> log_ratios(std::uint32_t a, std::uint32_t b, results::Phase phase) const;
+
+  private:
+    std::map<std::uint32_t, Phases> cells_;
+};
+
+std::vector<double> log_ratios(const Times::Rounds& a, const Times::Rounds& b);
+
+std::set<std::string> machines_of(const results::Results& results);
+
+/// The A/A noise floor as a relative difference: the farthest end of the intervals of cells that
+/// were timed twice. Nothing without such cells, or with fewer than 6 rounds.
+std::optional<double> noise_floor(const results::Results& results);
+
+/// Ordered by cell, then phase; the limits from limits.h.
+std::vector<results::Median> medians_of(const results::Results& results, const Times& times);
+
+/// Sets Cell::builds of every cell: 0 where the "build" only copies the input, or there is none.
+/// Needs /medians.
+void set_builds(results::Results& results);
+
+/// Medians by cell and phase, as a file has them.
+class MedianIndex {
+  public:
+    explicit MedianIndex(const results::Results& results) {
+        for (const results::Median& row : results.medians)
+            ns_[{row.cell_id, row.phase}] = row.median_ns;
+    }
+    /// NaN if the phase of the cell was not timed.
+    double ns(std::uint32_t cell, results::Phase phase) const {
+        const auto found = ns_.find({cell, phase});
+        return found == ns_.end() ? unknown : found->second;
+    }
+
+  private:
+    std::map<std::pair<std::uint32_t, results::Phase>, double> ns_;
+};
+
+} // namespace boxwood::bench

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "results/results.h"
+
+#include <cstdint>
+#include <string>
+
+/// Comparisons in words that a newcomer knows.
+namespace boxwood::bench {
+
+/// Which way a comparison goes for us, the worst first.
+enum class Outcome { loses, open, even, wins };
+Outcome outcome_of(const results::Comparison& row);
+
+/// "LOSES 0.73x to Embree"; the ratio is the rival's time over ours. No rival: the one named
+/// before.
+std::string outcome_text(const results::Comparison& row, const std::string& rival);
+
+/// The interval that decided, as the rival's time over ours; else why nothing can be told.
+std::string certainty_text(const results::Comparison& row);
+
+std::string reason_text(results::Reason reason);
+
+/// "faster", "can't tell (too few rounds)": the verdict of a comparison, with its reason.
+std::string verdict_text(const results::Comparison& row);
+
+/// "3.12 [3.01, 3.20]": a ratio with its interval, where it has one; "-" for no ratio.
+std::string interval_text(double ratio, double lo, double hi);
+
+/// "0.73", "12.3", "120": short enough for a screen.
+std::string short_ratio(double ratio);
+
+// "nearest hit" of rays_closest, "Embree" of embree, "batches" of a class, "10k" of 10,000.
+std::string task_words(const std::string& task);
+std::string library_words(const std::string& library);
+std::string class_words(const std::string& name);
+std::string count_words(std::uint64_t n);
+std::string spaced(std::string name); ///< with spaces for underscores
+
+} // namespace boxwood::bench

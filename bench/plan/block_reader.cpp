@@ -1,0 +1,213 @@
+#include "bench/plan/block_reader.h"
+
+#include "bench/io/bad_input.h"
+#include "bench/plan/block_table.h"
+#include "bench/plan/config_reader.h"
+#include "trees/executor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace boxwood::bench {
+namespace {
+
+/// The reader's errors have their place already.
+template <class Read> auto refusing(const Read& read) -> decltype(read()) {
+    try {
+        return read();
+    } catch (const std::invalid_argument& error) {
+        throw BadInput(error.what());
+    }
+}
+
+/// "all", every peer library (found or not), and every contender of those that were found.
+Words peer_names() {
+    Words words{"all"};
+    for (const Peer& peer : peers()) {
+        words.push_back(peer.name);
+        for (const ContenderEntry& contender : peer.contenders)
+            if (contender.name != peer.name)
+                words.push_back(contender.name);
+    }
+    for (const std::string_view name : absent_peers())
+        words.emplace_back(name);
+    return words;
+}
+
+Place usual_place(unsigned threads) { return {threads == 1 ? "serial" : "tbb", threads}; }
+
+} // namespace
+
+BlockReader::BlockReader(std::shared_ptr<const ConfigReader> reader,
+                         std::shared_ptr<const Table> table)
+    : reader_(std::move(reader)), table_(std::move(table)) {}
+
+std::string BlockReader::place() const { return reader_->place(table_->toml.source()); }
+
+Words BlockReader::keys() const {
+    Words all;
+    for (const auto& [key, value] : table_->toml)
+        all.push_back(key.str());
+    return all;
+}
+
+bool BlockReader::has(std::string_view key) const { return table_->toml.get(key) != nullptr; }
+
+bool BlockReader::takes_mesh() const {
+    const auto is_mesh = [](const toml::node& node) {
+        return node.value_or(std::string()) == "mesh";
+    };
+    const toml::node* scene = table_->toml.get("scene");
+    const toml::array* all = scene ? scene->as_array() : nullptr;
+    return all ? std::ranges::any_of(*all, is_mesh) : scene && is_mesh(*scene);
+}
+
+void BlockReader::fail(const std::string& message, std::string_view key) const {
+    const toml::node* node = table_->toml.get(key);
+    refusing([&] { reader_->fail(node ? node->source() : table_->toml.source(), message); });
+    throw std::logic_error(message); // not reached: fail throws
+}
+
+void BlockReader::require_known_keys(const Words& known) const {
+    refusing([&] { reader_->require_known_keys(table_->toml, "[[cells]]", known); });
+}
+
+std::vector<std::string> BlockReader::words(std::string_view key, const Words& known,
+                                            std::vector<std::string> otherwise) const {
+    refusing([&] { reader_->words(table_->toml, key, otherwise, known); });
+    return otherwise;
+}
+
+std::vector<std::int64_t> BlockReader::integers(std::string_view key, std::int64_t min,
+                                                std::int64_t max,
+                                                std::vector<std::int64_t> otherwise) const {
+    refusing([&] {
+        reader_->list(table_->toml, key, otherwise, [&](const toml::node& node) {
+            return static_cast<std::int64_t>(reader_->whole(node, key, min, max));
+        });
+    });
+    return otherwise;
+}
+
+std::vector<double> BlockReader::numbers(std::string_view key, double min, double max,
+                                         std::vector<double> otherwise) const {
+    refusing([&] {
+        reader_->list(table_->toml, key, otherwise,
+                      [&](const toml::node& node) { return reader_->number(node, key, min, max); });
+    });
+    return otherwise;
+}
+
+std::vector<BuilderChoice> BlockReader::builders() const {
+    std::vector<BuilderChoice> all;
+    refusing([&] {
+        reader_->list(table_->toml, "builders", all,
+                      [&](const toml::node& node) { return reader_->builder(node); });
+    });
+    return all;
+}
+
+std::vector<BuilderChoice> BlockReader::choices(
+    std::string_view key, std::string_view what, const Words& known,
+    FunctionRef<void(const std::string& name, const Settings& settings)> try_out) const {
+    std::vector<BuilderChoice> all;
+    refusing([&] {
+        reader_->list(table_->toml, key, all, [&](const toml::node& node) {
+            return reader_->choice(
+                node, what, [&](const toml::node& name) { return reader_->word(name, key, known); },
+                try_out);
+        });
+    });
+    return all;
+}
+
+std::vector<std::vector<EffectChoice>> BlockReader::effects() const {
+    std::vector<std::vector<EffectChoice>> all;
+    refusing([&] {
+        reader_->list(table_->toml, "effects", all,
+                      [&](const toml::node& node) { return reader_->effects(node); });
+    });
+    return all;
+}
+
+std::vector<std::string> BlockReader::moving_scenes() const {
+    std::vector<std::string> all;
+    refusing([&] {
+        reader_->list(table_->toml, "scene", all,
+                      [&](const toml::node& node) { return reader_->moving_scene(node); });
+    });
+    return all;
+}
+
+std::optional<std::uint64_t> BlockReader::integer(std::string_view key, std::int64_t min,
+                                                  std::int64_t max) const {
+    const toml::node* node = table_->toml.get(key);
+    if (!node)
+        return std::nullopt;
+    return refusing([&] { return reader_->whole(*node, key, min, max); });
+}
+
+std::vector<std::size_t> BlockReader::sizes(std::vector<std::size_t> otherwise) const {
+    if (!has("n"))
+        return otherwise;
+    const std::vector<std::int64_t> n = integers("n", 1, 100'000'000);
+    return {n.begin(), n.end()};
+}
+
+std::vector<std::string> BlockReader::kernels(const Words& known,
+                                              std::vector<std::string> otherwise) const {
+    Words allowed{"all"};
+    allowed.insert(allowed.end(), known.begin(), known.end());
+    const std::vector<std::string> named = words("kernels", allowed, std::move(otherwise));
+    return std::ranges::find(named, "all") == named.end()
+               ? named
+               : std::vector<std::string>(known.begin(), known.end());
+}
+
+std::vector<ContenderEntry> BlockReader::peers(std::string_view task) const {
+    const std::vector<std::string> names = words("peers", peer_names());
+    const auto is_named = [&](std::string_view name) {
+        return std::ranges::find(names, name) != names.end();
+    };
+    std::vector<ContenderEntry> chosen;
+    for (const Peer& peer : bench::peers())
+        for (const ContenderEntry& contender : peer.contenders)
+            if (is_named(contender.name) ||
+                ((is_named("all") || is_named(peer.name)) && contender.answers_task(task)))
+                chosen.push_back(contender);
+    return chosen;
+}
+
+std::vector<unsigned> BlockReader::threads() const {
+    std::vector<unsigned> all = inputs_.threads;
+    std::vector<unsigned> own = all;
+    refusing([&] {
+        reader_->list(table_->toml, "threads", own,
+                      [&](const toml::node& node) { return reader_->threads(node); });
+    });
+    return inputs_.overrides_threads ? all : own;
+}
+
+std::vector<Place> BlockReader::places() const {
+    const std::vector<std::string> named = words("executors", names_of(executors()));
+    std::vector<Place> all;
+    for (const unsigned n : threads()) {
+        if (named.empty())
+            all.push_back(usual_place(n));
+        for (const std::string& executor : named)
+            if (n == 1 || executor != "serial")
+                all.push_back({executor, n});
+    }
+    return all;
+}
+
+std::vector<Place> BlockReader::usual_places() const {
+    std::vector<Place> all;
+    for (const unsigned n : threads())
+        all.push_back(usual_place(n));
+    return all;
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,118 @@
+#include "bench/tasks/detail/kernel_task.h"
+
+#include "bench/plan/scenes.h"
+#include "kernels/suggest.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <bit>
+#include <stdexcept>
+
+namespace boxwood::bench {
+
+std::vector<std::string_view> KernelTask::keys() const {
+    return {"scene", "n", "k", "scale", "kernels", "peers"};
+}
+
+void KernelTask::expand(const BlockReader& block, AddCell add) const {
+    std::vector<ContenderEntry> contenders;
+    for (const std::string& kernel : block.kernels(names_of(kernels()), {"all"}))
+        contenders.push_back(kernel_contender(kernel));
+    for (const ContenderEntry& peer : block.peers(name()))
+        contenders.push_back(peer);
+    for (const SceneSpec& scene : case_scenes(block, *this))
+        for (const ContenderEntry& entry : contenders)
+            add(scene, entry, "serial", 1);
+}
+
+const std::vector<CaseKernel>& KernelTask::case_kernels() const {
+    std::call_once(once_, [&] {
+        kernels_ = make_kernels();
+        for (const CaseKernel& kernel : kernels_)
+            infos_.push_back(kernel.info);
+    });
+    return kernels_;
+}
+
+std::span<const KernelInfo> KernelTask::kernels() const {
+    case_kernels();
+    return infos_;
+}
+
+ContenderEntry KernelTask::kernel_contender(std::string_view kernel) const {
+    const std::vector<CaseKernel>& known = case_kernels();
+    const auto found =
+        std::ranges::find(known, kernel, [](const CaseKernel& k) { return k.info.name; });
+    if (found == known.end())
+        throw std::invalid_argument(
+            unknown_word(std::string(name()) + " kernel", kernel, names_of(kernels())));
+    ContenderEntry entry;
+    entry.name = entry.kernel = kernel;
+    entry.library = "boxwood";
+    entry.is_peer = false;
+    entry.promise = found->info.promise;
+    entry.summary = found->info.summary;
+    entry.notes = found->how_called;
+    entry.precision = found->precision;
+    entry.params_json = fmt::format("{{\"family\": \"{}\", \"promise\": \"{}\"}}", name(),
+                                    to_string(found->info.promise));
+    entry.runs_on = RunsOn::one_thread;
+    entry.answers = {{std::string(name()),
+                      [make = found->make](const Job& job) { return make(job.scene->cases); }}};
+    return entry;
+}
+
+std::vector<ContenderEntry> KernelTask::contenders_on_cases() const {
+    std::vector<ContenderEntry> all;
+    for (const KernelInfo& kernel : kernels())
+        all.push_back(kernel_contender(kernel.name));
+    return all;
+}
+
+std::optional<std::string> KernelTask::missing(const Scene& scene) const {
+    if (!fits(scene.cases))
+        return fmt::format("the scene has no cases for {}", name());
+    return std::nullopt;
+}
+
+std::unique_ptr<Truth> KernelTask::make_truth(const Scene& scene, unsigned threads) const {
+    if (!fits(scene.cases))
+        throw std::invalid_argument(fmt::format("{} has no cases for {}", scene.name, name()));
+    return make_case_truth({scene, name(), threads});
+}
+
+namespace {
+
+std::uint64_t bits(double x) { return std::bit_cast<std::uint64_t>(x); }
+
+std::uint64_t word_of(Answer answer, std::uint8_t tier) {
+    return static_cast<std::uint64_t>(answer) * 256 + tier;
+}
+
+} // namespace
+
+void append_words(std::vector<std::uint64_t>& words, const Decision& verdict) {
+    words.push_back(word_of(verdict.answer, verdict.tier));
+}
+void append_words(std::vector<std::uint64_t>& words, const Distance& distance) {
+    words.insert(words.end(), {bits(distance.distance), bits(distance.lo), bits(distance.hi)});
+}
+void append_words(std::vector<std::uint64_t>& words, const Impact& impact) {
+    words.insert(words.end(),
+                 {word_of(impact.answer, impact.tier), bits(impact.t_free), bits(impact.t_hit)});
+}
+void append_words(std::vector<std::uint64_t>& words, const Aabb<double>& box) {
+    for (int k = 0; k < 3; ++k)
+        words.insert(words.end(), {bits(box.min[k]), bits(box.max[k])});
+}
+void append_words(std::vector<std::uint64_t>& words, const RayHit& hit) {
+    words.push_back(hit.hit() ? std::bit_cast<std::uint32_t>(hit.t) : ~std::uint64_t{0});
+}
+
+std::uint64_t hash_of_words(const std::vector<std::uint64_t>& words) {
+    return XXH3_64bits(words.data(), words.size() * sizeof(words[0]));
+}
+
+} // namespace boxwood::bench

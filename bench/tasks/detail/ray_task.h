@@ -1,0 +1,70 @@
+#pragma once
+
+#include "bench/tasks/detail/tree_contender.h"
+#include "bench/tasks/detail/tree_task.h"
+#include "kernels/primitives/ray.h"
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace boxwood::bench {
+
+/// The orders in which rays may be handed over and traced: names of the key `ray_order`.
+struct RayOrderEntry {
+    std::string_view name, summary;
+    std::string_view traversal; ///< its name in the registry
+};
+std::span<const RayOrderEntry> ray_orders();
+
+/// A tree of a mesh and its triangles as the layout wants them.
+class RayContender : public TreeContender {
+  public:
+    RayContender(const Job& job, BuildFunction build, const LayoutEntry& layout, std::string kernel)
+        : TreeContender(job, std::move(build), layout), kernel_(std::move(kernel)) {}
+
+    void build() override;
+    std::optional<StructureInfo> structure() const override {
+        return StructureInfo{layout_->bytes() + triangles_.bytes(), &tree_};
+    }
+
+  protected:
+    std::string kernel_;
+    TriangleBlocks triangles_;
+};
+
+/// A task about the rays of a scene and the triangles of its mesh, with the keys rays, n_rays and
+/// kernels.
+class RayTask : public TreeTask {
+  public:
+    std::vector<std::string_view> keys() const override;
+    std::uint64_t n_queries(const Scene& scene) const override { return scene.rays.size(); }
+
+  protected:
+    std::string_view mesh_is_for() const override { return "aim rays at"; }
+    std::vector<SceneSpec> with_queries(const BlockReader& block,
+                                        const SceneSpec& scene) const override;
+    std::vector<Choice> variants(const BlockReader& block, const Choice& choice) const override;
+};
+
+/// One hit of each ray: the nearest, or any; also with the key ray_order.
+class HitTask : public RayTask {
+  public:
+    explicit HitTask(RayQuery query) : query_(query) {}
+
+    std::vector<std::string_view> keys() const override;
+    std::unique_ptr<Answers> make_answers() const override;
+    std::vector<NamedCount> counters(const Answers& answers, const Work* work) const override;
+    std::unique_ptr<Truth> make_truth(const Scene& scene, unsigned threads) const override;
+
+  protected:
+    std::vector<Choice> variants(const BlockReader& block, const Choice& choice) const override;
+    Way way(const Choice& choice) const override;
+
+  private:
+    RayQuery query_;
+};
+
+} // namespace boxwood::bench

@@ -1,0 +1,261 @@
+#include "bench/tasks/detail/ray_task.h"
+
+#include "bench/truth/ray_truth.h"
+#include "bench/truth/truth.h"
+#include "trees/layout.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+namespace boxwood::bench {
+namespace {
+
+std::vector<ContenderEntry> ours(std::string_view task, std::string_view kernel = "watertight") {
+    std::vector<ContenderEntry> all;
+    for (const BuilderEntry& builder : builders())
+        for (const LayoutEntry& layout : layouts())
+            all.push_back(find_task(task)->contender({.builder = std::string(builder.name),
+                                                      .settings = {},
+                                                      .layout = std::string(layout.name),
+                                                      .kernel = std::string(kernel)}));
+    return all;
+}
+
+std::vector<RayHit> hits_of(const ContenderEntry& contender, const Scene& scene) {
+    const auto instance = contender.make(Job{&scene, find_task("rays_closest")});
+    AnswerList<RayHit> answers;
+    instance->build();
+    instance->query(answers);
+    return answers.list;
+}
+
+/// Rays on which two answers differ by more than rounding: a hit against a miss, or another t.
+std::vector<std::size_t> differences(std::span<const RayHit> a, std::span<const RayHit> b) {
+    std::vector<std::size_t> rays;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        if (a[i].hit() != b[i].hit() ||
+            (a[i].hit() && std::abs(a[i].t - b[i].t) > 1e-5f * std::max(a[i].t, b[i].t)))
+            rays.push_back(i);
+    return rays;
+}
+
+/// Ours agrees with Embree on every ray but those on which the oracle, in double, says that an edge
+/// is within rounding: there, ours is one of the right answers.
+void expect_agreement_with_embree(const Scene& scene) {
+    const auto embree = std::ranges::find(peers(), "embree", &Peer::name);
+    if (embree == peers().end())
+        GTEST_SKIP() << "libembree-dev was not found when this was compiled";
+    const RayOracle oracle(scene.mesh);
+    for (const std::string_view name : {"embree.rtc_intersect1", "embree.rtc_intersect1.robust"}) {
+        const auto entry = std::ranges::find(embree->contenders, name, &ContenderEntry::name);
+        ASSERT_NE(entry, embree->contenders.end());
+        const std::vector<RayHit> theirs = hits_of(*entry, scene);
+        for (const ContenderEntry& contender : ours("rays_closest")) {
+            SCOPED_TRACE(contender.name + " against " + entry->name + " on " + scene.name);
+            const std::vector<RayHit> hits = hits_of(contender, scene);
+            const std::vector<std::size_t> rays = differences(hits, theirs);
+            EXPECT_LE(rays.size(), hits.size() / 1000);
+            for (const std::size_t i : rays) {
+                const RayTruth truth = oracle.truth(scene.rays[i]);
+                if (!hits[i].hit()) {
+                    EXPECT_FALSE(truth.must_hit()) << "ray " << i << " leaks";
+                    continue;
+                }
+                EXPECT_TRUE(std::ranges::any_of(truth.candidates,
+                                                [&](const auto& candidate) {
+                                                    const auto t = static_cast<double>(hits[i].t);
+                                                    return candidate.triangle == hits[i].triangle &&
+                                                           candidate.t_low <= t &&
+                                                           t <= candidate.t_high &&
+                                                           t <= truth.t_limit;
+                                                }))
+                    << "ray " << i;
+            }
+        }
+    }
+}
+
+TEST(Rays, AgreeWithEmbreeOnAClosedMesh) {
+    for (const char* rays : {"primary", "random", "ambient"}) {
+        SceneSpec spec;
+        spec.generator = "sphere_mesh";
+        spec.n = 20000;
+        spec.rays = rays;
+        spec.n_rays = 20000;
+        expect_agreement_with_embree(make_scene(spec));
+    }
+}
+
+TEST(Rays, AgreeWithEmbreeOnTheBunny) {
+    const std::filesystem::path bunny = "../shared/data/meshes/stanford-bunny.obj";
+    if (!std::filesystem::exists(bunny))
+        GTEST_SKIP() << bunny << " is not here: the sample meshes are no part of the project";
+    for (const char* rays : {"primary", "random", "ambient"}) {
+        SceneSpec spec;
+        spec.generator = "mesh";
+        spec.file = bunny;
+        spec.rays = rays;
+        spec.n_rays = 20000;
+        expect_agreement_with_embree(make_scene(spec));
+    }
+}
+
+TEST(Rays, NoneLeaksThroughTheEdgesAndVerticesOfAClosedMesh) {
+    SceneSpec spec;
+    spec.generator = "sphere_mesh";
+    spec.n = 20000;
+    Scene scene = make_scene(spec);
+    std::set<std::array<std::uint32_t, 2>> edges;
+    for (const auto& triangle : scene.mesh.triangles)
+        for (std::size_t k = 0; k < 3; ++k)
+            edges.insert({std::min(triangle[k], triangle[(k + 1) % 3]),
+                          std::max(triangle[k], triangle[(k + 1) % 3])});
+    Vec3<float> centre{};
+    for (const Vec3<float>& vertex : scene.mesh.vertices)
+        centre = centre + vertex * (1 / static_cast<float>(scene.mesh.vertices.size()));
+    for (const Vec3<float>& vertex : scene.mesh.vertices)
+        scene.rays.push_back({centre, vertex - centre});
+    for (const auto& [a, b] : edges)
+        for (const float s : {.5f, .3f, .99f}) {
+            const Vec3<float> from = scene.mesh.vertices[a], to = scene.mesh.vertices[b];
+            scene.rays.push_back({centre, from + (to - from) * s - centre});
+        }
+    ASSERT_GT(scene.rays.size(), 90000u);
+    for (const char* kernel : {"watertight", "exact"})
+        for (const ContenderEntry& contender : ours("rays_closest", kernel)) {
+            const std::vector<RayHit> hits = hits_of(contender, scene);
+            EXPECT_TRUE(std::ranges::all_of(hits, &RayHit::hit)) << contender.name;
+        }
+}
+
+SceneSpec small_spec(const char* generator, const char* rays) {
+    SceneSpec spec;
+    spec.generator = generator;
+    spec.n = 3000;
+    spec.rays = rays;
+    spec.n_rays = 1000;
+    return spec;
+}
+
+template <class T> AnswerList<T> answers_of(const ContenderEntry& contender, const Job& job) {
+    const auto instance = contender.make(job);
+    AnswerList<T> answers;
+    instance->build();
+    instance->query(answers); // twice: nothing of the first stays
+    instance->query(answers);
+    return answers;
+}
+
+TEST(RaysAll, AreAllThereOnceWithEveryWayAndEmbree) {
+    const Task& task = *find_task("rays_all");
+    for (const char* generator : {"sphere_mesh", "triangle_soup"}) {
+        const Scene scene = make_scene(small_spec(generator, "random"));
+        const auto truth = task.make_truth(scene, 1);
+        std::vector<ContenderEntry> contenders = ours("rays_all");
+        std::ranges::copy(peers_that_answer("rays_all"), std::back_inserter(contenders));
+        for (const ContenderEntry& contender : contenders)
+            for (const unsigned threads : {1u, 2u}) {
+                const Job job{&scene, &task, threads == 1 ? "serial" : "tbb", threads};
+                const auto answers = answers_of<Pair>(contender, job);
+                const Judgement judged = truth->judge(answers, contender);
+                EXPECT_NE(judged.status, Status::wrong)
+                    << contender.name << ": " << judged.check.witness;
+                EXPECT_GT(judged.check.n_expected, 1000u);
+                EXPECT_EQ(task.hash(answers),
+                          task.hash(answers_of<Pair>(contender, {&scene, &task})))
+                    << contender.name;
+            }
+    }
+}
+
+TEST(RaysAll, AreJudgedWrongWhenOneIsMissingExtraOrTwiceThere) {
+    const Task& task = *find_task("rays_all");
+    const Scene scene = make_scene(small_spec("triangle_soup", "random"));
+    const auto truth = task.make_truth(scene, 1);
+    const ContenderEntry contender = task.contender({});
+    const auto right = answers_of<Pair>(contender, {&scene, &task});
+    const Judgement good = truth->judge(right, contender);
+    ASSERT_EQ(good.check.missing + good.check.extra, 0u);
+    const auto wrong = [&](const auto& change) {
+        auto answers = right;
+        change(answers.list);
+        const Judgement judged = truth->judge(answers, contender);
+        EXPECT_EQ(judged.status, Status::wrong);
+        return judged.check;
+    };
+    const Pair first = right.list.front();
+    EXPECT_EQ(wrong([](auto& pairs) { pairs.erase(pairs.begin()); }).missing, 1u);
+    EXPECT_EQ(wrong([&](auto& pairs) { pairs.push_back(first); }).extra, 1u);
+    EXPECT_EQ(wrong([](auto& pairs) { pairs.push_back({5000, 0}); }).extra, 1u);
+    EXPECT_EQ(wrong([](auto& pairs) { pairs.push_back({0, 5000}); }).extra, 1u);
+    // Of all triangles but a few this ray is known to pass beside.
+    const results::Check most = wrong([&](auto& pairs) {
+        for (std::uint32_t i = 0; i < scene.mesh.triangles.size(); ++i)
+            if (std::ranges::find(pairs, Pair{first.a, i}) == pairs.end())
+                pairs.push_back({first.a, i});
+    });
+    EXPECT_GT(most.extra, scene.mesh.triangles.size() - 100);
+    EXPECT_THAT(most.witness, testing::HasSubstr("extra"));
+}
+
+/// Calls check(task, answers, given) for each layout and both tasks: the answers to rays that are
+/// traced in that order, the same with two threads, and those to a batch as it comes.
+template <class Check> void against_the_given_order(const std::string& order, const Check& check) {
+    for (const char* name : {"rays_closest", "rays_any"}) {
+        const Task& task = *find_task(name);
+        const Scene scene = make_scene(small_spec("triangle_soup", "random"));
+        for (const LayoutEntry& layout : layouts()) {
+            Choice choice;
+            choice.layout = std::string(layout.name);
+            const auto given = answers_of<RayHit>(task.contender(choice), {&scene, &task});
+            choice.ray_order = order;
+            const ContenderEntry other = task.contender(choice);
+            EXPECT_EQ(other.name, "binned_sah." + choice.layout + "." + order + "_rays.watertight");
+            const auto answers = answers_of<RayHit>(other, {&scene, &task});
+            check(task, answers, given);
+            EXPECT_EQ(answers_of<RayHit>(other, {&scene, &task, "tbb", 2}).list, answers.list)
+                << other.name;
+        }
+    }
+}
+
+TEST(RaysBatches, SortedAnswerAsGivenForEveryWay) {
+    against_the_given_order("sorted", [](const Task&, const auto& sorted, const auto& given) {
+        EXPECT_EQ(sorted.list, given.list);
+    });
+    EXPECT_THROW(
+        find_task("rays_any")->contender({"median", {}, "wide8", "watertight", "shuffled"}),
+        std::invalid_argument);
+}
+
+TEST(RaysOneByOne, AnswerAsABatchForEveryWay) {
+    against_the_given_order("single", [](const Task& task, const auto& alone, const auto& given) {
+        EXPECT_EQ(task.hash(alone), task.hash(given));
+    });
+}
+
+TEST(RaysBatches, EmbreesPacketsAnswerRight) {
+    for (const char* name : {"rays_closest", "rays_any"}) {
+        const Task& task = *find_task(name);
+        SceneSpec spec = small_spec("sphere_mesh", "random");
+        spec.n_rays = 1003; // packets that are not full
+        const Scene scene = make_scene(spec);
+        const auto truth = task.make_truth(scene, 1);
+        for (const ContenderEntry& peer : peers_that_answer(name))
+            for (const unsigned threads : {1u, 2u}) {
+                const Job job{&scene, &task, threads == 1 ? "serial" : "tbb", threads};
+                const Judgement judged = truth->judge(answers_of<RayHit>(peer, job), peer);
+                EXPECT_NE(judged.status, Status::wrong)
+                    << peer.name << ": " << judged.check.witness;
+            }
+    }
+}
+
+} // namespace
+} // namespace boxwood::bench

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "bench/tasks/contender.h"
+#include "trees/builder.h"
+#include "trees/layout.h"
+
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace boxwood::bench {
+
+/// What our contenders share that answer from one tree: boxes to tree to layout.
+class TreeContender : public Contender {
+  public:
+    TreeContender(const Job& job, BuildFunction build, const LayoutEntry& layout)
+        : scene_(*job.scene), executor_(make_executor(job.executor, job.threads)),
+          build_(std::move(build)), layout_entry_(layout) {}
+
+    void build() override {
+        layout_.reset();
+        layout_ = make_layout(layout_entry_, build_, scene_.boxes, *executor_, tree_);
+    }
+    std::optional<StructureInfo> structure() const override {
+        return StructureInfo{layout_->bytes(), &tree_};
+    }
+
+  protected:
+    const Scene& scene_;
+    std::unique_ptr<Executor> executor_;
+    BuildFunction build_;
+    const LayoutEntry& layout_entry_;
+    Tree tree_;
+    std::unique_ptr<AnyLayout> layout_;
+};
+
+/// Appends pairs to one vector after another; the sink keeps its memory between queries.
+class PairsInto {
+  public:
+    /// The cleared list's sink.
+    AppendPairs& to(Answers& answers) {
+        std::vector<Pair>& pairs = list_of<Pair>(answers);
+        pairs.clear();
+        if (target_ != &pairs) {
+            sink_.emplace(pairs);
+            target_ = &pairs;
+        }
+        return *sink_;
+    }
+
+  private:
+    std::optional<AppendPairs> sink_;
+    std::vector<Pair>* target_ = nullptr;
+};
+
+} // namespace boxwood::bench

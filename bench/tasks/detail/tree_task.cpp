@@ -1,0 +1,105 @@
+#include "bench/tasks/detail/tree_task.h"
+
+#include "bench/plan/scenes.h"
+#include "kernels/suggest.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace boxwood::bench {
+
+std::string name_with_settings(std::string word, const Settings& settings) {
+    std::ranges::replace(word, '+', '_');
+    for (const auto& [name, value] : settings) {
+        word += fmt::format("_{}", name);
+        for (const char c : to_text(value))
+            if (c != '+')
+                word += c == '.' ? '_' : c == '-' ? 'm' : c;
+    }
+    return word;
+}
+
+std::string settings_json(const Settings& settings) {
+    std::string all;
+    for (const auto& [name, value] : settings)
+        all += fmt::format("{}\"{}\": {}", all.empty() ? "" : ", ", name,
+                           std::holds_alternative<std::string>(value)
+                               ? '"' + std::get<std::string>(value) + '"'
+                               : to_text(value));
+    return "{" + all + "}";
+}
+
+void add_cells(const BlockReader& block, const SceneSpec& scene,
+               const std::vector<ContenderEntry>& ours, const std::vector<ContenderEntry>& peers,
+               AddCell add) {
+    for (const Place& place : block.places())
+        for (const ContenderEntry& entry : ours)
+            add(scene, entry, place.executor, place.threads);
+    for (const Place& place : block.usual_places())
+        for (const ContenderEntry& entry : peers)
+            add(scene, entry, place.executor, place.threads);
+}
+
+std::vector<std::string_view> TreeTask::keys() const {
+    return {"scene", "n", "overlaps", "builders", "layouts", "executors", "threads", "peers"};
+}
+
+void TreeTask::expand(const BlockReader& block, AddCell add) const {
+    const std::vector<BuilderChoice> builders = block.builders();
+    if (builders.empty() && !block.has("peers"))
+        block.fail("[[cells]] needs builders, peers, or both");
+    std::vector<ContenderEntry> ours;
+    for (const BuilderChoice& builder : builders)
+        for (const std::string& layout : block.words("layouts", names_of(layouts()), {"wide8"}))
+            for (const Choice& choice :
+                 variants(block, {builder.name, builder.settings, layout, "", ""}))
+                ours.push_back(contender(choice));
+    const std::vector<ContenderEntry> peers = block.peers(name());
+    for (const SceneSpec& scene : still_scenes(block, mesh_is_for()))
+        for (const SceneSpec& spec : with_queries(block, scene))
+            add_cells(block, spec, ours, peers, add);
+}
+
+ContenderEntry TreeTask::contender(const Choice& choice) const {
+    const BuilderEntry& builder =
+        entry_named(std::string_view(choice.builder).substr(0, choice.builder.find('+')),
+                    builders(), "builder");
+    const LayoutEntry& layout = entry_named(choice.layout, layouts(), "layout");
+    Way way = this->way(choice);
+
+    ContenderEntry entry;
+    entry.library = "boxwood";
+    entry.is_peer = false;
+    entry.precision = layout.precision;
+    entry.builder = name_with_settings(choice.builder, choice.settings);
+    entry.layout = choice.layout;
+    entry.traversal = way.traversal;
+    entry.kernel = way.kernel;
+    entry.promise = way.promise;
+    entry.name = fmt::format("{}.{}.{}", entry.builder, entry.layout, entry.traversal);
+    if (!entry.kernel.empty())
+        entry.name += "." + entry.kernel;
+    entry.summary = fmt::format("{}; {}", builder.summary, layout.summary);
+    entry.notes = "build: boxes to tree to layout; answers in the same order for any number of "
+                  "threads";
+    entry.params_json = settings_json(choice.settings);
+    entry.cannot = [&layout, query = way.query](const Job&) -> std::optional<std::string> {
+        if (query && !layout.answers(*query))
+            return fmt::format("the layout {} does not answer {}", layout.name, to_string(*query));
+        return std::nullopt;
+    };
+    entry.answers = {{std::string(name()), [build = make_builder(choice.builder, choice.settings),
+                                            &layout, make = std::move(way.make)](const Job& job) {
+                          return make(job, build, layout);
+                      }}};
+    return entry;
+}
+
+std::optional<std::string> TreeTask::missing(const Scene& scene) const {
+    if (!mesh_is_for().empty() && scene.mesh.triangles.empty())
+        return "the scene has no triangles";
+    return std::nullopt;
+}
+
+} // namespace boxwood::bench

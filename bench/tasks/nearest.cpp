@@ -1,0 +1,75 @@
+/// For each point the nearest boxes. The key k says how many.
+
+#include "bench/tasks/detail/point_task.h"
+
+#include <xxhash.h>
+
+#include <bit>
+
+namespace boxwood::bench {
+namespace {
+
+class NearestBoxes final : public PointContender {
+  public:
+    using PointContender::PointContender;
+
+  private:
+    void run(Answers& answers, const Executor& executor, Work* work) override {
+        std::vector<Neighbour>& neighbours = list_of<Neighbour>(answers);
+        neighbours.resize(k_ * scene_.points.size());
+        layout_->nearest(scene_.points, k_, executor, neighbours, work);
+    }
+    std::size_t k_ = neighbours_of(scene_);
+};
+
+class Nearest final : public PointTask {
+  public:
+    Nearest() : PointTask(PointQuery::nearest) {}
+    std::string_view name() const override { return "nearest"; }
+    std::string_view summary() const override { return "for each point the nearest boxes"; }
+    std::vector<std::string_view> keys() const override {
+        std::vector<std::string_view> all = PointTask::keys();
+        all.push_back("k");
+        return all;
+    }
+    std::unique_ptr<Answers> make_answers() const override {
+        return std::make_unique<AnswerList<Neighbour>>();
+    }
+    std::uint64_t hash(const Answers& answers) const override {
+        std::vector<std::uint64_t> words;
+        for (const Neighbour& near : list_of<Neighbour>(answers)) {
+            words.push_back(near.item);
+            words.push_back(std::bit_cast<std::uint64_t>(near.squared_distance));
+        }
+        return XXH3_64bits(words.data(), words.size() * sizeof(words[0]));
+    }
+    std::vector<NamedCount> counters(const Answers& answers, const Work* work) const override {
+        std::vector<NamedCount> counts{{"hits", answers.size()}};
+        append_work(counts, work);
+        return counts;
+    }
+
+  protected:
+    std::vector<SceneSpec> with_queries(const BlockReader& block,
+                                        const SceneSpec& scene) const override {
+        const SceneSpec spec = PointTask::with_queries(block, scene).front();
+        std::vector<SceneSpec> all;
+        for (const std::int64_t k : block.integers("k", 1, 1000)) {
+            all.push_back(spec);
+            all.back().k = static_cast<int>(k);
+        }
+        return all.empty() ? std::vector{spec} : all;
+    }
+    Way way(const Choice&) const override {
+        return {.traversal = "nearest", .make = maker<NearestBoxes>(), .query = Query::nearest};
+    }
+};
+
+} // namespace
+
+const Task& nearest_task() {
+    static const Nearest task;
+    return task;
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,91 @@
+/// Every unordered overlapping pair of a scene's boxes.
+
+#include "bench/tasks/detail/pair_answers.h"
+#include "bench/tasks/detail/tree_contender.h"
+#include "bench/tasks/detail/tree_task.h"
+#include "bench/truth/pair_truth.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace boxwood::bench {
+namespace {
+
+class SelfPairs final : public TreeContender {
+  public:
+    using TreeContender::TreeContender;
+    void query(Answers& answers) override { layout_->self_pairs(*executor_, pairs_.to(answers)); }
+    std::optional<Work> counted_query(Answers& answers) override {
+        return layout_->self_pairs_counted(pairs_.to(answers));
+    }
+
+  private:
+    PairsInto pairs_;
+};
+
+/// A family of boxes comes with its number of pairs, and each contender is judged as a kernel.
+class KnownPairsTruth final : public Truth {
+  public:
+    KnownPairsTruth(const Scene& scene, unsigned threads)
+        : truth_(make_pair_truth(scene, PairsOf::all_boxes, threads)),
+          known_(std::get<BoxCases>(scene.cases).n_pairs),
+          calls_(std::max<std::uint64_t>(known_, scene.boxes.size())) {}
+
+    Judgement judge(const Answers& answers, const ContenderEntry& contender) override {
+        Judgement judgement = truth_->judge(answers, contender);
+        if (judgement.check.n_expected != known_)
+            throw std::logic_error(fmt::format("brute force finds {} pairs, {} are known",
+                                               judgement.check.n_expected, known_));
+        judgement.calls = calls_;
+        results::KernelRow& row = judgement.kernel.emplace();
+        row.n = row.tier_0 = calls_;
+        row.false_pos = judgement.check.extra;
+        row.false_neg = judgement.check.missing;
+        return judgement;
+    }
+
+  private:
+    std::unique_ptr<Truth> truth_;
+    std::uint64_t known_, calls_; ///< calls: pairs and boxes, for a time to be divided by
+};
+
+class Pairs final : public PairAnswers<TreeTask> {
+  public:
+    std::string_view name() const override { return "pairs"; }
+    std::string_view summary() const override {
+        return "every unordered overlapping pair of the scene's boxes";
+    }
+    bool fits(const Cases& cases) const override { return std::holds_alternative<BoxCases>(cases); }
+    std::vector<ContenderEntry> contenders_on_cases() const override {
+        std::vector<ContenderEntry> all;
+        for (const BuilderEntry& builder : builders())
+            for (const LayoutEntry& layout : layouts()) {
+                all.push_back(contender({.builder = std::string(builder.name),
+                                         .settings = {},
+                                         .layout = std::string(layout.name)}));
+                all.back().promise = Promise::exact;
+            }
+        return all;
+    }
+    std::unique_ptr<Truth> make_truth(const Scene& scene, unsigned threads) const override {
+        if (fits(scene.cases))
+            return std::make_unique<KnownPairsTruth>(scene, threads);
+        return make_pair_truth(scene, PairsOf::all_boxes, threads);
+    }
+
+  protected:
+    Way way(const Choice&) const override {
+        return {.traversal = "self_pairs", .make = maker<SelfPairs>(), .query = Query::self_pairs};
+    }
+};
+
+} // namespace
+
+const Task& pairs_task() {
+    static const Pairs task;
+    return task;
+}
+
+} // namespace boxwood::bench

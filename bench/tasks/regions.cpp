@@ -1,0 +1,62 @@
+/// For each box or sphere every box that it meets, as pairs (region, box). The key regions names
+/// which: boxes or spheres.
+
+#include "bench/tasks/detail/pair_answers.h"
+#include "bench/tasks/detail/point_task.h"
+#include "scenes/sampling/queries.h"
+#include "kernels/suggest.h"
+
+namespace boxwood::bench {
+namespace {
+
+class Overlapping final : public PointContender {
+  public:
+    using PointContender::PointContender;
+
+  private:
+    void run(Answers& answers, const Executor& executor, Work* work) override {
+        if (scene_.spheres.empty())
+            layout_->regions(scene_.regions, executor, pairs_.to(answers), work);
+        else
+            layout_->regions(scene_.spheres, executor, pairs_.to(answers), work);
+    }
+    PairsInto pairs_;
+};
+
+class Regions final : public PairAnswers<PointTask> {
+  public:
+    Regions() : PairAnswers(PointQuery::overlapping) {}
+    std::string_view name() const override { return "regions"; }
+    std::string_view summary() const override {
+        return "for each box or sphere every box that it meets";
+    }
+    std::vector<std::string_view> keys() const override {
+        std::vector<std::string_view> all = PointTask::keys();
+        all.push_back("regions");
+        return all;
+    }
+
+  protected:
+    std::vector<SceneSpec> with_queries(const BlockReader& block,
+                                        const SceneSpec& scene) const override {
+        std::vector<SceneSpec> all;
+        for (const std::string& kind :
+             block.words("regions", names_of(region_kinds()), {"boxes"})) {
+            all.push_back(PointTask::with_queries(block, scene).front());
+            all.back().regions = kind;
+        }
+        return all;
+    }
+    Way way(const Choice&) const override {
+        return {.traversal = "regions", .make = maker<Overlapping>(), .query = Query::regions};
+    }
+};
+
+} // namespace
+
+const Task& regions_task() {
+    static const Regions task;
+    return task;
+}
+
+} // namespace boxwood::bench

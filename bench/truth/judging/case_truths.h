@@ -1,0 +1,62 @@
+#pragma once
+
+#include "bench/truth/truth.h"
+#include "kernels/decision.h"
+#include "scenes/scene.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// How right a kernel is: its answers to the cases of a scene against the truth, which is known by
+/// construction or comes from the rational oracle.
+///
+/// Each kernel is judged on the case as it reads it: one that reads floats on the coordinates
+/// rounded to float. A case with NaN or infinity in it is not judged: nothing is promised there.
+///
+/// Wrong are: a false yes or no; a distance off by more than 64 u L (u the precision's roundoff, L
+/// the largest extent of the pair), too small counted as a false yes and too large as a false no; a
+/// box that does not hold the exact one. What a kernel promises is judged by its promise instead:
+/// never-miss may say yes too often, never-false no, certified may say maybe and must enclose a
+/// distance or a first touch.
+namespace boxwood::bench {
+
+/// What the truths of cases are made from. The scene outlives them; its cases are of their kind.
+struct CaseScene {
+    const Scene& scene;
+    std::string_view task;
+    unsigned threads = 1; ///< that may be used when the truth is computed, which is on first need
+};
+
+/// The hits of rays at triangles or fans; first touches of moving features; fitted boxes. Those of
+/// yes or no and of distances are in verdict_truth.h and distance_truth.h.
+std::unique_ptr<CaseTruth> make_fan_truth(const CaseScene& scene);
+std::unique_ptr<CaseTruth> make_impact_truth(const CaseScene& scene);
+std::unique_ptr<CaseTruth> make_fit_truth(const CaseScene& scene);
+
+/// Cut down to one of them. Throws std::out_of_range if there is no such case.
+Cases only_case(const Cases& cases, std::size_t i);
+
+/// The panel of a scene's family; degenerate at the ends of its range of scales, where products
+/// over- and underflow; generic for other scenes.
+Panel panel_of(const Scene& scene);
+
+/// Whether a kernel of ours did what it promises not to do.
+bool breaks_promise(const results::KernelRow& row);
+
+/// The command that judges one case of a scene again.
+std::string replay_command(const CaseScene& scene, const std::string& kernel, std::size_t i);
+
+/// What a row of two triangles can be piped into, to query a kernel again; empty for peers.
+std::string query_command(const ContenderEntry& contender);
+
+/// Answers are as many as the cases, or the contender is broken.
+void require_one_per_case(const Answers& answers, std::size_t cases);
+
+std::string text_of(Answer answer);
+inline std::string text_of(bool truth) { return truth ? "yes" : "no"; }
+std::string text_of(const Decision& verdict);
+
+} // namespace boxwood::bench

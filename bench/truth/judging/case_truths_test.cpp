@@ -1,0 +1,315 @@
+/// Answers that are right and wrong in known ways, and what they are judged to be worth.
+
+#include "bench/truth/judging/case_truths.h"
+
+#include "bench/tasks/task.h"
+#include "bench/truth/judging/tally.h"
+#include "kernels/continuous/continuous_kernel.h"
+#include "kernels/triangle_distance/distance_kernel.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace boxwood::bench {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+ContenderEntry named(Promise promise, const std::string& precision = "f64") {
+    ContenderEntry contender;
+    contender.name = "made_up";
+    contender.promise = promise;
+    contender.precision = precision;
+    return contender;
+}
+
+/// As a result file has it.
+results::KernelRow row_of(const Judgement& judgement) {
+    results::KernelRow row = judgement.kernel.value();
+    row.status = judgement.status;
+    return row;
+}
+
+/// The unit right triangle at height z.
+Triangle<double> at(double z) { return {{0, 0, z}, {1, 0, z}, {0, 1, z}}; }
+
+Scene pairs_of_triangles(std::vector<TrianglePairCase> cases) {
+    Scene scene;
+    scene.name = "made_scale3";
+    scene.spec.generator = "made";
+    scene.spec.k = 7;
+    scene.spec.scale = 3;
+    scene.cases = std::move(cases);
+    return scene;
+}
+
+Judgement judged(const Scene& scene, std::string_view task, const Answers& answers,
+                 const ContenderEntry& contender) {
+    return find_task(task)->make_truth(scene, 2)->judge(answers, contender);
+}
+
+template <class T> AnswerList<T> answers_of(std::vector<T> list) {
+    AnswerList<T> answers;
+    answers.list = std::move(list);
+    return answers;
+}
+AnswerList<Decision> verdicts(std::vector<Decision> list) { return answers_of(std::move(list)); }
+
+AnswerList<Distance> distances(const std::vector<std::array<double, 3>>& list) {
+    AnswerList<Distance> answers;
+    for (const auto& [lo, distance, hi] : list) {
+        Distance& d = answers.list.emplace_back();
+        d.lo = lo;
+        d.distance = distance;
+        d.hi = hi;
+    }
+    return answers;
+}
+
+TEST(Tally, EveryPromiseAllowsItsOwnErrors) {
+    struct Row {
+        Promise promise;
+        Worth false_yes, false_no, maybe;
+    };
+    using enum Worth;
+    for (const Row& row : {Row{Promise::none, wrong, wrong, conservative},
+                           Row{Promise::never_miss, conservative, broken_promise, conservative},
+                           Row{Promise::never_false, broken_promise, conservative, conservative},
+                           Row{Promise::certified, broken_promise, broken_promise, conservative},
+                           Row{Promise::exact, broken_promise, broken_promise, broken_promise}}) {
+        SCOPED_TRACE(to_string(row.promise));
+        EXPECT_EQ(worth_of(row.promise, Answer::yes, false), row.false_yes);
+        EXPECT_EQ(worth_of(row.promise, Answer::no, true), row.false_no);
+        EXPECT_EQ(worth_of(row.promise, Answer::maybe, true), row.maybe);
+        EXPECT_EQ(worth_of(row.promise, Answer::maybe, false), row.maybe);
+        EXPECT_EQ(worth_of(row.promise, Answer::yes, true), exact);
+        EXPECT_EQ(worth_of(row.promise, Answer::no, false), exact);
+    }
+}
+
+TEST(CaseTruth, CountsFalseAnswersAndTiers) {
+    // Touching by the oracle; apart, known; apart by the oracle; not finite.
+    const Scene scene = pairs_of_triangles({{at(0), at(0), Known::unknown},
+                                            {at(0), at(1), Known::no},
+                                            {at(0), at(1), Known::unknown},
+                                            {at(0), at(nan), Known::unknown}});
+    const AnswerList<Decision> answers =
+        verdicts({{Answer::no, 0}, {Answer::yes, 2}, {Answer::maybe, 5}, {Answer::yes, 0}});
+    const Judgement none = judged(scene, "triangle_triangle", answers, named(Promise::none));
+    EXPECT_EQ(none.kernel->n, 3u);
+    EXPECT_EQ(none.kernel->false_neg, 1u);
+    EXPECT_EQ(none.kernel->false_pos, 1u);
+    EXPECT_EQ(none.kernel->maybe, 1u);
+    EXPECT_EQ(none.kernel->tier_0, 1u);
+    EXPECT_EQ(none.kernel->tier_2, 1u);
+    EXPECT_EQ(none.kernel->tier_3, 1u);
+    EXPECT_NEAR(none.kernel->escalation_rate, 2. / 3, 1e-15);
+    EXPECT_EQ(none.status, Status::wrong);
+    EXPECT_EQ(none.status, Status::wrong);
+    EXPECT_FALSE(none.breaks_promise);
+    EXPECT_FALSE(breaks_promise(row_of(none)));
+    EXPECT_EQ(none.kernel->family, "typical"); // `made` is in no registry
+    EXPECT_EQ(none.kernel->task, "triangle_triangle");
+    EXPECT_EQ(none.kernel->kernel, "made_up");
+
+    // never-miss reads maybe as yes: two false yes. Its miss is what the witness shows.
+    const Judgement miss = judged(scene, "triangle_triangle", answers, named(Promise::never_miss));
+    EXPECT_EQ(miss.kernel->false_pos, 2u);
+    EXPECT_TRUE(miss.breaks_promise);
+    EXPECT_TRUE(breaks_promise(row_of(miss)));
+    EXPECT_THAT(miss.kernel->witness, HasSubstr("case 0: said no, truth yes; 0,0,0,1,0,0,0,1,0,"));
+    EXPECT_THAT(miss.kernel->witness,
+                HasSubstr("boxwood check --only '^made/triangle_triangle/made_up$' --k 7 --scale 3 "
+                          "--n 1000 --seed 1 --case 0"));
+
+    const Judgement sure = judged(
+        scene, "triangle_triangle",
+        verdicts({{Answer::yes, 0}, {Answer::no, 0}, {Answer::maybe, 0}, {Answer::maybe, 0}}),
+        named(Promise::certified));
+    EXPECT_EQ(sure.status, Status::conservative);
+    EXPECT_EQ(sure.kernel->witness, "");
+    EXPECT_FALSE(sure.breaks_promise);
+}
+
+TEST(CaseTruth, AKernelOfFloatsIsJudgedOnWhatItReads) {
+    const double h = 0x1p-60; // a float, but not beside 1
+    Triangle<double> tilted{{0, 0, 1}, {1, 0, 1}, {0, 1, 1 + 0x1p-40}};
+    const Scene scene =
+        pairs_of_triangles({{at(0), at(h), Known::no}, {tilted, at(1 + 0x1p-41), Known::unknown}});
+    const AnswerList<Decision> rounded = verdicts({{Answer::no, 0}, {Answer::yes, 0}});
+    EXPECT_EQ(judged(scene, "triangle_triangle", rounded, named(Promise::exact, "f32")).status,
+              Status::exact);
+    const Scene apart = pairs_of_triangles({{at(1), at(1 + 0x1p-40), Known::no}});
+    const AnswerList<Decision> touch = verdicts({{Answer::yes, 0}});
+    EXPECT_FALSE(
+        judged(apart, "triangle_triangle", touch, named(Promise::exact, "f32")).breaks_promise);
+    EXPECT_TRUE(
+        judged(apart, "triangle_triangle", touch, named(Promise::exact, "f64")).breaks_promise);
+}
+
+TEST(CaseTruth, DistancesWithoutABoundMayRound) {
+    const Scene scene = pairs_of_triangles({{at(0), at(2)}, {at(0), at(0)}, {at(0), at(1)}});
+    const auto status = [&](double a, double b, double c, const char* precision = "f64") {
+        return judged(scene, "triangle_distance", distances({{a, a, a}, {b, b, b}, {c, c, c}}),
+                      named(Promise::none, precision));
+    };
+    EXPECT_EQ(status(2, 0, 1).status, Status::exact);
+    EXPECT_EQ(status(2, 0, 1).kernel->max_ulp, 0);
+    EXPECT_EQ(status(2 + 0x1p-50, 0x1p-50, 1).status, Status::within_bound);
+    EXPECT_EQ(status(2 + 0x1p-50, 0, 1).kernel->max_ulp, 2);
+    EXPECT_EQ(status(2 + 0x1p-30, 0, 1).kernel->false_neg, 1u); // too large
+    EXPECT_EQ(status(2 - 0x1p-30, 0, 1).kernel->false_pos, 1u); // too small
+    EXPECT_EQ(status(2 - 0x1p-30, 0, 1).status, Status::wrong);
+    EXPECT_EQ(status(2 - 0x1p-30, 0, 1, "f32").status, Status::within_bound);
+    EXPECT_EQ(status(2, 0, nan).kernel->maybe, 1u);
+    EXPECT_EQ(status(2, 0, nan).status, Status::conservative);
+    EXPECT_NEAR(status(2, 0, 1.25).kernel->max_rel_err, 0.25, 1e-15);
+}
+
+TEST(CaseTruth, CertifiedDistancesMustEnclose) {
+    const Scene scene = pairs_of_triangles({{at(0), at(2)}, {at(0), at(0)}});
+    const auto judge = [&](std::array<double, 3> a, std::array<double, 3> b, Promise promise) {
+        return judged(scene, "triangle_distance", distances({a, b}), named(promise));
+    };
+    const std::array<double, 3> zero{0, 0, 0}, wide{1.5, 2.125, 2.25};
+    const Judgement held = judge(wide, zero, Promise::certified);
+    EXPECT_FALSE(held.breaks_promise);
+    EXPECT_EQ(held.status, Status::within_bound);
+    ASSERT_EQ(held.conditions.size(), 1u);
+    EXPECT_EQ(held.conditions[0].log10_condition, 0); // L = d = 2
+    EXPECT_EQ(held.conditions[0].n, 1u);
+    EXPECT_EQ(held.conditions[0].bound, 0.375);
+    EXPECT_EQ(held.conditions[0].max_rel_err, 0.0625);
+    EXPECT_TRUE(judge(wide, zero, Promise::exact).breaks_promise); // not rounded to nearest
+
+    const double above = std::nextafter(2, 3);
+    for (const auto& [a, b] : {std::pair{std::array{above, above, above}, zero}, // lo > d
+                               {std::array{1., 1.5, 1.75}, zero},                // hi < d
+                               {std::array{1., 3., 2.5}, zero},                  // outside
+                               {std::array{nan, nan, nan}, zero},                // not a number
+                               {std::array{-1., 2., 2.}, zero},                  // lo < 0
+                               {wide, std::array{0., 1e-300, 1e-300}},           // touch, not 0
+                               {std::array{0., 0., 3.}, zero}}) {                // 0, no touch
+        const Judgement broken = judge(a, b, Promise::certified);
+        EXPECT_TRUE(broken.breaks_promise) << a[0] << " " << a[1] << " " << a[2];
+        EXPECT_EQ(broken.kernel->bound_violations, 1u);
+        EXPECT_THAT(broken.kernel->witness, HasSubstr("truth 0x"));
+    }
+}
+
+TEST(CaseTruth, TheOtherDistancesTakePartsOfThePair) {
+    // a.a = (0,0,0), a.a a.b along x; b.b b.a along x at height 3, b.c at height 1 over a.a.
+    const Triangle<double> a{{0, 0, 0}, {1, 0, 0}, {0, -9, 0}}, b{{5, 0, 3}, {4, 0, 3}, {0, 0, 1}};
+    const Scene scene = pairs_of_triangles({{a, b}});
+    const std::array<std::pair<const char*, double>, 4> known{{{"triangle_distance", 1},
+                                                               {"segment_segment", std::sqrt(18)},
+                                                               {"point_triangle", 1},
+                                                               {"point_segment", 5}}};
+    for (const auto& [task, d] : known) {
+        const Judgement right = judged(scene, task, distances({{d, d, d}}), named(Promise::none));
+        EXPECT_EQ(right.status, Status::exact) << task;
+        EXPECT_EQ(right.kernel->task, task);
+    }
+}
+
+TEST(CaseTruth, RaysAtFansMustHitOneOfThem) {
+    Scene scene;
+    RayCases cases;
+    cases.triangles = {{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {{0, 0, 2}, {1, 0, 2}, {0, 1, 2}}};
+    RayCase hit;
+    hit.ray = {{.25f, .25f, 0}, {0, 0, 1}};
+    hit.count = 2;
+    RayCase miss = hit;
+    miss.ray.origin.x = 5;
+    cases.rays = {hit, miss};
+    scene.cases = cases;
+    AnswerList<RayHit> answers;
+    answers.list = {{1, 0, 0, 0}, {}};
+    EXPECT_EQ(judged(scene, "ray_triangle", answers, named(Promise::none)).status, Status::exact);
+    answers.list[0].t = std::nextafter(1.f, 2.f);
+    EXPECT_EQ(judged(scene, "ray_triangle", answers, named(Promise::none)).kernel->max_ulp, 1);
+    answers.list = {{}, {3, 0, 0, 1}};
+    const Judgement wrong = judged(scene, "ray_triangle", answers, named(Promise::exact));
+    EXPECT_EQ(wrong.kernel->false_neg, 1u);
+    EXPECT_EQ(wrong.kernel->false_pos, 1u);
+    EXPECT_TRUE(wrong.breaks_promise);
+}
+
+TEST(CaseTruth, ATimeOfTouchMustNotBeCalledFree) {
+    // A vertex falls onto a triangle that lies still: touch at t = 1/2.
+    Scene scene;
+    MotionCases cases;
+    LinearMotion motion;
+    motion.start = {{{.25, .25, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+    motion.end = motion.start;
+    motion.end[0].z = -1;
+    cases.motions = {{motion, Known::yes}};
+    scene.cases = cases;
+    const auto judge = [&](Impact impact, Promise promise) {
+        return judged(scene, "vertex_face", answers_of<Impact>({impact}), named(promise));
+    };
+    EXPECT_EQ(judge({Answer::yes, .5, .5, 0}, Promise::exact).status, Status::exact);
+    EXPECT_FALSE(judge({Answer::yes, .25, .75, 0}, Promise::certified).breaks_promise);
+    EXPECT_FALSE(judge({Answer::maybe, .25, .75, 0}, Promise::never_miss).breaks_promise);
+    EXPECT_TRUE(judge({Answer::no, 1, 1, 0}, Promise::never_miss).breaks_promise);
+    const Judgement late = judge({Answer::yes, .625, .75, 0}, Promise::never_miss);
+    EXPECT_TRUE(late.breaks_promise);
+    EXPECT_EQ(late.kernel->bound_violations, 1u);
+    EXPECT_TRUE(judge({Answer::yes, .25, .375, 0}, Promise::certified).breaks_promise);
+    EXPECT_EQ(judge({Answer::yes, .625, .625, 0}, Promise::none).status, Status::exact);
+    EXPECT_EQ(judge({Answer::yes, .625, .625, 0}, Promise::none).kernel->max_rel_err, .125);
+}
+
+TEST(CaseTruth, AFittedBoxMustHoldTheExactOne) {
+    Scene scene;
+    scene.cases = std::vector<FitCase>{{RigidTransform<double>{}, {{0, 0, 0}, {1, 2, 4}}}};
+    const auto judge = [&](Aabb<double> box, Promise promise) {
+        return judged(scene, "box_fit", answers_of<Aabb<double>>({box}), named(promise));
+    };
+    EXPECT_EQ(judge({{0, 0, 0}, {1, 2, 4}}, Promise::never_miss).status, Status::exact);
+    const Judgement larger = judge({{-.25, 0, 0}, {1, 2, 5}}, Promise::never_miss);
+    EXPECT_EQ(larger.status, Status::conservative);
+    EXPECT_EQ(larger.kernel->max_rel_err, .25);
+    EXPECT_TRUE(
+        judge({{0, 0, 0}, {1, 2, std::nextafter(4, 0)}}, Promise::never_miss).breaks_promise);
+    EXPECT_EQ(judge({{0, 0, 0}, {1, nan, 4}}, Promise::none).status, Status::wrong);
+}
+
+TEST(CaseTruth, ObbsAndRayBoxesHaveTheirOracles) {
+    Scene scene;
+    Obb<double> box{{0, 0, 0}, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {1, 1, 1}}, other = box;
+    other.centre.x = 2;
+    scene.cases = std::vector<ObbPairCase>{{box, other}};
+    EXPECT_EQ(judged(scene, "obb_obb", verdicts({{Answer::yes, 0}}), named(Promise::exact)).status,
+              Status::exact);
+    scene.cases = std::vector<RayBoxCase>{{{{0, 0, 0}, {1, 0, 0}}, {{2, 0, 0}, {3, 1, 1}}},
+                                          {{{0, 0, 0}, {1, 0, 0}}, {}}};
+    EXPECT_EQ(judged(scene, "ray_box", verdicts({{Answer::yes, 0}, {Answer::no, 0}}),
+                     named(Promise::exact))
+                  .status,
+              Status::exact);
+}
+
+TEST(CaseTruth, RefusesWhatDoesNotFit) {
+    const Scene scene = pairs_of_triangles({{at(0), at(1)}});
+    EXPECT_THROW(find_task("ray_box")->make_truth(scene, 1), std::invalid_argument);
+    EXPECT_THROW(judged(scene, "triangle_triangle", verdicts({}), named(Promise::none)),
+                 std::runtime_error);
+}
+
+TEST(OnlyCase, KeepsTheOneThatIsWanted) {
+    const Scene scene = pairs_of_triangles({{at(0), at(1)}, {at(0), at(2)}});
+    const Cases one = only_case(scene.cases, 1);
+    ASSERT_EQ(n_cases(one), 1u);
+    EXPECT_EQ(std::get<std::vector<TrianglePairCase>>(one)[0].b, at(2));
+    EXPECT_THROW(only_case(scene.cases, 2), std::out_of_range);
+}
+
+} // namespace
+} // namespace boxwood::bench

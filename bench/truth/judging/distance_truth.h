@@ -1,0 +1,23 @@
+#pragma once
+
+#include "bench/truth/judging/case_truths.h"
+
+#include <gmpxx.h>
+
+#include <initializer_list>
+
+namespace boxwood::bench {
+
+struct TrueDistance {
+    mpq_class squared;
+    double nearest; ///< of all doubles
+    double extent;  ///< L: the longest side of the box around all that is measured
+};
+/// points: all corners of the two things measured.
+TrueDistance true_distance(mpq_class squared, std::initializer_list<Vec3<double>> points);
+
+/// The distance of two things in each case.
+std::unique_ptr<CaseTruth> make_distance_truth(const CaseScene& scene,
+                                               TrueDistance (*measure)(const TrianglePairCase&));
+
+} // namespace boxwood::bench

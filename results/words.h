@@ -1,0 +1,88 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+/// What has few values: enums in the program, words on disk.
+namespace boxwood::results {
+
+/// What is timed. The last two are sums of one round: what one use costs.
+enum class Phase : std::uint8_t {
+    none,
+    build,
+    cold_build,
+    update,
+    query,
+    upload,
+    device_build,
+    device_query,
+    download,
+    build_and_query,
+    update_and_query
+};
+/// The answer of a cell, the worst of its checks and rounds.
+enum class Status : std::uint8_t {
+    unchecked,
+    exact,
+    conservative,
+    within_bound,
+    unsupported,
+    wrong
+};
+/// Cell b against cell a.
+enum class Verdict : std::uint8_t { none, faster, slower, same, cannot_tell, wrong };
+/// Why a verdict is cannot_tell.
+enum class Reason : std::uint8_t { none, too_few_rounds, below_the_floor, crosses_1, unchecked };
+/// Which claims were corrected together; analysis/comparisons.h says how each is formed.
+enum class Family : std::uint8_t { none, peers, ours, threads, stages };
+/// What a row of findings is about.
+enum class Topic : std::uint8_t { none, race, kernel, scene };
+
+template <class Enum> struct Words;
+template <> struct Words<Phase> {
+    static constexpr std::array<std::string_view, 11> all{
+        "",         "build",       "cold_build",   "update",
+        "query",    "upload",      "device_build", "device_query",
+        "download", "build+query", "update+query"};
+};
+template <> struct Words<Status> {
+    static constexpr std::array<std::string_view, 6> all{
+        "unchecked", "exact", "conservative", "within_bound", "unsupported", "wrong"};
+};
+template <> struct Words<Verdict> {
+    static constexpr std::array<std::string_view, 6> all{"",     "faster",      "slower",
+                                                         "same", "cannot_tell", "wrong"};
+};
+template <> struct Words<Reason> {
+    static constexpr std::array<std::string_view, 5> all{"", "too_few_rounds", "below_the_floor",
+                                                         "crosses_1", "unchecked"};
+};
+template <> struct Words<Family> {
+    static constexpr std::array<std::string_view, 5> all{"", "peers", "ours", "threads", "stages"};
+};
+template <> struct Words<Topic> {
+    static constexpr std::array<std::string_view, 4> all{"", "race", "kernel", "scene"};
+};
+
+/// An enum that has words.
+template <class Enum>
+concept Worded = requires {
+    Words<Enum>::all;
+};
+
+template <Worded Enum> constexpr std::string_view to_string(Enum value) {
+    return Words<Enum>::all[static_cast<std::size_t>(value)];
+}
+
+/// Nothing for a word that is not one of them.
+template <Worded Enum> constexpr std::optional<Enum> from_string(std::string_view word) {
+    for (std::size_t i = 0; i < Words<Enum>::all.size(); ++i)
+        if (Words<Enum>::all[i] == word)
+            return static_cast<Enum>(i);
+    return std::nullopt;
+}
+
+} // namespace boxwood::results

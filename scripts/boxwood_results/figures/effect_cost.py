@@ -1,0 +1,82 @@
+"""The cost of each effect: a scene with it against the same scene without it."""
+
+import math
+
+from .. import style
+from ..findings import floor_text, rounds_text
+from ..moving import frame_ns, played_scenes
+from ..picture import Picture, Skip
+from ..words import interval_text, time_text
+
+NAME = "effect_cost"
+TITLE = "What an effect costs"
+HOW_TO_READ = (
+    "Each mark is the time of a frame with something over the time without it, paired within rounds: right of the line "
+    "it costs time. Round marks: one effect of the scene. Diamonds: all stages, over only those that the scene requires. "
+    "Bars are the intervals that decided; the shaded band is the A/A noise floor."
+)
+COLUMNS = ("scene", "n", "threads", "what", "with_ns", "without_ns", "ratio", "ratio_lo", "ratio_hi")
+ROW, GAP = 0.23, 0.12  # inches
+EFFECT, ALL = style.look("required"), style.look("all_stages")
+TALL = 8  # inches from which the axis stands at the top, too
+
+
+def entries_of(scene):
+    """[(words, with, without, ratio, look)] of one scene, the most costly effect first."""
+    found = [(effect, scene.required, cell, scene.cost(effect), EFFECT) for effect, cell in scene.without.items()]
+    found = sorted((entry for entry in found if entry[3]), key=lambda entry: -entry[3].mid)
+    if scene.ratio():
+        found.append(("all stages", scene.all_stages, scene.required, scene.ratio(), ALL))
+    return found
+
+
+def cost_text(with_ns, ratio):
+    """What a frame with it takes more than without, as the paired ratio has it."""
+    ns = with_ns * (1 - 1 / ratio.mid)
+    return f"{'+' if ns >= 0 else '-'}{time_text(abs(ns))}"
+
+
+def draw(run):
+    scenes = [(scene, entries_of(scene)) for scene in played_scenes(run)]
+    scenes = [(scene, entries) for scene, entries in scenes if entries]
+    if not scenes:
+        raise Skip("no scene was played with an effect and without it (bench/configs/effects.toml does)")
+    height = sum(GAP + ROW * (1 + len(entries)) for _, entries in scenes) + 0.1
+    left, panel, right, top, bottom = 2.0, 4.0, 3.1, 0.2, 0.8
+    size = (left + panel + right, height + top + bottom)
+    figure = style.plt.figure(figsize=size)
+    ax = figure.add_axes((left / size[0], bottom / size[1], panel / size[0], height / size[1]))
+    if not math.isnan(run.noise_floor):
+        ax.axvspan(1 / (1 + run.noise_floor), 1 + run.noise_floor, color="#DDDDDD", zorder=0)
+    ax.axvline(1, color="#555555", linewidth=1, zorder=1)
+    rows, ends, y = [], [0.9, 1.2], 0.0
+    for scene, entries in scenes:
+        job = scene.job
+        y += GAP + ROW / 2
+        ax.text(-left / panel + 0.02, y, f"{job}".replace(f" · {job.task}", ""), transform=ax.get_yaxis_transform(),
+                va="center", fontsize=8.5, weight="bold",
+                bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5})
+        y += ROW / 2
+        for words, with_it, without, ratio, (colour, marker) in entries:
+            y += ROW / 2
+            if ratio.known:
+                ax.plot([ratio.lo, ratio.hi], [y, y], color=colour, linewidth=1.8, zorder=3)
+            ax.plot([ratio.mid], [y], marker=marker, markersize=6.5, color=colour, markeredgecolor="white",
+                    markeredgewidth=0.6, zorder=4)
+            ax.text(-0.02, y, words, transform=ax.get_yaxis_transform(), ha="right", va="center", fontsize=8)
+            said = f"{interval_text(ratio)}   {cost_text(frame_ns(with_it), ratio)} a frame"
+            ax.text(1.03, y, said, transform=ax.get_yaxis_transform(), va="center", fontsize=7.5)
+            ends += [ratio.lo, ratio.hi] if ratio.known else [ratio.mid]
+            rows.append((job.scene, job.n, job.threads, words, frame_ns(with_it), frame_ns(without), ratio.mid,
+                         ratio.lo, ratio.hi))
+            y += ROW / 2
+    style.log_axis(ax.xaxis, min(ends), max(ends), lambda value: f"{value:g}x", room=0.04)
+    ax.set_xlabel("time of a frame with it / without it (right: it costs time)")
+    ax.tick_params(axis="x", labeltop=height > TALL)
+    ax.set_ylim(height, 0)
+    ax.set_yticks([])
+    ax.grid(axis="y", visible=False)
+    ax.spines["left"].set_visible(False)
+    figure.text(0.02 / size[0], 0.06 / size[1], f"{rounds_text(run)}. {floor_text(run)}.", fontsize=7.5, color="#666666")
+    said = "; ".join(f"{row[3]} in {row[0]} {row[6]:.2f}x" for row in rows)
+    return [Picture(NAME, figure, TITLE, f"Time of a frame with an effect over without it. {said}.", COLUMNS, rows)]

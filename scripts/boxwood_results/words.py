@@ -1,0 +1,38 @@
+"""Numbers and verdicts in words."""
+
+VERDICTS = {
+    "faster": "faster",
+    "slower": "slower",
+    "same": "the same",
+    "cannot_tell": "can't tell",
+    "wrong": "not ranked: a wrong answer",
+}
+REASONS = {
+    "too_few_rounds": "too few rounds",
+    "below_the_floor": "below the noise",
+    "crosses_1": "may be equal",
+    "unchecked": "unchecked",
+}
+
+
+def ratio_text(value, times="x"):
+    digits = 0 if value >= 100 else 1 if value >= 10 else 2
+    return f"{value:,.{digits}f}{times}"
+
+
+def interval_text(ratio):
+    """One figure with its interval: '3.12x (2.98 to 3.20)'."""
+    text = ratio_text(ratio.mid)
+    return f"{text} ({ratio_text(ratio.lo, '')} to {ratio_text(ratio.hi, '')})" if ratio.known else text
+
+
+def time_text(ns):
+    """Three digits with the unit that suits: '12.3 ms'."""
+    if ns != ns:
+        return "-"
+    for limit, unit, scale in ((1e3, "ns", 1), (1e6, "µs", 1e3), (1e9, "ms", 1e6)):
+        if ns < limit * 0.9995:
+            break
+    else:
+        unit, scale = "s", 1e9
+    return f"{ns / scale:.3g} {unit}" if ns / scale < 999.5 else f"{ns / scale:,.0f} {unit}"
