@@ -18,14 +18,10 @@ HWY_BEFORE_NAMESPACE();
 namespace boxwood::detail::HWY_NAMESPACE {
 namespace {
 
-/// A part whose items are in one of the two arrays.
-struct MedianPart : Subtree {
-    std::uint32_t array;
-};
-
+/// The items go from one array to the other with each level.
 class MedianSplitter {
   public:
-    using Part = MedianPart;
+    using Part = Subtree;
 
     MedianSplitter(Boxes boxes, const Executor& executor)
         : boxes_(boxes), executor_(executor), items_(boxes, executor), other_(boxes.size()),
@@ -35,7 +31,7 @@ class MedianSplitter {
         const auto n = static_cast<std::uint32_t>(boxes_.size());
         if (n == 0)
             return std::move(tree_);
-        build_by_splitter(*this, Part{{0, 0, n, 0}, 0}, executor_, std::max(2048u, n / 32 + 1));
+        build_by_splitter(*this, Part{0, 0, n, 0}, executor_, std::max(2048u, n / 32 + 1));
         if (items_.scale != 1)
             refit(tree_, boxes_);
         return std::move(tree_);
@@ -45,7 +41,7 @@ class MedianSplitter {
 
     /// Each side comes in its old order, into the other array.
     Halves<Part> split(const Part& r) {
-        const Prim8* prims = Array(r.array) + r.first;
+        const Prim8* prims = Items(r);
         F8 box = SetF8(kLowest), centres = box;
         for (std::uint32_t i = 0; i < r.count; ++i) {
             const F8 each = LoadF8(prims[i].v);
@@ -59,7 +55,7 @@ class MedianSplitter {
         const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
         const std::int64_t pivot = Pivot(prims, r, axis, -c[4 + axis], c[axis]);
 
-        Prim8* to = Array(r.array ^ 1) + r.first;
+        Prim8* to = Array(r.depth + 1) + r.first;
         const std::uint32_t n_left = r.count / 2;
         // Without a branch: it would be mispredicted half the time.
         std::size_t left = 0, right = n_left;
@@ -70,19 +66,19 @@ class MedianSplitter {
             left += goes_left;
             right += 1 - goes_left;
         }
-        const auto [a, b] = children_of(r, n_left);
-        return {{a, r.array ^ 1}, {b, r.array ^ 1}};
+        return children_of(r, n_left);
     }
 
     void finish(const Part& part) {
-        const Prim8& p = Array(part.array)[part.first];
+        const Prim8& p = *Items(part);
         WriteNode(LoadF8(p.v), part.first, 1, tree_.nodes[part.node]);
         tree_.order[part.first] = p.item();
     }
     void build(const Part& part) { build_below(*this, part); }
 
   private:
-    Prim8* Array(std::uint32_t array) { return (array ? other_ : items_.prims).data(); }
+    Prim8* Array(std::uint32_t depth) { return (depth % 2 ? other_ : items_.prims).data(); }
+    Prim8* Items(const Part& part) { return Array(part.depth) + part.first; }
 
     /// The order of the centres, ties by item: bits in the order of the numbers, then the item.
     static std::int64_t Key(const Prim8& p, int axis) {

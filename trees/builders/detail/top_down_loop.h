@@ -50,10 +50,14 @@ template <Splitter S>
     typename S::Part part = root;
     for (;;) {
         if (splitter.is_split(part)) {
-            const auto children = splitter.split(part);
-            const bool left_first = children.left.count <= children.right.count;
-            waiting[n_waiting++] = left_first ? children.right : children.left;
-            part = left_first ? children.left : children.right;
+            const auto [left, right] = splitter.split(part);
+            if (left.count <= right.count) {
+                waiting[n_waiting++] = right;
+                part = left;
+            } else {
+                waiting[n_waiting++] = left;
+                part = right;
+            }
             continue;
         }
         splitter.finish(part);
