@@ -10,6 +10,7 @@
 /// A generator draws item i from counter-based random numbers keyed by (seed, stream) and steers
 /// its sizes so that a box overlaps spec.overlaps others in the mean. It knows no tree.
 
+#include "kernels/suggest.h"             // "did you mean ...?"
 #include "scenes/effects/effect_scene.h" // effects laid on what a generator makes
 #include "scenes/human_name.h"           // "100,000 uniform boxes, 10 overlaps each"
 #include "scenes/meshes/mesh_file.h"     // the user's mesh through assimp, with what is wrong in it
@@ -21,4 +22,3 @@
 #include "scenes/sampling/rays.h"        // camera, random, ambient and occlusion rays at a mesh
 #include "scenes/sampling/scatter.h"     // boxes that overlap as often as wanted
 #include "scenes/scene.h"                // the contract: SceneSpec, Scene, make_scene, registries
-#include "kernels/suggest.h"              // "did you mean ...?"

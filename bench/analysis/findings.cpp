@@ -200,15 +200,17 @@ class Findings {
     /// The kind of rays ends the name of their scene.
     static void describe(Told& told, const results::SceneRow& scene, std::uint64_t n_items) {
         told.question = task_words(told.finding.task);
-        std::string base = scene.name;
+        std::string base = scene.name, where = scene.human_name;
         if (told.finding.task.starts_with("rays_"))
             if (const std::size_t at = base.rfind('_'); at != std::string::npos) {
-                told.question += ", " + base.substr(at + 1) + " rays";
+                const std::string rays = ", " + base.substr(at + 1) + " rays";
+                told.question += rays;
+                if (where.ends_with(rays))
+                    where.resize(where.size() - rays.size());
                 base.resize(at);
             }
         told.n_items = n_items;
-        told.where =
-            scene.human_name.empty() ? spaced(base) + " " + count_words(n_items) : scene.human_name;
+        told.where = where.empty() ? spaced(base) + " " + count_words(n_items) : std::move(where);
         if (!told.finding.contender_class.empty())
             told.how += ", " + class_words(told.finding.contender_class);
         if (told.finding.threads > 1)

@@ -149,7 +149,8 @@ TEST_F(Findings, AKernelWithoutAPromiseMayErrAndOneWithMayNot) {
                                 std::uint64_t false_neg, double ns) {
         const auto cell = run.cell("slivers", 100, "triangle_triangle", kernel);
         run.time(cell, Phase::query, 100 * ns);
-        run.results.checks[cell].status = false_neg > 0 ? results::Status::wrong : results::Status::exact;
+        run.results.checks[cell].status =
+            false_neg > 0 ? results::Status::wrong : results::Status::exact;
         results::KernelRow row;
         row.cell_id = cell;
         row.family = "slivers";

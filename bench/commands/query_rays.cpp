@@ -4,8 +4,8 @@
 #include "bench/commands/query.h"
 #include "bench/io/csv.h"
 #include "kernels/registry.h"
-#include "scenes/meshes/mesh_file.h"
 #include "kernels/suggest.h"
+#include "scenes/meshes/mesh_file.h"
 
 #include <fmt/format.h>
 

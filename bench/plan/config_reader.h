@@ -77,7 +77,8 @@ class ConfigReader : public TomlReader {
         if (!node.is_string() || plus == std::string::npos)
             return word(node, "builders", names_of(builders()));
         word(toml::value<std::string>(words.substr(0, plus)), "builders", names_of(builders()));
-        word(toml::value<std::string>(words.substr(plus + 1)), "optimizers", names_of(optimizers()));
+        word(toml::value<std::string>(words.substr(plus + 1)), "optimizers",
+             names_of(optimizers()));
         return words;
     }
 };

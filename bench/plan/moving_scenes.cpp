@@ -1,7 +1,7 @@
 #include "bench/plan/scenes.h"
 
-#include "scenes/effects/effect_scene.h"
 #include "kernels/suggest.h"
+#include "scenes/effects/effect_scene.h"
 
 #include <fmt/format.h>
 

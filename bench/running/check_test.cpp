@@ -243,7 +243,8 @@ TEST_F(CheckCommand, WritesAResultFileWithARowPerKernelAndScale) {
     for (const results::KernelRow& row : r.kernels) {
         EXPECT_EQ(row.family, "slivers");
         EXPECT_EQ(row.panel, "degenerate");
-        EXPECT_TRUE(row.status == results::Status::unsupported || row.ns_per_call > 0) << row.kernel;
+        EXPECT_TRUE(row.status == results::Status::unsupported || row.ns_per_call > 0)
+            << row.kernel;
     }
 }
 

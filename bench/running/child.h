@@ -1,7 +1,7 @@
 #pragma once
 
-#include "bench/running/interrupt.h"
 #include "bench/io/progress.h"
+#include "bench/running/interrupt.h"
 
 #include <exception>
 #include <string>

@@ -1,7 +1,7 @@
 #include "bench/running/environment.h"
 
-#include "bench/tasks/contender.h"
 #include "bench/running/machine.h"
+#include "bench/tasks/contender.h"
 #include "build_info.h"
 #include "cmake_cache.h"
 #include "git_commit.h"

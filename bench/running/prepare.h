@@ -1,7 +1,7 @@
 #pragma once
 
-#include "bench/plan/plan.h"
 #include "bench/io/progress.h"
+#include "bench/plan/plan.h"
 #include "results/results.h"
 
 #include <set>

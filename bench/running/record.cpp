@@ -1,6 +1,7 @@
 #include "bench/running/record.h"
 
 #include "bench/running/environment.h"
+#include "scenes/human_name.h"
 #include "scenes/moving/frames.h"
 
 #include <fmt/chrono.h>
@@ -41,6 +42,7 @@ std::uint32_t Record::add_scene(const Scene& scene, std::string tasks) {
     results::SceneRow row;
     row.scene_id = static_cast<std::uint32_t>(out.scenes.size());
     row.name = scene.name;
+    row.human_name = human_name(scene.spec);
     row.generator = scene.spec.generator;
     row.n_items = items_of(scene);
     row.n_triangles = scene.mesh.triangles.size();

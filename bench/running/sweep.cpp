@@ -1,13 +1,13 @@
 #include "bench/running/sweep.h"
 
-#include "bench/running/calibration.h"
-#include "bench/running/child.h"
-#include "bench/io/bad_input.h"
 #include "bench/analysis/analyse.h"
-#include "bench/io/csv.h"
-#include "bench/running/environment.h"
 #include "bench/analysis/promises.h"
 #include "bench/analysis/screen.h"
+#include "bench/io/bad_input.h"
+#include "bench/io/csv.h"
+#include "bench/running/calibration.h"
+#include "bench/running/child.h"
+#include "bench/running/environment.h"
 #include "bench/running/prepare.h"
 #include "bench/running/shards.h"
 

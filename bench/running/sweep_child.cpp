@@ -1,6 +1,6 @@
-#include "bench/running/child.h"
 #include "bench/io/bad_input.h"
 #include "bench/io/csv.h"
+#include "bench/running/child.h"
 #include "bench/running/environment.h"
 #include "bench/running/prepare.h"
 #include "bench/running/round.h"

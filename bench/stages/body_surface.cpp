@@ -17,7 +17,8 @@ template <class F> void for_rows(std::size_t n, const Executor& executor, const 
     });
 }
 
-// Nanoseconds of one thread of a machine of 2023, as in OrderDegradation: for each triangle, and each ray.
+// Nanoseconds of one thread of a machine of 2023, as in OrderDegradation: for each triangle, and
+// each ray.
 constexpr double per_refit = 15, per_order = 60, per_ray = 700;
 
 } // namespace

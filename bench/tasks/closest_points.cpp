@@ -50,7 +50,9 @@ class ClosestPoints final : public PointTask {
   protected:
     std::string_view mesh_is_for() const override { return "test"; }
     Way way(const Choice&) const override {
-        return {.traversal = "closest_points", .make = maker<NearestOnMesh>(), .query = Query::closest_points};
+        return {.traversal = "closest_points",
+                .make = maker<NearestOnMesh>(),
+                .query = Query::closest_points};
     }
 };
 

@@ -3,8 +3,8 @@
 
 #include "bench/tasks/detail/pair_answers.h"
 #include "bench/tasks/detail/point_task.h"
-#include "scenes/sampling/queries.h"
 #include "kernels/suggest.h"
+#include "scenes/sampling/queries.h"
 
 namespace boxwood::bench {
 namespace {

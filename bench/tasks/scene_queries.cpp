@@ -6,9 +6,9 @@
 #include "bench/tasks/detail/tree_task.h"
 #include "bench/truth/moving_truth.h"
 #include "bench/truth/truth.h"
+#include "kernels/suggest.h"
 #include "scenes/effects/effect.h"
 #include "scenes/moving/frames.h"
-#include "kernels/suggest.h"
 
 #include <fmt/format.h>
 

@@ -58,7 +58,9 @@ class TreePairs final : public PairAnswers<TreeTask> {
 
   protected:
     Way way(const Choice&) const override {
-        return {.traversal = "tree_pairs", .make = maker<TreePairsContender>(), .query = Query::tree_pairs};
+        return {.traversal = "tree_pairs",
+                .make = maker<TreePairsContender>(),
+                .query = Query::tree_pairs};
     }
 };
 

@@ -153,7 +153,8 @@ TEST(AddedTask, IsPlannedCheckedTimedAndFoundInTheResults) {
         EXPECT_EQ(cell.n_queries, 70u);
         EXPECT_EQ(check.oracle, "two_loops");
         const bool is_right = cell.name.find("count.right") != std::string::npos;
-        EXPECT_EQ(check.status, is_right ? results::Status::exact : results::Status::wrong) << cell.name;
+        EXPECT_EQ(check.status, is_right ? results::Status::exact : results::Status::wrong)
+            << cell.name;
     }
     EXPECT_GT(std::ranges::find(prepared.counters, "containing", &results::Counter::counter)->value,
               70u);

@@ -1,10 +1,10 @@
 #include "scenes/effects/effect_scene.h"
 #include "scenes/moving/frames.h"
 #include "scenes/scene.h"
+#include "trees/dynamic/update.h"
+#include "trees/executor.h"
 #include "trees/testing/brute_force.h"
 #include "trees/testing/every_executor.h"
-#include "trees/executor.h"
-#include "trees/dynamic/update.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include "bench/truth/column_sweep.h"
 
 #include "scenes/scene.h"
-#include "trees/testing/brute_force.h"
 #include "trees/executor.h"
+#include "trees/testing/brute_force.h"
 
 #include <gtest/gtest.h>
 

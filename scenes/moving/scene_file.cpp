@@ -1,9 +1,9 @@
 #include "scenes/moving/scene_file.h"
 
+#include "kernels/suggest.h"
 #include "scenes/effects/read_effect.h"
 #include "scenes/moving/toml_reader.h"
 #include "scenes/scene.h"
-#include "kernels/suggest.h"
 
 #include <fmt/format.h>
 

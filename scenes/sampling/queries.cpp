@@ -1,7 +1,7 @@
 #include "scenes/sampling/queries.h"
 
-#include "scenes/sampling/random.h"
 #include "kernels/suggest.h"
+#include "scenes/sampling/random.h"
 
 #include <algorithm>
 #include <cmath>

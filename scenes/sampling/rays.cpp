@@ -1,8 +1,8 @@
 #include "scenes/sampling/rays.h"
 
+#include "kernels/suggest.h"
 #include "scenes/sampling/random.h"
 #include "scenes/scene.h"
-#include "kernels/suggest.h"
 
 #include <algorithm>
 #include <cmath>
