@@ -153,21 +153,21 @@ TEST(AddedTask, IsPlannedCheckedTimedAndFoundInTheResults) {
         EXPECT_EQ(cell.n_queries, 70u);
         EXPECT_EQ(check.oracle, "two_loops");
         const bool is_right = cell.name.find("count.right") != std::string::npos;
-        EXPECT_EQ(check.status, is_right ? "exact" : "wrong") << cell.name;
+        EXPECT_EQ(check.status, is_right ? Status::exact : Status::wrong) << cell.name;
     }
     EXPECT_GT(std::ranges::find(prepared.counters, "containing", &results::Counter::counter)->value,
               70u);
 
     for (const unsigned round : {0u, 1u}) {
         const results::Results timed = run_round(plan, prepared, round, silent);
-        std::map<std::string, std::set<std::uint32_t>> cells_of_phase;
+        std::map<results::Phase, std::set<std::uint32_t>> cells_of_phase;
         for (const results::Sample& sample : timed.samples) {
             EXPECT_GT(sample.wall_ns, 0);
             EXPECT_EQ(sample.flags & results::wrong_answer, 0u); // the same answer as checked
             cells_of_phase[sample.phase].insert(sample.cell_id);
         }
-        EXPECT_EQ(cells_of_phase["build"].size(), 4u);
-        EXPECT_EQ(cells_of_phase["query"].size(), 4u);
+        EXPECT_EQ(cells_of_phase[results::Phase::build].size(), 4u);
+        EXPECT_EQ(cells_of_phase[results::Phase::query].size(), 4u);
     }
 }
 
