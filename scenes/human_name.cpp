@@ -64,7 +64,8 @@ std::string effect_title(const EffectChoice& effect) {
         text = fmt::format("{:.6g} % {}", 100 * effect.share, text);
     std::string settings;
     for (const auto& [name, value] : effect.settings)
-        settings += fmt::format("{}{} {}", settings.empty() ? "" : ", ", spaced(name), value);
+        settings +=
+            fmt::format("{}{} {}", settings.empty() ? "" : ", ", spaced(name), to_text(value));
     return settings.empty() ? text : fmt::format("{} ({})", text, settings);
 }
 

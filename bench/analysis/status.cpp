@@ -8,10 +8,8 @@ namespace boxwood::bench {
 void set_statuses(results::Results& results) {
     using results::Status;
     std::map<std::uint32_t, Status> worst; // the enum's order is from right to wrong
-    for (const results::Check& check : results.checks) {
-        const Status status = results::from_string<Status>(check.status).value_or(Status::wrong);
-        worst[check.cell_id] = std::max(worst[check.cell_id], status);
-    }
+    for (const results::Check& check : results.checks)
+        worst[check.cell_id] = std::max(worst[check.cell_id], check.status);
     for (const results::Sample& sample : results.samples)
         if (sample.flags & results::wrong_answer)
             worst[sample.cell_id] = Status::wrong;

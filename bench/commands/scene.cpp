@@ -34,7 +34,7 @@ std::string effects_text(const BodyGroup& group) {
         if (share != 1)
             notes.push_back(fmt::format("on {:g} %", 100 * share));
         for (const auto& [setting, value] : settings)
-            notes.push_back(fmt::format("{} {:g}", setting, value));
+            notes.push_back(fmt::format("{} {}", setting, to_text(value)));
         texts.push_back(notes.empty() ? name
                                       : fmt::format("{} ({})", name, fmt::join(notes, ", ")));
     }

@@ -70,14 +70,6 @@ class ConfigReader : public TomlReader {
     }
 
   private:
-    template <class Read, class TryOut>
-    BuilderChoice choice(const toml::node& node, std::string_view what, Read read,
-                         TryOut try_out) const {
-        auto [name, settings] = with_settings(node, what, read, try_out,
-                                              [](std::string_view, const auto&) { return false; });
-        return {std::move(name), std::move(settings)};
-    }
-
     /// "ploc", or with an optimizer after it "ploc+reinsertion".
     std::string builder_name(const toml::node& node) const {
         const std::string words = node.value_or(std::string());

@@ -113,7 +113,10 @@ std::string params_json(const SceneFile& file) {
             json += fmt::format(R"({}{{"name":"{}","share":{})", e ? "," : "", effect.name,
                                 effect.share);
             for (const auto& [setting, value] : effect.settings)
-                json += fmt::format(R"(,"{}":{})", setting, value);
+                json += fmt::format(R"(,"{}":{})", setting,
+                                    std::holds_alternative<std::string>(value)
+                                        ? '"' + to_text(value) + '"'
+                                        : to_text(value));
             json += "}";
         }
         json += "]}";
