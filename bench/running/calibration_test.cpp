@@ -34,7 +34,7 @@ struct Cells {
     results::Results prepared;
     Calibrations calibrations;
 
-    void add(bool is_peer, double query_ns, const char* status) {
+    void add(bool is_peer, double query_ns, results::Status status) {
         const auto id = static_cast<std::uint32_t>(prepared.cells.size());
         results::Variant variant;
         variant.variant_id = id;
@@ -56,15 +56,15 @@ struct Cells {
 TEST(ChooseAa, TakesTheCheapestOfOursThatIsLongEnough) {
     Cells cells;
     EXPECT_EQ(cells.aa(), "");
-    cells.add(true, 2e6, "exact");
+    cells.add(true, 2e6, results::Status::exact);
     EXPECT_EQ(cells.aa(), "c0"); // nothing of ours
-    cells.add(false, 1e4, "exact");
-    cells.add(false, 1e5, "exact");
+    cells.add(false, 1e4, results::Status::exact);
+    cells.add(false, 1e5, results::Status::exact);
     EXPECT_EQ(cells.aa(), "c2"); // all of ours are short: the longest
-    cells.add(false, 9e6, "exact");
-    cells.add(false, 3e6, "exact");
+    cells.add(false, 9e6, results::Status::exact);
+    cells.add(false, 3e6, results::Status::exact);
     EXPECT_EQ(cells.aa(), "c4"); // the cheapest from 1 ms on
-    cells.add(false, 2e6, "wrong");
+    cells.add(false, 2e6, results::Status::wrong);
     EXPECT_EQ(cells.aa(), "c4");
     cells.calibrations.erase("c4"); // not timed
     EXPECT_EQ(cells.aa(), "c3");
