@@ -39,7 +39,8 @@ struct Maker {
             results.shards.push_back(shard);
         }
     }
-    std::uint32_t cell(const std::string& name, bool is_peer, const std::string& status = results::Status::exact) {
+    std::uint32_t cell(const std::string& name, bool is_peer,
+                       results::Status status = results::Status::exact) {
         const auto id = static_cast<std::uint32_t>(results.cells.size());
         results::Variant variant;
         variant.variant_id = id;
@@ -54,7 +55,7 @@ struct Maker {
         results::Check check;
         check.cell_id = id;
         check.status = status;
-        if (!status.empty())
+        if (status != results::Status::unchecked)
             results.checks.push_back(check);
         return id;
     }
@@ -183,8 +184,10 @@ TEST(ComparePeers, OnlyTheSameJob) {
 
 TEST(ComparePeers, WrongIsNeverRanked) {
     Maker maker(9);
-    const auto ours = maker.cell("ours", false), wrong = maker.cell("wrong", true, "wrong"),
-               unchecked = maker.cell("unchecked", true, ""), right = maker.cell("right", true);
+    const auto ours = maker.cell("ours", false),
+               wrong = maker.cell("wrong", true, results::Status::wrong),
+               unchecked = maker.cell("unchecked", true, results::Status::unchecked),
+               right = maker.cell("right", true);
     for (const auto cell : {ours, wrong, unchecked, right})
         maker.time(cell, Phase::query, steady(10.0 * (cell + 1)));
     auto rows = against_peers(maker.results);
@@ -364,8 +367,8 @@ TEST(CompareFiles, WhatCannotBeCompared) {
     base.time(base.cell("crashes", false), Phase::query, steady(100));
     base.time(base.cell("turns_wrong", false), Phase::query, steady(100));
     base.time(base.cell("other_scene", false), Phase::query, steady(100));
-    head.time(head.cell("turns_wrong", false, "wrong"), Phase::query, steady(100));
-    head.cell("crashes", false, "wrong");
+    head.time(head.cell("turns_wrong", false, results::Status::wrong), Phase::query, steady(100));
+    head.cell("crashes", false, results::Status::wrong);
     head.time(head.cell("new", false), Phase::query, steady(100));
     head.results.scenes.push_back({});
     head.results.scenes[1].scene_id = 1;

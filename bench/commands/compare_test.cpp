@@ -13,7 +13,8 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 /// One cell timed in some rounds, the same in each but for one part in a thousand.
-results::Results timed(double ns, std::uint32_t rounds = 9, const std::string& status = results::Status::exact) {
+results::Results timed(double ns, std::uint32_t rounds = 9,
+                       results::Status status = results::Status::exact) {
     results::Results results;
     results.env.resize(1);
     results.env[0].git_commit = "0123456789abcdef";
@@ -60,10 +61,11 @@ TEST(CompareCommand, Percentages) {
 
 TEST(CompareCommand, AFileWithItself) {
     for (const std::uint32_t rounds : {1u, 5u, 20u})
-        for (const char* status : {"exact", "wrong", ""}) {
+        for (const auto status :
+             {results::Status::exact, results::Status::wrong, results::Status::unchecked}) {
             const auto file = timed(100, rounds, status);
-            EXPECT_EQ(exit_of(file, file), exit_success) << rounds << status;
-            EXPECT_EQ(exit_of(file, file, 0.0), exit_success) << rounds << status;
+            EXPECT_EQ(exit_of(file, file), exit_success) << rounds << " " << to_string(status);
+            EXPECT_EQ(exit_of(file, file, 0.0), exit_success) << rounds << " " << to_string(status);
         }
     EXPECT_THAT(text_of(timed(100, 1), timed(100, 1)), HasSubstr("1 same"));
 }
@@ -78,8 +80,8 @@ TEST(CompareCommand, ExitCodes) {
     EXPECT_EQ(exit_of(base, timed(80)), exit_success);
     EXPECT_EQ(exit_of(timed(100, 8), timed(150, 8)), exit_cannot_tell);
     EXPECT_EQ(exit_of(timed(100, 3), timed(101, 3)), exit_cannot_tell);
-    EXPECT_EQ(exit_of(base, timed(100, 9, "wrong")), exit_failed);
-    EXPECT_EQ(exit_of(timed(100, 9, "wrong"), base), exit_success);
+    EXPECT_EQ(exit_of(base, timed(100, 9, results::Status::wrong)), exit_failed);
+    EXPECT_EQ(exit_of(timed(100, 9, results::Status::wrong), base), exit_success);
 }
 
 TEST(CompareCommand, CellsThatAreGoneCannotBeTold) {
@@ -116,7 +118,8 @@ TEST(CompareCommand, SaysWhatItSaw) {
     EXPECT_THAT(few, HasSubstr("at least 9 rounds"));
     EXPECT_THAT(text_of(timed(100), timed(110), true),
                 HasSubstr("| cell | phase | rounds | base | head | head/base |"));
-    EXPECT_THAT(text_of(timed(100), timed(100, 9, "wrong")), HasSubstr("newly wrong"));
+    EXPECT_THAT(text_of(timed(100), timed(100, 9, results::Status::wrong)),
+                HasSubstr("newly wrong"));
 }
 
 } // namespace
