@@ -208,7 +208,8 @@ TEST_F(RoundTest, AnotherAnswerThanTheCheckedOneIsFlagged) {
     const results::Results p = prepared();
     Made::is_late = true;
     for (const results::Sample& s : run_round(plan, p, 0, report()).samples)
-        EXPECT_EQ((s.flags & results::wrong_answer) != 0, s.cell_id == 1 && s.phase == results::Phase::query);
+        EXPECT_EQ((s.flags & results::wrong_answer) != 0,
+                  s.cell_id == 1 && s.phase == results::Phase::query);
 }
 
 TEST_F(RoundTest, ACrashedCellIsOutAndSaysWhy) {
@@ -308,7 +309,7 @@ TEST_F(RoundTest, Round0CountsTheFramesOfMovingScenes) {
                                             "reinsert", "merge", "rebuild"};
     plan = make_plan("rounds = 2\nmin_time_ms = 1\n[[cells]]\ntask = \"moving_pairs\"\n"
                      "scene = \"broadmark_brownian\"\nn = 700\nframes = 5\n"
-                     "updates = [\"auto\", \"refit\", \"keep\", \"reinsert\", \"merge\", "
+                     "updates = [\"auto\", \"refit\", \"cached\", \"reinsert\", \"merge\", "
                      "\"rebuild\"]\n",
                      "test.toml", {});
     ASSERT_EQ(plan.cells.size(), policies.size());
@@ -357,7 +358,8 @@ TEST_F(RoundTest, Round0CountsTheFramesOfMovingScenes) {
         for (const results::Sample& sample : round->samples)
             EXPECT_EQ((sample.flags & results::wrong_answer) != 0,
                       round == &counted && sample.cell_id == policies.size() + 1 &&
-                          sample.phase != results::Phase::build && !(sample.flags & results::aa_twin));
+                          sample.phase != results::Phase::build &&
+                          !(sample.flags & results::aa_twin));
 }
 
 TEST_F(RoundTest, ACellWithFewerRoundsIsNotInTheLaterOnes) {

@@ -140,7 +140,8 @@ TEST(AddedTask, IsPlannedCheckedTimedAndFoundInTheResults) {
     const Plan plan =
         plan_of("depth_points = 70\nways = [\"right\", \"forgetful\"]\nthreads = [1, 2]\n");
     ASSERT_EQ(plan.cells.size(), 4u);
-    EXPECT_EQ(plan.cells[0].name, "uniform_points/n200-s1/point_depths/count.right/f32/serial-1");
+    EXPECT_EQ(plan.cells[0].name,
+              "uniform_overlaps50_points/n200-s1/point_depths/count.right/f32/serial-1");
 
     const Report silent = [](std::size_t, std::size_t, const std::string&) {};
     results::Env env;
