@@ -13,8 +13,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 /// One cell timed in some rounds, the same in each but for one part in a thousand.
-results::Results timed(double ns, std::uint32_t rounds = 9,
-                       results::Status status = results::Status::exact) {
+results::Results timed(double ns, std::uint32_t rounds = 9, results::Status status = results::Status::exact) {
     results::Results results;
     results.env.resize(1);
     results.env[0].git_commit = "0123456789abcdef";
@@ -61,11 +60,11 @@ TEST(CompareCommand, Percentages) {
 
 TEST(CompareCommand, AFileWithItself) {
     for (const std::uint32_t rounds : {1u, 5u, 20u})
-        for (const auto status :
+        for (const results::Status status :
              {results::Status::exact, results::Status::wrong, results::Status::unchecked}) {
             const auto file = timed(100, rounds, status);
-            EXPECT_EQ(exit_of(file, file), exit_success) << rounds << " " << to_string(status);
-            EXPECT_EQ(exit_of(file, file, 0.0), exit_success) << rounds << " " << to_string(status);
+            EXPECT_EQ(exit_of(file, file), exit_success) << rounds << to_string(status);
+            EXPECT_EQ(exit_of(file, file, 0.0), exit_success) << rounds << to_string(status);
         }
     EXPECT_THAT(text_of(timed(100, 1), timed(100, 1)), HasSubstr("1 same"));
 }
@@ -118,8 +117,7 @@ TEST(CompareCommand, SaysWhatItSaw) {
     EXPECT_THAT(few, HasSubstr("at least 9 rounds"));
     EXPECT_THAT(text_of(timed(100), timed(110), true),
                 HasSubstr("| cell | phase | rounds | base | head | head/base |"));
-    EXPECT_THAT(text_of(timed(100), timed(100, 9, results::Status::wrong)),
-                HasSubstr("newly wrong"));
+    EXPECT_THAT(text_of(timed(100), timed(100, 9, results::Status::wrong)), HasSubstr("newly wrong"));
 }
 
 } // namespace

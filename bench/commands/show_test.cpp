@@ -35,8 +35,8 @@ results::Results four_cells() {
         results.shards.push_back(shard);
     }
     const char* const names[] = {"binned_sah.wide8", "fcl.tree", "embree.fast", "bullet.dbvt"};
-    using enum results::Status;
-    const results::Status statuses[] = {exact, exact, wrong, unsupported};
+    using results::Status;
+    const Status statuses[] = {Status::exact, Status::exact, Status::wrong, Status::unsupported};
     for (std::uint32_t id = 0; id < 4; ++id) {
         results::Variant variant;
         variant.variant_id = id;
