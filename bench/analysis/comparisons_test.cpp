@@ -39,7 +39,8 @@ struct Maker {
             results.shards.push_back(shard);
         }
     }
-    std::uint32_t cell(const std::string& name, bool is_peer, results::Status status = results::Status::exact) {
+    std::uint32_t cell(const std::string& name, bool is_peer,
+                       results::Status status = results::Status::exact) {
         const auto id = static_cast<std::uint32_t>(results.cells.size());
         results::Variant variant;
         variant.variant_id = id;
@@ -183,8 +184,10 @@ TEST(ComparePeers, OnlyTheSameJob) {
 
 TEST(ComparePeers, WrongIsNeverRanked) {
     Maker maker(9);
-    const auto ours = maker.cell("ours", false), wrong = maker.cell("wrong", true, results::Status::wrong),
-               unchecked = maker.cell("unchecked", true, results::Status::unchecked), right = maker.cell("right", true);
+    const auto ours = maker.cell("ours", false),
+               wrong = maker.cell("wrong", true, results::Status::wrong),
+               unchecked = maker.cell("unchecked", true, results::Status::unchecked),
+               right = maker.cell("right", true);
     for (const auto cell : {ours, wrong, unchecked, right})
         maker.time(cell, Phase::query, steady(10.0 * (cell + 1)));
     auto rows = against_peers(maker.results);

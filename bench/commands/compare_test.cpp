@@ -13,7 +13,8 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 /// One cell timed in some rounds, the same in each but for one part in a thousand.
-results::Results timed(double ns, std::uint32_t rounds = 9, results::Status status = results::Status::exact) {
+results::Results timed(double ns, std::uint32_t rounds = 9,
+                       results::Status status = results::Status::exact) {
     results::Results results;
     results.env.resize(1);
     results.env[0].git_commit = "0123456789abcdef";
@@ -117,7 +118,8 @@ TEST(CompareCommand, SaysWhatItSaw) {
     EXPECT_THAT(few, HasSubstr("at least 9 rounds"));
     EXPECT_THAT(text_of(timed(100), timed(110), true),
                 HasSubstr("| cell | phase | rounds | base | head | head/base |"));
-    EXPECT_THAT(text_of(timed(100), timed(100, 9, results::Status::wrong)), HasSubstr("newly wrong"));
+    EXPECT_THAT(text_of(timed(100), timed(100, 9, results::Status::wrong)),
+                HasSubstr("newly wrong"));
 }
 
 } // namespace

@@ -1,6 +1,6 @@
-#include "bench/io/ccd_file.h"
 #include "bench/commands/command.h"
 #include "bench/commands/query.h"
+#include "bench/io/ccd_file.h"
 #include "bench/io/csv.h"
 #include "kernels/registry.h"
 
