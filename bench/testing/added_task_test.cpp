@@ -140,7 +140,8 @@ TEST(AddedTask, IsPlannedCheckedTimedAndFoundInTheResults) {
     const Plan plan =
         plan_of("depth_points = 70\nways = [\"right\", \"forgetful\"]\nthreads = [1, 2]\n");
     ASSERT_EQ(plan.cells.size(), 4u);
-    EXPECT_EQ(plan.cells[0].name, "uniform_points/n200-s1/point_depths/count.right/f32/serial-1");
+    EXPECT_EQ(plan.cells[0].name,
+              "uniform_overlaps50_points/n200-s1/point_depths/count.right/f32/serial-1");
 
     const Report silent = [](std::size_t, std::size_t, const std::string&) {};
     results::Env env;
@@ -153,8 +154,7 @@ TEST(AddedTask, IsPlannedCheckedTimedAndFoundInTheResults) {
         EXPECT_EQ(cell.n_queries, 70u);
         EXPECT_EQ(check.oracle, "two_loops");
         const bool is_right = cell.name.find("count.right") != std::string::npos;
-        EXPECT_EQ(check.status, is_right ? results::Status::exact : results::Status::wrong)
-            << cell.name;
+        EXPECT_EQ(check.status, is_right ? Status::exact : Status::wrong) << cell.name;
     }
     EXPECT_GT(std::ranges::find(prepared.counters, "containing", &results::Counter::counter)->value,
               70u);

@@ -46,19 +46,24 @@ std::vector<std::string_view> TreeTask::keys() const {
 }
 
 void TreeTask::expand(const BlockReader& block, AddCell add) const {
-    const std::vector<BuilderChoice> builders = block.builders();
-    if (builders.empty() && !block.has("peers"))
-        block.fail("[[cells]] needs builders, peers, or both");
+    std::vector<SceneSpec> scenes;
+    for (const SceneSpec& scene : still_scenes(block, mesh_is_for()))
+        for (const SceneSpec& spec : with_queries(block, scene))
+            scenes.push_back(spec);
     std::vector<ContenderEntry> ours;
-    for (const BuilderChoice& builder : builders)
-        for (const std::string& layout : block.words("layouts", names_of(layouts()), {"wide8"}))
+    const std::vector<std::string> layout_names =
+        block.words("layouts", names_of(layouts()), {"wide8"});
+    for (const BuilderChoice& builder : block.builders())
+        for (const std::string& layout : layout_names)
             for (const Choice& choice :
                  variants(block, {builder.name, builder.settings, layout, "", ""}))
                 ours.push_back(contender(choice));
     const std::vector<ContenderEntry> peers = block.peers(name());
-    for (const SceneSpec& scene : still_scenes(block, mesh_is_for()))
-        for (const SceneSpec& spec : with_queries(block, scene))
-            add_cells(block, spec, ours, peers, add);
+    block.places(); // refuses bad ones even if nothing runs there
+    if (ours.empty() && !block.has("peers"))
+        block.fail("[[cells]] needs builders, peers, or both");
+    for (const SceneSpec& scene : scenes)
+        add_cells(block, scene, ours, peers, add);
 }
 
 ContenderEntry TreeTask::contender(const Choice& choice) const {
