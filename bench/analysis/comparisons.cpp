@@ -25,7 +25,7 @@ using Job = std::tuple<std::uint32_t, std::string, std::uint32_t>;
 Job job_of(const Cell& cell) { return {cell.scene_id, cell.task, cell.threads}; }
 
 bool is_a_way_to_play(const std::string& variant) {
-    return variant == required_stages || variant == all_stages ||
+    return variant == required_variant || variant == all_stages_variant ||
            variant.starts_with(without_effect);
 }
 
@@ -211,14 +211,14 @@ void against_fewer_stages(const Index& index, const Times& times, Judge& judge) 
     };
     std::map<Scene, const Cell*> required;
     for (const Cell& cell : index.results().cells)
-        if (index.is_played(cell) && index.variant(cell).name == required_stages)
+        if (index.is_played(cell) && index.variant(cell).name == required_variant)
             required[scene_of(cell)] = &cell;
     Grouped<Scene> claims;
     for (const Cell& cell : index.results().cells) {
         if (!index.is_played(cell) || !required.contains(scene_of(cell)))
             continue;
         const Cell& base = *required.at(scene_of(cell));
-        if (index.variant(cell).name == all_stages)
+        if (index.variant(cell).name == all_stages_variant)
             claims.add(scene_of(cell), times, base, cell);
         else if (&base != &cell)
             claims.add(scene_of(cell), times, cell, base);

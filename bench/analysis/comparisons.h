@@ -33,7 +33,7 @@ const results::Cell* reference_of(const results::Results& results, const results
 
 /// Contenders of the task that plays a scene: with the stages that its queries require, with all,
 /// and with the required ones but without one effect, whose name follows.
-inline constexpr std::string_view required_stages = "required", all_stages = "all_stages",
+inline constexpr std::string_view required_variant = "required", all_stages_variant = "all_stages",
                                   without_effect = "required.without_";
 
 void set_ruling(results::Comparison& row, const Ruling& ruling);

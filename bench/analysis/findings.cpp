@@ -73,7 +73,8 @@ class Findings {
     }
     bool is_played(const Cell& cell) const {
         const std::string& name = variant(cell).name;
-        return name == required_stages || name == all_stages || name.starts_with(without_effect);
+        return name == required_variant || name == all_stages_variant ||
+               name.starts_with(without_effect);
     }
 
     void races() {
@@ -253,7 +254,7 @@ class Findings {
 
     void scenes() {
         for (const Cell& cell : results_.cells) {
-            if (!is_right(cell.status) || variant(cell).name != required_stages ||
+            if (!is_right(cell.status) || variant(cell).name != required_variant ||
                 !scenes_.contains(cell.scene_id))
                 continue;
             Told told;
