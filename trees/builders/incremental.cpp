@@ -10,7 +10,7 @@ Tree IncrementalBuilder::build(Boxes boxes, const Executor&) const {
     tree.reserve(boxes.size());
     for (std::size_t i = 0; i < boxes.size(); ++i)
         tree.insert(static_cast<std::uint32_t>(i), boxes[i]);
-    return tree.freeze();
+    return tree.to_tree();
 }
 
 BuilderEntry incremental_builder() { return builder_entry<IncrementalBuilder>(); }

@@ -42,7 +42,7 @@ double DynamicTree::measure(const Box& box) const {
 }
 
 void DynamicTree::reserve(std::size_t n) {
-    forks_.reserve(n);
+    node_pairs_.reserve(n);
     slot_of_.reserve(n);
 }
 
@@ -93,7 +93,7 @@ void DynamicTree::enlarge(std::uint32_t item, Box box) {
 }
 
 void DynamicTree::clear() {
-    forks_.resize(1);
+    node_pairs_.resize(1);
     slot_of_.clear();
     free_ = none;
     size_ = 0;
@@ -109,22 +109,22 @@ DynamicTree::Slot DynamicTree::require(std::uint32_t item) const {
 }
 
 void DynamicTree::put(Slot s, const Box& box, std::uint32_t link, std::uint8_t height) {
-    NodePair& fork = forks_[s / 2];
+    NodePair& fork = node_pairs_[s / 2];
     fork.box[s % 2] = box;
     fork.link[s % 2] = link;
     fork.height[s % 2] = height;
     if (link & leaf_bit)
         slot_of_[link ^ leaf_bit] = s;
     else
-        forks_[link].parent = s;
+        node_pairs_[link].parent = s;
 }
 
 std::uint32_t DynamicTree::take_fork() {
     if (free_ == none) {
-        forks_.emplace_back();
-        return static_cast<std::uint32_t>(forks_.size() - 1);
+        node_pairs_.emplace_back();
+        return static_cast<std::uint32_t>(node_pairs_.size() - 1);
     }
-    return std::exchange(free_, forks_[free_].parent);
+    return std::exchange(free_, node_pairs_[free_].parent);
 }
 
 /// Follows one path from the root. Beside a node with box b the new leaf costs size(b + box), for
@@ -145,7 +145,7 @@ DynamicTree::Slot DynamicTree::find_sibling(const Box& box) const {
         const Slot child = 2 * link_at(s);
         for (const Slot side : {0u, 1u})
             if (!is_leaf(child + side))
-                __builtin_prefetch(&forks_[link_at(child + side)]);
+                __builtin_prefetch(&node_pairs_[link_at(child + side)]);
         double beside[2], below[2];
         for (const Slot side : {0u, 1u}) {
             const Box& b = box_at(child + side);
@@ -182,7 +182,7 @@ void DynamicTree::attach(std::uint32_t item, const Box& box) {
     const Slot s = find_sibling(box);
     put(2 * f, box_at(s), link_at(s), height_at(s));
     put(2 * f + 1, box, leaf_bit | item, 0);
-    forks_[f].parent = s;
+    node_pairs_[f].parent = s;
     link_at(s) = f;
     repair(2 * f + 1);
 }
@@ -193,9 +193,9 @@ void DynamicTree::detach(std::uint32_t item) {
         return;
     const Slot sibling = s ^ 1;
     const std::uint32_t f = s / 2;
-    const Slot parent = forks_[f].parent;
+    const Slot parent = node_pairs_[f].parent;
     put(parent, box_at(sibling), link_at(sibling), height_at(sibling));
-    forks_[f].parent = std::exchange(free_, f);
+    node_pairs_[f].parent = std::exchange(free_, f);
     repair(parent);
 }
 
@@ -211,7 +211,7 @@ void DynamicTree::detach(std::uint32_t item) {
 /// max_lean, and s is as tall as before or 1 less.
 bool DynamicTree::rotate(Slot s, int old_height) {
     const std::uint32_t f = link_at(s);
-    const NodePair& fork = forks_[f];
+    const NodePair& fork = node_pairs_[f];
     const bool force = imbalance(fork.height[0], fork.height[1]) > max_lean;
     double best_gain = force ? -std::numeric_limits<double>::infinity() : 0;
     int best_height = height_at(s);
@@ -220,7 +220,7 @@ bool DynamicTree::rotate(Slot s, int old_height) {
         const Slot down = 2 * f + side, sibling = down ^ 1;
         if (is_leaf(sibling))
             continue;
-        const NodePair& below = forks_[link_at(sibling)];
+        const NodePair& below = node_pairs_[link_at(sibling)];
         const double size = measure(box_at(sibling));
         for (const Slot up : {0u, 1u}) {
             const Slot stay = up ^ 1;
@@ -252,7 +252,7 @@ bool DynamicTree::rotate(Slot s, int old_height) {
 }
 
 void DynamicTree::refit_upward(Slot s) {
-    const NodePair& fork = forks_[link_at(s)];
+    const NodePair& fork = node_pairs_[link_at(s)];
     box_at(s) = merge(fork.box[0], fork.box[1]);
     height_at(s) = static_cast<std::uint8_t>(std::max(fork.height[0], fork.height[1]) + 1);
 }
@@ -283,10 +283,10 @@ Buffer<std::uint32_t> DynamicTree::order() const {
         if (link & leaf_bit) {
             items[n++] = link ^ leaf_bit;
         } else {
-            const NodePair& fork = forks_[link];
+            const NodePair& fork = node_pairs_[link];
             for (const std::uint32_t below : fork.link)
                 if (!(below & leaf_bit))
-                    __builtin_prefetch(&forks_[below]);
+                    __builtin_prefetch(&node_pairs_[below]);
             stack.push_back(fork.link[1]);
             stack.push_back(fork.link[0]);
         }
@@ -294,7 +294,7 @@ Buffer<std::uint32_t> DynamicTree::order() const {
     return items;
 }
 
-Tree DynamicTree::freeze() const {
+Tree DynamicTree::to_tree() const {
     Tree tree(size_);
     if (empty())
         return tree;

@@ -53,7 +53,8 @@ class DynamicTree {
 
     /// Memory held, in bytes.
     std::size_t bytes() const {
-        return forks_.capacity() * sizeof(NodePair) + slot_of_.capacity() * sizeof(std::uint32_t);
+        return node_pairs_.capacity() * sizeof(NodePair) +
+               slot_of_.capacity() * sizeof(std::uint32_t);
     }
 
     /// The items in the order of the leaves. O(n).
@@ -61,7 +62,7 @@ class DynamicTree {
 
     /// The canonical tree of the items as they are now; `order` holds their own numbers, so that
     /// `refit` and `validate` take it only if these are 0 .. size() - 1. O(n).
-    Tree freeze() const;
+    Tree to_tree() const;
 
   private:
     /// A place for a node: slot 2 f + side is that side of fork f. The node at a slot, its box and
@@ -84,13 +85,13 @@ class DynamicTree {
     static constexpr std::uint32_t none = ~std::uint32_t{0};
     static constexpr std::uint32_t leaf_bit = std::uint32_t{1} << 31;
 
-    Box& box_at(Slot s) { return forks_[s / 2].box[s % 2]; }
-    const Box& box_at(Slot s) const { return forks_[s / 2].box[s % 2]; }
-    std::uint32_t& link_at(Slot s) { return forks_[s / 2].link[s % 2]; }
-    std::uint32_t link_at(Slot s) const { return forks_[s / 2].link[s % 2]; }
-    std::uint8_t& height_at(Slot s) { return forks_[s / 2].height[s % 2]; }
-    std::uint8_t height_at(Slot s) const { return forks_[s / 2].height[s % 2]; }
-    Slot parent_of(Slot s) const { return s == root ? root : forks_[s / 2].parent; }
+    Box& box_at(Slot s) { return node_pairs_[s / 2].box[s % 2]; }
+    const Box& box_at(Slot s) const { return node_pairs_[s / 2].box[s % 2]; }
+    std::uint32_t& link_at(Slot s) { return node_pairs_[s / 2].link[s % 2]; }
+    std::uint32_t link_at(Slot s) const { return node_pairs_[s / 2].link[s % 2]; }
+    std::uint8_t& height_at(Slot s) { return node_pairs_[s / 2].height[s % 2]; }
+    std::uint8_t height_at(Slot s) const { return node_pairs_[s / 2].height[s % 2]; }
+    Slot parent_of(Slot s) const { return s == root ? root : node_pairs_[s / 2].parent; }
     bool is_leaf(Slot s) const { return (link_at(s) & leaf_bit) != 0; }
 
     /// An eighth of the surface area, xy + yz + zx for half-extents x, y, z, plus pad (x + y + z),
@@ -107,9 +108,9 @@ class DynamicTree {
     void refit_upward(Slot s);
     bool rotate(Slot s, int old_height);
 
-    std::vector<NodePair> forks_ = std::vector<NodePair>(1); ///< fork 0 is always there
-    std::vector<Slot> slot_of_;                              ///< item -> its leaf, or none
-    std::uint32_t free_ = none;                              ///< first free fork
+    std::vector<NodePair> node_pairs_ = std::vector<NodePair>(1); ///< fork 0 is always there
+    std::vector<Slot> slot_of_;                                   ///< item -> its leaf, or none
+    std::uint32_t free_ = none;                                   ///< first free fork
     std::size_t size_ = 0;
     double pad_ = 0; ///< for measure: 2^-30 of the half-extents of the root, summed
 };

@@ -30,7 +30,7 @@ std::size_t max_height(std::size_t n) {
 std::string fault(const DynamicTree& tree, const Model& model) {
     if (tree.size() != model.size() || tree.empty() != model.empty())
         return "size " + std::to_string(tree.size());
-    Tree frozen = tree.freeze();
+    Tree frozen = tree.to_tree();
     if (!std::ranges::equal(tree.order(), frozen.order))
         return "the order is not that of the frozen tree";
     std::vector<Box> boxes;
@@ -188,7 +188,7 @@ TEST(DynamicTree, SortedAndNestedBoxesStayShallow) {
 }
 
 double sah_cost(const DynamicTree& tree, const std::vector<Box>& boxes) {
-    return quality(tree.freeze(), boxes, {.epo_visits = 0}).sah_cost;
+    return quality(tree.to_tree(), boxes, {.epo_visits = 0}).sah_cost;
 }
 
 DynamicTree insert_all(const std::vector<Box>& boxes) {
@@ -223,7 +223,7 @@ TEST(DynamicTree, PointsOnALineAreToldApart) {
     std::vector<Box> points;
     for (const Box& box : random_boxes(2000, 0, 17))
         points.push_back({{box.min.x, 0, 0}, {box.min.x, 0, 0}});
-    const Tree tree = insert_all(points).freeze();
+    const Tree tree = insert_all(points).to_tree();
     EXPECT_LT(quality(tree, points).overlap, .05);
 }
 
@@ -236,10 +236,10 @@ TEST(DynamicTree, SmallMovesKeepTheShape) {
         tree.move(i, tree.box((i + 1) % 100)); // a reference into the tree itself
     for (std::uint32_t i = 0; i < 99; ++i)
         EXPECT_EQ(tree.box(i), boxes[i + 1]);
-    const auto order = tree.freeze();
+    const auto order = tree.to_tree();
     for (std::uint32_t i = 0; i < 100; ++i)
         tree.move(i, tree.box(i));
-    EXPECT_TRUE(std::ranges::equal(order.order, tree.freeze().order));
+    EXPECT_TRUE(std::ranges::equal(order.order, tree.to_tree().order));
 }
 
 TEST(DynamicTree, BadInputIsNamedAndChangesNothing) {
