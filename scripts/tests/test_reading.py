@@ -73,14 +73,22 @@ def test_a_wrong_cell_is_never_ranked(full):
     assert not any(wrong in (f.rival, f.rival_alone) for f in results.findings)
 
 
-@pytest.mark.parametrize("status", ["wrong", "a_word_of_the_future"])
-def test_our_own_wrong_cell_is_never_ranked(tmp_path, status):
+def one_cell_of_each(status):
     made = synthetic.Maker(9)
     spec = synthetic.PAIR_CONTENDERS
     made.cell("uniform", 1000, "pairs", "median.wide8", spec["median.wide8"], 1, status=status)
     made.cell("uniform", 1000, "pairs", "fcl.dynamic_aabb_tree", spec["fcl.dynamic_aabb_tree"], 1)
-    results = run.read(made.write(tmp_path / "a.h5"))
+    return made
+
+
+def test_our_own_wrong_cell_is_never_ranked(tmp_path):
+    results = run.read(one_cell_of_each("wrong").write(tmp_path / "a.h5"))
     assert results.findings == [] and [c.status for c in results.cells] == ["wrong", "exact"]
+
+
+def test_a_status_that_nobody_knows_is_refused_by_name(tmp_path):
+    with pytest.raises(AssertionError, match='column status holds the unknown word "a_word_of'):
+        one_cell_of_each("a_word_of_the_future").write(tmp_path / "a.h5")
 
 
 def test_an_answer_that_changed_between_rounds_is_wrong(tmp_path):
