@@ -74,6 +74,7 @@ class Merger {
     Joined<std::pair<std::uint32_t, std::string>, Package> packages_{all_.packages};
     Joined<std::tuple<std::string, std::uint64_t, std::uint64_t, std::uint64_t>, SceneRow> scenes_{
         all_.scenes};
+    Joined<std::string, TaskRow> tasks_{all_.tasks};
     Joined<Strings, Variant> variants_{all_.variants};
     Joined<std::tuple<std::string, std::uint32_t, std::uint32_t, std::string>, Cell> cells_{
         all_.cells};
@@ -127,6 +128,8 @@ void Merger::add_machines_and_cells(const Results& part) {
         scene_ids_.set(id,
                        scenes_.add({row.name, row.n_items, row.seed, row.content_hash}, row).first);
     }
+    for (const TaskRow& row : part.tasks)
+        tasks_.add(row.task, row);
     variant_ids_ = Renumbering("variants");
     for (Variant row : part.variants) {
         const auto id =

@@ -45,16 +45,26 @@ struct SceneRow {
     std::uint32_t scene_id = 0;
     std::string name, generator;
     std::string human_name; ///< for readers: "100,000 boxes, 1 % drift"; empty if it has none
+    std::string rays;       ///< the kind of rays, which ends its name: "primary"
     std::uint64_t n_items = 0, n_triangles = 0, n_frames = 1, seed = 0;
     std::string effects, queries; ///< comma-separated words
     std::uint64_t content_hash = 0;
     std::string params_json;
 };
 
+/// One thing that was wanted of scenes.
+struct TaskRow {
+    std::string task;          ///< "rays_closest"
+    std::string title;         ///< "nearest hit"
+    Phase total = Phase::none; ///< what one use costs
+};
+
 struct Variant {
     std::uint32_t variant_id = 0;
     std::string name, library, lib_version, builder, layout, traversal, kernel, predicates;
     std::uint32_t is_peer = 0;
+    std::uint32_t keeps_structure = 1; ///< 0 if its build only copies the input
+    std::string stages; ///< of ways to play a scene: required, all, or the effect that is left out
     std::string params_json, notes;
 };
 
@@ -63,9 +73,8 @@ struct Cell {
     std::string name;
     std::uint32_t scene_id = 0, variant_id = 0;
     std::string task;
-    std::string classes; ///< derived: comma-separated; contenders of one job compare within a class
+    std::string classes; ///< comma-separated; contenders of one job are compared within a class
     Status status = Status::unchecked; ///< derived: the worst of its checks and rounds
-    std::uint32_t builds = 0;          ///< derived: 0 if its build only copies the input
     std::uint64_t n_items = 0, n_queries = 0;
     std::string precision, executor;
     std::uint32_t threads = 1;
@@ -201,6 +210,7 @@ struct Comparison {
     Family family = Family::none;
     Verdict verdict = Verdict::none;
     Reason reason = Reason::none;
+    std::string words; ///< both: "can't tell (too few rounds)"
 };
 
 /// How the time of one variant grows with the number of items: time ~ n^exponent.
@@ -228,9 +238,15 @@ struct KernelCost {
     double max_rel_err = missing;
 };
 
+/// What a topic of findings is called, and the columns of its rows.
+struct TopicRow {
+    Topic topic = Topic::none;
+    std::string title, question, together, alone, certainty;
+};
+
 /// One question of a run and its answer, in words: the rows of the one screen and of the report.
 struct Finding {
-    std::uint32_t place = 0; ///< in the order in which they are told: losses first
+    std::uint32_t place = 0; ///< its place on the screen: losses first
     Topic topic = Topic::none;
     std::uint32_t is_headline = 0; ///< 1 if it stands for its question on one screen
     std::uint32_t scene_id = no_id;
@@ -238,9 +254,9 @@ struct Finding {
     std::uint32_t threads = 1;
     std::string contender_class;
     std::string question;
-    std::string together; ///< build and query, against the best rival
-    std::string alone;    ///< query alone, against the best rival
-    std::string certainty;
+    std::string together;  ///< build and query, against the best rival
+    std::string alone;     ///< query alone, against the best rival
+    std::string certainty; ///< the interval that decided, and of which measure
     /// Ours and the rival of both measures; no_id where there is none.
     std::uint32_t ours = no_id, rival = no_id, ours_alone = no_id, rival_alone = no_id;
 };
@@ -255,6 +271,9 @@ struct Health {
     std::uint64_t answers = 0;      ///< cells whose answers were checked
     std::uint64_t wrong_ours = 0, wrong_peers = 0;
     std::uint64_t broken_promises = 0; ///< of kernels of ours
+    /// In words, for every reader. trust: rounds, noise, whether quiet enough; empty if nothing was
+    /// timed. advice: what to do about a run that is too noisy, else empty.
+    std::string trust, correctness, advice;
 };
 
 /// Everything in one file. Ids are those of the `*_id` columns, unique within the file.
@@ -265,6 +284,7 @@ struct Results {
     std::vector<Env> env;
     std::vector<Package> packages;
     std::vector<SceneRow> scenes;
+    std::vector<TaskRow> tasks;
     std::vector<Variant> variants;
     std::vector<Cell> cells;
     std::vector<Shard> shards;
@@ -281,6 +301,7 @@ struct Results {
     std::vector<SizeScaling> size_scaling;
     std::vector<BreakEven> break_even;
     std::vector<KernelCost> kernel_costs;
+    std::vector<TopicRow> topics;
     std::vector<Finding> findings;
     std::vector<Health> health; ///< one row
 };

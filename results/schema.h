@@ -37,11 +37,12 @@ template <class Row> struct Table {
     std::vector<Column<Row>> columns;
 };
 
-using Tables = std::tuple<Table<Env>, Table<Package>, Table<SceneRow>, Table<Variant>, Table<Cell>,
-                          Table<Shard>, Table<Sample>, Table<FrameRow>, Table<EffectRow>,
-                          Table<Counter>, Table<Check>, Table<TreeRow>, Table<KernelRow>,
-                          Table<ConditionRow>, Table<Median>, Table<Comparison>, Table<SizeScaling>,
-                          Table<BreakEven>, Table<KernelCost>, Table<Finding>, Table<Health>>;
+using Tables =
+    std::tuple<Table<Env>, Table<Package>, Table<SceneRow>, Table<TaskRow>, Table<Variant>,
+               Table<Cell>, Table<Shard>, Table<Sample>, Table<FrameRow>, Table<EffectRow>,
+               Table<Counter>, Table<Check>, Table<TreeRow>, Table<KernelRow>, Table<ConditionRow>,
+               Table<Median>, Table<Comparison>, Table<SizeScaling>, Table<BreakEven>,
+               Table<KernelCost>, Table<TopicRow>, Table<Finding>, Table<Health>>;
 const Tables& tables();
 
 /// Calls visit(table) for every table, in the order of results.h.

@@ -35,11 +35,21 @@ enum class Status : std::uint8_t {
 /// Cell b against cell a.
 enum class Verdict : std::uint8_t { none, faster, slower, same, cannot_tell, wrong };
 /// Why a verdict is cannot_tell.
-enum class Reason : std::uint8_t { none, too_few_rounds, below_the_floor, crosses_1, unchecked };
+enum class Reason : std::uint8_t {
+    none,
+    too_few_rounds,
+    below_the_floor,
+    crosses_1,
+    unchecked,
+    too_noisy
+};
 /// Which claims were corrected together; analysis/comparisons.h says how each is formed.
 enum class Family : std::uint8_t { none, peers, ours, threads, stages };
 /// What a row of findings is about.
 enum class Topic : std::uint8_t { none, race, kernel, scene };
+
+/// Of Variant::stages; any other word is the effect that the scene is played without.
+inline constexpr std::string_view required_stages = "required", all_stages = "all";
 
 template <class Enum> struct Words;
 template <> struct Words<Phase> {
@@ -57,8 +67,8 @@ template <> struct Words<Verdict> {
                                                          "same", "cannot_tell", "wrong"};
 };
 template <> struct Words<Reason> {
-    static constexpr std::array<std::string_view, 5> all{"", "too_few_rounds", "below_the_floor",
-                                                         "crosses_1", "unchecked"};
+    static constexpr std::array<std::string_view, 6> all{
+        "", "too_few_rounds", "below_the_floor", "crosses_1", "unchecked", "too_noisy"};
 };
 template <> struct Words<Family> {
     static constexpr std::array<std::string_view, 5> all{"", "peers", "ours", "threads", "stages"};

@@ -1,8 +1,8 @@
 #include "bench/analysis/analyse.h"
 
-#include "bench/analysis/classes.h"
 #include "bench/analysis/comparisons.h"
 #include "bench/analysis/findings.h"
+#include "bench/analysis/health.h"
 #include "bench/analysis/kernel_costs.h"
 #include "bench/analysis/promises.h"
 #include "bench/analysis/size_scaling.h"
@@ -10,57 +10,20 @@
 #include "bench/analysis/times.h"
 #include "bench/analysis/trade_offs.h"
 
-#include <algorithm>
-#include <map>
-
 namespace boxwood::bench {
-namespace {
-
-constexpr double max_floor = 0.2; ///< noisier runs have nothing to say
-
-results::Health health_of(const results::Results& results, std::optional<double> floor,
-                          double delta) {
-    results::Health health;
-    health.rounds = results.shards.size();
-    health.samples = results.samples.size();
-    health.disturbed = static_cast<std::uint64_t>(
-        std::ranges::count_if(results.samples, [](const results::Sample& sample) {
-            return (sample.flags & (results::disturbed_steal | results::disturbed_switches)) != 0;
-        }));
-    health.floor = floor.value_or(results::missing);
-    health.delta = delta;
-    health.is_too_noisy = floor && *floor > max_floor;
-    std::map<std::uint32_t, bool> is_peer;
-    for (const results::Variant& variant : results.variants)
-        is_peer[variant.variant_id] = variant.is_peer != 0;
-    for (const results::Cell& cell : results.cells) {
-        if (cell.status == results::Status::unchecked ||
-            cell.status == results::Status::unsupported ||
-            (cell.status == results::Status::wrong && is_judged_by_promise(results, cell)))
-            continue;
-        ++health.answers;
-        if (cell.status == results::Status::wrong)
-            ++(is_peer[cell.variant_id] ? health.wrong_peers : health.wrong_ours);
-    }
-    health.broken_promises = broken_promises(results);
-    return health;
-}
-
-} // namespace
 
 void analyse(results::Results& results, double delta) {
     set_statuses(results);
-    set_classes(results);
     set_broken_promises(results);
     const Times times(results);
     const std::optional<double> floor = noise_floor(results);
     results.medians = medians_of(results, times);
-    set_builds(results);
     results.compare = comparisons_of(results, times, delta);
     results.size_scaling = size_scaling_of(results, times);
     results.break_even = trade_offs_of(results, floor.value_or(0));
     results.kernel_costs = kernel_costs_of(results);
     results.health = {health_of(results, floor, delta)};
+    results.topics = topics();
     results.findings = findings_of(results);
 }
 

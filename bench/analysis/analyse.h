@@ -7,7 +7,7 @@
 
 namespace boxwood::bench {
 
-/// Fills every derived table and column of a file that is about to be written: statuses, classes,
+/// Fills every derived table and column of a file that is about to be written: statuses,
 /// medians, comparisons with their verdicts, scaling, trade-offs, kernel costs, findings, health.
 /// Nobody else derives them: readers take what the file says. What was derived before is replaced.
 void analyse(results::Results& results, double delta = default_delta);

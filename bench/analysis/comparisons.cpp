@@ -1,7 +1,7 @@
 #include "bench/analysis/comparisons.h"
 
-#include "bench/analysis/classes.h"
 #include "bench/analysis/status.h"
+#include "bench/analysis/wording.h"
 
 #include <algorithm>
 #include <set>
@@ -24,11 +24,6 @@ using results::Verdict;
 using Job = std::tuple<std::uint32_t, std::string, std::uint32_t>;
 Job job_of(const Cell& cell) { return {cell.scene_id, cell.task, cell.threads}; }
 
-bool is_a_way_to_play(const std::string& variant) {
-    return variant == required_variant || variant == all_stages_variant ||
-           variant.starts_with(without_effect);
-}
-
 /// The rows of a file by id.
 class Index {
   public:
@@ -44,9 +39,8 @@ class Index {
     }
     bool is_peer(const Cell& cell) const { return variant(cell).is_peer != 0; }
     bool is_kernel(const Cell& cell) const { return kernels_.contains(cell.cell_id); }
-    bool is_played(const Cell& cell) const {
-        return !is_peer(cell) && is_a_way_to_play(variant(cell).name);
-    }
+    bool keeps_structure(const Cell& cell) const { return variant(cell).keeps_structure != 0; }
+    const std::string& stages(const Cell& cell) const { return variant(cell).stages; }
 
   private:
     const Results& results_;
@@ -75,6 +69,7 @@ class Judge {
         row.floor = floor_.value_or(results::missing);
         if (a.status == Status::wrong || b.status == Status::wrong) {
             row.verdict = Verdict::wrong;
+            row.words = verdict_text(row);
         } else if (!is_right(a.status) || !is_right(b.status)) {
             set_ruling(row, {paired_ratio(logs), results::missing, Verdict::cannot_tell,
                              Reason::unchecked});
@@ -126,7 +121,7 @@ void against_peers(const Index& index, const Times& times, Judge& judge) {
             for (const Phase phase : phases_of(times, ours)) {
                 for (const Cell* peer : peers_of[{job_of(ours), name}])
                     if ((phase != Phase::build && phase != Phase::query) ||
-                        ours.builds == peer->builds)
+                        index.keeps_structure(ours) == index.keeps_structure(*peer))
                         judge.claim(*peer, ours, phase, name);
                 judge.close(Family::peers);
             }
@@ -134,7 +129,7 @@ void against_peers(const Index& index, const Times& times, Judge& judge) {
 }
 
 const Cell* reference_in(const Index& index, const Cell& judged) {
-    if (index.is_peer(judged) || index.is_kernel(judged) || index.is_played(judged))
+    if (index.is_peer(judged) || index.is_kernel(judged) || !index.stages(judged).empty())
         return nullptr;
     const results::Variant& variant = index.variant(judged);
     const Cell* best = nullptr;
@@ -211,14 +206,14 @@ void against_fewer_stages(const Index& index, const Times& times, Judge& judge) 
     };
     std::map<Scene, const Cell*> required;
     for (const Cell& cell : index.results().cells)
-        if (index.is_played(cell) && index.variant(cell).name == required_variant)
+        if (index.stages(cell) == results::required_stages)
             required[scene_of(cell)] = &cell;
     Grouped<Scene> claims;
     for (const Cell& cell : index.results().cells) {
-        if (!index.is_played(cell) || !required.contains(scene_of(cell)))
+        if (index.stages(cell).empty() || !required.contains(scene_of(cell)))
             continue;
         const Cell& base = *required.at(scene_of(cell));
-        if (index.variant(cell).name == all_stages_variant)
+        if (index.stages(cell) == results::all_stages)
             claims.add(scene_of(cell), times, base, cell);
         else if (&base != &cell)
             claims.add(scene_of(cell), times, cell, base);
@@ -236,6 +231,17 @@ void set_ruling(Comparison& row, const Ruling& ruling) {
     row.p_adj = ruling.p_adj;
     row.verdict = ruling.verdict;
     row.reason = ruling.reason;
+    row.words = verdict_text(row);
+}
+
+std::vector<std::string> split_classes(const std::string& classes) {
+    std::vector<std::string> names;
+    for (std::size_t start = 0; start <= classes.size();) {
+        const std::size_t end = std::min(classes.find(',', start), classes.size());
+        names.push_back(classes.substr(start, end - start));
+        start = end + 1;
+    }
+    return names;
 }
 
 std::vector<Comparison> comparisons_of(const Results& results, const Times& times, double delta) {

@@ -3,6 +3,8 @@
 #include "bench/analysis/times.h"
 #include "results/results.h"
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,15 +15,15 @@ namespace boxwood::bench {
 /// Every comparison within one file, cell b against cell a, for each phase that both have and for
 /// the sums with the query. Claims of one line are decided together:
 /// - peers: each cell of ours against the peers of its class in its job (scene, task, threads);
-///   together are those about one cell of ours in one phase and class. Where one side alone has a
-///   build of its own, its query holds all the work: only the sum is compared.
+///   together are those about one cell of ours in one phase and class. Where one side alone
+///   keeps a structure, the query of the other holds all the work: only the sum is compared.
 /// - ours: each cell of ours against the reference of its job (see reference_of); together are
 ///   those of one job and phase.
 /// - threads: several threads against one, of each contender; together as for ours.
 /// - stages: all stages against only the required ones, and a scene with an effect against the same
 ///   without it; together are those of one scene, number of threads and phase.
 /// A wrong answer gets the verdict wrong and no ratio; what was not checked, cannot_tell.
-/// Needs Cell::status, Cell::classes and Cell::builds.
+/// Needs Cell::status.
 std::vector<results::Comparison> comparisons_of(const results::Results& results, const Times& times,
                                                 double delta);
 
@@ -31,19 +33,24 @@ std::vector<results::Comparison> comparisons_of(const results::Results& results,
 /// play a scene.
 const results::Cell* reference_of(const results::Results& results, const results::Cell& judged);
 
-/// Contenders of the task that plays a scene: with the stages that its queries require, with all,
-/// and with the required ones but without one effect, whose name follows.
-inline constexpr std::string_view required_variant = "required", all_stages_variant = "all_stages",
-                                  without_effect = "required.without_";
+/// The names in Cell::classes.
+std::vector<std::string> split_classes(const std::string& classes);
 
 void set_ruling(results::Comparison& row, const Ruling& ruling);
+
+/// What a gate says of one row: by the numbers of that row alone.
+enum class Gate : std::uint8_t { passes, open, fails };
 
 /// What two files say of one cell. cell_a is an id of the base, cell_b one of the head.
 struct FileRow {
     std::string name;
     results::Comparison comparison;
+    double base_ns = unknown, head_ns = unknown; ///< medians of the rounds that were paired
+    /// The head takes at most so much of the base's time: the high end of the 95 % interval of this
+    /// row alone.
+    double max_ratio = unknown;
     bool is_newly_wrong = false; ///< right in the base, wrong in the head
-    double hi_95 = unknown;      ///< high end of the 95 % interval of this row alone
+    Gate gate = Gate::open;
 };
 struct FileComparison {
     std::vector<FileRow> rows;
@@ -52,10 +59,21 @@ struct FileComparison {
     std::size_t family_size = 0;
     std::optional<double> floor; ///< the larger one of the two files
     bool is_same_machine = false;
+    Gate gate = Gate::open; ///< of all
+};
+struct FileOptions {
+    double delta = default_delta;                          ///< "same" is within this
+    std::optional<double> fail_if{};                       ///< slower by more than this fails
+    bool with_peers = false;                               ///< else cells of ours alone
+    std::function<bool(const std::string& cell)> wanted{}; ///< else all
 };
 /// Cells are matched by name, rounds by number: within a machine state that both files have, else
 /// in order of time. All rows are one family. Needs Cell::status in both.
+/// A row fails if it is newly wrong, or its verdict is slower and the interval that decided lies
+/// above 1 + fail_if (1 without it); it passes if max_ratio is at most 1 + fail_if (else 1 + delta)
+/// and the noise allows a verdict. All fail if one does; all pass if every row does and no cell of
+/// the base is gone or has another scene.
 FileComparison compare_files(const results::Results& base, const results::Results& head,
-                             double delta = default_delta);
+                             const FileOptions& options = {});
 
 } // namespace boxwood::bench

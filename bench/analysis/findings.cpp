@@ -1,6 +1,5 @@
 #include "bench/analysis/findings.h"
 
-#include "bench/analysis/classes.h"
 #include "bench/analysis/comparisons.h"
 #include "bench/analysis/status.h"
 #include "bench/analysis/times.h"
@@ -13,6 +12,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <stdexcept>
 #include <tuple>
 
 namespace boxwood::bench {
@@ -27,7 +27,7 @@ using results::Topic;
 using results::Verdict;
 
 /// A finding before the order is known.
-struct Told {
+struct Draft {
     Finding finding;
     Outcome outcome = Outcome::open;
     double ratio = 1;            ///< the lower, the worse for us
@@ -45,6 +45,8 @@ class Findings {
             variants_[variant.variant_id] = &variant;
         for (const Cell& cell : results.cells)
             cells_[cell.cell_id] = &cell;
+        for (const results::TaskRow& row : results.tasks)
+            tasks_[row.task] = &row;
         for (const Comparison& row : results.compare)
             compare_[{row.cell_a, row.cell_b, row.phase, row.contender_class}] = &row;
     }
@@ -55,9 +57,9 @@ class Findings {
         scenes();
         choose_headlines();
         std::vector<Finding> findings;
-        for (Told& told : told_) {
-            told.finding.place = static_cast<std::uint32_t>(findings.size());
-            findings.push_back(std::move(told.finding));
+        for (Draft& draft : drafts_) {
+            draft.finding.place = static_cast<std::uint32_t>(findings.size());
+            findings.push_back(std::move(draft.finding));
         }
         return findings;
     }
@@ -71,10 +73,11 @@ class Findings {
     const results::Variant& variant(const Cell& cell) const {
         return *variants_.at(cell.variant_id);
     }
-    bool is_played(const Cell& cell) const {
-        const std::string& name = variant(cell).name;
-        return name == required_variant || name == all_stages_variant ||
-               name.starts_with(without_effect);
+    const results::TaskRow& task_named(const std::string& name) const {
+        const auto found = tasks_.find(name);
+        if (found == tasks_.end())
+            throw std::runtime_error(fmt::format("the table tasks has no row '{}'", name));
+        return *found->second;
     }
 
     void races() {
@@ -83,8 +86,8 @@ class Findings {
             kernels.insert(row.cell_id);
         std::map<JobKey, Sides> jobs;
         for (const Cell& cell : results_.cells)
-            if (is_right(cell.status) && !kernels.contains(cell.cell_id) && !is_played(cell) &&
-                scenes_.contains(cell.scene_id))
+            if (is_right(cell.status) && !kernels.contains(cell.cell_id) &&
+                variant(cell).stages.empty() && scenes_.contains(cell.scene_id))
                 for (const std::string& name : split_classes(cell.classes)) {
                     Sides& sides = jobs[{cell.scene_id, cell.task, cell.threads, name}];
                     (variant(cell).is_peer ? sides.peers : sides.ours).push_back(&cell);
@@ -104,14 +107,9 @@ class Findings {
 
     void race(const JobKey& key, const Sides& sides) {
         const auto& [scene, task, threads, name] = key;
-        const bool has_updates = has_phase(sides.ours, Phase::update);
-        const bool has_queries = has_phase(sides.ours, Phase::query);
-        const Phase total = has_updates    ? Phase::update_and_query
-                            : !has_queries ? Phase::build
-                            : has_phase(sides.ours, Phase::build_and_query) ? Phase::build_and_query
-                                                                            : Phase::query;
-        Told told;
-        Finding& row = told.finding;
+        const Phase total = task_named(task).total;
+        Draft draft;
+        Finding& row = draft.finding;
         row.topic = Topic::race;
         row.scene_id = scene;
         row.task = task;
@@ -124,12 +122,12 @@ class Findings {
                 : nullptr;
         if (!together && !alone)
             return;
-        told.outcome = Outcome::wins;
-        told.ratio = std::numeric_limits<double>::infinity();
-        for (const Comparison* side : {together, alone})
-            if (side &&
-                std::pair(outcome_of(*side), 1 / side->ratio) < std::pair(told.outcome, told.ratio))
-                std::tie(told.outcome, told.ratio) = std::tuple(outcome_of(*side), 1 / side->ratio);
+        const auto rank = [](const Comparison& side) {
+            return std::pair(outcome_of(side), 1 / side.ratio);
+        };
+        const bool is_by_query = !together || (alone && rank(*alone) < rank(*together));
+        const Comparison& worst = is_by_query ? *alone : *together;
+        std::tie(draft.outcome, draft.ratio) = rank(worst);
         if (together)
             row.together = outcome_text(*together, rival_words(row.rival, row.ours));
         if (alone) {
@@ -137,15 +135,9 @@ class Findings {
             const bool is_named = together && rival == rival_words(row.rival, row.ours);
             row.alone = outcome_text(*alone, is_named ? "" : rival);
         }
-        row.certainty = certainty_text(together ? *together : *alone);
-        describe(told, *scenes_.at(scene), sides.ours.front()->n_items);
-        told_.push_back(std::move(told));
-    }
-
-    bool has_phase(const std::vector<const Cell*>& cells, Phase phase) const {
-        return std::ranges::any_of(cells, [&](const Cell* cell) {
-            return !std::isnan(medians_.ns(cell->cell_id, phase));
-        });
+        row.certainty = certainty_text(worst) + (is_by_query && together ? " (query)" : "");
+        describe(draft, *scenes_.at(scene), sides.ours.front()->n_items);
+        drafts_.push_back(std::move(draft));
     }
 
     const Cell* best_of(const std::vector<const Cell*>& cells, Phase phase) const {
@@ -198,24 +190,17 @@ class Findings {
                                                : rival.kernel;
     }
 
-    /// The kind of rays ends the name of their scene.
-    static void describe(Told& told, const results::SceneRow& scene, std::uint64_t n_items) {
-        told.question = task_words(told.finding.task);
-        std::string base = scene.name, where = scene.human_name;
-        if (told.finding.task.starts_with("rays_"))
-            if (const std::size_t at = base.rfind('_'); at != std::string::npos) {
-                const std::string rays = ", " + base.substr(at + 1) + " rays";
-                told.question += rays;
-                if (where.ends_with(rays))
-                    where.resize(where.size() - rays.size());
-                base.resize(at);
-            }
-        told.n_items = n_items;
-        told.where = where.empty() ? spaced(base) + " " + count_words(n_items) : std::move(where);
-        if (!told.finding.contender_class.empty())
-            told.how += ", " + class_words(told.finding.contender_class);
-        if (told.finding.threads > 1)
-            told.how += fmt::format(", {} threads", told.finding.threads);
+    void describe(Draft& draft, const results::SceneRow& scene, std::uint64_t n_items) const {
+        draft.question = task_named(draft.finding.task).title;
+        if (!scene.rays.empty())
+            draft.question += ", " + spaced(scene.rays) + " rays";
+        draft.n_items = n_items;
+        draft.where = scene.human_name.empty() ? spaced(scene.name) + " " + count_words(n_items)
+                                               : scene.human_name;
+        if (!draft.finding.contender_class.empty())
+            draft.how += ", " + draft.finding.contender_class;
+        if (draft.finding.threads > 1)
+            draft.how += fmt::format(", {} threads", draft.finding.threads);
     }
 
     void kernels() {
@@ -227,38 +212,38 @@ class Findings {
         for (const auto& [key, costs] : panels) {
             const auto right = std::ranges::find_if(
                 costs, [](const auto* cost) { return cost->wrong + cost->maybe == 0; });
-            Told told;
-            Finding& row = told.finding;
+            Draft draft;
+            Finding& row = draft.finding;
             row.topic = Topic::kernel;
             row.task = key.first;
             row.is_headline = 1;
             const results::KernelCost& fastest = *costs.front();
             if (right == costs.end()) {
-                told.outcome = Outcome::loses;
+                draft.outcome = Outcome::loses;
                 row.together = "none is always right";
                 row.alone = fmt::format("{}, {}", fastest.kernel, time_text(fastest.ns));
                 row.certainty = fmt::format("{} of {} wrong", fastest.wrong, fastest.n);
             } else {
-                told.outcome = Outcome::wins;
-                told.ratio = fastest.ns / (*right)->ns;
+                draft.outcome = Outcome::wins;
+                draft.ratio = fastest.ns / (*right)->ns;
                 row.together = fmt::format("{}, {}", (*right)->kernel, time_text((*right)->ns));
                 row.alone = *right == &fastest ? "the fastest of ours"
-                                               : fmt::format("{}x {}", short_ratio(1 / told.ratio),
+                                               : fmt::format("{}x {}", short_ratio(1 / draft.ratio),
                                                              fastest.kernel);
                 row.certainty = fmt::format("{} right", (*right)->n);
             }
-            row.question = fmt::format("{}, {}", spaced(key.first), key.second);
-            told_.push_back(std::move(told));
+            row.question = fmt::format("{}, {}", task_named(key.first).title, key.second);
+            drafts_.push_back(std::move(draft));
         }
     }
 
     void scenes() {
         for (const Cell& cell : results_.cells) {
-            if (!is_right(cell.status) || variant(cell).name != required_variant ||
+            if (!is_right(cell.status) || variant(cell).stages != results::required_stages ||
                 !scenes_.contains(cell.scene_id))
                 continue;
-            Told told;
-            Finding& row = told.finding;
+            Draft draft;
+            Finding& row = draft.finding;
             row.topic = Topic::scene;
             row.scene_id = cell.scene_id;
             row.task = cell.task;
@@ -276,51 +261,39 @@ class Findings {
                                                       short_ratio(other.ci_hi));
                     row.rival = other.cell_b;
                 }
-            describe(told, *scenes_.at(cell.scene_id), cell.n_items);
-            told.outcome = Outcome::wins;
-            told.ratio = 1e9 / frame; // the slowest first
-            told_.push_back(std::move(told));
+            describe(draft, *scenes_.at(cell.scene_id), cell.n_items);
+            draft.outcome = Outcome::wins;
+            draft.ratio = 1e9 / frame; // the slowest first
+            drafts_.push_back(std::move(draft));
         }
     }
 
-    /// Orders by what is worst for us, marks one finding per question, and words the questions:
-    /// where a task was put to one scene alone, its name says nothing.
+    /// Orders by what is worst for us, marks one finding per question, and words the questions.
     void choose_headlines() {
-        std::ranges::stable_sort(told_, {}, [](const Told& told) {
-            return std::tuple(told.finding.topic, told.outcome, told.ratio);
+        std::ranges::stable_sort(drafts_, {}, [](const Draft& draft) {
+            return std::tuple(draft.finding.topic, draft.outcome, draft.ratio);
         });
-        const auto question_of = [&](const Told& told) {
-            return std::tuple(told.finding.topic, told.question,
-                              scenes_.contains(told.finding.scene_id)
-                                  ? scenes_.at(told.finding.scene_id)->name
-                                  : "",
-                              told.finding.contender_class);
+        const auto question_of = [&](const Draft& draft) {
+            return std::tuple(draft.finding.topic, draft.question,
+                              scenes_.at(draft.finding.scene_id)->name,
+                              draft.finding.contender_class);
         };
-        std::map<decltype(question_of(told_.front())), std::uint64_t> largest;
-        for (const Told& told : told_)
-            if (told.finding.topic != Topic::kernel)
-                largest[question_of(told)] = std::max(largest[question_of(told)], told.n_items);
-        std::map<std::string, std::set<std::string>> places; // by task
-        for (Told& told : told_) {
-            if (told.finding.topic == Topic::kernel)
+        std::map<decltype(question_of(drafts_.front())), std::uint64_t> largest;
+        for (const Draft& draft : drafts_)
+            if (draft.finding.topic != Topic::kernel)
+                largest[question_of(draft)] = std::max(largest[question_of(draft)], draft.n_items);
+        for (Draft& draft : drafts_) {
+            Finding& row = draft.finding;
+            if (row.topic == Topic::kernel)
                 continue;
-            auto& n = largest[question_of(told)];
-            told.finding.is_headline = n == told.n_items;
-            if (told.finding.is_headline) {
+            std::uint64_t& n = largest[question_of(draft)];
+            row.is_headline = n == draft.n_items;
+            if (row.is_headline)
                 n = 0; // the first of that size, and so the worst
-                places[told.finding.task].insert(told.where);
-            }
+            row.question = draft.where + draft.how;
+            if (row.topic == Topic::race)
+                row.question = draft.question + ", " + row.question;
         }
-        for (Told& told : told_)
-            if (told.finding.topic == Topic::scene) {
-                told.finding.question = told.where + told.how;
-            } else if (told.finding.topic == Topic::race) {
-                const bool is_known = told.finding.is_headline &&
-                                      places[told.finding.task].size() == 1 &&
-                                      told.finding.task.starts_with("rays_");
-                told.finding.question =
-                    told.question + (is_known ? "" : ", " + told.where) + told.how;
-            }
     }
 
     const Results& results_;
@@ -328,13 +301,26 @@ class Findings {
     std::map<std::uint32_t, const results::SceneRow*> scenes_;
     std::map<std::uint32_t, const results::Variant*> variants_;
     std::map<std::uint32_t, const Cell*> cells_;
+    std::map<std::string, const results::TaskRow*> tasks_;
     std::map<std::tuple<std::uint32_t, std::uint32_t, Phase, std::string>, const Comparison*>
         compare_;
-    std::vector<Told> told_;
+    std::vector<Draft> drafts_;
 };
 
 } // namespace
 
-std::vector<Finding> findings_of(const Results& results) { return Findings(results).all(); }
+std::vector<Finding> findings_of(const Results& results) {
+    const bool is_too_noisy = !results.health.empty() && results.health.front().is_too_noisy;
+    return is_too_noisy ? std::vector<Finding>{} : Findings(results).all();
+}
+
+std::vector<results::TopicRow> topics() {
+    return {{Topic::race, "against the best rival, losses first", "rival's time / ours",
+             "build + query", "query alone", "interval"},
+            {Topic::kernel, "kernels on hard cases", "kernels on hard cases", "cheapest, a call",
+             "against our fastest", "errors"},
+            {Topic::scene, "moving scenes, a frame", "moving scenes", "what they require",
+             "with all stages", "interval"}};
+}
 
 } // namespace boxwood::bench

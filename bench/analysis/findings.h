@@ -12,7 +12,10 @@ namespace boxwood::bench {
 /// together and by the query alone; for each family of kernels and panel the cheapest that is never
 /// wrong; for each scene that is played, what a frame takes and what all stages would. A headline
 /// stands for its question: the largest size, and of several numbers of threads the worst for us.
-/// Needs all other derived tables.
+/// Empty for a run that is too noisy. Needs all other derived tables.
 std::vector<results::Finding> findings_of(const results::Results& results);
+
+/// What the topics and the columns of their rows are called, in the order of a screen.
+std::vector<results::TopicRow> topics();
 
 } // namespace boxwood::bench

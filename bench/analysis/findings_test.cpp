@@ -55,6 +55,14 @@ TEST_F(Findings, HoldTheBestOfOursAgainstTheBestRival) {
     EXPECT_FALSE(is_promise_broken(run.results));
 }
 
+TEST_F(Findings, NameTheKindOfRaysAndTheScene) {
+    for (const char* name : {"ours.wide8.rays", "embree.rtc"})
+        add("sphere_mesh_primary", "rays_closest", name, 10, 100);
+    run.results.scenes[0].rays = "primary";
+    run.results.scenes[0].human_name = "a sphere";
+    EXPECT_EQ(only().question, "nearest hit, primary rays, a sphere");
+}
+
 TEST_F(Findings, ChooseTheBestOfEachMeasureByItself) {
     const auto builds = add("uniform", "pairs", "builds.packed", 100, 300),
                queries = add("uniform", "pairs", "queries.packed", 900, 200);
@@ -64,6 +72,7 @@ TEST_F(Findings, ChooseTheBestOfEachMeasureByItself) {
     EXPECT_EQ(row.ours_alone, queries);
     EXPECT_EQ(row.together, "wins 3.25x over FCL"); // 1300 / 400
     EXPECT_EQ(row.alone, "wins 3.00x");             // 600 / 200
+    EXPECT_EQ(row.certainty, "3.00-3.00 (query)");  // of what it is ranked by
 }
 
 TEST_F(Findings, RankUpdatesWithTheirQueriesAndBuildsThatNothingFollows) {
@@ -175,7 +184,7 @@ TEST_F(Findings, AKernelWithoutAPromiseMayErrAndOneWithMayNot) {
     EXPECT_EQ(promises_text(run.results), "Every promise is kept.\n");
     EXPECT_EQ(run.results.health[0].wrong_ours, 0u);
     add_kernel("liar", "never-miss", 1, 5);
-    EXPECT_THAT(screen(), HasSubstr("1 BROKEN PROMISE"));
+    EXPECT_THAT(screen(), HasSubstr("PROMISE BROKEN: liar on slivers"));
     EXPECT_TRUE(is_promise_broken(run.results));
     EXPECT_THAT(promises_text(run.results),
                 HasSubstr("BROKEN PROMISE: liar promises never-miss on slivers/"
@@ -185,6 +194,7 @@ TEST_F(Findings, AKernelWithoutAPromiseMayErrAndOneWithMayNot) {
 TEST_F(Findings, AScenePlayedSaysItsFrameAndWhatEverythingWouldTake) {
     for (const auto& [name, update] : {std::pair{"required", 2e6}, {"all_stages", 5e6}}) {
         const auto cell = add("warehouse", "scene_queries", name, 1, 1e6);
+        run.variant_of(cell).stages = std::string_view(name) == "required" ? "required" : "all";
         run.time(cell, Phase::update, update);
     }
     const Finding& row = only();
@@ -206,6 +216,9 @@ TEST_F(Findings, ANoisyRunSaysRepeatThisInstead) {
     EXPECT_EQ(run.results.health[0].is_too_noisy, 1u);
     EXPECT_THAT(text, HasSubstr("REPEAT THIS"));
     EXPECT_THAT(text, Not(HasSubstr("FCL")));
+    EXPECT_TRUE(run.results.findings.empty());
+    for (const results::Comparison& row : run.results.compare)
+        EXPECT_EQ(row.reason, results::Reason::too_noisy);
 }
 
 TEST_F(Findings, OneScreenHoldsAHundredQuestions) {

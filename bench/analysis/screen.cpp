@@ -1,12 +1,10 @@
 #include "bench/analysis/screen.h"
 
-#include "bench/analysis/statistics.h"
 #include "bench/io/text_table.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <sstream>
 #include <utility>
@@ -17,7 +15,7 @@ namespace {
 
 using results::Finding;
 using results::Health;
-using results::Topic;
+using results::TopicRow;
 
 constexpr std::size_t columns = 100;
 
@@ -25,45 +23,20 @@ std::string cut(const std::string& text, std::size_t width = columns) {
     return text.size() <= width ? text : text.substr(0, width - 3) + "...";
 }
 
-std::string trust_text(const Health& health) {
-    std::string text = fmt::format("{} rounds, {:.1f} % of the samples disturbed; ", health.rounds,
-                                   health.samples ? 100.0 * static_cast<double>(health.disturbed) /
-                                                        static_cast<double>(health.samples)
-                                                  : 0.0);
-    if (std::isnan(health.floor))
-        text += "noise floor not known";
-    else
-        text += fmt::format("noise floor {:.1f} %", 100 * health.floor);
-    if (health.is_too_noisy)
-        return text + ": too noisy";
-    if (health.rounds < min_pairs_verdict)
-        return text + fmt::format(": {} rounds give verdicts", min_pairs_verdict);
-    return text + (std::isnan(health.floor) ? ": no cell was timed twice" : ": quiet enough");
-}
-
-std::string answers_text(const Health& health) {
-    std::string text = fmt::format("{} answers checked: {} of ours wrong, {} of the peers' wrong",
-                                   health.answers, health.wrong_ours, health.wrong_peers);
-    if (health.broken_promises > 0)
-        text += fmt::format("; {} BROKEN PROMISES", health.broken_promises);
-    return text;
-}
-
-/// The headings of the four columns of a topic.
-std::vector<std::string> headings_of(Topic topic) {
-    switch (topic) {
-    case Topic::kernel:
-        return {"kernels on hard cases", "cheapest, a call", "against our fastest", "errors"};
-    case Topic::scene:
-        return {"moving scenes", "what they require", "with all stages", "interval"};
-    default:
-        return {"rival's time / ours", "build + query", "query alone", "interval"};
-    }
+/// Lines of at most `columns`, broken between words.
+std::string wrapped(const std::string& text) {
+    std::string lines, line;
+    std::istringstream in(text);
+    for (std::string word; in >> word; line += (line.empty() ? "" : " ") + word)
+        if (!line.empty() && line.size() + 1 + word.size() > columns)
+            lines += std::exchange(line, "") + "\n";
+    return line.empty() ? lines : lines + line + "\n";
 }
 
 /// The rows of one topic; the questions are cut so that all answers are seen.
-std::string table_text(std::span<const Finding* const> findings) {
-    const auto headings = headings_of(findings.front()->topic);
+std::string table_text(const TopicRow& topic, std::span<const Finding* const> findings) {
+    const std::vector<std::string> headings{topic.question, topic.together, topic.alone,
+                                            topic.certainty};
     std::size_t answers = 0;
     for (const auto& [column, heading] :
          {std::pair{&Finding::together, 1}, {&Finding::alone, 2}, {&Finding::certainty, 3}}) {
@@ -87,34 +60,52 @@ std::string table_text(std::span<const Finding* const> findings) {
 } // namespace
 
 std::string screen_text(const results::Results& results, std::size_t max_lines) {
-    const Health health = results.health.empty() ? Health{} : results.health.front();
-    std::string text = cut(trust_text(health)) + "\n" + cut(answers_text(health)) + "\n";
+    if (results.health.empty())
+        return "";
+    const Health& health = results.health.front();
+    std::string text = wrapped(health.trust) + wrapped(health.correctness);
     if (health.is_too_noisy)
-        return text + "\nREPEAT THIS: the same work timed twice differed by more than 20 %, so no "
-                      "time here means anything.\nClose other programs (`boxwood doctor` says "
-                      "which settings disturb) and measure again.\n";
-    std::vector<std::vector<const Finding*>> topics;
-    for (const Topic topic : {Topic::race, Topic::kernel, Topic::scene}) {
-        std::vector<const Finding*> headlines;
+        return text + "\n" + wrapped(health.advice);
+    const auto taken = static_cast<std::size_t>(std::ranges::count(text, '\n'));
+    struct Rows {
+        const TopicRow* topic;
+        std::vector<const Finding*> findings;
+    };
+    std::vector<Rows> topics;
+    for (const TopicRow& topic : results.topics) {
+        Rows rows{&topic, {}};
         for (const Finding& finding : results.findings)
-            if (finding.topic == topic && finding.is_headline)
-                headlines.push_back(&finding);
-        if (!headlines.empty())
-            topics.push_back(std::move(headlines));
+            if (finding.topic == topic.topic && finding.is_headline)
+                rows.findings.push_back(&finding);
+        if (!rows.findings.empty())
+            topics.push_back(std::move(rows));
     }
-    // Two lines are taken, each topic takes two more, and the last may say that there is more.
-    std::size_t left = max_lines - 3 - 2 * topics.size(), shown = 0;
+    // Each topic takes two lines more, and the last may say that there is more.
+    std::size_t left = max_lines - taken - 1 - 2 * topics.size(), shown = 0;
     for (std::size_t topic = 0; topic < topics.size(); ++topic) {
         std::size_t others = 0; // lines that later topics need at least
         for (std::size_t later = topic + 1; later < topics.size(); ++later)
-            others += std::min(topics[later].size(), left / topics.size());
-        const std::size_t n = std::min(topics[topic].size(), left - others);
-        text += "\n" + table_text(std::span(topics[topic]).first(n));
+            others += std::min(topics[later].findings.size(), left / topics.size());
+        const std::size_t n = std::min(topics[topic].findings.size(), left - others);
+        text += "\n" + table_text(*topics[topic].topic, std::span(topics[topic].findings).first(n));
         left -= n;
         shown += n;
     }
     if (const std::size_t more = results.findings.size() - shown; more > 0)
         text += fmt::format("and {} more: boxwood show FILE.h5 --all\n", more);
+    return text;
+}
+
+std::string findings_text(const results::Results& results) {
+    std::string text;
+    for (const TopicRow& topic : results.topics) {
+        TextTable table({topic.question, topic.together, topic.alone, topic.certainty});
+        for (const Finding& row : results.findings)
+            if (row.topic == topic.topic)
+                table.add({row.question, row.together, row.alone, row.certainty});
+        if (!table.empty())
+            text += fmt::format("\n{}:\n{}", topic.title, table.text());
+    }
     return text;
 }
 

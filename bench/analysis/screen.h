@@ -12,6 +12,9 @@ namespace boxwood::bench {
 /// with too much noise that it must be repeated. Reads the derived tables, derives nothing.
 std::string screen_text(const results::Results& results, std::size_t max_lines = 21);
 
+/// All findings, by topic.
+std::string findings_text(const results::Results& results);
+
 /// A result file, and its report and figures where they stand beside it: at most four lines.
 std::string paths_text(const std::filesystem::path& file);
 

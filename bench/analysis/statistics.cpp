@@ -114,14 +114,12 @@ Ruling decide_one(std::span<const double> logs, double p_adj, double level, doub
                   double floor) {
     using results::Reason, results::Verdict;
     Ruling claim{paired_ratio(logs), p_adj};
-    if (!logs.empty() && std::ranges::all_of(logs, [](double x) { return x == 0; })) {
-        claim.verdict = Verdict::same;
-        return claim;
-    }
     const auto open = [&](Reason reason) {
         claim.reason = reason;
         return claim;
     };
+    if (floor > max_floor)
+        return open(Reason::too_noisy);
     if (logs.size() < min_pairs_verdict)
         return open(Reason::too_few_rounds);
     if (is_within(claim.ratio.ci_lo, delta) && is_within(claim.ratio.ci_hi, delta)) {

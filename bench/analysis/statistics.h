@@ -13,6 +13,7 @@ namespace boxwood::bench {
 
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double default_delta = 0.05;        ///< "same" means within +-5 %
+inline constexpr double max_floor = 0.2;             ///< noisier runs have nothing to say
 inline constexpr double family_error = 0.05;         ///< of a family of claims, after Holm
 inline constexpr std::size_t min_pairs_interval = 6; ///< fewer give no 95 % interval
 inline constexpr std::size_t min_pairs_verdict = 9;  ///< fewer give no verdict
@@ -73,8 +74,8 @@ struct Ruling {
 /// The claims of one family, each the log-ratios of b against a by paired round, decided together.
 /// "same": the 95 % interval lies within a factor 1 + delta and the noise floor is no wider.
 /// "faster", "slower": the interval at the claim's level within the family excludes 1, and the
-/// ratio is beyond the noise floor. Else "cannot_tell", as for fewer than 9 pairs. Identical data
-/// are the same whatever their number.
+/// ratio is beyond the noise floor. Else "cannot_tell", as for fewer than 9 pairs, and for every
+/// claim where the floor is above max_floor.
 std::vector<Ruling> decide(std::span<const std::vector<double>> family, double delta, double floor);
 
 } // namespace boxwood::bench

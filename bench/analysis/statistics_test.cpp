@@ -107,13 +107,15 @@ TEST(Decide, CaseByCase) {
     EXPECT_EQ(of({1.1, 1.1, 1.2, 1.2, 1.2, 1.2, 1.2, 1.3, 1.3}), said(Verdict::slower));
     EXPECT_EQ(of({.5, 1.1, 1.2, 1.2, 1.2, 1.2, 1.2, 1.3, 9}), said(Verdict::slower)); // two bad
     EXPECT_EQ(of({.5, .96, 1, 1, 1, 1, 1, 1.04, 2}), said(Verdict::same));
-    EXPECT_EQ(of({.96, .96, 1, 1, 1, 1, 1, 1.04, 1.04}, .5), open(Reason::below_the_floor));
+    EXPECT_EQ(of({.96, .96, 1, 1, 1, 1, 1, 1.04, 1.04}, .15), open(Reason::below_the_floor));
     EXPECT_EQ(of({1.01, 1.01, 1.02, 1.02, 1.02, 1.02, 1.02, 1.03, 1.03}), said(Verdict::same));
     EXPECT_EQ(of({.9, .9, .9, 1, 1, 1, 1.1, 1.1, 1.1}), open(Reason::crosses_1));
     EXPECT_EQ(of({.7, .7, .7, .8, .8, .8, .8, .8}), open(Reason::too_few_rounds));
     EXPECT_EQ(of({1.1, 1.1, 1.15, 1.15, 1.15, 1.15, 1.15, 1.5, 1.5}, .2),
               open(Reason::below_the_floor));
-    EXPECT_EQ(of({1}), said(Verdict::same)); // the same data, whatever their number
+    EXPECT_EQ(of({1, 1, 1}), open(Reason::too_few_rounds)); // even for the same data
+    EXPECT_EQ(of({1, 1, 1, 1, 1, 1, 1, 1, 1}), said(Verdict::same));
+    EXPECT_EQ(of({3, 3, 3, 3, 3, 3, 3, 3, 3}, .21), open(Reason::too_noisy));
 }
 
 TEST(Decide, TheIntervalIsTheOneThatDecided) {

@@ -62,6 +62,15 @@ std::vector<double> log_ratios(const Rounds& a, const Rounds& b) {
     return logs;
 }
 
+std::pair<double, double> paired_medians(const Rounds& a, const Rounds& b) {
+    std::vector<double> of_a, of_b;
+    for_each_pair(a, b, [&](const Times::RoundKey&, double ns_a, double ns_b) {
+        of_a.push_back(ns_a);
+        of_b.push_back(ns_b);
+    });
+    return {median_interval(std::move(of_a)).mid, median_interval(std::move(of_b)).mid};
+}
+
 std::set<std::string> machines_of(const Results& results) {
     std::set<std::string> machines;
     for (const auto& env : results.env)
@@ -114,16 +123,6 @@ std::optional<double> noise_floor(const Results& results) {
                 floor = std::max({floor.value_or(0), ratio.ci_hi - 1, 1 / ratio.ci_lo - 1});
         }
     return floor;
-}
-
-void set_builds(Results& results) {
-    constexpr double copy_ns_per_item = 8, copy_part_of_query = 0.05; // a copy is below both
-    const MedianIndex medians(results);
-    for (results::Cell& cell : results.cells) {
-        const double build = medians.ns(cell.cell_id, Phase::build);
-        cell.builds = build > copy_ns_per_item * static_cast<double>(cell.n_items) ||
-                      build > copy_part_of_query * medians.ns(cell.cell_id, Phase::query);
-    }
 }
 
 std::vector<results::Median> medians_of(const Results& results, const Times& times) {

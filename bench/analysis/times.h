@@ -38,6 +38,8 @@ class Times {
 };
 
 std::vector<double> log_ratios(const Times::Rounds& a, const Times::Rounds& b);
+/// The median times of a and of b in the rounds that both have; NaN if there is none.
+std::pair<double, double> paired_medians(const Times::Rounds& a, const Times::Rounds& b);
 
 std::set<std::string> machines_of(const results::Results& results);
 
@@ -47,10 +49,6 @@ std::optional<double> noise_floor(const results::Results& results);
 
 /// Ordered by cell, then phase; the limits from limits.h.
 std::vector<results::Median> medians_of(const results::Results& results, const Times& times);
-
-/// Sets Cell::builds of every cell: 0 where the "build" only copies the input, or there is none.
-/// Needs /medians.
-void set_builds(results::Results& results);
 
 /// Medians by cell and phase, as a file has them.
 class MedianIndex {

@@ -13,19 +13,6 @@ namespace boxwood::bench {
 using results::Comparison;
 using results::Verdict;
 
-std::string task_words(const std::string& task) {
-    static const std::map<std::string, std::string> words{
-        {"pairs", "overlapping pairs"},    {"tree_pairs", "pairs of two sets"},
-        {"rays_closest", "nearest hit"},   {"rays_any", "any hit"},
-        {"rays_all", "all hits"},          {"triangle_pairs", "touching triangles"},
-        {"moving_pairs", "moving boxes"},  {"build", "tree build"},
-        {"points", "boxes at a point"},    {"regions", "boxes in a region"},
-        {"nearest", "nearest boxes"},      {"closest_points", "nearest surface point"},
-        {"scene_queries", "a whole scene"}};
-    const auto found = words.find(task);
-    return found == words.end() ? task : found->second;
-}
-
 std::string spaced(std::string name) {
     std::ranges::replace(name, '_', ' ');
     return name;
@@ -42,15 +29,6 @@ std::string library_words(const std::string& library) {
         {"fcl", "FCL"}, {"cgal", "CGAL"}, {"embree", "Embree"}, {"bullet", "Bullet"}};
     const auto found = words.find(library);
     return found == words.end() ? spaced(library) : found->second;
-}
-
-std::string class_words(const std::string& name) {
-    const std::string tight = "watertight ";
-    if (name.starts_with(tight))
-        return "watertight " + class_words(name.substr(tight.size()));
-    return name == "single rays"                   ? "one by one"
-           : name == "batches against single rays" ? "batches"
-                                                   : name;
 }
 
 Outcome outcome_of(const Comparison& row) {
@@ -98,6 +76,8 @@ std::string reason_text(results::Reason reason) {
         return "may be equal";
     case results::Reason::unchecked:
         return "unchecked";
+    case results::Reason::too_noisy:
+        return "too noisy";
     case results::Reason::none:
         break;
     }

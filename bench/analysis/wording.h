@@ -30,10 +30,8 @@ std::string interval_text(double ratio, double lo, double hi);
 /// "0.73", "12.3", "120": short enough for a screen.
 std::string short_ratio(double ratio);
 
-// "nearest hit" of rays_closest, "Embree" of embree, "batches" of a class, "10k" of 10,000.
-std::string task_words(const std::string& task);
+// "Embree" of embree, "10k" of 10,000.
 std::string library_words(const std::string& library);
-std::string class_words(const std::string& name);
 std::string count_words(std::uint64_t n);
 std::string spaced(std::string name); ///< with spaces for underscores
 

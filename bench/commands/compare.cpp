@@ -3,6 +3,7 @@
 #include "bench/analysis/wording.h"
 #include "bench/commands/command.h"
 #include "bench/io/json.h"
+#include "bench/io/pattern.h"
 #include "bench/io/text_table.h"
 
 #include <fmt/format.h>
@@ -21,21 +22,49 @@ namespace {
 using results::Comparison;
 using results::Reason;
 using results::Results;
-using results::Verdict;
-
-/// Whether a slowdown by more than `limit` is not excluded. (Identical data need no interval.)
-bool may_be_slower(const FileRow& row, double limit) {
-    const Verdict verdict = row.comparison.verdict;
-    if (verdict == Verdict::wrong || (verdict == Verdict::same && std::isnan(row.hi_95)))
-        return false;
-    return std::isnan(row.hi_95) || row.hi_95 > 1 + limit;
-}
 
 std::string said_of(const FileRow& row) {
-    return row.is_newly_wrong ? "newly wrong"
-           : row.comparison.verdict == Verdict::cannot_tell
-               ? "can't tell"
-               : std::string(to_string(row.comparison.verdict));
+    return row.is_newly_wrong ? "newly wrong" : row.comparison.words;
+}
+
+/// "REGRESSION: 2 of 120 timings are slower by more than 5 %", with the exit code it stands for.
+std::string verdict_line(const FileComparison& comparison, const FileOptions& options) {
+    std::map<Gate, std::size_t> count;
+    std::size_t newly_wrong = 0;
+    for (const FileRow& row : comparison.rows) {
+        ++count[row.gate];
+        newly_wrong += row.is_newly_wrong;
+    }
+    const std::string limit = fmt::format("{:g} %", 100 * options.fail_if.value_or(options.delta));
+    const std::size_t n = comparison.rows.size(),
+                      lost = comparison.only_base.size() + comparison.other_content.size();
+    switch (comparison.gate) {
+    case Gate::passes:
+        return fmt::format("FINE: none of {} timings is slower by more than {}\n", n, limit);
+    case Gate::fails: {
+        std::string text = "REGRESSION:";
+        if (const std::size_t slower = count[Gate::fails] - newly_wrong; slower > 0)
+            text += fmt::format(" {} of {} timings slower{}{}", slower, n,
+                                options.fail_if ? " by more than " + limit : "",
+                                newly_wrong > 0 ? "," : "");
+        if (newly_wrong > 0)
+            text += fmt::format(" {} of {} answers newly wrong", newly_wrong, n);
+        return text + "\n";
+    }
+    case Gate::open:
+        break;
+    }
+    std::string text = "CAN'T TELL:";
+    if (count[Gate::open] > 0)
+        text += fmt::format(" {} of {} timings may be slower by more than {}{}", count[Gate::open],
+                            n, limit, lost > 0 ? "," : "");
+    if (lost > 0)
+        text += fmt::format(" {} cells of the base cannot be compared", lost);
+    return text + "\n";
+}
+
+std::string_view gate_word(Gate gate) {
+    return gate == Gate::passes ? "passes" : gate == Gate::fails ? "fails" : "open";
 }
 
 std::string commit_of(const Results& results) {
@@ -82,44 +111,35 @@ double fail_threshold(const std::string& condition) {
     return percent_of(packed.substr(start.size()));
 }
 
-int exit_code_of(const FileComparison& comparison, double delta, std::optional<double> fail_if) {
-    bool is_open = !comparison.only_base.empty() || !comparison.other_content.empty();
-    for (const FileRow& row : comparison.rows) {
-        if (row.is_newly_wrong || (row.comparison.verdict == Verdict::slower &&
-                                   row.comparison.ratio > 1 + fail_if.value_or(0)))
-            return exit_failed;
-        is_open = is_open || may_be_slower(row, fail_if.value_or(delta));
-    }
-    return is_open ? exit_cannot_tell : exit_success;
+int exit_code_of(Gate gate) {
+    return gate == Gate::passes  ? exit_success
+           : gate == Gate::fails ? exit_failed
+                                 : exit_cannot_tell;
 }
 
 std::string comparison_text(const Results& base, const Results& head,
-                            const FileComparison& comparison, bool markdown) {
-    const MedianIndex base_ns(base), head_ns(head);
-    TextTable table(
-        {"cell", "phase", ">rounds", ">base", ">head", ">head/base", ">interval", ">p", "head is"});
-    std::map<std::string, std::size_t> count;
+                            const FileComparison& comparison, const FileOptions& options,
+                            bool markdown) {
+    TextTable table({"cell", "phase", ">rounds", ">base", ">head", ">head/base", ">interval",
+                     ">at most", "head is", "gate"});
     bool is_short = false;
     for (const FileRow& file_row : comparison.rows) {
         const Comparison& row = file_row.comparison;
-        const std::string said = said_of(file_row);
-        ++count[said];
         is_short = is_short || row.reason == Reason::too_few_rounds;
         table.add({file_row.name, std::string(to_string(row.phase)), std::to_string(row.n_pairs),
-                   time_text(base_ns.ns(row.cell_a, row.phase)),
-                   time_text(head_ns.ns(row.cell_b, row.phase)), ratio_text(row.ratio),
+                   time_text(file_row.base_ns), time_text(file_row.head_ns), ratio_text(row.ratio),
                    fmt::format("{} to {}", ratio_text(row.ci_lo), ratio_text(row.ci_hi)),
-                   std::isnan(row.p_adj) ? "-" : fmt::format("{:.2g}", row.p_adj),
-                   row.verdict == Verdict::cannot_tell ? verdict_text(row) : said});
+                   ratio_text(file_row.max_ratio), said_of(file_row),
+                   std::string(gate_word(file_row.gate))});
     }
 
-    std::string text = fmt::format("base: {}\nhead: {}\n\n", commit_of(base), commit_of(head));
+    std::string text = verdict_line(comparison, options);
+    text += fmt::format("base: {}\nhead: {}\n\n", commit_of(base), commit_of(head));
     text += markdown ? table.markdown() : table.text();
-    std::string sum;
-    for (const char* said : {"slower", "newly wrong", "faster", "same", "can't tell", "wrong"})
-        if (count[said] > 0)
-            sum += fmt::format("{}{} {}", sum.empty() ? "" : ", ", count[said], said);
-    text += "\n" + sum + "\n";
+    text +=
+        "\n\"interval\" decided \"head is\" (all rows corrected together); the gate passes a row "
+        "whose \"at most\" (95 %\nof this row alone) is within the limit, and fails one that is "
+        "slower with its interval above the limit\n";
     if (comparison.floor)
         text += fmt::format("A/A noise floor +-{:.1f} %: no difference below it is claimed\n",
                             100 * *comparison.floor);
@@ -127,7 +147,7 @@ std::string comparison_text(const Results& base, const Results& head,
         text += "The two files are of different machine states (another machine, build or "
                 "commit): rounds are paired in order of time.\n";
     const std::size_t needed = rounds_needed(comparison.family_size);
-    if (is_short || (count["can't tell"] > 0 && needed > min_pairs_verdict))
+    if (is_short || (comparison.gate == Gate::open && needed > min_pairs_verdict))
         text += fmt::format("More rounds are needed: a verdict on {} comparisons at once takes at "
                             "least {} rounds in both files.\n",
                             comparison.family_size, needed);
@@ -151,23 +171,24 @@ std::string comparison_json(const FileComparison& comparison) {
             "{}\n  {{\"cell\": {}, \"phase\": \"{}\", \"n_pairs\": {}, \"ratio\": {}, \"ci_lo\": "
             "{}, "
             "\"ci_hi\": {}, \"p_adj\": {}, \"verdict\": \"{}\", \"reason\": \"{}\", "
-            "\"newly_wrong\": {}}}",
+            "\"newly_wrong\": {}, \"max_ratio\": {}, \"gate\": \"{}\"}}",
             rows.empty() ? "" : ",", json_string(row.name), to_string(c.phase), c.n_pairs,
             json_number(c.ratio), json_number(c.ci_lo), json_number(c.ci_hi), json_number(c.p_adj),
-            to_string(c.verdict), to_string(c.reason), row.is_newly_wrong);
+            to_string(c.verdict), to_string(c.reason), row.is_newly_wrong,
+            json_number(row.max_ratio), gate_word(row.gate));
     }
-    return fmt::format(
-        "{{\"floor\": {}, \"same_machine\": {}, \"only_base\": {}, \"only_head\": {}, "
-        "\"other_content\": {}, \"rows\": [{}]}}\n",
-        json_number(comparison.floor.value_or(unknown)), comparison.is_same_machine,
-        list_of(comparison.only_base), list_of(comparison.only_head),
-        list_of(comparison.other_content), rows);
+    return fmt::format("{{\"gate\": \"{}\", \"floor\": {}, \"same_machine\": {}, \"only_base\": "
+                       "{}, \"only_head\": {}, "
+                       "\"other_content\": {}, \"rows\": [{}]}}\n",
+                       gate_word(comparison.gate), json_number(comparison.floor.value_or(unknown)),
+                       comparison.is_same_machine, list_of(comparison.only_base),
+                       list_of(comparison.only_head), list_of(comparison.other_content), rows);
 }
 
 void add_compare(CLI::App& app, int& exit_code) {
     struct Options {
-        std::string base, head, fail_if, delta = "5%";
-        bool markdown = false, json = false;
+        std::string base, head, fail_if, delta = "5%", only;
+        bool all = false, markdown = false, json = false;
     };
     auto options = std::make_shared<Options>();
     CLI::App* compare = app.add_subcommand(
@@ -179,6 +200,8 @@ void add_compare(CLI::App& app, int& exit_code) {
                         "\"slower\" if not given");
     compare->add_option("--delta", options->delta, "\"same\" means within this")
         ->capture_default_str();
+    compare->add_option("--only", options->only, "cells whose name has a match of this regex");
+    compare->add_flag("--all", options->all, "peers too: where they changed, the machine did");
     CLI::Option* markdown =
         compare->add_flag("--markdown", options->markdown, "the table in Markdown");
     compare->add_flag("--json", options->json, "all of it as JSON")->excludes(markdown);
@@ -187,18 +210,25 @@ void add_compare(CLI::App& app, int& exit_code) {
         "Exit codes: 0 fine, 1 a regression, 2 bad input, 3 can't tell (too few or too noisy "
         "rounds, or cells of the base are gone).");
     compare->callback([options, &exit_code] {
-        const double delta = percent_of(options->delta);
-        std::optional<double> fail_if;
+        FileOptions chosen;
+        chosen.delta = percent_of(options->delta);
+        chosen.with_peers = options->all;
         if (!options->fail_if.empty())
-            fail_if = fail_threshold(options->fail_if);
+            chosen.fail_if = fail_threshold(options->fail_if);
+        if (!options->only.empty())
+            chosen.wanted = [only = Pattern(options->only)](const std::string& name) {
+                return only.is_in(name);
+            };
         const Results base = results::read(options->base), head = results::read(options->head);
-        const FileComparison comparison = compare_files(base, head, delta);
+        const FileComparison comparison = compare_files(base, head, chosen);
         if (comparison.rows.empty() && comparison.other_content.empty())
-            throw BadInput(fmt::format("compare: '{}' and '{}' have no timed cell in common",
-                                       options->base, options->head));
-        std::cout << (options->json ? comparison_json(comparison)
-                                    : comparison_text(base, head, comparison, options->markdown));
-        exit_code = exit_code_of(comparison, delta, fail_if);
+            throw BadInput(fmt::format("compare: '{}' and '{}' have no timed cell {}in common{}",
+                                       options->base, options->head, options->all ? "" : "of ours ",
+                                       options->only.empty() ? "" : " that --only leaves"));
+        std::cout << (options->json
+                          ? comparison_json(comparison)
+                          : comparison_text(base, head, comparison, chosen, options->markdown));
+        exit_code = exit_code_of(comparison.gate);
     });
 }
 

@@ -220,8 +220,7 @@ class Group {
             table.add({"  " + labels_.at(row.cell_b),
                        other == labels_.end() ? "itself on one thread" : other->second, family,
                        std::string(to_string(row.phase)), std::to_string(row.n_pairs),
-                       interval_text(1 / row.ratio, 1 / row.ci_hi, 1 / row.ci_lo),
-                       verdict_text(row)});
+                       interval_text(1 / row.ratio, 1 / row.ci_hi, 1 / row.ci_lo), row.words});
         }
         return table.empty() ? "" : table.text();
     }
@@ -288,10 +287,7 @@ std::string all_text(const Results& results) {
     }
     for (const Work& work : order)
         text += Group(results, groups[work]).text();
-    TextTable findings({"finding", "build + query", "query alone", "interval"});
-    for (const results::Finding& row : results.findings)
-        findings.add({row.question, row.together, row.alone, row.certainty});
-    return text + (findings.empty() ? "" : "\n" + findings.text());
+    return text + findings_text(results);
 }
 
 std::string csv_text(const Results& results) {
@@ -314,7 +310,7 @@ std::string csv_text(const Results& results) {
 std::string json_text(const Results& results) {
     static const std::set<std::string_view> shown{"cells",        "medians",    "compare",
                                                   "size_scaling", "break_even", "kernel_costs",
-                                                  "findings",     "health"};
+                                                  "topics",       "findings",   "health"};
     std::string text;
     results::for_each_table([&]<class Row>(const results::Table<Row>& table) {
         if (!shown.contains(table.name))

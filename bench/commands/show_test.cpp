@@ -67,6 +67,7 @@ results::Results four_cells() {
             results.samples.push_back(sample);
         }
     }
+    results.tasks.push_back({"pairs", "overlapping pairs", results::Phase::build_and_query});
     results.counters.push_back({0, "box_tests", 12345});
     analyse(results);
     return results;
@@ -90,10 +91,10 @@ TEST(Show, AllSaysWhatIsInTheFile) {
 TEST(Show, TakesWhatTheFileSaysAndDerivesNothing) {
     results::Results results = four_cells();
     results.medians[0].median_ns = 77e6;
-    results.compare[0].verdict = results::Verdict::slower;
+    results.compare[0].words = "as it says";
     results.findings[0].together = "a word of its own";
     EXPECT_THAT(all_text(results), HasSubstr("77.0 ms"));
-    EXPECT_THAT(all_text(results), HasSubstr("slower"));
+    EXPECT_THAT(all_text(results), HasSubstr("as it says"));
     EXPECT_THAT(all_text(results), HasSubstr("a word of its own"));
     EXPECT_THAT(json_text(results), HasSubstr("\"together\": \"a word of its own\""));
     EXPECT_THAT(csv_text(results), HasSubstr(",exact,query,9,77000000"));

@@ -129,6 +129,7 @@ Peer brute_force_peer() {
     entry.notes = "no structure: build only turns the boxes into arrays; columns in tiles of 1024 "
                   "that stay in the first-level cache; one thread";
     entry.precision = "f32";
+    entry.keeps_structure = false;
     entry.runs_on = RunsOn::one_thread;
     entry.answers = answering_pairs<BruteForceContender>();
 

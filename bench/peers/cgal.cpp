@@ -107,6 +107,7 @@ ContenderEntry entry(std::vector<Answering> answers, std::string name, std::stri
         "500; with TBB CGAL cuts its input into 4 x 4 parts, whatever "
         "the number of threads, and pairs go to one list per thread that are joined at the end";
     e.precision = "f32";
+    e.keeps_structure = false;
     e.runs_on = RunsOn::tbb;
     e.answers = std::move(answers);
     return e;

@@ -1,6 +1,7 @@
 #include "bench/peers/answering.h"
 #include "bench/peers/embree_handles.h"
 #include "bench/peers/ray_peers.h"
+#include "bench/tasks/detail/ray_classes.h"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
@@ -216,6 +217,12 @@ ContenderEntry rays(Wanted wanted, int width, bool robust) {
         : width == 1          ? "single rays"
                               : "packets of rays in the order given, context flag INCOHERENT");
     e.runs_on = RunsOn::tbb;
+    e.classes = {ray_class::batches};
+    if (wanted != Wanted::all)
+        e.classes = width == 1 ? std::vector{ray_class::single, ray_class::batches}
+                               : std::vector{ray_class::packets};
+    if (robust)
+        e.classes = ray_class::watertight(std::move(e.classes));
     e.answers = {answering<Rays>(wanted == Wanted::closest ? "rays_closest"
                                  : wanted == Wanted::any   ? "rays_any"
                                                            : "rays_all",

@@ -7,6 +7,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <random>
 
@@ -27,6 +28,25 @@ std::string library_version(const ContenderEntry& contender, const results::Env&
     return env.git_commit;
 }
 
+std::string name_without_rays(SceneSpec spec) {
+    spec.rays.clear();
+    return human_name(spec);
+}
+
+results::Phase total_of(Phases phases) {
+    switch (phases) {
+    case Phases::build:
+        return results::Phase::build;
+    case Phases::query:
+        return results::Phase::query;
+    case Phases::frames:
+        return results::Phase::update_and_query;
+    case Phases::build_and_query:
+        break;
+    }
+    return results::Phase::build_and_query;
+}
+
 } // namespace
 
 Record::Record(const results::Env& env, std::string generator) {
@@ -42,7 +62,8 @@ std::uint32_t Record::add_scene(const Scene& scene, std::string tasks) {
     results::SceneRow row;
     row.scene_id = static_cast<std::uint32_t>(out.scenes.size());
     row.name = scene.name;
-    row.human_name = human_name(scene.spec);
+    row.human_name = name_without_rays(scene.spec);
+    row.rays = scene.spec.rays;
     row.generator = scene.spec.generator;
     row.n_items = items_of(scene);
     row.n_triangles = scene.mesh.triangles.size();
@@ -63,12 +84,15 @@ std::uint32_t Record::add_scene(const Scene& scene, std::string tasks) {
 results::Cell Record::cell(std::string name, const Scene& scene, std::uint32_t scene_id,
                            const Task& task, const ContenderEntry& contender,
                            const std::string& executor, unsigned threads) {
+    if (std::ranges::find(out.tasks, task.name(), &results::TaskRow::task) == out.tasks.end())
+        out.tasks.push_back(task_row(task));
     results::Cell row;
     row.cell_id = static_cast<std::uint32_t>(out.cells.size());
     row.name = std::move(name);
     row.scene_id = scene_id;
     row.variant_id = variant_id_of(contender);
     row.task = task.name();
+    row.classes = fmt::format("{}", fmt::join(contender.classes, ","));
     row.n_items = items_of(scene);
     row.n_queries = task.n_queries(scene);
     row.precision = contender.precision;
@@ -111,10 +135,16 @@ std::uint32_t Record::variant_id_of(const ContenderEntry& contender) {
     row.traversal = contender.traversal;
     row.kernel = contender.kernel;
     row.is_peer = contender.is_peer;
+    row.keeps_structure = contender.keeps_structure;
+    row.stages = contender.stages;
     row.params_json = contender.params_json;
     row.notes = contender.notes;
     out.variants.push_back(row);
     return row.variant_id;
+}
+
+results::TaskRow task_row(const Task& task) {
+    return {std::string(task.name()), task.title(), total_of(task.phases())};
 }
 
 std::uint64_t items_of(const Scene& scene) {

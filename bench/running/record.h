@@ -32,6 +32,8 @@ class Record {
     std::uint32_t variant_id_of(const ContenderEntry& contender);
 };
 
+results::TaskRow task_row(const Task& task);
+
 /// The number of its cases, or of its boxes.
 std::uint64_t items_of(const Scene& scene);
 

@@ -113,6 +113,7 @@ results::Results run_round(const Plan& plan, const results::Results& prepared, u
     out.generator = prepared.generator;
     out.env = prepared.env;
     out.scenes = prepared.scenes;
+    out.tasks = prepared.tasks;
     out.variants = prepared.variants;
     out.cells = prepared.cells;
 

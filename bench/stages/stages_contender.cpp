@@ -3,6 +3,8 @@
 #include "bench/stages/scene_player.h"
 #include "trees/executor.h"
 
+#include "results/words.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -65,7 +67,9 @@ ContenderEntry stages_contender(Extent extent, std::string_view without_effect) 
     entry.summary = extent == Extent::all_stages
                         ? "every stage, for every body in every frame"
                         : "the stages that the scene requires, for the bodies that it requires";
+    entry.stages = extent == Extent::all_stages ? results::all_stages : results::required_stages;
     if (!without_effect.empty()) {
+        entry.stages = without_effect;
         entry.name += fmt::format(".without_{}", without_effect);
         entry.summary += fmt::format("; the scene without {}", without_effect);
     }

@@ -92,6 +92,7 @@ class TreeTruth final : public Truth {
 class Build final : public TreeTask {
   public:
     std::string_view name() const override { return "build"; }
+    std::string title() const override { return "tree build"; }
     std::string_view summary() const override {
         return "a binary tree of the boxes and nothing else: builders alone";
     }

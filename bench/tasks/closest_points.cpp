@@ -25,6 +25,7 @@ class ClosestPoints final : public PointTask {
   public:
     ClosestPoints() : PointTask(PointQuery::surface_point) {}
     std::string_view name() const override { return "closest_points"; }
+    std::string title() const override { return "nearest surface point"; }
     std::string_view summary() const override {
         return "for each point the nearest point of the mesh";
     }

@@ -90,6 +90,12 @@ struct ContenderEntry {
     std::string builder, layout, traversal, kernel; ///< ours; empty where it does not apply
     bool is_peer = true;
     std::vector<Answering> answers;
+    /// Contenders of one job are compared within a class, those of several classes in each. Most
+    /// tasks have one, and need not name it; tasks/detail/ray_task.h has those of rays.
+    std::vector<std::string> classes{};
+    bool keeps_structure = true; ///< false: its build only copies the input
+    /// Of ways to play a scene, which are no rivals: "required", "all", or the effect left out.
+    std::string stages{};
     RunsOn runs_on = RunsOn::any_executor;
     /// Why it cannot do a job of such a task on such a scene, if so; may be empty.
     std::function<std::optional<std::string>(const Job&)> cannot;

@@ -73,6 +73,7 @@ class FramesTruth final : public Truth {
 class MovingPairs final : public PairAnswers<Task> {
   public:
     std::string_view name() const override { return "moving_pairs"; }
+    std::string title() const override { return "moving boxes"; }
     std::string_view summary() const override {
         return "frame after frame: the new boxes taken, then every overlapping pair";
     }

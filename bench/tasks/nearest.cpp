@@ -26,6 +26,7 @@ class Nearest final : public PointTask {
   public:
     Nearest() : PointTask(PointQuery::nearest) {}
     std::string_view name() const override { return "nearest"; }
+    std::string title() const override { return "nearest boxes"; }
     std::string_view summary() const override { return "for each point the nearest boxes"; }
     std::vector<std::string_view> keys() const override {
         std::vector<std::string_view> all = PointTask::keys();

@@ -54,6 +54,7 @@ class KnownPairsTruth final : public Truth {
 class Pairs final : public PairAnswers<TreeTask> {
   public:
     std::string_view name() const override { return "pairs"; }
+    std::string title() const override { return "overlapping pairs"; }
     std::string_view summary() const override {
         return "every unordered overlapping pair of the scene's boxes";
     }

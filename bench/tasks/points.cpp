@@ -21,6 +21,7 @@ class Points final : public PairAnswers<PointTask> {
   public:
     Points() : PairAnswers(PointQuery::containing) {}
     std::string_view name() const override { return "points"; }
+    std::string title() const override { return "boxes at a point"; }
     std::string_view summary() const override {
         return "for each point every box that contains it";
     }

@@ -1,6 +1,7 @@
 /// For each ray every triangle that it meets, as pairs (ray, triangle).
 
 #include "bench/tasks/detail/pair_answers.h"
+#include "bench/tasks/detail/ray_classes.h"
 #include "bench/tasks/detail/ray_task.h"
 #include "bench/truth/rays_all_truth.h"
 #include "kernels/registry.h"
@@ -51,6 +52,7 @@ class AllHits final : public RayContender {
 class RaysAll final : public PairAnswers<RayTask> {
   public:
     std::string_view name() const override { return "rays_all"; }
+    std::string title() const override { return "all hits"; }
     std::string_view summary() const override {
         return "for each ray every triangle that it meets";
     }
@@ -66,8 +68,9 @@ class RaysAll final : public PairAnswers<RayTask> {
   protected:
     Way way(const Choice& choice) const override {
         const KernelInfo& kernel = entry_named(choice.kernel, ray_kernels(), "ray kernel");
-        return {"rays_all", choice.kernel, kernel.promise, maker<AllHits>(choice.kernel),
-                Query::rays};
+        return {"rays_all",     choice.kernel,
+                kernel.promise, maker<AllHits>(choice.kernel),
+                Query::rays,    ray_class::of_ours({ray_class::batches}, choice.kernel)};
     }
 };
 

@@ -11,6 +11,7 @@ class RaysAny final : public HitTask {
   public:
     RaysAny() : HitTask(RayQuery::any) {}
     std::string_view name() const override { return "rays_any"; }
+    std::string title() const override { return "any hit"; }
     std::string_view summary() const override { return "for each ray whether it meets a triangle"; }
     /// Which triangle it was does not count.
     std::uint64_t hash(const Answers& answers) const override {

@@ -13,6 +13,7 @@ class RaysClosest final : public HitTask {
   public:
     RaysClosest() : HitTask(RayQuery::closest) {}
     std::string_view name() const override { return "rays_closest"; }
+    std::string title() const override { return "nearest hit"; }
     std::string_view summary() const override { return "for each ray the nearest triangle"; }
     std::uint64_t hash(const Answers& answers) const override {
         std::vector<std::uint32_t> words;

@@ -27,6 +27,7 @@ class Regions final : public PairAnswers<PointTask> {
   public:
     Regions() : PairAnswers(PointQuery::overlapping) {}
     std::string_view name() const override { return "regions"; }
+    std::string title() const override { return "boxes in a region"; }
     std::string_view summary() const override {
         return "for each box or sphere every box that it meets";
     }

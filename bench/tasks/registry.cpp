@@ -59,6 +59,12 @@ const Task* find_task(std::string_view name) {
 
 void add_task(const Task& task) { registered().push_back(&task); }
 
+std::string Task::title() const {
+    std::string words(name());
+    std::ranges::replace(words, '_', ' ');
+    return words;
+}
+
 ContenderEntry Task::contender(const Choice&) const {
     throw std::invalid_argument(fmt::format("no builder and layout answer {}", name()));
 }

@@ -18,8 +18,6 @@
 namespace boxwood::bench {
 namespace {
 
-constexpr std::string_view without_prefix = "required.without_";
-
 /// The names of all effects of a scene, each once.
 std::vector<std::string> effects_of(const SceneFile& scene) {
     std::vector<std::string> names;
@@ -47,7 +45,7 @@ class SceneTruth final : public Truth {
 
     void note_frame(std::size_t index, const Frame&, const Answers& answers,
                     const ContenderEntry& contender) override {
-        Played& played = played_by(contender.name);
+        Played& played = played_by(contender.stages);
         const FrameAnswers& got = *dynamic_cast<const StageAnswers&>(answers).frame;
         if (index == 0) {
             judgement_ = {};
@@ -76,10 +74,9 @@ class SceneTruth final : public Truth {
         std::unique_ptr<MovingTruth> pairs;      ///< if the scene queries them
         std::vector<std::uint64_t> first_hashes; ///< by frame
     };
-    Played& played_by(const std::string& contender) {
-        const std::string effect = contender.starts_with(without_prefix)
-                                       ? contender.substr(without_prefix.size())
-                                       : std::string();
+    Played& played_by(const std::string& stages) {
+        const bool is_whole = stages == results::required_stages || stages == results::all_stages;
+        const std::string effect = is_whole ? std::string() : stages;
         const auto [at, is_new] = played_.try_emplace(effect);
         Played& played = at->second;
         if (!is_new)
@@ -106,6 +103,7 @@ class SceneTruth final : public Truth {
 class SceneQueries final : public Task {
   public:
     std::string_view name() const override { return "scene_queries"; }
+    std::string title() const override { return "a whole scene"; }
     std::string_view summary() const override {
         return "frame after frame of a moving scene: all that its file queries";
     }

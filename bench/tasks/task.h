@@ -54,6 +54,9 @@ class Task {
     virtual ~Task() = default;
     virtual std::string_view name() const = 0;
     virtual std::string_view summary() const = 0;
+    /// In two or three words that a newcomer knows, for findings: "nearest hit". The name, if it
+    /// says no other.
+    virtual std::string title() const;
 
     /// The keys of a [[cells]] block that it takes, beyond task and rounds.
     virtual std::vector<std::string_view> keys() const = 0;

@@ -49,6 +49,7 @@ class TreePairsContender final : public TreeContender {
 class TreePairs final : public PairAnswers<TreeTask> {
   public:
     std::string_view name() const override { return "tree_pairs"; }
+    std::string title() const override { return "pairs of two sets"; }
     std::string_view summary() const override {
         return "every overlapping pair between the first half of the boxes and the rest";
     }

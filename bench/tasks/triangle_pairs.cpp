@@ -91,6 +91,7 @@ class TouchingTruth final : public Truth {
 class TrianglePairs final : public PairAnswers<TreeTask> {
   public:
     std::string_view name() const override { return "triangle_pairs"; }
+    std::string title() const override { return "touching triangles"; }
     std::string_view summary() const override {
         return "every unordered pair of the scene's triangles that share a point";
     }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "bench/running/record.h"
 #include "results/results.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -29,6 +31,8 @@ struct RunForTest {
         cell.scene_id = scene_id(scene, n);
         cell.variant_id = variant_id(variant);
         cell.task = task;
+        if (std::ranges::find(results.tasks, task, &results::TaskRow::task) == results.tasks.end())
+            results.tasks.push_back(task_row(*find_task(task)));
         cell.n_items = n;
         cell.executor = threads == 1 ? "serial" : "tbb";
         cell.threads = threads;

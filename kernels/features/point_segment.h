@@ -6,7 +6,8 @@ namespace boxwood {
 
 /// The point's foot on the line, held to the segment.
 template <class Real>
-NearestPoints<Real> nearest_on_segment(const Vec3<Real>& p, const Segment<Real>& s) {
+[[gnu::always_inline]] inline NearestPoints<Real> nearest_on_segment(const Vec3<Real>& p,
+                                                                     const Segment<Real>& s) {
     const Vec3<Real> e = s.b - s.a, r = p - s.a;
     const Real t = clamped_ratio(dot(r, e), dot(e, e));
     return {p, s.a + t * e, r - t * e};

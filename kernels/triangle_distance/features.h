@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/triangle_distance/detail/nearest_pair.h"
 #include "kernels/triangle_distance/distance_kernel.h"
 
 namespace boxwood {
@@ -10,11 +11,10 @@ namespace boxwood {
 template <class RealOf, bool by_cross> struct FeatureDistance {
     using Real = RealOf;
 
-    static Distance distance(const Triangle<Real>& a, const Triangle<Real>& b);
+    static Distance distance(const Triangle<Real>& a, const Triangle<Real>& b) {
+        return detail::measured<&detail::NearestPairSearch<Real, by_cross>::find>(a, b);
+    }
 };
-extern template struct FeatureDistance<float, false>;
-extern template struct FeatureDistance<double, false>;
-extern template struct FeatureDistance<double, true>;
 
 struct FeaturesF32 : FeatureDistance<float, false> {
     static constexpr std::string_view name = "features_f32";

@@ -3,10 +3,10 @@
 import math
 from dataclasses import dataclass
 
-from .words import REASONS, VERDICTS, interval_text
+from .words import interval_text
 
 PEERS, OURS, THREADS, STAGES = "peers", "ours", "threads", "stages"  # families of /compare
-RACE, KERNEL, SCENE = "race", "kernel", "scene"  # topics of /findings
+RACE = "race"  # the topic of /findings that is about times against rivals
 
 
 @dataclass(frozen=True)
@@ -39,6 +39,7 @@ class Comparison:
     family: str
     verdict: str
     reason: str
+    verdict_text: str
 
     @property
     def gain(self):
@@ -48,10 +49,6 @@ class Comparison:
     @property
     def text(self):
         return interval_text(self.gain)
-
-    @property
-    def verdict_text(self):
-        return VERDICTS[self.verdict] + (f" ({REASONS[self.reason]})" if self.reason else "")
 
 
 @dataclass(frozen=True)
@@ -78,7 +75,7 @@ def read_comparisons(table, cells):
         Comparison(
             cells[row["cell_a"]], cells[row["cell_b"]], row["phase"], row["class"], int(row["n_pairs"]),
             Ratio(float(row["ratio"]), float(row["ci_lo"]), float(row["ci_hi"])), float(row["p_adj"]), row["family"],
-            row["verdict"], row["reason"],
+            row["verdict"], row["reason"], row["words"],
         )
         for row in table
     ]
@@ -96,16 +93,9 @@ def read_findings(table, cells):
     ]
 
 
-def rounds_text(run):
-    rounds = f"{run.rounds} round{'s' * (run.rounds != 1)}"
-    return f"{rounds}; each ratio is the median of per-round ratios, with the interval that decided its verdict"
-
-
-def floor_text(run):
-    floor = run.noise_floor
-    if floor == floor:
-        return f"A/A noise floor ±{100 * floor:.1f} %: no difference below it is claimed"
-    return "A/A noise floor not known"
+def footer(run):
+    """What to know of every ratio that a figure shows."""
+    return f"Each ratio is the median of per-round ratios, with the interval that decided. {run.health['trust']}."
 
 
 def comparison_rows(comparisons):

@@ -5,10 +5,9 @@ from dataclasses import dataclass, field
 from statistics import median
 
 from .findings import STAGES
-from .run import SCENE_QUERIES, TOTAL
+from .run import ALL_STAGES, REQUIRED, TOTAL
 from .selection import largest_jobs
 
-REQUIRED, ALL_STAGES, WITHOUT = "required", "all_stages", "required.without_"
 SCREEN_NS = 1e9 / 60
 
 
@@ -49,18 +48,16 @@ def played_scenes(run, largest=True):
     """What was played with its required stages and answered rightly; of each scene its largest size."""
     played = {}
     for job in largest_jobs(run.jobs) if largest else run.jobs:
-        if job.task != SCENE_QUERIES:
-            continue
         for cell in run.of(job):
-            if cell.status == "wrong":
+            if cell.status == "wrong" or not cell.stages_played:
                 continue
             scene = played.setdefault((job, cell.executor), PlayedScene(job))
-            if cell.contender == REQUIRED:
+            if cell.stages_played == REQUIRED:
                 scene.required = cell
-            elif cell.contender == ALL_STAGES:
+            elif cell.stages_played == ALL_STAGES:
                 scene.all_stages = cell
-            elif cell.contender.startswith(WITHOUT):
-                scene.without[cell.contender.removeprefix(WITHOUT)] = cell
+            else:
+                scene.without[cell.stages_played] = cell
     scenes = [scene for scene in played.values() if scene.required]
     for scene in scenes:
         for row in run.family(STAGES, scene.required.total):

@@ -4,7 +4,7 @@ import base64
 from html import escape
 
 from . import registry
-from .findings import KERNEL, RACE, SCENE, comparison_rows, floor_text, rounds_text
+from .findings import comparison_rows
 from .picture import as_inline_svg, cell_text
 from .selection import wrong_text
 from .words import time_text
@@ -80,40 +80,28 @@ def figures_html(run):
     return "".join(parts)
 
 
-HEADINGS = {
-    RACE: ("rival's time / ours", "build + query", "query alone", "interval"),
-    KERNEL: ("kernels on hard cases", "cheapest without a wrong answer", "against our fastest", "errors"),
-    SCENE: ("moving scenes", "a frame of what they require", "with all stages", "interval"),
-}
-
-
 def findings_html(run, headlines):
     """The rows that `boxwood show` prints, in the same words."""
     parts = []
-    for topic, columns in HEADINGS.items():
+    for topic in run.topics:
         rows = [(f.question, f.together, f.alone, f.certainty)
-                for f in run.findings if f.topic == topic and f.is_headline == headlines]
+                for f in run.findings if f.topic == topic["topic"] and f.is_headline == headlines]
         if rows:
-            parts.append(table(columns, rows))
+            parts.append(table([topic[name] for name in ("question", "together", "alone", "certainty")], rows))
     return "".join(parts)
 
 
 def trust_html(run):
     """Machine and noise, and how many answers were wrong: whether the rest can be believed."""
     health, env = run.health, run.source["env"][0]
-    share = 100 * int(health["disturbed"]) / max(1, int(health["samples"]))
-    broken = (f" <span class=wrong>{int(health['broken_promises'])} broken promises.</span>"
-              if health["broken_promises"] else "")
+    wrong = " class=wrong" if health["wrong_ours"] or health["broken_promises"] else ""
     return (f"<p class=lead>{escape(env['cpu'])}, {env['ncpu']} cores, host {escape(env['host'])}.<br>"
-            f"{escape(rounds_text(run))}.<br>{escape(floor_text(run))}; {share:.1f} % of the samples were disturbed.<br>"
-            f"{int(health['answers']):,} answers checked: {int(health['wrong_ours'])} of ours wrong, "
-            f"{int(health['wrong_peers'])} of the peers' wrong.{broken}</p>")
+            f"{escape(health['trust'])}<br><span{wrong}>{escape(health['correctness'])}</span></p>")
 
 
 def main_findings_html(run):
-    if run.health["is_too_noisy"]:
-        return ("<p class=wrong>Repeat this: the same work timed twice differed by more than 20 %, so no time here means "
-                "anything.</p>")
+    if run.health["advice"]:
+        return f"<p class=wrong>{escape(run.health['advice'])}</p>"
     rest = findings_html(run, False)
     return findings_html(run, True) + (folded("Other sizes and numbers of threads", rest) if rest else "")
 

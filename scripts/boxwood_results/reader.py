@@ -13,10 +13,11 @@ REMEDY = "run the sweep again (it keeps its finished rounds)"
 REQUIRED = {
     "env": ("env_id", "host", "cpu", "ncpu"),
     "scenes": ("scene_id", "name", "n_items", "seed"),
-    "variants": ("variant_id", "name", "library", "builder", "traversal", "kernel", "notes"),
+    "tasks": ("task", "title", "total"),
+    "variants": ("variant_id", "name", "library", "builder", "traversal", "kernel", "keeps_structure", "stages", "notes"),
     "cells": (
         "cell_id", "name", "scene_id", "variant_id", "task", "n_items", "n_queries", "precision",
-        "executor", "threads", "class", "status", "builds",
+        "executor", "threads", "class", "status",
     ),
     "shards": ("shard_id", "round", "env_id", "load1"),
     "samples": ("cell_id", "shard_id", "round", "position", "phase", "wall_ns", "flags"),
@@ -36,20 +37,21 @@ REQUIRED = {
     "medians": ("cell_id", "phase", "n", "median_ns", "mad_ns", "min_ns", "p95_ns", "p99_ns", "limit_ns"),
     "compare": (
         "cell_a", "cell_b", "phase", "class", "n_pairs", "ratio", "ci_lo", "ci_hi", "p_adj", "floor", "delta", "family",
-        "verdict", "reason",
+        "verdict", "reason", "words",
     ),
     "size_scaling": ("cell_id", "phase", "exponent", "exponent_lo", "exponent_hi", "off_line"),
     "break_even": ("cell_a", "cell_b", "queries"),
     "kernel_costs": (
         "task", "panel", "kernel", "library", "promise", "is_peer", "ns", "n", "wrong", "maybe", "max_rel_err",
     ),
+    "topics": ("topic", "title", "question", "together", "alone", "certainty"),
     "findings": (
         "place", "topic", "is_headline", "task", "threads", "class", "question", "together", "alone", "certainty",
         "ours", "rival", "ours_alone", "rival_alone",
     ),
     "health": (
         "rounds", "samples", "disturbed", "floor", "delta", "is_too_noisy", "answers", "wrong_ours", "wrong_peers",
-        "broken_promises",
+        "broken_promises", "trust", "correctness", "advice",
     ),
 }
 

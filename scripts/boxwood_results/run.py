@@ -12,15 +12,32 @@ NO_COUNT = 2**64 - 1  # a missing whole number
 AA_TWIN, DISTURBED = 4, 1 | 2
 RANKED = ("exact", "conservative", "within_bound")
 OURS = "boxwood"
-SCENE_QUERIES = "scene_queries"  # frames of a moving scene with all that it requires: ways to play it, not rivals
-BUILDS = "build"  # the task of builders alone
-ORDERS_OF_RAYS = ("sorted_rays", "single_rays")  # other than one call in the order given
 WHOLE_QUERY = "typical"  # a kernel row about a whole query, whose cell stays among the others
-TOTALS = ("update+query", "build+query", "query", "build")  # what one use costs: the first that was timed
-TOTAL = "total"
-TOTAL_WORDS = {"moving_pairs": "update and one query", BUILDS: "build", SCENE_QUERIES: "update and queries of a frame"}
-# Of these an update may have done the work of the query: its time alone says nothing.
-WHOLE_FRAMES = ("moving_pairs", SCENE_QUERIES)
+REQUIRED, ALL_STAGES = "required", "all"  # ways to play a scene; any other is the effect left out
+TOTAL = "total"  # stands for the phase of a task that says what one use costs
+TOTAL_WORDS = {"update+query": "update and query of a frame", "build+query": "build and one query", "query": "query",
+               "build": "build"}
+
+
+@dataclass(frozen=True)
+class Task:
+    """A row of /tasks."""
+
+    title: str  # "nearest hit"
+    total: str  # the phase that says what one use costs
+
+    @property
+    def is_build(self):
+        return self.total == "build"
+
+    @property
+    def in_frames(self):
+        """An update may have done the work of the query: its time alone says nothing."""
+        return self.total == "update+query"
+
+    @property
+    def total_words(self):
+        return TOTAL_WORDS[self.total]
 
 
 @dataclass(frozen=True)
@@ -67,7 +84,10 @@ class Cell:
     executor: str
     n_queries: int
     status: str
-    builds: bool  # else its build only copies the input
+    task: Task
+    keeps_structure: bool  # else its build only copies the input
+    stages_played: str  # of ways to play a scene: required, all, or the effect left out
+    label: str = ""  # short, for use within one job
     check: object = None
     medians: dict = field(default_factory=dict)  # phase -> row of /medians
     counters: dict = field(default_factory=dict)
@@ -85,19 +105,23 @@ class Cell:
     @property
     def family(self):
         """What colour stands for: our builder or policy, how a scene is played, or the peer's library."""
-        if self.job.task == SCENE_QUERIES and self.ours:
+        if self.stages_played:
             return self.contender
         return self.builder if self.ours and self.builder else self.library
 
     @property
-    def label(self):
-        """Short, for use within one job: a traversal that follows from the task is left out."""
+    def lacks_effect(self):
+        """A scene played without one of its effects: another scene, drawn by itself."""
+        return self.stages_played not in ("", REQUIRED, ALL_STAGES)
+
+    def set_label(self, shown):
+        """shown: whether to name the traversal, which follows from most jobs."""
         if not self.ours:
-            return self.contender
-        shown = self.traversal in ORDERS_OF_RAYS
+            self.label = self.contender
+            return
         words = [word for word in self.contender.split(".") if word != "tree" and (shown or word != self.traversal)]
         text = ".".join(words) + (" f64" if self.precision == "f64" else "")
-        return text if self.executor == "serial" else f"{text} {self.executor}"
+        self.label = text if self.executor == "serial" else f"{text} {self.executor}"
 
     @property
     def ranked(self):
@@ -109,8 +133,7 @@ class Cell:
 
     @property
     def total(self):
-        """The phase that says what one use costs."""
-        return next((phase for phase in TOTALS if phase in self.medians), "")
+        return self.task.total
 
     def has(self, phase):
         return (self.total if phase == TOTAL else phase) in self.medians
@@ -130,6 +153,8 @@ class Run:
     missing_samples: int
     comparisons: list
     findings: list
+    tasks: dict  # name -> Task
+    topics: list  # rows of /topics
     kernels: list = field(default_factory=list)  # KernelPoint
     kernel_costs: list = field(default_factory=list)  # kernels.Kernel
 
@@ -159,7 +184,7 @@ class Run:
         return [c for c in self.comparisons if c.family == family and phase in (None, c.phase)]
 
 
-def read_cells(source):
+def read_cells(source, tasks):
     scenes = {row["scene_id"]: row for row in source["scenes"]}
     variants = {row["variant_id"]: row for row in source["variants"]}
     cells = {}
@@ -172,9 +197,16 @@ def read_cells(source):
         cells[row["cell_id"]] = Cell(
             int(row["cell_id"]), row["name"], job, variant["name"], variant["library"],
             variant["builder"], variant["traversal"], variant["kernel"], row["precision"], row["executor"],
-            int(row["n_queries"]), row["status"], bool(row["builds"]), n_frames=max(1, int(column(scene, "n_frames", 1))),
+            int(row["n_queries"]), row["status"], tasks[row["task"]], bool(variant["keeps_structure"]),
+            variant["stages"], n_frames=max(1, int(column(scene, "n_frames", 1))),
             scene_json=column(scene, "params_json", ""),
         )
+    traversals = {}
+    for cell in cells.values():
+        if cell.ours:
+            traversals.setdefault(cell.job, set()).add(cell.traversal)
+    for cell in cells.values():
+        cell.set_label(len(traversals.get(cell.job, ())) > 1)
     return cells
 
 
@@ -232,7 +264,8 @@ def kernel_points(cells, source):
 def read(path):
     """Loads a result file; raises reader.BadFile."""
     source = load(path)
-    cells = read_cells(source)
+    tasks = {row["task"]: Task(row["title"], row["total"]) for row in source["tasks"]}
+    cells = read_cells(source, tasks)
     add_medians(cells, source["medians"])
     add_checks(cells, source["checks"])
     for row in source["counters"]:
@@ -250,4 +283,4 @@ def read(path):
     )
     missing = sum(not row["wall_ns"] >= 0 for row in source["samples"])
     return Run(source, ordered, jobs, missing, read_comparisons(source["compare"], everything),
-               read_findings(source["findings"], everything), kernels, read_costs(source["kernel_costs"]))
+               read_findings(source["findings"], everything), tasks, list(source["topics"]), kernels, read_costs(source["kernel_costs"]))

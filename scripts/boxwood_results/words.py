@@ -1,18 +1,4 @@
-"""Numbers and verdicts in words."""
-
-VERDICTS = {
-    "faster": "faster",
-    "slower": "slower",
-    "same": "the same",
-    "cannot_tell": "can't tell",
-    "wrong": "not ranked: a wrong answer",
-}
-REASONS = {
-    "too_few_rounds": "too few rounds",
-    "below_the_floor": "below the noise",
-    "crosses_1": "may be equal",
-    "unchecked": "unchecked",
-}
+"""Numbers in words."""
 
 
 def ratio_text(value, times="x"):

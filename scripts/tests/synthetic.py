@@ -22,9 +22,11 @@ COLUMNS = {
     "packages": [("env_id", U4), ("library", WORD), ("version", WORD), ("build", TEXT), ("present", U4)],
     "scenes": [("scene_id", U4), ("name", NAME), ("generator", WORD), ("n_items", U8), ("seed", U8),
                ("n_frames", U8), ("content_hash", U8), ("params_json", TEXT)],
+    "tasks": [("task", WORD), ("title", NAME), ("total", WORD)],
     "variants": [("variant_id", U4), ("name", NAME), ("library", WORD), ("builder", WORD), ("layout", WORD),
-                 ("traversal", WORD), ("kernel", WORD), ("is_peer", U4), ("notes", TEXT)],
-    "cells": [("cell_id", U4), ("name", "S320"), ("scene_id", U4), ("variant_id", U4), ("task", WORD),
+                 ("traversal", WORD), ("kernel", WORD), ("is_peer", U4), ("keeps_structure", U4), ("stages", WORD),
+                 ("notes", TEXT)],
+    "cells": [("cell_id", U4), ("name", "S320"), ("scene_id", U4), ("variant_id", U4), ("task", WORD), ("class", NAME),
               ("n_items", U8), ("n_queries", U8), ("precision", WORD), ("executor", WORD), ("threads", U4),
               ("isa", WORD), ("iterations", U8)],
     "shards": [("shard_id", U4), ("round", U4), ("env_id", U4), ("pid", U4), ("order_seed", U8), ("t0_utc_ns", U8),
@@ -93,6 +95,7 @@ STAGES = {
                        "pairs": (6e3, 25e3, 1), "filter": (1e3, 1e3, 0), "transform": (30e3, 60e3, 2),
                        "mesh_trees": (0, 0, 3), "triangle_pairs": (80e3, 80e3, 1), "rays": (0, 0, 0)},
 }
+STAGES_OF = {"required": "required", "all_stages": "all"}
 # kernel -> (library, promise, ns, wrong share on touching input, share that goes beyond tier 0 there)
 TRIANGLE_KERNELS = {
     "moller_f32": ("boxwood", "no promise", 5.1, 0.3, 0),
@@ -109,6 +112,12 @@ DISTANCE_KERNELS = {  # kernel -> (library, promise, ns, error at condition 1, p
     "certified": ("boxwood", "certified", 160.0, 1e-16, 1),
     "rational": ("boxwood", "exact", 150000.0, 0, 0),
     "fcl.tri_distance": ("fcl", "no promise", 216.0, 1e-16, 2),
+}
+TASKS = {  # title, and the phase that says what one use costs
+    "pairs": ("overlapping pairs", "build+query"), "rays_closest": ("nearest hit", "build+query"),
+    "triangle_pairs": ("touching triangles", "build+query"), "build": ("tree build", "build"),
+    "moving_pairs": ("moving boxes", "update+query"), "scene_queries": ("a whole scene", "update+query"),
+    "triangle_triangle": ("triangle triangle", "query"), "triangle_distance": ("triangle distance", "query"),
 }
 CASES = {"generic_pairs": "generic", "parallel_planes": "generic", "vertex_on_face": "touching",
          "shared_edge": "touching", "slivers_k6": "degenerate", "zero_area": "degenerate"}
@@ -130,6 +139,7 @@ class Maker:
             self.rows["packages"].append(dict(library=library, version=version, present=bool(version)))
         for round_ in range(rounds):
             self.rows["shards"].append(dict(shard_id=round_, round=round_, load1=0.3, pid=100 + round_))
+        self.rows["tasks"] = [dict(task=task, title=title, total=total) for task, (title, total) in TASKS.items()]
         self.speed = [math.exp(self.random.gauss(0, 0.03)) for _ in range(rounds)]
 
     def id_of(self, table, key, **row):
@@ -148,10 +158,12 @@ class Maker:
         executor = "serial" if threads == 1 else "tbb"
         scene_id = self.id_of("scenes", (scene, n), name=scene, n_items=n, seed=1)
         variant_id = self.id_of("variants", name, name=name, library=library, builder=builder, traversal=traversal,
-                                kernel=kernel, is_peer=not builder, notes="double precision" if library == "fcl" else "")
+                                kernel=kernel, is_peer=not builder, keeps_structure=library != "cgal", notes="double precision" if library == "fcl" else "")
         full = f"{scene}/n{n}-s1/{task}/{name}/f32/{executor}-{threads}"
+        classes = ("watertight batches" if "robust" in name else "batches" if not builder else
+                   "batches,watertight batches" if kernel == "watertight" else "batches") if task == "rays_closest" else ""
         cell_id = self.id_of("cells", full, name=full, scene_id=scene_id, variant_id=variant_id, task=task, n_items=n,
-                             n_queries=queries, precision="f32", executor=executor, threads=threads)
+                             n_queries=queries, **{"class": classes}, precision="f32", executor=executor, threads=threads)
         gain = threads**0.8
         grow = math.log2(n) / 16
         phases = [("query", query * (queries or n) * grow * factor / gain)] if task != "build" else []
@@ -178,7 +190,9 @@ class Maker:
         library = "boxwood" if builder else contender.split(".")[0]
         scene_id = self.id_of("scenes", (scene, n), name=scene, n_items=n, seed=1, n_frames=frames, params_json=params)
         variant_id = self.id_of("variants", contender, name=contender, library=library, is_peer=library != "boxwood",
-                                builder="" if task == "scene_queries" else builder)
+                                builder="" if task == "scene_queries" else builder, keeps_structure=1,
+                                stages=STAGES_OF.get(contender, contender.removeprefix("required.without_"))
+                                if task == "scene_queries" else "")
         full = f"{scene}/n{n}-s1/{task}/{contender}/f32/serial-1"
         cell_id = self.id_of("cells", full, name=full, scene_id=scene_id, variant_id=variant_id, task=task, n_items=n,
                              precision="f32", executor="serial", threads=1)
@@ -241,7 +255,7 @@ class Maker:
         """A kernel on a family of hard cases, as its cell, its samples and its row."""
         scene_id = self.id_of("scenes", (cases, n), name=cases, n_items=n, seed=1)
         variant_id = self.id_of("variants", (task, kernel), name=kernel, library=library, kernel=kernel,
-                                is_peer=library != "boxwood")
+                                is_peer=library != "boxwood", keeps_structure=1)
         full = f"{cases}/n{n}-s1/{task}/{kernel}/f64/serial-1"
         cell_id = self.id_of("cells", full, name=full, scene_id=scene_id, variant_id=variant_id, task=task,
                              n_items=n, n_queries=n, precision="f64", executor="serial", threads=1)

@@ -7,7 +7,7 @@ import subprocess
 import pytest
 import synthetic
 
-from boxwood_results import findings, page, registry, run, style, words
+from boxwood_results import findings, page, registry, run, style
 
 
 @pytest.fixture(scope="module")
@@ -39,11 +39,11 @@ def boxwood(*arguments):
 def test_show_python_and_figures_have_the_verdicts_of_the_file(file):
     with synthetic.h5py.File(file) as tables:
         stored = [(int(row["cell_a"]), int(row["cell_b"]), row["phase"].decode(), row["class"].decode(),
-                   row["verdict"].decode(), row["reason"].decode()) for row in tables["compare"][:]]
-    shown = [(row["cell_a"], row["cell_b"], row["phase"], row["class"], row["verdict"], row["reason"])
+                   row["verdict"].decode(), row["reason"].decode(), row["words"].decode()) for row in tables["compare"][:]]
+    shown = [(row["cell_a"], row["cell_b"], row["phase"], row["class"], row["verdict"], row["reason"], row["words"])
              for row in json.loads(boxwood("show", file, "--json"))["compare"]]
     results = run.read(file)
-    read = [(c.a.cell_id, c.b.cell_id, c.phase, c.contender_class, c.verdict, c.reason) for c in results.comparisons]
+    read = [(c.a.cell_id, c.b.cell_id, c.phase, c.contender_class, c.verdict, c.reason, c.verdict_text) for c in results.comparisons]
     assert len(stored) > 300 and stored == shown == read
     assert {row[4] for row in stored} >= {"faster", "slower", "wrong"}
     verdicts = {(c.b.job, c.b.label, c.a.label, c.phase, c.contender_class): c.verdict for c in results.comparisons}
@@ -57,7 +57,7 @@ def test_show_python_and_figures_have_the_verdicts_of_the_file(file):
                     ) == (row["task"], row["scene"], row["n"], row["threads"]))
                     assert row["verdict"] == verdicts[job, row["ours"], row["peer"], row["phase"], row["class"]]
                 else:
-                    assert row["verdict"] in words.VERDICTS
+                    assert row["verdict"] in {c.verdict for c in results.family("threads") if c.b.label == row["variant"]}
 
 
 def test_screen_all_json_and_report_have_the_findings_of_the_file(file):
@@ -67,6 +67,12 @@ def test_screen_all_json_and_report_have_the_findings_of_the_file(file):
     assert told == [(row["question"], row["together"], row["alone"], row["certainty"]) for row in shown] and told
     everything, report = boxwood("show", file, "--all"), page.report(results)
     screen = boxwood("show", file).splitlines()
+    for name in ("trust", "correctness", "advice"):
+        assert page.escape(results.health[name]) in report and results.health[name] in " ".join(screen)
+    for topic in {f.topic for f in results.findings}:
+        headings = next(row for row in results.topics if row["topic"] == topic)
+        for name in ("question", "together", "alone", "certainty"):
+            assert headings[name] in everything and page.escape(headings[name]) in report
     for texts in told:
         assert all(text in everything and page.escape(text) in report for text in texts)
     headlines = [f for f in results.findings if f.is_headline]
@@ -105,8 +111,10 @@ def test_csv_has_the_medians_of_the_file(file):
             assert rows[cell.name, phase]["status"] == cell.status
 
 
-def test_compare_says_a_file_is_the_same_as_itself(file):
-    told = json.loads(boxwood("compare", file, file, "--json"))
-    assert {row["verdict"] for row in told["rows"]} == {"same", "wrong"} and told["same_machine"]
+def test_compare_passes_a_file_against_itself(file):
+    told = json.loads(boxwood("compare", file, file, "--json", "--all"))
+    assert told["gate"] == "passes" and told["same_machine"]
+    assert {(row["verdict"], row["reason"]) for row in told["rows"]} <= {
+        ("same", ""), ("wrong", ""), ("cannot_tell", "below_the_floor")}
     wrong = {c.name for c in run.read(file).cells if c.status == "wrong" and c.timed}
     assert wrong <= {row["cell"] for row in told["rows"] if row["verdict"] == "wrong"}

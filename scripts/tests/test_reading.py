@@ -1,5 +1,6 @@
 """What cannot be read is refused with a message that says what to do; what is missing is left out."""
 
+import json
 import math
 
 import h5py
@@ -49,7 +50,7 @@ def test_findings_know_what_was_put_in(full):
     assert alone.verdict == "faster" and alone.reason == ""
     cgal = [c for c in results.family(findings.PEERS) if c.a.library == "cgal" and c.b.job.task == "pairs"]
     assert {c.phase for c in cgal} == {"build+query"}  # it has no build of its own
-    rays = race(results, "rays_closest", 1, "mesh_stanford_bunny_primary", "batches against single rays")
+    rays = race(results, "rays_closest", 1, "mesh_stanford_bunny_primary", "batches")
     assert rays.together.startswith("LOSES") and rays.alone.startswith("LOSES")
 
 
@@ -60,7 +61,7 @@ def test_losses_come_first(full):
 
 
 def test_builders_alone_have_no_query(full):
-    tree = race(run.read(full), run.BUILDS)
+    tree = race(run.read(full), "build")
     assert tree.ours.label == "lbvh" and tree.ours_alone is None and tree.alone == ""
     assert tree.together.startswith("wins 3.3") and tree.together.endswith("over Embree")
 
@@ -86,6 +87,13 @@ def test_our_own_wrong_cell_is_never_ranked(tmp_path):
     assert results.findings == [] and [c.status for c in results.cells] == ["wrong", "exact"]
 
 
+def test_units_and_meanings_are_json(full):
+    with h5py.File(full) as file:
+        for name in set(file) - {"text"}:
+            for attribute in ("units", "columns"):
+                assert set(json.loads(file[name].attrs[attribute])) <= set(file[name].dtype.names), name
+
+
 def test_a_status_that_nobody_knows_is_refused_by_name(tmp_path):
     with pytest.raises(AssertionError, match='column status holds the unknown word "a_word_of'):
         one_cell_of_each("a_word_of_the_future").write(tmp_path / "a.h5")
@@ -104,7 +112,7 @@ def test_nan_samples_are_left_out_and_counted(tmp_path):
         row["wall_ns"] = math.nan
     results = run.read(made.write(tmp_path / "a.h5"))
     assert results.missing_samples == 4
-    assert min(int(c.medians["query"]["n"]) for c in results.cells if c.job.task != run.BUILDS) == 5
+    assert min(int(c.medians["query"]["n"]) for c in results.cells if not c.task.is_build) == 5
 
 
 def test_one_round_claims_nothing(small):

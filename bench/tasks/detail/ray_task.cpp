@@ -1,5 +1,6 @@
 #include "bench/tasks/detail/ray_task.h"
 
+#include "bench/tasks/detail/ray_classes.h"
 #include "bench/truth/hit_truth.h"
 #include "kernels/registry.h"
 #include "kernels/suggest.h"
@@ -69,10 +70,19 @@ class Hits final : public RayContender {
     std::optional<SingleRays> single_; ///< of the order "single"
 };
 
-constexpr std::array orders{
-    RayOrderEntry{"given", "a batch as it comes, some of its rays on their way at a time", "rays"},
-    RayOrderEntry{"sorted", "a batch by direction and place, answers put back", "sorted_rays"},
-    RayOrderEntry{"single", "one ray in a call, answered before the next", "single_rays"}};
+const std::array orders{
+    RayOrderEntry{"given",
+                  "a batch as it comes, some of its rays on their way at a time",
+                  "rays",
+                  {ray_class::packets, ray_class::batches}},
+    RayOrderEntry{"sorted",
+                  "a batch by direction and place, answers put back",
+                  "sorted_rays",
+                  {ray_class::packets}},
+    RayOrderEntry{"single",
+                  "one ray in a call, answered before the next",
+                  "single_rays",
+                  {ray_class::single}}};
 
 } // namespace
 
@@ -155,8 +165,9 @@ std::vector<Choice> HitTask::variants(const BlockReader& block, const Choice& ch
 TreeTask::Way HitTask::way(const Choice& choice) const {
     const RayOrderEntry& order = entry_named(choice.ray_order, ray_orders(), "ray order");
     const KernelInfo& kernel = entry_named(choice.kernel, ray_kernels(), "ray kernel");
-    return {order.traversal, choice.kernel, kernel.promise,
-            maker<Hits>(choice.kernel, query_, order.name), Query::rays};
+    return {order.traversal, choice.kernel,
+            kernel.promise,  maker<Hits>(choice.kernel, query_, order.name),
+            Query::rays,     ray_class::of_ours(order.classes, choice.kernel)};
 }
 
 } // namespace boxwood::bench

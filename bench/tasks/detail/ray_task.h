@@ -16,6 +16,7 @@ namespace boxwood::bench {
 struct RayOrderEntry {
     std::string_view name, summary;
     std::string_view traversal; ///< its name in the registry
+    std::vector<std::string> classes;
 };
 std::span<const RayOrderEntry> ray_orders();
 

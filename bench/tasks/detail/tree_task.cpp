@@ -82,6 +82,7 @@ ContenderEntry TreeTask::contender(const Choice& choice) const {
     entry.traversal = way.traversal;
     entry.kernel = way.kernel;
     entry.promise = way.promise;
+    entry.classes = std::move(way.classes);
     entry.name = fmt::format("{}.{}.{}", entry.builder, entry.layout, entry.traversal);
     if (!entry.kernel.empty())
         entry.name += "." + entry.kernel;

@@ -39,6 +39,7 @@ class TreeTask : public Task {
         std::function<std::unique_ptr<Contender>(const Job&, BuildFunction, const LayoutEntry&)>
             make;
         std::optional<Query> query{}; ///< what a layout must answer for it
+        std::vector<std::string> classes{};
     };
     virtual Way way(const Choice& choice) const = 0;
     /// What triangles are needed for ("aim rays at"); empty if boxes are enough.

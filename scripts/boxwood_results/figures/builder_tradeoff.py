@@ -37,14 +37,14 @@ def draw_panel(ax, job, cells, run, rows):
     steps = front(timed, run)
     best = [cell for cell, _ in steps]
     shown, left_out = choose(timed, keep=best)
-    builds = [cell.median("build") for cell in shown if cell.builds]
+    builds = [cell.median("build") for cell in shown if cell.keeps_structure]
     queries = [cell.median("query") for cell in shown]
     edge = min(builds) / 3 if len(builds) < len(shown) else min(builds)
     style.time_axis(ax.xaxis, edge, max(builds), room=0.12)
     style.time_axis(ax.yaxis, min(queries), max(queries), room=0.08)
 
     def at(cell):
-        return (cell.median("build") if cell.builds else edge), cell.median("query")
+        return (cell.median("build") if cell.keeps_structure else edge), cell.median("query")
 
     if len(builds) < len(shown):
         ax.axvline(edge, color=style.FAINT, linewidth=5, alpha=0.35, zorder=0)
@@ -84,7 +84,7 @@ def draw(run):
     for job in largest_jobs(run.jobs):
         cells = run.of(job)
         cells = [cell for cell in cells if cell.has("query") and not cell.has("update")]
-        if sum(cell.builds for cell in cells) >= 2:
+        if sum(cell.keeps_structure for cell in cells) >= 2:
             by_task.setdefault(job.task, []).append((job, cells))
     if not by_task:
         raise Skip("it takes at least two variants with a build time on one job")

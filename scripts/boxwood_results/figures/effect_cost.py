@@ -3,7 +3,7 @@
 import math
 
 from .. import style
-from ..findings import floor_text, rounds_text
+from ..findings import footer
 from ..moving import frame_ns, played_scenes
 from ..picture import Picture, Skip
 from ..words import interval_text, time_text
@@ -77,6 +77,6 @@ def draw(run):
     ax.set_yticks([])
     ax.grid(axis="y", visible=False)
     ax.spines["left"].set_visible(False)
-    figure.text(0.02 / size[0], 0.06 / size[1], f"{rounds_text(run)}. {floor_text(run)}.", fontsize=7.5, color="#666666")
+    figure.text(0.02 / size[0], 0.06 / size[1], footer(run), fontsize=7.5, color="#666666")
     said = "; ".join(f"{row[3]} in {row[0]} {row[6]:.2f}x" for row in rows)
     return [Picture(NAME, figure, TITLE, f"Time of a frame with an effect over without it. {said}.", COLUMNS, rows)]

@@ -4,12 +4,12 @@ import math
 from dataclasses import dataclass
 
 from .. import style
-from ..findings import PEERS, RACE, floor_text, rounds_text
+from ..findings import PEERS, RACE, footer
 from ..metrics import METRICS
 from ..picture import Picture, Skip
-from ..run import BUILDS, TOTAL, TOTAL_WORDS, WHOLE_FRAMES
+from ..run import TOTAL
 from ..selection import largest_jobs, wrong_notes
-from ..words import VERDICTS, ratio_text
+from ..words import ratio_text
 
 NAME = "forest"
 TITLE = "Against the peers"
@@ -57,7 +57,7 @@ def blocks(run):
             rows.setdefault((row.b.cell_id, row.phase, row.contender_class), {})[row.a.cell_id] = row
     found = []
     for finding in run.findings:
-        if finding.topic != RACE or finding.task == BUILDS or not (finding.rival or finding.rival_alone):
+        if finding.topic != RACE or run.tasks[finding.task].is_build or not (finding.rival or finding.rival_alone):
             continue
         sides = [rows.get((ours.cell_id, ours.total if phase == TOTAL else phase, finding.contender_class), {})
                  if ours else {} for ours, phase in ((finding.ours, TOTAL), (finding.ours_alone, "query"))]
@@ -123,7 +123,8 @@ def draw_one(run, task, threads, found, floor):
             entries.append((y, block, peer))
     height = -y + 0.12
     names, panel, texts, top, bottom = 2.5, 2.9, 2.35, 0.35, 0.8
-    phases = (TOTAL,) if task in WHOLE_FRAMES else (TOTAL, "query")
+    known = run.tasks[task]
+    phases = (TOTAL,) if known.in_frames else (TOTAL, "query")
     size = (names + len(phases) * (panel + texts), height + top + bottom)
     figure = style.plt.figure(figsize=size)
     rows = []
@@ -136,7 +137,7 @@ def draw_one(run, task, threads, found, floor):
         ax.tick_params(axis="x", labeltop=height > TALL)
         ax.set_ylim(y - 0.12, 0)
         ax.set_yticks([])
-        ax.set_title(TOTAL_WORDS.get(task, "build and one query") if phase == TOTAL else "query alone", fontsize=10,
+        ax.set_title(known.total_words if phase == TOTAL else "query alone", fontsize=10,
                      weight="bold")
         for (at, block, peer), comparison in zip(entries, comparisons):
             if peer is None:
@@ -151,7 +152,7 @@ def draw_one(run, task, threads, found, floor):
                 ax.text(-0.03, at, peer.label, transform=ax.get_yaxis_transform(), ha="right", va="center",
                         fontsize=8, color=style.text_colour(peer.family))
             if comparison is None:
-                said = "the peer has no build" if not peer.builds else "no build"
+                said = "the peer has no build" if not peer.keeps_structure else "no build"
                 ax.text(1.03, at, said, transform=ax.get_yaxis_transform(), va="center", fontsize=7.5,
                         color="#777777")
                 continue
@@ -162,9 +163,9 @@ def draw_one(run, task, threads, found, floor):
                          peer.label, peer.library, comparison.phase, comparison.rounds, gain.mid, gain.lo, gain.hi,
                          comparison.verdict, comparison.reason))
     said = "; ".join(
-        f"{row[2]}, {row[6]}, {row[8]}: {ratio_text(row[10])} {VERDICTS[row[13]]}" for row in rows
+        f"{row[2]}, {row[6]}, {row[8]}: {ratio_text(row[10])} {row[13].replace('_', ' ')}" for row in rows
     )
-    figure.text(0.02 / size[0], 0.06 / size[1], f"{rounds_text(run)}. {floor_text(run)}.", fontsize=7.5, color="#666666")
+    figure.text(0.02 / size[0], 0.06 / size[1], footer(run), fontsize=7.5, color="#666666")
     jobs = {block.job for block in found}
     notes = wrong_notes([cell for cell in run.cells if cell.job in jobs])
     words = "1 thread" if threads == 1 else f"{threads} threads"

@@ -2,7 +2,7 @@
 
 from .. import style
 from ..metrics import METRICS
-from ..moving import SCREEN_NS, WITHOUT, frame_medians, percentile
+from ..moving import SCREEN_NS, frame_medians, percentile
 from ..picture import Picture, Skip
 from ..selection import choose, largest_jobs, left_out_note, wrong_notes
 from ..words import time_text
@@ -86,7 +86,7 @@ def draw_all(task, threads, jobs):
 def draw(run):
     groups = {}
     for job in largest_jobs(run.jobs):
-        cells = [c for c in run.of(job) if c.frames and not c.contender.startswith(WITHOUT)]
+        cells = [c for c in run.of(job) if c.frames and not c.lacks_effect]
         if cells:
             shown, left_out = choose(cells)
             groups.setdefault((job.task, job.threads), []).append((job, shown, left_out, wrong_notes(cells)))

@@ -2,7 +2,7 @@
 
 from .. import labels, style
 from ..metrics import METRICS
-from ..moving import WITHOUT, moved_share
+from ..moving import moved_share
 from ..picture import Picture, Skip
 from ..run import TOTAL
 from ..selection import MOST_LINES, wrong_notes
@@ -21,7 +21,7 @@ def groups_of(run):
     """{(task, scene and effects, n, threads, seed): {contender: {share: cell}}}."""
     groups = {}
     for cell in run.cells:
-        if not cell.timed or cell.contender.startswith(WITHOUT):
+        if not cell.timed or cell.lacks_effect:
             continue
         found = moved_share(cell)
         if found:

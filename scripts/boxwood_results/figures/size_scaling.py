@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from .. import labels, style
 from ..metrics import METRICS
 from ..picture import Picture, Skip
-from ..moving import WITHOUT
-from ..run import BUILDS, SCENE_QUERIES, TOTAL
+from ..run import TOTAL
 from ..selection import MOST_LINES, wrong_notes
 
 NAME = "size_scaling"
@@ -18,8 +17,6 @@ HOW_TO_READ = (
     "guide grows as n log n. The column off_line says how far the farthest time is from the fit."
 )
 MIN_SIZES = 3
-PHASES = {"moving_pairs": (TOTAL,), SCENE_QUERIES: (TOTAL,), BUILDS: ("build",)}  # of the other tasks all three
-TOTALS = {"moving_pairs": "update+query", SCENE_QUERIES: "update+query"}  # what TOTAL is, where not build and query
 COLUMNS = ("task", "scene", "threads", "phase", "variant", "library", "status", "n", "median_ns", "exponent",
            "exponent_lo", "exponent_hi", "off_line")
 FIT_COLUMNS = ("exponent", "exponent_lo", "exponent_hi", "off_line")
@@ -31,7 +28,7 @@ def lines_of(run, task, scene, seed, threads):
     for cell in run.cells:
         job = cell.job
         if (job.task, job.scene, job.seed, job.threads) == (task, scene, seed, threads) and cell.timed \
-                and not cell.contender.startswith(WITHOUT):
+                and not cell.lacks_effect:
             lines.setdefault((cell.contender, cell.precision, cell.executor), []).append(cell)
     return [sorted(line, key=lambda c: c.job.n) for line in lines.values() if len(line) >= MIN_SIZES]
 
@@ -72,15 +69,20 @@ def exponent_text(fit):
     return f"n^{fit.mid:.2f} ({fit.lo:.2f} to {fit.hi:.2f})"
 
 
-def phase_name(task, phase):
-    return TOTALS.get(task, phase) if phase == TOTAL else phase
+def phase_name(cell, phase):
+    return cell.total if phase == TOTAL else phase
+
+
+def phases_of(task):
+    """Those worth a panel of their own."""
+    return (TOTAL,) if task.in_frames or task.is_build else ("build", "query", TOTAL)
 
 
 def draw_panel(ax, lines, phase, known_fits, rows):
     ends, all_times, sizes = [], [], set()
     fits = []
     for line in lines:
-        fit = known_fits.get((line[-1].cell_id, line[-1].total if phase == TOTAL else phase), Fit())
+        fit = known_fits.get((line[-1].cell_id, phase_name(line[-1], phase)), Fit())
         fits.append((line[-1], fit))
         x, y = [cell.job.n for cell in line], [cell.median(phase) for cell in line]
         sizes.update(x)
@@ -90,7 +92,7 @@ def draw_panel(ax, lines, phase, known_fits, rows):
         for size, time, at in zip(x, y, line):
             if at.status == "wrong":
                 style.cross_out(ax, size, time)
-            rows.append((at.job.task, at.job.scene, at.job.threads, phase_name(at.job.task, phase), at.label, at.library, at.status, size,
+            rows.append((at.job.task, at.job.scene, at.job.threads, phase_name(at, phase), at.label, at.library, at.status, size,
                          time, fit.mid, fit.lo, fit.hi, fit.off_line))
         ends.append((x[-1], y[-1], f"{cell.label}  {exponent_text(fit)}", style.text_colour(cell.family)))
     low, high = min(sizes), max(sizes)
@@ -102,9 +104,9 @@ def draw_panel(ax, lines, phase, known_fits, rows):
     style.time_axis(ax.yaxis, min([*all_times, *guide]), max([*all_times, *guide]))
     job = lines[0][-1].job
     threads = "1 thread" if job.threads == 1 else f"{job.threads} threads"
-    style.title(ax, f"{job.scene} · {job.task} · {threads} · {phase_name(job.task, phase)}")
+    style.title(ax, f"{job.scene} · {job.task} · {threads} · {phase_name(lines[0][-1], phase)}")
     ax.set_xlabel(METRICS["n"].axis)
-    ax.set_ylabel(METRICS["frame" if phase_name(job.task, phase) == "update+query" else phase].axis)
+    ax.set_ylabel(METRICS["frame" if phase_name(lines[0][-1], phase) == "update+query" else phase].axis)
     return ends, fits
 
 
@@ -113,9 +115,9 @@ def draw(run):
     by_task = {}
     for group in groups:
         lines = lines_of(run, *group)
-        for phase in PHASES.get(group[0], ("build", "query", TOTAL)):
+        for phase in phases_of(run.tasks[group[0]]):
             usable = [line for line in lines if all(cell.has(phase) for cell in line)
-                      and (phase != "build" or all(cell.builds for cell in line))]
+                      and (phase != "build" or all(cell.keeps_structure for cell in line))]
             if usable:
                 by_task.setdefault(group[0], []).append((choose_lines(usable, phase), phase))
     if not by_task:
@@ -127,7 +129,7 @@ def draw(run):
         for ax, (lines, phase) in zip(axes, all_panels):
             ends, fits = draw_panel(ax, lines, phase, fits_of(run), rows)
             labels.at_line_ends(ax, ends)
-            said += [f"{cell.label} {phase_name(task, phase)} on {cell.job.scene} {exponent_text(fit)}" for cell, fit in fits]
+            said += [f"{cell.label} {phase_name(cell, phase)} on {cell.job.scene} {exponent_text(fit)}" for cell, fit in fits]
         cells = [cell for lines, _ in all_panels for line in lines for cell in line]
         pictures.append(
             Picture(f"{NAME}_{task}", figure, f"{TITLE}: {task}",

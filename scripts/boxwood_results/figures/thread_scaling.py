@@ -4,8 +4,7 @@ from .. import labels, style
 from ..findings import THREADS
 from ..metrics import METRICS
 from ..picture import Picture, Skip
-from ..moving import WITHOUT
-from ..run import TOTAL, TOTAL_WORDS
+from ..run import TOTAL
 from ..selection import MOST_LINES, wrong_notes
 
 NAME = "thread_scaling"
@@ -23,7 +22,7 @@ def lines_of(run):
     groups = {}
     for row in run.family(THREADS):
         cell = row.b
-        if row.phase != cell.total or cell.contender.startswith(WITHOUT) or row.verdict == "wrong":
+        if row.phase != cell.total or cell.lacks_effect or row.verdict == "wrong":
             continue
         job = cell.job
         lines = groups.setdefault((job.task, job.scene, job.seed, job.n), {})
@@ -67,7 +66,7 @@ def draw_panel(ax, job, lines, rows):
     ax.set_xlim(1 - 0.04 * most, most * 1.03)
     ax.set_ylim(min(0.9, lowest * 0.95), max(highest, most) * 1.05)
     ax.set_xticks(sorted({1, *(row.b.job.threads for line in lines for row in line)}))
-    style.title(ax, f"{job.scene} {job.n:,} · {job.task} · {TOTAL_WORDS.get(job.task, 'build and one query')}")
+    style.title(ax, f"{job.scene} {job.n:,} · {job.task} · {lines[0][-1].b.task.total_words}")
     ax.set_xlabel(METRICS["threads"].axis)
     ax.set_ylabel(METRICS["thread_scaling"].axis)
     return ends

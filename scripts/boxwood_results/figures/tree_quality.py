@@ -5,7 +5,6 @@ import math
 from .. import labels, style
 from ..metrics import METRICS
 from ..picture import Picture, Skip
-from ..run import BUILDS
 from ..selection import largest_jobs, wrong_notes
 from ..words import time_text
 
@@ -50,7 +49,7 @@ def draw_panel(ax, job, cells, rows):
 def draw(run):
     jobs = []
     for job in largest_jobs(run.jobs):
-        cells = [c for c in run.of(job) if job.task == BUILDS and c.has("build") and sah(c) > 0]
+        cells = [c for c in run.of(job) if c.task.is_build and c.has("build") and sah(c) > 0]
         if len(cells) >= 2:
             jobs.append((job, cells))
     if not jobs:

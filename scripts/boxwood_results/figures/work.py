@@ -5,7 +5,6 @@ import math
 from .. import labels, style
 from ..metrics import METRICS
 from ..picture import Picture, Skip
-from ..run import WHOLE_FRAMES
 from ..selection import choose, largest_jobs, VERY_LONG, left_out_note, short_labels, wrong_notes
 
 NAME = "work"
@@ -63,7 +62,7 @@ def draw(run):
     by_task = {}
     for job in largest_jobs(run.jobs):
         counted = [c for c in run.of(job) if not math.isnan(measures(c)[2]) and c.executor == "serial"]
-        if job.threads == 1 and len(counted) >= 2 and job.task not in WHOLE_FRAMES:
+        if job.threads == 1 and len(counted) >= 2 and not run.tasks[job.task].in_frames:
             by_task.setdefault(job.task, []).append((job, counted))
     if not by_task:
         raise Skip("no job has two variants with work counters")

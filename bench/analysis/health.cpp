@@ -1,0 +1,91 @@
+#include "bench/analysis/health.h"
+
+#include "bench/analysis/promises.h"
+#include "bench/analysis/statistics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace boxwood::bench {
+namespace {
+
+using results::Health;
+using results::Results;
+using results::Status;
+
+void count_answers(const Results& results, Health& health) {
+    std::map<std::uint32_t, bool> is_peer;
+    for (const results::Variant& variant : results.variants)
+        is_peer[variant.variant_id] = variant.is_peer != 0;
+    for (const results::Cell& cell : results.cells) {
+        const bool is_wrong = cell.status == Status::wrong;
+        if (cell.status == Status::unchecked || cell.status == Status::unsupported ||
+            (is_wrong && is_judged_by_promise(results, cell)))
+            continue;
+        ++health.answers;
+        if (is_wrong)
+            ++(is_peer[cell.variant_id] ? health.wrong_peers : health.wrong_ours);
+    }
+}
+
+std::string trust_text(const Health& health) {
+    if (health.samples == 0)
+        return "";
+    std::string text =
+        fmt::format("{} round{}, {:.1f} % of the samples disturbed; ", health.rounds,
+                    health.rounds == 1 ? "" : "s",
+                    100 * static_cast<double>(health.disturbed) /
+                        static_cast<double>(health.samples));
+    text += std::isnan(health.floor) ? "noise floor not known"
+                                     : fmt::format("noise floor {:.1f} %", 100 * health.floor);
+    if (health.is_too_noisy)
+        return text + ": too noisy";
+    if (health.rounds < min_pairs_verdict)
+        return text + fmt::format(": {} rounds give verdicts", min_pairs_verdict);
+    return text + (std::isnan(health.floor) ? ": no cell was timed twice" : ": quiet enough");
+}
+
+/// Names the kernels that break a promise, the first ones at least.
+std::string correctness_text(const Results& results, const Health& health) {
+    constexpr std::uint64_t max_named = 2;
+    std::string text =
+        fmt::format("{} answers checked: {} of ours wrong, {} of the peers' wrong", health.answers,
+                    health.wrong_ours, health.wrong_peers);
+    std::uint64_t named = 0;
+    for (const results::KernelRow& row : results.kernels)
+        if (row.is_broken && named++ < max_named)
+            text += fmt::format("{} {} on {}", named == 1 ? "; PROMISE BROKEN:" : ",", row.kernel,
+                                row.family);
+    return named > max_named ? text + fmt::format(" and {} more", named - max_named) : text;
+}
+
+} // namespace
+
+Health health_of(const Results& results, std::optional<double> floor, double delta) {
+    Health health;
+    health.rounds = results.shards.size();
+    health.samples = results.samples.size();
+    health.disturbed = static_cast<std::uint64_t>(
+        std::ranges::count_if(results.samples, [](const results::Sample& sample) {
+            return (sample.flags & (results::disturbed_steal | results::disturbed_switches)) != 0;
+        }));
+    health.floor = floor.value_or(results::missing);
+    health.delta = delta;
+    health.is_too_noisy = floor && *floor > max_floor;
+    count_answers(results, health);
+    health.broken_promises = broken_promises(results);
+    health.trust = trust_text(health);
+    health.correctness = correctness_text(results, health);
+    if (health.is_too_noisy)
+        health.advice = fmt::format("REPEAT THIS: the same work timed twice differed by more than "
+                                    "{:.0f} %, so no time here means anything. Close other "
+                                    "programs (`boxwood doctor` says which settings disturb) and "
+                                    "measure again.",
+                                    100 * max_floor);
+    return health;
+}
+
+} // namespace boxwood::bench
