@@ -1,6 +1,9 @@
 /// A task that no other file knows: adding one is one file (and one name in tasks/registry.cpp,
 /// which add_task stands for here).
 
+#include "bench/analysis/analyse.h"
+#include "bench/analysis/screen.h"
+#include "bench/commands/show.h"
 #include "bench/io/bad_input.h"
 #include "bench/plan/plan.h"
 #include "bench/plan/scenes.h"
@@ -66,6 +69,7 @@ class DepthTruth final : public Truth {
 class PointDepths final : public Task {
   public:
     std::string_view name() const override { return "point_depths"; }
+    std::string title() const override { return "depth of points"; }
     std::string_view summary() const override { return "for each point how many boxes contain it"; }
     std::vector<std::string_view> keys() const override {
         return {"scene", "n", "overlaps", "depth_points", "ways", "executors", "threads"};
@@ -159,8 +163,10 @@ TEST(AddedTask, IsPlannedCheckedTimedAndFoundInTheResults) {
     EXPECT_GT(std::ranges::find(prepared.counters, "containing", &results::Counter::counter)->value,
               70u);
 
+    std::vector<results::Results> parts{prepared};
     for (const unsigned round : {0u, 1u}) {
-        const results::Results timed = run_round(plan, prepared, round, silent);
+        const results::Results& timed =
+            parts.emplace_back(run_round(plan, prepared, round, silent));
         std::map<results::Phase, std::set<std::uint32_t>> cells_of_phase;
         for (const results::Sample& sample : timed.samples) {
             EXPECT_GT(sample.wall_ns, 0);
@@ -170,6 +176,13 @@ TEST(AddedTask, IsPlannedCheckedTimedAndFoundInTheResults) {
         EXPECT_EQ(cells_of_phase[results::Phase::build].size(), 4u);
         EXPECT_EQ(cells_of_phase[results::Phase::query].size(), 4u);
     }
+
+    results::Results merged = results::merge(parts);
+    analyse(merged);
+    ASSERT_EQ(merged.tasks.size(), 1u);
+    EXPECT_EQ(merged.health[0].wrong_ours, 2u);
+    EXPECT_THAT(all_text(merged), testing::HasSubstr("200 items, point_depths, 2 threads"));
+    EXPECT_THAT(screen_text(merged), testing::HasSubstr("4 answers checked: 2 of ours wrong"));
 }
 
 TEST(AddedTask, HasKeysOfItsOwn) {

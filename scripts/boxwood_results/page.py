@@ -21,7 +21,7 @@ figcaption, .note { color: #555; font-size: .88rem; }
 table { border-collapse: collapse; font-size: .82rem; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; padding: .18rem .7rem .18rem 0; border-bottom: 1px solid #e4e4e4; vertical-align: top; }
 td.number { text-align: right; }
-.scroll { overflow-x: auto; }
+.scroll { overflow-x: auto; margin-bottom: 1.1rem; }
 details .scroll { max-height: 30rem; overflow-y: auto; }
 summary { cursor: pointer; font-size: .88rem; color: #0058a3; }
 .wrong { color: #b00000; font-weight: 600; }

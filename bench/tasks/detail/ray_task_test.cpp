@@ -240,6 +240,25 @@ TEST(RaysOneByOne, AnswerAsABatchForEveryWay) {
     });
 }
 
+TEST(RayClasses, SingleRaysBatchesAndPacketsAndWatertightOnesByThemselves) {
+    using Classes = std::vector<std::string>;
+    const auto of_ours = [](const char* order, const char* kernel) {
+        return find_task("rays_any")->contender({.kernel = kernel, .ray_order = order}).classes;
+    };
+    EXPECT_EQ(of_ours("given", "plucker_f32"), (Classes{"packets", "batches"}));
+    EXPECT_EQ(of_ours("sorted", "plucker_f32"), Classes{"packets"});
+    EXPECT_EQ(of_ours("single", "watertight"), (Classes{"single rays", "watertight single rays"}));
+    std::map<std::string, Classes> classes;
+    for (const char* task : {"rays_closest", "rays_all"})
+        for (const ContenderEntry& peer : peers_that_answer(task))
+            classes[peer.name] = peer.classes;
+    if (classes.empty())
+        GTEST_SKIP() << "libembree-dev was not found when this was compiled";
+    EXPECT_EQ(classes.at("embree.rtc_intersect1"), (Classes{"single rays", "batches"}));
+    EXPECT_EQ(classes.at("embree.rtc_intersect8.robust"), Classes{"watertight packets"});
+    EXPECT_EQ(classes.at("embree.rtc_intersect1.filter"), Classes{"batches"});
+}
+
 TEST(RaysBatches, EmbreesPacketsAnswerRight) {
     for (const char* name : {"rays_closest", "rays_any"}) {
         const Task& task = *find_task(name);
