@@ -1,6 +1,13 @@
 """Numbers and verdicts in words."""
 
+# What columns of few words may hold; results/words.h has the same.
+PHASES = ("", "build", "cold_build", "update", "query", "upload", "device_build", "device_query", "download",
+          "build+query", "update+query")
+STATUSES = ("unchecked", "exact", "conservative", "within_bound", "unsupported", "wrong")
+FAMILIES = ("", "peers", "ours", "threads", "stages")
+TOPICS = ("", "race", "kernel", "scene")
 VERDICTS = {
+    "": "",
     "faster": "faster",
     "slower": "slower",
     "same": "the same",
@@ -8,6 +15,7 @@ VERDICTS = {
     "wrong": "not ranked: a wrong answer",
 }
 REASONS = {
+    "": "",
     "too_few_rounds": "too few rounds",
     "below_the_floor": "below the noise",
     "crosses_1": "may be equal",
