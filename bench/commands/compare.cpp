@@ -3,6 +3,7 @@
 #include "bench/analysis/wording.h"
 #include "bench/commands/command.h"
 #include "bench/io/json.h"
+#include "bench/io/read_results.h"
 #include "bench/io/text_table.h"
 
 #include <fmt/format.h>
@@ -191,7 +192,7 @@ void add_compare(CLI::App& app, int& exit_code) {
         std::optional<double> fail_if;
         if (!options->fail_if.empty())
             fail_if = fail_threshold(options->fail_if);
-        const Results base = results::read(options->base), head = results::read(options->head);
+        const Results base = read_results(options->base), head = read_results(options->head);
         const FileComparison comparison = compare_files(base, head, delta);
         if (comparison.rows.empty() && comparison.other_content.empty())
             throw BadInput(fmt::format("compare: '{}' and '{}' have no timed cell in common",
