@@ -102,6 +102,10 @@ TEST_F(ResultFile, EveryMemberIsAColumn) {
 
 TEST_F(ResultFile, MissingAndExtremeValuesComeBack) {
     Results results;
+    results.scenes.resize(1);
+    results.variants.resize(1);
+    results.cells.resize(1);
+    results.shards.resize(1);
     results.samples.resize(1);
     results.samples[0].wall_ns = -0.0;
     results.checks.resize(1);
@@ -125,10 +129,10 @@ TEST_F(ResultFile, EmptyTablesStand) {
 }
 
 TEST_F(ResultFile, MoreRowsThanAChunk) {
-    Results results;
-    results.samples.resize(10'000);
+    Results results = filled_example(1);
+    results.samples.assign(10'000, {});
     for (std::uint32_t i = 0; i < results.samples.size(); ++i) {
-        results.samples[i].cell_id = i;
+        results.samples[i].position = i;
         results.samples[i].wall_ns = i * 1.25;
     }
     write(file_, results);
@@ -201,7 +205,7 @@ TEST_F(ResultFile, OtherVersions) {
 }
 
 TEST_F(ResultFile, UnknownColumnsAreSkippedAndMissingOnesKeepDefaults) {
-    write(file_, filled_example(1));
+    write(file_, filled_example(14));
     struct Other {
         std::int64_t unknown;
         std::int16_t cell_id;
@@ -223,10 +227,11 @@ TEST_F(ResultFile, UnknownColumnsAreSkippedAndMissingOnesKeepDefaults) {
                 H5Dclose, name);
             checked(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data()), name);
         }
-        for (const char* name : {"trees", "effects"}) // as in a file of an older minor version
+        for (const char* name : {"medians", "drift"}) // as in a file of an older minor version
             checked(H5Ldelete(file, name, H5P_DEFAULT), name);
     });
-    const Results back = read(file_);
+    EXPECT_SAYS(complaint(file_), "column samples.shard_id is missing; `boxwood merge ");
+    const Results back = read(file_, Required::measured);
     ASSERT_EQ(back.samples.size(), 2u);
     EXPECT_EQ(back.samples[1].cell_id, 13u);
     EXPECT_EQ(back.samples[1].wall_ns, 1.5);
@@ -236,8 +241,73 @@ TEST_F(ResultFile, UnknownColumnsAreSkippedAndMissingOnesKeepDefaults) {
     EXPECT_EQ(back.frames[1].cell_id, 13u);
     EXPECT_EQ(back.frames[1].box_tests, no_count);
     EXPECT_TRUE(std::isnan(back.frames[1].sah));
-    EXPECT_TRUE(back.trees.empty());
-    EXPECT_TRUE(back.effects.empty());
+    EXPECT_TRUE(back.medians.empty());
+    EXPECT_TRUE(back.drift.empty());
+    EXPECT_EQ(back.health.size(), 14u);
+}
+
+TEST_F(ResultFile, AMissingTableIsAnErrorThatSaysWhatToDo) {
+    for_each_table([&](const auto& table) {
+        write(file_, filled_example(1));
+        change([&](hid_t file) {
+            checked(H5Ldelete(file, std::string(table.name).c_str(), H5P_DEFAULT), table.name);
+        });
+        EXPECT_SAYS(complaint(file_), fmt::format("table {} is missing; ", table.name));
+        EXPECT_SAYS(complaint(file_),
+                    table.is_derived
+                        ? fmt::format("`boxwood merge {} --out NEW.h5` derives", file_.string())
+                        : "use another copy, or measure again");
+        if (table.is_derived)
+            EXPECT_NO_THROW(read(file_, Required::measured)) << table.name;
+        else
+            EXPECT_THROW(read(file_, Required::measured), std::runtime_error) << table.name;
+    });
+}
+
+TEST_F(ResultFile, AnIdThatNamesNoRowIsAnError) {
+    for_each_table([&]<class Row>(const Table<Row>& table) {
+        for (const auto& column : table.columns)
+            for (const Reference& reference : references) {
+                if (reference.column != column.name || reference.table == table.name)
+                    continue;
+                Results results = filled_example();
+                const auto member = std::get<std::uint32_t Row::*>(column.member);
+                (results.*table.rows)[1].*member = 77;
+                write(file_, results);
+                EXPECT_SAYS(complaint(file_),
+                            fmt::format("column {}.{} holds 77, which no row of {} has; use",
+                                        table.name, column.name, reference.table));
+                (results.*table.rows)[1].*member = no_id;
+                write(file_, results);
+                EXPECT_EQ(complaint(file_).empty(), table.is_derived) << table.name;
+            }
+    });
+    Results results = filled_example();
+    results.cells[2].cell_id = 1;
+    write(file_, results);
+    EXPECT_SAYS(complaint(file_), "column cells.cell_id holds 1, which stands there twice");
+}
+
+TEST_F(ResultFile, AWordThatIsNoneIsAnErrorThatNamesIt) {
+    write(file_, filled_example(1));
+    change([&](hid_t file) {
+        const Handle dataset(H5Dopen2(file, "compare", H5P_DEFAULT), H5Dclose, "compare");
+        const Handle type(H5Tcreate(H5T_COMPOUND, word_width), H5Tclose, "type");
+        H5Tinsert(type, "verdict", 0, string_type(word_width));
+        std::string word = "quicker";
+        word.resize(word_width);
+        checked(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, word.data()), "compare");
+    });
+    EXPECT_SAYS(complaint(file_), "column compare.verdict holds the unknown word \"quicker\"; use");
+}
+
+TEST_F(ResultFile, WhoChangesItBreaksTheSeal) {
+    write(file_, filled_example());
+    EXPECT_TRUE(read(file_).is_sealed);
+    set_attribute("schema_minor", 0); // nothing is different but that it was written to
+    EXPECT_FALSE(read(file_).is_sealed);
+    write(file_, read(file_));
+    EXPECT_TRUE(read(file_).is_sealed);
 }
 
 TEST_F(ResultFile, TruncatedAnywhereIsAnError) {

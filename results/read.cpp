@@ -1,4 +1,5 @@
 #include "results/detail/handle.h"
+#include "results/detail/ids.h"
 #include "results/detail/seal.h"
 #include "results/results.h"
 #include "results/schema.h"
@@ -72,17 +73,21 @@ template <class Row> struct Placed {
     std::size_t offset, size;
 };
 
-template <Worded Enum> Enum known_word(const std::string& word, std::string_view column) {
+template <Worded Enum>
+Enum known_word(const std::string& word, std::string_view table, std::string_view column) {
     const std::optional<Enum> value = from_string<Enum>(word);
     if (!value)
-        fail(fmt::format("column {} holds the unknown word \"{}\"", column, word));
+        fail(fmt::format("column {}.{} holds the unknown word \"{}\"; use another copy, or "
+                         "measure again",
+                         table, column, word));
     return *value;
 }
 
 /// Sets the member of each row from the records.
 template <class Row>
-void decode(const Placed<Row>& placed, const std::vector<std::byte>& records,
-            std::size_t record_size, std::vector<Row>& rows) {
+void decode(std::string_view table, const Placed<Row>& placed,
+            const std::vector<std::byte>& records, std::size_t record_size,
+            std::vector<Row>& rows) {
     std::visit(
         [&]<class Value>(Value Row::*member) {
             const std::byte* from = records.data() + placed.offset;
@@ -91,7 +96,7 @@ void decode(const Placed<Row>& placed, const std::vector<std::byte>& records,
                     const auto* start = reinterpret_cast<const char*>(from);
                     const std::string text(start, std::find(start, start + placed.size, '\0'));
                     if constexpr (Worded<Value>)
-                        row.*member = known_word<Value>(text, placed.column->name);
+                        row.*member = known_word<Value>(text, table, placed.column->name);
                     else
                         row.*member = text;
                 } else {
@@ -127,10 +132,23 @@ Handle wanted_type(const Column<Row>& column, hid_t in_file, std::string_view wh
         column.member);
 }
 
-template <class Row> void get_table(hid_t file, const Table<Row>& table, std::vector<Row>& rows) {
+/// What to do where the file lacks what an older version did not write.
+std::string derive_again(const fs::path& path) {
+    return fmt::format("`boxwood merge {} --out NEW.h5` derives what can be, else measure again",
+                       path.string());
+}
+
+template <class Row>
+void get_table(hid_t file, const fs::path& path, const Table<Row>& table, Required required,
+               std::vector<Row>& rows) {
     const std::string name(table.name);
-    if (!has_link(file, name.c_str()))
+    if (!has_link(file, name.c_str())) {
+        if (!table.is_derived)
+            fail(fmt::format("table {} is missing; use another copy, or measure again", name));
+        if (required == Required::everything)
+            fail(fmt::format("table {} is missing; {}", name, derive_again(path)));
         return;
+    }
     const Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, name);
     const Handle space(H5Dget_space(dataset), H5Sclose, name);
     const Handle in_file(H5Dget_type(dataset), H5Tclose, name);
@@ -142,9 +160,11 @@ template <class Row> void get_table(hid_t file, const Table<Row>& table, std::ve
     std::size_t record_size = 0;
     for (const auto& column : table.columns) {
         const int index = H5Tget_member_index(in_file, std::string(column.name).c_str());
+        const std::string where = fmt::format("{}.{}", name, column.name);
+        if (index < 0 && required == Required::everything)
+            fail(fmt::format("column {} is missing; {}", where, derive_again(path)));
         if (index < 0)
             continue;
-        const std::string where = fmt::format("{}.{}", name, column.name);
         const Handle theirs(H5Tget_member_type(in_file, static_cast<unsigned>(index)), H5Tclose,
                             where);
         types.push_back(wanted_type(column, theirs, where));
@@ -164,7 +184,7 @@ template <class Row> void get_table(hid_t file, const Table<Row>& table, std::ve
     checked(H5Dread(dataset, record, H5S_ALL, H5S_ALL, H5P_DEFAULT, records.data()),
             fmt::format("table {}", name));
     for (const auto& placed : found)
-        decode(placed, records, record_size, rows);
+        decode(name, placed, records, record_size, rows);
 }
 
 void get_texts(hid_t file, std::map<std::string, std::string>& texts) {
@@ -187,7 +207,7 @@ void get_texts(hid_t file, std::map<std::string, std::string>& texts) {
     }
 }
 
-Results read_open(hid_t file) {
+Results read_open(hid_t file, const fs::path& path, Required required) {
     if (!has_attribute(file, "format") || text_attribute(file, "format") != format_name)
         fail("an HDF5 file, but not a Boxwood result file (no attribute "
              "format=\"boxwood-results\")");
@@ -204,21 +224,24 @@ Results read_open(hid_t file) {
     results.created_utc = text_attribute(file, "created_utc");
     results.sweep_hash = text_attribute(file, "sweep_hash");
     results.generator = text_attribute(file, "generator");
-    for_each_table([&](const auto& table) { get_table(file, table, results.*table.rows); });
+    for_each_table(
+        [&](const auto& table) { get_table(file, path, table, required, results.*table.rows); });
+    require_valid_ids(results);
     get_texts(file, results.texts);
     return results;
 }
 
 } // namespace
 
-Results read(const fs::path& file) try {
+Results read(const fs::path& file, Required required) try {
     if (!fs::exists(file))
         fail("no such file");
     if (!fs::is_regular_file(file))
         fail("not a regular file");
     if (fs::file_size(file) == 0)
         fail("the file is empty");
-    if (seal_is_broken(file))
+    const SealState seal = state_of_seal(file);
+    if (seal == SealState::broken)
         fail("it is damaged: its content is not what was written (checksum); use another copy");
     const Silence silence;
     if (checked(H5Fis_hdf5(file.c_str()), "opening it") == 0)
@@ -228,7 +251,9 @@ Results read(const fs::path& file) try {
     checked(H5Pset_fapl_core(access, /*increment=*/4096, /*backing_store=*/false), "file access");
     const Handle handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), H5Fclose,
                         "not a readable HDF5 file");
-    return read_open(handle);
+    Results results = read_open(handle, file, required);
+    results.is_sealed = seal == SealState::fits;
+    return results;
 } catch (const std::system_error& error) {
     throw std::runtime_error(
         fmt::format("cannot read result file '{}': {}", file.string(), error.code().message()));

@@ -104,6 +104,7 @@ struct Sample {
     double wall_ns = missing, cpu_ns = missing;
     std::uint64_t iterations = 0, nvcsw = 0, nivcsw = 0, minflt = 0;
     std::uint32_t flags = 0;
+    double off_median = missing; ///< derived: over the median of its cell and phase, less 1
 };
 
 /// One frame of a moving scene in one round of one cell: means over the passes of the round. What
@@ -151,6 +152,7 @@ struct TreeRow {
     std::uint64_t bytes = 0;
     double sah_cost = missing, c_trav = missing, c_isect = missing, epo = missing,
            overlap = missing;
+    std::uint32_t on_front = 0; ///< derived: no other of its job builds a cheaper tree in less time
 };
 
 /// One kernel, ours or a peer's, on one family of hard cases.
@@ -170,6 +172,10 @@ struct KernelRow {
     Status status = Status::unchecked;
     std::string witness;         ///< a wrong case and the command that replays it
     std::uint32_t is_broken = 0; ///< derived: a kernel of ours does not keep its promise
+    std::string label;           ///< derived: tells a peer's kernel of floats from that of doubles
+    double ns = missing;         ///< derived, per call: of the sweep, else of the check
+    std::uint64_t wrong = 0;     ///< derived: false either way, or out of the bound
+    double wrong_per_million = missing, maybe_per_million = missing; ///< derived
 };
 
 /// The error of one kernel at one condition number (a decade each).
@@ -191,7 +197,8 @@ struct Median {
     std::uint64_t n = 0;
     double median_ns = missing, mad_ns = missing, min_ns = missing, p95_ns = missing,
            p99_ns = missing;
-    double limit_ns = missing; ///< the least time that the machine could take; NaN if not known
+    double limit_ns = missing;    ///< the least time that the machine could take; NaN if not known
+    double times_limit = missing; ///< the median over that
 };
 
 /// Cell b against cell a: the time of b over that of a, paired by round.
@@ -223,9 +230,10 @@ struct SizeScaling {
 };
 
 /// After so many queries the longer build of b has paid for itself against a. Both are the best at
-/// something: no other of their job builds and queries in less time.
+/// something: no other of their job builds and queries in less time. The one of a job that builds
+/// in the least time has a row without an a.
 struct BreakEven {
-    std::uint32_t cell_a = 0, cell_b = 0;
+    std::uint32_t cell_a = no_id, cell_b = 0;
     double queries = missing;
 };
 
@@ -236,6 +244,10 @@ struct KernelCost {
     double ns = missing; ///< mean over the families
     std::uint64_t n = 0, wrong = 0, maybe = 0;
     double max_rel_err = missing;
+    double wrong_per_million = missing;
+    double unexcluded_per_million = missing; ///< a rate that n right answers do not exclude (95 %)
+    std::uint32_t by_error = 0; ///< 1 if its task is judged by errors, and not by yes or no
+    std::uint32_t on_front = 0; ///< 1 if ours and no faster one of ours errs less
 };
 
 /// What a topic of findings is called, and the columns of its rows.
@@ -276,6 +288,79 @@ struct Health {
     std::string trust, correctness, advice;
 };
 
+/// One frame of one cell over its rounds.
+struct FrameMedian {
+    std::uint32_t cell_id = 0, frame = 0;
+    double frame_ns = missing, query_ns = missing; ///< of update and query together; of the query
+    double over_fresh = missing; ///< its query over that of a structure made for the frame
+    double box_tests_per_item = missing, sah = missing; ///< counted
+};
+
+/// The frames of one cell, each by its median over the rounds.
+struct FrameStats {
+    std::uint32_t cell_id = 0;
+    std::uint32_t fresh_cell = no_id; ///< what rebuilds for every frame; none: its own first frame
+    std::uint64_t n = 0;
+    double p50_ns = missing, p95_ns = missing, p99_ns = missing, max_ns = missing;
+    double over_1_ms = missing, over_16_6_ms = missing; ///< share of the frames
+    double degradation = missing; ///< over_fresh of the last frame over that of the first
+};
+
+/// One stage of the plan of a moving scene over the rounds, in a mean frame.
+struct StageCost {
+    std::uint32_t cell_id = 0;
+    std::string stage;
+    std::uint32_t required = 0;
+    std::uint64_t calls = 0, items = 0, bytes = 0; ///< as in effects
+    double ns = 0, until_ns = 0; ///< of a frame: its own, and with all stages before it
+    double share = 0;            ///< of the frame
+};
+
+/// What an effect of a moving scene costs, or all stages beyond the required ones.
+struct EffectCost {
+    std::uint32_t cell_with = 0, cell_without = 0;
+    std::string what;                               ///< the effect, or "all stages"
+    double with_ns = missing, without_ns = missing; ///< of a frame
+    double ratio = missing, ci_lo = missing, ci_hi = missing;
+    double extra_ns = missing; ///< what a frame takes more, by the ratio
+};
+
+/// One kernel at one condition number over all families.
+struct KernelCondition {
+    std::string task, kernel, library, promise;
+    std::uint32_t is_peer = 0;
+    double log10_condition = missing;
+    std::uint64_t n = 0;
+    double max_rel_err = missing, bound = missing;
+};
+
+/// Which share of its calls each tier of an adaptive kernel of ours decided.
+struct Escalation {
+    std::uint32_t cell_id = no_id; ///< no_id: of all families
+    std::string task, kernel;
+    double share_0 = 0, share_1 = 0, share_2 = 0, share_3 = 0;
+};
+
+/// A whole query with one kernel, where others stand under the same tree.
+struct QueryKernel {
+    std::uint32_t cell_id = 0;
+    double times_fastest = missing; ///< its time over that of the fastest of them
+};
+
+/// Counted work and time of one query, for each item, ray or point.
+struct WorkRow {
+    std::uint32_t cell_id = 0;
+    double node_visits = missing, box_tests = missing, query_ns = missing;
+};
+
+/// The queries of one round against their cells' medians.
+struct Drift {
+    std::uint32_t shard_id = 0;
+    std::uint64_t n = 0, disturbed = 0;
+    double off_median = missing;   ///< the middle of those of its samples
+    std::uint32_t is_farthest = 0; ///< 1 for the round that is off the most
+};
+
 /// Everything in one file. Ids are those of the `*_id` columns, unique within the file.
 struct Results {
     std::string run_uuid, created_utc, sweep_hash, generator;
@@ -304,6 +389,16 @@ struct Results {
     std::vector<TopicRow> topics;
     std::vector<Finding> findings;
     std::vector<Health> health; ///< one row
+    std::vector<FrameMedian> frame_medians;
+    std::vector<FrameStats> frame_stats;
+    std::vector<StageCost> stage_costs;
+    std::vector<EffectCost> effect_costs;
+    std::vector<KernelCondition> kernel_conditions;
+    std::vector<Escalation> escalations;
+    std::vector<QueryKernel> query_kernels;
+    std::vector<WorkRow> work;
+    std::vector<Drift> drift;
+    bool is_sealed = true; ///< as read: false if another program changed the file since
 };
 
 /// Writes to a temporary name beside `file`, marks it complete last, closes, syncs and renames: a
@@ -311,9 +406,15 @@ struct Results {
 /// cause (no such folder, no permission, disk full); the temporary file is removed.
 void write(const std::filesystem::path& file, const Results& results);
 
-/// Throws std::runtime_error naming the file for one that is missing, truncated, not HDF5, not
-/// ours, incomplete, or of another major version. Unknown tables and columns are skipped.
-Results read(const std::filesystem::path& file);
+/// What a file must hold: every table and column; or the tables that were measured alone, for who
+/// derives the rest.
+enum class Required : std::uint8_t { everything, measured };
+
+/// Throws std::runtime_error naming the file, the cause and what to do for one that is missing,
+/// truncated, not HDF5, not ours, incomplete, or of another major version; that lacks what is
+/// required; or that holds a word that is none, or an id of no row. Unknown tables and columns are
+/// skipped.
+Results read(const std::filesystem::path& file, Required required = Required::everything);
 
 /// Joins results of one or several machines: equal scenes, variants, cells and machine states (by
 /// content key) become one row, and ids are remapped. Shards that stand in several parts are kept

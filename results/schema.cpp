@@ -5,11 +5,12 @@ namespace {
 
 // Widths in bytes: one word, a version or the like, a name, free text.
 constexpr std::size_t word = 64, name = 160, text = 1024;
+constexpr bool derived = true;
 
 } // namespace
 
 const Tables& tables() {
-    static const Tables all{
+    static const MainTables main{
         {"env",
          "one machine state",
          &Results::env,
@@ -147,6 +148,8 @@ const Tables& tables() {
              {"nivcsw", &Sample::nivcsw, "", "involuntary context switches"},
              {"minflt", &Sample::minflt, "", "page faults without I/O"},
              {"flags", &Sample::flags, "", "bits: 1 steal, 2 switches, 4 A/A twin, 8 wrong answer"},
+             {"off_median", &Sample::off_median, "",
+              "over the median of its cell and phase, less 1"},
          }},
         {"frames",
          "one frame of a moving scene in one round of one cell",
@@ -221,6 +224,8 @@ const Tables& tables() {
              {"c_isect", &TreeRow::c_isect, "", "cost of an item in sah_cost"},
              {"epo", &TreeRow::epo, "", "end-point overlap (Aila 2013)"},
              {"overlap", &TreeRow::overlap, "", "mean overlap of siblings"},
+             {"on_front", &TreeRow::on_front, "",
+              "1 if no other of its job builds a cheaper tree in less time"},
          }},
         {"kernels",
          "one kernel on one family of hard cases, against the exact truth",
@@ -253,6 +258,11 @@ const Tables& tables() {
               "exact, conservative, within_bound, wrong or unsupported", word},
              {"witness", &KernelRow::witness, "", "a wrong case and how to replay it", text},
              {"is_broken", &KernelRow::is_broken, "", "1 if one of ours breaks its promise"},
+             {"label", &KernelRow::label, "", "kernel, of a peer with the precision", word},
+             {"ns", &KernelRow::ns, "ns", "per call: of the sweep, else of the check"},
+             {"wrong", &KernelRow::wrong, "", "false either way, or out of the bound"},
+             {"wrong_per_million", &KernelRow::wrong_per_million, "", "of the calls judged"},
+             {"maybe_per_million", &KernelRow::maybe_per_million, "", "of the calls judged"},
          }},
         {"conditions",
          "error of one kernel by condition number",
@@ -277,7 +287,9 @@ const Tables& tables() {
              {"p95_ns", &Median::p95_ns, "ns", "95th percentile"},
              {"p99_ns", &Median::p99_ns, "ns", "99th percentile"},
              {"limit_ns", &Median::limit_ns, "ns", "least time that the machine could take"},
-         }},
+             {"times_limit", &Median::times_limit, "", "the median over limit_ns"},
+         },
+         derived},
         {"compare",
          "the time of cell b over that of cell a, with a verdict",
          &Results::compare,
@@ -300,7 +312,8 @@ const Tables& tables() {
               "of cannot_tell: too_few_rounds, below_the_floor, crosses_1, unchecked or "
               "too_noisy"},
              {"words", &Comparison::words, "", "verdict and reason for readers", word},
-         }},
+         },
+         derived},
         {"size_scaling",
          "how the time of a variant grows with the number of items",
          &Results::size_scaling,
@@ -312,15 +325,18 @@ const Tables& tables() {
              {"exponent_lo", &SizeScaling::exponent_lo, "", "low end, at least 95 %"},
              {"exponent_hi", &SizeScaling::exponent_hi, "", "high end"},
              {"off_line", &SizeScaling::off_line, "", "farthest median from the line, relative"},
-         }},
+         },
+         derived},
         {"break_even",
          "after how many queries the longer build of b has paid for itself against a",
          &Results::break_even,
          {
-             {"cell_a", &BreakEven::cell_a, "", "of cells: the cheaper build"},
+             {"cell_a", &BreakEven::cell_a, "",
+              "of cells: the cheaper build; none for the cheapest"},
              {"cell_b", &BreakEven::cell_b, "", "of cells: the faster query"},
              {"queries", &BreakEven::queries, "", "NaN if the noise decides"},
-         }},
+         },
+         derived},
         {"kernel_costs",
          "one kernel on all families of one panel",
          &Results::kernel_costs,
@@ -336,7 +352,14 @@ const Tables& tables() {
              {"wrong", &KernelCost::wrong, "", "of them wrong"},
              {"maybe", &KernelCost::maybe, "", "of them undecided"},
              {"max_rel_err", &KernelCost::max_rel_err, "", "largest relative error"},
-         }},
+             {"wrong_per_million", &KernelCost::wrong_per_million, "", "of the calls judged"},
+             {"unexcluded_per_million", &KernelCost::unexcluded_per_million, "",
+              "a rate of wrong ones that n right answers do not exclude (95 %)"},
+             {"by_error", &KernelCost::by_error, "", "1 if judged by errors, not by yes or no"},
+             {"on_front", &KernelCost::on_front, "",
+              "1 if ours and no faster one of ours errs less"},
+         },
+         derived},
         {"topics",
          "what a topic of findings and the columns of its rows are called",
          &Results::topics,
@@ -347,7 +370,8 @@ const Tables& tables() {
              {"together", &TopicRow::together, "", "heading of that column", name},
              {"alone", &TopicRow::alone, "", "heading of that column", name},
              {"certainty", &TopicRow::certainty, "", "heading of that column", name},
-         }},
+         },
+         derived},
         {"findings",
          "one question of the run and its answer in words",
          &Results::findings,
@@ -367,7 +391,8 @@ const Tables& tables() {
              {"rival", &Finding::rival, "", "of cells: the best rival, build and query"},
              {"ours_alone", &Finding::ours_alone, "", "of cells: our best query"},
              {"rival_alone", &Finding::rival_alone, "", "of cells: the best rival's query"},
-         }},
+         },
+         derived},
         {"health",
          "whether the run can be believed: one row",
          &Results::health,
@@ -385,8 +410,10 @@ const Tables& tables() {
              {"trust", &Health::trust, "", "rounds and noise, in words", text},
              {"correctness", &Health::correctness, "", "wrong answers, in words", text},
              {"advice", &Health::advice, "", "what to do if it is too noisy, else empty", text},
-         }},
+         },
+         derived},
     };
+    static const Tables all = std::tuple_cat(main, figure_tables());
     return all;
 }
 

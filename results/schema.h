@@ -35,14 +35,32 @@ template <class Row> struct Table {
     std::string_view name, summary;
     std::vector<Row> Results::*rows;
     std::vector<Column<Row>> columns;
+    bool is_derived = false; ///< from the others, by bench/analysis
 };
 
-using Tables =
+/// Columns that hold the id of a row of a table, wherever they stand. In a derived table no_id
+/// stands for none.
+struct Reference {
+    std::string_view column, table;
+};
+inline constexpr Reference references[] = {
+    {"env_id", "env"},       {"scene_id", "scenes"},   {"variant_id", "variants"},
+    {"cell_id", "cells"},    {"shard_id", "shards"},   {"cell_a", "cells"},
+    {"cell_b", "cells"},     {"ours", "cells"},        {"rival", "cells"},
+    {"ours_alone", "cells"}, {"rival_alone", "cells"}, {"fresh_cell", "cells"},
+    {"cell_with", "cells"},  {"cell_without", "cells"}};
+
+using MainTables =
     std::tuple<Table<Env>, Table<Package>, Table<SceneRow>, Table<TaskRow>, Table<Variant>,
                Table<Cell>, Table<Shard>, Table<Sample>, Table<FrameRow>, Table<EffectRow>,
                Table<Counter>, Table<Check>, Table<TreeRow>, Table<KernelRow>, Table<ConditionRow>,
                Table<Median>, Table<Comparison>, Table<SizeScaling>, Table<BreakEven>,
                Table<KernelCost>, Table<TopicRow>, Table<Finding>, Table<Health>>;
+using FigureTables = std::tuple<Table<FrameMedian>, Table<FrameStats>, Table<StageCost>,
+                                Table<EffectCost>, Table<KernelCondition>, Table<Escalation>,
+                                Table<QueryKernel>, Table<WorkRow>, Table<Drift>>;
+using Tables = decltype(std::tuple_cat(MainTables(), FigureTables()));
+const FigureTables& figure_tables();
 const Tables& tables();
 
 /// Calls visit(table) for every table, in the order of results.h.

@@ -259,9 +259,6 @@ TEST(CompareFamilies, OursThreadsAndStages) {
                                    {all, 300.},
                                    {without, 80.}})
         run.time(cell, Phase::query, ns);
-    run.variant_of(required).stages = results::required_stages;
-    run.variant_of(all).stages = results::all_stages;
-    run.variant_of(without).stages = "drift";
     set_statuses(run.results);
     const auto rows = comparisons_of(run.results, Times(run.results), default_delta);
     ASSERT_EQ(rows.size(), 5u);

@@ -34,11 +34,10 @@ void count_answers(const Results& results, Health& health) {
 std::string trust_text(const Health& health) {
     if (health.samples == 0)
         return "";
-    std::string text =
-        fmt::format("{} round{}, {:.1f} % of the samples disturbed; ", health.rounds,
-                    health.rounds == 1 ? "" : "s",
-                    100 * static_cast<double>(health.disturbed) /
-                        static_cast<double>(health.samples));
+    std::string text = fmt::format("{} round{}, {:.1f} % of the samples disturbed; ", health.rounds,
+                                   health.rounds == 1 ? "" : "s",
+                                   100 * static_cast<double>(health.disturbed) /
+                                       static_cast<double>(health.samples));
     text += std::isnan(health.floor) ? "noise floor not known"
                                      : fmt::format("noise floor {:.1f} %", 100 * health.floor);
     if (health.is_too_noisy)
@@ -51,9 +50,8 @@ std::string trust_text(const Health& health) {
 /// Names the kernels that break a promise, the first ones at least.
 std::string correctness_text(const Results& results, const Health& health) {
     constexpr std::uint64_t max_named = 2;
-    std::string text =
-        fmt::format("{} answers checked: {} of ours wrong, {} of the peers' wrong", health.answers,
-                    health.wrong_ours, health.wrong_peers);
+    std::string text = fmt::format("{} answers checked: {} of ours wrong, {} of the peers' wrong",
+                                   health.answers, health.wrong_ours, health.wrong_peers);
     std::uint64_t named = 0;
     for (const results::KernelRow& row : results.kernels)
         if (row.is_broken && named++ < max_named)

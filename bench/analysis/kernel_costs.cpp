@@ -1,13 +1,15 @@
 #include "bench/analysis/kernel_costs.h"
 
-#include "bench/analysis/times.h"
+#include "bench/analysis/figures/kernel_rows.h"
 #include "bench/io/text_table.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <set>
 #include <tuple>
 
 namespace boxwood::bench {
@@ -16,7 +18,32 @@ namespace {
 using results::KernelCost;
 using results::KernelRow;
 
-constexpr std::string_view whole_queries = "typical"; // a family that is none
+/// How much a kernel errs, for ranking: where errors tell, half an ulp of a double is none, and
+/// above 1 no digit is right.
+double badness(const KernelCost& cost) {
+    if (!cost.by_error)
+        return cost.wrong_per_million;
+    return cost.max_rel_err > 1         ? std::numeric_limits<double>::infinity()
+           : cost.max_rel_err > 0x1p-53 ? cost.max_rel_err
+                                        : 0;
+}
+
+/// Rates, and who is on the front; the rows of one panel are in order of time, ours first.
+void set_rates_and_front(std::vector<KernelCost>& costs, const std::set<std::string>& by_error) {
+    const KernelCost* best = nullptr;
+    for (KernelCost& cost : costs) {
+        const auto n = static_cast<double>(cost.n);
+        cost.wrong_per_million = 1e6 * static_cast<double>(cost.wrong) / n;
+        cost.by_error = by_error.contains(cost.task);
+        if (!cost.by_error && cost.wrong == 0)
+            cost.unexcluded_per_million = std::min(3e6 / n, 1e6);
+        if (best && (best->task != cost.task || best->panel != cost.panel))
+            best = nullptr;
+        cost.on_front = !cost.is_peer && (!best || badness(cost) < badness(*best));
+        if (cost.on_front)
+            best = &cost;
+    }
+}
 
 } // namespace
 
@@ -27,30 +54,26 @@ std::vector<KernelCost> kernel_costs_of(const results::Results& results) {
     std::map<std::uint32_t, const results::Variant*> variants;
     for (const results::Variant& variant : results.variants)
         variants[variant.variant_id] = &variant;
-    const MedianIndex medians(results);
+    std::set<std::uint32_t> with_conditions; // distances: a false yes or no has none
+    for (const results::ConditionRow& row : results.conditions)
+        with_conditions.insert(row.cell_id);
+    std::set<std::string> by_error; // tasks
 
     using Key = std::tuple<std::string, std::string, bool, std::string, std::string>;
     std::map<Key, std::pair<KernelCost, int>> costs; // and the number of families
     for (const KernelRow& row : results.kernels) {
-        if (row.family == whole_queries || row.n == 0 || row.status == results::Status::unsupported)
+        if (with_conditions.contains(row.cell_id))
+            by_error.insert(row.task);
+        if (!is_judged(row) || std::isnan(row.ns))
             continue;
-        const results::Cell& cell = *cells.at(row.cell_id);
-        const results::Variant& variant = *variants.at(cell.variant_id);
+        const results::Variant& variant = *variants.at(cells.at(row.cell_id)->variant_id);
         const bool is_peer = variant.is_peer != 0;
-        const std::string label = is_peer && cell.precision != "f64" &&
-                                          row.kernel.find(cell.precision) == std::string::npos
-                                      ? row.kernel + " " + cell.precision
-                                      : row.kernel;
-        const double swept = medians.ns(row.cell_id, results::Phase::query);
-        const double ns = std::isnan(swept) ? row.ns_per_call : swept / static_cast<double>(row.n);
-        if (std::isnan(ns))
-            continue;
-        auto& [cost, families] = costs[{row.task, row.panel, is_peer, variant.library, label}];
+        auto& [cost, families] = costs[{row.task, row.panel, is_peer, variant.library, row.label}];
         if (families++ == 0)
-            cost = {row.task, row.panel, label, variant.library, row.promise, is_peer, 0};
-        cost.ns += ns;
+            cost = {row.task, row.panel, row.label, variant.library, row.promise, is_peer, 0};
+        cost.ns += row.ns;
         cost.n += row.n;
-        cost.wrong += row.false_pos + row.false_neg + row.bound_violations;
+        cost.wrong += row.wrong;
         cost.maybe += row.maybe;
         cost.max_rel_err = std::fmax(cost.max_rel_err, row.max_rel_err);
     }
@@ -62,6 +85,7 @@ std::vector<KernelCost> kernel_costs_of(const results::Results& results) {
     std::ranges::stable_sort(all, {}, [](const KernelCost& cost) {
         return std::tuple(cost.task, cost.panel, cost.is_peer, cost.ns);
     });
+    set_rates_and_front(all, by_error);
     return all;
 }
 

@@ -148,6 +148,7 @@ std::vector<results::Median> medians_of(const Results& results, const Times& tim
             std::ranges::sort(ns);
             row.mad_ns = median_of_sorted(ns);
             row.limit_ns = limit_ns(results, cell, phase);
+            row.times_limit = row.median_ns / row.limit_ns;
             all.push_back(row);
         }
     }

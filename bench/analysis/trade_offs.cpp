@@ -5,9 +5,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
+#include <string>
 #include <tuple>
 
 namespace boxwood::bench {
+namespace {
+
+using Job = std::tuple<std::uint32_t, std::string, std::uint32_t>; // scene, task, threads
+
+Job job_of(const results::Cell& cell) { return {cell.scene_id, cell.task, cell.threads}; }
+
+} // namespace
 
 std::vector<results::BreakEven> trade_offs_of(const results::Results& results, double floor) {
     using results::Phase;
@@ -16,13 +26,13 @@ std::vector<results::BreakEven> trade_offs_of(const results::Results& results, d
         std::uint32_t cell_id;
     };
     const MedianIndex medians(results);
-    std::map<std::tuple<std::uint32_t, std::string, std::uint32_t>, std::vector<Point>> jobs;
+    std::map<Job, std::vector<Point>> jobs;
     for (const results::Cell& cell : results.cells) {
         const Point point{medians.ns(cell.cell_id, Phase::build),
                           medians.ns(cell.cell_id, Phase::query), cell.cell_id};
         if (is_right(cell.status) && !std::isnan(point.build) && !std::isnan(point.query) &&
             std::isnan(medians.ns(cell.cell_id, Phase::update)))
-            jobs[{cell.scene_id, cell.task, cell.threads}].push_back(point);
+            jobs[job_of(cell)].push_back(point);
     }
     std::vector<results::BreakEven> all;
     for (auto& [job, points] : jobs) {
@@ -31,7 +41,9 @@ std::vector<results::BreakEven> trade_offs_of(const results::Results& results, d
         for (const Point& dear : points) {
             if (cheap && dear.query >= cheap->query)
                 continue;
-            if (cheap) {
+            if (!cheap) {
+                all.push_back({results::no_id, dear.cell_id, results::missing});
+            } else {
                 const bool is_beyond_noise = dear.build > cheap->build * (1 + floor) &&
                                              cheap->query > dear.query * (1 + floor);
                 all.push_back({cheap->cell_id, dear.cell_id,
@@ -43,6 +55,35 @@ std::vector<results::BreakEven> trade_offs_of(const results::Results& results, d
         }
     }
     return all;
+}
+
+void set_tree_fronts(results::Results& results) {
+    struct Point {
+        double build, cost;
+        results::TreeRow* tree;
+    };
+    const MedianIndex medians(results);
+    std::map<std::uint32_t, results::TreeRow*> trees;
+    for (results::TreeRow& tree : results.trees) {
+        tree.on_front = 0;
+        trees[tree.cell_id] = &tree;
+    }
+    std::map<Job, std::vector<Point>> jobs;
+    for (const results::Cell& cell : results.cells) {
+        const double build = medians.ns(cell.cell_id, results::Phase::build);
+        const auto tree = trees.find(cell.cell_id);
+        if (is_right(cell.status) && !std::isnan(build) && tree != trees.end() &&
+            tree->second->sah_cost > 0)
+            jobs[job_of(cell)].push_back({build, tree->second->sah_cost, tree->second});
+    }
+    for (auto& [job, points] : jobs) {
+        std::ranges::sort(points, {}, [](const Point& p) { return std::pair(p.build, p.cost); });
+        double best = std::numeric_limits<double>::infinity();
+        for (const Point& point : points) {
+            point.tree->on_front = point.cost < best;
+            best = std::min(best, point.cost);
+        }
+    }
 }
 
 } // namespace boxwood::bench

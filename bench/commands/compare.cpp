@@ -4,6 +4,7 @@
 #include "bench/commands/command.h"
 #include "bench/io/json.h"
 #include "bench/io/pattern.h"
+#include "bench/io/read_results.h"
 #include "bench/io/text_table.h"
 
 #include <fmt/format.h>
@@ -219,7 +220,7 @@ void add_compare(CLI::App& app, int& exit_code) {
             chosen.wanted = [only = Pattern(options->only)](const std::string& name) {
                 return only.is_in(name);
             };
-        const Results base = results::read(options->base), head = results::read(options->head);
+        const Results base = read_results(options->base), head = read_results(options->head);
         const FileComparison comparison = compare_files(base, head, chosen);
         if (comparison.rows.empty() && comparison.other_content.empty())
             throw BadInput(fmt::format("compare: '{}' and '{}' have no timed cell {}in common{}",

@@ -1,5 +1,6 @@
 #include "bench/analysis/analyse.h"
 #include "bench/commands/command.h"
+#include "bench/io/read_results.h"
 #include "results/results.h"
 
 #include <fmt/format.h>
@@ -22,7 +23,7 @@ void merge_files(const std::vector<std::string>& files, const std::string& out) 
         if (fs::equivalent(file, out, ignored) || fs::path(file) == fs::path(out))
             throw BadInput(fmt::format(
                 "merge: '{}' is an input and the output; give --out another name", file));
-        parts.push_back(results::read(file));
+        parts.push_back(read_results(file, results::Required::measured));
     }
     results::Results merged = results::merge(parts);
     analyse(merged, delta_of(parts)); // from the samples of all parts

@@ -7,6 +7,7 @@
 #include "bench/analysis/wording.h"
 #include "bench/commands/command.h"
 #include "bench/io/json.h"
+#include "bench/io/read_results.h"
 #include "bench/io/text_table.h"
 #include "results/schema.h"
 
@@ -148,8 +149,7 @@ class Group {
                 for (const double ns : {median->median_ns, median->mad_ns, median->min_ns,
                                         median->p95_ns, median->p99_ns})
                     row.push_back(time_text(ns));
-                row.push_back(is_peer(*cell) ? ""
-                                             : ratio_text(median->median_ns / median->limit_ns));
+                row.push_back(is_peer(*cell) ? "" : ratio_text(median->times_limit));
                 table.add(std::move(row));
                 row = {"", ""};
             }
@@ -308,12 +308,9 @@ std::string csv_text(const Results& results) {
 }
 
 std::string json_text(const Results& results) {
-    static const std::set<std::string_view> shown{"cells",        "medians",    "compare",
-                                                  "size_scaling", "break_even", "kernel_costs",
-                                                  "topics",       "findings",   "health"};
     std::string text;
     results::for_each_table([&]<class Row>(const results::Table<Row>& table) {
-        if (!shown.contains(table.name))
+        if (!table.is_derived && table.name != "cells")
             return;
         std::string rows;
         for (const Row& row : results.*table.rows)
@@ -335,12 +332,12 @@ void add_show(CLI::App& app, int&) {
                                       "every cell with its times and checks, every comparison");
     CLI::Option* csv =
         show->add_flag("--csv", options->csv, "the times of every cell as CSV")->excludes(all);
-    show->add_flag("--json", options->json, "cells, times, comparisons and findings as JSON")
+    show->add_flag("--json", options->json, "cells and every derived table as JSON")
         ->excludes(all)
         ->excludes(csv);
     show->footer("Example: boxwood show quick.h5");
     show->callback([options] {
-        const Results results = results::read(options->file);
+        const Results results = read_results(options->file);
         if (options->csv)
             std::cout << csv_text(results);
         else if (options->json)

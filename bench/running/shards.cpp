@@ -1,6 +1,7 @@
 #include "bench/running/shards.h"
 
 #include "bench/io/bad_input.h"
+#include "results/schema.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -111,7 +112,11 @@ results::Results without_rounds(results::Results results) {
     results.shards.clear();
     results.samples.clear();
     results.frames.clear();
-    results.compare.clear();
+    results.effects.clear();
+    results::for_each_table([&](const auto& table) {
+        if (table.is_derived)
+            (results.*table.rows).clear();
+    });
     return results;
 }
 

@@ -45,7 +45,7 @@ class Shards {
 
 std::set<unsigned> rounds_in(const results::Results& results);
 
-/// The results without samples, shards and comparisons: what `prepare` gave.
+/// The results without shards, what was measured in them and what was derived: what `prepare` gave.
 results::Results without_rounds(results::Results results);
 
 } // namespace boxwood::bench

@@ -76,14 +76,18 @@ TEST_F(ShardsTest, AStrippedResultHasNoRounds) {
     results::Results r = shard_of(3, "s", "m");
     r.samples.emplace_back();
     r.frames.emplace_back();
+    r.effects.emplace_back();
     r.compare.emplace_back();
+    r.drift.emplace_back();
     r.cells.emplace_back();
     EXPECT_EQ(rounds_in(r), std::set<unsigned>{3});
     const results::Results stripped = without_rounds(r);
     EXPECT_TRUE(rounds_in(stripped).empty());
     EXPECT_TRUE(stripped.samples.empty());
     EXPECT_TRUE(stripped.frames.empty()); // they refer to shards, too
+    EXPECT_TRUE(stripped.effects.empty());
     EXPECT_TRUE(stripped.compare.empty());
+    EXPECT_TRUE(stripped.drift.empty());
     EXPECT_EQ(stripped.cells.size(), 1u);
     EXPECT_EQ(stripped.env.size(), 1u);
 }

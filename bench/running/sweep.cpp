@@ -5,6 +5,7 @@
 #include "bench/analysis/screen.h"
 #include "bench/io/bad_input.h"
 #include "bench/io/csv.h"
+#include "bench/io/read_results.h"
 #include "bench/running/calibration.h"
 #include "bench/running/child.h"
 #include "bench/running/environment.h"
@@ -66,7 +67,7 @@ class Sweep {
             return;
         const std::string advice = "choose another --out, or remove the file";
         try {
-            earlier_ = results::read(options_.out);
+            earlier_ = read_results(options_.out);
         } catch (const std::runtime_error& error) {
             throw BadInput(fmt::format("--out: {}; {}", error.what(), advice));
         }

@@ -77,7 +77,8 @@ struct RunForTest {
         return row.scene_id;
     }
     /// "fcl.tree" is a peer of the library fcl; of ours "median.wide8.rays.watertight" names
-    /// builder, layout, traversal and kernel.
+    /// builder, layout, traversal and kernel, and "required",
+    /// "all_stages" and "required.without_drift" are ways to play a scene.
     std::uint32_t variant_id(const std::string& name) {
         for (const auto& variant : results.variants)
             if (variant.name == name)
@@ -100,6 +101,11 @@ struct RunForTest {
             row.traversal = next();
             row.kernel = next();
         }
+        const std::string left_out = "required.without_";
+        if (name == "required" || name == "all_stages")
+            row.stages = name == "required" ? results::required_stages : results::all_stages;
+        else if (name.starts_with(left_out))
+            row.stages = name.substr(left_out.size());
         results.variants.push_back(row);
         return row.variant_id;
     }

@@ -27,7 +27,7 @@ std::array<std::byte, 16> Seal::bytes() const {
     return all;
 }
 
-bool seal_is_broken(const std::filesystem::path& file) {
+SealState state_of_seal(const std::filesystem::path& file) {
     Seal seal;
     std::array<std::byte, 16> found{};
     std::ifstream in(file, std::ios::binary);
@@ -38,7 +38,7 @@ bool seal_is_broken(const std::filesystem::path& file) {
     };
     const std::uint64_t size = std::filesystem::file_size(file);
     if (size < found.size())
-        return false;
+        return SealState::absent;
     std::array<std::byte, 1 << 16> block;
     for (std::uint64_t left = size - found.size(); left > 0;) {
         const auto part = std::span(block).first(std::min<std::uint64_t>(left, block.size()));
@@ -47,7 +47,9 @@ bool seal_is_broken(const std::filesystem::path& file) {
         left -= part.size();
     }
     read(found);
-    return std::memcmp(found.data(), mark.data(), mark.size()) == 0 && found != seal.bytes();
+    if (std::memcmp(found.data(), mark.data(), mark.size()) != 0)
+        return SealState::absent;
+    return found == seal.bytes() ? SealState::fits : SealState::broken;
 }
 
 } // namespace boxwood::results::detail

@@ -10,7 +10,8 @@ namespace boxwood::results::detail {
 
 /// Sixteen bytes behind the end of the HDF5 data, where HDF5 does not look: a mark, and FNV-1a of
 /// all before it. HDF5 leaves its heaps (texts) unguarded and may crash on a damaged one, so a
-/// reader looks at the seal first. A program that changes the file in place drops the seal.
+/// reader looks at the seal first. A program that changes the file in place drops the seal, which
+/// is how a reader knows.
 class Seal {
   public:
     void add(std::span<const std::byte> bytes);
@@ -20,8 +21,10 @@ class Seal {
     std::uint64_t hash_ = 0xcbf29ce484222325;
 };
 
-/// True if the file has a seal and it does not fit the content. Throws std::system_error if the
-/// file cannot be read.
-bool seal_is_broken(const std::filesystem::path& file);
+enum class SealState : std::uint8_t { fits, absent, broken };
+
+/// Whether the file has a seal that fits its content. Throws std::system_error if the file cannot
+/// be read.
+SealState state_of_seal(const std::filesystem::path& file);
 
 } // namespace boxwood::results::detail

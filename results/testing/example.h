@@ -4,15 +4,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <type_traits>
 
 namespace boxwood::results {
 
-/// Fills every column of every table, whatever columns there are, with values of its own.
-/// Ids are not kept consistent.
+/// Fills every column of every table, whatever columns there are, with values of its own; ids are
+/// the numbers of the rows.
 inline Results filled_example(std::size_t rows_per_table = 3) {
     Results results;
     results.run_uuid = "6a5b3c1e-0000-4000-8000-000000000001";
@@ -26,6 +28,12 @@ inline Results filled_example(std::size_t rows_per_table = 3) {
         rows.resize(rows_per_table);
         for (Row& row : rows)
             for (const auto& column : table.columns) {
+                if (std::ranges::find(references, column.name, &Reference::column) !=
+                    std::end(references)) {
+                    row.*std::get<std::uint32_t Row::*>(column.member) =
+                        static_cast<std::uint32_t>(&row - rows.data());
+                    continue;
+                }
                 ++next;
                 std::visit(
                     [&]<class Value>(Value Row::*member) {

@@ -18,6 +18,16 @@ def parser(description, example):
     return made
 
 
+def read(path):
+    """A result file, ready to be drawn; says so if another program changed it."""
+    from .run import read as read_run
+
+    made = read_run(path)
+    if made.changed:
+        print(f"{Path(sys.argv[0]).name}: warning: {made.changed}", file=sys.stderr)
+    return made
+
+
 def run(main):
     """Runs main() and turns what the user can mend into a message and exit code 2."""
     name = Path(sys.argv[0]).name

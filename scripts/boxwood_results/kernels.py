@@ -4,17 +4,15 @@ from collections import defaultdict
 from dataclasses import dataclass
 
 PANELS = ("generic", "touching", "degenerate")
-DISTANCES = ("triangle_distance", "segment_segment", "point_triangle", "point_segment")
 LEAST_ERROR = 2.0**-53  # a relative error below half an ulp of a double is none
 
 
 @dataclass
 class KernelPoint:
-    """One kernel, ours or a peer's, on one family of hard cases."""
+    """A row of /kernels: one kernel, ours or a peer's, on one family of hard cases."""
 
     row: object
     cell: object
-    conditions: list  # rows of the table `conditions`
 
     @property
     def task(self):
@@ -31,9 +29,7 @@ class KernelPoint:
 
     @property
     def kernel(self):
-        """As a label; a peer that has one name in both precisions says which."""
-        kernel, precision = self.row["kernel"], self.cell.precision
-        return kernel if self.ours or precision == "f64" or precision in kernel else f"{kernel} {precision}"
+        return self.row["label"]
 
     @property
     def ours(self):
@@ -53,13 +49,11 @@ class KernelPoint:
 
     @property
     def ns(self):
-        """Per call: the sweep's median where there is one, else the check's own timing."""
-        sweep = self.cell.median("query")
-        return sweep / self.n if sweep == sweep and self.n else float(self.row["ns_per_call"])
+        return float(self.row["ns"])
 
     @property
     def wrong(self):
-        return sum(int(self.row[name]) for name in ("false_pos", "false_neg", "bound_violations"))
+        return int(self.row["wrong"])
 
     @property
     def error(self):
@@ -85,17 +79,19 @@ class Kernel:
     wrong: int
     maybe: int
     error: float  # the worst; NaN if it gives no numbers
-
-    @property
-    def per_million(self):
-        return 1e6 * self.wrong / self.n
+    per_million: float
+    unexcluded: float  # of a million: what so many right answers do not exclude; NaN if some are wrong
+    by_error: bool  # its task is judged by errors, not by yes or no
+    on_front: bool  # no faster one of ours errs less
 
 
 def read_costs(table):
     """In the order of the file: those of ours first, by rising time."""
     return [
         Kernel(row["task"], row["panel"], row["kernel"], not row["is_peer"], row["library"], row["promise"],
-               float(row["ns"]), int(row["n"]), int(row["wrong"]), int(row["maybe"]), float(row["max_rel_err"]))
+               float(row["ns"]), int(row["n"]), int(row["wrong"]), int(row["maybe"]), float(row["max_rel_err"]),
+               float(row["wrong_per_million"]), float(row["unexcluded_per_million"]), bool(row["by_error"]),
+               bool(row["on_front"]))
         for row in table
     ]
 
@@ -105,8 +101,3 @@ def by_kernel_family(run):
     for point in run.kernels:
         groups[point.task].append(point)
     return dict(groups)
-
-
-def is_measured(task):
-    """Whether a kernel is judged by its error (distances), not by yes or no."""
-    return task in DISTANCES

@@ -2,27 +2,23 @@
 
 import json
 from dataclasses import dataclass, field
-from statistics import median
 
-from .findings import STAGES
+from .findings import Ratio
 from .run import ALL_STAGES, REQUIRED, TOTAL
 from .selection import largest_jobs
 
 SCREEN_NS = 1e9 / 60
 
 
-def frame_medians(cell, of=sum):
-    """Of each frame the median over the rounds, in order: update and query together, or what `of` makes
-    of the two. The median takes out what disturbed one round, not what one frame costs."""
-    return [median(of(times) for times in cell.frames[frame]) for frame in sorted(cell.frames)]
+@dataclass(frozen=True)
+class EffectCost:
+    """A row of /effect_costs: an effect, or all stages."""
 
-
-def percentile(values, part):
-    """As numpy's, of values in any order."""
-    values = sorted(values)
-    at = part * (len(values) - 1)
-    low = int(at)
-    return values[low] + (at - low) * (values[min(low + 1, len(values) - 1)] - values[low])
+    what: str
+    with_ns: float  # of a frame
+    without_ns: float
+    ratio: Ratio
+    extra_ns: float
 
 
 @dataclass
@@ -32,16 +28,8 @@ class PlayedScene:
     job: object
     required: object = None
     all_stages: object = None
-    without: dict = field(default_factory=dict)  # effect -> cell
-    ratios: dict = field(default_factory=dict)  # cell id of the other way -> Ratio
-
-    def ratio(self):
-        """Time of a frame with all stages over that with the required ones; None if it was not compared."""
-        return self.all_stages and self.ratios.get(self.all_stages.cell_id)
-
-    def cost(self, effect):
-        """Time of a frame with the effect over the same without it; None if it was not compared."""
-        return self.ratios.get(self.without[effect].cell_id)
+    effects: list = field(default_factory=list)  # EffectCosts, the most costly first
+    everything: object = None  # EffectCost of all stages; None if it was not compared
 
 
 def played_scenes(run, largest=True):
@@ -56,14 +44,16 @@ def played_scenes(run, largest=True):
                 scene.required = cell
             elif cell.stages_played == ALL_STAGES:
                 scene.all_stages = cell
-            else:
-                scene.without[cell.stages_played] = cell
     scenes = [scene for scene in played.values() if scene.required]
     for scene in scenes:
-        for row in run.family(STAGES, scene.required.total):
-            if scene.required in (row.a, row.b):
-                other = row.b if row.a is scene.required else row.a
-                scene.ratios[other.cell_id] = row.ratio
+        for row in run.source["effect_costs"]:
+            cost = EffectCost(row["what"], float(row["with_ns"]), float(row["without_ns"]), Ratio(
+                float(row["ratio"]), float(row["ci_lo"]), float(row["ci_hi"])), float(row["extra_ns"]))
+            if row["cell_without"] == scene.required.cell_id:
+                scene.everything = cost
+            elif row["cell_with"] == scene.required.cell_id:
+                scene.effects.append(cost)
+        scene.effects.sort(key=lambda cost: -cost.ratio.mid)
     return scenes
 
 

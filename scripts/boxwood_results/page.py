@@ -140,7 +140,7 @@ def cells_html(run):
     rows = [
         (cell.name, cell.status, phase, int(row["n"]),
          *(time_text(float(row[name])) for name in ("median_ns", "mad_ns", "min_ns", "p95_ns", "p99_ns")),
-         float(row["median_ns"]) / float(row["limit_ns"]) if cell.ours else None)
+         float(row["times_limit"]) if cell.ours else None)
         for cell in run.cells for phase, row in cell.medians.items()
     ]
     return folded(f"All {len(rows):,} timings", table(columns, rows))
@@ -189,7 +189,8 @@ def machine_html(run):
     texts = "".join(folded(name, f"<pre>{escape(text)}</pre>") for name, text in sorted(run.source.texts.items())
                     if text and not name.startswith(STRIP))
     packages = [(row["library"], row["version"] or "absent", row["build"]) for row in run.source["packages"]]
-    return (table(columns, rows) + folded("Libraries and peers", table(("library", "version", "build"), packages)) + texts)
+    libraries = table(("library", "version", "build"), packages)
+    return f"{table(columns, rows)}{folded('Libraries and peers', libraries)}{texts}"
 
 
 def as_plain(value):
@@ -201,13 +202,14 @@ def report(run):
     columns, rows = comparison_rows(run.comparisons)
     missing = (f"<p class=note>{run.missing_samples} samples hold no time and are left out.</p>"
                if run.missing_samples else "")
+    changed = f"<p class=wrong>Warning: {escape(run.changed)}.</p>" if run.changed else ""
     return "".join(
         [
             "<!DOCTYPE html><html lang=en><head><meta charset=utf-8>",
             '<meta name=viewport content="width=device-width, initial-scale=1">',
             f"<title>Boxwood: {escape(run.name)}</title><style>{STYLE}</style></head><body>",
             f"<h1>Boxwood: {escape(run.name)}</h1>",
-            f"<p class=note>{escape(cell_text(run.source.attrs.get('created_utc')))}</p>{trust_html(run)}{missing}",
+            f"<p class=note>{escape(cell_text(run.source.attrs.get('created_utc')))}</p>{changed}{trust_html(run)}{missing}",
             "<h2>Main findings</h2><p class=note>Losses first. Our best against the best rival of the same run: above 1 "
             "Boxwood is the faster.</p>", main_findings_html(run),
             folded(f"All {len(rows):,} comparisons, ours against ours and threads too", table(columns, rows)),

@@ -1,4 +1,4 @@
-"""A result file as tables: the one place that opens HDF5."""
+"""A result file as tables: the one place that opens HDF5. What it refuses, the program refuses in the same words."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -6,11 +6,14 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from .words import FAMILIES, PHASES, REASONS, STATUSES, TOPICS, VERDICTS
+
 SCHEMA_MAJOR = 2
-REMEDY = "run the sweep again (it keeps its finished rounds)"
+AGAIN = "use another copy, or measure again"
+NO_ID = 2**32 - 1
 
 # The columns that the figures stand on; other columns and tables are skipped.
-REQUIRED = {
+MEASURED = {
     "env": ("env_id", "host", "cpu", "ncpu"),
     "scenes": ("scene_id", "name", "n_items", "seed"),
     "tasks": ("task", "title", "total"),
@@ -20,21 +23,25 @@ REQUIRED = {
         "executor", "threads", "class", "status",
     ),
     "shards": ("shard_id", "round", "env_id", "load1"),
-    "samples": ("cell_id", "shard_id", "round", "position", "phase", "wall_ns", "flags"),
+    "samples": ("cell_id", "shard_id", "round", "position", "phase", "wall_ns", "flags", "off_median"),
     "checks": ("cell_id", "status", "n_checked", "missing", "extra", "witness"),
     "packages": ("env_id", "library", "version", "build", "present"),
     "counters": ("cell_id", "counter", "value"),
-    "trees": ("cell_id", "sah_cost", "epo", "depth_max", "bytes"),
+    "trees": ("cell_id", "sah_cost", "epo", "depth_max", "bytes", "on_front"),
     "kernels": (
-        "cell_id", "family", "panel", "task", "kernel", "promise", "n", "ns_per_call", "false_pos",
-        "false_neg", "maybe", "max_ulp", "max_rel_err", "bound_violations", "tier_0", "tier_1", "tier_2",
-        "tier_3", "status", "witness", "is_broken",
+        "cell_id", "family", "panel", "task", "kernel", "promise", "n", "false_pos", "false_neg", "maybe", "max_ulp",
+        "max_rel_err", "bound_violations", "tier_0", "tier_1", "tier_2", "tier_3", "status", "witness", "is_broken",
+        "label", "ns", "wrong", "wrong_per_million", "maybe_per_million",
     ),
-    "frames": ("cell_id", "shard_id", "frame", "update_ns", "query_ns", "box_tests", "sah"),
-    "effects": ("cell_id", "shard_id", "stage", "required", "calls", "items", "total_ns", "bytes"),
-    "conditions": ("cell_id", "log10_condition", "n", "max_rel_err", "bound"),
-    # What `boxwood` derived when it wrote the file: nothing of it is derived here.
-    "medians": ("cell_id", "phase", "n", "median_ns", "mad_ns", "min_ns", "p95_ns", "p99_ns", "limit_ns"),
+    "frames": ("cell_id", "shard_id"),
+    "effects": ("cell_id", "shard_id"),
+    "conditions": ("cell_id",),
+}
+# What `boxwood` derived when it wrote the file: nothing of it is derived here.
+DERIVED = {
+    "medians": (
+        "cell_id", "phase", "n", "median_ns", "mad_ns", "min_ns", "p95_ns", "p99_ns", "limit_ns", "times_limit",
+    ),
     "compare": (
         "cell_a", "cell_b", "phase", "class", "n_pairs", "ratio", "ci_lo", "ci_hi", "p_adj", "floor", "delta", "family",
         "verdict", "reason", "words",
@@ -43,6 +50,7 @@ REQUIRED = {
     "break_even": ("cell_a", "cell_b", "queries"),
     "kernel_costs": (
         "task", "panel", "kernel", "library", "promise", "is_peer", "ns", "n", "wrong", "maybe", "max_rel_err",
+        "wrong_per_million", "unexcluded_per_million", "by_error", "on_front",
     ),
     "topics": ("topic", "title", "question", "together", "alone", "certainty"),
     "findings": (
@@ -53,11 +61,38 @@ REQUIRED = {
         "rounds", "samples", "disturbed", "floor", "delta", "is_too_noisy", "answers", "wrong_ours", "wrong_peers",
         "broken_promises", "trust", "correctness", "advice",
     ),
+    "frame_medians": ("cell_id", "frame", "frame_ns", "query_ns", "over_fresh", "box_tests_per_item", "sah"),
+    "frame_stats": (
+        "cell_id", "fresh_cell", "n", "p50_ns", "p95_ns", "p99_ns", "max_ns", "over_1_ms", "over_16_6_ms", "degradation",
+    ),
+    "stage_costs": ("cell_id", "stage", "required", "calls", "items", "bytes", "ns", "until_ns", "share"),
+    "effect_costs": (
+        "cell_with", "cell_without", "what", "with_ns", "without_ns", "ratio", "ci_lo", "ci_hi", "extra_ns",
+    ),
+    "kernel_conditions": (
+        "task", "kernel", "library", "promise", "is_peer", "log10_condition", "n", "max_rel_err", "bound",
+    ),
+    "escalations": ("cell_id", "task", "kernel", "share_0", "share_1", "share_2", "share_3"),
+    "query_kernels": ("cell_id", "times_fastest"),
+    "work": ("cell_id", "node_visits", "box_tests", "query_ns"),
+    "drift": ("shard_id", "n", "disturbed", "off_median", "is_farthest"),
 }
+# Columns of ids, wherever they stand, and whose they are; results/schema.h has the same.
+REFERENCES = {
+    "env_id": "env", "scene_id": "scenes", "variant_id": "variants", "cell_id": "cells", "shard_id": "shards",
+    "cell_a": "cells", "cell_b": "cells", "ours": "cells", "rival": "cells", "ours_alone": "cells",
+    "rival_alone": "cells", "fresh_cell": "cells", "cell_with": "cells", "cell_without": "cells",
+}
+# Columns of few words, by name, and what they may hold.
+WORDS = {"phase": PHASES, "status": STATUSES, "verdict": VERDICTS, "reason": REASONS, "topic": TOPICS}
+WORDS_OF_ONE = {("compare", "family"): FAMILIES}
 
 
 class BadFile(Exception):
     """The file cannot be read as a result file; the message says which, why, and what to do."""
+
+    def __init__(self, path, cause):
+        super().__init__(f"cannot read result file '{path}': {cause}")
 
 
 @dataclass
@@ -68,6 +103,7 @@ class Tables:
     attrs: dict
     texts: dict
     tables: dict
+    is_sealed: bool  # else another program changed the file after it was written
 
     def __getitem__(self, name):
         return self.tables[name]
@@ -89,50 +125,93 @@ def with_text(array):
     return decoded
 
 
+def is_sealed(path):
+    """Whether the seal behind the HDF5 data fits, as results/detail/seal.h has it; a program that changes the file
+    drops the seal. Raises BadFile for a seal that does not fit."""
+    data = path.read_bytes()
+    if not data:
+        raise BadFile(path, "the file is empty")
+    body, mark, seal = data[:-16], data[-16:-8], data[-8:]
+    if mark != b"boxwseal":
+        return False
+    fnv = 0xCBF29CE484222325
+    for byte in body:
+        fnv = (fnv ^ byte) * 0x100000001B3 & 0xFFFFFFFFFFFFFFFF
+    if fnv != int.from_bytes(seal, "little"):
+        raise BadFile(path, "it is damaged: its content is not what was written (checksum); use another copy")
+    return True
+
+
 def read_table(file, path, name, columns):
-    dataset = file[name]
-    fields = dataset.dtype.fields or {}
-    absent = [column for column in columns if column not in fields]
-    if absent:
-        raise BadFile(f"{path}: table '{name}' has no column '{absent[0]}'; {REMEDY}")
+    derive_again = f"`boxwood merge {path} --out NEW.h5` derives what can be, else measure again"
+    if name not in file:
+        raise BadFile(path, f"table {name} is missing; {derive_again if name in DERIVED else AGAIN}")
+    fields = file[name].dtype.fields or {}
+    for column in columns:
+        if column not in fields:
+            raise BadFile(path, f"column {name}.{column} is missing; {derive_again}")
     try:
-        return with_text(dataset[:])
+        return with_text(file[name][:])
     except OSError as error:
-        raise BadFile(f"{path}: table '{name}' is damaged ({error}); {REMEDY}") from error
+        raise BadFile(path, f"table {name}: {error}; {AGAIN}") from error
+
+
+def check_words(path, name, table):
+    for column in table.dtype.names:
+        known = WORDS.get(column) or WORDS_OF_ONE.get((name, column))
+        for word in dict.fromkeys(table[column]) if known else ():
+            if word not in known:
+                raise BadFile(path, f'column {name}.{column} holds the unknown word "{word}"; {AGAIN}')
+
+
+def check_ids(path, tables):
+    """Every id names a row, and one alone; of what is derived it may name none."""
+    ids = {target: np.array([]) for target in REFERENCES.values()}
+    for column, target in REFERENCES.items():
+        if column in tables[target].dtype.names and column == tables[target].dtype.names[0]:
+            ids[target], counts = np.unique(tables[target][column], return_counts=True)
+            for twice in ids[target][counts > 1]:
+                raise BadFile(path, f"column {target}.{column} holds {twice}, which stands there twice; {AGAIN}")
+    for name, table in tables.items():
+        for column in [column for column in table.dtype.names if column in REFERENCES]:
+            target = REFERENCES[column]
+            known = np.isin(table[column], ids[target])
+            if name in DERIVED:
+                known |= table[column] == NO_ID
+            for stray in table[column][~known]:
+                raise BadFile(path, f"column {name}.{column} holds {stray}, which no row of {target} has; {AGAIN}")
 
 
 def check_header(path, attrs):
     if as_text(attrs.get("format", "")) != "boxwood-results":
-        raise BadFile(f"{path}: an HDF5 file, but not a Boxwood result file (no format attribute)")
+        raise BadFile(path, 'an HDF5 file, but not a Boxwood result file (no attribute format="boxwood-results")')
     major = int(attrs.get("schema_major", -1))
     if major != SCHEMA_MAJOR:
-        raise BadFile(
-            f"{path}: of schema {major}, and these scripts read schema {SCHEMA_MAJOR}; "
-            "measure again with this version"
-        )
+        raise BadFile(path, f"it is of schema {major}, and this program reads schema {SCHEMA_MAJOR}; measure again with "
+                            "this version")
     if not attrs.get("complete", 0):
-        raise BadFile(f"{path}: incomplete: it is still being written, or the writer was killed; {REMEDY}")
+        raise BadFile(path, "it is incomplete: its writer did not finish")
 
 
 def load(path):
-    """Reads a whole result file. Raises BadFile for one that is missing, cut off, foreign, incomplete,
-    of another major version, or without a table that the figures need."""
+    """Reads a whole result file. Raises BadFile for one that is missing, damaged, foreign, incomplete, of another major
+    version, or without what the figures need; and for words and ids that mean nothing."""
     path = Path(path)
     if not path.is_file():
-        raise BadFile(f"{path}: no such file; scripts/sweep --quick makes one")
+        raise BadFile(path, "no such file; scripts/sweep --quick makes one")
+    sealed = is_sealed(path)
     try:
         file = h5py.File(path, "r")
     except OSError as error:
-        raise BadFile(f"{path}: cannot be read as HDF5, perhaps cut off ({error}); {REMEDY}") from error
+        raise BadFile(path, f"not a readable HDF5 file: {error}; {AGAIN}") from error
     with file:
         attrs = {key: as_text(value) for key, value in file.attrs.items()}
         check_header(path, attrs)
-        tables = {}
-        for name, columns in REQUIRED.items():
-            if name not in file:
-                raise BadFile(f"{path}: table '{name}' is missing; {REMEDY}")
-            tables[name] = read_table(file, path, name, columns)
+        tables = {name: read_table(file, path, name, columns) for name, columns in {**MEASURED, **DERIVED}.items()}
+        for name, table in tables.items():
+            check_words(path, name, table)
+        check_ids(path, tables)
         if len(tables["health"]) != 1:
-            raise BadFile(f"{path}: not analysed; boxwood merge {path} --out NEW.h5 does that")
+            raise BadFile(path, f"not analysed; `boxwood merge {path} --out NEW.h5` does that")
         texts = {name: as_text(text[()]) for name, text in file.get("text", {}).items()}
-    return Tables(path, attrs, texts, tables)
+    return Tables(path, attrs, texts, tables, sealed)

@@ -2,13 +2,11 @@
 
 import math
 from dataclasses import dataclass, field
-from statistics import median
 
 from .findings import read_comparisons, read_findings
 from .kernels import KernelPoint, read_costs
 from .reader import load
 
-NO_COUNT = 2**64 - 1  # a missing whole number
 AA_TWIN, DISTURBED = 4, 1 | 2
 RANKED = ("exact", "conservative", "within_bound")
 OURS = "boxwood"
@@ -56,21 +54,6 @@ class Job:
 
 
 @dataclass
-class Stage:
-    """One stage of a cell's plan: sums over the frames of one pass, times by round."""
-
-    required: bool
-    calls: int
-    items: int
-    bytes: int
-    times: list = field(default_factory=list)
-
-    @property
-    def ns(self):
-        return median(self.times)
-
-
-@dataclass
 class Cell:
     cell_id: int
     name: str
@@ -92,11 +75,12 @@ class Cell:
     medians: dict = field(default_factory=dict)  # phase -> row of /medians
     counters: dict = field(default_factory=dict)
     tree: object = None
-    n_frames: int = 1
     scene_json: str = ""  # parameters of the scene
-    frames: dict = field(default_factory=dict)  # number -> [(ns to update, ns to query)] of the rounds
-    counted: dict = field(default_factory=dict)  # number -> (box tests, SAH); NaN where unknown
-    stages: dict = field(default_factory=dict)  # name -> Stage, in the order of the plan
+    frames: list = field(default_factory=list)  # rows of /frame_medians
+    frame_stats: object = None
+    stages: dict = field(default_factory=dict)  # name -> row of /stage_costs, in the order of the plan
+    work: object = None
+    times_fastest: float = math.nan  # of kernels under one tree
 
     @property
     def ours(self):
@@ -162,6 +146,13 @@ class Run:
     def name(self):
         return self.source.path.name
 
+    @property
+    def changed(self):
+        """A warning; empty if the file is as it was written."""
+        return "" if self.source.is_sealed else (
+            f"'{self.source.path}' was changed after it was written (its seal is gone): what it says need not be what was "
+            "measured")
+
     def of(self, job):
         """Timed cells of a job."""
         return [cell for cell in self.cells if cell.job == job and cell.timed]
@@ -198,8 +189,7 @@ def read_cells(source, tasks):
             int(row["cell_id"]), row["name"], job, variant["name"], variant["library"],
             variant["builder"], variant["traversal"], variant["kernel"], row["precision"], row["executor"],
             int(row["n_queries"]), row["status"], tasks[row["task"]], bool(variant["keeps_structure"]),
-            variant["stages"], n_frames=max(1, int(column(scene, "n_frames", 1))),
-            scene_json=column(scene, "params_json", ""),
+            variant["stages"], scene_json=column(scene, "params_json", ""),
         )
     traversals = {}
     for cell in cells.values():
@@ -228,34 +218,18 @@ def add_checks(cells, checks):
             cell.check = row
 
 
-def add_frames(cells, table):
-    names = ("cell_id", "frame", "update_ns", "query_ns")
-    for cell_id, frame, update, query in zip(*(table[name].tolist() for name in names)):
-        if update + query >= 0:
-            cells[cell_id].frames.setdefault(frame, []).append((update, query))
-    for cell_id, frame, tests, sah in zip(*(table[name].tolist() for name in ("cell_id", "frame", "box_tests", "sah"))):
-        if tests != NO_COUNT or sah == sah:
-            cells[cell_id].counted[frame] = (math.nan if tests == NO_COUNT else float(tests), sah)
-
-
-def add_stages(cells, table):
-    for row in table:
-        stages = cells[row["cell_id"]].stages
-        stage = stages.setdefault(row["stage"], Stage(
-            bool(row["required"]), int(row["calls"]), int(row["items"]), int(row["bytes"])))
-        stage.times.append(float(row["total_ns"]))
+def add_frames(cells, source):
+    for row in source["frame_medians"]:
+        cells[row["cell_id"]].frames.append(row)
+    for row in source["frame_stats"]:
+        cells[row["cell_id"]].frame_stats = row
+    for row in source["stage_costs"]:
+        cells[row["cell_id"]].stages[row["stage"]] = row
 
 
 def kernel_points(cells, source):
-    """The kernels' rows with their times; their cells are taken out of `cells`."""
-    conditions = {}
-    for row in source["conditions"]:
-        conditions.setdefault(row["cell_id"], []).append(row)
-    points = [
-        KernelPoint(row, cells[row["cell_id"]], conditions.get(row["cell_id"], []))
-        for row in source["kernels"]
-        if row["family"] != WHOLE_QUERY
-    ]
+    """The kernels' rows; their cells are taken out of `cells`."""
+    points = [KernelPoint(row, cells[row["cell_id"]]) for row in source["kernels"] if row["family"] != WHOLE_QUERY]
     for point in points:
         cells.pop(point.cell.cell_id, None)
     return points
@@ -272,8 +246,11 @@ def read(path):
         cells[row["cell_id"]].counters[row["counter"]] = int(row["value"])
     for row in source["trees"]:
         cells[row["cell_id"]].tree = row
-    add_frames(cells, source["frames"])
-    add_stages(cells, source["effects"])
+    add_frames(cells, source)
+    for row in source["work"]:
+        cells[row["cell_id"]].work = row
+    for row in source["query_kernels"]:
+        cells[row["cell_id"]].times_fastest = float(row["times_fastest"])
     everything = dict(cells)
     kernels = kernel_points(cells, source)
     ordered = list(cells.values())
@@ -281,6 +258,6 @@ def read(path):
         {cell.job for cell in ordered if cell.timed},
         key=lambda job: (job.task, job.scene, job.n, job.threads, job.seed),
     )
-    missing = sum(not row["wall_ns"] >= 0 for row in source["samples"])
+    missing = len([row for row in source["samples"] if not row["wall_ns"] >= 0])
     return Run(source, ordered, jobs, missing, read_comparisons(source["compare"], everything),
                read_findings(source["findings"], everything), tasks, list(source["topics"]), kernels, read_costs(source["kernel_costs"]))

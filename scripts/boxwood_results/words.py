@@ -1,4 +1,12 @@
-"""Numbers in words."""
+"""Numbers in words, and the words that columns of few may hold (results/words.h has the same)."""
+
+PHASES = ("", "build", "cold_build", "update", "query", "upload", "device_build", "device_query", "download",
+          "build+query", "update+query")
+STATUSES = ("unchecked", "exact", "conservative", "within_bound", "unsupported", "wrong")
+FAMILIES = ("", "peers", "ours", "threads", "stages")
+TOPICS = ("", "race", "kernel", "scene")
+VERDICTS = ("", "faster", "slower", "same", "cannot_tell", "wrong")
+REASONS = ("", "too_few_rounds", "below_the_floor", "crosses_1", "unchecked", "too_noisy")
 
 
 def ratio_text(value, times="x"):

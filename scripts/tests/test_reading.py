@@ -2,13 +2,14 @@
 
 import json
 import math
+import re
 
 import h5py
 import numpy as np
 import pytest
 import synthetic
 
-from boxwood_results import findings, reader, run
+from boxwood_results import findings, reader, run, words
 
 
 def test_reads_what_was_written(full):
@@ -95,7 +96,7 @@ def test_units_and_meanings_are_json(full):
 
 
 def test_a_status_that_nobody_knows_is_refused_by_name(tmp_path):
-    with pytest.raises(AssertionError, match='column status holds the unknown word "a_word_of'):
+    with pytest.raises(AssertionError, match='column checks.status holds the unknown word "a_word_of'):
         one_cell_of_each("a_word_of_the_future").write(tmp_path / "a.h5")
 
 
@@ -134,47 +135,118 @@ def cut(keep):
     return make
 
 
-def flipped(path):
-    """Damages the compressed samples; their checksum tells."""
-    synthetic.small().write(path)
-    with h5py.File(path) as file:
-        offset = file["samples"].id.get_chunk_info(0).byte_offset
-    data = bytearray(path.read_bytes())
-    data[offset + 20] ^= 0xFF
-    path.write_bytes(data)
+def flipped(sealed):
+    """Damages the compressed samples: the seal tells, and where there is none their checksum."""
+
+    def make(path):
+        synthetic.small().write(path)
+        with h5py.File(path) as file:
+            offset = file["samples"].id.get_chunk_info(0).byte_offset
+        data = bytearray(path.read_bytes())
+        data[offset + 20] ^= 0xFF
+        path.write_bytes(data if sealed else data[:-16])
+
+    return make
 
 
-def without_column(path):
-    synthetic.small().write(path)
-    with h5py.File(path, "a") as file:
-        rows = file["samples"][:]
-        del file["samples"]
-        file["samples"] = rows[[name for name in rows.dtype.names if name != "phase"]]
+def dropped(*names):
+    return lambda path: synthetic.small().write(path, drop=names)
 
 
+def edited(table, column, value, row=0):
+    """What is not true any more after one value was changed."""
+
+    def make(path):
+        synthetic.full(2).write(path)
+        with h5py.File(path, "a") as file:
+            rows = file[table][:]
+            rows[column][row] = value
+            file[table][:] = rows
+
+    return make
+
+
+DERIVES = "bad.h5 --out NEW.h5` derives what can be, else measure again"
+ELSE = "use another copy, or measure again"
 @pytest.mark.parametrize(
     "make, said",
     [
         (lambda path: None, "no such file"),
-        (lambda path: path.write_text("not hdf5"), "cannot be read as HDF5"),
-        (lambda path: path.write_bytes(b""), "cannot be read as HDF5"),
-        (cut(0.5), "cannot be read as HDF5"),
-        (cut(0.98), "cannot be read as HDF5"),
-        (flipped, "table 'samples' is damaged"),
+        (lambda path: path.write_text("not hdf5, and too long to be but a seal"), "not a readable HDF5 file"),
+        (lambda path: path.write_bytes(b""), "the file is empty"),
+        (cut(0.5), "not a readable HDF5 file"),
+        (cut(0.98), "not a readable HDF5 file"),
+        (flipped(True), "it is damaged: its content is not what was written (checksum); use another copy"),
+        (flipped(False), "table samples: "),
         (broken_header(format="else"), "not a Boxwood result file"),
-        (broken_header(schema_major=np.uint32(1)), "of schema 1, and these scripts read schema 2; measure again"),
-        (lambda path: synthetic.small().write(path, drop=("compare",)), "table 'compare' is missing"),
-        (broken_header(complete=np.uint32(0)), "incomplete"),
-        (lambda path: synthetic.small().write(path, drop=("samples",)), "table 'samples' is missing"),
-        (without_column, "table 'samples' has no column 'phase'"),
+        (broken_header(schema_major=np.uint32(1)), "it is of schema 1, and this program reads schema 2; measure again"),
+        (broken_header(complete=np.uint32(0)), "it is incomplete: its writer did not finish"),
+        (dropped("samples"), f"table samples is missing; {ELSE}"),
+        (dropped("compare"), f"table compare is missing; `boxwood merge "),
+        (dropped("stage_costs"), DERIVES),
+        (dropped("samples.phase"), "column samples.phase is missing; `boxwood merge "),
+        (dropped("medians.times_limit"), DERIVES),
+        (edited("compare", "verdict", b"quicker"), f'column compare.verdict holds the unknown word "quicker"; {ELSE}'),
+        (edited("compare", "reason", b"moody"), f'column compare.reason holds the unknown word "moody"; {ELSE}'),
+        (edited("compare", "family", b"foes"), f'column compare.family holds the unknown word "foes"; {ELSE}'),
+        (edited("samples", "phase", b"tea"), f'column samples.phase holds the unknown word "tea"; {ELSE}'),
+        (edited("cells", "status", b"maybe"), f'column cells.status holds the unknown word "maybe"; {ELSE}'),
+        (edited("findings", "topic", b"gossip"), f'column findings.topic holds the unknown word "gossip"; {ELSE}'),
+        (edited("compare", "cell_a", 9999), f"column compare.cell_a holds 9999, which no row of cells has; {ELSE}"),
+        (edited("samples", "cell_id", 9999), f"column samples.cell_id holds 9999, which no row of cells has; {ELSE}"),
+        (edited("samples", "shard_id", 2**32 - 1), "column samples.shard_id holds 4294967295, which no row of shards has"),
+        (edited("cells", "scene_id", 9999), f"column cells.scene_id holds 9999, which no row of scenes has; {ELSE}"),
+        (edited("cells", "variant_id", 9999), f"column cells.variant_id holds 9999, which no row of variants has; {ELSE}"),
+        (edited("findings", "ours", 9999), f"column findings.ours holds 9999, which no row of cells has; {ELSE}"),
+        (edited("cells", "cell_id", 3), f"column cells.cell_id holds 3, which stands there twice; {ELSE}"),
     ],
 )
-def test_bad_files_are_refused(tmp_path, script, make, said):
+def test_bad_files_are_refused_as_the_program_refuses_them(tmp_path, script, make, said):
     path = tmp_path / "bad.h5"
     make(path)
     with pytest.raises(reader.BadFile) as refusal:
         run.read(path)
-    assert said in str(refusal.value) and "bad.h5" in str(refusal.value)
+    message = str(refusal.value)
+    assert said in message and message.startswith(f"cannot read result file '{path}': ") and "\n" not in message
+    program = synthetic.answer("show", path)
+    assert program.returncode == 2 and program.stderr.startswith("boxwood: error: cannot read result file ")
+    if "HDF5" not in said and "no such file" not in said and said != "table samples: ":  # where HDF5 words the cause
+        assert program.stderr.strip() == f"boxwood: error: {message}"
+
+
+def test_words_and_ids_are_those_of_the_program():
+    """The lists of results/words.h and results/schema.h."""
+    words_h, schema_h = ((synthetic.ROOT / "results" / name).read_text() for name in ("words.h", "schema.h"))
+    listed = {enum: tuple(re.findall(r'"([^"]*)"', body))
+              for enum, body in re.findall(r"struct Words<(\w+)> \{(.*?)\};", words_h, re.S)}
+    known = dict(Phase=words.PHASES, Status=words.STATUSES, Verdict=words.VERDICTS, Reason=words.REASONS,
+                 Family=words.FAMILIES, Topic=words.TOPICS)
+    assert {enum: tuple(these) for enum, these in known.items()} == listed
+    assert dict(re.findall(r'\{"(\w+)", "(\w+)"\}', schema_h)) == reader.REFERENCES
+
+
+@pytest.fixture
+def changed(tmp_path):
+    """A file in which somebody made a loss into a win."""
+    path = tmp_path / "changed.h5"
+    edited("compare", "verdict", b"faster", 3)(path)
+    return path
+
+
+def test_every_reader_warns_of_a_changed_file(tmp_path, script, changed, full):
+    warning = f"warning: '{changed}' was changed after it was written (its seal is gone): what it says need not be what was measured"
+    for arguments in (("show", changed), ("compare", full, changed), ("compare", changed, full),
+                      ("merge", changed, "--out", tmp_path / "m.h5")):
+        assert synthetic.answer(*arguments).stderr == f"boxwood: {warning}\n", arguments
+    out = tmp_path / "changed.html"
+    assert script("report", changed, "--out", out).stderr == f"report: {warning}\n"
+    assert "Warning: " in out.read_text() and "need not be what was measured" in out.read_text()
+    assert script("plot", changed, "--figure", "forest", "--format", "png", "--out", tmp_path).stderr == f"plot: {warning}\n"
+
+
+def test_a_file_as_it_was_written_is_not_warned_of(tmp_path, script, full):
+    assert run.read(full).changed == "" and synthetic.answer("show", full).stderr == ""
+    assert script("plot", full, "--figure", "forest", "--format", "png", "--out", tmp_path).stderr == ""
 
 
 @pytest.mark.parametrize("command", ["plot", "report"])

@@ -17,7 +17,8 @@ inline std::vector<std::string> watertight(std::vector<std::string> classes) {
 }
 
 /// Ours with the watertight kernel also stands in the looser class.
-inline std::vector<std::string> of_ours(std::vector<std::string> classes, const std::string& kernel) {
+inline std::vector<std::string> of_ours(std::vector<std::string> classes,
+                                        const std::string& kernel) {
     if (kernel == "watertight")
         for (const std::string& name : watertight(classes))
             classes.push_back(name);

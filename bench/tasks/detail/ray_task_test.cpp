@@ -243,7 +243,7 @@ TEST(RaysOneByOne, AnswerAsABatchForEveryWay) {
 TEST(RayClasses, SingleRaysBatchesAndPacketsAndWatertightOnesByThemselves) {
     using Classes = std::vector<std::string>;
     const auto of_ours = [](const char* order, const char* kernel) {
-        return find_task("rays_any")->contender({.kernel = kernel, .ray_order = order}).classes;
+        return find_task("rays_any")->contender({.settings = {}, .kernel = kernel, .ray_order = order}).classes;
     };
     EXPECT_EQ(of_ours("given", "plucker_f32"), (Classes{"packets", "batches"}));
     EXPECT_EQ(of_ours("sorted", "plucker_f32"), Classes{"packets"});

@@ -5,7 +5,7 @@ import math
 from matplotlib.ticker import FixedFormatter, FixedLocator, NullLocator
 
 from .. import labels, style
-from ..kernels import LEAST_ERROR, PANELS, is_measured
+from ..kernels import LEAST_ERROR, PANELS
 from ..picture import Picture, Skip
 
 NAME = "accuracy"
@@ -22,9 +22,9 @@ COLUMNS = ("task", "panel", "kernel", "library", "promise", "ns", "n", "wrong", 
            "max_rel_err")
 
 
-def value(kernel, measured):
+def value(kernel):
     """What is on the y axis; 0 in the lane at the bottom, infinity in that at the top."""
-    if not measured:
+    if not kernel.by_error:
         return kernel.per_million
     if kernel.error > NO_DIGIT:
         return math.inf
@@ -55,45 +55,41 @@ def y_axis(ax, values, bars, measured):
 
 
 def draw_panel(ax, panel, found, measured):
-    values = [value(r, measured) for r in found]
-    bars = [0 if measured or v else min(3e6 / r.n, 1e6) for v, r in zip(values, found)]
-    lane, top = y_axis(ax, values, bars, measured)
+    values = [value(r) for r in found]
+    lane, top = y_axis(ax, values, [r.unexcluded for r in found], measured)
 
     def height(v):
         return (v or lane) if math.isfinite(v) else top
 
     style.time_axis(ax.xaxis, min(r.ns for r in found), max(r.ns for r in found), room=0.15)
     marks, lines = [], []
-    for kernel, v, bar in zip(found, values, bars):
+    for kernel, v in zip(found, values):
         colour, marker = style.look(kernel.library if not kernel.ours else "binned_sah")
         y = height(v)
-        if not v and bar:
-            ax.plot([kernel.ns, kernel.ns], [lane, bar], color=colour, linewidth=1, alpha=0.45, zorder=2)
-            lines.append([(kernel.ns, lane), (kernel.ns, bar)])
+        if kernel.unexcluded == kernel.unexcluded:
+            ax.plot([kernel.ns, kernel.ns], [lane, kernel.unexcluded], color=colour, linewidth=1, alpha=0.45, zorder=2)
+            lines.append([(kernel.ns, lane), (kernel.ns, kernel.unexcluded)])
         ax.plot([kernel.ns], [y], marker=marker, markersize=7, linestyle="", zorder=5, markeredgewidth=1.3,
                 markeredgecolor=colour if not kernel.ours else "white",
                 markerfacecolor="white" if not kernel.ours else colour)
         marks.append((kernel.ns, y, kernel.name, style.text_colour(kernel.library if not kernel.ours else "binned_sah")))
-    best = []  # no other kernel of ours is both faster and less wrong
-    for kernel, v in zip(found, values):
-        if kernel.ours and (not best or v < best[-1][2]):
-            best.append((kernel.ns, height(v), v))
-    ax.plot([x for x, _, _ in best], [y for _, y, _ in best], color=style.FAINT, linewidth=1.1, zorder=1)
+    best = [(kernel.ns, height(v)) for kernel, v in zip(found, values) if kernel.on_front]
+    ax.plot([x for x, _ in best], [y for _, y in best], color=style.FAINT, linewidth=1.1, zorder=1)
     style.title(ax, f"{panel} input, {max(r.n for r in found):,} cases")
     ax.set_xlabel("time per call (lower is better)")
     ax.set_ylabel("worst relative error" if measured else "wrong answers per million")
-    lines.append([(x, y) for x, y, _ in best])
+    lines.append(best)
     labels.beside_points(ax, marks, lines=lines)
 
 
 def draw(run):
     pictures = []
     for task in dict.fromkeys(kernel.task for kernel in run.kernel_costs):
-        measured = is_measured(task)
         panels = [(p, [k for k in run.kernel_costs if (k.task, k.panel) == (task, p)]) for p in PANELS]
         panels = [(panel, found) for panel, found in panels if found]
         if not panels:
             continue
+        measured = panels[0][1][0].by_error
         figure, axes = style.panels(len(panels), width=10.5, height=4.3, columns=1)
         rows = []
         for ax, (panel, found) in zip(axes, panels):

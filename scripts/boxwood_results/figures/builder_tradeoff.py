@@ -24,12 +24,7 @@ def front(cells, run):
     """[(cell, queries after which it has paid for itself against the one before, or NaN)]: those that none beats in
     both build and query, by rising build time."""
     cells = {cell.cell_id: cell for cell in cells}
-    steps = [row for row in run.source["break_even"] if row["cell_b"] in cells]
-    found = [(cells[steps[0]["cell_a"]], math.nan)] if steps else []
-    found += [(cells[row["cell_b"]], float(row["queries"])) for row in steps]
-    if not found and any(cell.ranked for cell in cells.values()):  # one alone is best at both
-        found = [(min((c for c in cells.values() if c.ranked), key=lambda c: c.median("query")), math.nan)]
-    return found
+    return [(cells[row["cell_b"]], float(row["queries"])) for row in run.source["break_even"] if row["cell_b"] in cells]
 
 
 def draw_panel(ax, job, cells, run, rows):
@@ -84,7 +79,7 @@ def draw(run):
     for job in largest_jobs(run.jobs):
         cells = run.of(job)
         cells = [cell for cell in cells if cell.has("query") and not cell.has("update")]
-        if sum(cell.keeps_structure for cell in cells) >= 2:
+        if len([cell for cell in cells if cell.keeps_structure]) >= 2:
             by_task.setdefault(job.task, []).append((job, cells))
     if not by_task:
         raise Skip("it takes at least two variants with a build time on one job")

@@ -3,7 +3,7 @@
 import math
 
 from .. import labels, style
-from ..kernels import LEAST_ERROR, by_kernel_family
+from ..kernels import LEAST_ERROR
 from ..picture import Picture, Skip
 
 NAME = "condition"
@@ -18,22 +18,19 @@ COLUMNS = ("task", "kernel", "library", "log10_condition", "n", "max_rel_err", "
 FLOOR, CEILING = LEAST_ERROR, 20.0
 
 
-def lines_of(points):
-    """{(ours, library, kernel, promise): {decade: (n, error, bound)}}, the worst over the families."""
-    lines = {}
-    for point in points:
-        line = lines.setdefault((point.ours, point.library, point.kernel, point.row["promise"]), {})
-        for row in point.conditions:
-            decade, error, bound = (float(row[k]) for k in ("log10_condition", "max_rel_err", "bound"))
-            n, worst, wide = line.get(decade, (0, 0.0, 0.0))
-            line[decade] = (n + int(row["n"]), max(worst, error), max(wide, bound) if bound == bound else wide)
-    return {key: line for key, line in lines.items() if len(line) >= 2}
+def lines_of(run):
+    """{task: {(ours, library, kernel, promise): {decade: (n, error, bound)}}} of those with two decades or more."""
+    tasks = {task: {} for task in dict.fromkeys(point.task for point in run.kernels)}
+    for row in run.source["kernel_conditions"]:
+        key = (not row["is_peer"], row["library"], row["kernel"], row["promise"])
+        tasks[row["task"]].setdefault(key, {})[float(row["log10_condition"])] = (
+            int(row["n"]), float(row["max_rel_err"]), float(row["bound"]))
+    return {task: {key: line for key, line in lines.items() if len(line) >= 2} for task, lines in tasks.items()}
 
 
 def draw(run):
     pictures = []
-    for task, points in by_kernel_family(run).items():
-        lines = lines_of([p for p in points if p.supported])
+    for task, lines in lines_of(run).items():
         if not lines:
             continue
         figure, (ax,) = style.panels(1, width=6.8, height=4.6, labels_right=1.9)
@@ -63,8 +60,9 @@ def draw(run):
         ax.set_xlabel("log10 of the condition number L/d")
         ax.set_ylabel("worst relative error")
         labels.at_line_ends(ax, ends)
-        said = "; ".join(f"{kernel} reaches {max(e for _, e, _ in line.values()):.1g}" for (_, _, kernel, _), line in
-                         lines.items() if all(math.isfinite(e) for _, e, _ in line.values()))
+        hardest = {key: (decade, error) for key, line in lines.items() for decade, (_, error, _) in sorted(line.items())}
+        said = "; ".join(f"{kernel} {error:.1g} at 10^{decade:.0f}" for (_, _, kernel, _), (decade, error) in hardest.items()
+                         if math.isfinite(error))
         pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {task}",
                                 f"Worst relative error by decade of the condition number. {said}.", COLUMNS, rows))
     if not pictures:

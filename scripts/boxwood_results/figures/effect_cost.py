@@ -4,7 +4,7 @@ import math
 
 from .. import style
 from ..findings import footer
-from ..moving import frame_ns, played_scenes
+from ..moving import played_scenes
 from ..picture import Picture, Skip
 from ..words import interval_text, time_text
 
@@ -22,17 +22,12 @@ TALL = 8  # inches from which the axis stands at the top, too
 
 
 def entries_of(scene):
-    """[(words, with, without, ratio, look)] of one scene, the most costly effect first."""
-    found = [(effect, scene.required, cell, scene.cost(effect), EFFECT) for effect, cell in scene.without.items()]
-    found = sorted((entry for entry in found if entry[3]), key=lambda entry: -entry[3].mid)
-    if scene.ratio():
-        found.append(("all stages", scene.all_stages, scene.required, scene.ratio(), ALL))
-    return found
+    """[(cost, look)] of one scene, the most costly effect first."""
+    return [(cost, EFFECT) for cost in scene.effects] + [(cost, ALL) for cost in [scene.everything] if cost]
 
 
-def cost_text(with_ns, ratio):
-    """What a frame with it takes more than without, as the paired ratio has it."""
-    ns = with_ns * (1 - 1 / ratio.mid)
+def cost_text(ns):
+    """What a frame with it takes more than without."""
     return f"{'+' if ns >= 0 else '-'}{time_text(abs(ns))}"
 
 
@@ -57,18 +52,19 @@ def draw(run):
                 va="center", fontsize=8.5, weight="bold",
                 bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5})
         y += ROW / 2
-        for words, with_it, without, ratio, (colour, marker) in entries:
+        for cost, (colour, marker) in entries:
+            ratio = cost.ratio
             y += ROW / 2
             if ratio.known:
                 ax.plot([ratio.lo, ratio.hi], [y, y], color=colour, linewidth=1.8, zorder=3)
             ax.plot([ratio.mid], [y], marker=marker, markersize=6.5, color=colour, markeredgecolor="white",
                     markeredgewidth=0.6, zorder=4)
-            ax.text(-0.02, y, words, transform=ax.get_yaxis_transform(), ha="right", va="center", fontsize=8)
-            said = f"{interval_text(ratio)}   {cost_text(frame_ns(with_it), ratio)} a frame"
+            ax.text(-0.02, y, cost.what, transform=ax.get_yaxis_transform(), ha="right", va="center", fontsize=8)
+            said = f"{interval_text(ratio)}   {cost_text(cost.extra_ns)} a frame"
             ax.text(1.03, y, said, transform=ax.get_yaxis_transform(), va="center", fontsize=7.5)
             ends += [ratio.lo, ratio.hi] if ratio.known else [ratio.mid]
-            rows.append((job.scene, job.n, job.threads, words, frame_ns(with_it), frame_ns(without), ratio.mid,
-                         ratio.lo, ratio.hi))
+            rows.append((job.scene, job.n, job.threads, cost.what, cost.with_ns, cost.without_ns, ratio.mid, ratio.lo,
+                         ratio.hi))
             y += ROW / 2
     style.log_axis(ax.xaxis, min(ends), max(ends), lambda value: f"{value:g}x", room=0.04)
     ax.set_xlabel("time of a frame with it / without it (right: it costs time)")

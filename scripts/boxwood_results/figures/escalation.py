@@ -3,6 +3,7 @@
 from .. import style
 from ..kernels import by_kernel_family
 from ..picture import Picture, Skip
+from ..reader import NO_ID
 
 NAME = "escalation"
 TITLE = "Escalations of the adaptive kernels"
@@ -18,8 +19,9 @@ def draw(run):
     pictures = []
     for task, points in by_kernel_family(run).items():
         ours = [p for p in points if p.ours and p.supported]
-        adaptive = sorted({p.kernel for p in ours if sum(p.tiers[1:])
-                           and p.tiers[0]})
+        shares = {(row["kernel"], row["cell_id"]): [float(row[f"share_{k}"]) for k in range(4)]
+                  for row in run.source["escalations"] if row["task"] == task}
+        adaptive = sorted({kernel for kernel, _ in shares})
         if not adaptive:
             continue
         families = list(dict.fromkeys(p.cases for p in ours))
@@ -30,16 +32,12 @@ def draw(run):
         for place, kernel in enumerate(adaptive):
             ax = figure.add_axes(((2.2 + panel * place) / width, 0.55 / height, (panel - 0.2) / width,
                                   0.17 * len(families) / height))
-            shares = {p.cases: p for p in ours if p.kernel == kernel}
-            for y, cases in enumerate(families):
-                if cases not in shares:
-                    continue
-                tiers = shares[cases].tiers
-                total, left = max(sum(tiers), 1), 0.0
-                for count, colour in zip(tiers, COLOURS):
-                    ax.barh(y, 100 * count / total, left=left, height=0.78, color=colour)
-                    left += 100 * count / total
-                rows.append((task, kernel, cases, shares[cases].n, *tiers))
+            for point in [p for p in ours if p.kernel == kernel]:
+                y, left = families.index(point.cases), 0.0
+                for share, colour in zip(shares.get((kernel, point.cell.cell_id), ()), COLOURS):
+                    ax.barh(y, 100 * share, left=left, height=0.78, color=colour)
+                    left += 100 * share
+                rows.append((task, kernel, point.cases, point.n, *point.tiers))
             ax.set_xlim(0, 100)
             ax.set_ylim(len(families) - 0.4, -0.6)
             ax.set_yticks(range(len(families)), families if place == 0 else [""] * len(families), fontsize=6.5)
@@ -52,9 +50,7 @@ def draw(run):
         handles = [style.plt.Rectangle((0, 0), 1, 1, color=colour) for colour in COLOURS]
         figure.legend(handles, ["tier 0", "tier 1", "tier 2", "tier 3"], loc="lower left", fontsize=6.5, frameon=False,
                       ncols=2, handlelength=1, columnspacing=0.8, borderaxespad=0.1)
-        said = "; ".join(
-            f"{kernel}: {100 * (1 - sum(r[4] for r in rows if r[1] == kernel) / max(1, sum(sum(r[4:]) for r in rows if r[1] == kernel))):.2g} % of all calls went beyond tier 0"
-            for kernel in adaptive)
+        said = "; ".join(f"{kernel}: tier 0 decided {100 * shares[kernel, NO_ID][0]:.4g} % of all calls" for kernel in adaptive)
         pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {task}", f"{said}.",
                                 COLUMNS, rows))
     if not pictures:

@@ -2,7 +2,7 @@
 
 from .. import style
 from ..metrics import METRICS
-from ..moving import SCREEN_NS, frame_medians, percentile
+from ..moving import SCREEN_NS
 from ..picture import Picture, Skip
 from ..selection import choose, largest_jobs, left_out_note, wrong_notes
 from ..words import time_text
@@ -22,8 +22,7 @@ ROW, LEFT, PANEL, RIGHT = 0.24, 2.35, 3.3, 0.95  # inches
 
 def numbers(cell):
     """(p50, p95, p99, worst)."""
-    times = frame_medians(cell)
-    return (*(percentile(times, part) for part in (0.5, 0.95, 0.99)), max(times))
+    return tuple(float(cell.frame_stats[name]) for name in ("p50_ns", "p95_ns", "p99_ns", "max_ns"))
 
 
 def draw_panel(ax, job, cells, rows):
@@ -49,10 +48,8 @@ def draw_panel(ax, job, cells, rows):
                 color=style.text_colour(cell.family))
         ax.text(1.025, y, f"{time_text(p50)} to {time_text(worst)}", transform=ax.get_yaxis_transform(), va="center",
                 fontsize=7)
-        times = frame_medians(cell)
-        over = [sum(time > at for time in times) / len(times) for at, _ in LIMITS]
-        rows.append((job.task, job.scene, job.n, job.threads, cell.label, cell.library, cell.status, len(times), *marks,
-                     *over))
+        rows.append((job.task, job.scene, job.n, job.threads, cell.label, cell.library, cell.status,
+                     int(cell.frame_stats["n"]), *marks, *(float(cell.frame_stats[name]) for name in COLUMNS[-2:])))
     ax.set_ylim(len(found) - 0.4, -0.6)
     ax.set_yticks([])
     ax.spines["left"].set_visible(False)

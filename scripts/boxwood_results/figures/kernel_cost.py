@@ -42,15 +42,14 @@ def draw(run):
         figure, axes = style.panels(len(jobs), width=6.0, height=1.25 + 0.26 * most)
         rows = []
         for ax, (job, tree, cells) in zip(axes, jobs):
-            fastest = cells[0].median("query")
             for y, cell in enumerate(cells):
                 time, wrong = cell.median("query"), cell.status == "wrong"
                 colour = style.look("binned_sah")[0]  # of all of ours: the names tell them apart
                 ax.barh(y, time, height=0.7, color="white" if wrong else colour, edgecolor=colour, linewidth=1.2)
                 lost = f"  {int(cell.check['missing']):,} missing, {int(cell.check['extra']):,} extra" if wrong else ""
-                ax.text(time, y, f" {time / fastest:.2f}x{lost}", va="center", fontsize=7.5)
+                ax.text(time, y, f" {cell.times_fastest:.2f}x{lost}", va="center", fontsize=7.5)
                 rows.append((job.task, job.scene, job.n, job.threads, tree, cell.kernel, cell.status, time,
-                             time / fastest, int(cell.check["missing"]) if cell.check is not None else None,
+                             cell.times_fastest, int(cell.check["missing"]) if cell.check is not None else None,
                              int(cell.check["extra"]) if cell.check is not None else None))
             ax.set_yticks(range(len(cells)), [cell.kernel for cell in cells], fontsize=7.5)
             ax.set_ylim(len(cells) - 0.4, -0.6)

@@ -35,7 +35,12 @@ def is_dark(colour):
 
 def costs(cell):
     """[(stage, ns a frame)] of the stages that ran."""
-    return [(name, stage.ns / cell.n_frames) for name, stage in cell.stages.items() if stage.calls]
+    return [(name, float(stage["ns"])) for name, stage in cell.stages.items() if stage["calls"]]
+
+
+def frame_of(cell):
+    """Time of a frame by its stages."""
+    return float([stage["until_ns"] for stage in cell.stages.values()][-1])
 
 
 def wrapped(words, lead, width):
@@ -62,8 +67,8 @@ def draw_bar(ax, cell, y, limit):
                     color="white" if is_dark(colour) else style.INK)
         else:
             narrow.append((name, ns))
-        left += ns
-    ax.text(left, y, f" {time_text(left)} a frame", va="center", fontsize=8, weight="bold")
+        left = float(cell.stages[name]["until_ns"])
+    ax.text(left, y, f" {time_text(frame_of(cell))} a frame", va="center", fontsize=8, weight="bold")
     return narrow
 
 
@@ -75,11 +80,11 @@ def idle_lines(scene):
     """What neither way to play the scene runs, in lines."""
     both = scene.all_stages.stages if scene.all_stages else {}
     idle = [name for name, stage in scene.required.stages.items()
-            if not stage.calls and not both.get(name, stage).calls]
+            if not stage["calls"] and not both.get(name, stage)["calls"]]
     effects = [name.removeprefix("advance_") for name in idle if name.startswith("advance_")]
     stages = [name for name in idle if not name.startswith("advance_")]
-    lines = wrapped(stages, "not required (0):", LETTERS) if stages else []
-    return lines + (wrapped(effects, "effects not required (0):", LETTERS) if effects else [])
+    told = (("not required (0):", stages), ("effects not required (0):", effects))
+    return [line for lead, names in told if names for line in wrapped(names, lead, LETTERS)]
 
 
 def sides_of(scene):
@@ -94,23 +99,22 @@ def height_of(scene):
 
 def draw_scene(ax, scene, rows):
     sides = sides_of(scene)
-    limit = 1.14 * max(sum(ns for _, ns in costs(cell)) for _, cell in sides)
+    limit = 1.14 * max(frame_of(cell) for _, cell in sides)
     ax.set_xlim(0, limit)
     ax.set_ylim(height_of(scene), -0.02)
     top = 0.02
     for words, cell in sides:
         y = top + BAR / 2
-        total = sum(ns for _, ns in costs(cell))
         narrow = draw_bar(ax, cell, y, limit)
         ax.text(-0.012, y, words, transform=ax.get_yaxis_transform(), ha="right", va="center", fontsize=8.5)
         for place, line in enumerate(narrow_lines(narrow)):
             ax.text(0, y + BAR / 2 + 0.02 + LINE * place, line.strip(), va="top", fontsize=6.8, color="#555555")
         top += STEP + LINE * len(narrow_lines(narrow))
         rows += [(scene.job.scene, scene.job.n, scene.job.threads, words.replace(" ", "_"), name,
-                  int(stage.required), stage.calls, stage.items, stage.ns / cell.n_frames if stage.calls else 0.0,
-                  stage.ns / cell.n_frames / total if stage.calls and total else 0.0, stage.bytes)
+                  int(stage["required"]), int(stage["calls"]), int(stage["items"]), float(stage["ns"]),
+                  float(stage["share"]), int(stage["bytes"]))
                  for name, stage in cell.stages.items()]
-    ratio = f": all stages take {interval_text(scene.ratio())} as long" if scene.ratio() else ""
+    ratio = f": all stages take {interval_text(scene.everything.ratio)} as long" if scene.everything else ""
     ax.set_title(f"{scene.job}".replace(f" · {scene.job.task}", "") + ratio, fontsize=9.5)
     ax.set_yticks([])
     ax.spines["left"].set_visible(False)
@@ -137,7 +141,7 @@ def draw(run):
         top -= height
     said = "; ".join(
         f"{s.job}: {time_text(frame_ns(s.required))} a frame for what is required"
-        + (f", all stages {interval_text(s.ratio())} as long" if s.ratio() else "")
+        + (f", all stages {interval_text(s.everything.ratio)} as long" if s.everything else "")
         for s in scenes
     )
     return [Picture(NAME, figure, TITLE, f"Time of a frame by stage. {said}.", COLUMNS, rows)]

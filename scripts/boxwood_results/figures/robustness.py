@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.colors import LinearSegmentedColormap
 
 from .. import style
-from ..kernels import LEAST_ERROR, by_kernel_family, is_measured
+from ..kernels import LEAST_ERROR, by_kernel_family
 from ..picture import Picture, Skip
 
 NAME = "robustness"
@@ -34,8 +34,7 @@ def entry(point, measured):
         if error < 1e-9:
             return f"{error:.0e}", None
         return ("inf" if math.isinf(error) else f"{error:.0e}"), min(1.0, (math.log10(error) + 9) / 9)
-    rate = 1e6 * point.wrong / point.n
-    undecided = 1e6 * int(point.row["maybe"]) / point.n
+    rate, undecided = float(point.row["wrong_per_million"]), float(point.row["maybe_per_million"])
     text = "0" if not rate else style.count_text(float(f"{rate:.2g}")).replace(" ", "")
     if undecided:
         text += f" ({style.count_text(float(f'{undecided:.2g}')).replace(' ', '')})"
@@ -45,7 +44,6 @@ def entry(point, measured):
 def draw(run):
     pictures = []
     for task, points in by_kernel_family(run).items():
-        measured = is_measured(task)
         kernels = sorted((k for k in run.kernel_costs if k.task == task), key=lambda k: (not k.ours, k.ns))
         columns = list(dict.fromkeys((k.ours, k.library, k.name) for k in kernels))
         families = list(dict.fromkeys(p.cases for p in points))
@@ -62,14 +60,14 @@ def draw(run):
                 if point is None:
                     ax.text(x, y, "-", ha="center", va="center", fontsize=6.5, color="#999999")
                     continue
-                text, dark = entry(point, measured)
+                text, dark = entry(point, kernels[0].by_error)
                 colour = RIGHT if dark is None else COLOURS(dark)
                 ax.add_patch(style.plt.Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=colour, edgecolor="white"))
                 ax.text(x, y, text, ha="center", va="center", fontsize=6.2 if len(text) < 8 else 5.4,
                         color="white" if dark is not None and dark > 0.7 else style.INK)
                 rows.append((task, cases, point.kernel, point.library, point.n, point.wrong,
                              int(point.row["maybe"]), point.error))
-        ours = sum(column[0] for column in columns)
+        ours = len([name for ours_, _, name in columns if ours_])
         if 0 < ours < len(columns):
             ax.axvline(ours - 0.5, color=style.INK, linewidth=1.2)
         ax.set_xlim(-0.5, len(columns) - 0.5)

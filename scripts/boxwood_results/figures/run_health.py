@@ -29,17 +29,17 @@ def draw(run):
     shards = sorted({(int(row["round"]), int(row["shard_id"])) for row in samples})
     if len(shards) < 3:
         raise Skip("it takes at least 3 rounds to tell drift from chance")
-    middle = {int(row["cell_id"]): float(row["median_ns"]) for row in run.source["medians"] if row["phase"] == "query"}
     names = {cell.cell_id: cell.name for cell in (*run.cells, *(point.cell for point in run.kernels))}
 
     line = {shard: place for place, (_, shard) in enumerate(shards)}
+    round_of = {shard: number for number, shard in shards}
     columns = sorted({int(row["position"]) for row in samples})
     place = {position: column for column, position in enumerate(columns)}
     off = np.full((len(shards), len(columns)), math.nan)
     dots, rows = [], []
     for row in samples:
         at = line[int(row["shard_id"])], place[int(row["position"])]
-        off[at] = 100 * (row["wall_ns"] / middle[int(row["cell_id"])] - 1)
+        off[at] = 100 * row["off_median"]
         disturbed = bool(row["flags"] & DISTURBED)
         if disturbed:
             dots.append(at)
@@ -66,10 +66,9 @@ def draw(run):
     bar.set_label("off the cell's median (%)")
     bar.outline.set_visible(False)
 
-    drift = [float(np.nanmedian(line_of)) for line_of in off]
-    worst = max(range(len(drift)), key=lambda i: abs(drift[i]))
+    worst = next(row for row in run.source["drift"] if row["is_farthest"])
     alt = (
-        f"Heat map of {len(shards)} rounds by {len(columns)} positions. The round furthest off is {shards[worst][0]}, "
-        f"by {drift[worst]:+.1f} % at its median; {len(dots)} of {len(rows)} samples were disturbed."
+        f"Heat map of {len(shards)} rounds by {len(columns)} positions. The round furthest off is "
+        f"{round_of[int(worst['shard_id'])]}, by {100 * worst['off_median']:+.1f} % at its median; {len(dots)} of {len(rows)} samples were disturbed."
     )
     return [Picture(NAME, figure, TITLE, alt, COLUMNS, rows, [alt.split(". ", 1)[1]])]

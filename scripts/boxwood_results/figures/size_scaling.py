@@ -34,9 +34,9 @@ def lines_of(run, task, scene, seed, threads):
 
 
 def choose_lines(lines, phase):
-    """The best of each family per item at its largest n, then the rest of the peers, at most MOST_LINES."""
+    """The best of each family at the largest n, then the rest of the peers, at most MOST_LINES."""
     order, families = [], set()
-    for line in sorted(lines, key=lambda line: line[-1].median(phase) / line[-1].job.n):
+    for line in sorted(lines, key=lambda line: (-line[-1].job.n, line[-1].median(phase))):
         order.append((line[-1].family in families, len(order), line))
         families.add(line[-1].family)
     kept = [line for again, _, line in sorted(order, key=lambda o: o[:2]) if not (again and line[-1].ours)]

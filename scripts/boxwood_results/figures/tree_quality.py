@@ -23,10 +23,7 @@ def sah(cell):
 
 
 def draw_panel(ax, job, cells, rows):
-    best = []
-    for cell in sorted(cells, key=lambda c: (c.median("build"), sah(c))):
-        if cell.ranked and (not best or sah(cell) < sah(best[-1])):
-            best.append(cell)
+    best = sorted((cell for cell in cells if cell.tree["on_front"]), key=lambda c: c.median("build"))
     builds, costs = [c.median("build") for c in cells], [sah(c) for c in cells]
     style.time_axis(ax.xaxis, min(builds), max(builds), room=0.12)
     style.count_axis(ax.yaxis, min(costs), max(costs), room=0.12)

@@ -2,7 +2,6 @@
 
 from .. import labels, style
 from ..metrics import METRICS
-from ..moving import frame_medians
 from ..picture import Picture, Skip
 from ..selection import choose, largest_jobs, left_out_note, wrong_notes
 
@@ -21,38 +20,30 @@ COUNTED_COLUMNS = ("scene", "n", "threads", "contender", "library", "status", "f
 MEASURES = ((7, METRICS["box_tests"].axis.replace("box or ray", "item")), (8, METRICS["sah"].axis))  # column, axis
 MIN_FRAMES = 10
 MAX_SCENES = 8  # of these the pictures show; the CSV files hold all
-FRESH = "rebuild_trigger0"
 
 
-def queries(cell):
-    return frame_medians(cell, of=lambda times: times[1])
-
-
-def ratio_rows(job, cell, fresh):
-    times = queries(cell)
-    base = queries(fresh) if fresh else [times[0]] * len(times)
-    return [(job.scene, job.n, job.threads, cell.label, cell.library, cell.status, frame, time, time / other)
-            for frame, time, other in zip(sorted(cell.frames), times, base)]
+def ratio_rows(job, cell):
+    return [(job.scene, job.n, job.threads, cell.label, cell.library, cell.status, int(row["frame"]), float(row["query_ns"]),
+             float(row["over_fresh"])) for row in cell.frames]
 
 
 def degradation(panel):
-    """The last frame over the first of the way that degrades most."""
-    job, cells, fresh, _ = panel
-    ratios = [[row[8] for row in ratio_rows(job, cell, fresh)] for cell in cells]
-    return max(line[-1] / line[0] for line in ratios)
+    """Of the way that degrades most."""
+    _, cells, *_ = panel
+    return max(float(cell.frame_stats["degradation"]) for cell in cells)
 
 
 def draw_panel(ax, job, cells, fresh):
     ends, all_ratios = [], [1.0]
     for cell in cells:
-        frames, ratios = zip(*[(row[6], row[8]) for row in ratio_rows(job, cell, fresh)])
+        frames, ratios = zip(*[(row[6], row[8]) for row in ratio_rows(job, cell)])
         if cell is not fresh:
             style_of = {**style.point_style(cell, 4), "markevery": max(1, len(frames) // 10)}
             ax.plot(frames, ratios, **style_of, linewidth=1.3)
             ends.append((frames[-1], ratios[-1], f"{cell.label}  {ratios[-1]:.2f}x", style.text_colour(cell.family)))
             all_ratios += ratios
     ax.axhline(1, color="#555555", linewidth=1, zorder=1)
-    last = max(max(cell.frames) for cell in cells)
+    last = max(int(cell.frames[-1]["frame"]) for cell in cells)
     ends.append((last, 1.0, "rebuilt: 1" if fresh else "its first frame: 1", "#555555"))
     style.log_axis(ax.yaxis, min(all_ratios), max(all_ratios), lambda value: f"{value:g}x")
     ax.set_xlim(0, last)
@@ -64,8 +55,12 @@ def draw_panel(ax, job, cells, fresh):
 
 
 def counted_rows(job, cell):
-    return [(job.scene, job.n, job.threads, cell.label, cell.library, cell.status, frame, tests / job.n, sah)
-            for frame, (tests, sah) in sorted(cell.counted.items())]
+    return [(job.scene, job.n, job.threads, cell.label, cell.library, cell.status, int(row["frame"]),
+             float(row["box_tests_per_item"]), float(row["sah"])) for row in counted_frames(cell)]
+
+
+def counted_frames(cell):
+    return [row for row in cell.frames if any(row[name] == row[name] for name in ("box_tests_per_item", "sah"))]
 
 
 def markers_of(number, count):
@@ -88,7 +83,7 @@ def draw_counted_panel(ax, job, cells, column, axis):
                      style.text_colour(cell.family)))
         shown += [value for _, value in points]
     style.count_axis(ax.yaxis, min(shown, default=1), max(shown, default=1))
-    ax.set_xlim(0, max(max(cell.counted) for cell in cells))
+    ax.set_xlim(0, max(int(counted_frames(cell)[-1]["frame"]) for cell in cells))
     ax.xaxis.set_major_locator(style.MaxNLocator(6, integer=True))
     style.title(ax, f"{job.scene} {job.n:,}")
     ax.set_xlabel("frame")
@@ -97,7 +92,7 @@ def draw_counted_panel(ax, job, cells, column, axis):
 
 
 def counted(panels):
-    panels = [(job, [cell for cell in cells if cell.counted]) for job, cells, *_ in panels]
+    panels = [(job, [cell for cell in cells if counted_frames(cell)]) for job, cells, *_ in panels]
     return [(job, cells) for job, cells in panels if cells]
 
 
@@ -121,8 +116,8 @@ def draw(run):
     panels = []
     for job in largest_jobs(run.jobs):
         cells = [c for c in run.of(job) if len(c.frames) >= MIN_FRAMES and not c.builder.startswith("cached")]
-        if job.task == "moving_pairs" and len(cells) >= 2 and job.threads == 1:
-            fresh = next((c for c in cells if c.builder == FRESH and c.status != "wrong"), None)
+        if not any(c.stages_played for c in cells) and len(cells) >= 2 and job.threads == 1:
+            fresh = next((c for c in cells if c.cell_id == cells[0].frame_stats["fresh_cell"]), None)
             shown, left_out = choose(cells, keep=[fresh] if fresh else (), limit=9)
             panels.append((job, shown, fresh, left_out_note(left_out, f"ways to play {job}") + wrong_notes(cells)))
     if not panels:
@@ -130,7 +125,7 @@ def draw(run):
     telling = sorted(panels, key=degradation, reverse=True)[:MAX_SCENES]
     drawn = [panel for panel in panels if panel in telling]
     figure, axes = style.panels(len(drawn), width=4.3, labels_right=2.5)
-    rows = [row for job, cells, fresh, _ in panels for cell in cells for row in ratio_rows(job, cell, fresh)]
+    rows = [row for job, cells, *_ in panels for cell in cells for row in ratio_rows(job, cell)]
     last, cut = {}, []
     if len(drawn) < len(panels):
         cut = [f"Of {len(panels)} scenes the {len(drawn)} on which one of the ways degrades most; "
@@ -138,7 +133,7 @@ def draw(run):
     notes = list(cut)
     for ax, (job, cells, fresh, said) in zip(axes, drawn):
         labels.at_line_ends(ax, draw_panel(ax, job, cells, fresh))
-        last.update({(job.scene, cell.label): ratio_rows(job, cell, fresh)[-1][8] for cell in cells})
+        last.update({(job.scene, cell.label): ratio_rows(job, cell)[-1][8] for cell in cells})
         notes += said
     said = "; ".join(f"{name} on {scene} {ratio:.2f}x at the last frame" for (scene, name), ratio in last.items())
     return [Picture(NAME, figure, TITLE, f"Query of each frame over that of a fresh tree. {said}.", COLUMNS, rows, notes),

@@ -21,10 +21,8 @@ COLUMNS = ("task", "scene", "n", "variant", "status", "sah_cost", "node_visits_e
 
 def measures(cell):
     """(SAH cost, node visits, box tests, ns), the last three per item; NaN if missing."""
-    each = max(cell.n_queries if 0 < cell.n_queries < 2**63 else cell.job.n, 1)
     sah = float(cell.tree["sah_cost"]) if cell.tree is not None else math.nan
-    count = [cell.counters.get(name, 0) / each or math.nan for name in ("node_visits", "box_tests")]
-    return sah, *count, cell.median("query") / each
+    return sah, *(float(cell.work[name]) for name in ("node_visits", "box_tests", "query_ns"))
 
 
 def places(points, names):
@@ -37,7 +35,7 @@ def places(points, names):
         words = [names[id(c)].split(".") for c in cells]
         shared = ".".join(word for word in words[0] if all(word in other for other in words))
         label = f"{len(cells)} of {shared or len(points)}" if len(cells) > 1 else names[id(cells[0])]
-        found.append((min(cells, key=lambda c: c.status == "wrong"), x, y, label))
+        found.append((next((c for c in cells if c.status != "wrong"), cells[0]), x, y, label))
     return found
 
 
@@ -61,7 +59,8 @@ def scatter(ax, job, points, x_name, y_name, time_on_y):
 def draw(run):
     by_task = {}
     for job in largest_jobs(run.jobs):
-        counted = [c for c in run.of(job) if not math.isnan(measures(c)[2]) and c.executor == "serial"]
+        counted = [c for c in run.of(job) if c.work is not None and not math.isnan(c.work["box_tests"])
+                    and c.executor == "serial"]
         if job.threads == 1 and len(counted) >= 2 and not run.tasks[job.task].in_frames:
             by_task.setdefault(job.task, []).append((job, counted))
     if not by_task:
@@ -77,7 +76,7 @@ def draw(run):
                 panels.append((job, with_tree, "sah_cost", "node_visits", False))
             panels.append((job, [(c, tests, ns) for c, _, _, tests, ns in values], "box_tests", "query_each", True))
             rows += [(task, job.scene, job.n, c.label, c.status, *rest) for c, *rest in values]
-            notes += left_out_note(left_out, f"variants of {job}") + wrong_notes(counted)
+            notes += [*left_out_note(left_out, f"variants of {job}"), *wrong_notes(counted)]
         crowded = max(len(cell.label) for _, points, *_ in panels for cell, *_ in points) > VERY_LONG
         figure, axes = style.panels(len(panels), **style.pair_of_panels(crowded))
         for ax, panel in zip(axes, panels):

@@ -1,0 +1,77 @@
+#include "bench/analysis/trade_offs.h"
+
+#include "bench/analysis/analyse.h"
+#include "bench/testing/run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace boxwood::bench {
+namespace {
+
+using results::Phase;
+
+TEST(TradeOffs, JoinThoseThatNoneBettersInBuildAndQuery) {
+    RunForTest run;
+    const auto add = [&](const char* variant, double build, double query) {
+        const auto cell = run.cell("uniform", 100, "pairs", variant);
+        run.time(cell, Phase::build, build);
+        run.time(cell, Phase::query, query);
+        return cell;
+    };
+    add("worse", 300, 950);
+    const auto best = add("best", 900, 100), cheap = add("cheap", 100, 900),
+               middle = add("middle", 400, 500);
+    const auto wrong = add("wrong", 1, 1);
+    run.results.checks[wrong].status = results::Status::wrong;
+    analyse(run.results);
+    const auto& rows = run.results.break_even;
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_EQ(rows[0].cell_a, results::no_id);
+    EXPECT_EQ(rows[0].cell_b, cheap);
+    EXPECT_TRUE(std::isnan(rows[0].queries));
+    EXPECT_EQ(rows[1].cell_a, cheap);
+    EXPECT_EQ(rows[1].cell_b, middle);
+    EXPECT_DOUBLE_EQ(rows[1].queries, 300. / 400);
+    EXPECT_EQ(rows[2].cell_b, best);
+    EXPECT_DOUBLE_EQ(rows[2].queries, 500. / 400);
+    const auto noisy = trade_offs_of(run.results, 3.5); // 400 is within that of 100
+    EXPECT_TRUE(std::isnan(noisy[1].queries));
+}
+
+TEST(TradeOffs, OneAloneIsTheBest) {
+    RunForTest run;
+    const auto cell = run.cell("uniform", 100, "pairs", "alone");
+    run.time(cell, Phase::build, 100);
+    run.time(cell, Phase::query, 100);
+    analyse(run.results);
+    ASSERT_EQ(run.results.break_even.size(), 1u);
+    EXPECT_EQ(run.results.break_even[0].cell_b, cell);
+}
+
+TEST(TradeOffs, MarkBuildersThatNoneBettersInTimeAndCost) {
+    RunForTest run;
+    const auto add = [&](const char* variant, double build, double cost) {
+        const auto cell = run.cell("uniform", 100, "build", variant);
+        run.time(cell, Phase::build, build);
+        results::TreeRow tree;
+        tree.cell_id = cell;
+        tree.sah_cost = cost;
+        run.results.trees.push_back(tree);
+        return cell;
+    };
+    const auto wrong = add("wrong", 1, 1);
+    run.results.checks[wrong].status = results::Status::wrong;
+    const std::vector<std::uint32_t> expected{0, 1, 0, 1, 0};
+    add("fast", 10, 90);
+    add("slower_and_dearer", 20, 95);
+    add("slower_and_better", 30, 50);
+    add("slower_and_the_same", 40, 50);
+    analyse(run.results);
+    for (std::size_t i = 0; i < expected.size(); ++i)
+        EXPECT_EQ(run.results.trees[i].on_front, expected[i]) << i;
+}
+
+} // namespace
+} // namespace boxwood::bench
