@@ -62,12 +62,12 @@ def test_show_python_and_figures_have_the_verdicts_of_the_file(file):
 
 def test_screen_all_json_and_report_have_the_findings_of_the_file(file):
     results = run.read(file)
-    told = [(f.question, f.together, f.alone, f.certainty) for f in results.findings]
+    reported = [(f.question, f.together, f.alone, f.certainty) for f in results.findings]
     shown = json.loads(boxwood("show", file, "--json"))["findings"]
-    assert told == [(row["question"], row["together"], row["alone"], row["certainty"]) for row in shown] and told
+    assert reported == [(row["question"], row["together"], row["alone"], row["certainty"]) for row in shown] and reported
     everything, report = boxwood("show", file, "--all"), page.report(results)
     screen = boxwood("show", file).splitlines()
-    for texts in told:
+    for texts in reported:
         assert all(text in everything and page.escape(text) in report for text in texts)
     headlines = [f for f in results.findings if f.is_headline]
     on_screen = [f for f in headlines
@@ -106,7 +106,7 @@ def test_csv_has_the_medians_of_the_file(file):
 
 
 def test_compare_says_a_file_is_the_same_as_itself(file):
-    told = json.loads(boxwood("compare", file, file, "--json"))
-    assert {row["verdict"] for row in told["rows"]} == {"same", "wrong"} and told["same_machine"]
+    reported = json.loads(boxwood("compare", file, file, "--json"))
+    assert {row["verdict"] for row in reported["rows"]} == {"same", "wrong"} and reported["same_machine"]
     wrong = {c.name for c in run.read(file).cells if c.status == "wrong" and c.timed}
-    assert wrong <= {row["cell"] for row in told["rows"] if row["verdict"] == "wrong"}
+    assert wrong <= {row["cell"] for row in reported["rows"] if row["verdict"] == "wrong"}
