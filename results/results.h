@@ -230,7 +230,7 @@ struct KernelCost {
 
 /// One question of a run and its answer, in words: the rows of the one screen and of the report.
 struct Finding {
-    std::uint32_t place = 0; ///< in the order in which they are told: losses first
+    std::uint32_t place = 0; ///< in the order of the report: losses first
     Topic topic = Topic::none;
     std::uint32_t is_headline = 0; ///< 1 if it stands for its question on one screen
     std::uint32_t scene_id = no_id;
@@ -296,8 +296,9 @@ Results read(const std::filesystem::path& file);
 
 /// Joins results of one or several machines: equal scenes, variants, cells and machine states (by
 /// content key) become one row, and ids are remapped. Shards that stand in several parts are kept
-/// once; what is derived is left out. Throws std::runtime_error if the same cell name stands for
-/// different scene contents.
-Results merge(std::span<const Results> parts);
+/// once; what is derived is left out. Throws std::runtime_error, naming the parts by `names`, if
+/// one cell name stands for different scene contents, or one shard has different samples in two
+/// parts.
+Results merge(std::span<const Results> parts, std::span<const std::string> names = {});
 
 } // namespace boxwood::results

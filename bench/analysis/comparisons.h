@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bench/analysis/times.h"
+#include "bench/stages/variant_names.h"
 #include "results/results.h"
 
 #include <optional>
@@ -30,11 +31,6 @@ std::vector<results::Comparison> comparisons_of(const results::Results& results,
 /// hilbert, else its first. Null if that is itself, or it is a kernel on hard cases or a way to
 /// play a scene.
 const results::Cell* reference_of(const results::Results& results, const results::Cell& judged);
-
-/// Contenders of the task that plays a scene: with the stages that its queries require, with all,
-/// and with the required ones but without one effect, whose name follows.
-inline constexpr std::string_view required_variant = "required", all_stages_variant = "all_stages",
-                                  without_effect = "required.without_";
 
 void set_ruling(results::Comparison& row, const Ruling& ruling);
 

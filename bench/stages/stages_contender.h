@@ -17,9 +17,9 @@ struct StageAnswers final : Answers {
 };
 
 /// A contender of scene_queries: build is ScenePlayer::start, update its advance, query its query.
-/// "required", "all_stages", or "required.without_<effect>": the scene without one of its effects,
-/// unsupported if it has none of that name. It plays the scene of job.scene->spec.moving with the
-/// spec's n and seed. Throws std::invalid_argument, with a suggestion, for an unknown effect.
-ContenderEntry stages_contender(Extent extent, std::string_view without_effect = {});
+/// It is one of variant_names.h; without an effect, unsupported if the scene has none of that name.
+/// It plays the scene of job.scene->spec.moving with the spec's n and seed. Throws
+/// std::invalid_argument, with a suggestion, for an unknown effect.
+ContenderEntry stages_contender(Extent extent, std::string_view left_out = {});
 
 } // namespace boxwood::bench

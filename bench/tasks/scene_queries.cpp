@@ -3,6 +3,7 @@
 #include "bench/io/scene_strip.h"
 #include "bench/plan/scenes.h"
 #include "bench/stages/stages_contender.h"
+#include "bench/stages/variant_names.h"
 #include "bench/tasks/detail/tree_task.h"
 #include "bench/truth/moving_truth.h"
 #include "bench/truth/truth.h"
@@ -17,8 +18,6 @@
 
 namespace boxwood::bench {
 namespace {
-
-constexpr std::string_view without_prefix = "required.without_";
 
 /// The names of all effects of a scene, each once.
 std::vector<std::string> effects_of(const SceneFile& scene) {
@@ -77,8 +76,8 @@ class SceneTruth final : public Truth {
         std::vector<std::uint64_t> first_hashes; ///< by frame
     };
     Played& played_by(const std::string& contender) {
-        const std::string effect = contender.starts_with(without_prefix)
-                                       ? contender.substr(without_prefix.size())
+        const std::string effect = contender.starts_with(without_effect)
+                                       ? contender.substr(without_effect.size())
                                        : std::string();
         const auto [at, is_new] = played_.try_emplace(effect);
         Played& played = at->second;
@@ -136,7 +135,8 @@ class SceneQueries final : public Task {
     }
 
     void expand(const BlockReader& block, AddCell add) const override {
-        const std::vector<std::string> stages = block.words("stages", {"required", "all_stages"});
+        const std::vector<std::string> stages =
+            block.words("stages", {required_variant, all_stages_variant});
         BlockReader::Words known = names_of(effects());
         known.insert(known.begin(), "each");
         const std::vector<std::string> left_out = block.words("without", known);
@@ -145,8 +145,8 @@ class SceneQueries final : public Task {
         for (const SceneSpec& scene : moving_scenes(block)) {
             std::vector<ContenderEntry> ours;
             for (const std::string& extent : stages)
-                ours.push_back(stages_contender(extent == "all_stages" ? Extent::all_stages
-                                                                       : Extent::required));
+                ours.push_back(stages_contender(extent == all_stages_variant ? Extent::all_stages
+                                                                             : Extent::required));
             for (const std::string& name : left_out)
                 for (const std::string& effect :
                      name == "each" ? effects_of(*scene.moving) : std::vector<std::string>{name})
