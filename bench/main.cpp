@@ -74,7 +74,7 @@ void require_known_commands(CLI::App& app, int argc, char** argv) {
         if (names.empty())
             return;
         if (std::find(names.begin(), names.end(), argv[i]) == names.end())
-            throw BadInput(unknown_word(at == &app ? "command" : at->get_name() + " command",
+            throw BadInput(unknown_name(at == &app ? "command" : at->get_name() + " command",
                                         argv[i], command_names(*at, false)));
         at = at->get_subcommand(argv[i]);
     }
@@ -105,7 +105,7 @@ std::string complaint(CLI::App& app, const CLI::ParseError& error) {
             for (const std::string& name : option->get_lnames())
                 names.push_back("--" + name);
         const std::vector<std::string_view> known(names.begin(), names.end());
-        text = unknown_word("option", extra.front().substr(0, extra.front().find('=')), known);
+        text = unknown_name("option", extra.front().substr(0, extra.front().find('=')), known);
     }
     return fmt::format("{} (`{} --help` explains it)", text, path);
 }

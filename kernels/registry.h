@@ -57,18 +57,9 @@ using ContinuousKernels = std::tuple<CubicF64, TightInclusion>;
 /// Every kernel of every family: what `boxwood list kernels` prints.
 std::span<const KernelInfo> kernels();
 
-/// The rows of one family: a name for `--kernel` each.
-std::span<const KernelInfo> ray_box_kernels();
+/// The rows of ray_triangle and of triangle_triangle: a name for `--kernel` each.
 std::span<const KernelInfo> ray_kernels();
 std::span<const KernelInfo> triangle_kernels();
-std::span<const KernelInfo> distance_kernels();
-std::span<const KernelInfo> segment_distance_kernels();
-std::span<const KernelInfo> point_triangle_kernels();
-std::span<const KernelInfo> point_segment_kernels();
-std::span<const KernelInfo> box_fit_kernels();
-std::span<const KernelInfo> obb_kernels();
-std::span<const KernelInfo> vertex_face_kernels();
-std::span<const KernelInfo> edge_edge_kernels();
 
 /// Calls f(std::type_identity<K>{}) for the kernel K of `Kernels` (RayKernels, TriangleKernels)
 /// whose name is `name`. False if there is none.

@@ -37,80 +37,45 @@ TEST(Registry, EveryFamilyIsListed) {
                             "triangle_distance", "triangle_triangle", "vertex_face"}));
 }
 
+/// Each kernel of the tuple has a row of the family, by whose name it is found.
+template <class Kernels, class NameOf> void expect_found(std::string_view family, NameOf name_of) {
+    std::size_t n = 0;
+    for (const KernelInfo& info : kernels()) {
+        if (info.family != family)
+            continue;
+        ++n;
+        std::string_view found;
+        EXPECT_TRUE(with_kernel<Kernels>(info.name, [&](auto k) { found = name_of(k); }));
+        EXPECT_EQ(found, info.name);
+    }
+    EXPECT_EQ(n, std::tuple_size_v<Kernels>) << family;
+}
+
 TEST(Registry, EveryNameFindsItsKernel) {
-    for (const KernelInfo& info : ray_kernels()) {
+    using std::type_identity;
+    expect_found<RayKernels>("ray_triangle", []<RayKernel K>(type_identity<K>) { return K::name; });
+    expect_found<RayBoxKernels>("ray_box",
+                                []<RayBoxKernel K>(type_identity<K>) { return K::name; });
+    expect_found<TriangleKernels>("triangle_triangle",
+                                  []<TriangleKernel K>(type_identity<K>) { return K::name; });
+    expect_found<DistanceKernels>(
+        "triangle_distance", []<TriangleDistanceKernel K>(type_identity<K>) { return K::name; });
+    expect_found<SegmentDistanceKernels>(
+        "segment_segment", []<SegmentDistanceKernel K>(type_identity<K>) { return K::name; });
+    expect_found<PointTriangleKernels>(
+        "point_triangle", []<PointTriangleKernel K>(type_identity<K>) { return K::name; });
+    expect_found<PointSegmentKernels>(
+        "point_segment", []<PointSegmentKernel K>(type_identity<K>) { return K::name; });
+    expect_found<BoxFitKernels>("box_fit",
+                                []<BoxFitKernel K>(type_identity<K>) { return K::name; });
+    expect_found<ObbKernels>("obb_obb", []<ObbKernel K>(type_identity<K>) { return K::name; });
+    for (const char* family : {"vertex_face", "edge_edge"})
+        expect_found<ContinuousKernels>(
+            family, []<ContinuousKernel K>(type_identity<K>) { return K::name; });
+    for (const KernelInfo& info : ray_kernels())
         EXPECT_EQ(info.family, "ray_triangle");
-        std::string_view found;
-        EXPECT_TRUE(with_kernel<RayKernels>(
-            info.name, [&]<RayKernel K>(std::type_identity<K>) { found = K::name; }));
-        EXPECT_EQ(found, info.name);
-    }
-    for (const KernelInfo& info : ray_box_kernels()) {
-        EXPECT_EQ(info.family, "ray_box");
-        std::string_view found;
-        EXPECT_TRUE(with_kernel<RayBoxKernels>(
-            info.name, [&]<RayBoxKernel K>(std::type_identity<K>) { found = K::name; }));
-        EXPECT_EQ(found, info.name);
-    }
-    for (const KernelInfo& info : triangle_kernels()) {
+    for (const KernelInfo& info : triangle_kernels())
         EXPECT_EQ(info.family, "triangle_triangle");
-        std::string_view found;
-        EXPECT_TRUE(with_kernel<TriangleKernels>(
-            info.name, [&]<TriangleKernel K>(std::type_identity<K>) { found = K::name; }));
-        EXPECT_EQ(found, info.name);
-    }
-    for (const KernelInfo& info : distance_kernels()) {
-        EXPECT_EQ(info.family, "triangle_distance");
-        std::string_view found;
-        EXPECT_TRUE(with_kernel<DistanceKernels>(
-            info.name, [&]<TriangleDistanceKernel K>(std::type_identity<K>) { found = K::name; }));
-        EXPECT_EQ(found, info.name);
-    }
-    for (const KernelInfo& info : segment_distance_kernels()) {
-        EXPECT_EQ(info.family, "segment_segment");
-        std::string_view found;
-        EXPECT_TRUE(with_kernel<SegmentDistanceKernels>(
-            info.name, [&]<SegmentDistanceKernel K>(std::type_identity<K>) { found = K::name; }));
-        EXPECT_EQ(found, info.name);
-    }
-    for (const KernelInfo& info : point_triangle_kernels()) {
-        EXPECT_EQ(info.family, "point_triangle");
-        std::string_view found;
-        EXPECT_TRUE(with_kernel<PointTriangleKernels>(
-            info.name, [&]<PointTriangleKernel K>(std::type_identity<K>) { found = K::name; }));
-        EXPECT_EQ(found, info.name);
-    }
-    for (const KernelInfo& info : point_segment_kernels()) {
-        EXPECT_EQ(info.family, "point_segment");
-        std::string_view found;
-        EXPECT_TRUE(with_kernel<PointSegmentKernels>(
-            info.name, [&]<PointSegmentKernel K>(std::type_identity<K>) { found = K::name; }));
-        EXPECT_EQ(found, info.name);
-    }
-    for (const KernelInfo& info : box_fit_kernels()) {
-        EXPECT_EQ(info.family, "box_fit");
-        std::string_view found;
-        EXPECT_TRUE(with_kernel<BoxFitKernels>(
-            info.name, [&]<BoxFitKernel K>(std::type_identity<K>) { found = K::name; }));
-        EXPECT_EQ(found, info.name);
-    }
-    for (const KernelInfo& info : obb_kernels()) {
-        EXPECT_EQ(info.family, "obb_obb");
-        std::string_view found;
-        EXPECT_TRUE(with_kernel<ObbKernels>(
-            info.name, [&]<ObbKernel K>(std::type_identity<K>) { found = K::name; }));
-        EXPECT_EQ(found, info.name);
-    }
-    EXPECT_EQ(vertex_face_kernels().size(), edge_edge_kernels().size());
-    for (const KernelInfo& info : vertex_face_kernels()) {
-        EXPECT_EQ(info.family, "vertex_face");
-        std::string_view found;
-        EXPECT_TRUE(with_kernel<ContinuousKernels>(
-            info.name, [&]<ContinuousKernel K>(std::type_identity<K>) { found = K::name; }));
-        EXPECT_EQ(found, info.name);
-    }
-    for (const KernelInfo& info : edge_edge_kernels())
-        EXPECT_EQ(info.family, "edge_edge");
     EXPECT_FALSE(with_kernel<RayKernels>("watertigth", [](auto) { FAIL(); }));
 }
 

@@ -31,17 +31,12 @@ std::optional<double> number_of(const SettingValue& value) {
     return number ? std::optional(*number) : std::nullopt;
 }
 
-bool in_range(const SettingInfo& setting, double x) { return x >= setting.min && x <= setting.max; }
-
-/// What the value must be: "lie between 2 and 32", "be a whole number from 2 to 32", "be morton or
-/// hilbert".
-std::string demand(const SettingInfo& setting, const SettingValue& value) {
+/// What the value must be: "a whole number from 2 to 32", "morton or hilbert".
+std::string demand(const SettingInfo& setting) {
     if (!number_of(setting.default_value))
-        return "be " + allowed_values(setting);
-    if (const auto number = number_of(value); number && !in_range(setting, *number))
-        return "lie between " + number_text(setting.min) + " and " + number_text(setting.max);
+        return allowed_values(setting);
     const bool whole = std::holds_alternative<std::int64_t>(setting.default_value);
-    return (whole ? "be a whole number from " : "be a number from ") + allowed_values(setting);
+    return (whole ? "a whole number from " : "a number from ") + allowed_values(setting);
 }
 
 /// The value in the type of the setting, if it is allowed.
@@ -52,7 +47,8 @@ std::optional<SettingValue> convert(const SettingInfo& setting, const SettingVal
             name && std::ranges::find(setting.choices, *name) != setting.choices.end();
         return known ? std::optional(value) : std::nullopt;
     }
-    if (const auto number = number_of(value); number && !in_range(setting, *number))
+    if (const auto number = number_of(value);
+        number && !(*number >= setting.min && *number <= setting.max))
         return std::nullopt;
     if (std::holds_alternative<double>(setting.default_value))
         return number_of(value);
@@ -90,7 +86,7 @@ SettingValue checked_setting(std::string_view owner, const SettingInfo& setting,
     if (auto converted = convert(setting, value))
         return *converted;
     throw std::invalid_argument("setting '" + std::string(setting.name) + "' of '" +
-                                std::string(owner) + "' must " + demand(setting, value) + ", not " +
+                                std::string(owner) + "' must be " + demand(setting) + ", not " +
                                 to_text(value));
 }
 

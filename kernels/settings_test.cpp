@@ -1,5 +1,7 @@
 #include "kernels/settings.h"
 
+#include "kernels/testing/complaint.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,12 +37,7 @@ struct Plain {
 };
 
 template <class T = Painted> std::string complaint(const Settings& settings) {
-    try {
-        with_settings<T>(settings);
-    } catch (const std::invalid_argument& error) {
-        return error.what();
-    }
-    return "";
+    return complaint_of([&] { with_settings<T>(settings); });
 }
 
 TEST(Settings, ReachMembersOfEveryType) {
@@ -69,7 +66,7 @@ TEST(Settings, AreListedWithTypesDefaultsAndWhatIsAllowed) {
 
 TEST(Settings, RefuseOtherTypesRangesAndNamesWithAReason) {
     EXPECT_EQ(complaint({{"coats", 10}}),
-              "setting 'coats' of 'painted' must lie between 1 and 9, not 10");
+              "setting 'coats' of 'painted' must be a whole number from 1 to 9, not 10");
     EXPECT_EQ(complaint({{"coats", 1.5}}),
               "setting 'coats' of 'painted' must be a whole number from 1 to 9, not 1.5");
     EXPECT_EQ(complaint({{"coats", true}}),
@@ -77,7 +74,7 @@ TEST(Settings, RefuseOtherTypesRangesAndNamesWithAReason) {
     EXPECT_EQ(complaint({{"gloss", "high"}}),
               "setting 'gloss' of 'painted' must be a number from 0 to 1, not high");
     EXPECT_THAT(complaint({{"gloss", std::numeric_limits<double>::quiet_NaN()}}),
-                HasSubstr("must lie between 0 and 1"));
+                HasSubstr("must be a number from 0 to 1"));
     EXPECT_EQ(complaint({{"dry", 1}}), "setting 'dry' of 'painted' must be true or false, not 1");
     EXPECT_EQ(complaint({{"colour", "blue"}}),
               "setting 'colour' of 'painted' must be red or green, not blue");

@@ -37,7 +37,7 @@ std::string suggest(std::string_view word, std::span<const std::string_view> can
     return std::string(best);
 }
 
-std::string unknown_word(std::string_view what, std::string_view word,
+std::string unknown_name(std::string_view what, std::string_view word,
                          std::span<const std::string_view> candidates) {
     std::string text = "unknown " + std::string(what) + " '" + std::string(word) + "'; ";
     if (const std::string near = suggest(word, candidates); !near.empty())

@@ -14,7 +14,7 @@ namespace boxwood {
 std::string suggest(std::string_view word, std::span<const std::string_view> candidates);
 
 /// "unknown scene 'unifrom'; did you mean 'uniform'?", or the list of all names if none is near.
-std::string unknown_word(std::string_view what, std::string_view word,
+std::string unknown_name(std::string_view what, std::string_view word,
                          std::span<const std::string_view> candidates);
 
 /// The names of a registry.
@@ -26,14 +26,14 @@ template <class Entries> std::vector<std::string_view> names_of(const Entries& e
 }
 
 /// The entry of that name, which outlives the call. Throws std::invalid_argument with the text of
-/// `unknown_word` if there is none.
+/// `unknown_name` if there is none.
 template <class Entry>
 const Entry& entry_named(std::string_view name, std::span<const Entry> entries,
                          std::string_view what) {
     for (const Entry& entry : entries)
         if (entry.name == name)
             return entry;
-    throw std::invalid_argument(unknown_word(what, name, names_of(entries)));
+    throw std::invalid_argument(unknown_name(what, name, names_of(entries)));
 }
 
 } // namespace boxwood

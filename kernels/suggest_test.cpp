@@ -24,8 +24,8 @@ TEST(Suggest, StaysSilentWhenNothingIsNear) {
 }
 
 TEST(Suggest, MessagesNameTheWordOrTheList) {
-    EXPECT_EQ(unknown_word("scene", "bras", words), "unknown scene 'bras'; did you mean 'bars'?");
-    EXPECT_EQ(unknown_word("scene", "robot", words),
+    EXPECT_EQ(unknown_name("scene", "bras", words), "unknown scene 'bras'; did you mean 'bars'?");
+    EXPECT_EQ(unknown_name("scene", "robot", words),
               "unknown scene 'robot'; known are: uniform, clusters, bars, sphere_mesh");
 }
 

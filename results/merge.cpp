@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <bit>
 #include <set>
 #include <stdexcept>
 #include <tuple>
@@ -52,9 +52,23 @@ template <class Key, class Row> class Joined {
 
 using Strings = std::vector<std::string>;
 
+/// What two parts that hold one shard must agree on.
+auto content_of(const Sample& s) {
+    return std::tuple(s.cell_id, s.position, s.phase, std::bit_cast<std::uint64_t>(s.wall_ns),
+                      std::bit_cast<std::uint64_t>(s.cpu_ns), s.iterations, s.flags);
+}
+/// By shard.
+using Contents = std::map<std::uint32_t, std::multiset<decltype(content_of(Sample{}))>>;
+
+/// Gives the old id.
+template <class Row> std::uint32_t renumber(std::uint32_t& id, const std::vector<Row>& rows) {
+    return std::exchange(id, static_cast<std::uint32_t>(rows.size()));
+}
+
 class Merger {
   public:
-    void add(const Results& part) {
+    void add(const Results& part, std::string name) {
+        name_ = std::move(name);
         add_header(part);
         add_machines_and_cells(part);
         add_samples(part);
@@ -66,6 +80,10 @@ class Merger {
     void add_header(const Results& part);
     void add_machines_and_cells(const Results& part);
     void add_samples(const Results& part);
+    /// Those of new shards.
+    template <class Row> void add_rounds(const std::vector<Row>& rows, std::vector<Row>& all);
+    /// Shards that both have must be the same: neither file is to win silently.
+    void compare_known(const Results& part) const;
     void add_facts(const Results& part);
 
     Results all_;
@@ -86,7 +104,9 @@ class Merger {
     Joined<std::pair<std::uint32_t, std::string>, KernelRow> kernels_{all_.kernels};
     Joined<std::pair<std::uint32_t, double>, ConditionRow> conditions_{all_.conditions};
     std::map<std::string, std::uint64_t> content_of_; ///< of the scene of a cell name
+    Strings names_of_shards_;                         ///< of the parts that brought them
     // Of the part that is being added.
+    std::string name_;
     Renumbering env_ids_{"env"}, scene_ids_{"scenes"}, variant_ids_{"variants"}, cell_ids_{"cells"},
         shard_ids_{"shards"};
     std::set<std::uint32_t> new_shards_; ///< old ids
@@ -115,7 +135,7 @@ void Merger::add_header(const Results& part) {
 void Merger::add_machines_and_cells(const Results& part) {
     env_ids_ = Renumbering("env");
     for (Env row : part.env) {
-        const auto id = std::exchange(row.env_id, static_cast<std::uint32_t>(all_.env.size()));
+        const auto id = renumber(row.env_id, all_.env);
         env_ids_.set(id, env_.add(row.env_hash, row).first);
     }
     for (Package row : part.packages) {
@@ -124,7 +144,7 @@ void Merger::add_machines_and_cells(const Results& part) {
     }
     scene_ids_ = Renumbering("scenes");
     for (SceneRow row : part.scenes) {
-        const auto id = std::exchange(row.scene_id, static_cast<std::uint32_t>(all_.scenes.size()));
+        const auto id = renumber(row.scene_id, all_.scenes);
         scene_ids_.set(id,
                        scenes_.add({row.name, row.n_items, row.seed, row.content_hash}, row).first);
     }
@@ -132,15 +152,14 @@ void Merger::add_machines_and_cells(const Results& part) {
         tasks_.add(row.task, row);
     variant_ids_ = Renumbering("variants");
     for (Variant row : part.variants) {
-        const auto id =
-            std::exchange(row.variant_id, static_cast<std::uint32_t>(all_.variants.size()));
+        const auto id = renumber(row.variant_id, all_.variants);
         variant_ids_.set(
             id,
             variants_.add({row.name, row.library, row.lib_version, row.params_json}, row).first);
     }
     cell_ids_ = Renumbering("cells");
     for (Cell row : part.cells) {
-        const auto id = std::exchange(row.cell_id, static_cast<std::uint32_t>(all_.cells.size()));
+        const auto id = renumber(row.cell_id, all_.cells);
         row.scene_id = scene_ids_(row.scene_id);
         row.variant_id = variant_ids_(row.variant_id);
         const auto content = all_.scenes[row.scene_id].content_hash;
@@ -154,35 +173,53 @@ void Merger::add_machines_and_cells(const Results& part) {
     }
 }
 
+template <class Row> void Merger::add_rounds(const std::vector<Row>& rows, std::vector<Row>& all) {
+    for (Row row : rows) {
+        const auto id = std::exchange(row.shard_id, shard_ids_(row.shard_id));
+        row.cell_id = cell_ids_(row.cell_id);
+        if (new_shards_.contains(id))
+            all.push_back(row);
+    }
+}
+
+void Merger::compare_known(const Results& part) const {
+    Contents again, kept;
+    for (const Shard& shard : part.shards)
+        if (!new_shards_.contains(shard.shard_id))
+            again[shard_ids_(shard.shard_id)];
+    for (Sample sample : part.samples)
+        if (!new_shards_.contains(sample.shard_id)) {
+            sample.cell_id = cell_ids_(sample.cell_id);
+            again[shard_ids_(sample.shard_id)].insert(content_of(sample));
+        }
+    for (const Sample& sample : all_.samples)
+        if (again.contains(sample.shard_id))
+            kept[sample.shard_id].insert(content_of(sample));
+    for (const auto& [id, samples] : again)
+        if (samples != kept[id])
+            throw std::runtime_error(fmt::format(
+                "cannot merge: {} and {} hold the same shard (round {}, process {}) with other "
+                "samples; give the one that was not changed",
+                names_of_shards_[id], name_, all_.shards[id].round, all_.shards[id].pid));
+}
+
 void Merger::add_samples(const Results& part) {
     shard_ids_ = Renumbering("shards");
     new_shards_.clear();
     for (Shard row : part.shards) {
-        const auto id = std::exchange(row.shard_id, static_cast<std::uint32_t>(all_.shards.size()));
+        const auto id = renumber(row.shard_id, all_.shards);
         row.env_id = env_ids_(row.env_id);
         const auto [to, is_new] = shards_.add({row.env_id, row.round, row.t0_utc_ns, row.pid}, row);
         shard_ids_.set(id, to);
-        if (is_new)
-            new_shards_.insert(id);
+        if (!is_new)
+            continue;
+        new_shards_.insert(id);
+        names_of_shards_.push_back(name_);
     }
-    for (Sample row : part.samples) {
-        const auto id = std::exchange(row.shard_id, shard_ids_(row.shard_id));
-        row.cell_id = cell_ids_(row.cell_id);
-        if (new_shards_.contains(id))
-            all_.samples.push_back(row);
-    }
-    for (FrameRow row : part.frames) {
-        const auto id = std::exchange(row.shard_id, shard_ids_(row.shard_id));
-        row.cell_id = cell_ids_(row.cell_id);
-        if (new_shards_.contains(id))
-            all_.frames.push_back(row);
-    }
-    for (EffectRow row : part.effects) {
-        const auto id = std::exchange(row.shard_id, shard_ids_(row.shard_id));
-        row.cell_id = cell_ids_(row.cell_id);
-        if (new_shards_.contains(id))
-            all_.effects.push_back(row);
-    }
+    compare_known(part);
+    add_rounds(part.samples, all_.samples);
+    add_rounds(part.frames, all_.frames);
+    add_rounds(part.effects, all_.effects);
 }
 
 void Merger::add_facts(const Results& part) {
@@ -214,10 +251,10 @@ void Merger::add_facts(const Results& part) {
 
 } // namespace
 
-Results merge(std::span<const Results> parts) {
+Results merge(std::span<const Results> parts, std::span<const std::string> names) {
     Merger merger;
-    for (const Results& part : parts)
-        merger.add(part);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        merger.add(parts[i], i < names.size() ? names[i] : fmt::format("part {}", i + 1));
     return merger.take();
 }
 

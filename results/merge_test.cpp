@@ -7,9 +7,9 @@
 namespace boxwood::results {
 namespace {
 
-std::string merge_error(std::span<const Results> parts) {
+std::string merge_error(std::span<const Results> parts, std::span<const std::string> names = {}) {
     try {
-        merge(parts);
+        merge(parts, names);
     } catch (const std::runtime_error& error) {
         return error.what();
     }
@@ -179,6 +179,21 @@ TEST(Merge, OtherContentUnderTheSameNameIsAnError) {
     std::array parts{part("a", 0), part("b", 0)};
     parts[1].scenes[0].content_hash = 98;
     EXPECT_NE(merge_error(parts).find("soup/ours"), std::string::npos);
+}
+
+TEST(Merge, OneShardWithTwoContentsIsAnErrorThatNamesBothParts) {
+    const std::array<std::string, 3> names{"a.h5", "b.h5", "c.h5"};
+    const auto error_of = [&](const auto& change) {
+        std::array parts{part("a", 1), part("a", 0), part("a", 1, 100)};
+        change(parts[2]);
+        return merge_error(parts, names);
+    };
+    EXPECT_EQ(error_of([](Results&) {}), "");
+    const auto names_both = testing::HasSubstr("a.h5 and c.h5 hold the same shard (round 1");
+    EXPECT_THAT(error_of([](Results& p) { p.samples[0].wall_ns += 1; }), names_both);
+    EXPECT_THAT(error_of([](Results& p) { p.samples[1].flags = wrong_answer; }), names_both);
+    EXPECT_THAT(error_of([](Results& p) { p.samples.pop_back(); }), names_both);
+    EXPECT_THAT(error_of([](Results& p) { p.samples.clear(); }), names_both);
 }
 
 TEST(Merge, DanglingAndDoubleIdsAreErrors) {

@@ -418,8 +418,9 @@ Results read(const std::filesystem::path& file, Required required = Required::ev
 
 /// Joins results of one or several machines: equal scenes, variants, cells and machine states (by
 /// content key) become one row, and ids are remapped. Shards that stand in several parts are kept
-/// once; what is derived is left out. Throws std::runtime_error if the same cell name stands for
-/// different scene contents.
-Results merge(std::span<const Results> parts);
+/// once; what is derived is left out. Throws std::runtime_error, naming the parts by `names`, if
+/// one cell name stands for different scene contents, or one shard has different samples in two
+/// parts.
+Results merge(std::span<const Results> parts, std::span<const std::string> names = {});
 
 } // namespace boxwood::results

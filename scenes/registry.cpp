@@ -40,7 +40,7 @@ const SceneEntry& scene_generator(std::string_view name) {
     std::vector<std::string_view> known = names_of(scene_generators());
     for (const HardCaseFamily& family : hard_case_families())
         known.push_back(family.name);
-    throw std::invalid_argument(unknown_word("scene", name, known));
+    throw std::invalid_argument(unknown_name("scene", name, known));
 }
 
 } // namespace boxwood

@@ -1,5 +1,6 @@
 #include "scenes/scene.h"
 
+#include "kernels/testing/complaint.h"
 #include "scenes/scenes.h"
 
 #include <gmock/gmock.h>
@@ -15,12 +16,7 @@ namespace {
 using testing::HasSubstr;
 
 std::string error_of(const SceneSpec& spec) {
-    try {
-        make_scene(spec);
-    } catch (const std::invalid_argument& error) {
-        return error.what();
-    }
-    return "no error";
+    return complaint_of([&] { make_scene(spec); });
 }
 
 // The bits of every generator and kind of rays. A new machine, compiler or flag that changes one is

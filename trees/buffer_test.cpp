@@ -81,16 +81,17 @@ std::size_t size_of_process() {
 }
 
 TEST(Buffer, KeepsNoMoreThanAQuarterOfAGiB) {
-    const std::size_t before = size_of_process(), most = before + 257 * MiB; // 1 of the heap's own
+    const std::size_t before = size_of_process(),
+                      max_bytes = before + 257 * MiB; // 1 of the heap's own
     {
         std::vector<Buffer<char>> many;
         for (int i = 0; i < 16; ++i)
             many.emplace_back(30 * MiB);
         EXPECT_GE(size_of_process(), before + 200 * MiB); // some are those kept before
     }
-    EXPECT_LE(size_of_process(), most);
+    EXPECT_LE(size_of_process(), max_bytes);
     { const Buffer<char> larger_than_all(300 * MiB); }
-    EXPECT_LE(size_of_process(), most);
+    EXPECT_LE(size_of_process(), max_bytes);
 }
 #endif
 

@@ -5,8 +5,8 @@
 #include "trees/executor.h"
 #include "trees/inspect/work.h"
 #include "trees/queries/nearest.h"
-#include "trees/queries/pairs.h"
 #include "trees/queries/rays.h"
+#include "trees/queries/sinks.h"
 #include "trees/tree.h"
 
 #include <concepts>

@@ -1,5 +1,6 @@
 #include "bench/analysis/promises.h"
 
+#include "bench/truth/crash.h"
 #include "bench/truth/judging/case_truths.h"
 
 #include <fmt/format.h>
@@ -16,10 +17,6 @@ bool is_checked_wrong(const Results& results, std::uint32_t cell_id) {
     return std::ranges::any_of(results.checks, [&](const results::Check& check) {
         return check.cell_id == cell_id && check.status == results::Status::wrong;
     });
-}
-
-bool has_crashed(const results::Check& check) {
-    return check.status == results::Status::wrong && check.witness.starts_with("crashed: ");
 }
 
 } // namespace

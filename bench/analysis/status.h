@@ -11,7 +11,7 @@ constexpr bool is_right(results::Status status) {
 }
 
 /// Sets Cell::status of every cell: the worst of its checks; wrong if a timed round answered
-/// otherwise. A word that is not known counts as wrong.
+/// otherwise.
 void set_statuses(results::Results& results);
 
 } // namespace boxwood::bench

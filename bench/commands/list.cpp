@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <iostream>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -196,6 +197,24 @@ constexpr std::array registries{
     Registry{"peers", "libraries compared with ours", peer_rows},
 };
 
+/// Behind `lead`, in lines of at most 100 columns; what follows the first is indented further.
+std::string wrapped(std::string lead, std::string_view text) {
+    constexpr std::size_t columns = 100;
+    const std::string indent(lead.size() + 2, ' ');
+    std::string lines, line = std::move(lead);
+    std::istringstream words{std::string(text)};
+    bool starts_line = true;
+    for (std::string word; words >> word; starts_line = false) {
+        if (!starts_line && line.size() + 1 + word.size() > columns) {
+            lines += line + '\n';
+            line = indent;
+            starts_line = true;
+        }
+        line += (starts_line ? "" : " ") + word;
+    }
+    return lines + line + '\n';
+}
+
 std::string as_text(const Registry& registry) {
     const Rows rows = registry.rows();
     if (rows.empty())
@@ -205,9 +224,9 @@ std::string as_text(const Registry& registry) {
         width = std::max(width, row.name.size());
     std::string text;
     for (const Row& row : rows) {
-        text += fmt::format("{:<{}}  {}\n", row.name, width, row.summary);
+        text += wrapped(fmt::format("{:<{}}  ", row.name, width), row.summary);
         for (const std::string& note : row.notes)
-            text += fmt::format("{:<{}}    {}\n", "", width, note);
+            text += wrapped(std::string(width + 4, ' '), note);
     }
     return text;
 }

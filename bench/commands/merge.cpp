@@ -25,7 +25,7 @@ void merge_files(const std::vector<std::string>& files, const std::string& out) 
                 "merge: '{}' is an input and the output; give --out another name", file));
         parts.push_back(read_results(file, results::Required::measured));
     }
-    results::Results merged = results::merge(parts);
+    results::Results merged = results::merge(parts, files);
     analyse(merged, delta_of(parts)); // from the samples of all parts
     results::write(out, merged);
     std::cout << fmt::format("{}: machine states {}, shards {}, cells {}, samples {}\n", out,

@@ -50,6 +50,19 @@ TEST_F(MergeCommand, JoinsFiles) {
     EXPECT_EQ(results::read(file("c.h5")).shards.size(), 2u);
 }
 
+TEST_F(MergeCommand, NamesTheFilesThatDisagree) {
+    make("a.h5", 0);
+    results::Results changed = results::read(file("a.h5"));
+    changed.cells.resize(1);
+    changed.scenes.resize(1);
+    changed.variants.resize(1);
+    changed.samples.resize(1);
+    results::write(file("b.h5"), changed);
+    EXPECT_THAT(run({"merge", file("a.h5"), file("b.h5"), "--out", file("c.h5")}),
+                testing::HasSubstr(file("a.h5") + " and " + file("b.h5") + " hold the same shard"));
+    EXPECT_FALSE(fs::exists(file("c.h5")));
+}
+
 TEST_F(MergeCommand, KeepsItsInputs) {
     make("a.h5", 0);
     fs::create_symlink(file("a.h5"), file("link.h5"));

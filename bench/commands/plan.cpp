@@ -4,6 +4,7 @@
 #include "bench/io/json.h"
 #include "bench/io/text_table.h"
 #include "bench/stages/scene_player.h"
+#include "bench/stages/stages_contender.h"
 
 #include <fmt/format.h>
 
@@ -26,9 +27,10 @@ struct PlanOptions {
 
 std::string plan_json(const MovingScene& scene, Extent extent,
                       const std::vector<PlannedStage>& plan) {
-    std::string text = fmt::format("{{\"scene\":{},\"bodies\":{},\"extent\":\"{}\",\"stages\":[",
-                                   json_string(scene.file().name), scene.bodies().size(),
-                                   extent == Extent::all_stages ? "all_stages" : "required");
+    std::string text =
+        fmt::format("{{\"scene\":{},\"bodies\":{},\"extent\":\"{}\",\"stages\":[",
+                    json_string(scene.file().name), scene.bodies().size(),
+                    extent == Extent::all_stages ? all_stages_variant : required_variant);
     for (const PlannedStage& stage : plan)
         text += fmt::format("{}{{\"stage\":{},\"required\":{},\"runs\":{},\"why\":{}}}",
                             &stage == plan.data() ? "" : ",", json_string(stage.name),

@@ -35,7 +35,7 @@ BuildFunction chosen_builder(const TreeChoice& choice) {
     const std::string_view name =
         std::string_view(choice.builder).substr(0, choice.builder.find('+'));
     if (!find_builder(name))
-        throw BadInput(unknown_word("builder", name, names_of(builders())));
+        throw BadInput(unknown_name("builder", name, names_of(builders())));
     try {
         return make_builder(choice.builder);
     } catch (const std::invalid_argument& error) {
@@ -46,14 +46,14 @@ BuildFunction chosen_builder(const TreeChoice& choice) {
 const LayoutEntry& chosen_layout(const TreeChoice& choice) {
     const LayoutEntry* entry = find_layout(choice.layout);
     if (!entry)
-        throw BadInput(unknown_word("layout", choice.layout, names_of(layouts())));
+        throw BadInput(unknown_name("layout", choice.layout, names_of(layouts())));
     return *entry;
 }
 
 std::unique_ptr<Executor> chosen_executor(const TreeChoice& choice) {
     const auto known = names_of(executors());
     if (std::find(known.begin(), known.end(), choice.executor) == known.end())
-        throw BadInput(unknown_word("executor", choice.executor, known));
+        throw BadInput(unknown_name("executor", choice.executor, known));
     const unsigned all = choice.executor == "serial"
                              ? 1
                              : std::clamp(std::thread::hardware_concurrency(), 1u, max_threads);

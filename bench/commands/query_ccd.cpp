@@ -53,7 +53,7 @@ Answer answer_of(const Kernel& kernel, bool is_face, const CcdFileQuery& query,
 bool is_vertex_face(const std::string& kind) {
     constexpr std::array<std::string_view, 2> kinds{"vertex-face", "edge-edge"};
     if (std::ranges::find(kinds, kind) == kinds.end())
-        throw BadInput(unknown_word("kind of query", kind, kinds));
+        throw BadInput(unknown_name("kind of query", kind, kinds));
     return kind == kinds[0];
 }
 
@@ -80,7 +80,7 @@ void run(const CcdQuery& query, std::ostream& out) {
         const auto known_names = []<class... K>(std::type_identity<std::tuple<K...>>) {
             return std::array<std::string_view, sizeof...(K)>{K::name...};
         }(std::type_identity<Kernels>{});
-        throw BadInput(unknown_word("continuous kernel", query.kernel, known_names));
+        throw BadInput(unknown_name("continuous kernel", query.kernel, known_names));
     }
 
     BlockWriter text(out);

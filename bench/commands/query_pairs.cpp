@@ -10,7 +10,7 @@
 #include "bench/commands/query.h"
 #include "bench/io/csv.h"
 #include "kernels/arithmetic/rounding.h"
-#include "trees/queries/filtered_pairs.h"
+#include "trees/queries/filters.h"
 
 #include <fmt/format.h>
 

@@ -53,7 +53,7 @@ std::vector<Ray<float>> read_rays(const std::string& path) {
 void require_kernel(const std::string& name) {
     const std::vector<std::string_view> known = names_of(ray_kernels());
     if (std::find(known.begin(), known.end(), name) == known.end())
-        throw BadInput(unknown_word("ray kernel", name, known));
+        throw BadInput(unknown_name("ray kernel", name, known));
 }
 
 void print_lines(std::span<const RayHit> hits, bool any, BlockWriter& text) {

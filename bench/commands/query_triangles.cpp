@@ -63,7 +63,7 @@ template <class Kernels> std::vector<std::string_view> kernel_names() {
 template <class Kernels, class F>
 void with_known_kernel(std::string_view what, const std::string& name, F f) {
     if (!with_kernel<Kernels>(name, f))
-        throw BadInput(unknown_word(what, name, kernel_names<Kernels>()));
+        throw BadInput(unknown_name(what, name, kernel_names<Kernels>()));
 }
 
 /// A maybe is printed as the promise allows: as no by a kernel that never answers a false yes.

@@ -1,6 +1,7 @@
 #include "bench/io/csv.h"
 
 #include "bench/io/bad_input.h"
+#include "kernels/testing/complaint.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -34,12 +35,7 @@ Rows rows_of(std::string_view text, const CsvFormat& format) {
 double number(std::string_view text) { return rows_of(text, one).at(0).at(0); }
 
 std::string complaint(std::string_view text, const CsvFormat& format) {
-    try {
-        rows_of(text, format);
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "no complaint";
+    return complaint_of<BadInput>([&] { rows_of(text, format); });
 }
 
 TEST(Csv, RowsCommentsBlanksSpacesAndLineEnds) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scenes/moving/moving_scene.h"
-#include "trees/queries/pairs.h"
+#include "trees/queries/sinks.h"
 #include "trees/tree.h"
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 
 #include "bench/tasks/contender.h"
 #include "bench/tasks/detail/halves.h"
-#include "trees/queries/pairs.h"
+#include "trees/queries/sinks.h"
 
 #include <memory>
 #include <string>

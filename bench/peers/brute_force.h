@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/primitives/aabb.h"
-#include "trees/queries/pairs.h"
+#include "trees/queries/sinks.h"
 
 #include <array>
 #include <span>

@@ -70,10 +70,6 @@ void BlockReader::fail(const std::string& message, std::string_view key) const {
     throw std::logic_error(message); // not reached: fail throws
 }
 
-void BlockReader::require_known_keys(const Words& known) const {
-    refusing([&] { reader_->require_known_keys(table_->toml, "[[cells]]", known); });
-}
-
 std::vector<std::string> BlockReader::words(std::string_view key, const Words& known,
                                             std::vector<std::string> otherwise) const {
     refusing([&] { reader_->words(table_->toml, key, otherwise, known); });
@@ -200,6 +196,11 @@ std::vector<Place> BlockReader::places() const {
             if (n == 1 || executor != "serial")
                 all.push_back({executor, n});
     }
+    if (all.empty())
+        fail(fmt::format("executors = \"serial\" has one thread, threads = {} have more: add 1 to "
+                         "threads, or openmp or tbb to executors",
+                         fmt::join(threads(), ", ")),
+             "executors");
     return all;
 }
 

@@ -58,8 +58,6 @@ class BlockReader {
     bool takes_mesh() const;
     /// At the line of the key, or of the block.
     [[noreturn]] void fail(const std::string& message, std::string_view key = {}) const;
-    /// No other keys than these.
-    void require_known_keys(const Words& known) const;
 
     // A list, or one value; `otherwise` if the block does not have the key.
     std::vector<std::string> words(std::string_view key, const Words& known,

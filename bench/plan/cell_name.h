@@ -1,9 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
-#include <string_view>
 
 namespace boxwood::bench {
 
@@ -15,14 +13,9 @@ struct CellName {
     std::uint64_t n_items = 0, seed = 0;
     std::string task, contender, precision, executor;
     unsigned threads = 1;
-
-    bool operator==(const CellName&) const = default;
 };
 
 /// Throws std::invalid_argument naming the part that is not made of words.
 std::string format_cell_name(const CellName& name);
-
-/// The inverse of format_cell_name; nothing for any text that it cannot have written.
-std::optional<CellName> parse_cell_name(std::string_view text);
 
 } // namespace boxwood::bench

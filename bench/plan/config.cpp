@@ -27,14 +27,30 @@ Words task_names() {
     return names;
 }
 
-/// Each key of the block is known, and one of its tasks takes it.
-void require_keys(const BlockReader& reader, const std::vector<const Task*>& block_tasks) {
+/// Of all tasks.
+Words known_keys() {
     Words known = common_keys;
     for (const Task* task : tasks())
         for (const std::string_view key : task->keys())
             if (std::ranges::find(known, key) == known.end())
                 known.push_back(key);
-    reader.require_known_keys(known);
+    return known;
+}
+
+/// The keys of a table are known, and none is an empty list, which would leave nothing to measure.
+void check_keys(const ConfigReader& reader, const toml::table& table, std::string_view where,
+                const Words& known) {
+    reader.require_known_keys(table, where, known);
+    for (const auto& [key, value] : table)
+        if (const toml::array* list = value.as_array(); list && list->empty() && key != "cells")
+            reader.fail(value.source(),
+                        fmt::format("{} = [] names nothing: give one value or more, or leave the "
+                                    "key out",
+                                    key.str()));
+}
+
+/// One of the block's tasks takes each key.
+void require_takers(const BlockReader& reader, const std::vector<const Task*>& block_tasks) {
     for (const std::string_view key : reader.keys()) {
         if (std::ranges::find(common_keys, key) != common_keys.end() ||
             std::ranges::any_of(block_tasks, [&](const Task* task) { return takes(*task, key); }))
@@ -57,6 +73,7 @@ std::string_view text_of(SceneKind kind) {
 
 Block read_block(const std::shared_ptr<const ConfigReader>& reader,
                  const std::shared_ptr<const toml::table>& root, const toml::table& table) {
+    check_keys(*reader, table, "[[cells]]", known_keys());
     Block block{
         {reader, std::make_shared<const BlockReader::Table>(BlockReader::Table{root, table})},
         {},
@@ -68,7 +85,7 @@ Block read_block(const std::shared_ptr<const ConfigReader>& reader,
         reader->fail(table.source(), fmt::format("[[cells]] needs a task: one or more of {}",
                                                  fmt::join(task_names(), ", ")));
     }
-    require_keys(block.reader, block.tasks);
+    require_takers(block.reader, block.tasks);
     const Task& first = *block.tasks.front();
     for (const Task* task : block.tasks)
         if (task->scenes() != first.scenes())
@@ -77,9 +94,7 @@ Block read_block(const std::shared_ptr<const ConfigReader>& reader,
                                      "own",
                                      first.name(), text_of(first.scenes()), task->name(),
                                      text_of(task->scenes())));
-    const toml::node* scene = table.get("scene");
-    const toml::array* scenes = scene ? scene->as_array() : nullptr;
-    if (!scene || (scenes && scenes->empty()))
+    if (!table.get("scene"))
         reader->fail(table.source(), "[[cells]] needs a scene, such as scene = \"uniform\"");
     if (const toml::node* rounds = table.get("rounds"))
         block.rounds = static_cast<unsigned>(reader->whole(*rounds, "rounds", 1, 10'000));
@@ -90,8 +105,8 @@ Config read_config(const std::shared_ptr<const ConfigReader>& shared, std::strin
     const ConfigReader& reader = *shared;
     const auto shared_root = std::make_shared<const toml::table>(reader.parse(text));
     const toml::table& root = *shared_root;
-    reader.require_known_keys(root, "a sweep file",
-                              {"rounds", "min_time_ms", "delta", "seed", "threads", "cells"});
+    check_keys(reader, root, "a sweep file",
+               {"rounds", "min_time_ms", "delta", "seed", "threads", "cells"});
     Config config;
     if (const toml::node* node = root.get("rounds"))
         config.rounds = static_cast<unsigned>(reader.whole(*node, "rounds", 1, 10'000));

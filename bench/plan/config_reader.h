@@ -76,9 +76,8 @@ class ConfigReader : public TomlReader {
         const std::size_t plus = words.find('+');
         if (!node.is_string() || plus == std::string::npos)
             return word(node, "builders", names_of(builders()));
-        word(toml::value<std::string>(words.substr(0, plus)), "builders", names_of(builders()));
-        word(toml::value<std::string>(words.substr(plus + 1)), "optimizers",
-             names_of(optimizers()));
+        require_known(node, "builders", words.substr(0, plus), names_of(builders()));
+        require_known(node, "optimizers", words.substr(plus + 1), names_of(optimizers()));
         return words;
     }
 };

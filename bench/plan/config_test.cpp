@@ -4,6 +4,7 @@
 #include "bench/plan/plan.h"
 #include "kernels/registry.h"
 #include "kernels/suggest.h"
+#include "kernels/testing/complaint.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,12 +20,7 @@ using testing::HasSubstr;
 
 /// Why a sweep file is refused, by the blocks or by their tasks.
 std::string complaint(const std::string& text) {
-    try {
-        make_plan(text, "x.toml", {});
-    } catch (const BadInput& error) {
-        return error.what();
-    }
-    return "(accepted)";
+    return complaint_of<BadInput>([&] { make_plan(text, "x.toml", {}); });
 }
 
 /// What `of` says of the cells, each answer once.
@@ -115,6 +111,44 @@ TEST(Config, RefusesNumbersOutOfRangeAndOfTheWrongKind) {
     EXPECT_THAT(complaint(block + "threads = \"al\"\n"), HasSubstr("'all'"));
     EXPECT_THAT(complaint(block + "builders = [{name = \"binned_sah\", bins = 1e9}]\n"),
                 HasSubstr("x.toml:4:"));
+}
+
+TEST(Config, EveryComplaintNamesThePlaceTheFaultAndTheRemedy) {
+    struct Row {
+        const char* what;
+        std::string text;
+        std::vector<const char*> says;
+    };
+    const std::string good = block + "builders = \"median\"\n";
+    for (const Row& row : {
+             Row{"an old word, before what then lacks",
+                 "[[cells]]\nscene = \"uniform\"\nask = \"pairs\"\n",
+                 {"x.toml:3:", "unknown key of [[cells]] 'ask'", "did you mean 'task'"}},
+             Row{"an unknown key before a bad value of another",
+                 "[[cells]]\nscene = \"unifrom\"\ntask = \"pears\"\nlayuots = \"binary\"\n",
+                 {"x.toml:4:", "'layuots'", "did you mean 'layouts'"}},
+             Row{"one thread where only others are wanted",
+                 good + "threads = 2\nexecutors = \"serial\"\n",
+                 {"x.toml:6:", "\"serial\" has one thread", "add 1 to threads, or openmp or tbb"}},
+             Row{"no threads at all",
+                 "threads = []\n" + good,
+                 {"x.toml:1: threads = [] names nothing", "or leave the key out"}},
+             Row{"no threads of a block", good + "threads = []\n", {"x.toml:5: threads = []"}},
+             Row{"no scene", "[[cells]]\ntask = \"pairs\"\nscene = []\n", {"x.toml:3: scene = []"}},
+             Row{"no task", "[[cells]]\nscene = \"uniform\"\ntask = []\n", {"x.toml:3: task = []"}},
+             Row{"an optimizer that is none",
+                 block + "builders = \"ploc+reinsertoin\"\n",
+                 {"x.toml:4: optimizers", "'reinsertoin'", "did you mean 'reinsertion'"}},
+             Row{"a builder that is none, before an optimizer",
+                 block + "builders = [\"median\",\n\"plocc+reinsertion\"]\n",
+                 {"x.toml:5: builders", "'plocc'", "did you mean 'ploc'"}},
+             Row{"half a bin",
+                 block + "builders = {name = \"binned_sah\", bins = 1.5}\n",
+                 {"x.toml:4:", "'bins' of 'binned_sah' must be a whole number from 2 to",
+                  "not 1.5"}},
+         })
+        for (const char* said : row.says)
+            EXPECT_THAT(complaint(row.text), HasSubstr(said)) << row.what;
 }
 
 TEST(Config, PoliciesTakeTheirSettings) {

@@ -13,6 +13,22 @@ namespace {
 
 constexpr std::array panels{Panel::generic, Panel::touching, Panel::degenerate};
 
+/// What the scene key of a sweep file may say: families, "all", and the panels.
+std::vector<std::string_view> family_names() {
+    std::vector<std::string_view> words{"all"};
+    for (const Panel panel : panels)
+        words.push_back(to_string(panel));
+    for (const HardCaseFamily& family : hard_case_families())
+        words.push_back(family.name);
+    return words;
+}
+
+/// Whether a name stands for several families.
+bool is_group(std::string_view name) {
+    return name == "all" ||
+           std::ranges::any_of(panels, [&](Panel panel) { return to_string(panel) == name; });
+}
+
 /// Refuses a name that stands for nothing here.
 void require_cases(const BlockReader& block, std::string_view name, const Task& task) {
     if (is_group(name) && block.has("k"))
@@ -44,20 +60,6 @@ const Cases& sample_of(const HardCaseFamily& family) {
         return all;
     }();
     return samples.at(family.name);
-}
-
-std::vector<std::string_view> family_names() {
-    std::vector<std::string_view> words{"all"};
-    for (const Panel panel : panels)
-        words.push_back(to_string(panel));
-    for (const HardCaseFamily& family : hard_case_families())
-        words.push_back(family.name);
-    return words;
-}
-
-bool is_group(std::string_view name) {
-    return name == "all" ||
-           std::ranges::any_of(panels, [&](Panel panel) { return to_string(panel) == name; });
 }
 
 std::vector<const HardCaseFamily*> families_of(std::string_view name, const Task& task) {

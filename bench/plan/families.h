@@ -12,11 +12,6 @@ namespace boxwood::bench {
 /// The kind of a family's cases, shown by a few of them. Nothing for a family that reads files.
 const Cases& sample_of(const HardCaseFamily& family);
 
-/// What the scene key of a sweep file may say: families, "all", and the panels.
-std::vector<std::string_view> family_names();
-/// Whether a name stands for several families.
-bool is_group(std::string_view name);
-
 /// The families that a name stands for and that have cases for the task, in the order of the
 /// registry. Those that read files are left out.
 std::vector<const HardCaseFamily*> families_of(std::string_view name, const Task& task);

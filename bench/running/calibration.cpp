@@ -16,10 +16,10 @@ constexpr std::string_view header = "build_iterations\tquery_iterations\tbuild_n
 } // namespace
 
 std::uint64_t iterations_for(double target_ns, double ns) {
-    constexpr double most = 1e7;
+    constexpr double max_iterations = 1e7;
     if (!(ns > 0))
-        return static_cast<std::uint64_t>(most);
-    return static_cast<std::uint64_t>(std::clamp(std::ceil(target_ns / ns), 1.0, most));
+        return static_cast<std::uint64_t>(max_iterations);
+    return static_cast<std::uint64_t>(std::clamp(std::ceil(target_ns / ns), 1.0, max_iterations));
 }
 
 double round_ns(const Calibration& c) {

@@ -9,7 +9,7 @@
 #include "bench/tasks/task.h"
 #include "bench/truth/judging/case_truths.h"
 #include "kernels/triangle_distance/distance_kernel.h"
-#include "trees/queries/pairs.h"
+#include "trees/queries/sinks.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

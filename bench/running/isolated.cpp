@@ -1,5 +1,7 @@
 #include "bench/running/isolated.h"
 
+#include "bench/truth/crash.h"
+
 #include <fmt/format.h>
 
 #include <fcntl.h>
@@ -107,10 +109,10 @@ Outcome isolated(Answers& answers, const std::function<double(Answers&)>& work, 
     if (!in_time)
         outcome.failure = fmt::format("hung: no answer within {} s", timeout_s);
     else if (WIFSIGNALED(status))
-        outcome.failure =
-            fmt::format("crashed: signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
+        outcome.failure = crash_text(
+            fmt::format("signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status))));
     else if (WEXITSTATUS(status) != 0 || !read_message(bytes, answers, outcome))
-        outcome.failure = fmt::format("crashed: exit code {}", WEXITSTATUS(status));
+        outcome.failure = crash_text(fmt::format("exit code {}", WEXITSTATUS(status)));
     return outcome;
 }
 

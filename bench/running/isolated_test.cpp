@@ -4,7 +4,7 @@
 #include "kernels/decision.h"
 #include "kernels/primitives/ray.h"
 #include "kernels/triangle_distance/distance_kernel.h"
-#include "trees/queries/pairs.h"
+#include "trees/queries/sinks.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

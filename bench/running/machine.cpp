@@ -152,8 +152,8 @@ Machine read_machine(const std::string& lscpu, const path& root) {
 
 double triad_gbs(const Machine& machine, unsigned threads) {
     // STREAM prescribes arrays of four times the last cache; a quarter of the memory must do.
-    constexpr std::uint64_t least = 32 << 20, most = 128 << 20;
-    std::uint64_t bytes = std::clamp(4 * machine.l3_bytes.value_or(0), least, most);
+    constexpr std::uint64_t min_bytes = 32 << 20, max_bytes = 128 << 20;
+    std::uint64_t bytes = std::clamp(4 * machine.l3_bytes.value_or(0), min_bytes, max_bytes);
     if (machine.memory_bytes)
         bytes = std::min(bytes, machine.memory_bytes / 12);
     const std::size_t n = bytes / sizeof(double);

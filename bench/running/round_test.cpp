@@ -7,7 +7,7 @@
 #include "bench/tasks/task.h"
 #include "scenes/moving/frames.h"
 #include "trees/dynamic/update.h"
-#include "trees/queries/pairs.h"
+#include "trees/queries/sinks.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -5,9 +5,12 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 
@@ -35,22 +38,68 @@ int probe(const fs::path& file) {
 
 } // namespace
 
+Lock::Lock(fs::path file, const std::string& message) : file_(std::move(file)) {
+    for (;;) {
+        descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (descriptor_ < 0)
+            return; // no place to write in at all, which the caller finds out
+        if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+            std::array<char, 16> holder{};
+            const ssize_t n = ::pread(descriptor_, holder.data(), holder.size(), 0);
+            ::close(descriptor_);
+            throw BadInput(
+                fmt::format("{} (process {})", message,
+                            std::string_view(holder.data(),
+                                             static_cast<std::size_t>(std::max<ssize_t>(n, 0)))));
+        }
+        struct stat mine {
+        }, there{};
+        if (::fstat(descriptor_, &mine) == 0 && ::stat(file_.c_str(), &there) == 0 &&
+            mine.st_ino == there.st_ino)
+            break;
+        ::close(descriptor_); // its last holder has just removed it
+    }
+    const std::string pid = std::to_string(::getpid());
+    if (::ftruncate(descriptor_, 0) == 0)
+        (void)!::pwrite(descriptor_, pid.data(), pid.size(), 0);
+}
+
+Lock::~Lock() {
+    if (descriptor_ < 0)
+        return;
+    ::unlink(file_.c_str());
+    ::close(descriptor_);
+}
+
 Shards::Shards(const fs::path& out, std::string sweep_hash, std::string env_hash)
     : all_(out.string() + ".shards"), folder_(all_ / (sweep_hash + "-" + env_hash)),
       sweep_hash_(std::move(sweep_hash)), env_hash_(std::move(env_hash)) {}
 
-void Shards::open() const {
+Shards::~Shards() {
+    if (!lock_)
+        return;
+    std::error_code error;
+    fs::remove(folder_, error); // only if empty, as all_
+    lock_.reset();
+    fs::remove(all_, error);
+}
+
+void Shards::open() {
     const fs::path parent = all_.has_parent_path() ? all_.parent_path() : ".";
     std::error_code error;
     if (!fs::is_directory(parent, error))
         throw BadInput(fmt::format("--out: there is no folder {}; make it: mkdir -p {}",
                                    parent.string(), parent.string()));
+    fs::create_directories(all_, error);
+    if (!lock_)
+        lock_.emplace(all_ / "lock",
+                      fmt::format("--out: another sweep writes {}: wait for it, or choose another "
+                                  "--out",
+                                  fs::path(all_).replace_extension().string()));
     fs::create_directories(folder_, error);
     const int cause = error ? error.value() : probe(folder_ / "probe");
     if (cause == 0)
         return;
-    fs::remove(folder_, error); // only if empty
-    fs::remove(all_, error);
     throw BadInput(fmt::format("--out: cannot write in {}: {}; {}", parent.string(),
                                std::strerror(cause),
                                cause == ENOSPC ? "free some space or choose another place"
@@ -81,9 +130,10 @@ bool Shards::belongs(const results::Results& results) const {
                                [&](const results::Env& env) { return env.env_hash == env_hash_; });
 }
 
-void Shards::remove() const {
+void Shards::remove() {
     std::error_code error;
     fs::remove_all(folder_, error);
+    lock_.reset();
     fs::remove(all_, error); // only if empty
 }
 

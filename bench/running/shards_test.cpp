@@ -2,15 +2,20 @@
 
 #include "bench/io/bad_input.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include <fstream>
+#include <memory>
+#include <optional>
 
 namespace boxwood::bench {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::HasSubstr;
 
 results::Results shard_of(unsigned round, const std::string& sweep_hash,
                           const std::string& env_hash) {
@@ -35,7 +40,7 @@ struct ShardsTest : testing::Test {
 };
 
 TEST_F(ShardsTest, KeepWhatIsWholeAndTheirOwn) {
-    const Shards shards(out(), "sweep", "machine");
+    Shards shards(out(), "sweep", "machine");
     EXPECT_TRUE(shards.rounds().empty());
     shards.open();
     shards.open(); // again, as after an interruption
@@ -57,12 +62,29 @@ TEST_F(ShardsTest, KeepWhatIsWholeAndTheirOwn) {
 }
 
 TEST_F(ShardsTest, LeaveThoseOfAnotherSweepAlone) {
-    const Shards one(out(), "one", "machine"), other(out(), "other", "machine");
-    one.open();
+    const auto opened = [&](const char* sweep) {
+        auto shards = std::make_unique<Shards>(out(), sweep, "machine");
+        shards->open();
+        return shards;
+    };
+    auto one = opened("one");
+    results::write(one->round_file(0), shard_of(0, "one", "machine"));
+    one.reset(); // as when it is interrupted
+    opened("other")->remove();
+    EXPECT_EQ(opened("one")->rounds().size(), 1u);
+}
+
+TEST_F(ShardsTest, AreOfOneSweepAtATime) {
+    std::optional<Shards> one(std::in_place, out(), "one", "machine");
+    one->open();
+    Shards other(out(), "other", "machine");
+    EXPECT_THAT([&] { other.open(); },
+                testing::ThrowsMessage<BadInput>(
+                    testing::AllOf(HasSubstr("another sweep writes " + out().string() + ": wait"),
+                                   HasSubstr("(process " + std::to_string(::getpid()) + ")"))));
+    one.reset();
+    EXPECT_TRUE(fs::is_empty(folder));
     other.open();
-    results::write(one.round_file(0), shard_of(0, "one", "machine"));
-    other.remove();
-    EXPECT_EQ(one.rounds().size(), 1u);
 }
 
 TEST_F(ShardsTest, NeedAFolder) {

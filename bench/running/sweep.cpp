@@ -11,6 +11,7 @@
 #include "bench/running/environment.h"
 #include "bench/running/prepare.h"
 #include "bench/running/shards.h"
+#include "bench/truth/crash.h"
 
 #include <fmt/format.h>
 
@@ -50,8 +51,8 @@ class Sweep {
         if (options_.shard >= plan_.rounds)
             throw BadInput(fmt::format("--shard {}/{} has none of the {} rounds", options_.shard,
                                        options_.shards, plan_.rounds));
+        shards_.open(); // before OUT is read: no other sweep may write it meanwhile
         read_earlier_output();
-        shards_.open();
         write_sweep_file();
         if (!get_prepared() || !run_rounds())
             return stop();
@@ -187,7 +188,7 @@ class Sweep {
             throw BadInput(
                 fmt::format("{} failed twice outside of any cell: {}", where, end.cause));
         if (times >= 2)
-            crashed_[end.cell] = fmt::format("crashed: {} in {}", end.cause, where);
+            crashed_[end.cell] = crash_text(fmt::format("{} in {}", end.cause, where));
         progress_.say(fmt::format(
             "{} crashed in {}: {}; {}", where, end.cell.empty() ? "no cell" : end.cell, end.cause,
             times >= 2 ? "that cell is left out from here on" : "it is run again"));

@@ -225,6 +225,18 @@ TEST_F(SweepTest, MoreRoundsExtendAndShardsShareThem) {
     EXPECT_EQ(pids(results::read(out())), all);
 }
 
+TEST_F(SweepTest, TwoDoNotWriteOneFile) {
+    const pid_t first = start();
+    const fs::path lock = out().string() + ".shards/lock";
+    ASSERT_TRUE(wait_until([&] { return text_of(lock) == std::to_string(first); }));
+    EXPECT_EQ(sweep({"--rounds", "4"}), 2);
+    EXPECT_THAT(text_of(log()), HasSubstr("another sweep writes " + out().string()));
+    EXPECT_THAT(text_of(log()), HasSubstr("(process " + std::to_string(first) + ")"));
+    EXPECT_EQ(wait_for(first), 0);
+    EXPECT_EQ(pids(results::read(out())).size(), 3u);
+    EXPECT_FALSE(fs::exists(lock.parent_path()));
+}
+
 TEST_F(SweepTest, KillingItAtAnyMomentLosesAtMostOneRound) {
     std::map<unsigned, unsigned> kept;
     for (const int ms : {20, 90, 250, 400, 700}) {

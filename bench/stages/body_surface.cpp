@@ -101,7 +101,7 @@ std::size_t BodySurface::follow(const Bodies& bodies, std::span<const std::uint3
     bool is_rebuild = std::ranges::any_of(changed, [&](std::uint32_t body) {
         return (bodies.present[body] != 0) != is_there(place_[body]);
     });
-    // The price of an order, and what rays lose, for each triangle.
+    // The cost of an order, and what rays lose, for each triangle.
     const double n = static_cast<double>(std::max<std::size_t>(all, 1));
     const double query = per_ray * static_cast<double>(rays) / n;
     if (!is_rebuild && !has_degradation_) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "trees/layout.h"
-#include "trees/queries/pairs.h"
+#include "trees/queries/sinks.h"
 
 #include <compare>
 #include <cstdint>

@@ -62,6 +62,19 @@ class SceneStage {
     virtual std::size_t bytes(const Playing&) const { return 0; }
 };
 
+/// A stage that does no more than `run`, each time.
+template <class Run> std::unique_ptr<SceneStage> running(Run run) {
+    class Stage final : public SceneStage {
+      public:
+        explicit Stage(Run f) : f_(f) {}
+        std::size_t run(Playing& playing) override { return f_(playing); }
+
+      private:
+        Run f_;
+    };
+    return std::make_unique<Stage>(run);
+}
+
 template <class T> std::size_t bytes_of(const std::vector<T>& v) {
     return v.capacity() * sizeof(T);
 }

@@ -111,11 +111,6 @@ const FrameAnswers& ScenePlayer::query() {
 
 const FrameAnswers& ScenePlayer::answers() const { return playing_->answers; }
 
-Work ScenePlayer::counted_pairs() const {
-    CountPairs sink;
-    return playing_->tree ? playing_->tree->self_pairs_counted(sink) : Work{};
-}
-
 const MovingScene& ScenePlayer::scene() const { return playing_->scene; }
 
 const Ledger& ScenePlayer::ledger() {

@@ -4,7 +4,6 @@
 #include "bench/stages/ledger.h"
 #include "bench/stages/plan_stages.h"
 #include "trees/executor.h"
-#include "trees/inspect/work.h"
 
 #include <memory>
 #include <optional>
@@ -36,8 +35,6 @@ class ScenePlayer {
     const FrameAnswers& query();
     /// What the last query gave.
     const FrameAnswers& answers() const;
-    /// The work of the traversal for pairs in the present frame; zero if no pairs are wanted.
-    Work counted_pairs() const;
 
     const MovingScene& scene() const;
     const std::vector<PlannedStage>& plan() const { return plan_; }

@@ -55,36 +55,34 @@ class Played final : public Contender {
 
 } // namespace
 
-ContenderEntry stages_contender(Extent extent, std::string_view without_effect) {
-    if (!without_effect.empty())
-        effect_of(without_effect); // throws for an unknown one
+ContenderEntry stages_contender(Extent extent, std::string_view left_out) {
+    if (!left_out.empty())
+        effect_of(left_out); // throws for an unknown one
     ContenderEntry entry;
     entry.library = "boxwood";
     entry.is_peer = false;
     entry.precision = "f32";
     entry.layout = "packed";
-    entry.name = extent == Extent::all_stages ? "all_stages" : "required";
+    entry.name = extent == Extent::all_stages ? all_stages_variant : required_variant;
     entry.summary = extent == Extent::all_stages
                         ? "every stage, for every body in every frame"
                         : "the stages that the scene requires, for the bodies that it requires";
     entry.stages = extent == Extent::all_stages ? results::all_stages : results::required_stages;
-    if (!without_effect.empty()) {
-        entry.stages = without_effect;
-        entry.name += fmt::format(".without_{}", without_effect);
-        entry.summary += fmt::format("; the scene without {}", without_effect);
+    if (!left_out.empty()) {
+        entry.stages = left_out;
+        entry.name += fmt::format(".without_{}", left_out);
+        entry.summary += fmt::format("; the scene without {}", left_out);
     }
     entry.notes = "build makes what frame 0 needs; update advances the scene itself, so that the "
                   "cost of its effects is in it";
-    entry.cannot = [without =
-                        std::string(without_effect)](const Job& job) -> std::optional<std::string> {
+    entry.cannot = [without = std::string(left_out)](const Job& job) -> std::optional<std::string> {
         if (!without.empty() && !has_effect(*job.scene->spec.moving, without))
             return fmt::format("the scene has no {}", without);
         return std::nullopt;
     };
-    entry.answers = {
-        {"scene_queries", [extent, without = std::string(without_effect)](const Job& job) {
-             return std::make_unique<Played>(job, extent, without);
-         }}};
+    entry.answers = {{"scene_queries", [extent, without = std::string(left_out)](const Job& job) {
+                          return std::make_unique<Played>(job, extent, without);
+                      }}};
     return entry;
 }
 

@@ -16,10 +16,13 @@ struct StageAnswers final : Answers {
     void reserve(std::size_t) override {}
 };
 
+/// Names of two contenders; "required.without_<effect>" are the others.
+inline constexpr std::string_view required_variant = "required", all_stages_variant = "all_stages";
+
 /// A contender of scene_queries: build is ScenePlayer::start, update its advance, query its query.
-/// "required", "all_stages", or "required.without_<effect>": the scene without one of its effects,
-/// unsupported if it has none of that name. It plays the scene of job.scene->spec.moving with the
-/// spec's n and seed. Throws std::invalid_argument, with a suggestion, for an unknown effect.
-ContenderEntry stages_contender(Extent extent, std::string_view without_effect = {});
+/// Without an effect, it is unsupported if the scene has none of that name. It plays the scene of
+/// job.scene->spec.moving with the spec's n and seed. Throws std::invalid_argument, with a
+/// suggestion, for an unknown effect.
+ContenderEntry stages_contender(Extent extent, std::string_view left_out = {});
 
 } // namespace boxwood::bench

@@ -24,18 +24,15 @@ class MakeTree final : public SceneStage {
     }
 };
 
-class Update final : public SceneStage {
-  public:
-    std::size_t run(Playing& playing) override {
-        if (!playing.changed.empty())
-            playing.tree->update(playing.pair_boxes(), playing.changed, playing.executor);
-        return playing.changed.size();
-    }
-};
-
 } // namespace
 
 std::unique_ptr<SceneStage> tree_stage() { return std::make_unique<MakeTree>(); }
-std::unique_ptr<SceneStage> update_stage() { return std::make_unique<Update>(); }
+std::unique_ptr<SceneStage> update_stage() {
+    return running([](Playing& playing) {
+        if (!playing.changed.empty())
+            playing.tree->update(playing.pair_boxes(), playing.changed, playing.executor);
+        return playing.changed.size();
+    });
+}
 
 } // namespace boxwood::bench

@@ -17,32 +17,19 @@ template <class Real> struct Input {
     }
 };
 
-class BoxFit final : public KernelTaskOf<Aabb<double>, std::vector<FitCase>> {
-  public:
-    std::string_view name() const override { return "box_fit"; }
-    std::string_view summary() const override {
-        return "of each case: the axis-aligned box of a transformed box";
-    }
+} // namespace
 
-  protected:
-    std::vector<CaseKernel> make_kernels() const override {
-        return all_kernels<BoxFitKernels>([]<class K>(std::type_identity<K>) {
+const Task& box_fit_task() {
+    static const KernelTaskOf<Aabb<double>, std::vector<FitCase>> task(
+        "box_fit", "of each case: the axis-aligned box of a transformed box",
+        all_kernels<BoxFitKernels>([]<class K>(std::type_identity<K>) {
             return scalar_kernel<K, Input<typename K::Real>, FitCase>([](const auto& in) {
                 const auto box = K::fit(in.transform, in.box);
                 return Aabb<double>{static_cast<Vec3<double>>(box.min),
                                     static_cast<Vec3<double>>(box.max)};
             });
-        });
-    }
-    std::unique_ptr<CaseTruth> make_case_truth(const CaseScene& scene) const override {
-        return make_fit_truth(scene);
-    }
-};
-
-} // namespace
-
-const Task& box_fit_task() {
-    static const BoxFit task;
+        }),
+        make_fit_truth);
     return task;
 }
 

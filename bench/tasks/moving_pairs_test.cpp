@@ -7,6 +7,7 @@
 #include "bench/truth/column_sweep.h"
 #include "bench/truth/moving_truth.h"
 #include "bench/truth/truth.h"
+#include "kernels/testing/complaint.h"
 #include "scenes/effects/effect_scene.h"
 #include "scenes/scene.h"
 #include "trees/dynamic/update.h"
@@ -141,12 +142,7 @@ Plan plan_of(const std::string& keys) {
 }
 
 std::string error_of(const std::string& keys) {
-    try {
-        plan_of(keys);
-    } catch (const BadInput& error) {
-        return error.what();
-    }
-    return "no error";
+    return complaint_of<BadInput>([&] { plan_of(keys); });
 }
 
 TEST(MovingPairs, ASweepFileLaysEffectsOnGenerators) {

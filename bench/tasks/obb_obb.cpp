@@ -29,29 +29,16 @@ bool do_touch(const ObbPairCase& c) {
     return oracle::boxes_touch(pose(c.a), c.a.half, pose(c.b), c.b.half);
 }
 
-class ObbObb final : public KernelTaskOf<Decision, std::vector<ObbPairCase>> {
-  public:
-    std::string_view name() const override { return "obb_obb"; }
-    std::string_view summary() const override {
-        return "of each case: whether two boxes in any pose share a point";
-    }
-
-  protected:
-    std::vector<CaseKernel> make_kernels() const override {
-        return all_kernels<ObbKernels>([]<class K>(std::type_identity<K>) {
-            return scalar_kernel<K, Input<typename K::Real>, ObbPairCase>(
-                [](const auto& in) { return K::overlap(in.a, in.b); });
-        });
-    }
-    std::unique_ptr<CaseTruth> make_case_truth(const CaseScene& scene) const override {
-        return make_verdict_truth<ObbPairCase>(scene, do_touch);
-    }
-};
-
 } // namespace
 
 const Task& obb_obb_task() {
-    static const ObbObb task;
+    static const KernelTaskOf<Decision, std::vector<ObbPairCase>> task(
+        "obb_obb", "of each case: whether two boxes in any pose share a point",
+        all_kernels<ObbKernels>([]<class K>(std::type_identity<K>) {
+            return scalar_kernel<K, Input<typename K::Real>, ObbPairCase>(
+                [](const auto& in) { return K::overlap(in.a, in.b); });
+        }),
+        [](const CaseScene& scene) { return make_verdict_truth<ObbPairCase>(scene, do_touch); });
     return task;
 }
 

@@ -18,37 +18,19 @@ template <class Real> struct Input {
                                                static_cast<Vec3<Real>>(c.b.a)} {}
 };
 
-template <class K> CaseKernel kernel() {
-    return scalar_kernel<K, Input<typename K::Real>, TrianglePairCase>(
-        [](const auto& in) { return K::distance(in.a, in.b); });
-}
-
 TrueDistance measured(const TrianglePairCase& c) {
     const Input<double> in(c);
     return true_distance(oracle::squared_distance(in.a, in.b), {in.a, in.b.a, in.b.b});
 }
 
-class PointSegment final : public KernelTaskOf<Distance, std::vector<TrianglePairCase>> {
-  public:
-    std::string_view name() const override { return "point_segment"; }
-    std::string_view summary() const override {
-        return "of each case: the least distance of a point and an edge";
-    }
-
-  protected:
-    std::vector<CaseKernel> make_kernels() const override {
-        return all_kernels<Concatenated<PointSegmentKernels, oracle::RationalPointSegmentKernels>>(
-            []<class K>(std::type_identity<K>) { return kernel<K>(); });
-    }
-    std::unique_ptr<CaseTruth> make_case_truth(const CaseScene& scene) const override {
-        return make_distance_truth(scene, measured);
-    }
-};
-
 } // namespace
 
 const Task& point_segment_task() {
-    static const PointSegment task;
+    using Kernels = Concatenated<PointSegmentKernels, oracle::RationalPointSegmentKernels>;
+    static const KernelTaskOf<Distance, std::vector<TrianglePairCase>> task(
+        "point_segment", "of each case: the least distance of a point and an edge",
+        distance_kernels<Kernels, Input>(),
+        [](const CaseScene& scene) { return make_distance_truth(scene, measured); });
     return task;
 }
 

@@ -24,25 +24,13 @@ template <class K> CaseKernel kernel() {
             }};
 }
 
-class RayBox final : public KernelTaskOf<Decision, std::vector<RayBoxCase>> {
-  public:
-    std::string_view name() const override { return "ray_box"; }
-    std::string_view summary() const override { return "of each case: whether a ray meets a box"; }
-
-  protected:
-    std::vector<CaseKernel> make_kernels() const override {
-        return all_kernels<RayBoxKernels>(
-            []<class K>(std::type_identity<K>) { return kernel<K>(); });
-    }
-    std::unique_ptr<CaseTruth> make_case_truth(const CaseScene& scene) const override {
-        return make_verdict_truth<RayBoxCase>(scene, do_meet);
-    }
-};
-
 } // namespace
 
 const Task& ray_box_task() {
-    static const RayBox task;
+    static const KernelTaskOf<Decision, std::vector<RayBoxCase>> task(
+        "ray_box", "of each case: whether a ray meets a box",
+        all_kernels<RayBoxKernels>([]<class K>(std::type_identity<K>) { return kernel<K>(); }),
+        [](const CaseScene& scene) { return make_verdict_truth<RayBoxCase>(scene, do_meet); });
     return task;
 }
 

@@ -40,32 +40,19 @@ template <class K> class Fans final : public Contender {
     RayCases cases_;
 };
 
-class RayTriangle final : public KernelTaskOf<RayHit, RayCases> {
-  public:
-    std::string_view name() const override { return "ray_triangle"; }
-    std::string_view summary() const override {
-        return "of each case: where a ray meets a triangle or a fan";
-    }
-
-  protected:
-    std::vector<CaseKernel> make_kernels() const override {
-        return all_kernels<Concatenated<RayKernels, oracle::RationalRayKernels>>(
-            []<class K>(std::type_identity<K>) -> CaseKernel {
-                return {K::info, precision_of<typename RealOf<K, float>::type>(), called_one_by_one,
-                        [](const Cases& cases) {
-                            return std::make_unique<Fans<K>>(std::get<RayCases>(cases));
-                        }};
-            });
-    }
-    std::unique_ptr<CaseTruth> make_case_truth(const CaseScene& scene) const override {
-        return make_fan_truth(scene);
-    }
-};
-
 } // namespace
 
 const Task& ray_triangle_task() {
-    static const RayTriangle task;
+    using Kernels = Concatenated<RayKernels, oracle::RationalRayKernels>;
+    static const KernelTaskOf<RayHit, RayCases> task(
+        "ray_triangle", "of each case: where a ray meets a triangle or a fan",
+        all_kernels<Kernels>([]<class K>(std::type_identity<K>) -> CaseKernel {
+            return {K::info, precision_of<typename RealOf<K, float>::type>(), called_one_by_one,
+                    [](const Cases& cases) {
+                        return std::make_unique<Fans<K>>(std::get<RayCases>(cases));
+                    }};
+        }),
+        make_fan_truth);
     return task;
 }
 

@@ -134,7 +134,8 @@ class SceneQueries final : public Task {
     }
 
     void expand(const BlockReader& block, AddCell add) const override {
-        const std::vector<std::string> stages = block.words("stages", {"required", "all_stages"});
+        const std::vector<std::string> stages =
+            block.words("stages", {required_variant, all_stages_variant});
         BlockReader::Words known = names_of(effects());
         known.insert(known.begin(), "each");
         const std::vector<std::string> left_out = block.words("without", known);
@@ -143,8 +144,8 @@ class SceneQueries final : public Task {
         for (const SceneSpec& scene : moving_scenes(block)) {
             std::vector<ContenderEntry> ours;
             for (const std::string& extent : stages)
-                ours.push_back(stages_contender(extent == "all_stages" ? Extent::all_stages
-                                                                       : Extent::required));
+                ours.push_back(stages_contender(extent == all_stages_variant ? Extent::all_stages
+                                                                             : Extent::required));
             for (const std::string& name : left_out)
                 for (const std::string& effect :
                      name == "each" ? effects_of(*scene.moving) : std::vector<std::string>{name})

@@ -6,6 +6,7 @@
 #include "bench/stages/stages_contender.h"
 #include "bench/tasks/task.h"
 #include "bench/truth/truth.h"
+#include "kernels/testing/complaint.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -125,13 +126,8 @@ TEST(SceneQueries, ALostPairIsSeenAndNamed) {
 }
 
 TEST(SceneQueries, SweepFilesSayWhatIsWrong) {
-    const auto error_of = [](const std::string& keys) -> std::string {
-        try {
-            plan_of(keys);
-        } catch (const BadInput& error) {
-            return error.what();
-        }
-        return "no error";
+    const auto error_of = [](const std::string& keys) {
+        return complaint_of<BadInput>([&] { plan_of(keys); });
     };
     EXPECT_THAT(error_of("scene = \"crowd\"\n"), HasSubstr("needs stages"));
     EXPECT_THAT(error_of("scene = \"crowd\"\nstages = \"all_stage\"\n"), HasSubstr("'all_stages'"));

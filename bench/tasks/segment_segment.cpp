@@ -16,38 +16,19 @@ template <class Real> struct Input {
           b{static_cast<Vec3<Real>>(c.b.b), static_cast<Vec3<Real>>(c.b.a)} {}
 };
 
-template <class K> CaseKernel kernel() {
-    return scalar_kernel<K, Input<typename K::Real>, TrianglePairCase>(
-        [](const auto& in) { return K::distance(in.a, in.b); });
-}
-
 TrueDistance measured(const TrianglePairCase& c) {
     const Input<double> in(c);
     return true_distance(oracle::squared_distance(in.a, in.b), {in.a.a, in.a.b, in.b.a, in.b.b});
 }
 
-class SegmentSegment final : public KernelTaskOf<Distance, std::vector<TrianglePairCase>> {
-  public:
-    std::string_view name() const override { return "segment_segment"; }
-    std::string_view summary() const override {
-        return "of each case: the least distance of two edges";
-    }
-
-  protected:
-    std::vector<CaseKernel> make_kernels() const override {
-        return all_kernels<
-            Concatenated<SegmentDistanceKernels, oracle::RationalSegmentDistanceKernels>>(
-            []<class K>(std::type_identity<K>) { return kernel<K>(); });
-    }
-    std::unique_ptr<CaseTruth> make_case_truth(const CaseScene& scene) const override {
-        return make_distance_truth(scene, measured);
-    }
-};
-
 } // namespace
 
 const Task& segment_segment_task() {
-    static const SegmentSegment task;
+    using Kernels = Concatenated<SegmentDistanceKernels, oracle::RationalSegmentDistanceKernels>;
+    static const KernelTaskOf<Distance, std::vector<TrianglePairCase>> task(
+        "segment_segment", "of each case: the least distance of two edges",
+        distance_kernels<Kernels, Input>(),
+        [](const CaseScene& scene) { return make_distance_truth(scene, measured); });
     return task;
 }
 

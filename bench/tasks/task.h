@@ -48,7 +48,8 @@ using AddCell = FunctionRef<void(const SceneSpec& scene, const ContenderEntry& c
                                  const std::string& executor, unsigned threads)>;
 
 /// One thing that the bench wants of a scene. A task is one file of bench/tasks/ and one name in
-/// registry.cpp: the file owns everything that is said of it here, and no other code knows it.
+/// registry.cpp: the file owns all that is said of it here; the code that plans, times
+/// and judges branches on no task.
 class Task {
   public:
     virtual ~Task() = default;

@@ -9,17 +9,12 @@
 namespace boxwood::bench {
 namespace {
 
-template <class Real> struct Input {
-    Triangle<Real> a, b;
-    explicit Input(const TrianglePairCase& c) : a(converted<Real>(c.a)), b(converted<Real>(c.b)) {}
-};
-
 template <class K> CaseKernel kernel() {
     if constexpr (TriangleDistanceBatchKernel<K>)
         return block_kernel<K, Distance>(
             [](auto blocks, auto distances) { K::distance(blocks, distances); });
     else
-        return scalar_kernel<K, Input<typename K::Real>, TrianglePairCase>(
+        return scalar_kernel<K, TwoTriangles<typename K::Real>, TrianglePairCase>(
             [](const auto& in) { return K::distance(in.a, in.b); });
 }
 
@@ -28,27 +23,14 @@ TrueDistance measured(const TrianglePairCase& c) {
                          {c.a.a, c.a.b, c.a.c, c.b.a, c.b.b, c.b.c});
 }
 
-class TriangleDistance final : public KernelTaskOf<Distance, std::vector<TrianglePairCase>> {
-  public:
-    std::string_view name() const override { return "triangle_distance"; }
-    std::string_view summary() const override {
-        return "of each case: the least distance of two triangles";
-    }
-
-  protected:
-    std::vector<CaseKernel> make_kernels() const override {
-        return all_kernels<Concatenated<DistanceKernels, oracle::RationalTriangleDistanceKernels>>(
-            []<class K>(std::type_identity<K>) { return kernel<K>(); });
-    }
-    std::unique_ptr<CaseTruth> make_case_truth(const CaseScene& scene) const override {
-        return make_distance_truth(scene, measured);
-    }
-};
-
 } // namespace
 
 const Task& triangle_distance_task() {
-    static const TriangleDistance task;
+    using Kernels = Concatenated<DistanceKernels, oracle::RationalTriangleDistanceKernels>;
+    static const KernelTaskOf<Distance, std::vector<TrianglePairCase>> task(
+        "triangle_distance", "of each case: the least distance of two triangles",
+        all_kernels<Kernels>([]<class K>(std::type_identity<K>) { return kernel<K>(); }),
+        [](const CaseScene& scene) { return make_distance_truth(scene, measured); });
     return task;
 }
 

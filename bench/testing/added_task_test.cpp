@@ -12,6 +12,7 @@
 #include "bench/tasks/detail/tree_task.h"
 #include "bench/tasks/task.h"
 #include "bench/truth/truth.h"
+#include "kernels/testing/complaint.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -132,12 +133,7 @@ Plan plan_of(const std::string& keys) {
 }
 
 std::string refusal(const std::string& keys) {
-    try {
-        plan_of(keys);
-    } catch (const BadInput& error) {
-        return error.what();
-    }
-    return "(accepted)";
+    return complaint_of<BadInput>([&] { plan_of(keys); });
 }
 
 TEST(AddedTask, IsPlannedCheckedTimedAndFoundInTheResults) {

@@ -2,7 +2,7 @@
 #include "bench/tasks/contender.h"
 #include "bench/tasks/detail/halves.h"
 #include "bench/tasks/task.h"
-#include "trees/queries/pairs.h"
+#include "trees/queries/sinks.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -45,7 +45,9 @@ std::vector<Box> random_boxes(std::size_t n, float size, unsigned seed) {
 /// Boxes with integer corners: faces, edges and corners touch, and many are flat or points.
 std::vector<Box> lattice_boxes(std::size_t n, unsigned seed) {
     std::mt19937 random(seed);
-    const auto number = [&](unsigned most) { return static_cast<float>(random() % (most + 1)); };
+    const auto number = [&](unsigned max_value) {
+        return static_cast<float>(random() % (max_value + 1));
+    };
     std::vector<Box> boxes(n);
     for (Box& b : boxes) {
         b.min = {number(9), number(9), number(9)};

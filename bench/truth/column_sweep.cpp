@@ -75,9 +75,9 @@ void ColumnSweep::cut(double max_entries) {
         if (!(extent[axis] > 0))
             wanted[axis] = 1;
     }
-    const std::size_t most = std::max<std::size_t>(1, boxes_.size() / min_per_column);
+    const std::size_t max_columns = std::max<std::size_t>(1, boxes_.size() / min_per_column);
     for (bool fits = false; !fits;) {
-        while (std::size_t{wanted[0]} * wanted[1] > most)
+        while (std::size_t{wanted[0]} * wanted[1] > max_columns)
             wanted[wanted[1] > wanted[0]] /= 2;
         for (const int axis : {0, 1}) {
             count_[axis] = wanted[axis];
@@ -151,8 +151,8 @@ template <class Take> void ColumnSweep::for_each_column(const Take& take) const 
             const auto &a = low[p.a], &b = low[p.b];
             if (std::max(a[0], b[0]) != y || std::max(a[1], b[1]) != z)
                 continue; // another column's
-            const auto [least, most] = std::minmax(order[p.a].second, order[p.b].second);
-            found[kept++] = {least, most};
+            const auto [lower, higher] = std::minmax(order[p.a].second, order[p.b].second);
+            found[kept++] = {lower, higher};
         }
         found.resize(kept);
         take(column, std::span<const Pair>(found));

@@ -47,7 +47,9 @@ TEST(ColumnSweep, FindsThePairsOfEveryScene) {
 /// lie where columns are cut.
 TEST(ColumnSweep, CountsWhatTouches) {
     std::mt19937 random(1);
-    const auto number = [&](unsigned most) { return static_cast<float>(random() % (most + 1)); };
+    const auto number = [&](unsigned max_value) {
+        return static_cast<float>(random() % (max_value + 1));
+    };
     for (const unsigned places : {2u, 9u, 40u}) {
         std::vector<Box> boxes(4000);
         for (Box& box : boxes) {
@@ -66,7 +68,7 @@ TEST(ColumnSweep, StandsExtremes) {
     expect_right(std::vector<Box>(700, Box{{1, 2, 3}, {1, 2, 3}}));
 
     const float far = 1e30f, tiny = std::numeric_limits<float>::denorm_min(),
-                most = std::numeric_limits<float>::max(), nan = std::nanf("");
+                max_value = std::numeric_limits<float>::max(), nan = std::nanf("");
     std::mt19937 random(2);
     std::vector<Box> boxes = make_scene({.generator = "uniform", .n = 3000}).boxes;
     for (Box& box : boxes)
@@ -87,7 +89,7 @@ TEST(ColumnSweep, StandsExtremes) {
             box = {{0, 0, 0}, {tiny, tiny, tiny}};
             break;
         case 5:
-            box = {{-most, -most, -most}, {-most, -most, -most}};
+            box = {{-max_value, -max_value, -max_value}, {-max_value, -max_value, -max_value}};
             break;
         case 6:
             box.min.z = box.max.z = .5f;

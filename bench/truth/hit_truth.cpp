@@ -55,9 +55,7 @@ class HitTruth final : public Truth {
             if (!wrong.empty() && check.witness.empty())
                 check.witness = fmt::format("ray {} {}", sample_[k], wrong);
         }
-        judgement.status = check.missing || check.extra ? Status::wrong
-                           : all_certain                ? Status::exact
-                                                        : Status::within_bound;
+        judgement.conclude(all_certain);
         return judgement;
     }
 

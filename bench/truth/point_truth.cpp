@@ -1,12 +1,12 @@
 #include "bench/truth/point_truth.h"
 
+#include "bench/truth/sample.h"
 #include "kernels/features/point_triangle.h"
 #include "kernels/oracle/exact_answers.h"
 #include "trees/executor.h"
 #include "trees/layout.h"
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +54,9 @@ class PointTruth final : public Truth {
     PointTruth(const Scene& scene, PointQuery query, unsigned threads)
         : scene_(scene), query_(query),
           k_(query == PointQuery::nearest ? neighbours_of(scene) : 1) {
-        sample();
+        const std::size_t n = n_queries(), items = std::max<std::size_t>(1, scene.boxes.size());
+        const std::size_t m = std::min(n, std::clamp<std::size_t>(100'000'000 / items, 64, 4096));
+        sample_ = sampled_queries(n, m, scene.spec.seed);
         answers_.resize(sample_.size());
         make_executor("tbb", threads)->for_each(sample_.size(), [&](std::size_t s) {
             answers_[s] = answer_of(sample_[s]);
@@ -82,9 +84,7 @@ class PointTruth final : public Truth {
                 check_surface(list_of<SurfacePoint>(answers), check, exact);
             }
         }
-        judgement.status = check.missing || check.extra ? Status::wrong
-                           : exact                      ? Status::exact
-                                                        : Status::within_bound;
+        judgement.conclude(exact);
         return judgement;
     }
 
@@ -95,17 +95,6 @@ class PointTruth final : public Truth {
     std::size_t n_queries() const {
         return query_ == PointQuery::overlapping ? scene_.regions.size() + scene_.spheres.size()
                                                  : scene_.points.size();
-    }
-
-    /// One query of each of m equal runs, picked by a hash of the scene's seed.
-    void sample() {
-        const std::size_t n = n_queries(), items = std::max<std::size_t>(1, scene_.boxes.size());
-        const std::size_t m = std::min(n, std::clamp<std::size_t>(100'000'000 / items, 64, 4096));
-        for (std::size_t s = 0; s < m; ++s) {
-            const std::size_t first = s * n / m, last = (s + 1) * n / m;
-            sample_.push_back(first + XXH3_64bits_withSeed(&s, sizeof s, scene_.spec.seed) %
-                                          (last - first));
-        }
     }
 
     bool meets(std::size_t query, const Aabb<float>& box) const {
@@ -145,14 +134,14 @@ class PointTruth final : public Truth {
             return answer;
         }
         // By another way to the nearest point than that of the library's queries.
-        double least = std::numeric_limits<double>::infinity();
+        double min_distance = std::numeric_limits<double>::infinity();
         for (std::uint32_t i = 0; i < scene_.mesh.triangles.size(); ++i) {
-            if (distance(p, scene_.boxes[i]) > least)
+            if (distance(p, scene_.boxes[i]) > min_distance)
                 continue;
             const double d =
                 length(point_triangle::Foot::nearest(p, triangle_of(scene_.mesh, i)).offset);
-            if (d < least) {
-                least = d;
+            if (d < min_distance) {
+                min_distance = d;
                 answer.items = {i};
             }
         }

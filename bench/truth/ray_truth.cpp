@@ -59,8 +59,8 @@ struct Test {
                (volume[0] < -margin && volume[1] < -margin && volume[2] < -margin);
     }
     bool outside(double margin) const {
-        const auto [least, most] = std::minmax({volume[0], volume[1], volume[2]});
-        return least < -margin && most > margin;
+        const auto [min_volume, max_volume] = std::minmax({volume[0], volume[1], volume[2]});
+        return min_volume < -margin && max_volume > margin;
     }
     /// Error of t in a float kernel: a barycentric error of band/|det| moves the hit by no more
     /// than the size; then t itself is rounded.

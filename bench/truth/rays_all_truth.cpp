@@ -1,11 +1,11 @@
 #include "bench/truth/rays_all_truth.h"
 
 #include "bench/truth/ray_truth.h"
+#include "bench/truth/sample.h"
 #include "trees/executor.h"
-#include "trees/queries/pairs.h"
+#include "trees/queries/sinks.h"
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include <algorithm>
 
@@ -62,9 +62,7 @@ class AllHitsTruth final : public Truth {
                 }
             }
         }
-        judgement.status = check.missing || check.extra ? Status::wrong
-                           : all_certain                ? Status::exact
-                                                        : Status::within_bound;
+        judgement.conclude(all_certain);
         return judgement;
     }
 
@@ -81,13 +79,7 @@ std::vector<std::size_t> sampled_rays(const Scene& scene) {
     const std::size_t triangles = std::max<std::size_t>(1, scene.mesh.triangles.size());
     const std::size_t m =
         std::min(n_rays, std::clamp<std::size_t>(20'000'000 / triangles, 64, 1024));
-    std::vector<std::size_t> sample;
-    for (std::size_t k = 0; k < m; ++k) {
-        const std::size_t first = k * n_rays / m, last = (k + 1) * n_rays / m;
-        sample.push_back(first +
-                         XXH3_64bits_withSeed(&k, sizeof k, scene.spec.seed) % (last - first));
-    }
-    return sample;
+    return sampled_queries(n_rays, m, scene.spec.seed);
 }
 
 std::unique_ptr<Truth> make_all_hits_truth(const Scene& scene, unsigned threads) {

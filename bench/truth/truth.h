@@ -21,8 +21,14 @@ struct Judgement {
     std::optional<results::KernelRow> kernel; ///< of the kernel that decided, if it is one's doing
     std::vector<results::ConditionRow> conditions;
     std::uint64_t calls = 0;      ///< of that kernel in one query; 0: not known
-    bool breaks_promise = false;  ///< a kernel of ours does not keep what it states
     bool has_faulty_tree = false; ///< its tree is not to be measured
+
+    /// Sets the status by what is missing or extra; else all is exact, or within the bound.
+    void conclude(bool is_exact) {
+        status = check.missing || check.extra ? Status::wrong
+                 : is_exact                   ? Status::exact
+                                              : Status::within_bound;
+    }
 };
 
 /// The right answers to one task on one scene, by an oracle that uses no tree. Computed once,

@@ -5,7 +5,7 @@
 #include "bench/truth/hit_truth.h"
 #include "bench/truth/pair_truth.h"
 #include "bench/truth/ray_truth.h"
-#include "trees/queries/pairs.h"
+#include "trees/queries/sinks.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

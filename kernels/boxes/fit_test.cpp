@@ -69,11 +69,11 @@ TYPED_TEST(BoxFit, HoldsTheExactImage) {
         ASSERT_TRUE(contains(padded, exact)) << i;
         plain_short += !contains(PlainFit<Real>::fit(t, box), exact);
         // And it is no larger than it says: 8uA, and up to 8uA of rounding the other way.
-        const Vec3<Real> most = max(magnitudes(box.min), magnitudes(box.max));
+        const Vec3<Real> max_corner = max(magnitudes(box.min), magnitudes(box.max));
         for (int k = 0; k < 3; ++k) {
             const auto axis = static_cast<std::size_t>(k);
-            const double all = static_cast<double>(2 * dot(magnitudes(t.rotation[axis]), most) +
-                                                   std::abs(t.translation[k]));
+            const double all = static_cast<double>(
+                2 * dot(magnitudes(t.rotation[axis]), max_corner) + std::abs(t.translation[k]));
             const double sixteen_u = 8 * static_cast<double>(std::numeric_limits<Real>::epsilon());
             const mpq_class excess = oracle::exact(padded.max[k]) - exact.max[axis];
             ASSERT_LE(excess.get_d(), 1.01 * sixteen_u * all);
@@ -154,10 +154,10 @@ TYPED_TEST(BoxFit, EmptyStaysEmpty) {
 TYPED_TEST(BoxFit, BeyondTheNumbersIsInfinite) {
     using Real = TypeParam;
     constexpr Real inf = Aabb<Real>::inf, nan = std::numeric_limits<Real>::quiet_NaN(),
-                   most = std::numeric_limits<Real>::max();
+                   big = std::numeric_limits<Real>::max();
     const Aabb<Real> all{{-inf, -inf, -inf}, {inf, inf, inf}};
     const RigidTransform<Real> turn{{{{1, 1, 0}, {-1, 1, 0}, {0, 0, 1}}}, {}};
-    const Aabb<Real> huge{{-most, -most, -1}, {most, most, 1}}, whole = fit(turn, huge);
+    const Aabb<Real> huge{{-big, -big, -1}, {big, big, 1}}, whole = fit(turn, huge);
     EXPECT_EQ(whole.min.x, -inf);
     EXPECT_EQ(whole.max.y, inf);
     EXPECT_GT(whole.min.z, -2);

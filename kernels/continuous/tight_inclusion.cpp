@@ -74,7 +74,7 @@ template <int n> class Search {
                 high = max(high, value);
             }
         for (int axis = 0; axis < 3; ++axis) {
-            const double margin = f_.bound[axis] + f_.least;
+            const double margin = f_.bound[axis] + f_.min_error;
             if (low[axis] > margin || high[axis] < -margin)
                 return true;
         }
@@ -167,12 +167,12 @@ template <int n> class Search {
     /// Across the longest side, as it is now.
     void halve(Piece<n> piece, const std::array<Vector, n>& now) {
         int edge = 0;
-        double most = -1;
+        double max_width = -1;
         for (int i = 0; i < (n == 3 ? 3 : 2); ++i) {
             const auto c = static_cast<std::size_t>(i);
             const Vector side = now[(c + 1) % n] - now[c];
-            if (const double length2 = dot(side, side); length2 > most) {
-                most = length2;
+            if (const double length2 = dot(side, side); length2 > max_width) {
+                max_width = length2;
                 edge = i;
             }
         }

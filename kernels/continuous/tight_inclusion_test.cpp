@@ -37,8 +37,8 @@ class Motions {
 
     LinearMotion next(int way) {
         LinearMotion m;
-        const int most = way == 0 ? 1 : 3;
-        for_each_coordinate(m, [&](double& x) { x = whole(-most, most); });
+        const int high = way == 0 ? 1 : 3;
+        for_each_coordinate(m, [&](double& x) { x = whole(-high, high); });
         switch (way) {
         case 1: // around touches, by a few units in the last place
             for_each_coordinate(m, [&](double& x) {
@@ -88,9 +88,7 @@ class Motions {
     static constexpr int ways = 8;
 
   private:
-    int whole(int least, int most) {
-        return std::uniform_int_distribution<int>(least, most)(bits_);
-    }
+    int whole(int low, int high) { return std::uniform_int_distribution<int>(low, high)(bits_); }
     double real() { return std::uniform_real_distribution<double>(-1, 1)(bits_); }
     std::mt19937_64 bits_;
 };
@@ -228,9 +226,9 @@ TEST(TightInclusion, LimitsAreConservative) {
         for (const bool is_face : both_kinds) {
             const Impact truth = impact(oracle::ExactContinuous{}, is_face, m);
             double before = 0;
-            for (const std::size_t most : {0, 1, 2, 5, 20}) {
+            for (const std::size_t checks : {0, 1, 2, 5, 20}) {
                 TightInclusion kernel;
-                kernel.max_checks = most;
+                kernel.max_checks = checks;
                 const Impact said = impact(kernel, is_face, m);
                 EXPECT_LE(said.t_free, truth.t_hit);
                 EXPECT_GE(said.t_free, before); // more work never loses ground

@@ -52,15 +52,15 @@ RationalBox image(const RigidTransform<double>& transform, const Aabb<double>& b
     RationalBox out;
     for (int i = 0; i < 3; ++i) {
         const auto row = static_cast<std::size_t>(i);
-        mpq_class least = exact(transform.translation[i]), most = least;
+        mpq_class low = exact(transform.translation[i]), high = low;
         for (int j = 0; j < 3; ++j) {
             const mpq_class r = exact(transform.rotation[row][j]), x = r * exact(box.min[j]),
                             y = r * exact(box.max[j]);
-            least += x < y ? x : y;
-            most += x < y ? y : x;
+            low += x < y ? x : y;
+            high += x < y ? y : x;
         }
-        out.min[row] = least;
-        out.max[row] = most;
+        out.min[row] = low;
+        out.max[row] = high;
     }
     return out;
 }

@@ -56,12 +56,12 @@ bool surfaces_meet(const Box& a, const Box& b) {
 
 class Random {
   public:
-    double whole(int most) { // -most .. most
-        return static_cast<double>(std::uniform_int_distribution<int>(-most, most)(bits_));
+    double whole(int max) { // -max .. max
+        return static_cast<double>(std::uniform_int_distribution<int>(-max, max)(bits_));
     }
-    Vec3<double> vector(int most) { return {whole(most), whole(most), whole(most)}; }
-    Vec3<double> half(int most) {
-        const Vec3<double> v = vector(most);
+    Vec3<double> vector(int max) { return {whole(max), whole(max), whole(max)}; }
+    Vec3<double> half(int max) {
+        const Vec3<double> v = vector(max);
         return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
     }
 
@@ -74,9 +74,9 @@ TEST(OracleBoxes, TouchAsTheirSurfacesDo) {
     Random random;
     int touching = 0, apart = 0, nested = 0, flat = 0;
     for (int i = 0; i < 600; ++i) {
-        const auto box = [&](int most) {
+        const auto box = [&](int max) {
             return Box{{random.vector(6), random.vector(1), random.vector(1), random.vector(1)},
-                       random.half(most)};
+                       random.half(max)};
         };
         const Box a = box(2), b = box(i % 2 ? 3 : 9);
         const bool meet = surfaces_meet(a, b);

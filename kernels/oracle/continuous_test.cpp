@@ -3,7 +3,7 @@
 
 #include "kernels/arithmetic/float_mode.h"
 #include "kernels/oracle/exact_vector.h"
-#include "kernels/oracle/grid_hulls.h"
+#include "kernels/testing/grid_hulls.h"
 
 #include <gtest/gtest.h>
 
@@ -58,11 +58,12 @@ struct GridMotion {
     }
 };
 
-/// Points of [0, most]^3; every fourth motion keeps to a plane, some of these to a line, some rest.
-GridMotion random_motion(std::mt19937_64& random, int most) {
+/// Points of [0, side]^3; every fourth motion keeps to a plane, some of these to a line,
+/// some rest.
+GridMotion random_motion(std::mt19937_64& random, int side) {
     GridMotion motion;
     for (auto* points : {&motion.start, &motion.end}) {
-        const std::vector<Grid> p = random_points(random, 4, most);
+        const std::vector<Grid> p = random_points(random, 4, side);
         std::copy(p.begin(), p.end(), points->begin());
     }
     const auto degenerate = random() % 16;

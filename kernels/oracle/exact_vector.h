@@ -25,7 +25,7 @@ template <class Real> Binary binary(Real x) {
     static_assert(std::is_same_v<Real, float> || std::is_same_v<Real, double>);
     using Bits = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
     constexpr int digits = std::numeric_limits<Real>::digits;
-    constexpr int least = std::numeric_limits<Real>::min_exponent - digits;
+    constexpr int min_power = std::numeric_limits<Real>::min_exponent - digits;
     const auto bits = std::bit_cast<Bits>(x);
     const Bits fraction = bits & ((Bits{1} << (digits - 1)) - 1);
     const int biased = static_cast<int>((bits << 1) >> digits);
@@ -36,7 +36,7 @@ template <class Real> Binary binary(Real x) {
     size >>= zeros;
     const auto mantissa = static_cast<std::int64_t>(size);
     return {bits >> (8 * sizeof(Real) - 1) ? -mantissa : mantissa,
-            least + std::max(biased - 1, 0) + zeros};
+            min_power + std::max(biased - 1, 0) + zeros};
 }
 
 using Integer = mpz_class;

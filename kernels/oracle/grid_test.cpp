@@ -1,5 +1,5 @@
-#include "kernels/oracle/grid_hulls.h"
 #include "kernels/oracle/nearest.h"
+#include "kernels/testing/grid_hulls.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include "kernels/oracle/exact_answers.h"
-#include "kernels/oracle/grid_hulls.h"
+#include "kernels/testing/grid_hulls.h"
 
 #include <gtest/gtest.h>
 
@@ -24,9 +24,9 @@ struct GridRay {
     }
 };
 
-GridRay random_ray(std::mt19937_64& random, int most) {
+GridRay random_ray(std::mt19937_64& random, int side) {
     for (;;) {
-        const auto p = random_points(random, 2, most);
+        const auto p = random_points(random, 2, side);
         const Grid d = minus(p[1], p[0]);
         const int t_min = static_cast<int>(random() % 3), length = static_cast<int>(random() % 3);
         if (d != Grid{0, 0, 0})

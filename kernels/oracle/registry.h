@@ -2,7 +2,6 @@
 
 #include "kernels/oracle/rational.h"
 
-#include <span>
 #include <tuple>
 
 namespace boxwood::oracle {
@@ -14,8 +13,5 @@ using RationalSegmentDistanceKernels = std::tuple<RationalSegmentDistance>;
 using RationalPointTriangleKernels = std::tuple<RationalPointTriangle>;
 using RationalPointSegmentKernels = std::tuple<RationalPointSegment>;
 using RationalRayKernels = std::tuple<RationalRays>;
-
-/// All of them.
-std::span<const KernelInfo> rational_kernels();
 
 } // namespace boxwood::oracle

@@ -36,11 +36,12 @@ Cut cut(const mpq_class& x, long shift) {
 /// c.floor has more bits than a Real.
 template <class Real> Real rounded(const Cut& c, long exponent) {
     using Bits = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
-    constexpr long least = min_exponent<Real>, most = std::numeric_limits<Real>::max_exponent;
+    constexpr long min_power = min_exponent<Real>,
+                   max_power = std::numeric_limits<Real>::max_exponent;
     const long bits = static_cast<long>(mpz_sizeinbase(c.floor.get_mpz_t(), 2));
-    if (exponent + bits > most)
+    if (exponent + bits > max_power)
         return std::numeric_limits<Real>::infinity();
-    const long last = std::max(exponent + bits - digits<Real>, least);
+    const long last = std::max(exponent + bits - digits<Real>, min_power);
     const auto drop = static_cast<mp_bitcnt_t>(last - exponent); // >= 1
     Integer kept = c.floor >> drop;
     const bool half = mpz_tstbit(c.floor.get_mpz_t(), drop - 1) != 0;
@@ -49,7 +50,7 @@ template <class Real> Real rounded(const Cut& c, long exponent) {
         ++kept;
     // The leading bit of `kept`, if there, adds 1 to the exponent's bits; so does a carry, and from
     // the largest number it makes infinity.
-    const Bits exponent_bits = static_cast<Bits>(last - least) << (digits<Real> - 1);
+    const Bits exponent_bits = static_cast<Bits>(last - min_power) << (digits<Real> - 1);
     return std::bit_cast<Real>(static_cast<Bits>(exponent_bits + mpz_get_ui(kept.get_mpz_t())));
 }
 

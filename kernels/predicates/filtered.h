@@ -46,11 +46,12 @@ struct Filtered {
 
     static int orient3d(Vec3<double> a, Vec3<double> b, Vec3<double> c, Vec3<double> d) {
         const Vec3<double> ab = b - a, ac = c - a, ad = d - a;
-        const Vec3<double> most = max(max(abs(ab), abs(ac)), abs(ad));
-        if (!(std::max(std::max(most.x, most.y), most.z) < filter_bound::largest))
+        const Vec3<double> max_edge = max(max(abs(ab), abs(ac)), abs(ad));
+        if (!(std::max(std::max(max_edge.x, max_edge.y), max_edge.z) < filter_bound::largest))
             return undecided;
         return sign(dot(ad, cross(ab, ac)),
-                    6 * filter_bound::orient3d * most.x * most.y * most.z + filter_bound::flushing);
+                    6 * filter_bound::orient3d * max_edge.x * max_edge.y * max_edge.z +
+                        filter_bound::flushing);
     }
     static int orient2d(Point2<double> a, Point2<double> b, Point2<double> c) {
         const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;

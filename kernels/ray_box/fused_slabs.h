@@ -57,7 +57,7 @@ struct FusedSlabs {
         const float largest = largest_of(size);
         const float reach = largest_of(low > high ? low : high);
         const float coordinate = std::max(largest_of(abs(origin)), bounds.coordinate);
-        const float per_largest = 1 / largest, least = 0x1p-22f * largest;
+        const float per_largest = 1 / largest, min_direction = 0x1p-22f * largest;
         // Nothing below overflows. Else (or for NaN) no box is missed.
         if (!(coordinate * per_largest < 0x1p100f && largest > 0x1p-100f &&
               coordinate < 0x1p124f)) {
@@ -67,8 +67,8 @@ struct FusedSlabs {
         const float beyond = 2 * reach * per_largest;
         // 2^-146: what underflows in denormal coordinates.
         const float margin = (0x1p-20f * reach + 0x1p-147f) * per_largest + 0x1p-146f;
-        const auto small = size < least;
-        const Float4 r = with_sign(1 / (small ? all(least) : size), direction);
+        const auto small = size < min_direction;
+        const Float4 r = with_sign(1 / (small ? all(min_direction) : size), direction);
         entry_rdir = r * (1 - 0x1.8p-21f);
         exit_rdir = r * (1 + 0x1.8p-21f);
         const Float4 in = origin * entry_rdir, out = origin * exit_rdir;

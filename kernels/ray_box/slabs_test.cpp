@@ -187,8 +187,8 @@ class CornerTies {
     }
 
   private:
-    std::int64_t draw(std::int64_t least, std::int64_t most) {
-        return std::uniform_int_distribution<std::int64_t>(least, most)(random_);
+    std::int64_t draw(std::int64_t min_value, std::int64_t max_value) {
+        return std::uniform_int_distribution<std::int64_t>(min_value, max_value)(random_);
     }
     std::mt19937_64 random_{4};
 };

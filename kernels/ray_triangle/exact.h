@@ -71,12 +71,12 @@ struct ExactRayTriangle {
         const double volume = r.reach * corners * edges, error = 0x1p-50 * volume;
         if (!(volume < std::numeric_limits<double>::infinity()))
             return {Answer::no, 0};
-        const double least = std::min({w.a, w.b, w.c}), most = std::max({w.a, w.b, w.c});
-        if (least < -error && most > error)
+        const double low = std::min({w.a, w.b, w.c}), high = std::max({w.a, w.b, w.c});
+        if (low < -error && high > error)
             return {Answer::no, 0};
 
         std::uint8_t tier = 0;
-        if (!(least > error || most < -error)) {
+        if (!(low > error || high < -error)) {
             tier = 1;
             if (!inside_exactly(ray, triangle))
                 return {Answer::no, tier};

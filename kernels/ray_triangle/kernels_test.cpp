@@ -44,9 +44,9 @@ using Lattice = Vec3<std::int64_t>;
 struct Truth {
     std::int64_t weight[3], height, depth; ///< t = height / depth; depth > 0
     bool in_plane() const { return depth == 0; }
-    bool touches() const { return !in_plane() && least() >= 0; }
-    bool inside() const { return !in_plane() && least() > 0; }
-    std::int64_t least() const { return std::min({weight[0], weight[1], weight[2]}); }
+    bool touches() const { return !in_plane() && min_weight() >= 0; }
+    bool inside() const { return !in_plane() && min_weight() > 0; }
+    std::int64_t min_weight() const { return std::min({weight[0], weight[1], weight[2]}); }
     double t() const { return static_cast<double>(height) / static_cast<double>(depth); }
     double share(int k) const {
         return static_cast<double>(weight[k]) / static_cast<double>(depth);

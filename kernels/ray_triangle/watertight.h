@@ -91,7 +91,7 @@ struct Watertight {
         // In double the products of floats are exact: these signs are right, zeros included, and
         // the neighbour across an edge computes exactly the negated number.
         const double u = edge(c, b), v = edge(a, c), w = edge(b, a);
-        const double least = std::min({u, v, w}), most = std::max({u, v, w});
+        const double low = std::min({u, v, w}), high = std::max({u, v, w});
         // No product over- or underflows: the sum is 0 or within 2^-298 .. 2^260. It is 0 only if
         // all three are: in the plane, or no triangle. Then t is NaN, as for NaN input: a miss.
         const double scale = 1 / (u + v + w);
@@ -99,7 +99,7 @@ struct Watertight {
                               w * static_cast<double>(c.z);
         const double t_double = height * scale * r.rdir_z + 0.0; // +0 instead of -0
         const float t = static_cast<float>(t_double);
-        const bool inside = (least >= 0) | (most <= 0);
+        const bool inside = (low >= 0) | (high <= 0);
         const bool within = (t_double >= static_cast<double>(ray.t_min)) & (t <= t_max) &
                             (t < std::numeric_limits<float>::infinity());
         return {inside && within, t, static_cast<float>(v * scale + 0.0),

@@ -40,9 +40,9 @@ HWY_INLINE std::uint32_t intersect_block(std::type_identity<MollerTrumbore<Real>
     const LaneVec3<V> origin = everywhere(per_ray.origin);
     // Bounds of t around the exact ones, so that most triangles need no division: 2^-20 is more
     // than all roundings, FLT_MIN and 2^-120 are more than what underflows.
-    constexpr Real slack = Real(0x1p-20f), least = std::numeric_limits<float>::min();
-    const V far_t = hn::Set(dr, Real{t_max} + std::abs(Real{t_max}) * slack + least);
-    const V near_t = hn::Set(dr, Real{ray.t_min} - std::abs(Real{ray.t_min}) * slack - least);
+    constexpr Real slack = Real(0x1p-20f), min_normal = std::numeric_limits<float>::min();
+    const V far_t = hn::Set(dr, Real{t_max} + std::abs(Real{t_max}) * slack + min_normal);
+    const V near_t = hn::Set(dr, Real{ray.t_min} - std::abs(Real{ray.t_min}) * slack - min_normal);
     const V underflow = hn::Set(dr, Real(0x1p-120f));
     std::uint32_t bits = 0;
     for (std::size_t i = 0; i < lanes; i += hn::Lanes(dr)) {

@@ -23,12 +23,12 @@ constexpr int few(int n) { return (n + thinned - 1) / thinned; }
 /// The longest distance of two corners of either; not 0, not infinite.
 inline double size_of(const Triangle<double>& a, const Triangle<double>& b) {
     const std::array corners{a.a, a.b, a.c, b.a, b.b, b.c};
-    double most = 0x1p-1074;
+    double max_magnitude = 0x1p-1074;
     for (const Vec3<double>& p : corners)
         for (const Vec3<double>& q : corners)
-            most =
-                std::max(most, std::hypot(p.x / 2 - q.x / 2, p.y / 2 - q.y / 2, p.z / 2 - q.z / 2));
-    return std::min(most, 0x1p1000) * 2;
+            max_magnitude = std::max(
+                max_magnitude, std::hypot(p.x / 2 - q.x / 2, p.y / 2 - q.y / 2, p.z / 2 - q.z / 2));
+    return std::min(max_magnitude, 0x1p1000) * 2;
 }
 
 struct DistancePair {
@@ -232,8 +232,8 @@ class DistanceFamilies {
              }},
             {"largest",
              [&] {
-                 const double most = 0x1.fp1023;
-                 return Made{scaled(inside(), -most), scaled(inside(), most)};
+                 const double max_magnitude = 0x1.fp1023;
+                 return Made{scaled(inside(), -max_magnitude), scaled(inside(), max_magnitude)};
              }},
             {"any_magnitude",
              [&] {
@@ -249,9 +249,7 @@ class DistanceFamilies {
     }
 
     int below(int n) { return std::uniform_int_distribution(0, n - 1)(engine_); }
-    double part(double least = 0) {
-        return std::uniform_real_distribution<double>(least, 1)(engine_);
-    }
+    double part(double low = 0) { return std::uniform_real_distribution<double>(low, 1)(engine_); }
     double coordinate() { return 2 * part() - 1; }
     Corners inside() { return {point(), point(), point()}; }
     Corners grid(int n) {
@@ -293,8 +291,8 @@ class DistanceFamilies {
     static Corners corners(const Triangle<double>& t) { return {t.a, t.b, t.c}; }
     static Point normalized(Point p) { return p * (1 / length(p)); }
 
-    double ten_to(double least, double most) {
-        return std::pow(10, std::uniform_real_distribution<double>(least, most)(engine_));
+    double ten_to(double low, double max_magnitude) {
+        return std::pow(10, std::uniform_real_distribution<double>(low, max_magnitude)(engine_));
     }
     double gap() { return ten_to(-18, -1); }
     Point point() { return {part(), part(), part()}; }

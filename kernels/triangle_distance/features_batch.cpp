@@ -148,7 +148,8 @@ class Answers {
 /// Pairs of which the guess was wrong, gathered so that they fill vectors.
 class Pending {
   public:
-    static constexpr std::size_t most = 128; ///< pairs to be added between calls of answer_full
+    static constexpr std::size_t max_added =
+        128; ///< pairs to be added between calls of answer_full
 
     explicit Pending(std::span<Distance> distances) : distances_(distances) {}
 
@@ -214,17 +215,18 @@ class Pending {
     }
 
     std::span<Distance> distances_;
-    Rows<most + 2 * lanes> rows_{}; // what stays, `most`, and the rest of the last vector stored
-    std::size_t index_[most + 2 * lanes]{};
+    Rows<max_added + 2 * lanes>
+        rows_{}; // what stays, `max_added`, and the rest of the last vector stored
+    std::size_t index_[max_added + 2 * lanes]{};
     std::size_t count_ = 0;
 };
 
 void distances_of(std::span<const TrianglePairBlock<double>> blocks,
                   std::span<Distance> distances) {
     Pending pending(distances);
-    std::uint32_t wrong[Pending::most / lanes];
-    for (std::size_t begin = 0; begin < distances.size(); begin += Pending::most) {
-        const std::size_t end = std::min(begin + Pending::most, distances.size());
+    std::uint32_t wrong[Pending::max_added / lanes];
+    for (std::size_t begin = 0; begin < distances.size(); begin += Pending::max_added) {
+        const std::size_t end = std::min(begin + Pending::max_added, distances.size());
         for (std::size_t first = begin; first < end; first += lanes) {
             const std::size_t count = std::min(lanes, end - first);
             PointPair<Lanes> pair;

@@ -36,21 +36,21 @@ template <class Real, class Up> Decision pass_up(const void* block, std::size_t 
 }
 
 // When a sign is certain. All corners are seen from a's first one; m is the largest |coordinate|
-// of them per axis, but at least `least`. A triple product of such corners has passed 8 roundings
-// (3 differences, product, minor, product, two sums) in each of 6 products of at most mx my mz.
-// Every quantity below is the sum of at most 4 triple products, by at most 3 more sums: it's off
-// by less than 4 * 6 * 11u mx my mz = 264u mx my mz. 270u leaves room for the terms in u^2, for the
-// roundings of m and of the bound, and for underflow, in any mode of flushing: with f = 2^-1022 or
-// 2^-126 it costs a coordinate 3 f (operands and result), a minor 3 f and a product f, which is
-// less than u/1000 of m, of mx my and of mx my mz, given `least`.
+// of them per axis, but at least `min_size`. A triple product of such corners has passed 8
+// roundings (3 differences, product, minor, product, two sums) in each of 6 products of at most mx
+// my mz. Every quantity below is the sum of at most 4 triple products, by at most 3 more sums: it's
+// off by less than 4 * 6 * 11u mx my mz = 264u mx my mz. 270u leaves room for the terms in u^2, for
+// the roundings of m and of the bound, and for underflow, in any mode of flushing: with f = 2^-1022
+// or 2^-126 it costs a coordinate 3 f (operands and result), a minor 3 f and a product f, which is
+// less than u/1000 of m, of mx my and of mx my mz, given `min_size`.
 // The bound is computed `headroom` times as large: if that is finite, nothing has overflown, since
 // mx my mz < 2^670 and thus mx my < 2^970, or 2^96 and 2^124. Infinite, it makes nothing certain.
 template <class Real> struct CertainSign;
 template <> struct CertainSign<double> {
-    static constexpr double least = 0x1p-300, bound = 270 * 0x1p-53, headroom = 0x1p400;
+    static constexpr double min_size = 0x1p-300, bound = 270 * 0x1p-53, headroom = 0x1p400;
 };
 template <> struct CertainSign<float> {
-    static constexpr float least = 0x1p-28f, bound = 270 * 0x1p-24f, headroom = 0x1p48f;
+    static constexpr float min_size = 0x1p-28f, bound = 270 * 0x1p-24f, headroom = 0x1p48f;
 };
 
 static_assert(sizeof(Decision) == sizeof(std::uint16_t) &&
@@ -66,9 +66,9 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-template <class V> HWY_INLINE V largest_size(V least, V a, V b, V c, V d, V e) {
+template <class V> HWY_INLINE V largest_size(V min_size, V a, V b, V c, V d, V e) {
     const V ab = hn::Max(hn::Abs(a), hn::Abs(b)), cd = hn::Max(hn::Abs(c), hn::Abs(d));
-    return hn::Max(hn::Max(ab, cd), hn::Max(hn::Abs(e), least));
+    return hn::Max(hn::Max(ab, cd), hn::Max(hn::Abs(e), min_size));
 }
 
 /// Where the sign bit is set.
@@ -152,10 +152,10 @@ template <bool proven, class D> HWY_INLINE Decided<D> decide(D d, const Seen<D>&
     V bound;
     if constexpr (proven) {
         using Certain = CertainSign<Real>;
-        const V least = hn::Set(d, Certain::least);
-        const V mx = largest_size(least, a1.x, a2.x, b0.x, b1.x, b2.x);
-        const V my = largest_size(least, a1.y, a2.y, b0.y, b1.y, b2.y);
-        const V mz = largest_size(least, a1.z, a2.z, b0.z, b1.z, b2.z);
+        const V min_size = hn::Set(d, Certain::min_size);
+        const V mx = largest_size(min_size, a1.x, a2.x, b0.x, b1.x, b2.x);
+        const V my = largest_size(min_size, a1.y, a2.y, b0.y, b1.y, b2.y);
+        const V mz = largest_size(min_size, a1.z, a2.z, b0.z, b1.z, b2.z);
         const V large =
             hn::Mul(hn::Mul(mx, my), hn::Mul(mz, hn::Set(d, Certain::bound * Certain::headroom)));
         bound = hn::Mul(large, hn::Set(d, 1 / Certain::headroom));

@@ -149,17 +149,16 @@ TYPED_TEST(Batch, NearTouch) {
 }
 
 TYPED_TEST(Batch, Magnitudes) {
-    const int least = this->floats ? -149 : -1074, most = this->floats ? 127 : 1023;
+    const int low = this->floats ? -149 : -1074, high = this->floats ? 127 : 1023;
     for (const auto& pairs :
-         {this->families(1).magnitudes(4000, least, most),
+         {this->families(1).magnitudes(4000, low, high),
           this->families(2).magnitudes(4000, -20, 20),
-          this->families(3).magnitudes(4000, least / 3 - 20, least / 3 + 20),
-          this->families(4).magnitudes(4000, most / 3 - 20, most / 3 + 20),
-          this->families(5).magnitudes(2000, least, least + 60),
-          this->families(6).magnitudes(2000, most - 40, most),
-          this->families(7).grid(2000, 8, least), this->families(8).grid(2000, 8, most - 5),
-          this->families(9).grid(2000, 60, least / 3),
-          this->families(9).grid(2000, 60, most / 3)}) {
+          this->families(3).magnitudes(4000, low / 3 - 20, low / 3 + 20),
+          this->families(4).magnitudes(4000, high / 3 - 20, high / 3 + 20),
+          this->families(5).magnitudes(2000, low, low + 60),
+          this->families(6).magnitudes(2000, high - 40, high), this->families(7).grid(2000, 8, low),
+          this->families(8).grid(2000, 8, high - 5), this->families(9).grid(2000, 60, low / 3),
+          this->families(9).grid(2000, 60, high / 3)}) {
         const auto tally = this->judge(pairs);
         if (this->exact) {
             EXPECT_EQ(tally.wrong, 0u);

@@ -101,11 +101,12 @@ template <class K = Kernel> Answer answer(const Corners& a, const Corners& b) {
 
 /// Whether float determinants round nothing: 6 * (2 * 64)^3 < 2^24.
 bool is_small(const Corners& a, const Corners& b) {
-    std::int64_t most = 0;
+    std::int64_t max_coordinate = 0;
     for (const Corners& t : {a, b})
         for (const Point& p : t)
-            most = std::max({most, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    return most <= 64;
+            max_coordinate =
+                std::max({max_coordinate, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    return max_coordinate <= 64;
 }
 
 std::string print(const Corners& a, const Corners& b) {

@@ -53,8 +53,8 @@ TYPED_TEST(MollerKernels, PromisesNothingNearTouch) {
 }
 
 TYPED_TEST(MollerKernels, PowersOfTwoChangeNothing) {
-    const int most = this->kept == Kept::as_float ? 8 : 60;
-    for (const int exponent : {-most, most})
+    const int max_exponent = this->kept == Kept::as_float ? 8 : 60;
+    for (const int exponent : {-max_exponent, max_exponent})
         EXPECT_EQ(this->wrong(PairFamilies(2, this->kept).grid(4000, 4, exponent)), 0);
 }
 

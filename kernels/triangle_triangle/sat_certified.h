@@ -55,7 +55,7 @@ struct SatCertified {
     static constexpr double u = std::numeric_limits<double>::epsilon() / 2;
     static constexpr double gap_bound = 9 * u, gap_underflow = 0x1p-1000;
     static constexpr double overlap_bound = 450 * u, overlap_underflow = 0x1p-800;
-    static constexpr double least = 0x1p-200, most = 0x1p200;
+    static constexpr double min_size = 0x1p-200, max_size = 0x1p200;
 
     static Answer at_any_scale(const Triangle<double>& a, const Triangle<double>& b) {
         const auto larger = [](const Vec3<double>& p, const Vec3<double>& q) {
@@ -65,7 +65,7 @@ struct SatCertified {
         for (const Triangle<double>* t : {&a, &b})
             extent = larger(larger(larger(extent, t->a), t->b), t->c);
         const double size = std::max({extent.x, extent.y, extent.z});
-        if (size == 0 || (size >= least && size <= most))
+        if (size == 0 || (size >= min_size && size <= max_size))
             return at_this_scale(a, b);
         const int exponent = -std::ilogb(size);
         const auto scaled = [&](const Triangle<double>& t) {

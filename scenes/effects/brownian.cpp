@@ -10,16 +10,16 @@ struct Brownian {
         "bodies go another way, at another speed, each frame";
     static constexpr Changes changes{.velocity = true};
 
-    double speed = .75, of_room = 0;
+    double speed = .75, of_bounds = 0;
     static std::vector<Setting<Brownian>> settings() {
-        return {
-            {"speed", "the highest, mean body sides per second", &Brownian::speed, 0, 1e9},
-            {"of_room", "the same in mean sides of the room, added", &Brownian::of_room, 0, 1e3}};
+        return {{"speed", "the highest, mean body sides per second", &Brownian::speed, 0, 1e9},
+                {"of_bounds", "the same in mean sides of the bounds, added", &Brownian::of_bounds,
+                 0, 1e3}};
     }
 
     void start(Moment&) const {}
     void advance(Moment& moment) const {
-        const double fastest = moment.bodies.length_of(speed, of_room);
+        const double fastest = moment.bodies.length_of(speed, of_bounds);
         for (const std::uint32_t i : moment.chosen)
             moment.bodies.velocity[i] = fastest * moment.draws(i).in_ball();
     }

@@ -4,18 +4,19 @@ namespace boxwood {
 namespace {
 
 /// A constant acceleration, in one direction or turning about z. Bodies that have come to rest on
-/// the floor of the room are left alone from then on, unless the direction turns.
+/// the floor of the bounds are left alone from then on, unless the direction turns.
 struct Gravity {
     static constexpr std::string_view name = "gravity";
     static constexpr std::string_view summary =
-        "bodies fall, bounce off the floor and walls of the room, and come to rest";
+        "bodies fall, bounce off the floor and walls of the bounds, and come to rest";
     static constexpr Changes changes{.velocity = true};
 
-    double strength = 10, of_room = 0, bounce = .5, friction = .1, turn = 0;
+    double strength = 10, of_bounds = 0, bounce = .5, friction = .1, turn = 0;
     static std::vector<Setting<Gravity>> settings() {
         return {
             {"strength", "mean body sides per second squared", &Gravity::strength, 0, 1e9},
-            {"of_room", "the same in mean sides of the room, added", &Gravity::of_room, 0, 1e3},
+            {"of_bounds", "the same in mean sides of the bounds, added", &Gravity::of_bounds, 0,
+             1e3},
             {"bounce", "share of its speed that a body keeps at a wall", &Gravity::bounce, 0, 1},
             {"friction", "share of its sideways speed lost per frame on the floor",
              &Gravity::friction, 0, 1},
@@ -30,13 +31,13 @@ struct Gravity {
 
     void advance(Moment& moment) {
         Bodies& bodies = moment.bodies;
-        const double gain = bodies.length_of(strength, of_room) * moment.dt;
+        const double gain = bodies.length_of(strength, of_bounds) * moment.dt;
         const double quarters = turn * moment.dt * static_cast<double>(moment.frame);
         const Vec3<double> direction{wave(quarters), 0, -wave(quarters + 1)};
         std::size_t still_awake = 0;
         for (const std::uint32_t i : awake_) {
             Vec3<double>& velocity = bodies.velocity[i];
-            if (turn == 0 && bodies.pose[i].translation.z <= bodies.room.min.z) {
+            if (turn == 0 && bodies.pose[i].translation.z <= bodies.bounds.min.z) {
                 velocity.x *= 1 - friction;
                 velocity.y *= 1 - friction;
                 if (dot(velocity, velocity) < 4 * gain * gain) {

@@ -3,11 +3,11 @@
 namespace boxwood {
 namespace {
 
-/// Circles about the vertical line through the middle of the room.
+/// Circles about the vertical line through the middle of the bounds.
 struct Orbit {
     static constexpr std::string_view name = "orbit";
     static constexpr std::string_view summary =
-        "bodies circle the middle of the room, each at a rate of its own";
+        "bodies circle the middle of the bounds, each at a rate of its own";
     static constexpr Changes changes{.position = true};
 
     double rate = .5;
@@ -24,8 +24,8 @@ struct Orbit {
         }
     }
     void advance(Moment& moment) const {
-        const Aabb<double>& room = moment.bodies.room;
-        const Vec3<double> middle = .5 * (room.min + room.max);
+        const Aabb<double>& bounds = moment.bodies.bounds;
+        const Vec3<double> middle = .5 * (bounds.min + bounds.max);
         for (std::size_t k = 0; k < moment.chosen.size(); ++k) {
             const std::uint32_t i = moment.chosen[k];
             Vec3<double>& place = moment.bodies.pose[i].translation;

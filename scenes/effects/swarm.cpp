@@ -25,7 +25,7 @@ struct Swarm {
         Bodies& bodies = moment.bodies;
         const auto age =
             static_cast<std::uint64_t>(static_cast<double>(moment.frame) * moment.dt / period);
-        const Vec3<double> extent = bodies.room.max - bodies.room.min;
+        const Vec3<double> extent = bodies.bounds.max - bodies.bounds.min;
         const double fastest = speed * bodies.side;
         const double max_change = 4 * fastest * moment.dt; // full speed after a quarter second
         Vec3<double> goal{};
@@ -35,8 +35,8 @@ struct Swarm {
             if (flock_of_i != goal_of) {
                 goal_of = flock_of_i;
                 const Vec3<double> u = moment.random.item((age + 1) << 32 | flock_of_i).in_cube();
-                goal =
-                    bodies.room.min + Vec3<double>{u.x * extent.x, u.y * extent.y, u.z * extent.z};
+                goal = bodies.bounds.min +
+                       Vec3<double>{u.x * extent.x, u.y * extent.y, u.z * extent.z};
             }
             const Vec3<double> place = spread * bodies.side * moment.random.item(i).in_ball();
             const Vec3<double> way = goal + place - bodies.pose[i].translation;
@@ -47,9 +47,9 @@ struct Swarm {
     }
 
   private:
-    static Vec3<double> limited(Vec3<double> v, double most) {
+    static Vec3<double> limited(Vec3<double> v, double max_length) {
         const double size = length(v);
-        return size > most ? v * (most / size) : v;
+        return size > max_length ? v * (max_length / size) : v;
     }
 };
 

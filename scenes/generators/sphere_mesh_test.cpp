@@ -35,14 +35,14 @@ TEST(SphereMesh, FacesOutwardAndIsBumpy) {
         const auto a = Vec3<double>(t.a), b = Vec3<double>(t.b), c = Vec3<double>(t.c);
         ASSERT_GT(dot(a, cross(b, c)), 0) << i;
     }
-    float least = 9, most = 0;
+    float low = 9, high = 0;
     for (const Vec3<float>& v : mesh.vertices) {
-        least = std::min(least, length(v));
-        most = std::max(most, length(v));
+        low = std::min(low, length(v));
+        high = std::max(high, length(v));
     }
-    EXPECT_GT(least, 0.85f);
-    EXPECT_LT(most, 1.15f);
-    EXPECT_GT(most - least, 0.08f);
+    EXPECT_GT(low, 0.85f);
+    EXPECT_LT(high, 1.15f);
+    EXPECT_GT(high - low, 0.08f);
     EXPECT_NE(mesh.vertices, sphere(5000, 2).vertices);
 }
 

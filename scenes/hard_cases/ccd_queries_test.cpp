@@ -1,4 +1,5 @@
 #include "kernels/oracle/rational.h"
+#include "kernels/testing/complaint.h"
 #include "scenes/hard_cases/hard_cases.h"
 
 #include <fmt/format.h>
@@ -51,12 +52,7 @@ MotionCases read(const char* family, const fs::path& file) {
 }
 
 std::string error_of(const fs::path& file) {
-    try {
-        read("ccd_queries_vertex_face", file);
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "no error";
+    return complaint_of<std::runtime_error>([&] { read("ccd_queries_vertex_face", file); });
 }
 
 TEST(CcdQueries, ReadsStartThenEnd) {

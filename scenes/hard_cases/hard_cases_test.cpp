@@ -1,5 +1,6 @@
 #include "scenes/hard_cases/hard_cases.h"
 
+#include "kernels/testing/complaint.h"
 #include "scenes/scene.h"
 
 #include <gmock/gmock.h>
@@ -225,12 +226,7 @@ TEST(HardCases, OrdersOfBoxesAreOrdersOfTheSameBoxes) {
 }
 
 std::string error_of(const char* family, const HardCaseSpec& spec) {
-    try {
-        make_cases(*find_hard_case_family(family), spec);
-    } catch (const std::invalid_argument& error) {
-        return error.what();
-    }
-    return "no error";
+    return complaint_of([&] { make_cases(*find_hard_case_family(family), spec); });
 }
 
 TEST(HardCases, ErrorsNameFamilyParameterAndRange) {

@@ -48,8 +48,8 @@ LatticePoint draw_point(Draws& draws, LatticePoint low, LatticePoint high) {
     return p;
 }
 
-LatticeMap draw_tilt(Draws& draws, int most) {
-    const auto entry = [&] { return draw_integer(draws, -most, most); };
+LatticeMap draw_tilt(Draws& draws, int max_tilt) {
+    const auto entry = [&] { return draw_integer(draws, -max_tilt, max_tilt); };
     LatticeMap lower{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}}, upper = lower;
     lower.rows[1].x = entry();
     lower.rows[2].x = entry();

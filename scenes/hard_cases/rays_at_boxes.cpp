@@ -81,8 +81,8 @@ RayBoxCase signed_zeros(Draws& draws, int) {
 /// box's upper face there is one float lower, and the ray misses.
 RayBoxCase corner_tie(Draws& draws, int k) {
     RayBoxCase result;
-    const std::int64_t least = std::int64_t{1} << k;
-    const std::int64_t m = draw_integer(draws, least, 2 * least - 1);
+    const std::int64_t min_side = std::int64_t{1} << k;
+    const std::int64_t m = draw_integer(draws, min_side, 2 * min_side - 1);
     const bool misses = draw_integer(draws, 0, 3) == 0;
     std::array<int, 3> axes{0, 1, 2};
     shuffle(axes, draws);

@@ -88,11 +88,12 @@ HardCaseFamily rounded_family(std::string_view name, std::string_view summary, P
             .generate = generate};
 }
 
-HardCaseFamily with_k(HardCaseFamily family, std::string_view meaning, int k, int least, int most) {
+HardCaseFamily with_k(HardCaseFamily family, std::string_view meaning, int k, int min_k,
+                      int max_k) {
     family.k_meaning = meaning;
     family.k_default = k;
-    family.k_min = least;
-    family.k_max = most;
+    family.k_min = min_k;
+    family.k_max = max_k;
     return family;
 }
 

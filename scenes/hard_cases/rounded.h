@@ -46,7 +46,7 @@ constexpr int rounded_scale = 860;
 /// A family of rounded coordinates, without a k.
 HardCaseFamily rounded_family(std::string_view name, std::string_view summary, Panel panel,
                               decltype(HardCaseFamily::generate) generate);
-HardCaseFamily with_k(HardCaseFamily family, std::string_view meaning, int k, int least, int most);
+HardCaseFamily with_k(HardCaseFamily family, std::string_view meaning, int k, int min_k, int max_k);
 
 /// Pairs of triangles drawn in real numbers, rounded as they come, then scaled by 2^scale.
 using DrawRoundedPair = TrianglePairCase (*)(Draws& draws, int k);

@@ -21,15 +21,15 @@ struct Bodies {
     std::vector<Vec3<double>> velocity;
     std::vector<std::uint8_t> present; ///< 0: not there, in no answer
     std::vector<TriangleMesh> meshes;  ///< each in its bodies' own frame
-    Aabb<double> room;                 ///< where effects keep the origins of bodies
+    Aabb<double> bounds;               ///< where effects keep the origins of bodies
     double side = 0;                   ///< mean of all sides of all boxes at the start
-    double bounce = 1; ///< share of its speed towards a wall of the room that a body keeps there
+    double bounce = 1; ///< share of its speed towards a wall of the bounds that a body keeps there
 
     std::size_t size() const { return rest.size(); }
-    /// So many mean body sides and so many mean sides of the room: how effects measure lengths.
-    double length_of(double sides, double rooms) const {
-        const Vec3<double> extent = room.max - room.min;
-        return sides * side + rooms * (extent.x + extent.y + extent.z) / 3;
+    /// So many mean body sides and so many mean sides of the bounds: how effects measure lengths.
+    double length_of(double sides, double of_bounds) const {
+        const Vec3<double> extent = bounds.max - bounds.min;
+        return sides * side + of_bounds * (extent.x + extent.y + extent.z) / 3;
     }
 
     /// A body at rest whose own frame has its origin at the centre of the box.

@@ -37,7 +37,6 @@ class Frames {
     /// Back to the start: frame 1 comes next.
     void rewind();
 
-    bool is_baked() const { return is_baked_; }
     /// Memory held now.
     std::size_t bytes() const;
 

@@ -131,7 +131,7 @@ void MovingScene::add_group(const BodyGroup& group, std::size_t index) {
     for (std::uint32_t i = first; i < bodies_.size(); ++i) {
         Vec3<double>& place = bodies_.pose[i].translation;
         place = place + group.at;
-        bodies_.room.extend(place);
+        bodies_.bounds.extend(place);
     }
     if (!group.shape.empty() && made.mesh.triangles.empty())
         fill_boxes(bodies_, first,
@@ -201,7 +201,7 @@ Moment MovingScene::moment_of(const Laid& laid) {
     return {bodies_, laid.chosen, changed_, laid.random, frame_, 1 / file_.frames_per_second};
 }
 
-/// Along its velocity; what would leave the room stays at the wall and turns round.
+/// Along its velocity; what would leave the bounds stays at the wall and turns round.
 void MovingScene::move_along(std::uint32_t i) {
     Vec3<double>& velocity = bodies_.velocity[i];
     if (velocity == Vec3<double>{})
@@ -209,7 +209,7 @@ void MovingScene::move_along(std::uint32_t i) {
     Vec3<double>& place = bodies_.pose[i].translation;
     const Vec3<double> before = place;
     for (int axis = 0; axis < 3; ++axis) {
-        const double low = bodies_.room.min[axis], high = bodies_.room.max[axis];
+        const double low = bodies_.bounds.min[axis], high = bodies_.bounds.max[axis];
         const double x = place[axis] + velocity[axis] / file_.frames_per_second;
         if ((x < low && velocity[axis] < 0) || (x > high && velocity[axis] > 0))
             velocity[axis] *= -bodies_.bounce;

@@ -16,10 +16,10 @@ using Vec = Vec3<double>;
 /// The name of a query's stream of random numbers, on which the bits of all scenes depend.
 std::string stream(const std::string& query) { return "asks." + query; }
 
-/// The eye of the camera goes to and fro, along x from one end of the room to the other in about
+/// The eye of the camera goes to and fro, along x from one end of the bounds to the other in about
 /// three seconds, along y and z at other rates; it looks to where it will be.
 struct Camera {
-    explicit Camera(const MovingScene& scene) : room(scene.bodies().room) {
+    explicit Camera(const MovingScene& scene) : bounds(scene.bodies().bounds) {
         const double time = static_cast<double>(scene.frame()) / scene.file().frames_per_second;
         eye = place(time);
         const Vec ahead = place(time + 1) - eye;
@@ -31,13 +31,13 @@ struct Camera {
         up = cross(right, forward);
     }
     Vec place(double time) const {
-        const Vec half = .45 * (room.max - room.min);
-        return .5 * (room.min + room.max) + Vec{half.x * wave(.6 * time - 1),
-                                                half.y * wave(.41 * time),
-                                                half.z * wave(.27 * time)};
+        const Vec half = .45 * (bounds.max - bounds.min);
+        return .5 * (bounds.min + bounds.max) + Vec{half.x * wave(.6 * time - 1),
+                                                    half.y * wave(.41 * time),
+                                                    half.z * wave(.27 * time)};
     }
 
-    Aabb<double> room;
+    Aabb<double> bounds;
     Vec eye, forward{1, 0, 0}, right, up;
 };
 
@@ -54,12 +54,12 @@ Vec in_box(const Aabb<double>& box, Draws& draws) {
     return p;
 }
 
-/// Where points are laid: within a tenth of the room around the eye, or all of the room.
+/// Where points are laid: within a tenth of the bounds around the eye, or all of the bounds.
 Aabb<double> around(const MovingScene& scene, const SceneQuery& query) {
     if (query.kind != "flying")
-        return scene.bodies().room;
+        return scene.bodies().bounds;
     const Camera camera(scene);
-    const Vec half = .1 * (camera.room.max - camera.room.min);
+    const Vec half = .1 * (camera.bounds.max - camera.bounds.min);
     return {camera.eye - half, camera.eye + half};
 }
 
@@ -91,8 +91,8 @@ std::span<const SceneQueryEntry> scene_queries() {
 
 std::span<const QueryKindEntry> query_kinds() {
     static constexpr QueryKindEntry entries[] = {
-        {"flying", "around a camera that flies through the room; rays are its own"},
-        {"scattered", "anywhere in the room, elsewhere in each frame"},
+        {"flying", "around a camera that flies through the bounds; rays are its own"},
+        {"scattered", "anywhere in the bounds, elsewhere in each frame"},
     };
     return entries;
 }
@@ -117,7 +117,7 @@ void rays_of_frame(const MovingScene& scene, const SceneQuery& query,
     const Random random(scene.file().seed, stream("rays"));
     for (std::size_t i = 0; i < query.n; ++i) {
         Draws draws = draws_of(random, scene, i);
-        const Vec from = in_box(scene.bodies().room, draws);
+        const Vec from = in_box(scene.bodies().bounds, draws);
         out.push_back(
             {static_cast<Vec3<float>>(from), static_cast<Vec3<float>>(draws.unit_vector())});
     }

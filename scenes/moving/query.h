@@ -38,11 +38,11 @@ struct QueryKindEntry {
 std::span<const QueryKindEntry> query_kinds();
 
 // What a query needs in the scene's present frame, the same bits on every machine: ray, point or
-// region i depends on the scene's seed and room, the frame and i. They replace what `out` holds.
+// region i depends on the scene's seed and bounds, the frame and i. They replace what `out` holds.
 
-/// flying: a pinhole camera's; scattered: from anywhere in the room in any direction.
+/// flying: a pinhole camera's; scattered: from anywhere in the bounds in any direction.
 void rays_of_frame(const MovingScene& scene, const SceneQuery& query, std::vector<Ray<float>>& out);
-/// flying: around the camera; scattered: anywhere in the room.
+/// flying: around the camera; scattered: anywhere in the bounds.
 void points_of_frame(const MovingScene& scene, const SceneQuery& query,
                      std::vector<Vec3<float>>& out);
 /// Closed boxes around such points, of half to one and a half the size.

@@ -1,5 +1,6 @@
 #include "scenes/moving/query.h"
 
+#include "kernels/testing/complaint.h"
 #include "scenes/moving/moving_scene.h"
 
 #include <gmock/gmock.h>
@@ -29,12 +30,7 @@ std::vector<std::string> names(const SceneFile& file) {
 }
 
 std::string complaint(const std::string& text) {
-    try {
-        parse_scene_file(text, "mine.toml");
-    } catch (const std::invalid_argument& error) {
-        return error.what();
-    }
-    return "no error";
+    return complaint_of([&] { parse_scene_file(text, "mine.toml"); });
 }
 
 TEST(SceneQueries, AreReadFromTheFile) {
@@ -101,7 +97,7 @@ TEST(SceneQueries, FiltersAndMarginsAreThoseOfTheirGroups) {
 
 TEST(SceneQueries, QueriesGoWithTheFrameAndAreTheSameOnEveryMachine) {
     MovingScene scene(load_scene("still_life"), 100);
-    const Aabb<double> room = scene.bodies().room;
+    const Aabb<double> bounds = scene.bodies().bounds;
     std::uint64_t hash = 0;
     for (const QueryKindEntry& kind : query_kinds()) {
         const SceneQuery query{
@@ -118,8 +114,8 @@ TEST(SceneQueries, QueriesGoWithTheFrameAndAreTheSameOnEveryMachine) {
             ASSERT_EQ(regions.size(), 50u);
             EXPECT_NE(regions, regions_before);
             regions_before = regions;
-            const Vec3<double> grown = .1 * (room.max - room.min);
-            const Aabb<double> near{room.min - grown, room.max + grown};
+            const Vec3<double> grown = .1 * (bounds.max - bounds.min);
+            const Aabb<double> near{bounds.min - grown, bounds.max + grown};
             for (const Ray<float>& ray : rays) {
                 EXPECT_TRUE(near.contains(static_cast<Vec3<double>>(ray.origin)));
                 EXPECT_TRUE(is_finite(ray.direction));
@@ -139,7 +135,7 @@ TEST(SceneQueries, QueriesGoWithTheFrameAndAreTheSameOnEveryMachine) {
 }
 
 TEST(SceneQueries, ACameraFliesThroughAFlatRoom) {
-    MovingScene scene(parse_scene_file(uniform + "n = 1\n", "mine.toml")); // a room of one point
+    MovingScene scene(parse_scene_file(uniform + "n = 1\n", "mine.toml")); // bounds of one point
     std::vector<Ray<float>> rays;
     for (int frame = 0; frame < 5; ++frame) {
         rays_of_frame(scene, {.name = "rays", .kind = "flying", .n = 9}, rays);

@@ -178,7 +178,7 @@ SceneFile load_scene(const std::string& name_or_path) {
             return parse_scene_file(scene.text, name_or_path + ".toml");
     if (!name_or_path.ends_with(".toml"))
         throw std::invalid_argument(
-            unknown_word("scene", name_or_path, names_of(built_in_scenes())) +
+            unknown_name("scene", name_or_path, names_of(built_in_scenes())) +
             "; a scene file of your own ends in .toml");
     std::ifstream in(name_or_path, std::ios::binary);
     std::ostringstream text;

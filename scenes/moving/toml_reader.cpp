@@ -30,7 +30,7 @@ void TomlReader::require_known_keys(const toml::table& table, std::string_view w
                                     const Words& known) const {
     for (const auto& [key, value] : table)
         if (std::ranges::find(known, key.str()) == known.end())
-            fail(key.source(), unknown_word(fmt::format("key of {}", where), key.str(), known));
+            fail(key.source(), unknown_name(fmt::format("key of {}", where), key.str(), known));
 }
 
 double TomlReader::number(const toml::node& node, std::string_view key, double min,
@@ -73,13 +73,18 @@ std::string TomlReader::text(const toml::node& node, std::string_view key) const
     return *value;
 }
 
+void TomlReader::require_known(const toml::node& node, std::string_view key, std::string_view name,
+                               const Words& known) const {
+    if (std::ranges::find(known, name) == known.end())
+        fail(node.source(), fmt::format("{}: {}", key, unknown_name("name", name, known)));
+}
+
 std::string TomlReader::word(const toml::node& node, std::string_view key,
                              const Words& known) const {
     const auto value = node.value<std::string>();
     if (!value)
         fail(node.source(), fmt::format("{} must be a name in quotes", key));
-    if (std::ranges::find(known, *value) == known.end())
-        fail(node.source(), fmt::format("{}: {}", key, unknown_word("name", *value, known)));
+    require_known(node, key, *value, known);
     return *value;
 }
 

@@ -35,6 +35,9 @@ class TomlReader {
     std::string text(const toml::node& node, std::string_view key) const;
     /// A number, true or false, or a name, in its own type.
     SettingValue setting(const toml::node& node, std::string_view key) const;
+    /// Refuses a name of the node that is not one of the known ones.
+    void require_known(const toml::node& node, std::string_view key, std::string_view name,
+                       const Words& known) const;
     /// One of the known names.
     std::string word(const toml::node& node, std::string_view key, const Words& known) const;
 

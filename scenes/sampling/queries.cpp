@@ -35,9 +35,9 @@ Vec in_grown(const Aabb<double>& box, double share, Draws& draws) {
 
 /// Rounded to float, held to the finite ones.
 Vec3<float> to_float(Vec p) {
-    constexpr double most = static_cast<double>(std::numeric_limits<float>::max());
+    constexpr double max_float = static_cast<double>(std::numeric_limits<float>::max());
     for (int axis = 0; axis < 3; ++axis)
-        p[axis] = std::clamp(p[axis], -most, most);
+        p[axis] = std::clamp(p[axis], -max_float, max_float);
     return static_cast<Vec3<float>>(p);
 }
 
@@ -141,9 +141,9 @@ std::vector<Sphere<float>> make_sphere_regions(SceneBoxes boxes, std::size_t n,
     regions.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
         Draws draws = numbers.item(i);
-        const double most = static_cast<double>(std::numeric_limits<float>::max());
-        regions.push_back(
-            {centres[i], static_cast<float>(std::min(most, radius * (0.5 + draws.uniform())))});
+        const double max_float = static_cast<double>(std::numeric_limits<float>::max());
+        regions.push_back({centres[i], static_cast<float>(
+                                           std::min(max_float, radius * (0.5 + draws.uniform())))});
     }
     return regions;
 }

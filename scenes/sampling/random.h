@@ -36,9 +36,6 @@ class Draws {
     }
     double uniform(double low, double high) { return low + (high - low) * uniform(); }
 
-    /// Uniform in [0, 1): a multiple of 2^-24.
-    float uniform_float() { return static_cast<float>(word() >> 8) * 0x1p-24f; }
-
     /// Uniform in the unit cube.
     Vec3<double> in_cube() { return {uniform(), uniform(), uniform()}; }
 

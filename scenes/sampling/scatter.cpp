@@ -159,16 +159,16 @@ Scene scattered_triangles(const SceneSpec& spec, std::string_view name, DrawCorn
 Scene boxes_at_density(const SceneSpec& spec, std::string_view name, double density,
                        const HalfSize& sides) {
     const Random random(spec.seed, name);
-    const double room = cube_root(static_cast<double>(spec.n) / density);
+    const double side = cube_root(static_cast<double>(spec.n) / density);
     Scene scene;
     scene.boxes.reserve(spec.n);
     for (std::size_t i = 0; i < spec.n; ++i) {
         Draws draws = random.item(i);
-        const Vec3<double> centre = room * draws.in_cube(), half = .5 * sides(draws);
+        const Vec3<double> centre = side * draws.in_cube(), half = .5 * sides(draws);
         scene.boxes.push_back(
             {static_cast<Vec3<float>>(centre - half), static_cast<Vec3<float>>(centre + half)});
     }
-    scene.params_json = fmt::format(R"({{"density":{},"room":{}}})", density, room);
+    scene.params_json = fmt::format(R"({{"density":{},"side":{}}})", density, side);
     return scene;
 }
 

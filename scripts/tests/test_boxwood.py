@@ -140,8 +140,8 @@ def test_numbers_are_read_as_python_reads_them():
 
 def test_forms_of_output():
     assert answer("query", "pairs", "-", "--header", stdin=FOUR_LINK) == "i,j\n0,1\n2,3\n"
-    told = json.loads(answer("query", "pairs", "-", "--json", stdin=FOUR_LINK))
-    assert told == {"boxes": 4, "count": 2, "pairs": [[0, 1], [2, 3]]}
+    answered = json.loads(answer("query", "pairs", "-", "--json", stdin=FOUR_LINK))
+    assert answered == {"boxes": 4, "count": 2, "pairs": [[0, 1], [2, 3]]}
 
 
 @pytest.mark.parametrize(
@@ -363,6 +363,6 @@ def test_bad_rays_are_named(tetrahedron, text, said):
 
 def test_tmax_and_json(tetrahedron):
     stdin = "0.1,0.1,-1,0,0,2\n0.1,0.1,-1,0,0,2,0.25\n"
-    told = json.loads(answer("query", "rays", tetrahedron, "-", "--json", stdin=stdin))
-    assert told["rays"] == 2 and told["hits"] == 1 and told["answers"][1] is None
-    assert told["answers"][0]["triangle"] == 0 and told["answers"][0]["t"] == 0.5
+    answered = json.loads(answer("query", "rays", tetrahedron, "-", "--json", stdin=stdin))
+    assert answered["rays"] == 2 and answered["hits"] == 1 and answered["answers"][1] is None
+    assert answered["answers"][0]["triangle"] == 0 and answered["answers"][0]["t"] == 0.5

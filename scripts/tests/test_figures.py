@@ -140,7 +140,7 @@ def test_accuracy_counts_wrong_answers_per_million(results):
     assert rows["generic", "moller_f32"]["ns"] == pytest.approx(5.1, rel=0.1)  # the samples, not the check's own time
 
 
-def test_the_zero_lane_has_a_bar_up_to_three_over_n(results):
+def test_the_zero_band_has_a_bar_up_to_three_over_n(results):
     made = registry.draw("accuracy", results).pictures[1]
     generic = made.figure.axes[0]
     tops = [max(line.get_ydata()) for line in generic.lines if len(set(line.get_xdata())) == 1 and len(line.get_xdata()) == 2]

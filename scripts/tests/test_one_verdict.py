@@ -62,9 +62,9 @@ def test_show_python_and_figures_have_the_verdicts_of_the_file(file):
 
 def test_screen_all_json_and_report_have_the_findings_of_the_file(file):
     results = run.read(file)
-    told = [(f.question, f.together, f.alone, f.certainty) for f in results.findings]
+    reported = [(f.question, f.together, f.alone, f.certainty) for f in results.findings]
     shown = json.loads(boxwood("show", file, "--json"))["findings"]
-    assert told == [(row["question"], row["together"], row["alone"], row["certainty"]) for row in shown] and told
+    assert reported == [(row["question"], row["together"], row["alone"], row["certainty"]) for row in shown] and reported
     everything, report = boxwood("show", file, "--all"), page.report(results)
     screen = boxwood("show", file).splitlines()
     for name in ("trust", "correctness", "advice"):
@@ -73,7 +73,7 @@ def test_screen_all_json_and_report_have_the_findings_of_the_file(file):
         headings = next(row for row in results.topics if row["topic"] == topic)
         for name in ("question", "together", "alone", "certainty"):
             assert headings[name] in everything and page.escape(headings[name]) in report
-    for texts in told:
+    for texts in reported:
         assert all(text in everything and page.escape(text) in report for text in texts)
     headlines = [f for f in results.findings if f.is_headline]
     on_screen = [f for f in headlines
@@ -112,9 +112,9 @@ def test_csv_has_the_medians_of_the_file(file):
 
 
 def test_compare_passes_a_file_against_itself(file):
-    told = json.loads(boxwood("compare", file, file, "--json", "--all"))
-    assert told["gate"] == "passes" and told["same_machine"]
-    assert {(row["verdict"], row["reason"]) for row in told["rows"]} <= {
+    reported = json.loads(boxwood("compare", file, file, "--json", "--all"))
+    assert reported["gate"] == "passes" and reported["same_machine"]
+    assert {(row["verdict"], row["reason"]) for row in reported["rows"]} <= {
         ("same", ""), ("wrong", ""), ("cannot_tell", "below_the_floor")}
     wrong = {c.name for c in run.read(file).cells if c.status == "wrong" and c.timed}
-    assert wrong <= {row["cell"] for row in told["rows"] if row["verdict"] == "wrong"}
+    assert wrong <= {row["cell"] for row in reported["rows"] if row["verdict"] == "wrong"}

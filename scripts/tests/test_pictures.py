@@ -31,7 +31,7 @@ def test_the_axis_of_wrong_answers_ends_at_all():
 
 
 @pytest.mark.parametrize("error", [7.0, 1e20, math.inf])
-def test_an_error_without_a_right_digit_stands_in_the_lane_at_the_top(error):
+def test_an_error_without_a_right_digit_stands_in_the_band_at_the_top(error):
     figure, (ax,) = style.panels(1)
     accuracy.draw_panel(ax, "generic", [kernel("far_off", 5, 10, error), kernel("near", 9, 0, 1e-12)], True)
     marks = {line.get_xdata()[0]: line.get_ydata()[0] for line in ax.lines if line.get_marker() == "o"}

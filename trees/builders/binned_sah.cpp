@@ -25,7 +25,7 @@ struct BinnedPart : Subtree {
     float centres[8];
 };
 
-HWY_INLINE void ClearCentres(BinnedPart& part) { StoreF8(SetF8(kLowest), part.centres); }
+HWY_INLINE void clear_centres(BinnedPart& part) { store_f8(set_f8(kLowest), part.centres); }
 
 class BinnedSplitter {
   public:
@@ -39,7 +39,7 @@ class BinnedSplitter {
           items_(boxes, executor), other_(boxes.size()), tree_(boxes.size()),
           max_depth_(2 * static_cast<std::uint32_t>(std::bit_width(boxes.size())) + 17) {}
 
-    Tree Run() {
+    Tree run() {
         const auto n = static_cast<std::uint32_t>(boxes_.size());
         if (n == 0)
             return std::move(tree_);
@@ -57,33 +57,34 @@ class BinnedSplitter {
 
     Halves<Part> split(const Part& r) {
         if (r.depth > max_depth_)
-            return Halve(r, false);
+            return halve_part(r, false);
         const Binning binning(r.centres, r.count, max_bins_);
         Bin bins[kMaxBins];
         if (binning.is_flat())
-            return Halve(r, true);
-        Clear(bins, binning.n_bins);
-        AddItems(Items(r), r.count, binning, bins);
-        const Plane plane = CheapestPlane(bins, binning, r.count, block_bits_);
+            return halve_part(r, true);
+        clear(bins, binning.n_bins);
+        add_items(items_of(r), r.count, binning, bins);
+        const Plane plane = cheapest_plane(bins, binning, r.count, block_bits_);
         if (plane.axis < 0)
-            return Halve(r, true);
-        WriteBoxOfBins(r, bins, binning.n_bins);
+            return halve_part(r, true);
+        write_box_of_bins(r, bins, binning.n_bins);
         std::uint32_t n_left = 0;
         for (int b = 0; b < plane.bin; ++b)
             n_left += bins[b].count[plane.axis];
-        Halves<Part> h = Children(r, n_left, r.array ^ 1);
-        ClearCentres(h.left);
-        ClearCentres(h.right);
-        Partition(Items(r), r.count, binning, plane, Items(h.left), 0, n_left, h.left.centres,
+        Halves<Part> h = split_children(r, n_left, r.array ^ 1);
+        clear_centres(h.left);
+        clear_centres(h.right);
+        partition(items_of(r), r.count, binning, plane, items_of(h.left), 0, n_left, h.left.centres,
                   h.right.centres);
         return h;
     }
 
     void finish(const Part& r) {
         if (r.count <= whole_)
-            HalveAsTheyLie(Items(r), r.count, {r.node, r.first}, tree_);
+            halve_as_they_lie(items_of(r), r.count, {r.node, r.first}, tree_);
         else
-            Join(Items(r), r.count, Binning(r.centres, r.count, 2).edge, {r.node, r.first}, tree_);
+            join(items_of(r), r.count, Binning(r.centres, r.count, 2).edge, {r.node, r.first},
+                 tree_);
     }
     void build(const Part& part) { build_below(*this, part); }
 
@@ -113,20 +114,20 @@ class BinnedSplitter {
         executor_.for_each(slices.size(), [&](std::size_t i) {
             Slice& s = slices[i];
             const Binning& binning = choices[s.range].binning;
-            Clear(s.bins, binning.n_bins);
-            AddItems(Items(large[s.range]) + s.from, s.count, binning, s.bins);
+            clear(s.bins, binning.n_bins);
+            add_items(items_of(large[s.range]) + s.from, s.count, binning, s.bins);
         });
         // The bins of each range come together; n_left becomes the number left of
         // the slice.
         for (std::size_t i = 0, next = 0; i < large.size(); ++i) {
             Choice& choice = choices[i];
             Bin bins[kMaxBins];
-            Clear(bins, choice.binning.n_bins);
+            clear(bins, choice.binning.n_bins);
             std::size_t end = next;
             for (; end < slices.size() && slices[end].range == i; ++end)
-                Add(bins, slices[end].bins, choice.binning.n_bins);
+                add(bins, slices[end].bins, choice.binning.n_bins);
             if (!choice.binning.is_flat())
-                choice.plane = CheapestPlane(bins, choice.binning, large[i].count, block_bits_);
+                choice.plane = cheapest_plane(bins, choice.binning, large[i].count, block_bits_);
             std::uint32_t n_left = 0;
             for (; next < end; ++next) {
                 slices[next].n_left = n_left;
@@ -135,43 +136,44 @@ class BinnedSplitter {
                         n_left += slices[next].bins[b].count[choice.plane.axis];
             }
             if (choice.plane.axis < 0) {
-                children[i] = Halve(large[i], true);
+                children[i] = halve_part(large[i], true);
                 continue;
             }
-            WriteBoxOfBins(large[i], bins, choice.binning.n_bins);
-            children[i] = Children(large[i], n_left, large[i].array ^ 1);
-            ClearCentres(children[i].left);
-            ClearCentres(children[i].right);
+            write_box_of_bins(large[i], bins, choice.binning.n_bins);
+            children[i] = split_children(large[i], n_left, large[i].array ^ 1);
+            clear_centres(children[i].left);
+            clear_centres(children[i].right);
         }
         executor_.for_each(slices.size(), [&](std::size_t i) {
             Slice& s = slices[i];
             const Choice& choice = choices[s.range];
             Halves<Part>& h = children[s.range];
-            StoreF8(SetF8(kLowest), s.left_centres);
-            StoreF8(SetF8(kLowest), s.right_centres);
+            store_f8(set_f8(kLowest), s.left_centres);
+            store_f8(set_f8(kLowest), s.right_centres);
             if (choice.plane.axis >= 0)
-                Partition(Items(large[s.range]) + s.from, s.count, choice.binning, choice.plane,
-                          Items(h.left), s.n_left, h.left.count + (s.from - s.n_left),
+                partition(items_of(large[s.range]) + s.from, s.count, choice.binning, choice.plane,
+                          items_of(h.left), s.n_left, h.left.count + (s.from - s.n_left),
                           s.left_centres, s.right_centres);
         });
         for (const Slice& s : slices) {
             Halves<Part>& h = children[s.range];
-            StoreF8(MaxF8(LoadF8(h.left.centres), LoadF8(s.left_centres)), h.left.centres);
-            StoreF8(MaxF8(LoadF8(h.right.centres), LoadF8(s.right_centres)), h.right.centres);
+            store_f8(max_f8(load_f8(h.left.centres), load_f8(s.left_centres)), h.left.centres);
+            store_f8(max_f8(load_f8(h.right.centres), load_f8(s.right_centres)), h.right.centres);
         }
     }
 
   private:
     static constexpr std::uint32_t slice_size = 1 << 12;
 
-    Prim8* Items(const Part& r) { return (r.array ? other_ : items_.prims).data() + r.first; }
+    Prim8* items_of(const Part& r) { return (r.array ? other_ : items_.prims).data() + r.first; }
 
-    void WriteInner(const Part& r, F8 box) {
-        WriteNode(box, r.first, r.count, tree_.nodes[r.node]);
+    void write_inner(const Part& r, F8 box) {
+        write_node(box, r.first, r.count, tree_.nodes[r.node]);
     }
 
     /// The children of a part of which `n_left` go left; their centres are left to the caller.
-    static Halves<Part> Children(const Part& part, std::uint32_t n_left, std::uint32_t array) {
+    static Halves<Part> split_children(const Part& part, std::uint32_t n_left,
+                                       std::uint32_t array) {
         const auto [left, right] = children_of(part, n_left);
         Halves<Part> h;
         static_cast<Subtree&>(h.left) = left;
@@ -181,21 +183,21 @@ class BinnedSplitter {
     }
 
     /// Halves that stay in their array: for centres that coincide, or for too great a depth.
-    Halves<Part> Halve(const Part& r, bool coincide) {
-        WriteInner(r, BoundsOfBoxes(Items(r), r.count));
+    Halves<Part> halve_part(const Part& r, bool coincide) {
+        write_inner(r, bounds_of_boxes(items_of(r), r.count));
         const auto n_left = static_cast<std::uint32_t>(
-            coincide ? r.count / 2 : halve({Items(r), r.count}, r.centres));
-        Halves<Part> h = Children(r, n_left, r.array);
-        StoreF8(BoundsOfCentres(Items(h.left), h.left.count), h.left.centres);
-        StoreF8(BoundsOfCentres(Items(h.right), h.right.count), h.right.centres);
+            coincide ? r.count / 2 : halve({items_of(r), r.count}, r.centres));
+        Halves<Part> h = split_children(r, n_left, r.array);
+        store_f8(bounds_of_centres(items_of(h.left), h.left.count), h.left.centres);
+        store_f8(bounds_of_centres(items_of(h.right), h.right.count), h.right.centres);
         return h;
     }
 
-    void WriteBoxOfBins(const Part& r, const Bin* bins, int n_bins) {
-        F8 box = LoadF8(bins[0].box[0]);
+    void write_box_of_bins(const Part& r, const Bin* bins, int n_bins) {
+        F8 box = load_f8(bins[0].box[0]);
         for (int b = 1; b < n_bins; ++b)
-            box = MaxF8(box, LoadF8(bins[b].box[0]));
-        WriteInner(r, box);
+            box = max_f8(box, load_f8(bins[b].box[0]));
+        write_inner(r, box);
     }
 
     Boxes boxes_;
@@ -209,8 +211,8 @@ class BinnedSplitter {
     const std::uint32_t max_depth_;
 };
 
-Tree BuildBinned(Boxes boxes, const BinnedSahBuilder& settings, const Executor& executor) {
-    return BinnedSplitter(boxes, settings, executor).Run();
+Tree build_binned(Boxes boxes, const BinnedSahBuilder& settings, const Executor& executor) {
+    return BinnedSplitter(boxes, settings, executor).run();
 }
 
 } // namespace
@@ -219,14 +221,14 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace boxwood::detail {
-HWY_EXPORT(BuildBinned);
+HWY_EXPORT(build_binned);
 }
 
 namespace boxwood {
 using namespace detail;
 
 Tree BinnedSahBuilder::build(Boxes boxes, const Executor& executor) const {
-    return HWY_DYNAMIC_DISPATCH(BuildBinned)(boxes, *this, executor);
+    return HWY_DYNAMIC_DISPATCH(build_binned)(boxes, *this, executor);
 }
 
 BuilderEntry binned_sah_builder() { return builder_entry<BinnedSahBuilder>(); }

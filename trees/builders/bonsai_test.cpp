@@ -3,6 +3,7 @@
 #include "trees/inspect/validate.h"
 #include "trees/testing/box_families.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -65,12 +66,8 @@ TEST(BonsaiBuilder, PruningPaysWhereBoxesOfManySizesMeet) {
 TEST(BonsaiBuilder, RefusesABadBoxByItsIndex) {
     std::vector<Box> boxes = random_boxes(2000, .1f, 15);
     boxes[1234].max.y = boxes[1234].min.y - 1;
-    try {
-        bonsai(boxes, 64, 1);
-        FAIL() << "no exception";
-    } catch (const InvalidBox& e) {
-        EXPECT_EQ(e.index, 1234u);
-    }
+    EXPECT_THAT([&] { bonsai(boxes, 64, 1); },
+                testing::Throws<InvalidBox>(testing::Field(&InvalidBox::index, 1234u)));
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "trees/inspect/validate.h"
 #include "trees/testing/box_families.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,12 +31,8 @@ TEST(Incremental, SameTreeEachTimeAndOnEveryExecutor) {
 TEST(Incremental, BadBoxIsNamed) {
     auto boxes = random_boxes(10, .1f, 4);
     boxes[7].max.y = boxes[7].min.y - 1;
-    try {
-        IncrementalBuilder{}.build(boxes, serial());
-        FAIL() << "an inverted box was taken";
-    } catch (const InvalidBox& e) {
-        EXPECT_EQ(e.index, 7u);
-    }
+    EXPECT_THAT([&] { IncrementalBuilder{}.build(boxes, serial()); },
+                testing::Throws<InvalidBox>(testing::Field(&InvalidBox::index, 7u)));
 }
 
 } // namespace

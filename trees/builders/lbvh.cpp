@@ -35,13 +35,13 @@ class NodeLanes {
   public:
     HWY_INLINE NodeLanes(const Box& box, std::uint32_t slot)
         : node_(with_items(hn::MaskedLoad(hn::FirstN(df, 6), df, &box.min.x), slot, 1)) {}
-    HWY_INLINE void Extend(const TreeNode& node, std::uint32_t first, std::uint32_t count) {
+    HWY_INLINE void extend(const TreeNode& node, std::uint32_t first, std::uint32_t count) {
         const V other = hn::Load(df, &node.box.min.x);
         const V box =
             hn::IfThenElse(hn::FirstN(df, 3), hn::Min(node_, other), hn::Max(node_, other));
         node_ = with_items(box, first, count);
     }
-    HWY_INLINE void Store(TreeNode& to) const { hn::Store(node_, df, &to.box.min.x); }
+    HWY_INLINE void store(TreeNode& to) const { hn::Store(node_, df, &to.box.min.x); }
 };
 #else
 class NodeLanes {
@@ -49,12 +49,12 @@ class NodeLanes {
 
   public:
     NodeLanes(const Box& box, std::uint32_t slot) : node_{box, slot, 1} {}
-    void Extend(const TreeNode& node, std::uint32_t first, std::uint32_t count) {
+    void extend(const TreeNode& node, std::uint32_t first, std::uint32_t count) {
         node_.box.extend(node.box);
         node_.first = first;
         node_.count = count;
     }
-    void Store(TreeNode& to) const { to = node_; }
+    void store(TreeNode& to) const { to = node_; }
 };
 #endif
 
@@ -62,7 +62,7 @@ class NodeLanes {
 /// child, the left child, the node. So each item in turn becomes the leftmost of all subtrees that
 /// are complete: those to its right that part from it at a lower bit than the item to its left.
 template <class Items>
-void Write(const Items& items, const Box* boxes, const RadixPart& part, Tree& tree) {
+void write_tree(const Items& items, const Box* boxes, const RadixPart& part, Tree& tree) {
     constexpr std::uint32_t ahead = 16;
     constexpr std::uint64_t never = std::numeric_limits<std::uint64_t>::max();
     // Where complete subtrees part, from right to left. Each lies at a lower bit than the one
@@ -77,25 +77,25 @@ void Write(const Items& items, const Box* boxes, const RadixPart& part, Tree& tr
         const std::uint32_t item = items.item(i);
         order[i] = item;
         NodeLanes node(boxes[item], i);
-        node.Store(*--at);
+        node.store(*--at);
         const std::uint64_t left = i > part.begin ? items.parting(i) : never;
         std::uint32_t count = 1;
         while (*nearest < left) {
             --nearest;
             const TreeNode& right = at[2 * std::size_t{count} - 1];
             count += right.count;
-            node.Extend(right, i, count);
-            node.Store(*--at);
+            node.extend(right, i, count);
+            node.store(*--at);
         }
         *++nearest = left;
     }
 }
 
-void WriteCoarse(const CoarseItems& items, const Box* boxes, const RadixPart& part, Tree& tree) {
-    Write(items, boxes, part, tree);
+void write_coarse(const CoarseItems& items, const Box* boxes, const RadixPart& part, Tree& tree) {
+    write_tree(items, boxes, part, tree);
 }
-void WriteFine(const FineItems& items, const Box* boxes, const RadixPart& part, Tree& tree) {
-    Write(items, boxes, part, tree);
+void write_fine(const FineItems& items, const Box* boxes, const RadixPart& part, Tree& tree) {
+    write_tree(items, boxes, part, tree);
 }
 
 } // namespace
@@ -104,8 +104,8 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace boxwood::detail {
-HWY_EXPORT(WriteCoarse);
-HWY_EXPORT(WriteFine);
+HWY_EXPORT(write_coarse);
+HWY_EXPORT(write_fine);
 } // namespace boxwood::detail
 
 namespace boxwood {
@@ -174,7 +174,7 @@ Tree LbvhBuilder::build(Boxes boxes, const Executor& executor) const {
         return radix_tree(
             CoarseItems{coarse.records.data()}, boxes,
             [](auto&&... of) {
-                HWY_DYNAMIC_DISPATCH(WriteCoarse)
+                HWY_DYNAMIC_DISPATCH(write_coarse)
                 (of...);
             },
             executor);
@@ -182,7 +182,7 @@ Tree LbvhBuilder::build(Boxes boxes, const Executor& executor) const {
     return radix_tree(
         FineItems{fine.codes.data(), fine.order.data()}, boxes,
         [](auto&&... of) {
-            HWY_DYNAMIC_DISPATCH(WriteFine)
+            HWY_DYNAMIC_DISPATCH(write_fine)
             (of...);
         },
         executor);

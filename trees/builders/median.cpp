@@ -27,7 +27,7 @@ class MedianSplitter {
         : boxes_(boxes), executor_(executor), items_(boxes, executor), other_(boxes.size()),
           keys_(boxes.size()), tree_(boxes.size()) {}
 
-    Tree Run() {
+    Tree run() {
         const auto n = static_cast<std::uint32_t>(boxes_.size());
         if (n == 0)
             return std::move(tree_);
@@ -41,28 +41,28 @@ class MedianSplitter {
 
     /// Each side comes in its old order, into the other array.
     Halves<Part> split(const Part& r) {
-        const Prim8* prims = Items(r);
-        F8 box = SetF8(kLowest), centres = box;
+        const Prim8* prims = items_of(r);
+        F8 box = set_f8(kLowest), centres = box;
         for (std::uint32_t i = 0; i < r.count; ++i) {
-            const F8 each = LoadF8(prims[i].v);
-            box = MaxF8(box, each);
-            centres = MaxF8(centres, DoubledCentre(each));
+            const F8 each = load_f8(prims[i].v);
+            box = max_f8(box, each);
+            centres = max_f8(centres, doubled_centre(each));
         }
-        WriteNode(box, r.first, r.count, tree_.nodes[r.node]);
+        write_node(box, r.first, r.count, tree_.nodes[r.node]);
         float c[8];
-        StoreF8(centres, c);
+        store_f8(centres, c);
         const float x = c[0] + c[4], y = c[1] + c[5], z = c[2] + c[6];
         const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
-        const std::int64_t pivot = Pivot(prims, r, axis, -c[4 + axis], c[axis]);
+        const std::int64_t pivot = pivot_of(prims, r, axis, -c[4 + axis], c[axis]);
 
-        Prim8* to = Array(r.depth + 1) + r.first;
+        Prim8* to = array_of(r.depth + 1) + r.first;
         const std::uint32_t n_left = r.count / 2;
         // Without a branch: it would be mispredicted half the time.
         std::size_t left = 0, right = n_left;
         for (std::uint32_t i = 0; i < r.count; ++i) {
-            const std::size_t goes_left = Key(prims[i], axis) < pivot;
+            const std::size_t goes_left = key_of(prims[i], axis) < pivot;
             const std::size_t at = right ^ ((left ^ right) & (0 - goes_left));
-            StoreF8(LoadF8(prims[i].v), to[at].v);
+            store_f8(load_f8(prims[i].v), to[at].v);
             left += goes_left;
             right += 1 - goes_left;
         }
@@ -70,30 +70,30 @@ class MedianSplitter {
     }
 
     void finish(const Part& part) {
-        const Prim8& p = *Items(part);
-        WriteNode(LoadF8(p.v), part.first, 1, tree_.nodes[part.node]);
+        const Prim8& p = *items_of(part);
+        write_node(load_f8(p.v), part.first, 1, tree_.nodes[part.node]);
         tree_.order[part.first] = p.item();
     }
     void build(const Part& part) { build_below(*this, part); }
 
   private:
-    Prim8* Array(std::uint32_t depth) { return (depth % 2 ? other_ : items_.prims).data(); }
-    Prim8* Items(const Part& part) { return Array(part.depth) + part.first; }
+    Prim8* array_of(std::uint32_t depth) { return (depth % 2 ? other_ : items_.prims).data(); }
+    Prim8* items_of(const Part& part) { return array_of(part.depth) + part.first; }
 
     /// The order of the centres, ties by item: bits in the order of the numbers, then the item.
-    static std::int64_t Key(const Prim8& p, int axis) {
+    static std::int64_t key_of(const Prim8& p, int axis) {
         const auto bits = std::bit_cast<std::int32_t>(p.doubled_centre(axis) + 0.f);
         return std::int64_t{bits ^ (bits >> 31 & 0x7fffffff)} * (std::int64_t{1} << 32) | p.item();
     }
 
     /// The key with half of the at most 64 keys below it: counts for each key those below it, as
     /// comparisons cost less than mispredicted branches.
-    static std::int64_t PivotOfFew(const Prim8* prims, std::uint32_t n, int axis) {
+    static std::int64_t pivot_of_few(const Prim8* prims, std::uint32_t n, int axis) {
         namespace hn = hwy::HWY_NAMESPACE;
         constexpr hn::CappedTag<std::int64_t, 8> d;
         alignas(64) std::int64_t keys[64 + 8];
         for (std::uint32_t i = 0; i < n; ++i)
-            keys[i] = Key(prims[i], axis);
+            keys[i] = key_of(prims[i], axis);
         for (std::uint32_t i = n; i < n + 8; ++i)
             keys[i] = std::numeric_limits<std::int64_t>::max();
         std::int64_t pivot = keys[0];
@@ -108,9 +108,9 @@ class MedianSplitter {
     }
 
     /// The key with half of the keys below it.
-    std::int64_t Pivot(const Prim8* prims, const Part& r, int axis, float low, float high) {
+    std::int64_t pivot_of(const Prim8* prims, const Part& r, int axis, float low, float high) {
         if (r.count <= 64)
-            return PivotOfFew(prims, r.count, axis);
+            return pivot_of_few(prims, r.count, axis);
         std::int64_t* keys = keys_.data() + r.first;
         std::size_t n = 0, left = r.count / 2;
         // Only the keys of the bin that has the middle need a closer look.
@@ -128,7 +128,7 @@ class MedianSplitter {
         for (; left >= count[bin]; ++bin)
             left -= count[bin];
         for (std::uint32_t i = 0; i < r.count; ++i) {
-            keys[n] = Key(prims[i], axis);
+            keys[n] = key_of(prims[i], axis);
             n += bin_of(prims[i]) == bin;
             if (n == count[bin])
                 break;
@@ -145,8 +145,8 @@ class MedianSplitter {
     Tree tree_;
 };
 
-Tree BuildByMedians(Boxes boxes, const Executor& executor) {
-    return MedianSplitter(boxes, executor).Run();
+Tree build_by_medians(Boxes boxes, const Executor& executor) {
+    return MedianSplitter(boxes, executor).run();
 }
 
 } // namespace
@@ -155,14 +155,14 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace boxwood::detail {
-HWY_EXPORT(BuildByMedians);
+HWY_EXPORT(build_by_medians);
 }
 
 namespace boxwood {
 using namespace detail;
 
 Tree MedianBuilder::build(Boxes boxes, const Executor& executor) const {
-    return HWY_DYNAMIC_DISPATCH(BuildByMedians)(boxes, executor);
+    return HWY_DYNAMIC_DISPATCH(build_by_medians)(boxes, executor);
 }
 
 BuilderEntry median_builder() { return builder_entry<MedianBuilder>(); }

@@ -88,11 +88,11 @@ Worth worth(const Grid& grid, const Triangle<float>& t, const Box& box) {
         return {};
     const Vec3<double> a(t.a), n = cross(Vec3<double>(t.b) - a, Vec3<double>(t.c) - a);
     const double shadows = .5 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
-    const double most = box.half_area() / (empty * shadows);
-    if (!(most >= 2))
+    const double max_value = box.half_area() / (empty * shadows);
+    if (!(max_value >= 2))
         return {};
     return {std::cbrt(std::ldexp(box.half_area() - shadows, cut.level)),
-            std::min(most - 1, static_cast<double>(max_cuts))};
+            std::min(max_value - 1, static_cast<double>(max_cuts))};
 }
 
 constexpr std::size_t chunk = 4096;
@@ -143,10 +143,10 @@ template <class F> void for_chunks(std::size_t n, const Executor& executor, cons
 /// The factor from worth to cuts that spends the spare leaves: the largest of a bisection that does
 /// not overspend.
 double scale_for(std::span<const Worth> worths, double spare, const Executor& executor) {
-    double most = 0;
+    double max_value = 0;
     for (const Worth& w : worths)
-        most = std::max(most, w.value);
-    if (!(most > 0))
+        max_value = std::max(max_value, w.value);
+    if (!(max_value > 0))
         return 0;
     const auto spent = [&](double scale) {
         std::vector<std::size_t> sums(n_chunks(worths.size()), 0);
@@ -160,7 +160,7 @@ double scale_for(std::span<const Worth> worths, double spare, const Executor& ex
     if (constexpr double all = std::numeric_limits<double>::max(); spent(all) <= spare)
         return all;
     // In octaves from where the first triangle is cut, then in fractions of one.
-    double scale = 1 / most;
+    double scale = 1 / max_value;
     for (int octave = 0; octave < 64 && spent(2 * scale) <= spare; ++octave)
         scale *= 2;
     for (double step = scale / 2; step > scale * 0x1p-10; step /= 2)

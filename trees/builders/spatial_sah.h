@@ -8,7 +8,7 @@ namespace boxwood {
 
 /// `binned_sah` for rays: triangles that fill little of a large box are cut first, and each part
 /// gets a leaf of its own with the box of the part, so that long and slanted ones cost rays less at
-/// the price of more leaves. A triangle is cut the more often the emptier its box, along planes
+/// the cost of more leaves. A triangle is cut the more often the emptier its box, along planes
 /// that halve the cube around the mesh again and again, so that neighbours part alike. None is cut
 /// that fills more than a little of its box or is small among the others. Items count in blocks of
 /// 8. Boxes alone cannot be cut: `build` gives the tree of binned_sah with that. O(n log n).

@@ -26,9 +26,9 @@ struct Split {
 };
 
 /// xy + z (x + y) of a box with its edges lengthened.
-HWY_INLINE float HalfArea(F8 box, float edge) {
+HWY_INLINE float half_area(F8 box, float edge) {
     alignas(32) float v[8];
-    StoreF8(box, v);
+    store_f8(box, v);
     const float x = v[0] + v[4] + edge, y = v[1] + v[5] + edge, z = v[2] + v[6] + edge;
     return x * y + z * (x + y);
 }
@@ -43,7 +43,7 @@ class SweepSplitter {
           right_area_(3 * boxes.size()), goes_left_(boxes.size()), tree_(boxes.size()),
           max_depth_(2 * static_cast<std::uint32_t>(std::bit_width(boxes.size())) + 32) {}
 
-    Tree Run() {
+    Tree run() {
         const auto n = static_cast<std::uint32_t>(boxes_.size());
         if (n == 0)
             return std::move(tree_);
@@ -65,12 +65,12 @@ class SweepSplitter {
     Halves<Part> split(const Part& part) {
         const Split split =
             part.depth > max_depth_
-                ? Middle(part)
-                : Cheapest({BestAlong(part, 0), BestAlong(part, 1), BestAlong(part, 2)});
-        Mark(part, split);
+                ? middle_split(part)
+                : cheapest({best_along(part, 0), best_along(part, 1), best_along(part, 2)});
+        mark(part, split);
         for (std::uint32_t axis = 0; axis < 3; ++axis)
             if (axis != split.axis)
-                PartOrder(part, axis);
+                part_order(part, axis);
         return children_of(part, split.left);
     }
 
@@ -78,22 +78,22 @@ class SweepSplitter {
     void split_level(const std::vector<Part>& large, std::vector<Halves<Part>>& children) {
         std::vector<std::array<Split, 3>> along(large.size());
         executor_.for_each(3 * large.size(), [&](std::size_t i) {
-            along[i / 3][i % 3] = BestAlong(large[i / 3], static_cast<std::uint32_t>(i % 3));
+            along[i / 3][i % 3] = best_along(large[i / 3], static_cast<std::uint32_t>(i % 3));
         });
         executor_.for_each(large.size(),
-                           [&](std::size_t i) { Mark(large[i], Cheapest(along[i])); });
+                           [&](std::size_t i) { mark(large[i], cheapest(along[i])); });
         executor_.for_each(3 * large.size(), [&](std::size_t i) {
             const auto axis = static_cast<std::uint32_t>(i % 3);
-            if (axis != Cheapest(along[i / 3]).axis)
-                PartOrder(large[i / 3], axis);
+            if (axis != cheapest(along[i / 3]).axis)
+                part_order(large[i / 3], axis);
         });
         for (std::size_t i = 0; i < large.size(); ++i)
-            children[i] = children_of(large[i], Cheapest(along[i]).left);
+            children[i] = children_of(large[i], cheapest(along[i]).left);
     }
 
     void finish(const Part& leaf) {
         const Prim8& p = order_[0][leaf.first];
-        WriteNode(LoadF8(p.v), leaf.first, 1, tree_.nodes[leaf.node]);
+        write_node(load_f8(p.v), leaf.first, 1, tree_.nodes[leaf.node]);
         tree_.order[leaf.first] = p.item();
     }
     void build(const Part& part) { build_below(*this, part); }
@@ -101,57 +101,57 @@ class SweepSplitter {
   private:
     /// Tries every split along an axis, and writes the node if it is the first axis. Of equal costs
     /// the more even split is cheaper by a little, so that equal boxes make no chain.
-    Split BestAlong(const Part& r, std::uint32_t axis) {
+    Split best_along(const Part& r, std::uint32_t axis) {
         const Prim8* items = order_[axis].data() + r.first;
         float* right_area = right_area_.data() + axis * boxes_.size() + r.first;
-        const F8 lowest = LoadF8(items[0].v), highest = LoadF8(items[r.count - 1].v);
+        const F8 lowest = load_f8(items[0].v), highest = load_f8(items[r.count - 1].v);
         alignas(32) float low[8], high[8];
-        StoreF8(DoubledCentre(lowest), low);
-        StoreF8(DoubledCentre(highest), high);
+        store_f8(doubled_centre(lowest), low);
+        store_f8(doubled_centre(highest), high);
         F8 side = highest;
-        const float edge = Edge(r);
+        const float edge = edge_of(r);
         for (std::uint32_t i = r.count; --i > 0;) {
-            side = MaxF8(side, LoadF8(items[i].v));
-            right_area[i] = HalfArea(side, edge);
+            side = max_f8(side, load_f8(items[i].v));
+            right_area[i] = half_area(side, edge);
         }
-        const F8 all = MaxF8(side, lowest);
+        const F8 all = max_f8(side, lowest);
         if (axis == 0)
-            WriteNode(all, r.first, r.count, tree_.nodes[r.node]);
-        const float uneven = HalfArea(all, edge) * 0x1p-20f;
+            write_node(all, r.first, r.count, tree_.nodes[r.node]);
+        const float uneven = half_area(all, edge) * 0x1p-20f;
         side = lowest;
         Split best;
         for (std::uint32_t i = 1; i < r.count; ++i) {
             const auto left = static_cast<float>(i), right = static_cast<float>(r.count - i);
-            const float cost = HalfArea(side, edge) * left + right_area[i] * right +
+            const float cost = half_area(side, edge) * left + right_area[i] * right +
                                uneven * std::abs(left - right);
             if (cost < best.cost)
                 best = {cost, axis, i};
-            side = MaxF8(side, LoadF8(items[i].v));
+            side = max_f8(side, load_f8(items[i].v));
         }
         return best;
     }
 
-    float Spread(const Part& r, std::uint32_t axis) const {
+    float spread(const Part& r, std::uint32_t axis) const {
         const Prim8* items = order_[axis].data() + r.first;
         return items[r.count - 1].doubled_centre(static_cast<int>(axis)) -
                items[0].doubled_centre(static_cast<int>(axis));
     }
     /// Next to nothing by the size of the node, so that boxes along a line have areas too.
-    float Edge(const Part& r) const {
-        return std::max({Spread(r, 0), Spread(r, 1), Spread(r, 2)}) * 0x1p-20f;
+    float edge_of(const Part& r) const {
+        return std::max({spread(r, 0), spread(r, 1), spread(r, 2)}) * 0x1p-20f;
     }
 
-    Split Middle(const Part& r) {
-        WriteNode(BoundsOfBoxes(order_[0].data() + r.first, r.count), r.first, r.count,
-                  tree_.nodes[r.node]);
+    Split middle_split(const Part& r) {
+        write_node(bounds_of_boxes(order_[0].data() + r.first, r.count), r.first, r.count,
+                   tree_.nodes[r.node]);
         Split middle{0, 0, r.count / 2};
         for (std::uint32_t axis = 1; axis < 3; ++axis)
-            if (Spread(r, axis) > Spread(r, middle.axis))
+            if (spread(r, axis) > spread(r, middle.axis))
                 middle.axis = axis;
         return middle;
     }
 
-    static Split Cheapest(const std::array<Split, 3>& along) {
+    static Split cheapest(const std::array<Split, 3>& along) {
         Split best = along[0];
         for (const Split& split : along)
             if (split.cost < best.cost)
@@ -159,22 +159,22 @@ class SweepSplitter {
         return best;
     }
 
-    void Mark(const Part& r, Split split) {
+    void mark(const Part& r, Split split) {
         const Prim8* items = order_[split.axis].data() + r.first;
         for (std::uint32_t i = 0; i < r.count; ++i)
             goes_left_[items[i].item()] = i < split.left;
     }
 
     /// Partitions the order along an axis, both sides in their old order and without a branch.
-    void PartOrder(const Part& r, std::uint32_t axis) {
+    void part_order(const Part& r, std::uint32_t axis) {
         Prim8* items = order_[axis].data() + r.first;
         Prim8* aside = other_[axis].data() + r.first;
         std::size_t n_left = 0, n_right = 0;
         for (std::uint32_t i = 0; i < r.count; ++i) {
-            const F8 box = LoadF8(items[i].v);
+            const F8 box = load_f8(items[i].v);
             const std::size_t left = goes_left_[items[i].item()];
-            StoreF8(box, items[n_left].v);
-            StoreF8(box, aside[n_right].v);
+            store_f8(box, items[n_left].v);
+            store_f8(box, aside[n_right].v);
             n_left += left;
             n_right += 1 - left;
         }
@@ -191,8 +191,8 @@ class SweepSplitter {
     const std::uint32_t max_depth_;
 };
 
-Tree BuildBySweep(Boxes boxes, const Executor& executor) {
-    return SweepSplitter(boxes, executor).Run();
+Tree build_by_sweep(Boxes boxes, const Executor& executor) {
+    return SweepSplitter(boxes, executor).run();
 }
 
 } // namespace
@@ -201,14 +201,14 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace boxwood::detail {
-HWY_EXPORT(BuildBySweep);
+HWY_EXPORT(build_by_sweep);
 }
 
 namespace boxwood {
 using namespace detail;
 
 Tree SweepSahBuilder::build(Boxes boxes, const Executor& executor) const {
-    return HWY_DYNAMIC_DISPATCH(BuildBySweep)(boxes, executor);
+    return HWY_DYNAMIC_DISPATCH(build_by_sweep)(boxes, executor);
 }
 
 BuilderEntry sweep_sah_builder() { return builder_entry<SweepSahBuilder>(); }

@@ -8,9 +8,9 @@ namespace boxwood {
 namespace {
 
 /// How much taller one child may be than its sibling: room for lopsided but good trees, none for a
-/// chain. A tree of height h has at least N(h) = N(h - 1) + N(max(0, h - 1 - max_lean)) leaves,
-/// with N(0) = 1; up to max_items that is h <= 3.5 log2(n), at most 104.
-constexpr int max_lean = 8;
+/// chain. A tree of height h has at least N(h) = N(h - 1) + N(max(0, h - 1 - max_imbalance))
+/// leaves, with N(0) = 1; up to max_items that is h <= 3.5 log2(n), at most 104.
+constexpr int max_imbalance = 8;
 
 int imbalance(int a, int b) { return a < b ? b - a : a - b; }
 
@@ -109,10 +109,10 @@ DynamicTree::Slot DynamicTree::require(std::uint32_t item) const {
 }
 
 void DynamicTree::put(Slot s, const Box& box, std::uint32_t link, std::uint8_t height) {
-    NodePair& fork = node_pairs_[s / 2];
-    fork.box[s % 2] = box;
-    fork.link[s % 2] = link;
-    fork.height[s % 2] = height;
+    NodePair& pair = node_pairs_[s / 2];
+    pair.box[s % 2] = box;
+    pair.link[s % 2] = link;
+    pair.height[s % 2] = height;
     if (link & leaf_bit)
         slot_of_[link ^ leaf_bit] = s;
     else
@@ -138,7 +138,7 @@ DynamicTree::Slot DynamicTree::find_sibling(const Box& box) const {
     double best_cost = std::numeric_limits<double>::infinity();
     double grown = 0;
     Slot best = root;
-    if (height_at(root) <= max_lean)
+    if (height_at(root) <= max_imbalance)
         best_cost = merged;
     for (Slot s = root; !is_leaf(s);) {
         grown += merged - measure(box_at(s));
@@ -151,7 +151,7 @@ DynamicTree::Slot DynamicTree::find_sibling(const Box& box) const {
             const Box& b = box_at(child + side);
             beside[side] = measure(merge(b, box));
             below[side] = grown + (beside[side] - measure(b)) + own;
-            if (grown + beside[side] <= best_cost && height_at(child + side) <= max_lean) {
+            if (grown + beside[side] <= best_cost && height_at(child + side) <= max_imbalance) {
                 best_cost = grown + beside[side];
                 best = child + side;
             }
@@ -203,16 +203,16 @@ void DynamicTree::detach(std::uint32_t item) {
 /// leaves its size and makes s less tall: (down, (up, stay)) becomes (up, (down, stay)). Of the
 /// four choices the one with the largest gain, then with the least height.
 ///
-/// Both leans stay within max_lean, and the height of s within 1 of what it was before the change
-/// below. So one level up again one child has changed by at most 1, and the imbalance found there
-/// is at most max_lean + 1. Then a rotation is forced, and one that heals it is always there: the
-/// taller child T of the taller sibling goes up. With d = height(down), T has height d + max_lean
-/// and the child that stays one from d to d + max_lean: no imbalance after the swap exceeds
-/// max_lean, and s is as tall as before or 1 less.
+/// Both imbalances stay within max_imbalance, and the height of s within 1 of what it was before
+/// the change below. So one level up again one child has changed by at most 1, and the imbalance
+/// found there is at most max_imbalance + 1. Then a rotation is forced, and one that heals it is
+/// always there: the taller child T of the taller sibling goes up. With d = height(down), T has
+/// height d + max_imbalance and the child that stays one from d to d + max_imbalance: no imbalance
+/// after the swap exceeds max_imbalance, and s is as tall as before or 1 less.
 bool DynamicTree::rotate(Slot s, int old_height) {
     const std::uint32_t f = link_at(s);
-    const NodePair& fork = node_pairs_[f];
-    const bool force = imbalance(fork.height[0], fork.height[1]) > max_lean;
+    const NodePair& pair = node_pairs_[f];
+    const bool force = imbalance(pair.height[0], pair.height[1]) > max_imbalance;
     double best_gain = force ? -std::numeric_limits<double>::infinity() : 0;
     int best_height = height_at(s);
     Slot best_down = none, best_up = none;
@@ -224,11 +224,11 @@ bool DynamicTree::rotate(Slot s, int old_height) {
         const double size = measure(box_at(sibling));
         for (const Slot up : {0u, 1u}) {
             const Slot stay = up ^ 1;
-            const int h_down = fork.height[side], h_up = below.height[up],
+            const int h_down = pair.height[side], h_up = below.height[up],
                       h_stay = below.height[stay], h_sibling = std::max(h_down, h_stay) + 1,
                       h = std::max(h_sibling, h_up) + 1;
-            if (imbalance(h_down, h_stay) > max_lean || imbalance(h_sibling, h_up) > max_lean ||
-                imbalance(h, old_height) > 1)
+            if (imbalance(h_down, h_stay) > max_imbalance ||
+                imbalance(h_sibling, h_up) > max_imbalance || imbalance(h, old_height) > 1)
                 continue;
             const double gain = size - measure(merge(box_at(down), below.box[stay]));
             if (gain > best_gain || (gain == best_gain && h < best_height)) {
@@ -252,9 +252,9 @@ bool DynamicTree::rotate(Slot s, int old_height) {
 }
 
 void DynamicTree::refit_upward(Slot s) {
-    const NodePair& fork = node_pairs_[link_at(s)];
-    box_at(s) = merge(fork.box[0], fork.box[1]);
-    height_at(s) = static_cast<std::uint8_t>(std::max(fork.height[0], fork.height[1]) + 1);
+    const NodePair& pair = node_pairs_[link_at(s)];
+    box_at(s) = merge(pair.box[0], pair.box[1]);
+    height_at(s) = static_cast<std::uint8_t>(std::max(pair.height[0], pair.height[1]) + 1);
 }
 
 /// After a change at s: bounds, heights and rotations of the nodes above it. A rotation looks at
@@ -283,12 +283,12 @@ Buffer<std::uint32_t> DynamicTree::order() const {
         if (link & leaf_bit) {
             items[n++] = link ^ leaf_bit;
         } else {
-            const NodePair& fork = node_pairs_[link];
-            for (const std::uint32_t below : fork.link)
+            const NodePair& pair = node_pairs_[link];
+            for (const std::uint32_t below : pair.link)
                 if (!(below & leaf_bit))
                     __builtin_prefetch(&node_pairs_[below]);
-            stack.push_back(fork.link[1]);
-            stack.push_back(fork.link[0]);
+            stack.push_back(pair.link[1]);
+            stack.push_back(pair.link[0]);
         }
     }
     return items;

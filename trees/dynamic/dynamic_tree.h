@@ -65,8 +65,8 @@ class DynamicTree {
     Tree to_tree() const;
 
   private:
-    /// A place for a node: slot 2 f + side is that side of fork f. The node at a slot, its box and
-    /// its height are kept there, so that a descent reads one cache line per level.
+    /// A place for a node: slot 2 f + side is that side of node pair f. The node at a slot, its box
+    /// and its height are kept there, so that a descent reads one cache line per level.
     using Slot = std::uint32_t;
 
     /// The two children of an inner node: 64 bytes. NodePair 0 is the exception: its side 0 holds
@@ -74,7 +74,7 @@ class DynamicTree {
     /// `parent`.
     struct alignas(64) NodePair {
         Box box[2];             ///< 48 bytes
-        std::uint32_t link[2];  ///< 8 bytes: the fork of an inner node, or leaf_bit + item
+        std::uint32_t link[2];  ///< 8 bytes: the node pair of an inner node, or leaf_bit + item
         Slot parent;            ///< 4 bytes: where the node with these children is
         std::uint8_t height[2]; ///< 2 bytes: edges to the deepest leaf below, 0 for a leaf
         std::uint8_t unused[2]; ///< 2 bytes
@@ -108,9 +108,9 @@ class DynamicTree {
     void refit_upward(Slot s);
     bool rotate(Slot s, int old_height);
 
-    std::vector<NodePair> node_pairs_ = std::vector<NodePair>(1); ///< fork 0 is always there
+    std::vector<NodePair> node_pairs_ = std::vector<NodePair>(1); ///< pair 0 is always there
     std::vector<Slot> slot_of_;                                   ///< item -> its leaf, or none
-    std::uint32_t free_ = none;                                   ///< first free fork
+    std::uint32_t free_ = none;                                   ///< first free pair
     std::size_t size_ = 0;
     double pad_ = 0; ///< for measure: 2^-30 of the half-extents of the root, summed
 };

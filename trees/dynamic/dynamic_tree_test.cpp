@@ -4,6 +4,7 @@
 #include "trees/inspect/validate.h"
 #include "trees/testing/box_families.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
@@ -25,14 +26,14 @@ std::size_t max_height(std::size_t n) {
     return n < 2 ? 0 : static_cast<std::size_t>(3.5 * std::log2(static_cast<double>(n)));
 }
 
-/// What is wrong with the tree, given what it should hold; empty if nothing. The frozen tree's
+/// What is wrong with the tree, given what it should hold; empty if nothing. The tree of to_tree's
 /// items are renumbered 0 .. n - 1 in the order of their numbers, as `validate` wants them.
 std::string fault(const DynamicTree& tree, const Model& model) {
     if (tree.size() != model.size() || tree.empty() != model.empty())
         return "size " + std::to_string(tree.size());
-    Tree frozen = tree.to_tree();
-    if (!std::ranges::equal(tree.order(), frozen.order))
-        return "the order is not that of the frozen tree";
+    Tree canonical = tree.to_tree();
+    if (!std::ranges::equal(tree.order(), canonical.order))
+        return "the order is not that of the tree of to_tree";
     std::vector<Box> boxes;
     std::map<std::uint32_t, std::uint32_t> rank;
     for (const auto& [item, box] : model) {
@@ -41,15 +42,15 @@ std::string fault(const DynamicTree& tree, const Model& model) {
         rank[item] = static_cast<std::uint32_t>(boxes.size());
         boxes.push_back(box);
     }
-    for (std::uint32_t& item : frozen.order) {
+    for (std::uint32_t& item : canonical.order) {
         if (!rank.contains(item))
             return "a stranger, item " + std::to_string(item);
         item = rank[item];
     }
-    const auto wrong = validate(frozen, boxes);
+    const auto wrong = validate(canonical, boxes);
     if (wrong)
         return *wrong;
-    if (tree.height() != quality(frozen, boxes, {.epo_visits = 0}).depth_max)
+    if (tree.height() != quality(canonical, boxes, {.epo_visits = 0}).depth_max)
         return "height " + std::to_string(tree.height()) + " is not the depth";
     if (tree.height() > max_height(model.size()))
         return "height " + std::to_string(tree.height()) + " of " + std::to_string(model.size());
@@ -251,12 +252,9 @@ TEST(DynamicTree, BadInputIsNamedAndChangesNothing) {
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), inf, -inf, -1.f}) {
         Box box = good;
         box.max.y = bad;
-        try {
-            tree.insert(4, box);
-            FAIL() << bad;
-        } catch (const InvalidBox& e) {
-            EXPECT_EQ(e.index, 4u);
-        }
+        EXPECT_THAT([&] { tree.insert(4, box); },
+                    testing::Throws<InvalidBox>(testing::Field(&InvalidBox::index, 4u)))
+            << bad;
         EXPECT_THROW(tree.move(3, box), InvalidBox);
         EXPECT_THROW(tree.enlarge(3, box), InvalidBox);
     }

@@ -27,11 +27,11 @@ void OrderDegradation::start(double cost, double query) {
 /// Some of the boxes are queries by region. All pairs together take about a quarter of as many box
 /// tests: each found once, and by whole blocks.
 void OrderDegradation::measure(const PackedLayout& layout, Boxes boxes) {
-    constexpr std::size_t few = 16, most = 256;
+    constexpr std::size_t min_sampled = 16, max_sampled = 256;
     constexpr double per_test = .3, share = .28;
     std::vector<Box> sampled;
     for (const std::uint32_t item :
-         sampled_items(boxes.size(), std::clamp(boxes.size() / 64, few, most)))
+         sampled_items(boxes.size(), std::clamp(boxes.size() / 64, min_sampled, max_sampled)))
         if (!is_absent(boxes[item]))
             sampled.push_back(boxes[item]);
     fresh_query_ = 0;

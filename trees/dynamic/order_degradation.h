@@ -34,8 +34,6 @@ class OrderDegradation {
     bool is_due() const;
     /// The same of the frame to come, as it will be if motion goes on as it was.
     bool is_due_next() const;
-    /// What queries take over a new order.
-    double query_cost() const { return fresh_query_; }
 
   private:
     bool is_due(double excess, std::size_t age, double before) const;

@@ -26,13 +26,13 @@ TEST(OrderDegradation, TheCostOfQueriesGrowsWithWhatThereIsToFind) {
         const auto order = HilbertBuilder{}.order(boxes, serial());
         OrderDegradation degradation;
         degradation.start(1, PackedLayout::of_order(boxes, order.span(), serial()), boxes);
-        return degradation.query_cost();
+        return degradation.excess(2);
     };
     EXPECT_GT(cost(4000, .05f), 0);
     EXPECT_GT(cost(4000, .3f), 2 * cost(4000, .05f));
     OrderDegradation of_none;
     of_none.start(1, PackedLayout{}, {});
-    EXPECT_EQ(of_none.query_cost(), 0);
+    EXPECT_EQ(of_none.excess(10), 0);
     of_none.degraded(10);
     EXPECT_FALSE(of_none.is_due());
 }

@@ -7,14 +7,14 @@ using namespace detail;
 namespace {
 
 /// By halves, in loops without branches. n is a power of two.
-template <std::size_t n> float least(const float (&values)[n]) {
+template <std::size_t n> float min_of(const float (&values)[n]) {
     float half[n / 2];
     for (std::size_t i = 0; i < n / 2; ++i)
         half[i] = values[i + n / 2] < values[i] ? values[i + n / 2] : values[i];
     if constexpr (n == 2)
         return half[0];
     else
-        return least(half);
+        return min_of(half);
 }
 template <std::size_t n> float greatest(const float (&values)[n]) {
     float half[n / 2];
@@ -38,7 +38,7 @@ template <std::size_t lanes> Box bounds_of(const TriangleBlock<lanes>& block) {
             low[i] = c < ab_low ? c : ab_low;
             high[i] = c > ab_high ? c : ab_high;
         }
-        bounds.min[axis] = least(low);
+        bounds.min[axis] = min_of(low);
         bounds.max[axis] = greatest(high);
     }
     return bounds;
@@ -46,7 +46,7 @@ template <std::size_t lanes> Box bounds_of(const TriangleBlock<lanes>& block) {
 
 /// Of all lanes; those not in use are the empty box, which adds nothing.
 template <std::size_t W> Box bounds_of(const RayNode<W>& node) {
-    return {{least(node.plane[0]), least(node.plane[1]), least(node.plane[2])},
+    return {{min_of(node.plane[0]), min_of(node.plane[1]), min_of(node.plane[2])},
             {greatest(node.plane[3]), greatest(node.plane[4]), greatest(node.plane[5])}};
 }
 

@@ -3,7 +3,7 @@
 #include "trees/builder.h"
 #include "trees/executor.h"
 #include "trees/inspect/work.h"
-#include "trees/queries/pairs.h"
+#include "trees/queries/sinks.h"
 #include "trees/tree.h"
 
 #include <cstddef>

@@ -7,6 +7,7 @@
 #include "trees/queries/self_pairs.h"
 #include "trees/testing/box_families.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,9 +37,9 @@ template <WideTree L> void expect_sound(const L& layout, Boxes boxes) {
     std::vector<int> seen(boxes.size(), 0);
     std::vector<Open> open{{layout.root(), layout.bounds(), 1}};
     std::size_t depth = 0, visited = 0;
-    const auto check = [&](const auto& block, std::size_t most, const Open& at) {
+    const auto check = [&](const auto& block, std::size_t max_count, const Open& at) {
         EXPECT_GE(block.count, boxes.size() == 1 ? 1u : at.depth == 1 ? 2u : 1u);
-        EXPECT_LE(block.count, most);
+        EXPECT_LE(block.count, max_count);
         EXPECT_TRUE(at.around.contains(block.bounds));
         Aabb<Real> all;
         for (std::uint32_t lane = 0; lane < block.count; ++lane)
@@ -251,12 +252,9 @@ TEST(LayoutsOfDoubles, RefuseBadBoxesByIndexAndOtherCounts) {
     boxes[7].max.y = std::nan("");
     for (const LayoutEntry& entry : layouts())
         if (entry.make_of_doubles) {
-            try {
-                entry.make_of_doubles(tree, boxes, serial());
-                FAIL() << entry.name << " took a bad box";
-            } catch (const InvalidBox& error) {
-                EXPECT_EQ(error.index, 7u);
-            }
+            EXPECT_THAT([&] { entry.make_of_doubles(tree, boxes, serial()); },
+                        testing::Throws<InvalidBox>(testing::Field(&InvalidBox::index, 7u)))
+                << entry.name;
             EXPECT_THROW(entry.make_of_doubles(tree, {boxes.data(), 6}, serial()),
                          std::invalid_argument);
         }

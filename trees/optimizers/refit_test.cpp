@@ -4,6 +4,7 @@
 #include "trees/inspect/validate.h"
 #include "trees/testing/box_families.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,12 +53,9 @@ TEST(Refit, BadInputChangesNothing) {
                             std::numeric_limits<float>::infinity()}) {
         auto wrong = boxes;
         wrong[9].max.z = bad;
-        try {
-            refit(tree, wrong);
-            FAIL() << bad;
-        } catch (const InvalidBox& e) {
-            EXPECT_EQ(e.index, 9u);
-        }
+        EXPECT_THAT([&] { refit(tree, wrong); },
+                    testing::Throws<InvalidBox>(testing::Field(&InvalidBox::index, 9u)))
+            << bad;
         EXPECT_TRUE(same_boxes(tree, untouched));
     }
     EXPECT_THROW(refit(tree, Boxes(boxes).first(19)), std::invalid_argument);

@@ -19,8 +19,8 @@ struct Move {
 };
 
 struct Waiting {
-    float most; ///< no place below gains more
-    float left; ///< gain before the place itself is paid for
+    float max_gain; ///< no place below gains more
+    float left;     ///< gain before the place itself is paid for
     std::uint32_t below;
 };
 
@@ -64,7 +64,7 @@ Move Reinsertion::search(std::uint32_t node, std::vector<Waiting>& stack) const 
         while (!stack.empty()) {
             const Waiting at = stack.back();
             stack.pop_back();
-            if (at.most <= best.gain)
+            if (at.max_gain <= best.gain)
                 continue;
             if (++visits > visit_limit) {
                 stack.clear();
@@ -84,7 +84,7 @@ Move Reinsertion::search(std::uint32_t node, std::vector<Waiting>& stack) const 
                 if (left_below - own_area > best.gain)
                     next[n++] = {left_below - own_area, left_below, links_[child].below};
             }
-            if (n == 2 && next[0].most > next[1].most)
+            if (n == 2 && next[0].max_gain > next[1].max_gain)
                 std::swap(next[0], next[1]);
             for (int k = 0; k < n; ++k)
                 stack.push_back(next[k]);

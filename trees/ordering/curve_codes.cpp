@@ -21,7 +21,7 @@ constexpr hn::ScalableTag<float> df;
 constexpr hn::RebindToSigned<decltype(df)> di;
 constexpr hn::RebindToUnsigned<decltype(df)> du;
 
-inline void AddCentre(const Box& box, CentreBounds& to) {
+inline void add_centre(const Box& box, CentreBounds& to) {
     to.box.extend(.5f * box.min + .5f * box.max);
     to.valid = to.valid && box.is_valid();
 }
@@ -30,7 +30,7 @@ inline void AddCentre(const Box& box, CentreBounds& to) {
 /// the same coordinate each time (registers hold 4, 8 or 16 floats, a box 6),
 /// so no lane ever changes place; those that would add a box's max to the next
 /// box's min are left out at the end.
-CentreBounds MeasureCentres(Boxes boxes) {
+CentreBounds measure_centres(Boxes boxes) {
     CentreBounds result;
     constexpr std::size_t lanes = HWY_MAX_BYTES / sizeof(float);
     std::size_t done = 0;
@@ -77,7 +77,7 @@ CentreBounds MeasureCentres(Boxes boxes) {
             result = {};
     }
     for (; done < boxes.size(); ++done)
-        AddCentre(boxes[done], result);
+        add_centre(boxes[done], result);
     return result;
 }
 
@@ -86,7 +86,7 @@ using U = hn::Vec<decltype(du)>;
 
 /// One axis of one level: where the curve turns back or swaps axes below this
 /// level, the bits below `q` of the first axis and this one do so.
-template <class V> HWY_INLINE void Turn(V q, V below, V& first, V& axis) {
+template <class V> HWY_INLINE void turn(V q, V below, V& first, V& axis) {
     const auto set = hn::TestBit(axis, q);
     const V swapped = hn::And(hn::Xor(first, axis), below);
     first = hn::Xor(first, hn::IfThenElse(set, below, swapped));
@@ -95,14 +95,14 @@ template <class V> HWY_INLINE void Turn(V q, V below, V& first, V& axis) {
 
 /// Cells to the transposed Hilbert index.
 template <int bits, class D>
-HWY_INLINE void Hilbert(D d, hn::Vec<D>& x, hn::Vec<D>& y, hn::Vec<D>& z) {
+HWY_INLINE void hilbert_index(D d, hn::Vec<D>& x, hn::Vec<D>& y, hn::Vec<D>& z) {
     using T = hn::TFromD<D>;
     for (int level = bits - 1; level > 0; --level) {
         const auto q = hn::Set(d, static_cast<T>(1u << level)),
                    below = hn::Set(d, static_cast<T>((1u << level) - 1));
         x = hn::Xor(x, hn::IfThenElseZero(hn::TestBit(x, q), below));
-        Turn(q, below, x, y);
-        Turn(q, below, x, z);
+        turn(q, below, x, y);
+        turn(q, below, x, z);
     }
     y = hn::Xor(y, x);
     z = hn::Xor(z, y);
@@ -120,7 +120,7 @@ HWY_INLINE void Hilbert(D d, hn::Vec<D>& x, hn::Vec<D>& y, hn::Vec<D>& z) {
 }
 
 /// Two zeros before each of 21 bits.
-template <class D> HWY_INLINE hn::Vec<D> Spread(D d, hn::Vec<D> x) {
+template <class D> HWY_INLINE hn::Vec<D> spread(D d, hn::Vec<D> x) {
     const auto mask = [&](std::uint64_t m) HWY_ATTR { return hn::Set(d, m); };
     x = hn::And(hn::Or(x, hn::ShiftLeft<32>(x)), mask(0x001f00000000ffff));
     x = hn::And(hn::Or(x, hn::ShiftLeft<16>(x)), mask(0x001f0000ff0000ff));
@@ -129,7 +129,8 @@ template <class D> HWY_INLINE hn::Vec<D> Spread(D d, hn::Vec<D> x) {
     return hn::And(hn::Or(x, hn::ShiftLeft<2>(x)), mask(0x1249249249249249));
 }
 
-void FineCodes(Boxes boxes, Curve curve, const CurveGrid& grid, std::uint64_t* HWY_RESTRICT codes) {
+void fine_codes(Boxes boxes, Curve curve, const CurveGrid& grid,
+                std::uint64_t* HWY_RESTRICT codes) {
     constexpr std::size_t batch = 128;
     constexpr int bits = 21;
     constexpr hn::ScalableTag<std::uint64_t> dk;
@@ -158,13 +159,13 @@ void FineCodes(Boxes boxes, Curve curve, const CurveGrid& grid, std::uint64_t* H
         for (std::size_t i = 0; i < n; i += hn::Lanes(df)) {
             U a = cells(x + i), b = cells(y + i), c = cells(z + i);
             if (curve == Curve::hilbert)
-                Hilbert<bits>(du, a, b, c);
+                hilbert_index<bits>(du, a, b, c);
             hn::Store(a, du, cx + i);
             hn::Store(b, du, cy + i);
             hn::Store(c, du, cz + i);
         }
         const auto load = [&](const std::uint32_t* from) HWY_ATTR {
-            return Spread(dk, hn::PromoteTo(dk, hn::Load(part, from)));
+            return spread(dk, hn::PromoteTo(dk, hn::Load(part, from)));
         };
         std::uint64_t* const to = n == batch ? codes + first : last;
         for (std::size_t i = 0; i < n; i += hn::Lanes(dk))
@@ -178,11 +179,11 @@ void FineCodes(Boxes boxes, Curve curve, const CurveGrid& grid, std::uint64_t* H
 }
 
 /// Three bits of the code for each of `levels` levels, from the top bits of the
-/// cells downwards. The same curve as Hilbert() follows, by what is below the
+/// cells downwards. The same curve as hilbert_index() follows, by what is below the
 /// current level: it turns back (all bits flip) or two axes swap. `flip` takes
 /// from level to level which digits are to be flipped; at first it is 0.
 template <class D>
-HWY_INLINE hn::Vec<D> Digits(D d, Curve curve, int levels, hn::Vec<D>& x, hn::Vec<D>& y,
+HWY_INLINE hn::Vec<D> digits(D d, Curve curve, int levels, hn::Vec<D>& x, hn::Vec<D>& y,
                              hn::Vec<D>& z, hn::Vec<D>& flip) {
     using T = hn::TFromD<D>;
     using V = hn::Vec<D>;
@@ -222,25 +223,25 @@ HWY_INLINE hn::Vec<D> Digits(D d, Curve curve, int levels, hn::Vec<D>& x, hn::Ve
 }
 
 /// Ten bits of cells and, below these, what lies within a cell: bits 22 and lower; anything above.
-HWY_INLINE U Cells(F at, F scale) {
+HWY_INLINE U fine_cells(F at, F scale) {
     // Numbers from 1024 to below 2048 have these bits as their mantissa.
-    constexpr float zero = 1024, most = 2047.5f;
+    constexpr float zero = 1024, max_cell = 2047.5f;
     const F moved = hn::Add(hn::Mul(at, scale), hn::Set(df, zero));
-    return hn::BitCast(du, hn::Min(hn::Max(moved, hn::Set(df, zero)), hn::Set(df, most)));
+    return hn::BitCast(du, hn::Min(hn::Max(moved, hn::Set(df, zero)), hn::Set(df, max_cell)));
 }
 
 #if HWY_TARGET == HWY_SCALAR
-void CoarseCodes(Boxes boxes, Curve curve, const CurveGrid& grid,
-                 std::uint32_t* HWY_RESTRICT codes) {
+void coarse_codes(Boxes boxes, Curve curve, const CurveGrid& grid,
+                  std::uint32_t* HWY_RESTRICT codes) {
     const float half = .5f * grid.power;
     const auto scale = hn::Set(df, grid.scale);
     const auto cells = [&](float min, float max, float low) {
-        return hn::ShiftLeft<9>(Cells(hn::Set(df, min * half + max * half - low), scale));
+        return hn::ShiftLeft<9>(fine_cells(hn::Set(df, min * half + max * half - low), scale));
     };
     for (const Box& box : boxes) {
         U x = cells(box.min.x, box.max.x, grid.low.x), y = cells(box.min.y, box.max.y, grid.low.y),
           z = cells(box.min.z, box.max.z, grid.low.z), flip = hn::Zero(du);
-        *codes++ = hn::GetLane(Digits(du, curve, 10, x, y, z, flip));
+        *codes++ = hn::GetLane(digits(du, curve, 10, x, y, z, flip));
     }
 }
 #else
@@ -272,8 +273,8 @@ constexpr RowPlaces places;
 
 /// Cells of `lanes` boxes, in the order of RowPlaces; reads three floats beyond
 /// them.
-HWY_INLINE void CellsOf(const float* HWY_RESTRICT row, F half, F scale, F low_xy, F low_z, U& x,
-                        U& y, U& z) {
+HWY_INLINE void cells_of(const float* HWY_RESTRICT row, F half, F scale, F low_xy, F low_z, U& x,
+                         U& y, U& z) {
     const auto from = [&](const std::int32_t* which, int i) HWY_ATTR {
         return hn::RebindMask(df, hn::Eq(hn::Load(di, which), hn::Set(di, i)));
     };
@@ -289,16 +290,16 @@ HWY_INLINE void CellsOf(const float* HWY_RESTRICT row, F half, F scale, F low_xy
         xy[i] = hn::Sub(hn::IfThenElse(xy2, r2, hn::IfThenElse(xy1, r1, r0)), low_xy);
         zs[i] = hn::Sub(hn::IfThenElse(z2, r2, hn::IfThenElse(z1, r1, r0)), low_z);
     }
-    x = Cells(hn::ConcatEven(df, xy[1], xy[0]), scale);
-    y = Cells(hn::ConcatOdd(df, xy[1], xy[0]), scale);
-    z = hn::TableLookupLanes(Cells(hn::ConcatEven(df, zs[1], zs[0]), scale),
+    x = fine_cells(hn::ConcatEven(df, xy[1], xy[0]), scale);
+    y = fine_cells(hn::ConcatOdd(df, xy[1], xy[0]), scale);
+    z = hn::TableLookupLanes(fine_cells(hn::ConcatEven(df, zs[1], zs[0]), scale),
                              hn::SetTableIndices(du, places.z_to_x));
 }
 
 /// Codes of 2 `lanes` boxes at a time. Ten bits fit in half a lane: the second
 /// `lanes` boxes have the upper halves.
-void CoarseCodes(Boxes boxes, Curve curve, const CurveGrid& grid,
-                 std::uint32_t* HWY_RESTRICT codes) {
+void coarse_codes(Boxes boxes, Curve curve, const CurveGrid& grid,
+                  std::uint32_t* HWY_RESTRICT codes) {
     constexpr hn::Repartition<std::uint16_t, decltype(du)> dh;
     constexpr std::size_t step = 2 * lanes;
     const auto half = hn::Set(df, .5f * grid.power), scale = hn::Set(df, grid.scale);
@@ -309,15 +310,15 @@ void CoarseCodes(Boxes boxes, Curve curve, const CurveGrid& grid,
     const auto some = [&](const Box* from, std::uint32_t* to) HWY_ATTR {
         U x[2], y[2], z[2];
         for (std::size_t i = 0; i < 2; ++i)
-            CellsOf(reinterpret_cast<const float*>(from + i * lanes), half, scale, low_xy, low_z,
-                    x[i], y[i], z[i]);
+            cells_of(reinterpret_cast<const float*>(from + i * lanes), half, scale, low_xy, low_z,
+                     x[i], y[i], z[i]);
         const auto both = [&](const U* c) HWY_ATTR {
             return hn::BitCast(
                 dh, hn::IfVecThenElse(lower, hn::ShiftRight<7>(c[0]), hn::ShiftLeft<9>(c[1])));
         };
         auto a = both(x), b = both(y), c = both(z), flip = hn::Zero(dh);
-        const U high = hn::BitCast(du, Digits(dh, curve, 5, a, b, c, flip));
-        const U low = hn::BitCast(du, Digits(dh, curve, 5, a, b, c, flip));
+        const U high = hn::BitCast(du, digits(dh, curve, 5, a, b, c, flip));
+        const U low = hn::BitCast(du, digits(dh, curve, 5, a, b, c, flip));
         const auto put = [&](U upper, U below, std::uint32_t* at) HWY_ATTR {
             const U code = hn::Or(hn::ShiftLeft<15>(upper), below);
             hn::StoreU(hn::TableLookupLanes(code, in_order), du, at);
@@ -347,20 +348,20 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace boxwood::detail {
-HWY_EXPORT(MeasureCentres);
-HWY_EXPORT(FineCodes);
-HWY_EXPORT(CoarseCodes);
+HWY_EXPORT(measure_centres);
+HWY_EXPORT(fine_codes);
+HWY_EXPORT(coarse_codes);
 } // namespace boxwood::detail
 
 namespace boxwood {
 using namespace detail;
 
-CentreBounds measure_centres(Boxes boxes) { return HWY_DYNAMIC_DISPATCH(MeasureCentres)(boxes); }
+CentreBounds measure_centres(Boxes boxes) { return HWY_DYNAMIC_DISPATCH(measure_centres)(boxes); }
 void fine_codes(Boxes boxes, Curve curve, const CurveGrid& grid, std::uint64_t* codes) {
-    HWY_DYNAMIC_DISPATCH(FineCodes)(boxes, curve, grid, codes);
+    HWY_DYNAMIC_DISPATCH(fine_codes)(boxes, curve, grid, codes);
 }
 void coarse_codes(Boxes boxes, Curve curve, const CurveGrid& grid, std::uint32_t* codes) {
-    HWY_DYNAMIC_DISPATCH(CoarseCodes)(boxes, curve, grid, codes);
+    HWY_DYNAMIC_DISPATCH(coarse_codes)(boxes, curve, grid, codes);
 }
 
 } // namespace boxwood

@@ -2,6 +2,7 @@
 #include "trees/ordering/curve_order.h"
 #include "trees/testing/box_families.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -169,12 +170,9 @@ TEST(CurveOrder, NamesTheFirstBadBox) {
                 std::vector<Box> boxes = random_boxes(n, .1f, 1);
                 boxes[at] = boxes[n - 1] = bad;
                 on_every_target([&] {
-                    try {
-                        curve_order(boxes, Curve::hilbert, serial());
-                        FAIL() << "took a bad box";
-                    } catch (const InvalidBox& error) {
-                        EXPECT_EQ(error.index, at);
-                    }
+                    EXPECT_THAT(
+                        [&] { curve_order(boxes, Curve::hilbert, serial()); },
+                        testing::Throws<InvalidBox>(testing::Field(&InvalidBox::index, at)));
                 });
             }
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "trees/queries/filtered_pairs.h"
+#include "trees/queries/filters.h"
 
 #include <cstddef>
 #include <cstdint>

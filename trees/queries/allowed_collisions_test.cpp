@@ -52,10 +52,10 @@ TEST(AllowedCollisions, NeighboursOfAChain) {
     EXPECT_EQ(allow_neighbours(0).size(), 0u);
 }
 
-/// Records what reaches it, and asks to stop after `most` batches.
+/// Records what reaches it, and asks to stop after `max_calls` batches.
 class Recorder final : public PairSink {
   public:
-    explicit Recorder(std::size_t most) : most_(most) {}
+    explicit Recorder(std::size_t max_calls) : max_calls_(max_calls) {}
     void begin(std::size_t chunks, bool in_order) override {
         chunks_ = chunks;
         in_order_ = in_order;
@@ -64,11 +64,11 @@ class Recorder final : public PairSink {
         ++batches_;
         last_chunk_ = chunk;
         pairs_.insert(pairs_.end(), batch.begin(), batch.end());
-        return batches_ < most_;
+        return batches_ < max_calls_;
     }
     void end() override { ended_ = true; }
 
-    std::size_t most_, chunks_ = 0, batches_ = 0, last_chunk_ = 0;
+    std::size_t max_calls_, chunks_ = 0, batches_ = 0, last_chunk_ = 0;
     bool in_order_ = false, ended_ = false;
     std::vector<Pair> pairs_;
 };

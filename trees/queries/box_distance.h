@@ -27,10 +27,10 @@ namespace detail {
 
 /// A float below which distances in a tree are bounded: squares of lengths times the power of two
 /// `scale`, at which they neither over- nor underflow. A bound from below is taken smaller by the
-/// share `share` and by `least`, one from above larger: rounding in floats moves neither across the
-/// true value (its relative error is below 6 * 2^-24, that of a denormal square below 2^-148).
+/// share `share` and by `min_error`, one from above larger: rounding in floats moves neither across
+/// the true value (its relative error is below 6 * 2^-24, that of a denormal square below 2^-148).
 struct DistanceScale {
-    static constexpr float share = 0x1p-20f, least = 0x1p-120f;
+    static constexpr float share = 0x1p-20f, min_error = 0x1p-120f;
 
     float scale = 1;
 
@@ -50,14 +50,14 @@ struct DistanceScale {
     float below(double squared) const {
         const double s = static_cast<double>(scale);
         const float scaled = static_cast<float>(std::min(squared * s * s, 0x1p126));
-        return std::max(0.0f, scaled * (1 - share) - least);
+        return std::max(0.0f, scaled * (1 - share) - min_error);
     }
     /// At least the squared distance, scaled.
     float above(double squared) const {
         const double s = static_cast<double>(scale);
         const double scaled = squared * s * s;
         constexpr float inf = std::numeric_limits<float>::infinity();
-        return scaled < 0x1p120 ? static_cast<float>(scaled) * (1 + share) + least : inf;
+        return scaled < 0x1p120 ? static_cast<float>(scaled) * (1 + share) + min_error : inf;
     }
 };
 

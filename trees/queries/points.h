@@ -4,7 +4,7 @@
 #include "trees/executor.h"
 #include "trees/inspect/work.h"
 #include "trees/layouts/layouts.h"
-#include "trees/queries/pairs.h"
+#include "trees/queries/sinks.h"
 
 #include <span>
 

@@ -5,7 +5,7 @@
 #include "trees/executor.h"
 #include "trees/inspect/work.h"
 #include "trees/layouts/layouts.h"
-#include "trees/queries/pairs.h"
+#include "trees/queries/sinks.h"
 #include "trees/tree.h"
 
 #include <span>

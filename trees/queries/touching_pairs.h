@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/triangle_triangle/triangle_kernel.h"
-#include "trees/queries/pairs.h"
+#include "trees/queries/filters.h"
 
 #include <algorithm>
 #include <array>
@@ -26,16 +26,13 @@ struct TierCounts {
 /// of `mesh`, or those of a pair of `a` and of `b`, which have triangle(i) as a TriangleMesh does.
 /// Batch kernels are given whole blocks; the decisions are the same as one by one. `tiers`, if
 /// given, is added to, and then all must happen on one thread.
-template <TriangleKernel K, class Mesh = TriangleMesh> class TouchingPairs final : public PairSink {
+template <TriangleKernel K, class Mesh = TriangleMesh>
+class TouchingPairs final : public PairFilter {
   public:
     TouchingPairs(const Mesh& mesh, PairSink& sink, TierCounts* tiers = nullptr)
         : TouchingPairs(mesh, mesh, sink, tiers) {}
     TouchingPairs(const Mesh& a, const Mesh& b, PairSink& sink, TierCounts* tiers = nullptr)
-        : a_(a), b_(b), sink_(sink), tiers_(tiers) {}
-
-    void begin(std::size_t chunks, bool in_order) override { sink_.begin(chunks, in_order); }
-    void finish(std::size_t chunk) override { sink_.finish(chunk); }
-    void end() override { sink_.end(); }
+        : PairFilter(sink), a_(a), b_(b), tiers_(tiers) {}
 
     bool take(std::size_t chunk, std::span<const Pair> pairs) override {
         while (!pairs.empty()) {
@@ -89,7 +86,6 @@ template <TriangleKernel K, class Mesh = TriangleMesh> class TouchingPairs final
 
     const Mesh& a_;
     const Mesh& b_;
-    PairSink& sink_;
     TierCounts* tiers_;
 };
 

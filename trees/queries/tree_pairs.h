@@ -3,7 +3,7 @@
 #include "trees/executor.h"
 #include "trees/inspect/work.h"
 #include "trees/layouts/layouts.h"
-#include "trees/queries/pairs.h"
+#include "trees/queries/sinks.h"
 
 namespace boxwood {
 

@@ -64,11 +64,11 @@ inline std::vector<BoxFamily> box_families() {
         f.boxes.push_back({{x, x, x}, {1.5f * x, 2 * x, 2 * x}});
     }
     all.push_back(f);
-    constexpr float most = std::numeric_limits<float>::max();
+    constexpr float max_float = std::numeric_limits<float>::max();
     f = {"whole space and corners", random_boxes(50, .5f, 9)};
-    f.boxes.push_back({{-most, -most, -most}, {most, most, most}});
-    f.boxes.push_back({{most, most, most}, {most, most, most}});
-    f.boxes.push_back({{-most, -most, -most}, {-most, -most, -most}});
+    f.boxes.push_back({{-max_float, -max_float, -max_float}, {max_float, max_float, max_float}});
+    f.boxes.push_back({{max_float, max_float, max_float}, {max_float, max_float, max_float}});
+    f.boxes.push_back({{-max_float, -max_float, -max_float}, {-max_float, -max_float, -max_float}});
     all.push_back(f);
     constexpr float tiny = std::numeric_limits<float>::denorm_min();
     f = {"denormal", {}};

@@ -1,8 +1,7 @@
 #include "kernels/settings.h"
 #include "trees/dynamic/detail/policy.h"
 #include "trees/layouts/detail/model.h"
-#include "trees/queries/filtered_pairs.h"
-#include "trees/queries/swapped_pairs.h"
+#include "trees/queries/filters.h"
 #include "trees/testing/pairs_only_layout.h"
 #include "trees/trees.h"
 

@@ -1,7 +1,7 @@
 #include "trees/builder.h"
 #include "trees/inspect/validate.h"
 #include "trees/layout.h"
-#include "trees/queries/pairs.h"
+#include "trees/queries/sinks.h"
 #include "trees/testing/brute_force.h"
 #include "trees/testing/every_executor.h"
 #include "trees/testing/layouts_answering.h"

@@ -77,10 +77,10 @@ void pairs(const T& a, const T& b, const Executor& executor, PairSink& sink, Wor
         return;
     }
     if (can_start) {
-        constexpr std::uint32_t least = Self ? 64 : 2; // no step of such nodes meets two leaves
+        constexpr std::uint32_t min_count = Self ? 64 : 2; // no step of such nodes meets two leaves
         const auto weight = [&](Pair nodes) -> std::size_t {
             const std::uint32_t x = a.nodes[nodes.a].count, y = b.nodes[nodes.b].count;
-            return x < least || y < least ? 0 : std::size_t{x} + y;
+            return x < min_count || y < min_count ? 0 : std::size_t{x} + y;
         };
         tasks = share_out(Pair{0, 0}, weight, [&](Pair nodes, std::vector<Pair>& out) {
             if (Self && nodes.a == nodes.b)

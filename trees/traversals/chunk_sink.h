@@ -1,7 +1,7 @@
 #pragma once
 
 #include "trees/inspect/work.h"
-#include "trees/queries/pairs.h"
+#include "trees/queries/sinks.h"
 
 #include <atomic>
 

@@ -30,7 +30,7 @@ inline constexpr SetBits set_bits;
 /// The 32-bit lanes of a mask moved to the front in their order, then whatever. hwy::Compress where
 /// an instruction does it; below AVX-512 that one has g++ copy its table, a local constexpr array
 /// of 1 KiB, to the stack each time.
-template <class D, class V, class M> HWY_INLINE V Compressed([[maybe_unused]] D d, V v, M mask) {
+template <class D, class V, class M> HWY_INLINE V compressed([[maybe_unused]] D d, V v, M mask) {
     namespace hn = hwy::HWY_NAMESPACE;
 #if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET > HWY_AVX3
     if constexpr (hn::MaxLanes(D()) >= 4) {

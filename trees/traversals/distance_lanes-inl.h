@@ -19,16 +19,16 @@ template <class Block> using BoundTag = hwy::HWY_NAMESPACE::Rebind<float, LaneTa
 
 template <class Block>
 HWY_INLINE hwy::HWY_NAMESPACE::Vec<LaneTag<Block>>
-AxisDistance(const Block& block, std::size_t i, std::size_t axis, float p, float scale) {
+axis_distance(const Block& block, std::size_t i, std::size_t axis, float p, float scale) {
     namespace hn = hwy::HWY_NAMESPACE;
     using Real = typename Block::Real;
     const LaneTag<Block> d;
     const auto point = hn::Set(d, static_cast<Real>(p));
-    const auto below = hn::Sub(LoadPlane(block, axis, i), point);
-    const auto above = hn::Sub(point, LoadPlane(block, axis + 3, i));
+    const auto below = hn::Sub(load_plane(block, axis, i), point);
+    const auto above = hn::Sub(point, load_plane(block, axis + 3, i));
     // The difference of two floats may overflow; the largest float is below it.
-    const auto most = hn::Set(d, static_cast<Real>(std::numeric_limits<float>::max()));
-    return hn::Mul(hn::Min(hn::Max(hn::Max(below, above), hn::Zero(d)), most),
+    const auto max_float = hn::Set(d, static_cast<Real>(std::numeric_limits<float>::max()));
+    return hn::Mul(hn::Min(hn::Max(hn::Max(below, above), hn::Zero(d)), max_float),
                    hn::Set(d, static_cast<Real>(scale)));
 }
 
@@ -36,11 +36,11 @@ AxisDistance(const Block& block, std::size_t i, std::size_t axis, float p, float
 /// least 0. Where the lanes are of doubles they are rounded to floats first.
 template <class Block>
 HWY_INLINE hwy::HWY_NAMESPACE::Vec<BoundTag<Block>>
-DistanceBounds(const Block& block, std::size_t i, Vec3<float> point, float scale) {
+distance_bounds(const Block& block, std::size_t i, Vec3<float> point, float scale) {
     namespace hn = hwy::HWY_NAMESPACE;
-    const auto x = AxisDistance(block, i, 0, point.x, scale);
-    const auto y = AxisDistance(block, i, 1, point.y, scale);
-    const auto z = AxisDistance(block, i, 2, point.z, scale);
+    const auto x = axis_distance(block, i, 0, point.x, scale);
+    const auto y = axis_distance(block, i, 1, point.y, scale);
+    const auto z = axis_distance(block, i, 2, point.z, scale);
     const auto sum = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
     const BoundTag<Block> df;
     const auto floats = [&] {
@@ -50,7 +50,7 @@ DistanceBounds(const Block& block, std::size_t i, Vec3<float> point, float scale
             return sum;
     }();
     const auto smaller = hn::Sub(hn::Mul(floats, hn::Set(df, 1 - DistanceScale::share)),
-                                 hn::Set(df, DistanceScale::least));
+                                 hn::Set(df, DistanceScale::min_error));
     return hn::Max(smaller, hn::Zero(df));
 }
 

@@ -25,14 +25,14 @@ template <class Node> using NodeTag = hwy::HWY_NAMESPACE::CappedTag<float, Node:
 /// Lanes [i, i + Lanes(d)) of the plane of this axis that stands `offset` bytes behind the first.
 template <std::size_t W>
 HWY_INLINE hwy::HWY_NAMESPACE::Vec<NodeTag<RayNode<W>>>
-PlaneOf(const RayNode<W>& node, int /*axis*/, std::size_t offset, std::size_t i) {
+plane_of(const RayNode<W>& node, int /*axis*/, std::size_t offset, std::size_t i) {
     const auto* planes = reinterpret_cast<const std::byte*>(node.plane);
     return hwy::HWY_NAMESPACE::Load(NodeTag<RayNode<W>>(),
                                     reinterpret_cast<const float*>(planes + offset) + i);
 }
 /// `decode` of QuantisedBlock, operation for operation.
 HWY_INLINE hwy::HWY_NAMESPACE::Vec<NodeTag<QuantisedBlock>>
-PlaneOf(const QuantisedBlock& node, int axis, std::size_t offset, std::size_t i) {
+plane_of(const QuantisedBlock& node, int axis, std::size_t offset, std::size_t i) {
     namespace hn = hwy::HWY_NAMESPACE;
     const NodeTag<QuantisedBlock> d;
     const hn::Rebind<std::uint8_t, decltype(d)> d8;
@@ -43,10 +43,10 @@ PlaneOf(const QuantisedBlock& node, int axis, std::size_t offset, std::size_t i)
 }
 
 /// The lanes that a ray hits, without those that are not in use.
-template <std::size_t W, class M> HWY_INLINE M UsedOf(const RayNode<W>&, M hits, std::size_t) {
+template <std::size_t W, class M> HWY_INLINE M used_of(const RayNode<W>&, M hits, std::size_t) {
     return hits; // the empty box is never hit
 }
-template <class M> HWY_INLINE M UsedOf(const QuantisedBlock& node, M hits, std::size_t i) {
+template <class M> HWY_INLINE M used_of(const QuantisedBlock& node, M hits, std::size_t i) {
     namespace hn = hwy::HWY_NAMESPACE;
     return hn::And(hits,
                    hn::FirstN(NodeTag<QuantisedBlock>(), node.count > i ? node.count - i : 0));
@@ -66,45 +66,45 @@ template <class Node> class NodeClip {
 
   public:
     HWY_INLINE NodeClip(const FusedSlabs& slabs, float t_min)
-        : re0_(Everywhere(slabs.entry_rdir[0])), re1_(Everywhere(slabs.entry_rdir[1])),
-          re2_(Everywhere(slabs.entry_rdir[2])), se0_(Everywhere(slabs.entry_shift[0])),
-          se1_(Everywhere(slabs.entry_shift[1])), se2_(Everywhere(slabs.entry_shift[2])),
-          rx0_(Everywhere(slabs.exit_rdir[0])), rx1_(Everywhere(slabs.exit_rdir[1])),
-          rx2_(Everywhere(slabs.exit_rdir[2])), sx0_(Everywhere(slabs.exit_shift[0])),
-          sx1_(Everywhere(slabs.exit_shift[1])), sx2_(Everywhere(slabs.exit_shift[2])),
-          t_min_(Everywhere(t_min)) {
-        near0_ = Near(slabs, 0);
-        near1_ = Near(slabs, 1);
-        near2_ = Near(slabs, 2);
+        : re0_(everywhere(slabs.entry_rdir[0])), re1_(everywhere(slabs.entry_rdir[1])),
+          re2_(everywhere(slabs.entry_rdir[2])), se0_(everywhere(slabs.entry_shift[0])),
+          se1_(everywhere(slabs.entry_shift[1])), se2_(everywhere(slabs.entry_shift[2])),
+          rx0_(everywhere(slabs.exit_rdir[0])), rx1_(everywhere(slabs.exit_rdir[1])),
+          rx2_(everywhere(slabs.exit_rdir[2])), sx0_(everywhere(slabs.exit_shift[0])),
+          sx1_(everywhere(slabs.exit_shift[1])), sx2_(everywhere(slabs.exit_shift[2])),
+          t_min_(everywhere(t_min)) {
+        near0_ = near(slabs, 0);
+        near1_ = near(slabs, 1);
+        near2_ = near(slabs, 2);
     }
 
     /// `clip` for the lanes from i on: which are hit, and where each is entered.
-    HWY_INLINE M Hits(const Node& node, std::size_t i, V t_max, V& entry) const {
+    HWY_INLINE M hits_of(const Node& node, std::size_t i, V t_max, V& entry) const {
         namespace hn = hwy::HWY_NAMESPACE;
-        entry = hn::Max(hn::Max(hn::MulSub(PlaneOf(node, 0, near0_, i), re0_, se0_),
-                                hn::MulSub(PlaneOf(node, 1, near1_, i), re1_, se1_)),
-                        hn::Max(hn::MulSub(PlaneOf(node, 2, near2_, i), re2_, se2_), t_min_));
+        entry = hn::Max(hn::Max(hn::MulSub(plane_of(node, 0, near0_, i), re0_, se0_),
+                                hn::MulSub(plane_of(node, 1, near1_, i), re1_, se1_)),
+                        hn::Max(hn::MulSub(plane_of(node, 2, near2_, i), re2_, se2_), t_min_));
         const V exit = hn::Min(
-            hn::Min(hn::MulSub(PlaneOf(node, 0, 3 * plane - near0_, i), rx0_, sx0_),
-                    hn::MulSub(PlaneOf(node, 1, 5 * plane - near1_, i), rx1_, sx1_)),
-            hn::Min(hn::MulSub(PlaneOf(node, 2, 7 * plane - near2_, i), rx2_, sx2_), t_max));
-        return UsedOf(node, hn::Le(entry, exit), i);
+            hn::Min(hn::MulSub(plane_of(node, 0, 3 * plane - near0_, i), rx0_, sx0_),
+                    hn::MulSub(plane_of(node, 1, 5 * plane - near1_, i), rx1_, sx1_)),
+            hn::Min(hn::MulSub(plane_of(node, 2, 7 * plane - near2_, i), rx2_, sx2_), t_max));
+        return used_of(node, hn::Le(entry, exit), i);
     }
 
   private:
     static constexpr std::size_t plane = sizeof(Node::plane) / 6; ///< bytes
 
-    static HWY_INLINE V Everywhere(float x) { return hwy::HWY_NAMESPACE::Set(D(), x); }
-    static HWY_INLINE std::size_t Near(const FusedSlabs& slabs, std::size_t k) {
+    static HWY_INLINE V everywhere(float x) { return hwy::HWY_NAMESPACE::Set(D(), x); }
+    static HWY_INLINE std::size_t near(const FusedSlabs& slabs, std::size_t k) {
         return plane * (k + 3 * (std::bit_cast<std::uint32_t>(slabs.entry_rdir[k]) >> 31));
     }
 
     const V re0_, re1_, re2_, se0_, se1_, se2_, rx0_, rx1_, rx2_, sx0_, sx1_, sx2_, t_min_;
-    std::size_t near0_, near1_, near2_; ///< of `PlaneOf`; the far planes are the others
+    std::size_t near0_, near1_, near2_; ///< of `plane_of`; the far planes are the others
 };
 
 /// As lane_bits, for up to 16 lanes.
-template <class D, class M> HWY_INLINE std::uint32_t WideBits(D d, M m, std::size_t first) {
+template <class D, class M> HWY_INLINE std::uint32_t wide_bits(D d, M m, std::size_t first) {
     std::uint8_t bytes[8] = {};
     hwy::HWY_NAMESPACE::StoreMaskBits(d, m, bytes);
     return (bytes[0] | std::uint32_t{bytes[1]} << 8) << first;
@@ -112,8 +112,8 @@ template <class D, class M> HWY_INLINE std::uint32_t WideBits(D d, M m, std::siz
 
 /// The children that are hit: the farthest first on the stack, the nearest on top of it.
 template <class Node>
-HWY_INLINE void PushSorted(const Node& node, std::uint32_t bits, const float* entry,
-                           WaitingNode* stack) {
+HWY_INLINE void push_sorted(const Node& node, std::uint32_t bits, const float* entry,
+                            WaitingNode* stack) {
     std::size_t top = 0;
     for (; bits != 0; bits &= bits - 1) {
         const auto lane = static_cast<std::uint32_t>(std::countr_zero(bits));
@@ -127,26 +127,26 @@ HWY_INLINE void PushSorted(const Node& node, std::uint32_t bits, const float* en
 
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET <= HWY_AVX2
 /// The lane of the least entry (>= 0) among the lanes of `bits`, of which there is one at least;
-/// entries count as PushSortedEight rounds them.
-template <class V> HWY_INLINE std::uint32_t NearestOf(V entry, std::uint32_t bits) {
+/// entries count as push_sorted_eight rounds them.
+template <class V> HWY_INLINE std::uint32_t nearest_of(V entry, std::uint32_t bits) {
     namespace hn = hwy::HWY_NAMESPACE;
     const hn::CappedTag<std::uint32_t, 8> du;
     const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits)};
     const auto key =
         hn::Or(hn::AndNot(hn::Set(du, 7u), hn::BitCast(du, hn::Abs(entry))), hn::Iota(du, 0));
-    auto least = hn::IfThenElse(hn::LoadMaskBits(du, bytes), key, hn::Set(du, ~std::uint32_t{0}));
-    least = hn::Min(least, hn::ConcatLowerUpper(du, least, least));
-    least = hn::Min(least, hn::Shuffle1032(least));
-    least = hn::Min(least, hn::Shuffle2301(least));
-    return hn::GetLane(least) & 7;
+    auto min_key = hn::IfThenElse(hn::LoadMaskBits(du, bytes), key, hn::Set(du, ~std::uint32_t{0}));
+    min_key = hn::Min(min_key, hn::ConcatLowerUpper(du, min_key, min_key));
+    min_key = hn::Min(min_key, hn::Shuffle1032(min_key));
+    min_key = hn::Min(min_key, hn::Shuffle2301(min_key));
+    return hn::GetLane(min_key) & 7;
 }
 
-/// As PushSorted for the entries (>= 0) of eight lanes in one register, without a branch: a network
-/// of 19 comparisons. Entries are rounded down to multiples of eight ulp, which hold the lane;
-/// eight are written whatever `bits`.
+/// As push_sorted for the entries (>= 0) of eight lanes in one register, without a branch: a
+/// network of 19 comparisons. Entries are rounded down to multiples of eight ulp, which hold the
+/// lane; eight are written whatever `bits`.
 template <class V>
-HWY_INLINE void PushSortedEight(const std::uint32_t* refs, std::uint32_t bits, V entry,
-                                WaitingNode* stack) {
+HWY_INLINE void push_sorted_eight(const std::uint32_t* refs, std::uint32_t bits, V entry,
+                                  WaitingNode* stack) {
     namespace hn = hwy::HWY_NAMESPACE;
     const hn::CappedTag<std::uint32_t, 8> du;
     const auto lanes = hn::Set(du, 7u);

@@ -15,9 +15,9 @@ namespace boxwood::detail::HWY_NAMESPACE {
 
 /// All hits of one ray; nodes in no order.
 template <class Node, RayKernel K>
-HWY_INLINE void TraverseAll(const TriangleBlocks& tree, const FusedSlabs& slabs,
-                            const Ray<float>& ray, RayState<K, RayMode::all, false>& state,
-                            std::uint32_t* waiting) {
+HWY_INLINE void traverse_all(const TriangleBlocks& tree, const FusedSlabs& slabs,
+                             const Ray<float>& ray, RayState<K, RayMode::all, false>& state,
+                             std::uint32_t* waiting) {
     namespace hn = hwy::HWY_NAMESPACE;
     const NodeTag<Node> df;
     const hn::Rebind<std::uint32_t, decltype(df)> du;
@@ -43,15 +43,15 @@ HWY_INLINE void TraverseAll(const TriangleBlocks& tree, const FusedSlabs& slabs,
             const Node& node = nodes[at];
             for (std::size_t i = 0; i < Node::width; i += hn::Lanes(df)) {
                 hn::Vec<decltype(df)> entry;
-                const auto hit = hn::RebindMask(du, clip.Hits(node, i, t_max, entry));
-                hn::StoreU(Compressed(du, hn::LoadU(du, node.ref + i), hit), du, waiting + top);
+                const auto hit = hn::RebindMask(du, clip.hits_of(node, i, t_max, entry));
+                hn::StoreU(compressed(du, hn::LoadU(du, node.ref + i), hit), du, waiting + top);
                 top += hn::CountTrue(du, hit);
             }
         }
     }
 }
 
-template <class Node> void TraverseJob(const RayJob& job) {
+template <class Node> void traverse_job(const RayJob& job) {
     const SlabBounds bounds(job.triangles.bounds);
     with_job_types(job, [&]<class K, RayMode mode, bool Counted>(
                             std::type_identity<K>, std::integral_constant<RayMode, mode>,
@@ -61,8 +61,8 @@ template <class Node> void TraverseJob(const RayJob& job) {
             for_each_ray<mode>(job,
                                [&](const Ray<float>& ray, std::vector<RayHit>& found) HWY_ATTR {
                                    RayState<K, mode, false> state(ray, nullptr, found);
-                                   TraverseAll<Node>(job.triangles, FusedSlabs(ray, bounds), ray,
-                                                     state, waiting.data());
+                                   traverse_all<Node>(job.triangles, FusedSlabs(ray, bounds), ray,
+                                                      state, waiting.data());
                                    return state.result();
                                });
         } else {

@@ -37,7 +37,7 @@ struct OneBox {
 };
 
 /// Lanes [i, i + lanes) of a block that overlap the box.
-HWY_INLINE M Overlap(const PackedBlock& block, std::size_t i, const OneBox& box) {
+HWY_INLINE M overlap_lanes(const PackedBlock& block, std::size_t i, const OneBox& box) {
     const auto plane = [&](std::size_t p) HWY_ATTR { return hn::Load(df, block.plane[p] + i); };
     return hn::And(hn::And(hn::And(hn::Ge(box.max_x, plane(0)), hn::Le(box.min_x, plane(3))),
                            hn::And(hn::Ge(box.max_y, plane(1)), hn::Le(box.min_y, plane(4)))),
@@ -45,8 +45,8 @@ HWY_INLINE M Overlap(const PackedBlock& block, std::size_t i, const OneBox& box)
 }
 
 /// Lanes [i, i + lanes) of a block that overlap lane `lane` of another.
-HWY_INLINE M Overlap(const PackedBlock& block, std::size_t i, const PackedBlock& other,
-                     std::size_t lane) {
+HWY_INLINE M overlap_lanes(const PackedBlock& block, std::size_t i, const PackedBlock& other,
+                           std::size_t lane) {
     const auto plane = [&](std::size_t p) HWY_ATTR { return hn::Load(df, block.plane[p] + i); };
     const auto one = [&](std::size_t p) HWY_ATTR { return hn::Set(df, other.plane[p][lane]); };
     return hn::And(hn::And(hn::And(hn::Le(plane(0), one(3)), hn::Ge(plane(3), one(0))),
@@ -79,18 +79,18 @@ struct TwiceSixteen {
 
 /// Writes the lanes of `many` that hit to `a`, `one` beside each to `b`, and whatever up to a whole
 /// register beyond; returns how many there are.
-HWY_INLINE std::size_t Put(M hits, U many, const std::uint32_t* one, std::uint32_t* a,
+HWY_INLINE std::size_t put(M hits, U many, const std::uint32_t* one, std::uint32_t* a,
                            std::uint32_t* b) {
     const auto mask = hn::RebindMask(du, hits);
     hn::StoreU(hn::Set(du, *one), du, b);
-    hn::StoreU(Compressed(du, many, mask), du, a);
+    hn::StoreU(compressed(du, many, mask), du, a);
     return hn::CountTrue(du, mask);
 }
 
 /// Appends to `out` the lanes (numbered through the level: 16 block + lane) of the listed blocks
 /// that overlap the box.
 template <bool Counted>
-HWY_INLINE void Refine(const PackedBlock* level, const PackedList& list, std::size_t first,
+HWY_INLINE void refine(const PackedBlock* level, const PackedList& list, std::size_t first,
                        const OneBox& box, PackedList& out, Work* work) {
     constexpr std::size_t w = PackedBlock::width;
     std::uint32_t* to = out.reserve((list.size() - first) * w + w);
@@ -99,9 +99,9 @@ HWY_INLINE void Refine(const PackedBlock* level, const PackedList& list, std::si
     for (std::size_t j = first; j < list.size(); ++j) {
         const std::uint32_t b = list[j];
         for (std::size_t i = 0; i < w; i += lanes) {
-            const auto hits = hn::RebindMask(du, Overlap(level[b], i, box));
+            const auto hits = hn::RebindMask(du, overlap_lanes(level[b], i, box));
             const auto number = hn::Add(iota, hn::Set(du, static_cast<std::uint32_t>(b * w + i)));
-            hn::StoreU(Compressed(du, number, hits), du, to);
+            hn::StoreU(compressed(du, number, hits), du, to);
             to += hn::CountTrue(du, hits);
         }
     }

@@ -5,8 +5,8 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
+#include "trees/queries/filters.h"
 #include "trees/queries/self_pairs.h"
-#include "trees/queries/swapped_pairs.h"
 #include "trees/queries/tree_pairs.h"
 #include "trees/traversals/packed_overlap-inl.h"
 #include "trees/traversals/packed_traversal.h"
@@ -77,14 +77,14 @@ template <bool Self, bool Counted> class PackedTraversal {
                 work_->box_tests += w;
             }
         }
-        Refine<Counted>(level, list, first, box, out, work_);
+        refine<Counted>(level, list, first, box, out, work_);
         --level_b;
     }
     static std::uint32_t bits_of(const OneBox& box, const PackedBlock& block) {
         std::uint32_t bits = 0;
         for (std::size_t i = 0; i < w; i += lanes) {
             std::uint8_t bytes[8] = {};
-            hn::StoreMaskBits(df, Overlap(block, i, box), bytes);
+            hn::StoreMaskBits(df, overlap_lanes(block, i, box), bytes);
             bits |= (std::uint32_t{bytes[0]} | std::uint32_t{bytes[1]} << 8) << i;
         }
         return bits;
@@ -100,7 +100,7 @@ template <bool Self, bool Counted> class PackedTraversal {
         PackedList *next = &lists_[2], *spare = &lists_[3];
         for (; level_b > level; --level_b) { // b is the deeper tree
             next->clear();
-            Refine<Counted>(b_.level(level_b).data(), *candidates, 0, OneBox(box), *next, work_);
+            refine<Counted>(b_.level(level_b).data(), *candidates, 0, OneBox(box), *next, work_);
             candidates = next;
             std::swap(next, spare);
         }
@@ -116,7 +116,7 @@ template <bool Self, bool Counted> class PackedTraversal {
         for (std::size_t j = Self && alone ? 1 : 0; j < candidates->size(); ++j) {
             const std::uint32_t c = (*candidates)[j];
             if (level_b == 0) {
-                if (near_.n + count > near_.most && !meet_near())
+                if (near_.n + count > near_.max_size && !meet_near())
                     return false;
                 for (std::uint32_t i = 0; i < count; ++i)
                     near_.push(c, i);
@@ -124,7 +124,7 @@ template <bool Self, bool Counted> class PackedTraversal {
                 for (std::uint32_t i = 0; i < count; ++i)
                     list_near<true>(c, i);
             } else {
-                if (close_.n + w > close_.most && !list_near())
+                if (close_.n + w > close_.max_size && !list_near())
                     return false;
                 list_close(c);
             }
@@ -154,8 +154,8 @@ template <bool Self, bool Counted> class PackedTraversal {
         const OneBox one(box);
         std::size_t n = close_.n;
         for (std::size_t i = 0; i < w; i += lanes)
-            n += Put(Overlap(*above_, i, one), hn::Iota(du, static_cast<std::uint32_t>(i)), &c,
-                     close_.a + n, close_.b + n);
+            n += put(overlap_lanes(*above_, i, one), hn::Iota(du, static_cast<std::uint32_t>(i)),
+                     &c, close_.a + n, close_.b + n);
         close_.n = n;
         if constexpr (Counted)
             count_work(1, n);
@@ -168,11 +168,11 @@ template <bool Self, bool Counted> class PackedTraversal {
         std::size_t n = near_.n;
         for (std::size_t i = 0; i < w; i += lanes) {
             const auto lane = hn::Iota(du, static_cast<std::uint32_t>(i));
-            M hits = Overlap(block, i, *above_, at);
+            M hits = overlap_lanes(block, i, *above_, at);
             if constexpr (itself)
                 hits = hn::And(hits, hn::RebindMask(df, hn::Gt(lane, hn::Set(du, at))));
             const auto number = hn::Add(lane, hn::Set(du, static_cast<std::uint32_t>(c * w)));
-            n += Put(hits, number, &at, near_.a + n, near_.b + n);
+            n += put(hits, number, &at, near_.a + n, near_.b + n);
         }
         near_.n = n;
         if constexpr (Counted)
@@ -181,7 +181,7 @@ template <bool Self, bool Counted> class PackedTraversal {
     /// The same of all that `close_` lists; then what is near meets.
     bool list_near() {
         for (std::size_t j = 0; j < close_.n; ++j) {
-            if (near_.n + w > near_.most && !meet_near())
+            if (near_.n + w > near_.max_size && !meet_near())
                 return false;
             list_near<false>(close_.b[j], close_.a[j]);
         }
@@ -193,7 +193,7 @@ template <bool Self, bool Counted> class PackedTraversal {
     /// overlap the other's bounds; or, if they are many, those of `a` if they are fewer.
     bool meet_near() {
         // Of uniform boxes few leaves list so many, so that the branch is nearly always foreseen.
-        constexpr std::size_t part = PackedColumns::most / w, many = 11;
+        constexpr std::size_t part = PackedColumns::max_size / w, many = 11;
         const PackedBlock* const level_a = a_.level(0).data() + first_;
         const PackedBlock* const level_b = b_.level(0).data();
         for (std::size_t j = 0; j < near_.n;) {
@@ -231,7 +231,7 @@ template <bool Self, bool Counted> class PackedTraversal {
         for (std::size_t i = 0; i < w; i += lanes) {
             const auto slot = hn::Add(hn::Iota(du, static_cast<std::uint32_t>(i)),
                                       hn::Set(du, static_cast<std::uint32_t>(number * w)));
-            n += Put(Overlap(block, i, above, lane), slot, &other, list.a + n, list.b + n);
+            n += put(overlap_lanes(block, i, above, lane), slot, &other, list.a + n, list.b + n);
         }
         return n - std::exchange(list.n, n);
     }
@@ -250,7 +250,7 @@ template <bool Self, bool Counted> class PackedTraversal {
             for (const std::size_t end = std::min(list.n, j + pairs_.free() / w); j < end; ++j) {
                 const std::size_t slot = list.a[j], leaf = list.b[j];
                 for (std::size_t i = 0; i < w; i += lanes)
-                    n += Put(Overlap(level_many[leaf], i, level_one[slot / w], slot % w),
+                    n += put(overlap_lanes(level_many[leaf], i, level_one[slot / w], slot % w),
                              hn::Load(du, items_many + leaf * w + i), items_one + slot, many_to + n,
                              one_to + n);
             }
@@ -276,8 +276,8 @@ template <bool Self, bool Counted> class PackedTraversal {
                 if (k == w / 2)
                     hits = hn::And(hits, hn::FirstN(df, w / 2));
                 const auto mask = hn::RebindMask(du, hits);
-                hn::StoreU(Compressed(du, hn::Load(du, twice.item + i), mask), du, a + n);
-                hn::StoreU(Compressed(du, hn::LoadU(du, twice.item + i + k), mask), du, b + n);
+                hn::StoreU(compressed(du, hn::Load(du, twice.item + i), mask), du, a + n);
+                hn::StoreU(compressed(du, hn::LoadU(du, twice.item + i + k), mask), du, b + n);
                 n += hn::CountTrue(du, mask);
             }
         pairs_.resize(n);
@@ -322,7 +322,7 @@ template <bool Self, bool Counted> class PackedTraversal {
 };
 
 template <bool Self, bool Counted>
-void RunChunk(const PackedChunk& chunk, PackedPairs& pairs, Work* work) {
+void run_chunk(const PackedChunk& chunk, PackedPairs& pairs, Work* work) {
     PackedTraversal<Self, Counted> traversal(pairs, chunk.a, chunk.b, work);
     for (std::size_t node = chunk.begin; node < chunk.end; ++node)
         if (!traversal.run(chunk.level, node))
@@ -330,12 +330,13 @@ void RunChunk(const PackedChunk& chunk, PackedPairs& pairs, Work* work) {
     traversal.finish();
 }
 
-void PackedChunkPairs(const PackedChunk& chunk, PackedPairs& pairs, bool self, Work* work) {
+void packed_chunk_pairs(const PackedChunk& chunk, PackedPairs& pairs, bool self, Work* work) {
     if (self)
-        work ? RunChunk<true, true>(chunk, pairs, work) : RunChunk<true, false>(chunk, pairs, work);
+        work ? run_chunk<true, true>(chunk, pairs, work)
+             : run_chunk<true, false>(chunk, pairs, work);
     else
-        work ? RunChunk<false, true>(chunk, pairs, work)
-             : RunChunk<false, false>(chunk, pairs, work);
+        work ? run_chunk<false, true>(chunk, pairs, work)
+             : run_chunk<false, false>(chunk, pairs, work);
 }
 
 } // namespace
@@ -344,7 +345,7 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace boxwood::detail {
-HWY_EXPORT(PackedChunkPairs);
+HWY_EXPORT(packed_chunk_pairs);
 
 namespace {
 
@@ -357,9 +358,9 @@ void run(const PackedLayout& a, const PackedLayout& b, bool self, const Executor
         sink.end();
         return;
     }
-    constexpr std::size_t most = 128;
+    constexpr std::size_t max_size = 128;
     const std::size_t level = std::min<std::size_t>(1, a.depth() - 1);
-    const std::size_t nodes = a.level(level).size(), chunks = std::min(nodes, most);
+    const std::size_t nodes = a.level(level).size(), chunks = std::min(nodes, max_size);
     std::atomic<bool> stop = false;
     std::atomic<std::size_t> next = 0; // the sink wants them in order, whatever the executor does
     sink.begin(chunks, executor.threads() == 1);
@@ -369,7 +370,7 @@ void run(const PackedLayout& a, const PackedLayout& b, bool self, const Executor
             return;
         PackedPairs pairs(sink, c, stop, work);
         const ChunkRange range(nodes, chunks, c);
-        HWY_DYNAMIC_DISPATCH(PackedChunkPairs)
+        HWY_DYNAMIC_DISPATCH(packed_chunk_pairs)
         ({a, b, level, range.begin, range.end}, pairs, self, work);
         sink.finish(c);
     });

@@ -51,8 +51,8 @@ class PackedList {
 
 /// Two columns of a list of pairs; a store may write a register beyond.
 struct PackedColumns {
-    static constexpr std::size_t most = 512;
-    alignas(64) std::uint32_t a[most + PackedBlock::width], b[most + PackedBlock::width];
+    static constexpr std::size_t max_size = 512;
+    alignas(64) std::uint32_t a[max_size + PackedBlock::width], b[max_size + PackedBlock::width];
     std::size_t n = 0;
 
     void push(std::uint32_t x, std::uint32_t y) {

@@ -80,7 +80,7 @@ class PairTraversal {
 template <class Weight, class Open>
 std::vector<Pair> share_out(Pair root, const Weight& weight, const Open& open) {
     constexpr std::size_t small = 4096; // a traversal of fewer items is not worth sharing out
-    constexpr std::size_t light = 128, enough = 256, most = 8 * enough;
+    constexpr std::size_t light = 128, enough = 256, max_nodes = 8 * enough;
     std::vector<Pair> tasks{root}, next;
     std::size_t heaviest = weight(root);
     if (heaviest < small)
@@ -89,7 +89,7 @@ std::vector<Pair> share_out(Pair root, const Weight& weight, const Open& open) {
         next.clear();
         std::size_t waiting = tasks.size();
         for (const Pair nodes : tasks) {
-            if (weight(nodes) > heaviest / 2 && next.size() + waiting < most)
+            if (weight(nodes) > heaviest / 2 && next.size() + waiting < max_nodes)
                 open(nodes, next);
             else
                 next.push_back(nodes);

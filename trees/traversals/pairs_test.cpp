@@ -1,12 +1,13 @@
 #include "kernels/testing/every_target.h"
 #include "trees/builder.h"
 #include "trees/layout.h"
-#include "trees/queries/pairs.h"
+#include "trees/queries/sinks.h"
 #include "trees/testing/box_families.h"
 #include "trees/testing/every_executor.h"
 #include "trees/testing/layouts_answering.h"
 #include "trees/testing/same_tree.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -185,12 +186,9 @@ TEST(Builders, RefuseBadBoxesByIndex) {
         std::vector<Box> boxes = random_boxes(20, .1f, 1);
         boxes[13] = bad;
         for (const BuilderEntry& builder : builders())
-            try {
-                builder.make({})(boxes, serial());
-                FAIL() << builder.name << " took a bad box";
-            } catch (const InvalidBox& error) {
-                EXPECT_EQ(error.index, 13u) << builder.name;
-            }
+            EXPECT_THAT([&] { builder.make({})(boxes, serial()); },
+                        testing::Throws<InvalidBox>(testing::Field(&InvalidBox::index, 13u)))
+                << builder.name;
     }
 }
 

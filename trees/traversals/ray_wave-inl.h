@@ -159,22 +159,22 @@ template <class Node, RayKernel K, RayMode mode, bool Counted> class RayWave {
         [[maybe_unused]] std::uint32_t bits = 0;
         for (std::size_t i = 0; i < Node::width; i += hn::Lanes(df)) {
             hn::Vec<decltype(df)> entry;
-            const auto hit = clip.Hits(node, i, t_max, entry);
+            const auto hit = clip.hits_of(node, i, t_max, entry);
             if constexpr (!closest) {
-                hn::StoreU(Compressed(du, hn::LoadU(du, node.ref + i), hn::RebindMask(du, hit)), du,
+                hn::StoreU(compressed(du, hn::LoadU(du, node.ref + i), hn::RebindMask(du, hit)), du,
                            own.top);
                 own.top += hn::CountTrue(df, hit);
             } else {
-                bits |= WideBits(df, hit, i);
+                bits |= wide_bits(df, hit, i);
                 if constexpr (in_register<Node>)
-                    PushSortedEight(node.ref, bits, entry, own.top);
+                    push_sorted_eight(node.ref, bits, entry, own.top);
                 else
                     hn::Store(entry, df, entries + i);
             }
         }
         if constexpr (closest) {
             if constexpr (!in_register<Node>)
-                PushSorted(node, bits, entries, own.top);
+                push_sorted(node, bits, entries, own.top);
             own.top += std::popcount(bits);
         }
     }

@@ -4,7 +4,7 @@
 #include "trees/buffer.h"
 #include "trees/executor.h"
 #include "trees/layouts/layouts.h"
-#include "trees/queries/pairs.h"
+#include "trees/queries/sinks.h"
 #include "trees/traversals/chunk_sink.h"
 #include "trees/tree.h"
 
@@ -29,14 +29,14 @@ struct RegionQueries {
 /// A region as traversals take it: a finite closed box that finite boxes overlap if and only if
 /// they share a point with the region. Nothing if no finite box does: a NaN, or min > max.
 inline std::optional<Box> finite_region(const Box& region) {
-    constexpr float most = std::numeric_limits<float>::max();
+    constexpr float max_float = std::numeric_limits<float>::max();
     Box box = region;
     for (int axis = 0; axis < 3; ++axis) {
-        if (!(region.min[axis] <= region.max[axis]) || region.min[axis] > most ||
-            region.max[axis] < -most)
+        if (!(region.min[axis] <= region.max[axis]) || region.min[axis] > max_float ||
+            region.max[axis] < -max_float)
             return std::nullopt;
-        box.min[axis] = std::max(region.min[axis], -most);
-        box.max[axis] = std::min(region.max[axis], most);
+        box.min[axis] = std::max(region.min[axis], -max_float);
+        box.max[axis] = std::min(region.max[axis], max_float);
     }
     return box;
 }

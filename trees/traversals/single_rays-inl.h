@@ -29,7 +29,7 @@ template <class Node, RayKernel K, RayMode mode> class RayAlone {
     HWY_INLINE RayAlone(const SingleRayTree& tree, const Ray<float>& ray)
         : tree_(tree), ray_(ray), state_(ray, nullptr, found_) {}
 
-    HWY_INLINE RayHit Trace() {
+    HWY_INLINE RayHit trace() {
         namespace hn = hwy::HWY_NAMESPACE;
         const D df;
         const FusedSlabs slabs(ray_, tree_.bounds);
@@ -44,16 +44,16 @@ template <class Node, RayKernel K, RayMode mode> class RayAlone {
         for (;;) {
             while (!ray_refs::is_leaf(at)) {
                 const Node& node = *reinterpret_cast<const Node*>(tree_.nodes + at * sizeof(Node));
-                if (!Open(node, clip, t_max, at))
+                if (!open(node, clip, t_max, at))
                     goto waiting;
             }
             if (at == over)
                 return state_.result();
-            if (Test(at))
+            if (test(at))
                 return state_.result();
             t_max = hn::Set(df, state_.t_max());
         waiting:
-            at = Next();
+            at = next();
         }
     }
 
@@ -61,7 +61,7 @@ template <class Node, RayKernel K, RayMode mode> class RayAlone {
     static constexpr std::uint32_t over = ~std::uint32_t{0}; ///< no ray_refs, but a leaf's bit
 
     /// The nearest of those that wait, or `over`.
-    HWY_INLINE std::uint32_t Next() {
+    HWY_INLINE std::uint32_t next() {
         if constexpr (closest) {
             do
                 --top_;
@@ -73,7 +73,7 @@ template <class Node, RayKernel K, RayMode mode> class RayAlone {
     }
 
     /// To a child that is hit, the nearest for the closest hit, if there is one; the others wait.
-    HWY_INLINE bool Open(const Node& node, const NodeClip<Node>& clip, V t_max, std::uint32_t& at) {
+    HWY_INLINE bool open(const Node& node, const NodeClip<Node>& clip, V t_max, std::uint32_t& at) {
         namespace hn = hwy::HWY_NAMESPACE;
         const D df;
         const hn::Rebind<std::uint32_t, D> du;
@@ -81,10 +81,10 @@ template <class Node, RayKernel K, RayMode mode> class RayAlone {
         std::uint32_t bits = 0;
         V entry;
         for (std::size_t i = 0; i < Node::width; i += hn::Lanes(df)) {
-            const auto hit = clip.Hits(node, i, t_max, entry);
-            bits |= WideBits(df, hit, i);
+            const auto hit = clip.hits_of(node, i, t_max, entry);
+            bits |= wide_bits(df, hit, i);
             if constexpr (!closest) {
-                hn::StoreU(Compressed(du, hn::LoadU(du, node.ref + i), hn::RebindMask(du, hit)), du,
+                hn::StoreU(compressed(du, hn::LoadU(du, node.ref + i), hn::RebindMask(du, hit)), du,
                            top_);
                 top_ += hn::CountTrue(df, hit);
             } else if constexpr (!in_register<Node>) {
@@ -97,25 +97,25 @@ template <class Node, RayKernel K, RayMode mode> class RayAlone {
             --top_;
             at = node.ref[std::bit_width(bits) - 1]; // what is on top, without waiting for it
         } else {
-            at = Nearest(node, bits, entries, entry);
+            at = nearest_child(node, bits, entries, entry);
         }
         return true;
     }
 
     /// entries: of all lanes, or if they are `in_register` in `entry`.
-    HWY_INLINE std::uint32_t Nearest(const Node& node, std::uint32_t bits,
-                                     [[maybe_unused]] const float* entries,
-                                     [[maybe_unused]] V entry) {
+    HWY_INLINE std::uint32_t nearest_child(const Node& node, std::uint32_t bits,
+                                           [[maybe_unused]] const float* entries,
+                                           [[maybe_unused]] V entry) {
         const auto first = static_cast<std::uint32_t>(std::countr_zero(bits));
         const std::uint32_t others = bits & (bits - 1);
         if (others == 0)
             return node.ref[first];
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET <= HWY_AVX2
         if constexpr (in_register<Node>) {
-            const std::uint32_t near = NearestOf(entry, bits), rest = bits & ~(1u << near);
-            PushSortedEight(node.ref, rest, entry, top_);
+            const std::uint32_t near = nearest_of(entry, bits), rest = bits & ~(1u << near);
+            push_sorted_eight(node.ref, rest, entry, top_);
             top_ += std::popcount(rest);
-            Fetch(top_[-1].ref);
+            fetch(top_[-1].ref);
             return node.ref[near];
         }
 #endif
@@ -128,16 +128,16 @@ template <class Node, RayKernel K, RayMode mode> class RayAlone {
             const std::uint64_t a = waits(first), b = waits(second);
             const bool swap = entries[second] < entries[first];
             *top_ = std::bit_cast<WaitingNode>(swap ? a : b);
-            Fetch(top_++->ref);
+            fetch(top_++->ref);
             return std::bit_cast<WaitingNode>(swap ? b : a).ref;
         }
-        PushSorted(node, bits, entries, top_);
+        push_sorted(node, bits, entries, top_);
         top_ += std::popcount(others);
-        Fetch(top_[-1].ref);
+        fetch(top_[-1].ref);
         return top_->ref;
     }
 
-    HWY_INLINE void Fetch(std::uint32_t ref) const {
+    HWY_INLINE void fetch(std::uint32_t ref) const {
         const bool leaf = ray_refs::is_leaf(ref);
         const std::byte* place =
             (leaf ? tree_.blocks : tree_.nodes) +
@@ -148,7 +148,7 @@ template <class Node, RayKernel K, RayMode mode> class RayAlone {
     }
 
     /// One leaf; whether the traversal is at its end.
-    HWY_INLINE bool Test(std::uint32_t at) {
+    HWY_INLINE bool test(std::uint32_t at) {
         const auto* block =
             reinterpret_cast<const RayBlock<Node>*>(tree_.blocks) + ray_refs::index(at);
         const auto* last = block + (Node::width > 8 && (at & ray_refs::two));
@@ -174,26 +174,27 @@ template <class Node, RayKernel K, RayMode mode> class RayAlone {
 };
 
 template <class Node, RayKernel K>
-RayHit ClosestAlone(const SingleRayTree& tree, const Ray<float>& ray) {
+RayHit closest_alone(const SingleRayTree& tree, const Ray<float>& ray) {
     if (!is_finite(ray.origin) || !is_finite(ray.direction))
         return {};
-    return RayAlone<Node, K, RayMode::closest>(tree, ray).Trace();
+    return RayAlone<Node, K, RayMode::closest>(tree, ray).trace();
 }
 
-template <class Node, RayKernel K> bool AnyAlone(const SingleRayTree& tree, const Ray<float>& ray) {
+template <class Node, RayKernel K>
+bool any_alone(const SingleRayTree& tree, const Ray<float>& ray) {
     if (!is_finite(ray.origin) || !is_finite(ray.direction))
         return false;
-    return RayAlone<Node, K, RayMode::any>(tree, ray).Trace().hit();
+    return RayAlone<Node, K, RayMode::any>(tree, ray).trace().hit();
 }
 
 /// None for an empty tree, nor for one that is too deep.
 template <class Node>
-SingleRayFunctions SingleRayFunctionsOf(std::size_t depth, std::string_view kernel) {
+SingleRayFunctions single_ray_functions_of(std::size_t depth, std::string_view kernel) {
     using Kernels = std::tuple<MollerTrumbore<float>, MollerTrumbore<double>, Watertight>;
     SingleRayFunctions functions;
     if (depth != 0 && room_for<Node>(depth) <= RayAlone<Node, Watertight, RayMode::closest>::room)
         with_kernel<Kernels>(kernel, [&]<class K>(std::type_identity<K>) {
-            functions = {ClosestAlone<Node, K>, AnyAlone<Node, K>};
+            functions = {closest_alone<Node, K>, any_alone<Node, K>};
         });
     return functions;
 }

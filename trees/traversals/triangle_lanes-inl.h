@@ -23,7 +23,7 @@ struct alignas(64) SeenTriangles {
     static constexpr std::size_t max = 16;
     float a[3][max], ab[3][max], ac[3][max];
 
-    void Set(std::size_t lane, const Triangle<float>& t, Vec3<float> point, float scale) {
+    void set(std::size_t lane, const Triangle<float>& t, Vec3<float> point, float scale) {
         for (int axis = 0; axis < 3; ++axis) {
             a[axis][lane] = (t.a[axis] - point[axis]) * scale;
             ab[axis][lane] = (t.b[axis] - t.a[axis]) * scale;
@@ -37,7 +37,7 @@ template <class D> using Lanes3 = boxwood::HWY_NAMESPACE::LaneVec3<hwy::HWY_NAME
 
 /// The squared distance from the origin to the segments from a along e.
 template <class D>
-HWY_INLINE hwy::HWY_NAMESPACE::Vec<D> SegmentSquared(D d, const Lanes3<D>& a, const Lanes3<D>& e) {
+HWY_INLINE hwy::HWY_NAMESPACE::Vec<D> segment_squared(D d, const Lanes3<D>& a, const Lanes3<D>& e) {
     namespace hn = hwy::HWY_NAMESPACE;
     const auto ee = hn::Max(fused_dot(e, e), hn::Set(d, std::numeric_limits<float>::min()));
     const auto t =
@@ -51,13 +51,13 @@ HWY_INLINE hwy::HWY_NAMESPACE::Vec<D> SegmentSquared(D d, const Lanes3<D>& a, co
 /// the farthest corner's distance; a distance is taken smaller by 2^-13 of that, over ten times as
 /// much. Of other triangles, and where something overflows, the bound is 0.
 template <class D>
-HWY_INLINE hwy::HWY_NAMESPACE::Vec<D> TriangleBounds(D d, const SeenTriangles& seen,
-                                                     std::size_t i) {
+HWY_INLINE hwy::HWY_NAMESPACE::Vec<D> triangle_bounds(D d, const SeenTriangles& seen,
+                                                      std::size_t i) {
     namespace hn = hwy::HWY_NAMESPACE;
     const Lanes3<D> a = load3(d, seen.a, i), ab = load3(d, seen.ab, i), ac = load3(d, seen.ac, i);
     const Lanes3<D> b = a + ab, bc = ac - ab;
-    const auto edges = hn::Min(hn::Min(SegmentSquared(d, a, ab), SegmentSquared(d, a, ac)),
-                               SegmentSquared(d, b, bc));
+    const auto edges = hn::Min(hn::Min(segment_squared(d, a, ab), segment_squared(d, a, ac)),
+                               segment_squared(d, b, bc));
     const Lanes3<D> n = fused_cross(ab, ac);
     const auto nn = fused_dot(n, n);
     // The foot in the plane is at a + v ab + w ac, here times nn; seen from a the point is at -a.

@@ -25,19 +25,19 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// references, or of their numbers; the nearest last. Returns how many. Up to a register is
 /// overwritten behind them.
 template <bool Numbers, class Block>
-HWY_INLINE std::size_t AppendNear(const Block& block, Vec3<float> point, float scale, float bound,
-                                  std::uint64_t* to) {
+HWY_INLINE std::size_t append_near(const Block& block, Vec3<float> point, float scale, float bound,
+                                   std::uint64_t* to) {
     const BoundTag<Block> df;
     const hn::RebindToUnsigned<decltype(df)> du;
     std::size_t n = 0;
     for (std::size_t i = 0; i < Block::width; i += hn::Lanes(df)) {
-        const auto bounds = DistanceBounds(block, i, point, scale);
-        const auto near = hn::And(hn::Le(bounds, hn::Set(df, bound)), UsedLanes(df, block, i));
+        const auto bounds = distance_bounds(block, i, point, scale);
+        const auto near = hn::And(hn::Le(bounds, hn::Set(df, bound)), used_lanes(df, block, i));
         const auto hits = hn::RebindMask(du, near);
         const auto refs =
-            Numbers ? hn::Iota(du, static_cast<std::uint32_t>(i)) : LoadRefs(block, i);
-        hn::StoreInterleaved2(Compressed(du, refs, hits),
-                              Compressed(du, hn::BitCast(du, bounds), hits), du,
+            Numbers ? hn::Iota(du, static_cast<std::uint32_t>(i)) : load_refs(block, i);
+        hn::StoreInterleaved2(compressed(du, refs, hits),
+                              compressed(du, hn::BitCast(du, bounds), hits), du,
                               reinterpret_cast<std::uint32_t*>(to + n));
         n += hn::CountTrue(du, hits);
     }
@@ -53,19 +53,19 @@ HWY_INLINE std::size_t AppendNear(const Block& block, Vec3<float> point, float s
 
 /// The reference of the nearest lane.
 template <class Block>
-HWY_INLINE std::uint32_t NearestLane(const Block& block, Vec3<float> point, float scale) {
+HWY_INLINE std::uint32_t nearest_lane(const Block& block, Vec3<float> point, float scale) {
     const BoundTag<Block> df;
     std::uint32_t lane = 0;
-    float least = std::numeric_limits<float>::infinity();
+    float min_bound = std::numeric_limits<float>::infinity();
     for (std::size_t i = 0; i < Block::width; i += hn::Lanes(df)) {
         const auto bounds =
-            hn::IfThenElse(UsedLanes(df, block, i), DistanceBounds(block, i, point, scale),
+            hn::IfThenElse(used_lanes(df, block, i), distance_bounds(block, i, point, scale),
                            hn::Set(df, std::numeric_limits<float>::infinity()));
         const float here = hn::GetLane(hn::MinOfLanes(df, bounds));
-        if (here < least) {
-            least = here;
+        if (here < min_bound) {
+            min_bound = here;
             lane = static_cast<std::uint32_t>(
-                std::countr_zero(MaskBits(df, hn::Eq(bounds, hn::Set(df, here)), i)));
+                std::countr_zero(mask_bits(df, hn::Eq(bounds, hn::Set(df, here)), i)));
         }
     }
     return block.ref[lane];
@@ -80,9 +80,9 @@ struct Goal {
 
 /// The items of a leaf, nearest first.
 template <bool Counted, class Leaf>
-HWY_INLINE void OfferAll(const Leaf& leaf, Goal& goal, NearestItems& best, NearestTraversal&) {
+HWY_INLINE void offer_all(const Leaf& leaf, Goal& goal, NearestItems& best, NearestTraversal&) {
     alignas(64) std::uint64_t lanes[2 * RegionTraversal::spare];
-    const std::size_t n = AppendNear<true>(leaf, goal.point, goal.scaled.scale, goal.bound, lanes);
+    const std::size_t n = append_near<true>(leaf, goal.point, goal.scaled.scale, goal.bound, lanes);
     for (std::size_t i = n; i-- > 0 && NearestTraversal::bound(lanes[i]) <= goal.bound;) {
         const std::uint32_t lane = NearestTraversal::ref(lanes[i]);
         best.offer({leaf.ref[lane], squared_distance(goal.point, leaf.lane(lane))});
@@ -93,16 +93,16 @@ HWY_INLINE void OfferAll(const Leaf& leaf, Goal& goal, NearestItems& best, Neare
 /// The triangles of a leaf: all that are near by their boxes are bounded together in floats, and
 /// computed in doubles if they may still be nearer than what was found, the nearest first.
 template <bool Counted, class Leaf>
-HWY_INLINE void OfferAll(const Leaf& leaf, Goal& goal, NearestSurface& best,
-                         NearestTraversal& traversal) {
+HWY_INLINE void offer_all(const Leaf& leaf, Goal& goal, NearestSurface& best,
+                          NearestTraversal& traversal) {
     const BoundTag<Leaf> df;
     const float scale = goal.scaled.scale;
     std::uint32_t near = 0;
     for (std::size_t i = 0; i < Leaf::width; i += hn::Lanes(df))
-        near |= MaskBits(
+        near |= mask_bits(
             df,
-            hn::And(hn::Le(DistanceBounds(leaf, i, goal.point, scale), hn::Set(df, goal.bound)),
-                    UsedLanes(df, leaf, i)),
+            hn::And(hn::Le(distance_bounds(leaf, i, goal.point, scale), hn::Set(df, goal.bound)),
+                    used_lanes(df, leaf, i)),
             i);
     if (near == 0)
         return;
@@ -111,14 +111,14 @@ HWY_INLINE void OfferAll(const Leaf& leaf, Goal& goal, NearestSurface& best,
     std::size_t n = 0;
     for (; near != 0; near &= near - 1) {
         items[n] = leaf.ref[static_cast<std::size_t>(std::countr_zero(near))];
-        seen.Set(n, best.triangle(items[n]), goal.point, scale);
+        seen.set(n, best.triangle(items[n]), goal.point, scale);
         ++n;
     }
     traversal.template count_triangles<Counted>(n);
     const hn::CappedTag<float, SeenTriangles::max> d;
     alignas(64) float bounds[SeenTriangles::max];
     for (std::size_t i = 0; i < n; i += hn::Lanes(d))
-        hn::Store(TriangleBounds(d, seen, i), d, bounds + i);
+        hn::Store(triangle_bounds(d, seen, i), d, bounds + i);
     const std::size_t first =
         static_cast<std::size_t>(std::min_element(bounds, bounds + n) - bounds);
     const auto offer = [&](std::size_t i) {
@@ -135,16 +135,16 @@ HWY_INLINE void OfferAll(const Leaf& leaf, Goal& goal, NearestSurface& best,
 
 /// Down to the nearest leaf first, for a bound; then all that may be as near, nearest first.
 template <bool Counted, class L, class Best>
-HWY_INLINE void Search(const L& tree, Vec3<float> point, Best& best, NearestTraversal& traversal) {
+HWY_INLINE void search(const L& tree, Vec3<float> point, Best& best, NearestTraversal& traversal) {
     Goal goal{point, DistanceScale(point, tree.bounds())};
     const float scale = goal.scaled.scale;
     const auto open_leaf = [&](std::uint32_t ref, std::size_t waiting) HWY_ATTR {
         traversal.template count<Counted>(L::width, waiting);
-        OfferAll<Counted>(tree.leaf(ref), goal, best, traversal);
+        offer_all<Counted>(tree.leaf(ref), goal, best, traversal);
     };
     std::uint32_t first = tree.root();
     while (!L::is_leaf(first)) {
-        first = NearestLane(tree.block(first), point, scale);
+        first = nearest_lane(tree.block(first), point, scale);
         traversal.template count<Counted>(L::width, 0);
     }
     open_leaf(first, 0);
@@ -159,22 +159,22 @@ HWY_INLINE void Search(const L& tree, Vec3<float> point, Best& best, NearestTrav
         if (L::is_leaf(ref)) {
             open_leaf(ref, top);
         } else {
-            top += AppendNear<false>(tree.block(ref), point, scale, goal.bound, stack + top);
+            top += append_near<false>(tree.block(ref), point, scale, goal.bound, stack + top);
             traversal.template count<Counted>(L::width, top);
         }
     }
 }
 
 #define X(name, L)                                                                                 \
-    void Nearest_##name(const L& tree, Vec3<float> point, NearestItems& best,                      \
+    void nearest_##name(const L& tree, Vec3<float> point, NearestItems& best,                      \
                         NearestTraversal& traversal) {                                             \
-        traversal.counted() ? Search<true>(tree, point, best, traversal)                           \
-                            : Search<false>(tree, point, best, traversal);                         \
+        traversal.counted() ? search<true>(tree, point, best, traversal)                           \
+                            : search<false>(tree, point, best, traversal);                         \
     }                                                                                              \
-    void Surface_##name(const L& tree, Vec3<float> point, NearestSurface& best,                    \
+    void surface_##name(const L& tree, Vec3<float> point, NearestSurface& best,                    \
                         NearestTraversal& traversal) {                                             \
-        traversal.counted() ? Search<true>(tree, point, best, traversal)                           \
-                            : Search<false>(tree, point, best, traversal);                         \
+        traversal.counted() ? search<true>(tree, point, best, traversal)                           \
+                            : search<false>(tree, point, best, traversal);                         \
     }
 BOXWOOD_LANE_LAYOUTS(X)
 #undef X
@@ -187,15 +187,15 @@ HWY_AFTER_NAMESPACE();
 namespace boxwood::detail {
 
 #define X(name, L)                                                                                 \
-    HWY_EXPORT(Nearest_##name);                                                                    \
+    HWY_EXPORT(nearest_##name);                                                                    \
     void traverse_nearest(const L& tree, Vec3<float> point, NearestItems& best,                    \
                           NearestTraversal& traversal) {                                           \
-        HWY_DYNAMIC_DISPATCH(Nearest_##name)(tree, point, best, traversal);                        \
+        HWY_DYNAMIC_DISPATCH(nearest_##name)(tree, point, best, traversal);                        \
     }                                                                                              \
-    HWY_EXPORT(Surface_##name);                                                                    \
+    HWY_EXPORT(surface_##name);                                                                    \
     void traverse_closest_point(const L& tree, Vec3<float> point, NearestSurface& best,            \
                                 NearestTraversal& traversal) {                                     \
-        HWY_DYNAMIC_DISPATCH(Surface_##name)(tree, point, best, traversal);                        \
+        HWY_DYNAMIC_DISPATCH(surface_##name)(tree, point, best, traversal);                        \
     }
 BOXWOOD_LANE_LAYOUTS(X)
 #undef X

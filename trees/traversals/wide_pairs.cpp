@@ -13,8 +13,8 @@ HWY_BEFORE_NAMESPACE();
 namespace boxwood::detail::HWY_NAMESPACE {
 
 #define X(name, L)                                                                                 \
-    void PairsOf_##name(PairTraversal& state, const L& a, const L& b, bool self, bool counted) {   \
-        AnyPairs(state, a, b, self, counted);                                                      \
+    void pairs_of_##name(PairTraversal& state, const L& a, const L& b, bool self, bool counted) {  \
+        any_pairs(state, a, b, self, counted);                                                     \
     }
 BOXWOOD_WIDE_LAYOUTS(X)
 #undef X
@@ -27,9 +27,9 @@ namespace boxwood::detail {
 namespace {
 
 #define X(name, L)                                                                                 \
-    HWY_EXPORT(PairsOf_##name);                                                                    \
+    HWY_EXPORT(pairs_of_##name);                                                                   \
     void traverse(PairTraversal& state, const L& a, const L& b, bool self, bool counted) {         \
-        HWY_DYNAMIC_DISPATCH(PairsOf_##name)(state, a, b, self, counted);                          \
+        HWY_DYNAMIC_DISPATCH(pairs_of_##name)(state, a, b, self, counted);                         \
     }
 BOXWOOD_WIDE_LAYOUTS(X)
 #undef X

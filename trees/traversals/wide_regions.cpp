@@ -22,10 +22,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// Appends the references of the lanes in a mask; stores whole registers.
 template <class Block>
-HWY_INLINE std::size_t AppendRefs(const Block& block, std::size_t i, hn::Mask<LaneTag<Block>> lanes,
-                                  std::uint32_t* to) {
+HWY_INLINE std::size_t append_refs(const Block& block, std::size_t i,
+                                   hn::Mask<LaneTag<Block>> lanes, std::uint32_t* to) {
     const RefTag<Block> du;
-    hn::StoreU(Compressed(du, LoadRefs(block, i), RefMask<Block>(lanes)), du, to);
+    hn::StoreU(compressed(du, load_refs(block, i), ref_mask<Block>(lanes)), du, to);
     return hn::CountTrue(LaneTag<Block>(), lanes);
 }
 
@@ -34,15 +34,15 @@ template <class Real> struct BoxRegion {
     Aabb<Real> box;
 
     template <class Block>
-    HWY_INLINE std::size_t Append(const Block& block, std::uint32_t* to) const {
+    HWY_INLINE std::size_t append(const Block& block, std::uint32_t* to) const {
         std::size_t n = 0;
         for (std::size_t i = 0; i < Block::width; i += hn::Lanes(LaneTag<Block>()))
-            n += AppendRefs(block, i, OverlapMask(block, i, box), to + n);
+            n += append_refs(block, i, overlap_mask(block, i, box), to + n);
         return n;
     }
     template <class Block>
-    HWY_INLINE std::size_t AppendItems(const Block& block, std::uint32_t* to) const {
-        return Append(block, to);
+    HWY_INLINE std::size_t append_items(const Block& block, std::uint32_t* to) const {
+        return append(block, to);
     }
 };
 
@@ -61,42 +61,42 @@ struct Ball {
         const DistanceScale scaled(centre, bounds);
         scale = scaled.scale;
         bound = scaled.above(squared_radius);
-        // A bound b is of a square below (b + least) * (1 + 2 share); least again where it
+        // A bound b is of a square below (b + min_error) * (1 + 2 share); min_error again where it
         // underflows.
         sure_bound = scaled.below(squared_radius) * (1 - 4 * DistanceScale::share) -
-                     4 * DistanceScale::least;
+                     4 * DistanceScale::min_error;
     }
 
     template <class Block>
-    HWY_INLINE std::size_t Append(const Block& block, std::uint32_t* to) const {
+    HWY_INLINE std::size_t append(const Block& block, std::uint32_t* to) const {
         const BoundTag<Block> df;
         const RefTag<Block> du;
         std::size_t n = 0;
         for (std::size_t i = 0; i < Block::width; i += hn::Lanes(df)) {
             const auto near =
-                hn::And(hn::Le(DistanceBounds(block, i, centre, scale), hn::Set(df, bound)),
-                        UsedLanes(df, block, i));
+                hn::And(hn::Le(distance_bounds(block, i, centre, scale), hn::Set(df, bound)),
+                        used_lanes(df, block, i));
             const auto hits = hn::RebindMask(du, near);
-            hn::StoreU(Compressed(du, LoadRefs(block, i), hits), du, to + n);
+            hn::StoreU(compressed(du, load_refs(block, i), hits), du, to + n);
             n += hn::CountTrue(du, hits);
         }
         return n;
     }
     /// What is inside by more than rounding is taken as it is, the others are computed.
     template <class Block>
-    HWY_INLINE std::size_t AppendItems(const Block& block, std::uint32_t* to) const {
+    HWY_INLINE std::size_t append_items(const Block& block, std::uint32_t* to) const {
         const BoundTag<Block> df;
         const RefTag<Block> du;
         std::size_t n = 0;
         for (std::size_t i = 0; i < Block::width; i += hn::Lanes(df)) {
-            const auto bounds = DistanceBounds(block, i, centre, scale);
-            const auto used = UsedLanes(df, block, i);
+            const auto bounds = distance_bounds(block, i, centre, scale);
+            const auto used = used_lanes(df, block, i);
             const auto sure = hn::And(hn::Lt(bounds, hn::Set(df, sure_bound)), used);
             const auto near = hn::And(hn::Le(bounds, hn::Set(df, bound)), used);
             const auto hits = hn::RebindMask(du, sure);
-            hn::StoreU(Compressed(du, LoadRefs(block, i), hits), du, to + n);
+            hn::StoreU(compressed(du, load_refs(block, i), hits), du, to + n);
             n += hn::CountTrue(du, hits);
-            for (std::uint32_t bits = MaskBits(df, hn::AndNot(sure, near), i); bits != 0;
+            for (std::uint32_t bits = mask_bits(df, hn::AndNot(sure, near), i); bits != 0;
                  bits &= bits - 1) {
                 const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
                 to[n] = block.ref[lane];
@@ -109,17 +109,17 @@ struct Ball {
 
 /// Sorts the items of one query, all different; there is room for a register behind them. Short
 /// lists by counting for each how many are below it: no branch depends on them.
-HWY_INLINE void SortItems(std::span<std::uint32_t> items) {
-    constexpr std::size_t most = 64;
+HWY_INLINE void sort_items(std::span<std::uint32_t> items) {
+    constexpr std::size_t max_short = 64;
     const std::size_t n = items.size();
     if (n < 2)
         return;
-    if (n > most) {
+    if (n > max_short) {
         std::ranges::sort(items);
         return;
     }
     const hn::CappedTag<std::int32_t, 16> di; // items are below 2^31
-    alignas(64) std::int32_t sorted[most];
+    alignas(64) std::int32_t sorted[max_short];
     alignas(64) std::int32_t rank[16];
     const auto* in = reinterpret_cast<const std::int32_t*>(items.data());
     for (std::size_t i = 0; i < n; i += hn::Lanes(di)) {
@@ -136,36 +136,36 @@ HWY_INLINE void SortItems(std::span<std::uint32_t> items) {
 
 /// All items of one region, into the traversal.
 template <bool Counted, class L, class Region>
-HWY_INLINE void Collect(const L& tree, const Region& region, RegionTraversal& traversal) {
+HWY_INLINE void collect_region(const L& tree, const Region& region, RegionTraversal& traversal) {
     std::uint32_t* const stack = traversal.stack();
     stack[0] = tree.root();
     for (std::size_t top = 1; top != 0;) {
         const std::uint32_t ref = stack[--top];
         if (L::is_leaf(ref)) {
-            traversal.found(region.AppendItems(tree.leaf(ref), traversal.items_to()));
+            traversal.found(region.append_items(tree.leaf(ref), traversal.items_to()));
         } else {
-            top += region.Append(tree.block(ref), stack + top);
+            top += region.append(tree.block(ref), stack + top);
         }
         traversal.template count<Counted>(L::width, top);
     }
 }
 
 template <bool Counted, class L>
-void Answer(const L& tree, const RegionQueries& queries, RegionTraversal& traversal,
+void answer(const L& tree, const RegionQueries& queries, RegionTraversal& traversal,
             std::size_t first, std::size_t last) {
     using Real = typename L::Real;
     const auto each = [&](const auto& regions, const auto& collect) HWY_ATTR {
         for (std::size_t i = first; i < last; ++i) {
             collect(regions[i]);
-            SortItems(traversal.items());
+            sort_items(traversal.items());
             if (!traversal.answer(static_cast<std::uint32_t>(i)))
                 return;
         }
     };
     const auto box = [&](const auto& region) HWY_ATTR {
         if (const auto b = finite_region(region))
-            Collect<Counted>(tree, BoxRegion<Real>{{Vec3<Real>(b->min), Vec3<Real>(b->max)}},
-                             traversal);
+            collect_region<Counted>(tree, BoxRegion<Real>{{Vec3<Real>(b->min), Vec3<Real>(b->max)}},
+                                    traversal);
     };
     if (!queries.points.empty())
         each(queries.points, box);
@@ -174,15 +174,15 @@ void Answer(const L& tree, const RegionQueries& queries, RegionTraversal& traver
     else
         each(queries.spheres, [&](const Sphere<float>& ball) HWY_ATTR {
             if (is_region(ball))
-                Collect<Counted>(tree, Ball(ball, tree.bounds()), traversal);
+                collect_region<Counted>(tree, Ball(ball, tree.bounds()), traversal);
         });
 }
 
 #define X(name, L)                                                                                 \
-    void Regions_##name(const L& tree, const RegionQueries& queries, RegionTraversal& traversal,   \
+    void regions_##name(const L& tree, const RegionQueries& queries, RegionTraversal& traversal,   \
                         std::size_t first, std::size_t last) {                                     \
-        traversal.counted() ? Answer<true>(tree, queries, traversal, first, last)                  \
-                            : Answer<false>(tree, queries, traversal, first, last);                \
+        traversal.counted() ? answer<true>(tree, queries, traversal, first, last)                  \
+                            : answer<false>(tree, queries, traversal, first, last);                \
     }
 BOXWOOD_LANE_LAYOUTS(X)
 #undef X
@@ -195,10 +195,10 @@ HWY_AFTER_NAMESPACE();
 namespace boxwood::detail {
 
 #define X(name, L)                                                                                 \
-    HWY_EXPORT(Regions_##name);                                                                    \
+    HWY_EXPORT(regions_##name);                                                                    \
     void traverse_regions(const L& tree, const RegionQueries& queries, RegionTraversal& traversal, \
                           std::size_t first, std::size_t last) {                                   \
-        HWY_DYNAMIC_DISPATCH(Regions_##name)(tree, queries, traversal, first, last);               \
+        HWY_DYNAMIC_DISPATCH(regions_##name)(tree, queries, traversal, first, last);               \
     }
 BOXWOOD_LANE_LAYOUTS(X)
 #undef X

@@ -3,11 +3,9 @@
 #include "trees/queries/points.h"
 
 namespace boxwood::bench {
-namespace {
 
-class Nearest final : public SceneStage {
-  public:
-    std::size_t run(Playing& playing) override {
+std::unique_ptr<SceneStage> nearest_query() {
+    return running([](Playing& playing) {
         const std::size_t k = query_named(playing.scene.file(), "nearest")->k;
         playing.answers.nearest.resize(k * playing.places.size());
         boxwood::nearest(*playing.box_tree, playing.places, k, playing.executor,
@@ -16,11 +14,7 @@ class Nearest final : public SceneStage {
             if (!(found.squared_distance < std::numeric_limits<double>::infinity()))
                 found = {};
         return playing.places.size();
-    }
-};
-
-} // namespace
-
-std::unique_ptr<SceneStage> nearest_query() { return std::make_unique<Nearest>(); }
+    });
+}
 
 } // namespace boxwood::bench

@@ -1,6 +1,6 @@
 /// The stages of what a scene may query. To add a query: its row in scenes/moving/query.cpp, the
 /// file NAME.cpp here, which defines `std::unique_ptr<SceneStage> NAME_query()`, its name here, and
-/// its line in plan_stages.cpp.
+/// its lines in plan_stages.cpp, scene_player.cpp and aim.cpp.
 
 #include "bench/stages/playing.h"
 

@@ -12,6 +12,13 @@
 
 namespace boxwood::bench {
 
+KernelTask::KernelTask(std::string_view name, std::string_view summary,
+                       std::vector<CaseKernel> kernels, MakeTruth of_scene)
+    : name_(name), summary_(summary), kernels_(std::move(kernels)), make_truth_(of_scene) {
+    for (const CaseKernel& kernel : kernels_)
+        infos_.push_back(kernel.info);
+}
+
 std::vector<std::string_view> KernelTask::keys() const {
     return {"scene", "n", "k", "scale", "kernels", "peers"};
 }
@@ -27,27 +34,12 @@ void KernelTask::expand(const BlockReader& block, AddCell add) const {
             add(scene, entry, "serial", 1);
 }
 
-const std::vector<CaseKernel>& KernelTask::case_kernels() const {
-    std::call_once(once_, [&] {
-        kernels_ = make_kernels();
-        for (const CaseKernel& kernel : kernels_)
-            infos_.push_back(kernel.info);
-    });
-    return kernels_;
-}
-
-std::span<const KernelInfo> KernelTask::kernels() const {
-    case_kernels();
-    return infos_;
-}
-
 ContenderEntry KernelTask::kernel_contender(std::string_view kernel) const {
-    const std::vector<CaseKernel>& known = case_kernels();
     const auto found =
-        std::ranges::find(known, kernel, [](const CaseKernel& k) { return k.info.name; });
-    if (found == known.end())
+        std::ranges::find(kernels_, kernel, [](const CaseKernel& k) { return k.info.name; });
+    if (found == kernels_.end())
         throw std::invalid_argument(
-            unknown_word(std::string(name()) + " kernel", kernel, names_of(kernels())));
+            unknown_name(std::string(name()) + " kernel", kernel, names_of(kernels())));
     ContenderEntry entry;
     entry.name = entry.kernel = kernel;
     entry.library = "boxwood";
@@ -80,7 +72,7 @@ std::optional<std::string> KernelTask::missing(const Scene& scene) const {
 std::unique_ptr<Truth> KernelTask::make_truth(const Scene& scene, unsigned threads) const {
     if (!fits(scene.cases))
         throw std::invalid_argument(fmt::format("{} has no cases for {}", scene.name, name()));
-    return make_case_truth({scene, name(), threads});
+    return make_truth_({scene, name(), threads});
 }
 
 namespace {

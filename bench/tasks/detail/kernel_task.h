@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <string>
 #include <string_view>
@@ -33,10 +32,17 @@ struct CaseKernel {
 /// thread. Ours are the kernels of the registries, by name; the rational ones come last.
 class KernelTask : public Task {
   public:
+    using MakeTruth = std::unique_ptr<CaseTruth> (*)(const CaseScene&);
+
+    KernelTask(std::string_view name, std::string_view summary, std::vector<CaseKernel> kernels,
+               MakeTruth make_truth);
+
+    std::string_view name() const override { return name_; }
+    std::string_view summary() const override { return summary_; }
     std::vector<std::string_view> keys() const override;
     SceneKind scenes() const override { return SceneKind::cases; }
     void expand(const BlockReader& block, AddCell add) const override;
-    std::span<const KernelInfo> kernels() const override;
+    std::span<const KernelInfo> kernels() const override { return infos_; }
     /// Throws std::invalid_argument, with a suggestion, for a name that kernels() does not have.
     ContenderEntry kernel_contender(std::string_view kernel) const override;
     std::vector<ContenderEntry> contenders_on_cases() const override;
@@ -46,16 +52,11 @@ class KernelTask : public Task {
     /// Throws std::invalid_argument for a scene whose cases do not fit.
     std::unique_ptr<Truth> make_truth(const Scene& scene, unsigned threads) const override;
 
-  protected:
-    virtual std::vector<CaseKernel> make_kernels() const = 0;
-    virtual std::unique_ptr<CaseTruth> make_case_truth(const CaseScene& scene) const = 0;
-
   private:
-    const std::vector<CaseKernel>& case_kernels() const;
-
-    mutable std::once_flag once_;
-    mutable std::vector<CaseKernel> kernels_;
-    mutable std::vector<KernelInfo> infos_;
+    std::string_view name_, summary_;
+    std::vector<CaseKernel> kernels_;
+    std::vector<KernelInfo> infos_;
+    MakeTruth make_truth_;
 };
 
 // Answers as words, to be hashed: of numbers the bits, padding left out.
@@ -69,6 +70,7 @@ std::uint64_t hash_of_words(const std::vector<std::uint64_t>& words);
 /// A family whose kernels answer a T to a case of type Case.
 template <class T, class Case> class KernelTaskOf : public KernelTask {
   public:
+    using KernelTask::KernelTask;
     bool fits(const Cases& cases) const override { return std::holds_alternative<Case>(cases); }
     std::unique_ptr<Answers> make_answers() const override {
         return std::make_unique<AnswerList<T>>();
@@ -124,6 +126,14 @@ CaseKernel scalar_kernel(Function function) {
                     inputs.emplace_back(c);
                 return one_by_one(std::move(inputs), function);
             }};
+}
+
+/// Kernels of the distance of the two sides of an `Input`.
+template <class Kernels, template <class> class Input> std::vector<CaseKernel> distance_kernels() {
+    return all_kernels<Kernels>([]<class K>(std::type_identity<K>) {
+        return scalar_kernel<K, Input<typename K::Real>, TrianglePairCase>(
+            [](const auto& in) { return K::distance(in.a, in.b); });
+    });
 }
 
 } // namespace boxwood::bench

@@ -4,6 +4,12 @@
 
 namespace boxwood::bench {
 
+template <class Real> struct TwoTriangles {
+    Triangle<Real> a, b;
+    explicit TwoTriangles(const TrianglePairCase& c)
+        : a(converted<Real>(c.a)), b(converted<Real>(c.b)) {}
+};
+
 /// Pairs of triangles in the lanes of blocks. Lanes beyond the last case repeat it.
 template <class Real>
 std::vector<TrianglePairBlock<Real>> pair_blocks(const std::vector<TrianglePairCase>& cases) {

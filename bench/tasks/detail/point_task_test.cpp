@@ -2,7 +2,7 @@
 
 #include "bench/io/bad_input.h"
 #include "bench/plan/plan.h"
-#include "trees/queries/pairs.h"
+#include "trees/queries/sinks.h"
 
 #include <gtest/gtest.h>
 

@@ -195,13 +195,13 @@ TEST(RaysAll, AreJudgedWrongWhenOneIsMissingExtraOrTwiceThere) {
     EXPECT_EQ(wrong([](auto& pairs) { pairs.push_back({5000, 0}); }).extra, 1u);
     EXPECT_EQ(wrong([](auto& pairs) { pairs.push_back({0, 5000}); }).extra, 1u);
     // Of all triangles but a few this ray is known to pass beside.
-    const results::Check most = wrong([&](auto& pairs) {
+    const results::Check worst = wrong([&](auto& pairs) {
         for (std::uint32_t i = 0; i < scene.mesh.triangles.size(); ++i)
             if (std::ranges::find(pairs, Pair{first.a, i}) == pairs.end())
                 pairs.push_back({first.a, i});
     });
-    EXPECT_GT(most.extra, scene.mesh.triangles.size() - 100);
-    EXPECT_THAT(most.witness, testing::HasSubstr("extra"));
+    EXPECT_GT(worst.extra, scene.mesh.triangles.size() - 100);
+    EXPECT_THAT(worst.witness, testing::HasSubstr("extra"));
 }
 
 /// Calls check(task, answers, given) for each layout and both tasks: the answers to rays that are
@@ -243,7 +243,9 @@ TEST(RaysOneByOne, AnswerAsABatchForEveryWay) {
 TEST(RayClasses, SingleRaysBatchesAndPacketsAndWatertightOnesByThemselves) {
     using Classes = std::vector<std::string>;
     const auto of_ours = [](const char* order, const char* kernel) {
-        return find_task("rays_any")->contender({.settings = {}, .kernel = kernel, .ray_order = order}).classes;
+        return find_task("rays_any")
+            ->contender({.settings = {}, .kernel = kernel, .ray_order = order})
+            .classes;
     };
     EXPECT_EQ(of_ours("given", "plucker_f32"), (Classes{"packets", "batches"}));
     EXPECT_EQ(of_ours("sorted", "plucker_f32"), Classes{"packets"});

@@ -49,11 +49,11 @@ bool holds(const Aabb<double>& said, const TrueBox& truth) {
 
 /// How far it reaches beyond (or falls short of) the exact box on any side.
 double excess(const Aabb<double>& said, const TrueBox& truth) {
-    double most = 0;
+    double max_magnitude = 0;
     for (int k = 0; k < 3; ++k)
-        most = std::max({most, std::abs(said.min[k] - truth.nearest.min[k]),
-                         std::abs(said.max[k] - truth.nearest.max[k])});
-    return most;
+        max_magnitude = std::max({max_magnitude, std::abs(said.min[k] - truth.nearest.min[k]),
+                                  std::abs(said.max[k] - truth.nearest.max[k])});
+    return max_magnitude;
 }
 
 class FitTruth final : public CaseTruth {

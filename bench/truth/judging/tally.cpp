@@ -92,7 +92,6 @@ Judgement Tally::rows(std::string witness) const {
     if (row_.n == 0)
         witness = "no case has only finite numbers in this precision";
     Judgement all;
-    all.breaks_promise = worst_ == Worth::broken_promise;
     all.status = row_.n > 0 ? status_of(worst_) : Status::unsupported;
     all.calls = n_cases_;
     results::KernelRow& kernel = all.kernel.emplace(row_);

@@ -44,12 +44,12 @@ template <int n> struct Patch {
 
 /// The bits of the largest of |coordinates|, at least infinity's if one is not finite.
 inline std::uint64_t largest_bits(const LinearMotion& motion) {
-    std::uint64_t most = 0;
+    std::uint64_t max_bits = 0;
     for (const auto* points : {&motion.start, &motion.end})
         for (const Vec3<double>& p : *points)
             for (const double x : {p.x, p.y, p.z})
-                most = std::max(most, std::bit_cast<std::uint64_t>(x) << 1);
-    return most >> 1;
+                max_bits = std::max(max_bits, std::bit_cast<std::uint64_t>(x) << 1);
+    return max_bits >> 1;
 }
 
 /// F(t, u, v) = (1 - t) (a0 + u b0 + v c0) + t (a1 + u b1 + v c1), scaled by a power of two.
@@ -67,7 +67,7 @@ inline std::uint64_t largest_bits(const LinearMotion& motion) {
 /// clamp. With |x| <= m it is at most 36U m per axis; the published one is 60U m or more for
 /// vertex-face, 56U m for edge-edge (6.661e-15, 6.217e-15), for another order of operations.
 /// Underflow: scaling puts the largest |x| into [1/2, 1); each of the fewer than 64 operations may
-/// lose 2^-1074 (`least`).
+/// lose 2^-1074 (`min_error`).
 template <int n> struct Inclusion {
     struct Ends {
         Vec3<double> a, b, c;
@@ -77,7 +77,7 @@ template <int n> struct Inclusion {
     Vec3<double> bound;
     double size = 0; ///< the largest |F| on any axis, not below by more than rounding
 
-    static constexpr double least = 0x1p-1060;
+    static constexpr double min_error = 0x1p-1060;
 
     /// `bits` = largest_bits(motion), finite.
     Inclusion(const LinearMotion& motion, std::uint64_t bits) {
@@ -101,7 +101,9 @@ template <int n> struct Inclusion {
     }
 
     /// |error| of a computed d.F(t, u, v), the mean over t included, for |d| <= 1 on each axis.
-    double margin(Vec3<double> d) const { return dot(absolute(d), bound) * (1 + 0x1p-50) + least; }
+    double margin(Vec3<double> d) const {
+        return dot(absolute(d), bound) * (1 + 0x1p-50) + min_error;
+    }
 
     static Vec3<double> absolute(Vec3<double> a) {
         return {std::abs(a.x), std::abs(a.y), std::abs(a.z)};

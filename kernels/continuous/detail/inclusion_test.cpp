@@ -17,9 +17,7 @@ class Random {
   public:
     double real() { return std::uniform_real_distribution<double>(-1, 1)(bits_); }
     double part() { return std::uniform_real_distribution<double>(0, 1)(bits_); }
-    int whole(int least, int most) {
-        return std::uniform_int_distribution<int>(least, most)(bits_);
-    }
+    int whole(int low, int high) { return std::uniform_int_distribution<int>(low, high)(bits_); }
     Vector vector() { return {real(), real(), real()}; }
     /// Of sizes that differ by axis, in part far from the origin, in part with small motions.
     LinearMotion motion() {
@@ -168,14 +166,14 @@ TEST(Patch, HalvesCoverItExactly) {
 
 /// The distance from sampling the polygon: never below the true one.
 template <std::size_t n> double sampled(const std::array<Vector, n>& c) {
-    double least = length(c[0]);
+    double shortest = length(c[0]);
     constexpr int steps = 60;
     for (int i = 0; i <= steps; ++i)
         for (int j = 0; j <= (n == 3 ? steps - i : steps); ++j) {
             const double u = i / double(steps), v = j / double(steps);
-            least = std::min(least, length(c[0] + (c[1] - c[0]) * u + (c[n - 1] - c[0]) * v));
+            shortest = std::min(shortest, length(c[0] + (c[1] - c[0]) * u + (c[n - 1] - c[0]) * v));
         }
-    return least;
+    return shortest;
 }
 
 template <int n> void hold_nearest() {

@@ -20,8 +20,8 @@ template <int n> struct Nearest {
 
 /// v over its largest component; 0 for 0.
 inline Vec3<double> normalised(Vec3<double> v) {
-    const double most = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    return most > 0 ? Vec3<double>{v.x / most, v.y / most, v.z / most} : Vec3<double>{};
+    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    return largest > 0 ? Vec3<double>{v.x / largest, v.y / largest, v.z / largest} : Vec3<double>{};
 }
 
 /// In plain doubles, no promise: a guess at the plane that separates best. The direction is
@@ -53,14 +53,14 @@ template <int n> Nearest<n> nearest_to_origin(const std::array<Vec3<double>, n>&
         return nearest;
     }
     std::size_t edge = 0;
-    double least = std::numeric_limits<double>::infinity(), place = 0;
+    double min_length = std::numeric_limits<double>::infinity(), place = 0;
     for (std::size_t i = 0; i < n; ++i) {
         const Vec3<double> e = corner[next(i)] - corner[i];
         const double length2 = dot(e, e);
         const double x = length2 > 0 ? std::clamp(-dot(corner[i], e) / length2, 0.0, 1.0) : 0;
         const Vec3<double> p = corner[i] + e * x;
-        if (const double d2 = dot(p, p); d2 < least) {
-            least = d2;
+        if (const double d2 = dot(p, p); d2 < min_length) {
+            min_length = d2;
             edge = i;
             place = x;
         }
@@ -76,7 +76,7 @@ template <int n> Nearest<n> nearest_to_origin(const std::array<Vec3<double>, n>&
     nearest.direction = normalised(direction);
     nearest.weights[edge] = 1 - place;
     nearest.weights[next(edge)] = place;
-    nearest.distance = std::sqrt(least);
+    nearest.distance = std::sqrt(min_length);
     return nearest;
 }
 

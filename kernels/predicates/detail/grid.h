@@ -80,13 +80,13 @@ template <std::size_t digits, std::size_t points> class Grid {
         constexpr std::uint64_t no_sign = ~(std::uint64_t{1} << 63);
         constexpr auto second = [](std::size_t k) { return std::min(2 * k + 1, points - 1); };
         const Two x[] = {Two{p[2 * i]->*axis, p[second(i)]->*axis}...};
-        Two most{};
-        const auto grow = [&most](const Two& v) { most = most < v ? v : most; };
+        Two max_value{};
+        const auto grow = [&max_value](const Two& v) { max_value = max_value < v ? v : max_value; };
         (grow(std::bit_cast<Two>(std::bit_cast<Bits>(x[i]) & no_sign)), ...);
-        grow(__builtin_shufflevector(most, most, 1, 0));
-        if (!(most[0] >= 0x1p-900))
-            return most[0] == 0 && clear(at);
-        const Bits power = std::bit_cast<Bits>(most) & (0x7ff * one); // e + 1023
+        grow(__builtin_shufflevector(max_value, max_value, 1, 0));
+        if (!(max_value[0] >= 0x1p-900))
+            return max_value[0] == 0 && clear(at);
+        const Bits power = std::bit_cast<Bits>(max_value) & (0x7ff * one); // e + 1023
         const Two up = std::bit_cast<Two>((1023 + 59 + 1023) * one - power);
         const Two down = std::bit_cast<Two>(power - 59 * one);
         Bits lost{};

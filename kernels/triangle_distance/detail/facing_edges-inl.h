@@ -53,7 +53,7 @@ template <bool by_cross, class V>
 HWY_INLINE auto facing_edges(const LaneVec3<V>& a0, const LaneVec3<V>& a1, const LaneVec3<V>& a2,
                              const LaneVec3<V>& b0, const LaneVec3<V>& b1, const LaneVec3<V>& b2,
                              PointPair<V>& pair) {
-    const V one = constant<V>(1), least = constant<V>(Limits<V>::least);
+    const V one = constant<V>(1), min_normal = constant<V>(Limits<V>::min_normal);
     const LaneVec3<V> ea = a2 - a1, eb = b2 - b1, r = a1 - b1;
     const V aa = dot(ea, ea), bb = dot(eb, eb), ab = dot(ea, eb);
     const V ca = dot(ea, r), fb = dot(eb, r);
@@ -64,9 +64,9 @@ HWY_INLINE auto facing_edges(const LaneVec3<V>& a0, const LaneVec3<V>& a1, const
     } else {
         sine = aa * bb - ab * ab, on_lines = ab * fb - ca * bb;
     }
-    // Parallel lines, and edges of no length, divide by `least`: any parameter will do.
-    const V inverse_a = one / max(aa, least), inverse_b = one / max(bb, least);
-    const V first = in_unit(on_lines / max(sine, least));
+    // Parallel lines, and edges of no length, divide by `min_normal`: any parameter will do.
+    const V inverse_a = one / max(aa, min_normal), inverse_b = one / max(bb, min_normal);
+    const V first = in_unit(on_lines / max(sine, min_normal));
     const V t = in_unit((ab * first + fb) * inverse_b);
     const V s = in_unit((ab * t - ca) * inverse_a);
     const LaneVec3<V> to_a = s * ea, to_b = t * eb, offset = (r + to_a) - to_b;

@@ -12,8 +12,8 @@ template <class V> struct Heights {
     /// Whether all are on one side, or not beyond rounding on the other: the squares of smaller
     /// ones are below `noise`.
     HWY_INLINE auto apart(V noise) const {
-        const V least = min(min(of[0], of[1]), of[2]), most = max(max(of[0], of[1]), of[2]);
-        const V zero = constant<V>(0), below = min(least, zero), above = max(most, zero);
+        const V lowest = min(min(of[0], of[1]), of[2]), highest = max(max(of[0], of[1]), of[2]);
+        const V zero = constant<V>(0), below = min(lowest, zero), above = max(highest, zero);
         return either(below * below <= noise, above * above <= noise);
     }
 };
@@ -225,7 +225,7 @@ template <class V> struct Facing {
 
   private:
     static HWY_INLINE V sine_squared(const LaneVec3<V>& normal, V squares) {
-        return dot(normal, normal) / max(squares, constant<V>(Limits<V>::least));
+        return dot(normal, normal) / max(squares, constant<V>(Limits<V>::min_normal));
     }
     static HWY_INLINE Mask sliver(const LaneVec3<V>& normal, V squares) {
         return dot(normal, normal) <= constant<V>(Limits<V>::sliver) * squares;
@@ -238,14 +238,14 @@ template <class M, class V>
 HWY_INLINE M offer_common(M when, const Facing<V>& f, const Weights<V>& wa, const Weights<V>& wb,
                           Best<V>& best) {
     const LaneVec3<V> offset = f.offset(wa, wb);
-    const V squared = dot(offset, offset), most = constant<V>(Limits<V>::rounding);
-    M same_point = both(when, squared <= most * f.size_squared);
+    const V squared = dot(offset, offset), rounding = constant<V>(Limits<V>::rounding);
+    M same_point = both(when, squared <= rounding * f.size_squared);
     if (any(both(when, negation(same_point)))) [[unlikely]] {
         const V sine_squared = min(f.sine_squared_a(), f.sine_squared_b());
         const V width = constant<V>(0x1p-4) * sine_squared * f.size_squared;
-        same_point = either(
-            same_point,
-            both(when, both(squared <= width, squared * sine_squared <= most * f.size_squared)));
+        same_point =
+            either(same_point, both(when, both(squared <= width, squared * sine_squared <=
+                                                                     rounding * f.size_squared)));
     }
     best.offer(when, select(same_point, constant<V>(0), squared), wa, wb);
     return same_point;
@@ -321,9 +321,9 @@ HWY_INLINE void offer_features(const Facing<V>& f, M done, Best<V>& best) {
     reciprocals(inverse_b);
     if (any(either(f.a_apart, f.b_apart))) {
         const V squares_a = inverse_a[0] * inverse_a[1], squares_b = inverse_b[0] * inverse_b[1];
-        const V least = constant<V>(Limits<V>::sine_squared);
-        V sines[3] = {max(dot(f.normal_a, f.normal_a) * squares_a, least),
-                      max(dot(f.normal_b, f.normal_b) * squares_b, least), constant<V>(1)};
+        const V min_sine = constant<V>(Limits<V>::sine_squared);
+        V sines[3] = {max(dot(f.normal_a, f.normal_a) * squares_a, min_sine),
+                      max(dot(f.normal_b, f.normal_b) * squares_b, min_sine), constant<V>(1)};
         reciprocals(sines);
         if (any(f.b_apart))
             done = either(done, offer_nearest_corner<true, by_cross>(f.b_apart, a, f.normal_a,

@@ -42,8 +42,8 @@ template <class Real, bool by_cross> class NearestPairSearch {
               way(one_lane::way_between(tb.a - ta.a, a1, a2, b1, b2)) {}
 
         bool next(Pair& found) {
-            const int i = least(dot(way, a1), dot(way, a2));
-            const int j = least(-dot(way, b1), -dot(way, b2));
+            const int i = lower_of(dot(way, a1), dot(way, a2));
+            const int j = lower_of(-dot(way, b1), -dot(way, b2));
             const int before = last;
             last = 3 * i + j;
             if (last == before)
@@ -55,7 +55,7 @@ template <class Real, bool by_cross> class NearestPairSearch {
         }
 
         /// Which of 0, x, y is least; without a branch, which would be a toss-up.
-        static int least(Real x, Real y) {
+        static int lower_of(Real x, Real y) {
             const int third = y < one_lane::min(x, Real(0)), second = x < 0;
             return 2 * third + (second & ~third);
         }

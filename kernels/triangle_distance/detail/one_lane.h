@@ -17,18 +17,18 @@ namespace boxwood::detail::one_lane {
 /// sliver:            the normal of a triangle is mostly rounding if its angle's sin^2 is not above
 /// sine_squared:      lines are parallel below it
 /// shortest_squared:  edges are points below it, as (length / size)^2
-/// least:             divides in place of 0
+/// min_normal:        divides in place of 0
 /// smallest, largest: size_squared for which no product of six lengths leaves the range
 template <class V> struct Limits;
 template <> struct Limits<double> {
     static constexpr double margin = 0x1p-49, noise = 0x1p-100, rounding = 0x1p-96,
                             sliver = 0x1p-40, sine_squared = 0x1p-200, shortest_squared = 0x1p-200,
-                            least = 0x1p-1022, smallest = 0x1p-120, largest = 0x1p120;
+                            min_normal = 0x1p-1022, smallest = 0x1p-120, largest = 0x1p120;
 };
 template <> struct Limits<float> {
     static constexpr double margin = 0x1p-20, noise = 0x1p-42, rounding = 0x1p-38, sliver = 0x1p-20,
-                            sine_squared = 0x1p-40, shortest_squared = 0x1p-50, least = 0x1p-126,
-                            smallest = 0x1p-12, largest = 0x1p40;
+                            sine_squared = 0x1p-40, shortest_squared = 0x1p-50,
+                            min_normal = 0x1p-126, smallest = 0x1p-12, largest = 0x1p40;
 };
 
 template <class V> HWY_INLINE constexpr V constant(double x) { return static_cast<V>(x); }

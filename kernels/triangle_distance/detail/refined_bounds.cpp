@@ -82,12 +82,12 @@ class Search {
         for (std::size_t k = 0; k < 9; ++k)
             roughly[k] =
                 length(nearest_on_segments<true>(a_.segment(k / 3), b_.segment(k % 3)).offset);
-        const double least = *std::min_element(roughly.begin(), roughly.end());
+        const double min_distance = *std::min_element(roughly.begin(), roughly.end());
         for (std::size_t k = 0; k < 9; ++k)
-            if (roughly[k] <= least + rough)
+            if (roughly[k] <= min_distance + rough)
                 add_edges(k / 3, k % 3);
-        add_feet(a_, b_, least, false);
-        add_feet(b_, a_, least, true);
+        add_feet(a_, b_, min_distance, false);
+        add_feet(b_, a_, min_distance, true);
         const auto shorter = [](const Candidate& p, const Candidate& q) {
             return p.squared < q.squared;
         };
@@ -129,18 +129,19 @@ class Search {
     }
 
     /// Of a face, those corners of the other that are nearest to its plane, and not farther than
-    /// `least`.
-    void add_feet(const Shape& face, const Shape& other, double least, bool face_is_b) {
+    /// `min_distance`.
+    void add_feet(const Shape& face, const Shape& other, double min_distance, bool face_is_b) {
         const Vec3<double> e1 = rounded(face.edge[0]), e2 = rounded(face.edge[1]);
         const Vec3<double> n = cross(e1, e2);
         std::array<double, 3> heights;
         for (std::size_t k = 0; k < 3; ++k)
             heights[k] = std::abs(dot(n, other.corner[k] - face.corner[0]));
         const double noise = rough * length(e1) * length(e2);
-        const double most =
-            std::min(*std::min_element(heights.begin(), heights.end()), least * length(n)) + noise;
+        const double max_height =
+            std::min(*std::min_element(heights.begin(), heights.end()), min_distance * length(n)) +
+            noise;
         for (std::size_t k = 0; k < 3; ++k)
-            if (heights[k] <= most)
+            if (heights[k] <= max_height)
                 add_foot(face, other, k, face_is_b);
     }
 
@@ -188,14 +189,14 @@ class Search {
         const double length = std::sqrt(dot(n, n).hi);
         if (!(length > 0x1p-300))
             return false;
-        Real least_a = zero, most_b = dot(n, difference(b_.corner[0], a_.corner[0]));
+        Real min_a = zero, max_b = dot(n, difference(b_.corner[0], a_.corner[0]));
         for (std::size_t k = 1; k < 3; ++k) {
             const Real on_a = dot(n, difference(a_.corner[k], a_.corner[0]));
             const Real on_b = dot(n, difference(b_.corner[k], a_.corner[0]));
-            least_a = on_a < least_a ? on_a : least_a;
-            most_b = most_b < on_b ? on_b : most_b;
+            min_a = on_a < min_a ? on_a : min_a;
+            max_b = max_b < on_b ? on_b : max_b;
         }
-        const double gap = (least_a - most_b).hi;
+        const double gap = (min_a - max_b).hi;
         lo_ = std::max(lo_, gap / length * (1 - 0x1p-50) - error);
         return tight();
     }

@@ -42,9 +42,9 @@ template <class R, bool filtered = false> class Determinants {
         if constexpr (filtered) {
             error = set_reach(largest(edge), largest(other_edge), largest(first)[0]);
             const auto& [hp, hq, hr] = heights_;
-            const Two least = min_of(min_of(hp, hq), hr), most = max_of(max_of(hp, hq), hr);
+            const Two lowest = min_of(min_of(hp, hq), hr), highest = max_of(max_of(hp, hq), hr);
             const Two sum = hp + hq + hr;
-            const Bits parted = ((least > error) | (most < -error)) & (sum == sum);
+            const Bits parted = ((lowest > error) | (highest < -error)) & (sum == sum);
             parted_ = (parted[0] | parted[1]) != 0;
             if (parted_)
                 return;
@@ -128,9 +128,9 @@ template <class R, bool filtered = false> class Determinants {
             };
             return max_of(max_of(inside(ou0, ov0), inside(ou1, ov1)), inside(ou2, ov2));
         };
-        const Two least = min_of(min_of(farthest(u0, v0, u1, v1), farthest(u1, v1, u2, v2)),
-                                 farthest(u2, v2, u0, v0));
-        const Real worst = std::min(least[0], least[1]), error = error2d(u, v);
+        const Two min_height = min_of(min_of(farthest(u0, v0, u1, v1), farthest(u1, v1, u2, v2)),
+                                      farthest(u2, v2, u0, v0));
+        const Real worst = std::min(min_height[0], min_height[1]), error = error2d(u, v);
         return worst < -error ? Answer::no
                : filtered     ? (worst > error ? Answer::yes : Answer::maybe)
                               : (worst >= error ? Answer::yes : Answer::maybe);
@@ -246,19 +246,19 @@ template <class R, bool filtered = false> class Determinants {
         const Two longer = max_of(edge, other_edge);
         const Real reach = first + (longer[0] + longer[1]);
         scale_ = reach < filter_bound::largest ? 2 : std::numeric_limits<Real>::infinity();
-        const Real most = 3 * scale_ * filter_bound::orient3d * reach;
-        error_along_line_ = 4 * most * (longer[0] * longer[1]) + filter_bound::flushing;
-        return most * swapped(edge * other_edge) + filter_bound::flushing;
+        const Real bound = 3 * scale_ * filter_bound::orient3d * reach;
+        error_along_line_ = 4 * bound * (longer[0] * longer[1]) + filter_bound::flushing;
+        return bound * swapped(edge * other_edge) + filter_bound::flushing;
     }
     /// The same from the extents.
     Two set_extents(const Points& low, const Points& high) {
         const Points t = swapped(high - low);
         const Points both = max(high, swapped(high)) - min(low, swapped(low));
         extent_ = {both.x[0], both.y[0], both.z[0]};
-        const Real most = std::max(std::max(extent_[0], extent_[1]), extent_[2]);
+        const Real max_extent = std::max(std::max(extent_[0], extent_[1]), extent_[2]);
         // Beyond `largest`, and with an infinity among the extents, no error stands (it is infinite
         // or NaN); NaN makes its determinants NaN.
-        scale_ = most < filter_bound::largest ? 2 : std::numeric_limits<Real>::infinity();
+        scale_ = max_extent < filter_bound::largest ? 2 : std::numeric_limits<Real>::infinity();
         const Two half = t.x * t.y * both.z + t.y * t.z * both.x + t.z * t.x * both.y;
         return scale_ * filter_bound::orient3d * half + filter_bound::flushing;
     }

@@ -12,9 +12,9 @@ NAME = "accuracy"
 TITLE = "What accuracy costs"
 HOW_TO_READ = (
     "Lower left is better. The line joins our kernels that no faster one of ours betters; hollow marks are peers. "
-    "A kernel in the zero lane at the bottom gave no wrong answer; its bar reaches up to 3/N, the rate that so "
-    "many right answers cannot exclude (95 %). Distances are drawn by their worst relative error; their zero lane "
-    "is half an ulp or less, their lane at the top all above 1, where no digit is right. Times are means over the "
+    "A kernel in the zero band at the bottom gave no wrong answer; its bar reaches up to 3/N, the rate that so "
+    "many right answers cannot exclude (95 %). Distances are drawn by their worst relative error; their zero band "
+    "is half an ulp or less, their band at the top all above 1, where no digit is right. Times are means over the "
     "families of a panel."
 )
 NO_DIGIT = 1.0
@@ -23,7 +23,7 @@ COLUMNS = ("task", "panel", "kernel", "library", "promise", "ns", "n", "wrong", 
 
 
 def value(kernel):
-    """What is on the y axis; 0 in the lane at the bottom, infinity in that at the top."""
+    """What is on the y axis; 0 in the band at the bottom, infinity in that at the top."""
     if not kernel.by_error:
         return kernel.per_million
     if kernel.error > NO_DIGIT:
@@ -32,34 +32,34 @@ def value(kernel):
 
 
 def y_axis(ax, values, bars, measured):
-    """A log axis up to all (a million in a million, or an error of 1) with a lane for zero below it, and for
-    distances one for what is worse above it; gives the heights of the lanes."""
+    """A log axis up to all (a million in a million, or an error of 1) with a band for zero below it, and for
+    distances one for what is worse above it; gives the heights of the bands."""
     seen = [v for v in (*values, *bars) if v > 0 and math.isfinite(v)]
     low = 10.0 ** math.floor(math.log10(min(seen, default=1e-16 if measured else 1)))
     high = NO_DIGIT if measured else 1e6
     decades = math.log10(high / low)
-    lane, top = low / 10 ** (0.3 * decades), high * 10 ** (0.1 * decades)
-    bottom, ceiling = lane / 10 ** (0.22 * decades), high * 10 ** ((0.17 if measured else 0.05) * decades)
+    band, top = low / 10 ** (0.3 * decades), high * 10 ** (0.1 * decades)
+    bottom, ceiling = band / 10 ** (0.22 * decades), high * 10 ** ((0.17 if measured else 0.05) * decades)
     ax.set_yscale("log")
     ax.set_ylim(bottom, ceiling)
     steps = range(round(math.log10(low)), round(math.log10(high)) + 1, max(1, round(decades / 6)))
-    ticks = {lane: "0", **{10.0**d: f"{10.0**d:.0e}" if measured else style.count_text(10.0**d) for d in steps}}
+    ticks = {band: "0", **{10.0**d: f"{10.0**d:.0e}" if measured else style.count_text(10.0**d) for d in steps}}
     if measured:
         ticks[top] = "no digit"
         ax.axhspan(high * 10 ** (0.04 * decades), ceiling, color="#FBE9E0", zorder=0)
     ax.yaxis.set_major_locator(FixedLocator(list(ticks)))
     ax.yaxis.set_minor_locator(NullLocator())
     ax.yaxis.set_major_formatter(FixedFormatter(list(ticks.values())))
-    ax.axhspan(bottom, lane * 10 ** (0.15 * decades), color="#EAF4EA", zorder=0)
-    return lane, top
+    ax.axhspan(bottom, band * 10 ** (0.15 * decades), color="#EAF4EA", zorder=0)
+    return band, top
 
 
 def draw_panel(ax, panel, found, measured):
     values = [value(r) for r in found]
-    lane, top = y_axis(ax, values, [r.unexcluded for r in found], measured)
+    band, top = y_axis(ax, values, [r.unexcluded for r in found], measured)
 
     def height(v):
-        return (v or lane) if math.isfinite(v) else top
+        return (v or band) if math.isfinite(v) else top
 
     style.time_axis(ax.xaxis, min(r.ns for r in found), max(r.ns for r in found), room=0.15)
     marks, lines = [], []
@@ -67,8 +67,8 @@ def draw_panel(ax, panel, found, measured):
         colour, marker = style.look(kernel.library if not kernel.ours else "binned_sah")
         y = height(v)
         if kernel.unexcluded == kernel.unexcluded:
-            ax.plot([kernel.ns, kernel.ns], [lane, kernel.unexcluded], color=colour, linewidth=1, alpha=0.45, zorder=2)
-            lines.append([(kernel.ns, lane), (kernel.ns, kernel.unexcluded)])
+            ax.plot([kernel.ns, kernel.ns], [band, kernel.unexcluded], color=colour, linewidth=1, alpha=0.45, zorder=2)
+            lines.append([(kernel.ns, band), (kernel.ns, kernel.unexcluded)])
         ax.plot([kernel.ns], [y], marker=marker, markersize=7, linestyle="", zorder=5, markeredgewidth=1.3,
                 markeredgecolor=colour if not kernel.ours else "white",
                 markerfacecolor="white" if not kernel.ours else colour)

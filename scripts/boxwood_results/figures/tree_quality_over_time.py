@@ -70,7 +70,7 @@ def markers_of(number, count):
 
 
 def draw_counted_panel(ax, job, cells, column, axis):
-    """Gives the labels of the lines' ends. What is zero, as where kept pairs answered, has no place on the axis."""
+    """Gives the labels of the lines' ends. What is zero, as where cached pairs answered, has no place on the axis."""
     ends, shown = [], []
     for number, cell in enumerate(cells):
         points = [(row[6], row[column]) for row in counted_rows(job, cell) if row[column] > 0]

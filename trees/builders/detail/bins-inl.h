@@ -32,48 +32,49 @@ struct Binning {
     alignas(16) float low[4], scale[4];
     int n_bins;
     float last; ///< where the last bin starts
-    float edge; ///< next to nothing by the size of the node; see `Join`
+    float edge; ///< next to nothing by the size of the node; see `join`
 
     Binning(const float (&centres)[8], std::size_t n, int max_bins)
         : n_bins(static_cast<int>(
               std::min<std::size_t>(static_cast<std::size_t>(max_bins), 4 + n / 8))),
-          last(Start(n_bins - 1)) {
-        float most = 0;
+          last(start(n_bins - 1)) {
+        float max_spread = 0;
         for (int axis = 0; axis < 3; ++axis) {
             const float spread = centres[axis] + centres[4 + axis];
             low[axis] = -centres[4 + axis];
             scale[axis] = spread > 0x1p-90f ? static_cast<float>(n_bins) / 32 / spread : 0;
-            most = std::max(most, spread);
+            max_spread = std::max(max_spread, spread);
         }
         low[3] = scale[3] = 0;
-        edge = most * 0x1p-20f;
+        edge = max_spread * 0x1p-20f;
     }
-    static float Start(int bin) { return 1 + static_cast<float>(bin) / 32; }
-    float Position(float doubled_centre, int axis) const {
+    static float start(int bin) { return 1 + static_cast<float>(bin) / 32; }
+    float position(float doubled_centre, int axis) const {
         return std::clamp((doubled_centre - low[axis]) * scale[axis] + 1, 1.f, last);
     }
     bool is_flat() const { return scale[0] == 0 && scale[1] == 0 && scale[2] == 0; }
 };
 
-HWY_INLINE void Clear(Bin* bins, int n_bins) {
+HWY_INLINE void clear(Bin* bins, int n_bins) {
     for (int b = 0; b < n_bins; ++b) {
         for (auto& box : bins[b].box)
-            StoreF8(SetF8(kLowest), box);
+            store_f8(set_f8(kLowest), box);
         for (std::uint32_t& count : bins[b].count)
             count = 0;
     }
 }
 
-HWY_INLINE void Add(Bin* bins, const Bin* from, int n_bins) {
+HWY_INLINE void add(Bin* bins, const Bin* from, int n_bins) {
     for (int b = 0; b < n_bins; ++b)
         for (int axis = 0; axis < 3; ++axis) {
-            StoreF8(MaxF8(LoadF8(bins[b].box[axis]), LoadF8(from[b].box[axis])), bins[b].box[axis]);
+            store_f8(max_f8(load_f8(bins[b].box[axis]), load_f8(from[b].box[axis])),
+                     bins[b].box[axis]);
             bins[b].count[axis] += from[b].count[axis];
         }
 }
 
 /// Adds the items to their bins.
-HWY_INLINE void AddItems(const Prim8* prims, std::size_t n, const Binning& binning, Bin* bins) {
+HWY_INLINE void add_items(const Prim8* prims, std::size_t n, const Binning& binning, Bin* bins) {
 #if HWY_MAX_BYTES >= 32 && !HWY_HAVE_SCALABLE
     namespace hn = hwy::HWY_NAMESPACE;
     constexpr hn::FixedTag<float, 4> d;
@@ -82,29 +83,29 @@ HWY_INLINE void AddItems(const Prim8* prims, std::size_t n, const Binning& binni
                first = hn::Set(d, 1), last = hn::Set(d, binning.last);
     const auto mantissa = hn::Set(du, 0x007c0000);
     for (std::size_t i = 0; i < n; ++i) {
-        const F8 box = LoadF8(prims[i].v);
-        const auto centre = hn::LowerHalf(d, DoubledCentre(box).v);
+        const F8 box = load_f8(prims[i].v);
+        const auto centre = hn::LowerHalf(d, doubled_centre(box).v);
         const auto at = hn::Add(hn::Mul(hn::Sub(centre, low), scale), first);
         const auto bits = hn::BitCast(du, hn::Max(hn::Min(at, last), first));
         alignas(16) std::uint32_t bin[4];
         hn::Store(hn::ShiftRight<18>(hn::And(bits, mantissa)), du, bin);
         Bin &x = bins[bin[0]], &y = bins[bin[1]], &z = bins[bin[2]];
-        const F8 grown_x = MaxF8(LoadF8(x.box[0]), box), grown_y = MaxF8(LoadF8(y.box[1]), box),
-                 grown_z = MaxF8(LoadF8(z.box[2]), box);
-        StoreF8(grown_x, x.box[0]);
-        StoreF8(grown_y, y.box[1]);
-        StoreF8(grown_z, z.box[2]);
+        const F8 grown_x = max_f8(load_f8(x.box[0]), box), grown_y = max_f8(load_f8(y.box[1]), box),
+                 grown_z = max_f8(load_f8(z.box[2]), box);
+        store_f8(grown_x, x.box[0]);
+        store_f8(grown_y, y.box[1]);
+        store_f8(grown_z, z.box[2]);
         ++x.count[0];
         ++y.count[1];
         ++z.count[2];
     }
 #else
     for (std::size_t i = 0; i < n; ++i) {
-        const F8 box = LoadF8(prims[i].v);
+        const F8 box = load_f8(prims[i].v);
         for (int axis = 0; axis < 3; ++axis) {
-            const float at = binning.Position(prims[i].doubled_centre(axis), axis);
+            const float at = binning.position(prims[i].doubled_centre(axis), axis);
             Bin& b = bins[std::bit_cast<std::uint32_t>(at) >> 18 & 31];
-            StoreF8(MaxF8(LoadF8(b.box[axis]), box), b.box[axis]);
+            store_f8(max_f8(load_f8(b.box[axis]), box), b.box[axis]);
             ++b.count[axis];
         }
     }
@@ -124,7 +125,7 @@ using F4 = hwy::HWY_NAMESPACE::Vec<hwy::HWY_NAMESPACE::FixedTag<float, 4>>;
 
 /// Half areas of three boxes whose edges are lengthened, xy + z (x + y) each; a fourth lane of no
 /// meaning.
-HWY_INLINE F4 HalfAreas(F8 a, F8 b, F8 c, F4 edge) {
+HWY_INLINE F4 half_areas(F8 a, F8 b, F8 c, F4 edge) {
     namespace hn = hwy::HWY_NAMESPACE;
     constexpr hn::FixedTag<float, 4> d;
     const auto size = [&](F8 box) {
@@ -139,24 +140,24 @@ HWY_INLINE F4 HalfAreas(F8 a, F8 b, F8 c, F4 edge) {
 }
 
 /// The cheapest plane, by blocks of 2^block_bits items times half area; the first of equals.
-HWY_INLINE Plane CheapestPlane(const Bin* bins, const Binning& binning, std::uint32_t n,
-                               int block_bits) {
+HWY_INLINE Plane cheapest_plane(const Bin* bins, const Binning& binning, std::uint32_t n,
+                                int block_bits) {
     namespace hn = hwy::HWY_NAMESPACE;
     constexpr hn::FixedTag<float, 4> d;
     constexpr hn::FixedTag<std::int32_t, 4> di;
     const auto edge = hn::Set(d, binning.edge);
     alignas(16) float right_area[kMaxBins][4];
-    F8 x = SetF8(kLowest), y = x, z = x;
+    F8 x = set_f8(kLowest), y = x, z = x;
     const auto grow = [&](const Bin& bin) {
-        x = MaxF8(x, LoadF8(bin.box[0]));
-        y = MaxF8(y, LoadF8(bin.box[1]));
-        z = MaxF8(z, LoadF8(bin.box[2]));
+        x = max_f8(x, load_f8(bin.box[0]));
+        y = max_f8(y, load_f8(bin.box[1]));
+        z = max_f8(z, load_f8(bin.box[2]));
     };
     for (int b = binning.n_bins; --b > 0;) {
         grow(bins[b]);
-        hn::Store(HalfAreas(x, y, z, edge), d, right_area[b]);
+        hn::Store(half_areas(x, y, z, edge), d, right_area[b]);
     }
-    x = y = z = SetF8(kLowest);
+    x = y = z = set_f8(kLowest);
     const auto all = hn::Set(di, static_cast<std::int32_t>(n));
     const auto rest = hn::Set(di, (1 << block_bits) - 1);
     const auto blocks = [&](auto items) HWY_ATTR {
@@ -169,7 +170,7 @@ HWY_INLINE Plane CheapestPlane(const Bin* bins, const Binning& binning, std::uin
         left =
             hn::Add(left, hn::Load(di, reinterpret_cast<const std::int32_t*>(bins[b - 1].count)));
         const auto right = hn::Sub(all, left);
-        const auto cost = hn::Add(hn::Mul(HalfAreas(x, y, z, edge), blocks(left)),
+        const auto cost = hn::Add(hn::Mul(half_areas(x, y, z, edge), blocks(left)),
                                   hn::Mul(hn::Load(d, right_area[b]), blocks(right)));
         const auto parts = hn::And(hn::Gt(left, hn::Zero(di)), hn::Gt(right, hn::Zero(di)));
         const auto better = hn::And(hn::Lt(cost, best), hn::RebindMask(d, parts));
@@ -189,30 +190,30 @@ HWY_INLINE Plane CheapestPlane(const Bin* bins, const Binning& binning, std::uin
 
 #else
 
-HWY_INLINE Plane CheapestPlane(const Bin* bins, const Binning& binning, std::uint32_t n,
-                               int block_bits) {
+HWY_INLINE Plane cheapest_plane(const Bin* bins, const Binning& binning, std::uint32_t n,
+                                int block_bits) {
     const auto blocks = [&](std::uint32_t items) {
         return static_cast<float>((items + (1u << block_bits) - 1) >> block_bits);
     };
     const float edge = binning.edge;
     const auto half_area = [edge](const F8& box) {
         alignas(32) float v[8];
-        StoreF8(box, v);
+        store_f8(box, v);
         const float x = v[0] + v[4] + edge, y = v[1] + v[5] + edge, z = v[2] + v[6] + edge;
         return x * y + z * (x + y);
     };
     Plane plane;
     for (int axis = 0; axis < 3; ++axis) {
         float right_area[kMaxBins];
-        F8 side = SetF8(kLowest);
+        F8 side = set_f8(kLowest);
         for (int b = binning.n_bins; --b > 0;) {
-            side = MaxF8(side, LoadF8(bins[b].box[axis]));
+            side = max_f8(side, load_f8(bins[b].box[axis]));
             right_area[b] = half_area(side);
         }
-        side = SetF8(kLowest);
+        side = set_f8(kLowest);
         std::uint32_t left = 0;
         for (int b = 1; b < binning.n_bins; ++b) {
-            side = MaxF8(side, LoadF8(bins[b - 1].box[axis]));
+            side = max_f8(side, load_f8(bins[b - 1].box[axis]));
             left += bins[b - 1].count[axis];
             const float cost = half_area(side) * blocks(left) + right_area[b] * blocks(n - left);
             if (left > 0 && left < n && cost < plane.cost)
@@ -227,11 +228,11 @@ HWY_INLINE Plane CheapestPlane(const Bin* bins, const Binning& binning, std::uin
 /// Copies the items to `to`, those that go left from `left` on and the others from `right` on, each
 /// in their old order, and grows the bounds of the doubled centres of each side. Without a branch,
 /// which would be mispredicted half the time.
-HWY_INLINE void Partition(const Prim8* prims, std::size_t n, const Binning& binning, Plane plane,
+HWY_INLINE void partition(const Prim8* prims, std::size_t n, const Binning& binning, Plane plane,
                           Prim8* to, std::size_t left, std::size_t right, float (&left_centres)[8],
                           float (&right_centres)[8]) {
-    F8 l = LoadF8(left_centres), r = LoadF8(right_centres);
-    const float start = Binning::Start(plane.bin);
+    F8 l = load_f8(left_centres), r = load_f8(right_centres);
+    const float start = Binning::start(plane.bin);
     // One of the two places moves on at each step.
     const auto place = [&](std::size_t goes_left) {
         const std::size_t at = right ^ ((left ^ right) & (0 - goes_left));
@@ -246,28 +247,28 @@ HWY_INLINE void Partition(const Prim8* prims, std::size_t n, const Binning& binn
     const auto lane = hn::IndicesFromVec(d, hn::Set(di, plane.axis));
     const auto low = hn::Set(d, binning.low[plane.axis]),
                scale = hn::Set(d, binning.scale[plane.axis]), first = hn::Set(d, 1),
-               starts = hn::Set(d, start), least = hn::Set(d, kLowest);
+               starts = hn::Set(d, start), lowest = hn::Set(d, kLowest);
     for (std::size_t i = 0; i < n; ++i) {
-        const F8 box = LoadF8(prims[i].v);
-        const F8 centre = DoubledCentre(box);
+        const F8 box = load_f8(prims[i].v);
+        const F8 centre = doubled_centre(box);
         const auto x = hn::TableLookupLanes(centre.v, lane);
         const auto is_left = hn::Lt(hn::Add(hn::Mul(hn::Sub(x, low), scale), first), starts);
-        l.v = hn::Max(l.v, hn::IfThenElse(is_left, centre.v, least));
-        r.v = hn::Max(r.v, hn::IfThenElse(is_left, least, centre.v));
-        StoreF8(box, place(hn::CountTrue(d, is_left) >> 3));
+        l.v = hn::Max(l.v, hn::IfThenElse(is_left, centre.v, lowest));
+        r.v = hn::Max(r.v, hn::IfThenElse(is_left, lowest, centre.v));
+        store_f8(box, place(hn::CountTrue(d, is_left) >> 3));
     }
 #else
     for (std::size_t i = 0; i < n; ++i) {
-        const F8 box = LoadF8(prims[i].v), centre = DoubledCentre(box);
+        const F8 box = load_f8(prims[i].v), centre = doubled_centre(box);
         const bool is_left =
-            binning.Position(prims[i].doubled_centre(plane.axis), plane.axis) < start;
-        StoreF8(box, place(is_left));
+            binning.position(prims[i].doubled_centre(plane.axis), plane.axis) < start;
+        store_f8(box, place(is_left));
         F8& side = is_left ? l : r;
-        side = MaxF8(side, centre);
+        side = max_f8(side, centre);
     }
 #endif
-    StoreF8(l, left_centres);
-    StoreF8(r, right_centres);
+    store_f8(l, left_centres);
+    store_f8(r, right_centres);
 }
 
 } // namespace boxwood::detail::HWY_NAMESPACE

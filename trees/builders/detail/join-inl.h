@@ -30,7 +30,7 @@ inline constexpr float kFar = 0x1p62f;
 
 /// For each lane below `alive`: how far the nearest other cluster is, with the exclusive or of the
 /// two lanes in the last four bits. Two clusters are as far apart as the half area of their union.
-HWY_INLINE void FindNearest(const Clusters& clusters, std::uint32_t alive, std::uint32_t* key) {
+HWY_INLINE void find_nearest(const Clusters& clusters, std::uint32_t alive, std::uint32_t* key) {
     namespace hn = hwy::HWY_NAMESPACE;
     constexpr hn::CappedTag<float, 16> df;
     constexpr hn::CappedTag<std::uint32_t, 16> du;
@@ -67,7 +67,7 @@ HWY_INLINE void FindNearest(const Clusters& clusters, std::uint32_t alive, std::
 }
 
 /// Lane k becomes the union of lanes a[k] and b[k], for k < n; the others are emptied.
-HWY_INLINE void Unite(Clusters& clusters, const std::uint32_t* a, const std::uint32_t* b,
+HWY_INLINE void unite(Clusters& clusters, const std::uint32_t* a, const std::uint32_t* b,
                       std::uint32_t n) {
     namespace hn = hwy::HWY_NAMESPACE;
 #if HWY_MAX_BYTES >= 64 && !HWY_HAVE_SCALABLE
@@ -95,7 +95,7 @@ HWY_INLINE void Unite(Clusters& clusters, const std::uint32_t* a, const std::uin
 /// nearest become one, which gives the same tree as always joining the nearest pair of all. Edges
 /// are lengthened by `edge` so that points on a line have an area too. Ties go by the exclusive or
 /// of the lanes, which pairs equal boxes evenly and makes at least one pair per round.
-HWY_INLINE void Join(const Prim8* prims, std::uint32_t n, float edge, Place place, Tree& tree) {
+HWY_INLINE void join(const Prim8* prims, std::uint32_t n, float edge, Place place, Tree& tree) {
     Clusters clusters;
     alignas(32) float box[31][8]; // of the items 0 .. n - 1, and of what is joined in order
     alignas(64) std::uint32_t key[16], a[16] = {}, b[16] = {};
@@ -107,13 +107,13 @@ HWY_INLINE void Join(const Prim8* prims, std::uint32_t n, float edge, Place plac
             clusters.plane[axis][i] = used ? p.v[axis] : kFar;
             clusters.plane[3 + axis][i] = used ? p.v[4 + axis] + edge : kFar;
         }
-        StoreF8(LoadF8(p.v), box[i]);
+        store_f8(load_f8(p.v), box[i]);
         id[i] = i;
         count[i] = 1;
     }
     std::uint32_t next = n, alive = n;
     while (alive > 2) {
-        FindNearest(clusters, alive, key);
+        find_nearest(clusters, alive, key);
         std::uint32_t kept = 0;
         for (std::uint32_t c = 0; c < alive; ++c) {
             const std::uint32_t other = c ^ (key[c] & 15);
@@ -130,7 +130,7 @@ HWY_INLINE void Join(const Prim8* prims, std::uint32_t n, float edge, Place plac
             kept += 1 + (mutual & ~joins);
         }
         alive = kept;
-        Unite(clusters, a, b, alive);
+        unite(clusters, a, b, alive);
     }
     if (n > 1) {
         left[next] = id[0];
@@ -138,7 +138,7 @@ HWY_INLINE void Join(const Prim8* prims, std::uint32_t n, float edge, Place plac
     }
     for (std::uint32_t i = n; i < 2 * n - 1; ++i) {
         count[i] = count[left[i]] + count[right[i]];
-        StoreF8(MaxF8(LoadF8(box[left[i]]), LoadF8(box[right[i]])), box[i]);
+        store_f8(max_f8(load_f8(box[left[i]]), load_f8(box[right[i]])), box[i]);
     }
 
     // Parents have higher numbers than their children.
@@ -148,10 +148,10 @@ HWY_INLINE void Join(const Prim8* prims, std::uint32_t n, float edge, Place plac
         const std::uint32_t n_left = count[left[i]];
         at[left[i]] = {at[i].node + 1, at[i].first};
         at[right[i]] = {at[i].node + 2 * n_left, at[i].first + n_left};
-        WriteNode(LoadF8(box[i]), at[i].first, count[i], tree.nodes[at[i].node]);
+        write_node(load_f8(box[i]), at[i].first, count[i], tree.nodes[at[i].node]);
     }
     for (std::uint32_t i = 0; i < n; ++i) {
-        WriteNode(LoadF8(box[i]), at[i].first, 1, tree.nodes[at[i].node]);
+        write_node(load_f8(box[i]), at[i].first, 1, tree.nodes[at[i].node]);
         tree.order[at[i].first] = prims[i].item();
     }
 }
@@ -175,7 +175,7 @@ struct Halving {
 };
 
 /// Builds the subtree of 1 to 16 items without a look at where they are.
-HWY_INLINE void HalveAsTheyLie(const Prim8* prims, std::uint32_t n, Place place, Tree& tree) {
+HWY_INLINE void halve_as_they_lie(const Prim8* prims, std::uint32_t n, Place place, Tree& tree) {
     static constexpr Halving halvings[] = {
         Halving(1),  Halving(1),  Halving(2),  Halving(3),  Halving(4),  Halving(5),
         Halving(6),  Halving(7),  Halving(8),  Halving(9),  Halving(10), Halving(11),
@@ -186,13 +186,13 @@ HWY_INLINE void HalveAsTheyLie(const Prim8* prims, std::uint32_t n, Place place,
         const std::uint32_t first = halving.first[i], count = halving.count[i];
         F8 whole;
         if (count == 1) {
-            whole = LoadF8(prims[first].v);
+            whole = load_f8(prims[first].v);
             tree.order[place.first + first] = prims[first].item();
         } else {
-            whole = MaxF8(LoadF8(box[i + 1]), LoadF8(box[i + count / 2 * 2]));
+            whole = max_f8(load_f8(box[i + 1]), load_f8(box[i + count / 2 * 2]));
         }
-        StoreF8(whole, box[i]);
-        WriteNode(whole, place.first + first, count, tree.nodes[place.node + i]);
+        store_f8(whole, box[i]);
+        write_node(whole, place.first + first, count, tree.nodes[place.node + i]);
     }
 }
 

@@ -20,7 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// replaced by those of i xor j. Both see the same key, and one cluster's keys differ even where
 /// areas are equal, for |i - j| < 32. So the least key of all is the least of both its clusters:
 /// each round merges some. Among equal areas i and i xor 1 come first: identical boxes halve.
-void FindNearest(const PlocTile::View& tile, std::size_t radius) {
+void find_nearest(const PlocTile::View& tile, std::size_t radius) {
     constexpr hn::ScalableTag<float> df;
     constexpr hn::RebindToUnsigned<decltype(df)> du;
     constexpr std::size_t block = 128, halo = 32, lanes = hn::MaxLanes(df);
@@ -53,13 +53,13 @@ void FindNearest(const PlocTile::View& tile, std::size_t radius) {
             }
         }
         for (std::size_t i = 0; i < n; i += lanes) {
-            auto least = none;
+            auto min_key = none;
             for (std::size_t d = 1; d <= radius; ++d) {
                 const std::uint32_t* const row = keys[d - 1] + halo + i;
-                least = hn::Min(least, hn::Load(du, row));
-                least = hn::Min(least, hn::LoadU(du, row - d));
+                min_key = hn::Min(min_key, hn::Load(du, row));
+                min_key = hn::Min(min_key, hn::LoadU(du, row - d));
             }
-            hn::StoreU(least, du, tile.nearest + first + i);
+            hn::StoreU(min_key, du, tile.nearest + first + i);
         }
         for (std::size_t d = 0; d < radius; ++d)
             for (std::size_t i = 0; i < halo; i += lanes)
@@ -72,7 +72,7 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace boxwood::detail {
-HWY_EXPORT(FindNearest);
+HWY_EXPORT(find_nearest);
 
 /// By a power of two, where areas might overflow or vanish.
 void PlocTile::scale() {
@@ -81,11 +81,11 @@ void PlocTile::scale() {
     for (const Row& row : at_)
         for (std::size_t i = 0; i < size_; ++i)
             bits = std::max(bits, std::bit_cast<std::uint32_t>(row[i]) & 0x7fffffff);
-    const float most = std::bit_cast<float>(bits);
+    const float max_extent = std::bit_cast<float>(bits);
     unscale_ = 1;
-    if (most == 0 || (most > 0x1p-40f && most < 0x1p40f))
+    if (max_extent == 0 || (max_extent > 0x1p-40f && max_extent < 0x1p40f))
         return;
-    const int exponent = std::clamp(std::ilogb(most), -126, 126);
+    const int exponent = std::clamp(std::ilogb(max_extent), -126, 126);
     const float to_one = std::ldexp(1.f, -exponent);
     unscale_ = std::ldexp(1.f, exponent);
     for (Row& row : at_)
@@ -160,7 +160,7 @@ std::size_t PlocTile::reduce(std::size_t wanted, std::size_t radius, std::uint32
     while (size_ > wanted) {
         const std::size_t before = size_;
         pad();
-        HWY_DYNAMIC_DISPATCH(FindNearest)({at_, nearest_, size_}, radius);
+        HWY_DYNAMIC_DISPATCH(find_nearest)({at_, nearest_, size_}, radius);
         merge_mutual();
         if (size_ > wanted && before - size_ < before / 16)
             merge_neighbours();

@@ -19,7 +19,7 @@ constexpr hn::CappedTag<float, 16> df;
 constexpr std::size_t lanes = hn::MaxLanes(df);
 constexpr std::size_t block_floats = 6 * follow_block;
 
-bool AreAscending(std::span<const std::uint32_t> items) {
+bool are_ascending(std::span<const std::uint32_t> items) {
     constexpr hn::RebindToUnsigned<decltype(df)> du;
     auto rising = hn::Eq(hn::Zero(du), hn::Zero(du));
     std::size_t i = 0;
@@ -32,9 +32,9 @@ bool AreAscending(std::span<const std::uint32_t> items) {
     return all;
 }
 
-std::size_t FollowBlocks(Boxes now, Box* HWY_RESTRICT before, std::size_t begin, std::size_t end,
-                         float max_step, float* HWY_RESTRICT steps,
-                         std::uint32_t* HWY_RESTRICT far) {
+std::size_t follow_blocks(Boxes now, Box* HWY_RESTRICT before, std::size_t begin, std::size_t end,
+                          float max_step, float* HWY_RESTRICT steps,
+                          std::uint32_t* HWY_RESTRICT far) {
     std::size_t n_far = 0;
     for (std::size_t b = begin; b < end; ++b) {
         const std::size_t first = b * follow_block,
@@ -76,16 +76,16 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace boxwood::detail {
-HWY_EXPORT(AreAscending);
-HWY_EXPORT(FollowBlocks);
+HWY_EXPORT(are_ascending);
+HWY_EXPORT(follow_blocks);
 
 bool are_ascending(std::span<const std::uint32_t> items) {
-    return HWY_DYNAMIC_DISPATCH(AreAscending)(items);
+    return HWY_DYNAMIC_DISPATCH(are_ascending)(items);
 }
 
 std::size_t follow_blocks(Boxes now, Box* before, std::size_t begin, std::size_t end,
                           float max_step, float* steps, std::uint32_t* far) {
-    return HWY_DYNAMIC_DISPATCH(FollowBlocks)(now, before, begin, end, max_step, steps, far);
+    return HWY_DYNAMIC_DISPATCH(follow_blocks)(now, before, begin, end, max_step, steps, far);
 }
 
 } // namespace boxwood::detail

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "trees/dynamic/detail/gap_codes.h"
-#include "trees/queries/pairs.h"
+#include "trees/queries/sinks.h"
 #include "trees/tree.h"
 
 #include <algorithm>

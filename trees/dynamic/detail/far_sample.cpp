@@ -10,10 +10,11 @@
 namespace boxwood::detail {
 
 void FarSample::start(Boxes boxes, double reach) {
-    constexpr std::size_t most = 1024, few = 32;
+    constexpr std::size_t max_sampled = 1024, min_share = 32;
     const std::size_t n = boxes.size();
     if (n != n_)
-        items_ = sampled_items(n, std::clamp(n / few, std::min(n, most / 4), most));
+        items_ =
+            sampled_items(n, std::clamp(n / min_share, std::min(n, max_sampled / 4), max_sampled));
     n_ = n;
     boxes_.clear();
     far_.clear();

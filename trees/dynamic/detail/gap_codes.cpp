@@ -20,8 +20,8 @@ constexpr std::size_t lanes = hn::MaxLanes(df);
 using F = hn::Vec<decltype(df)>;
 
 /// The pairs' boxes lie anywhere: gathered, as many misses as can be are under way at a time.
-void GapCodes(const Pair* pairs, std::size_t words, std::size_t n, const Box* boxes, GapScale scale,
-              std::uint32_t* HWY_RESTRICT codes) {
+void gap_codes(const Pair* pairs, std::size_t words, std::size_t n, const Box* boxes,
+               GapScale scale, std::uint32_t* HWY_RESTRICT codes) {
     const auto* const items = reinterpret_cast<const std::int32_t*>(pairs);
     const float* const planes = reinterpret_cast<const float*>(boxes);
     const auto apart = hn::Mul(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(words)));
@@ -61,11 +61,11 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace boxwood::detail {
-HWY_EXPORT(GapCodes);
+HWY_EXPORT(gap_codes);
 
 void gap_codes(const Pair* pairs, std::size_t words, std::size_t n, const Box* boxes,
                GapScale scale, std::uint32_t* codes) {
-    HWY_DYNAMIC_DISPATCH(GapCodes)(pairs, words, n, boxes, scale, codes);
+    HWY_DYNAMIC_DISPATCH(gap_codes)(pairs, words, n, boxes, scale, codes);
 }
 
 } // namespace boxwood::detail

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "trees/queries/pairs.h"
+#include "trees/queries/sinks.h"
 #include "trees/tree.h"
 
 #include <algorithm>

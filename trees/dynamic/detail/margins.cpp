@@ -19,8 +19,8 @@ void Margins::start(Boxes boxes, double share) {
 }
 
 void Margins::start_wide(Boxes boxes, double margin) {
-    constexpr double most = std::numeric_limits<float>::max();
-    margin_ = static_cast<float>(std::min(margin, most));
+    constexpr double max_float = std::numeric_limits<float>::max();
+    margin_ = static_cast<float>(std::min(margin, max_float));
     fat_.resize(boxes.size());
     std::ranges::transform(boxes, fat_.begin(), [&](const Box& box) { return around(box); });
     left_.reserve(boxes.size());
@@ -28,8 +28,8 @@ void Margins::start_wide(Boxes boxes, double margin) {
 
 /// Clamped to finite floats, so that it is a valid box; around an absent box it is absent.
 Box Margins::around(const Box& box) const {
-    constexpr float most = std::numeric_limits<float>::max();
-    const Vec3<float> m{margin_, margin_, margin_}, limit{most, most, most};
+    constexpr float max_float = std::numeric_limits<float>::max();
+    const Vec3<float> m{margin_, margin_, margin_}, limit{max_float, max_float, max_float};
     return {max(box.min - m, Vec3<float>{} - limit), min(box.max + m, limit)};
 }
 

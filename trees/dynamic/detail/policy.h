@@ -70,10 +70,10 @@ template <UpdatePolicy P> class UpdaterOf final : public Updater {
         if (layout.bounds().is_empty())
             return 0;
         // Below this no area of a lane, which is a float, becomes infinite.
-        constexpr double most = std::numeric_limits<float>::max() / 2;
+        constexpr double max_area = std::numeric_limits<float>::max() / 2;
         const double area = layout.bounds().half_area();
-        return area > 0 && area < most ? PackedLayout::width * (1 + layout.surface())
-                                       : std::numeric_limits<double>::quiet_NaN();
+        return area > 0 && area < max_area ? PackedLayout::width * (1 + layout.surface())
+                                           : std::numeric_limits<double>::quiet_NaN();
     }
     std::string fault() const override {
         std::string found = tree_.fault();

@@ -8,8 +8,8 @@
 namespace boxwood::detail {
 
 void StepSample::start(Boxes boxes) {
-    constexpr std::size_t most = 512;
-    items_ = sampled_items(boxes.size(), most);
+    constexpr std::size_t max_sampled = 512;
+    items_ = sampled_items(boxes.size(), max_sampled);
     items_each_ =
         items_.empty() ? 1 : static_cast<double>(boxes.size()) / static_cast<double>(items_.size());
     boxes_.clear();

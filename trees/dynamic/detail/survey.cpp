@@ -18,7 +18,7 @@ namespace boxwood::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-inline bool AddBox(const Box& box, Survey& to) {
+inline bool add_box(const Box& box, Survey& to) {
     if (is_absent(box)) {
         to.some_absent = true;
         return true;
@@ -29,7 +29,7 @@ inline bool AddBox(const Box& box, Survey& to) {
 
 /// Adds boxes of which some are absent; false if one of them is neither that nor valid. Without
 /// branches: any of them may be absent.
-bool AddBoxes(Boxes boxes, Survey& to) {
+bool add_boxes(Boxes boxes, Survey& to) {
     constexpr hn::CappedTag<float, 4> d;
     bool good = true;
     std::size_t i = 0;
@@ -62,7 +62,7 @@ bool AddBoxes(Boxes boxes, Survey& to) {
         good = bad == 0;
     }
     for (; i < boxes.size(); ++i)
-        good = AddBox(boxes[i], to) && good;
+        good = add_box(boxes[i], to) && good;
     return good;
 }
 
@@ -71,7 +71,7 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace boxwood::detail {
-HWY_EXPORT(AddBoxes);
+HWY_EXPORT(add_boxes);
 
 /// Branches are for what is rare: half of an extent is below infinity only if both ends are finite.
 void require_present_or_absent(std::uint32_t item, const Box& box) {
@@ -108,7 +108,7 @@ Survey survey_of(Boxes boxes, const Executor& executor) {
                     continue;
                 }
             }
-            part.good &= HWY_DYNAMIC_DISPATCH(AddBoxes)(these, part.survey);
+            part.good &= HWY_DYNAMIC_DISPATCH(add_boxes)(these, part.survey);
         }
     });
     Survey survey;

@@ -2,6 +2,7 @@
 
 #include "trees/testing/box_families.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -54,12 +55,9 @@ TEST(Survey, EveryBadCoordinateIsFoundWhereverItIs) {
             for (std::size_t i = 0; i<n; i += n> 40 ? 41 : 1) {
                 auto boxes = good;
                 const auto expect_thrown = [&](const auto& what) {
-                    try {
-                        survey_of(boxes, serial());
-                        ADD_FAILURE() << n << " " << i << " " << what;
-                    } catch (const InvalidBox& error) {
-                        EXPECT_EQ(error.index, i) << what;
-                    }
+                    EXPECT_THAT([&] { survey_of(boxes, serial()); },
+                                testing::Throws<InvalidBox>(testing::Field(&InvalidBox::index, i)))
+                        << what;
                 };
                 for (int place = 0; place < 6; ++place)
                     for (const float bad : {nan, inf, -inf}) {

@@ -10,9 +10,9 @@
 namespace boxwood::detail {
 
 double median_side(Boxes boxes) {
-    constexpr std::size_t most = 1023;
+    constexpr std::size_t max_sampled = 1023;
     std::vector<double> sides;
-    const std::size_t step = boxes.size() / most + 1;
+    const std::size_t step = boxes.size() / max_sampled + 1;
     for (std::size_t i = 0; i < boxes.size(); i += step)
         if (!is_absent(boxes[i])) {
             const auto side = Vec3<double>(boxes[i].max) - Vec3<double>(boxes[i].min);

@@ -15,7 +15,7 @@ struct Rebuild {
     double trigger = 1.35; ///< surface of the blocks against that of the last new order; 0: always
 
     static std::array<Setting<Rebuild>, 1> settings() {
-        return {{{"trigger", "growth of the blocks' surface that calls for a new order; 0: always",
+        return {{{"trigger", "area ratio of the blocks above which all is ordered again; 0: always",
                   &Rebuild::trigger, 0, 1e6}}};
     }
 

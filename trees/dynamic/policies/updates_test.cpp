@@ -2,6 +2,7 @@
 
 #include "trees/testing/box_families.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -179,12 +180,9 @@ TEST(Updates, BadFramesAreRefusedAndNothingIsLost) {
             for (const auto& moved : {all, std::vector<std::uint32_t>{2, 41, 70}}) {
                 auto wrong = random_boxes(100, .3f, 9);
                 wrong[41].max.y = bad;
-                try {
-                    updater->update(wrong, moved, serial());
-                    ADD_FAILURE() << bad;
-                } catch (const InvalidBox& error) {
-                    EXPECT_EQ(error.index, 41u);
-                }
+                EXPECT_THAT([&] { updater->update(wrong, moved, serial()); },
+                            testing::Throws<InvalidBox>(testing::Field(&InvalidBox::index, 41u)))
+                    << bad;
                 EXPECT_THROW(updater->start(wrong, serial()), InvalidBox);
                 EXPECT_EQ(sorted(pairs_of(*updater)), expected);
                 EXPECT_EQ(updater->fault(), "");
@@ -214,7 +212,7 @@ TEST(Updates, NothingDriftsOverManyFrames) {
             s = {static_cast<float>(random() % 9) * 1e-3f - 4e-3f,
                  static_cast<float>(random() % 9) * 1e-3f - 4e-3f, 1e-3f};
         updater->start(boxes, serial());
-        std::size_t most = 0;
+        std::size_t max_bytes = 0;
         for (int frame = 0; frame < 1000; ++frame) {
             const std::vector<Box> before = boxes;
             for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -233,9 +231,10 @@ TEST(Updates, NothingDriftsOverManyFrames) {
                 ASSERT_EQ(updater->fault(), "");
             }
             if (frame == 100)
-                most = updater->bytes();
+                max_bytes = updater->bytes();
         }
-        EXPECT_LE(updater->bytes(), most + most / 2) << entry.name << " keeps asking for memory";
+        EXPECT_LE(updater->bytes(), max_bytes + max_bytes / 2)
+            << entry.name << " keeps asking for memory";
     }
 }
 

@@ -7,16 +7,16 @@
 namespace boxwood::detail {
 namespace {
 
-/// least[i]: the least cost of the blocks of a subtree of which at most i + 1 stand side by side in
+/// [i]: the least cost of the blocks of a subtree of which at most i + 1 stand side by side in
 /// the block above.
-template <std::uint32_t width> using Least = std::array<float, width>;
+template <std::uint32_t width> using MinCosts = std::array<float, width>;
 
 /// What every subtree costs at least. The area of each block counts, inner or leaf, in parts of the
 /// root's; and a little for the block itself, so that flat and identical boxes fill their blocks.
 template <std::uint32_t width> class Costs {
   public:
     Costs(const Tree& tree, std::size_t part, const Executor& executor)
-        : tree_(tree), least_(tree.size()) {
+        : tree_(tree), min_costs_(tree.size()) {
         const double area = tree.nodes[0].box.half_area();
         scale_ = area > 0 ? 1 / area : 0;
         each_ = area > 0 ? 0x1p-20f : 1;
@@ -46,9 +46,9 @@ template <std::uint32_t width> class Costs {
 
     /// Those of a leaf are made in `own`. Not by value: what was stored number by number just now
     /// is not yet to be had in one piece.
-    const Least<width>& of(std::uint32_t node, Least<width>& own) const {
+    const MinCosts<width>& of(std::uint32_t node, MinCosts<width>& own) const {
         if (!tree_.is_leaf(node))
-            return least_[place(node)];
+            return min_costs_[place(node)];
         own.fill(block(node));
         return own;
     }
@@ -56,7 +56,7 @@ template <std::uint32_t width> class Costs {
     /// How many of at most `count` blocks side by side are best left of the node's middle, the
     /// fewest of equals.
     std::uint32_t left_of(std::uint32_t node, std::uint32_t count) const {
-        Least<width> own_left, own_right;
+        MinCosts<width> own_left, own_right;
         const auto& left = of(static_cast<std::uint32_t>(Tree::left(node)), own_left);
         const auto& right = of(static_cast<std::uint32_t>(tree_.right(node)), own_right);
         std::uint32_t best = 1;
@@ -73,14 +73,14 @@ template <std::uint32_t width> class Costs {
         return static_cast<float>(tree_.nodes[node].box.half_area() * scale_) + each_;
     }
     void add(std::uint32_t node) {
-        Least<width>& least = least_[place(node)];
+        MinCosts<width>& min_costs = min_costs_[place(node)];
         if (tree_.nodes[node].count == 2) { // every third node and more
             const auto left = static_cast<std::uint32_t>(Tree::left(node));
-            least.fill(std::min(block(node), block(left) + block(left + 1)));
-            least[0] = block(node);
+            min_costs.fill(std::min(block(node), block(left) + block(left + 1)));
+            min_costs[0] = block(node);
             return;
         }
-        Least<width> own_left, own_right;
+        MinCosts<width> own_left, own_right;
         const auto& left = of(static_cast<std::uint32_t>(Tree::left(node)), own_left);
         const auto& right = of(static_cast<std::uint32_t>(tree_.right(node)), own_right);
         // All ways to a sum one after the other, in a register.
@@ -90,19 +90,19 @@ template <std::uint32_t width> class Costs {
 #pragma GCC unroll 16
             for (std::uint32_t k = 1; k < i; ++k)
                 best = std::min(best, left[k] + right[i - 1 - k]);
-            least[i] = best;
+            min_costs[i] = best;
         }
         // The sums of more blocks are no larger, as those below are not; but one block may be less.
-        least[0] = block(node) + (tree_.nodes[node].count > width ? least[width - 1] : 0);
+        min_costs[0] = block(node) + (tree_.nodes[node].count > width ? min_costs[width - 1] : 0);
 #pragma GCC unroll 16
         for (std::uint32_t i = 1; i < width; ++i)
-            least[i] = std::min(least[i], least[0]);
+            min_costs[i] = std::min(min_costs[i], min_costs[0]);
     }
 
     const Tree& tree_;
     double scale_;
     float each_;
-    Buffer<Least<width>> least_;
+    Buffer<MinCosts<width>> min_costs_;
 };
 
 /// The descendants of a node that stand beside each other in one block.
@@ -129,9 +129,9 @@ Cut<width> cut_below(const Tree& tree, const Costs<width>& costs, std::uint32_t 
     while (n_open > 0) {
         Part top = open[--n_open];
         if (top.blocks > 1) {
-            Least<width> own;
-            const Least<width>& least = costs.of(top.node, own);
-            while (top.blocks > 1 && least[top.blocks - 1] == least[top.blocks - 2])
+            MinCosts<width> own;
+            const MinCosts<width>& min_costs = costs.of(top.node, own);
+            while (top.blocks > 1 && min_costs[top.blocks - 1] == min_costs[top.blocks - 2])
                 --top.blocks;
         }
         if (top.blocks > 1)
@@ -184,8 +184,8 @@ template <std::uint32_t width> Collapsed collapse(const Tree& tree, const Execut
     if (tree.empty())
         return made;
     // Cut by the tree alone: the top first, then each subtree below it on its own.
-    constexpr std::size_t parts = 64, least = 2048;
-    const std::size_t part_size = std::max(least, tree.size() / parts);
+    constexpr std::size_t parts = 64, min_part = 2048;
+    const std::size_t part_size = std::max(min_part, tree.size() / parts);
     const Costs<width> costs(tree, part_size, executor);
     std::vector<CollapsedBlock> top{{0, 0, 0}};
     std::vector<Open> subtrees;

@@ -20,21 +20,21 @@ double area_below(const Tree& tree, std::size_t node) {
     const double own = tree.nodes[node].box.half_area();
     if (tree.nodes[node].count <= width)
         return own;
-    double least = std::numeric_limits<double>::infinity();
+    double min_area = std::numeric_limits<double>::infinity();
     for (std::uint32_t k = 1; k < width; ++k)
-        least = std::min(least, area_beside(tree, Tree::left(node), k) +
-                                    area_beside(tree, tree.right(node), width - k));
-    return own + least;
+        min_area = std::min(min_area, area_beside(tree, Tree::left(node), k) +
+                                          area_beside(tree, tree.right(node), width - k));
+    return own + min_area;
 }
 
 /// The same of a subtree that may stand as up to so many blocks side by side.
 double area_beside(const Tree& tree, std::size_t node, std::uint32_t blocks) {
-    double least = area_below(tree, node);
+    double min_area = area_below(tree, node);
     if (!tree.is_leaf(node))
         for (std::uint32_t k = 1; k < blocks; ++k)
-            least = std::min(least, area_beside(tree, Tree::left(node), k) +
-                                        area_beside(tree, tree.right(node), blocks - k));
-    return least;
+            min_area = std::min(min_area, area_beside(tree, Tree::left(node), k) +
+                                              area_beside(tree, tree.right(node), blocks - k));
+    return min_area;
 }
 
 std::vector<Box> scattered(std::size_t n, unsigned seed) {
@@ -59,8 +59,8 @@ TEST(Collapse, HasTheLeastAreaOfAll) {
             double area = 0;
             for (const CollapsedBlock& block : collapse<width>(tree, serial()).blocks)
                 area += tree.nodes[block.node].box.half_area();
-            const double least = area_below(tree, 0);
-            EXPECT_NEAR(area, least, 1e-4 * least) << builder << " seed " << seed;
+            const double min_area = area_below(tree, 0);
+            EXPECT_NEAR(area, min_area, 1e-4 * min_area) << builder << " seed " << seed;
         }
 }
 

@@ -30,26 +30,26 @@ template <class Block> using RefTag = hwy::HWY_NAMESPACE::Rebind<std::uint32_t, 
 /// lanes are +inf in the first three and -inf in the others. Overloaded for every kind of block.
 template <class Real, std::size_t W>
 HWY_INLINE hwy::HWY_NAMESPACE::Vec<LaneTag<BoxBlock<Real, W>>>
-LoadPlane(const BoxBlock<Real, W>& block, std::size_t plane, std::size_t i) {
+load_plane(const BoxBlock<Real, W>& block, std::size_t plane, std::size_t i) {
     return hwy::HWY_NAMESPACE::Load(LaneTag<BoxBlock<Real, W>>(), block.plane[plane] + i);
 }
 
 /// The references of lanes [i, i + Lanes(d)); 0 in unused lanes.
 template <class Real, std::size_t W>
 HWY_INLINE hwy::HWY_NAMESPACE::Vec<RefTag<BoxBlock<Real, W>>>
-LoadRefs(const BoxBlock<Real, W>& block, std::size_t i) {
+load_refs(const BoxBlock<Real, W>& block, std::size_t i) {
     return hwy::HWY_NAMESPACE::Load(RefTag<BoxBlock<Real, W>>(), block.ref + i);
 }
 
 /// The lanes from `i` on that are in use.
 template <class D, class Block>
-HWY_INLINE hwy::HWY_NAMESPACE::Mask<D> UsedLanes(D d, const Block& block, std::size_t i) {
+HWY_INLINE hwy::HWY_NAMESPACE::Mask<D> used_lanes(D d, const Block& block, std::size_t i) {
     return hwy::HWY_NAMESPACE::FirstN(d, block.count > i ? block.count - i : 0);
 }
 
 /// `decode` of QuantisedBlock, operation for operation.
 HWY_INLINE hwy::HWY_NAMESPACE::Vec<LaneTag<QuantisedBlock>>
-LoadPlane(const QuantisedBlock& block, std::size_t plane, std::size_t i) {
+load_plane(const QuantisedBlock& block, std::size_t plane, std::size_t i) {
     namespace hn = hwy::HWY_NAMESPACE;
     const LaneTag<QuantisedBlock> d;
     const hn::Rebind<std::uint8_t, decltype(d)> d8;
@@ -59,34 +59,34 @@ LoadPlane(const QuantisedBlock& block, std::size_t plane, std::size_t i) {
     const auto steps = hn::ConvertTo(d, hn::PromoteTo(d32, hn::LoadU(d8, block.plane[plane] + i)));
     const auto offset = hn::Mul(steps, hn::Set(d, block.scale[axis]));
     const auto decoded = hn::Add(hn::Set(d, block.bounds.min[static_cast<int>(axis)]), offset);
-    return hn::IfThenElse(UsedLanes(d, block, i), decoded,
+    return hn::IfThenElse(used_lanes(d, block, i), decoded,
                           hn::Set(d, upper ? -Box::inf : Box::inf));
 }
-HWY_INLINE hwy::HWY_NAMESPACE::Vec<RefTag<QuantisedBlock>> LoadRefs(const QuantisedBlock& block,
-                                                                    std::size_t i) {
+HWY_INLINE hwy::HWY_NAMESPACE::Vec<RefTag<QuantisedBlock>> load_refs(const QuantisedBlock& block,
+                                                                     std::size_t i) {
     return hwy::HWY_NAMESPACE::Load(RefTag<QuantisedBlock>(), block.ref + i);
 }
 
 HWY_INLINE hwy::HWY_NAMESPACE::Vec<LaneTag<PackedLeaf>>
-LoadPlane(const PackedLeaf& leaf, std::size_t plane, std::size_t i) {
+load_plane(const PackedLeaf& leaf, std::size_t plane, std::size_t i) {
     namespace hn = hwy::HWY_NAMESPACE;
     const LaneTag<PackedLeaf> d;
     const RefTag<PackedLeaf> du;
     const auto bits = hn::LoadU(du, leaf.plane + plane * leaf.count + i);
-    return hn::IfThenElse(UsedLanes(d, leaf, i), hn::BitCast(d, bits),
+    return hn::IfThenElse(used_lanes(d, leaf, i), hn::BitCast(d, bits),
                           hn::Set(d, plane >= 3 ? -Box::inf : Box::inf));
 }
-HWY_INLINE hwy::HWY_NAMESPACE::Vec<RefTag<PackedLeaf>> LoadRefs(const PackedLeaf& leaf,
-                                                                std::size_t i) {
+HWY_INLINE hwy::HWY_NAMESPACE::Vec<RefTag<PackedLeaf>> load_refs(const PackedLeaf& leaf,
+                                                                 std::size_t i) {
     const RefTag<PackedLeaf> du;
-    return hwy::HWY_NAMESPACE::IfThenElseZero(UsedLanes(du, leaf, i),
+    return hwy::HWY_NAMESPACE::IfThenElseZero(used_lanes(du, leaf, i),
                                               hwy::HWY_NAMESPACE::LoadU(du, leaf.ref + i));
 }
 
 /// A mask of lanes as one of their references.
 template <class Block>
 HWY_INLINE hwy::HWY_NAMESPACE::Mask<RefTag<Block>>
-RefMask(hwy::HWY_NAMESPACE::Mask<LaneTag<Block>> mask) {
+ref_mask(hwy::HWY_NAMESPACE::Mask<LaneTag<Block>> mask) {
     namespace hn = hwy::HWY_NAMESPACE;
     if constexpr (std::is_same_v<typename Block::Real, float>) {
         return hn::RebindMask(RefTag<Block>(), mask);
@@ -98,11 +98,11 @@ RefMask(hwy::HWY_NAMESPACE::Mask<LaneTag<Block>> mask) {
 }
 
 HWY_INLINE hwy::HWY_NAMESPACE::Vec<LaneTag<PackedView>>
-LoadPlane(const PackedView& block, std::size_t plane, std::size_t i) {
+load_plane(const PackedView& block, std::size_t plane, std::size_t i) {
     return hwy::HWY_NAMESPACE::Load(LaneTag<PackedView>(), block.planes->plane[plane] + i);
 }
-HWY_INLINE hwy::HWY_NAMESPACE::Vec<RefTag<PackedView>> LoadRefs(const PackedView& block,
-                                                                std::size_t i) {
+HWY_INLINE hwy::HWY_NAMESPACE::Vec<RefTag<PackedView>> load_refs(const PackedView& block,
+                                                                 std::size_t i) {
     namespace hn = hwy::HWY_NAMESPACE;
     const RefTag<PackedView> d;
     return block.ref.items ? hn::Load(d, block.ref.items + i)
@@ -111,7 +111,7 @@ HWY_INLINE hwy::HWY_NAMESPACE::Vec<RefTag<PackedView>> LoadRefs(const PackedView
 
 /// The lanes of a mask as bits: those of a part of a block that starts at lane `first`.
 template <class D>
-HWY_INLINE std::uint32_t MaskBits(D d, hwy::HWY_NAMESPACE::Mask<D> mask, std::size_t first) {
+HWY_INLINE std::uint32_t mask_bits(D d, hwy::HWY_NAMESPACE::Mask<D> mask, std::size_t first) {
     std::uint8_t bytes[8] = {};
     hwy::HWY_NAMESPACE::StoreMaskBits(d, mask, bytes);
     return (std::uint32_t{bytes[0]} | std::uint32_t{bytes[1]} << 8) << first;
@@ -120,25 +120,25 @@ HWY_INLINE std::uint32_t MaskBits(D d, hwy::HWY_NAMESPACE::Mask<D> mask, std::si
 /// Lanes [i, i + Lanes(d)) of a block against one box: true where the closed boxes overlap.
 template <class Block>
 HWY_INLINE hwy::HWY_NAMESPACE::Mask<LaneTag<Block>>
-OverlapMask(const Block& block, std::size_t i, const Aabb<typename Block::Real>& box) {
+overlap_mask(const Block& block, std::size_t i, const Aabb<typename Block::Real>& box) {
     namespace hn = hwy::HWY_NAMESPACE;
     const LaneTag<Block> d;
-    const auto x = hn::And(hn::Le(LoadPlane(block, 0, i), hn::Set(d, box.max.x)),
-                           hn::Ge(LoadPlane(block, 3, i), hn::Set(d, box.min.x)));
-    const auto y = hn::And(hn::Le(LoadPlane(block, 1, i), hn::Set(d, box.max.y)),
-                           hn::Ge(LoadPlane(block, 4, i), hn::Set(d, box.min.y)));
-    const auto z = hn::And(hn::Le(LoadPlane(block, 2, i), hn::Set(d, box.max.z)),
-                           hn::Ge(LoadPlane(block, 5, i), hn::Set(d, box.min.z)));
+    const auto x = hn::And(hn::Le(load_plane(block, 0, i), hn::Set(d, box.max.x)),
+                           hn::Ge(load_plane(block, 3, i), hn::Set(d, box.min.x)));
+    const auto y = hn::And(hn::Le(load_plane(block, 1, i), hn::Set(d, box.max.y)),
+                           hn::Ge(load_plane(block, 4, i), hn::Set(d, box.min.y)));
+    const auto z = hn::And(hn::Le(load_plane(block, 2, i), hn::Set(d, box.max.z)),
+                           hn::Ge(load_plane(block, 5, i), hn::Set(d, box.min.z)));
     return hn::And(x, hn::And(y, z));
 }
 
 /// The lanes of a block that overlap a box, as bits.
 template <class Block>
-HWY_INLINE std::uint32_t OverlapBits(const Block& block, const Aabb<typename Block::Real>& box) {
+HWY_INLINE std::uint32_t overlap_bits(const Block& block, const Aabb<typename Block::Real>& box) {
     const LaneTag<Block> d;
     std::uint32_t bits = 0;
     for (std::size_t i = 0; i < Block::width; i += hwy::HWY_NAMESPACE::Lanes(d))
-        bits |= MaskBits(d, OverlapMask(block, i, box), i);
+        bits |= mask_bits(d, overlap_mask(block, i, box), i);
     return bits;
 }
 

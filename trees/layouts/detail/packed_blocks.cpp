@@ -16,7 +16,7 @@ namespace boxwood::detail::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Fills a block with up to sixteen boxes from `first` on; returns their bounds.
-Box FillAny(const PackedSource& boxes, std::size_t first, PackedBlock& block) {
+Box fill_any(const PackedSource& boxes, std::size_t first, PackedBlock& block) {
     const std::size_t count = PackedLayout::lanes_used(first, boxes.n);
     constexpr float inf = std::numeric_limits<float>::infinity();
     Box bounds;
@@ -33,15 +33,15 @@ Box FillAny(const PackedSource& boxes, std::size_t first, PackedBlock& block) {
 }
 
 #if HWY_TARGET == HWY_SCALAR
-Box FillWhole(const PackedSource& boxes, std::size_t first, PackedBlock& block) {
-    return FillAny(boxes, first, block);
+Box fill_whole(const PackedSource& boxes, std::size_t first, PackedBlock& block) {
+    return fill_any(boxes, first, block);
 }
 #else
 constexpr hn::FixedTag<float, 4> d4;
 constexpr hn::Repartition<double, decltype(d4)> d2;
 
 /// Four boxes at a time, each as two overlapping quads: min and max.x, min.z and max.
-HWY_INLINE Box FillWhole(const PackedSource& boxes, std::size_t first, PackedBlock& block) {
+HWY_INLINE Box fill_whole(const PackedSource& boxes, std::size_t first, PackedBlock& block) {
     constexpr float inf = std::numeric_limits<float>::infinity();
     auto low = hn::Set(d4, inf), high = hn::Set(d4, -inf);
     for (std::size_t lane = 0; lane < PackedBlock::width; lane += 4) {
@@ -81,8 +81,8 @@ HWY_INLINE Box FillWhole(const PackedSource& boxes, std::size_t first, PackedBlo
 }
 #endif
 
-void FillPacked(const PackedSource& boxes, std::size_t begin, std::size_t end,
-                PackedBlock* HWY_RESTRICT blocks, Box* HWY_RESTRICT bounds) {
+void fill_packed(const PackedSource& boxes, std::size_t begin, std::size_t end,
+                 PackedBlock* HWY_RESTRICT blocks, Box* HWY_RESTRICT bounds) {
     constexpr std::size_t w = PackedBlock::width, ahead = 2 * w;
     const std::size_t whole = std::min(end, boxes.n / w);
     for (std::size_t b = begin; b < whole; ++b) {
@@ -92,10 +92,10 @@ void FillPacked(const PackedSource& boxes, std::size_t begin, std::size_t end,
                 __builtin_prefetch(&box.min.x);
                 __builtin_prefetch(&box.max.z);
             }
-        bounds[b] = FillWhole(boxes, b * w, blocks[b]);
+        bounds[b] = fill_whole(boxes, b * w, blocks[b]);
     }
     for (std::size_t b = std::max(begin, whole); b < end; ++b)
-        bounds[b] = FillAny(boxes, b * w, blocks[b]);
+        bounds[b] = fill_any(boxes, b * w, blocks[b]);
 }
 
 } // namespace boxwood::detail::HWY_NAMESPACE
@@ -103,11 +103,11 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace boxwood::detail {
-HWY_EXPORT(FillPacked);
+HWY_EXPORT(fill_packed);
 
 void fill_packed(const PackedSource& boxes, std::size_t begin, std::size_t end, PackedBlock* blocks,
                  Box* bounds) {
-    HWY_DYNAMIC_DISPATCH(FillPacked)(boxes, begin, end, blocks, bounds);
+    HWY_DYNAMIC_DISPATCH(fill_packed)(boxes, begin, end, blocks, bounds);
 }
 
 } // namespace boxwood::detail

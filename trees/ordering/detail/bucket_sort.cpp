@@ -30,12 +30,12 @@ void insertion_sort(std::uint64_t* begin, std::uint64_t* end) {
 /// Each step takes at least five bits, or all: the recursion is no deeper than seven.
 std::size_t sort_part(std::uint64_t* from, std::uint64_t* to, std::uint32_t n, std::uint64_t low,
                       int bits, Sorted how) {
-    constexpr int most = 12; // as many counters fill a third of the first level of cache
-    const int digit = std::min({bits, most, static_cast<int>(std::bit_width(n))});
+    constexpr int max_digit = 12; // as many counters fill a third of the first level of cache
+    const int digit = std::min({bits, max_digit, static_cast<int>(std::bit_width(n))});
     const int rest = bits - digit, shift = 32 + rest;
     const std::size_t buckets = std::size_t{1} << digit;
     const std::uint64_t base = low << 32;
-    std::array<std::uint32_t, std::size_t{1} << most> ends;
+    std::array<std::uint32_t, std::size_t{1} << max_digit> ends;
     std::fill_n(ends.begin(), buckets, 0u);
     for (std::uint32_t i = 0; i < n; ++i)
         ++ends[(from[i] - base) >> shift];

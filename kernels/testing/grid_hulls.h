@@ -95,9 +95,9 @@ inline Triangle<double> triangle(const std::vector<Grid>& g) {
     return {point(g[0]), point(g[1]), point(g[2])};
 }
 
-/// n points of the grid [0, most]^3.
-inline std::vector<Grid> random_points(std::mt19937_64& random, std::size_t n, int most) {
-    std::uniform_int_distribution<std::int64_t> coordinate(0, most);
+/// n points of the grid [0, side]^3.
+inline std::vector<Grid> random_points(std::mt19937_64& random, std::size_t n, int side) {
+    std::uniform_int_distribution<std::int64_t> coordinate(0, side);
     std::vector<Grid> all(n);
     for (Grid& g : all)
         for (auto& x : g)

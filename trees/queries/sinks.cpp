@@ -1,4 +1,4 @@
-#include "trees/queries/pairs.h"
+#include "trees/queries/sinks.h"
 
 #include <utility>
 
