@@ -5,6 +5,7 @@
 #include "bench/io/json.h"
 #include "bench/io/text_table.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

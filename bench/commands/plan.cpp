@@ -5,6 +5,7 @@
 #include "bench/io/text_table.h"
 #include "bench/stages/scene_player.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <memory>

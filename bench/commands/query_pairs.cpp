@@ -12,6 +12,7 @@
 #include "kernels/arithmetic/rounding.h"
 #include "trees/queries/filtered_pairs.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <unistd.h>

@@ -10,6 +10,7 @@
 #include "bench/io/text_table.h"
 #include "results/schema.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
