@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstring>
-#include <type_traits>
+#include <span>
+#include <utility>
 
 namespace boxwood::results {
 namespace {
@@ -68,74 +68,84 @@ bool has_link(hid_t group, const char* name) {
 }
 
 /// A column that the file has: where it stands in the records we ask HDF5 for.
-template <class Row> struct Placed {
-    const Column<Row>* column;
+struct Placed {
+    std::size_t column; ///< of the table
     std::size_t offset, size;
 };
 
+/// What to do where the file lacks what an older version did not write.
+std::string derive_again(const fs::path& path) {
+    return fmt::format("`boxwood merge {} --out NEW.h5` derives what can be, else measure again",
+                       path.string());
+}
+
+/// The rows of a table, of the columns that we know.
+struct Records {
+    std::vector<Placed> columns;
+    std::size_t n = 0, size = 0; ///< rows, bytes of each
+    std::vector<std::byte> bytes;
+};
+
+/// Our type of a column; for a text the width that the file has.
+Handle wanted_type(Stored stored, hid_t in_file, std::string_view where) {
+    const H5T_class_t wanted = stored == Stored::text   ? H5T_STRING
+                               : stored == Stored::real ? H5T_FLOAT
+                                                        : H5T_INTEGER;
+    if (H5Tget_class(in_file) != wanted)
+        fail(fmt::format("column {} has the wrong type", where));
+    if (stored != Stored::text)
+        return number_type(stored, where);
+    if (checked(H5Tis_variable_str(in_file), where) > 0)
+        fail(fmt::format("column {} has strings of variable length", where));
+    return string_type(H5Tget_size(in_file));
+}
+
+Records read_records(hid_t file, const fs::path& path, const std::string& name,
+                     std::span<const std::pair<std::string, Stored>> columns, Required required) {
+    Records records;
+    const Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, name);
+    const Handle space(H5Dget_space(dataset), H5Sclose, name);
+    const Handle in_file(H5Dget_type(dataset), H5Tclose, name);
+    if (H5Tget_class(in_file) != H5T_COMPOUND || H5Sget_simple_extent_ndims(space) != 1)
+        fail(fmt::format("{} is not a table", name));
+
+    std::vector<Handle> types;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        const auto& [column, stored] = columns[i];
+        const int index = H5Tget_member_index(in_file, column.c_str());
+        const std::string where = fmt::format("{}.{}", name, column);
+        if (index < 0 && required == Required::everything)
+            fail(fmt::format("column {} is missing; {}", where, derive_again(path)));
+        if (index < 0)
+            continue;
+        const Handle theirs(H5Tget_member_type(in_file, static_cast<unsigned>(index)), H5Tclose,
+                            where);
+        types.push_back(wanted_type(stored, theirs, where));
+        records.columns.push_back({i, records.size, H5Tget_size(types.back())});
+        records.size += records.columns.back().size;
+    }
+    records.n = static_cast<std::size_t>(checked(H5Sget_simple_extent_npoints(space), name));
+    if (records.n == 0 || types.empty())
+        return records;
+    const Handle record(H5Tcreate(H5T_COMPOUND, records.size), H5Tclose, name);
+    for (std::size_t i = 0; i < types.size(); ++i)
+        checked(H5Tinsert(record, columns[records.columns[i].column].first.c_str(),
+                          records.columns[i].offset, types[i]),
+                name);
+    records.bytes.resize(records.n * records.size);
+    checked(H5Dread(dataset, record, H5S_ALL, H5S_ALL, H5P_DEFAULT, records.bytes.data()),
+            fmt::format("table {}", name));
+    return records;
+}
+
 template <Worded Enum>
-Enum known_word(const std::string& word, std::string_view table, std::string_view column) {
+Enum known_word(std::string_view word, std::string_view table, std::string_view column) {
     const std::optional<Enum> value = from_string<Enum>(word);
     if (!value)
         fail(fmt::format("column {}.{} holds the unknown word \"{}\"; use another copy, or "
                          "measure again",
                          table, column, word));
     return *value;
-}
-
-/// Sets the member of each row from the records.
-template <class Row>
-void decode(std::string_view table, const Placed<Row>& placed,
-            const std::vector<std::byte>& records, std::size_t record_size,
-            std::vector<Row>& rows) {
-    std::visit(
-        [&]<class Value>(Value Row::*member) {
-            const std::byte* from = records.data() + placed.offset;
-            for (Row& row : rows) {
-                if constexpr (std::is_same_v<Value, std::string> || Worded<Value>) {
-                    const auto* start = reinterpret_cast<const char*>(from);
-                    const std::string text(start, std::find(start, start + placed.size, '\0'));
-                    if constexpr (Worded<Value>)
-                        row.*member = known_word<Value>(text, table, placed.column->name);
-                    else
-                        row.*member = text;
-                } else {
-                    std::memcpy(&(row.*member), from, sizeof(Value));
-                }
-                from += record_size;
-            }
-        },
-        placed.column->member);
-}
-
-/// The native type of our column; for a string the width that the file has.
-template <class Row>
-Handle wanted_type(const Column<Row>& column, hid_t in_file, std::string_view where) {
-    const H5T_class_t found = H5Tget_class(in_file);
-    return std::visit(
-        [&]<class Value>(Value Row::*) {
-            constexpr bool text = std::is_same_v<Value, std::string> || Worded<Value>;
-            constexpr bool real = std::is_same_v<Value, double>;
-            if (found != (text ? H5T_STRING : real ? H5T_FLOAT : H5T_INTEGER))
-                fail(fmt::format("column {} has the wrong type", where));
-            if constexpr (text) {
-                if (checked(H5Tis_variable_str(in_file), where) > 0)
-                    fail(fmt::format("column {} has strings of variable length", where));
-                return string_type(H5Tget_size(in_file));
-            } else {
-                return Handle(H5Tcopy(real                                   ? H5T_NATIVE_DOUBLE
-                                      : std::is_same_v<Value, std::uint32_t> ? H5T_NATIVE_UINT32
-                                                                             : H5T_NATIVE_UINT64),
-                              H5Tclose, where);
-            }
-        },
-        column.member);
-}
-
-/// What to do where the file lacks what an older version did not write.
-std::string derive_again(const fs::path& path) {
-    return fmt::format("`boxwood merge {} --out NEW.h5` derives what can be, else measure again",
-                       path.string());
 }
 
 template <class Row>
@@ -149,42 +159,31 @@ void get_table(hid_t file, const fs::path& path, const Table<Row>& table, Requir
             fail(fmt::format("table {} is missing; {}", name, derive_again(path)));
         return;
     }
-    const Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, name);
-    const Handle space(H5Dget_space(dataset), H5Sclose, name);
-    const Handle in_file(H5Dget_type(dataset), H5Tclose, name);
-    if (H5Tget_class(in_file) != H5T_COMPOUND || H5Sget_simple_extent_ndims(space) != 1)
-        fail(fmt::format("{} is not a table", name));
-
-    std::vector<Placed<Row>> found;
-    std::vector<Handle> types;
-    std::size_t record_size = 0;
-    for (const auto& column : table.columns) {
-        const int index = H5Tget_member_index(in_file, std::string(column.name).c_str());
-        const std::string where = fmt::format("{}.{}", name, column.name);
-        if (index < 0 && required == Required::everything)
-            fail(fmt::format("column {} is missing; {}", where, derive_again(path)));
-        if (index < 0)
-            continue;
-        const Handle theirs(H5Tget_member_type(in_file, static_cast<unsigned>(index)), H5Tclose,
-                            where);
-        types.push_back(wanted_type(column, theirs, where));
-        found.push_back({&column, record_size, H5Tget_size(types.back())});
-        record_size += found.back().size;
-    }
-    const auto n = static_cast<std::size_t>(checked(H5Sget_simple_extent_npoints(space), name));
-    rows.resize(n);
-    if (n == 0 || found.empty())
-        return;
-    const Handle record(H5Tcreate(H5T_COMPOUND, record_size), H5Tclose, name);
-    for (std::size_t i = 0; i < found.size(); ++i)
-        checked(H5Tinsert(record, std::string(found[i].column->name).c_str(), found[i].offset,
-                          types[i]),
-                name);
-    std::vector<std::byte> records(n * record_size);
-    checked(H5Dread(dataset, record, H5S_ALL, H5S_ALL, H5P_DEFAULT, records.data()),
-            fmt::format("table {}", name));
-    for (const auto& placed : found)
-        decode(name, placed, records, record_size, rows);
+    std::vector<std::pair<std::string, Stored>> columns;
+    for (const auto& column : table.columns)
+        columns.emplace_back(column.name, stored(column));
+    const Records records = read_records(file, path, name, columns, required);
+    rows.resize(records.n);
+    for (const Placed& placed : records.columns)
+        std::visit(
+            [&]<class Value>(Value Row::*member) {
+                const std::byte* from = records.bytes.data() + placed.offset;
+                for (Row& row : rows) {
+                    if constexpr (stored_as<Value> == Stored::text) {
+                        const auto* start = reinterpret_cast<const char*>(from);
+                        const std::string_view text(start, strnlen(start, placed.size));
+                        if constexpr (Worded<Value>)
+                            row.*member =
+                                known_word<Value>(text, name, columns[placed.column].first);
+                        else
+                            row.*member = text;
+                    } else {
+                        std::memcpy(&(row.*member), from, sizeof(Value));
+                    }
+                    from += records.size;
+                }
+            },
+            table.columns[placed.column].member);
 }
 
 void get_texts(hid_t file, std::map<std::string, std::string>& texts) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -29,6 +30,17 @@ template <class Row> struct Column {
     std::string_view unit, summary;
     std::size_t width = 0; ///< bytes of a string; a longer one is an error, never cut
 };
+
+/// How the values of a column stand in the file.
+enum class Stored : std::uint8_t { uint32, uint64, real, text };
+template <class Value>
+inline constexpr Stored stored_as = std::is_same_v<Value, std::uint32_t>   ? Stored::uint32
+                                    : std::is_same_v<Value, std::uint64_t> ? Stored::uint64
+                                    : std::is_same_v<Value, double>        ? Stored::real
+                                                                           : Stored::text;
+template <class Row> Stored stored(const Column<Row>& column) {
+    return std::visit([]<class Value>(Value Row::*) { return stored_as<Value>; }, column.member);
+}
 
 /// One compound dataset of the file.
 template <class Row> struct Table {

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
+#include <span>
 #include <system_error>
 #include <type_traits>
 
@@ -26,63 +27,61 @@ constexpr hsize_t rows_per_chunk = 4096;
 
 [[noreturn]] void fail(std::string_view cause) { throw std::runtime_error(std::string(cause)); }
 
-template <class Row> std::size_t size_of(const Column<Row>& column) {
-    return std::visit(
-        [&]<class Value>(Value Row::*) {
-            return Worded<Value>                        ? word_width
-                   : std::is_same_v<Value, std::string> ? column.width
-                                                        : sizeof(Value);
-        },
-        column.member);
+/// A column of any table.
+struct Field {
+    std::string_view table, name, unit, summary;
+    Stored stored;
+    std::size_t size, offset; ///< bytes
+};
+
+template <class Row> std::vector<Field> fields_of(const Table<Row>& table) {
+    std::vector<Field> fields;
+    std::size_t offset = 0;
+    for (const auto& column : table.columns) {
+        const std::size_t size = std::visit(
+            [&]<class Value>(Value Row::*) {
+                return Worded<Value>                        ? word_width
+                       : std::is_same_v<Value, std::string> ? column.width
+                                                            : sizeof(Value);
+            },
+            column.member);
+        fields.push_back(
+            {table.name, column.name, column.unit, column.summary, stored(column), size, offset});
+        offset += size;
+    }
+    return fields;
 }
 
-template <class Row> Handle type_of(const Column<Row>& column) {
-    return std::visit(
-        [&]<class Value>(Value Row::*) {
-            if constexpr (std::is_same_v<Value, std::string> || Worded<Value>)
-                return string_type(size_of(column));
-            else
-                return Handle(H5Tcopy(std::is_same_v<Value, double>          ? H5T_NATIVE_DOUBLE
-                                      : std::is_same_v<Value, std::uint32_t> ? H5T_NATIVE_UINT32
-                                                                             : H5T_NATIVE_UINT64),
-                              H5Tclose, column.name);
-        },
-        column.member);
+void encode_text(const Field& field, std::string_view text, std::byte* to) {
+    if (text.size() > field.size)
+        fail(fmt::format("{}.{}: \"{:.40}...\" has {} bytes, the column holds {}", field.table,
+                         field.name, text, text.size(), field.size));
+    if (const std::size_t zero = text.find('\0'); zero != text.npos)
+        fail(fmt::format("{}.{}: \"{:.40}\" holds a zero byte", field.table, field.name,
+                         text.substr(0, zero)));
+    std::memcpy(to, text.data(), text.size());
 }
 
 /// The rows as the packed records of the dataset.
 template <class Row>
-std::vector<std::byte> encode(const Table<Row>& table, const std::vector<Row>& rows,
-                              std::size_t record_size) {
+std::vector<std::byte> encode(const Table<Row>& table, std::span<const Field> fields,
+                              std::size_t record_size, const std::vector<Row>& rows) {
     std::vector<std::byte> records(rows.size() * record_size); // zero bytes pad the strings
-    std::byte* out = records.data();
-    for (const Row& row : rows)
-        for (const auto& column : table.columns) {
-            std::visit(
-                [&]<class Value>(Value Row::*member) {
-                    const Value& value = row.*member;
-                    if constexpr (Worded<Value>) {
-                        const std::string_view word = to_string(value);
-                        std::copy_n(reinterpret_cast<const std::byte*>(word.data()), word.size(),
-                                    out);
-                    } else if constexpr (!std::is_same_v<Value, std::string>) {
-                        std::memcpy(out, &value, sizeof value);
-                        return;
-                    } else if (value.size() > column.width) {
-                        fail(fmt::format("{}.{}: \"{:.40}...\" has {} bytes, the column holds {}",
-                                         table.name, column.name, value, value.size(),
-                                         column.width));
-                    } else if (value.find('\0') != std::string::npos) {
-                        fail(fmt::format("{}.{}: \"{:.40}\" holds a zero byte", table.name,
-                                         column.name, value.c_str()));
-                    } else {
-                        std::copy_n(reinterpret_cast<const std::byte*>(value.data()), value.size(),
-                                    out);
-                    }
-                },
-                column.member);
-            out += size_of(column);
-        }
+    for (std::size_t i = 0; i < fields.size(); ++i)
+        std::visit(
+            [&]<class Value>(Value Row::*member) {
+                std::byte* to = records.data() + fields[i].offset;
+                for (const Row& row : rows) {
+                    if constexpr (Worded<Value>)
+                        encode_text(fields[i], to_string(row.*member), to);
+                    else if constexpr (stored_as<Value> == Stored::text)
+                        encode_text(fields[i], row.*member, to);
+                    else
+                        std::memcpy(to, &(row.*member), sizeof(Value));
+                    to += record_size;
+                }
+            },
+            table.columns[i].member);
     return records;
 }
 
@@ -102,29 +101,25 @@ void put_text(hid_t object, const char* name, std::string_view value) {
 }
 
 /// {"column": "value", ...}; the texts of schema.cpp need no escapes.
-template <class Row>
-std::string json_of(const Table<Row>& table, std::string_view Column<Row>::*text) {
+std::string json_of(std::span<const Field> fields, std::string_view Field::*text) {
     std::string json;
-    for (const auto& column : table.columns)
-        json +=
-            fmt::format("{}\"{}\": \"{}\"", json.empty() ? "{" : ", ", column.name, column.*text);
+    for (const Field& field : fields)
+        json += fmt::format("{}\"{}\": \"{}\"", json.empty() ? "{" : ", ", field.name, field.*text);
     return json + "}";
 }
 
-template <class Row>
-void put_table(hid_t file, const Table<Row>& table, const std::vector<Row>& rows) {
-    const std::string name(table.name);
-    std::size_t record_size = 0;
-    for (const auto& column : table.columns)
-        record_size += size_of(column);
+void put_records(hid_t file, std::string_view table, std::string_view summary,
+                 std::span<const Field> fields, hsize_t n, std::size_t record_size,
+                 const std::vector<std::byte>& records) {
+    const std::string name(table);
     const Handle type(H5Tcreate(H5T_COMPOUND, record_size), H5Tclose, name);
-    std::size_t offset = 0;
-    for (const auto& column : table.columns) {
-        checked(H5Tinsert(type, std::string(column.name).c_str(), offset, type_of(column)), name);
-        offset += size_of(column);
-    }
+    for (const Field& field : fields)
+        checked(H5Tinsert(type, std::string(field.name).c_str(), field.offset,
+                          field.stored == Stored::text ? string_type(field.size)
+                                                       : number_type(field.stored, name)),
+                name);
 
-    const hsize_t n = rows.size(), unlimited = H5S_UNLIMITED;
+    const hsize_t unlimited = H5S_UNLIMITED;
     const hsize_t chunk = n == 0 ? rows_per_chunk : std::min(n, rows_per_chunk);
     const Handle space(H5Screate_simple(1, &n, &unlimited), H5Sclose, name);
     const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
@@ -136,12 +131,19 @@ void put_table(hid_t file, const Table<Row>& table, const std::vector<Row>& rows
     const Handle dataset(
         H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose,
         name);
-    const auto records = encode(table, rows, record_size);
     if (n > 0)
         checked(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, records.data()), name);
-    put_text(dataset, "summary", table.summary);
-    put_text(dataset, "units", json_of(table, &Column<Row>::unit));
-    put_text(dataset, "columns", json_of(table, &Column<Row>::summary));
+    put_text(dataset, "summary", summary);
+    put_text(dataset, "units", json_of(fields, &Field::unit));
+    put_text(dataset, "columns", json_of(fields, &Field::summary));
+}
+
+template <class Row>
+void put_table(hid_t file, const Table<Row>& table, const std::vector<Row>& rows) {
+    const std::vector<Field> fields = fields_of(table);
+    const std::size_t size = fields.back().offset + fields.back().size;
+    put_records(file, table.name, table.summary, fields, rows.size(), size,
+                encode(table, fields, size, rows));
 }
 
 void put_texts(hid_t file, const std::map<std::string, std::string>& texts) {

@@ -1,5 +1,6 @@
 #include "bench/analysis/comparisons.h"
 
+#include "bench/analysis/job.h"
 #include "bench/analysis/status.h"
 #include "bench/analysis/wording.h"
 
@@ -19,10 +20,6 @@ using results::Reason;
 using results::Results;
 using results::Status;
 using results::Verdict;
-
-/// What is the same for all contenders of one job: scene, task, threads.
-using Job = std::tuple<std::uint32_t, std::string, std::uint32_t>;
-Job job_of(const Cell& cell) { return {cell.scene_id, cell.task, cell.threads}; }
 
 /// The rows of a file by id.
 class Index {
@@ -109,7 +106,7 @@ std::vector<Phase> phases_of(const Times& times, const Cell& cell) {
 }
 
 void against_peers(const Index& index, const Times& times, Judge& judge) {
-    std::map<std::pair<Job, std::string>, std::vector<const Cell*>> peers_of; // and class
+    std::map<std::pair<JobKey, std::string>, std::vector<const Cell*>> peers_of; // and class
     for (const Cell& cell : index.results().cells)
         if (index.is_peer(cell))
             for (const std::string& name : split_classes(cell.classes))
@@ -172,7 +169,7 @@ template <class Key> class Grouped {
 };
 
 void against_ours(const Index& index, const Times& times, Judge& judge) {
-    Grouped<Job> claims;
+    Grouped<JobKey> claims;
     for (const Cell& cell : index.results().cells)
         if (const Cell* reference = reference_in(index, cell))
             claims.add(job_of(cell), times, *reference, cell);
@@ -191,7 +188,7 @@ void against_one_thread(const Index& index, const Times& times, Judge& judge) {
             if (!kept || (kept->executor != "serial" && cell.executor == "serial"))
                 kept = &cell;
         }
-    Grouped<Job> claims;
+    Grouped<JobKey> claims;
     for (const Cell& cell : index.results().cells)
         if (cell.threads > 1)
             if (const auto one = single.find(contender_of(cell)); one != single.end())
@@ -200,7 +197,7 @@ void against_one_thread(const Index& index, const Times& times, Judge& judge) {
 }
 
 void against_fewer_stages(const Index& index, const Times& times, Judge& judge) {
-    using Scene = std::tuple<Job, std::string, std::string>; // executor, precision
+    using Scene = std::tuple<JobKey, std::string, std::string>; // executor, precision
     const auto scene_of = [](const Cell& cell) {
         return Scene{job_of(cell), cell.executor, cell.precision};
     };

@@ -65,7 +65,7 @@ class Findings {
     }
 
   private:
-    using JobKey = std::tuple<std::uint32_t, std::string, std::uint32_t, std::string>; // and class
+    using RaceKey = std::tuple<std::uint32_t, std::string, std::uint32_t, std::string>; // and class
     struct Sides {
         std::vector<const Cell*> ours, peers;
     };
@@ -84,7 +84,7 @@ class Findings {
         std::set<std::uint32_t> kernels;
         for (const results::KernelRow& row : results_.kernels)
             kernels.insert(row.cell_id);
-        std::map<JobKey, Sides> jobs;
+        std::map<RaceKey, Sides> jobs;
         for (const Cell& cell : results_.cells)
             if (is_right(cell.status) && !kernels.contains(cell.cell_id) &&
                 variant(cell).stages.empty() && scenes_.contains(cell.scene_id))
@@ -105,7 +105,7 @@ class Findings {
         }
     }
 
-    void race(const JobKey& key, const Sides& sides) {
+    void race(const RaceKey& key, const Sides& sides) {
         const auto& [scene, task, threads, name] = key;
         const Phase total = task_named(task).total;
         Draft draft;

@@ -1,5 +1,6 @@
 #include "bench/analysis/trade_offs.h"
 
+#include "bench/analysis/job.h"
 #include "bench/analysis/status.h"
 #include "bench/analysis/times.h"
 
@@ -7,17 +8,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <string>
 #include <tuple>
 
 namespace boxwood::bench {
-namespace {
-
-using Job = std::tuple<std::uint32_t, std::string, std::uint32_t>; // scene, task, threads
-
-Job job_of(const results::Cell& cell) { return {cell.scene_id, cell.task, cell.threads}; }
-
-} // namespace
 
 std::vector<results::BreakEven> trade_offs_of(const results::Results& results, double floor) {
     using results::Phase;
@@ -26,7 +19,7 @@ std::vector<results::BreakEven> trade_offs_of(const results::Results& results, d
         std::uint32_t cell_id;
     };
     const MedianIndex medians(results);
-    std::map<Job, std::vector<Point>> jobs;
+    std::map<JobKey, std::vector<Point>> jobs;
     for (const results::Cell& cell : results.cells) {
         const Point point{medians.ns(cell.cell_id, Phase::build),
                           medians.ns(cell.cell_id, Phase::query), cell.cell_id};
@@ -68,7 +61,7 @@ void set_tree_fronts(results::Results& results) {
         tree.on_front = 0;
         trees[tree.cell_id] = &tree;
     }
-    std::map<Job, std::vector<Point>> jobs;
+    std::map<JobKey, std::vector<Point>> jobs;
     for (const results::Cell& cell : results.cells) {
         const double build = medians.ns(cell.cell_id, results::Phase::build);
         const auto tree = trees.find(cell.cell_id);

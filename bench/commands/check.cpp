@@ -7,6 +7,7 @@
 #include "bench/running/environment.h"
 #include "bench/truth/judging/case_truths.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <iostream>

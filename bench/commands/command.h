@@ -2,7 +2,9 @@
 
 #include "bench/io/bad_input.h"
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace boxwood::bench {
 

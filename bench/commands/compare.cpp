@@ -7,6 +7,7 @@
 #include "bench/io/read_results.h"
 #include "bench/io/text_table.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -9,6 +9,7 @@
 #include "trees/optimizers/refit.h"
 #include "trees/queries/allowed_collisions.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -5,6 +5,7 @@
 #include "bench/running/environment.h"
 #include "bench/tasks/contender.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -13,6 +13,8 @@
 #include "trees/dynamic/update.h"
 #include "trees/layout.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <array>
 #include <iostream>

@@ -3,6 +3,7 @@
 #include "bench/io/read_results.h"
 #include "results/results.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <filesystem>

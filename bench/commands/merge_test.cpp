@@ -1,6 +1,8 @@
 #include "bench/commands/command.h"
 #include "results/results.h"
 
+#include <CLI/CLI.hpp>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

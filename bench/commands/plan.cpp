@@ -6,6 +6,7 @@
 #include "bench/stages/scene_player.h"
 #include "bench/stages/stages_contender.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <memory>

@@ -3,6 +3,8 @@
 #include "bench/commands/command.h"
 #include "kernels/suggest.h"
 
+#include <CLI/CLI.hpp>
+
 #include <charconv>
 #include <thread>
 #include <vector>

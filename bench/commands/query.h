@@ -3,12 +3,14 @@
 #include "trees/builder.h"
 #include "trees/layout.h"
 
-#include <CLI/CLI.hpp>
-
 #include <memory>
 #include <optional>
 #include <ostream>
 #include <string>
+
+namespace CLI {
+class App;
+}
 
 namespace boxwood::bench {
 

@@ -8,6 +8,7 @@
 #include "kernels/registry.h"
 #include "kernels/suggest.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

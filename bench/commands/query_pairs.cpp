@@ -12,6 +12,7 @@
 #include "kernels/arithmetic/rounding.h"
 #include "trees/queries/filters.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <unistd.h>

@@ -7,6 +7,7 @@
 #include "kernels/suggest.h"
 #include "scenes/meshes/mesh_file.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

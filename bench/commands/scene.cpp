@@ -2,6 +2,7 @@
 #include "bench/io/scene_picture.h"
 #include "scenes/moving/moving_scene.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

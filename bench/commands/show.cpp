@@ -11,6 +11,7 @@
 #include "bench/io/text_table.h"
 #include "results/schema.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

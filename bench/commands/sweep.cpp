@@ -2,6 +2,7 @@
 
 #include "bench/commands/command.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <charconv>

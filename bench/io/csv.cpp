@@ -81,12 +81,13 @@ void read_csv(std::string_view text, const std::string& source, const CsvFormat&
                     source, line,
                     fmt::format("column {} is {}; expected numbers {}, with commas "
                                 "between (put # before a header line)",
-                                n + 1, field.empty() ? "empty" : quoted(field) + ", not a number",
+                                n + 1,
+                                field.empty() ? "empty" : bench::quoted(field) + ", not a number",
                                 format.columns));
             case Fault::too_large:
-                throw_bad_row(
-                    source, line,
-                    fmt::format("column {} is {}, larger than every double", n + 1, quoted(field)));
+                throw_bad_row(source, line,
+                              fmt::format("column {} is {}, larger than every double", n + 1,
+                                          bench::quoted(field)));
             }
         }
         if (n < format.min || n > format.max)

@@ -1,27 +1,21 @@
 #include "bench/peers/answering.h"
+#include "bench/peers/bullet_volume.h"
 #include "bench/peers/kernel_peers.h"
 #include "bench/peers/point_peers.h"
 #include "scenes/moving/frames.h"
 
-#include <BulletCollision/BroadphaseCollision/btDbvt.h>
 #include <fmt/format.h>
-
-#include <cstdint>
 
 namespace boxwood::bench {
 namespace {
 
 static_assert(sizeof(btScalar) == sizeof(float), "the notes say single precision");
 
-std::uint32_t item(const btDbvtNode* leaf) {
-    return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(leaf->data));
-}
-
 struct Append final : btDbvt::ICollide {
     explicit Append(std::vector<Pair>& pairs) : out(pairs) {}
     using ICollide::Process;
     void Process(const btDbvtNode* a, const btDbvtNode* b) override {
-        out.push_back(ordered_pair(item(a), item(b)));
+        out.push_back(ordered_pair(item_of(a), item_of(b)));
     }
     std::vector<Pair>& out;
 };
@@ -32,8 +26,8 @@ struct AppendFiltered final : btDbvt::ICollide {
         : out(pairs), volumes(boxes) {}
     using ICollide::Process;
     void Process(const btDbvtNode* a, const btDbvtNode* b) override {
-        if (Intersect(volumes[item(a)], volumes[item(b)]))
-            out.push_back(ordered_pair(item(a), item(b)));
+        if (Intersect(volumes[item_of(a)], volumes[item_of(b)]))
+            out.push_back(ordered_pair(item_of(a), item_of(b)));
     }
     std::vector<Pair>& out;
     const std::vector<btDbvtVolume>& volumes;
@@ -45,11 +39,6 @@ enum class Way {
     top_down,            ///< rebuilt from the top
     reinsert_with_margin ///< each leaf inserted again, with a margin, once its box leaves it
 };
-
-btDbvtVolume volume_of(const Aabb<float>& box) {
-    return btDbvtVolume::FromMM(btVector3(box.min.x, box.min.y, box.min.z),
-                                btVector3(box.max.x, box.max.y, box.max.z));
-}
 
 class DbvtContender final : public Contender {
   public:

@@ -1,24 +1,12 @@
 #include "bench/peers/answering.h"
+#include "bench/peers/bullet_volume.h"
 #include "bench/peers/point_peers.h"
-
-#include <BulletCollision/BroadphaseCollision/btDbvt.h>
-
-#include <cstdint>
 
 namespace boxwood::bench {
 namespace {
 
-std::uint32_t item_of(const btDbvtNode* leaf) {
-    return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(leaf->data));
-}
-
-btDbvtVolume volume_of(const Aabb<float>& box) {
-    return btDbvtVolume::FromMM(btVector3(box.min.x, box.min.y, box.min.z),
-                                btVector3(box.max.x, box.max.y, box.max.z));
-}
-
-struct Append final : btDbvt::ICollide {
-    explicit Append(const Scene& s) : scene(s) {}
+struct AppendItems final : btDbvt::ICollide {
+    explicit AppendItems(const Scene& s) : scene(s) {}
     using ICollide::Process;
     void Process(const btDbvtNode* leaf) override {
         const std::uint32_t item = item_of(leaf);
@@ -49,7 +37,7 @@ class CollideVolumes final : public Contender {
     void query(Answers& answers) override {
         std::vector<Pair>& pairs = list_of<Pair>(answers);
         pairs.clear();
-        Append append(scene_);
+        AppendItems append(scene_);
         append.out = &pairs;
         for (const btDbvtVolume& volume : queries_) {
             tree_->collideTVNoStackAlloc(tree_->m_root, volume, stack_, append);

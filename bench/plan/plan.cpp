@@ -2,6 +2,7 @@
 
 #include "bench/io/bad_input.h"
 #include "bench/io/csv.h"
+#include "bench/io/pattern.h"
 #include "bench/plan/cell_name.h"
 #include "bench/plan/config.h"
 
@@ -12,7 +13,6 @@
 #include <map>
 #include <numeric>
 #include <random>
-#include <regex>
 
 namespace boxwood::bench {
 namespace {
@@ -74,14 +74,8 @@ std::size_t mesh_size(const std::filesystem::path& file) {
 }
 
 void keep_only(const std::string& pattern, std::vector<PlannedCell>& cells) {
-    try {
-        const std::regex only(pattern);
-        std::erase_if(cells,
-                      [&](const PlannedCell& cell) { return !std::regex_search(cell.name, only); });
-    } catch (const std::regex_error& error) {
-        throw BadInput(
-            fmt::format("--only \"{}\" is not a regular expression: {}", pattern, error.what()));
-    }
+    const Pattern only(pattern);
+    std::erase_if(cells, [&](const PlannedCell& cell) { return !only.is_in(cell.name); });
 }
 
 } // namespace

@@ -19,15 +19,6 @@ namespace {
 
 unsigned all_cores() { return std::max(1u, std::thread::hardware_concurrency()); }
 
-std::regex regex_of(const std::string& only) {
-    try {
-        return std::regex(only);
-    } catch (const std::regex_error& error) {
-        throw BadInput(
-            fmt::format("--only \"{}\" is not a regular expression: {}", only, error.what()));
-    }
-}
-
 std::string address(std::string_view family, const Task& task, const std::string& contender) {
     return fmt::format("{}/{}/{}", family, task.name(), contender);
 }
@@ -71,7 +62,7 @@ std::vector<ContenderEntry> contenders_of(const Task& task) {
 }
 
 std::vector<SceneSpec> check_scenes(const CheckOptions& options) {
-    const std::regex only = regex_of(options.only);
+    const Pattern only(options.only);
     std::vector<std::pair<const Task*, std::vector<ContenderEntry>>> all;
     for (const Task* task : tasks())
         if (!task->contenders_on_cases().empty())
@@ -79,7 +70,7 @@ std::vector<SceneSpec> check_scenes(const CheckOptions& options) {
     const auto is_meant = [&](const HardCaseFamily& family) {
         return std::ranges::any_of(all, [&](const auto& of_task) {
             return std::ranges::any_of(of_task.second, [&](const ContenderEntry& c) {
-                return std::regex_search(address(family.name, *of_task.first, c.name), only);
+                return only.is_in(address(family.name, *of_task.first, c.name));
             });
         });
     };
@@ -121,14 +112,13 @@ std::vector<SceneSpec> check_scenes(const CheckOptions& options) {
 }
 
 CheckRun::CheckRun(const CheckOptions& options, const results::Env& env, ContendersOf contenders)
-    : options_(options), contenders_(std::move(contenders)), only_(regex_of(options.only)),
+    : options_(options), contenders_(std::move(contenders)), only_(options.only),
       budget_ns_(options.is_quick ? 2e5 : 1e6), record_(env, "boxwood check") {}
 
 std::vector<ContenderEntry> CheckRun::chosen(const std::string& family, const Task& task) const {
     std::vector<ContenderEntry> all = contenders_(task);
-    std::erase_if(all, [&](const ContenderEntry& c) {
-        return !std::regex_search(address(family, task, c.name), only_);
-    });
+    std::erase_if(
+        all, [&](const ContenderEntry& c) { return !only_.is_in(address(family, task, c.name)); });
     return all;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bench/io/pattern.h"
 #include "bench/io/progress.h"
 #include "bench/running/record.h"
 #include "bench/tasks/task.h"
@@ -10,7 +11,6 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
-#include <regex>
 #include <span>
 #include <string>
 #include <vector>
@@ -60,7 +60,7 @@ class CheckRun {
 
     const CheckOptions& options_;
     ContendersOf contenders_;
-    std::regex only_;
+    Pattern only_;
     double budget_ns_; ///< of one timing
     std::string said_; ///< what everybody answered to the one case
     Record record_;

@@ -8,11 +8,11 @@
 namespace boxwood::bench {
 namespace {
 
-constexpr std::size_t row = 64; ///< bodies in turn on one thread
+constexpr std::size_t bodies_in_turn = 64; ///< on one thread
 
 template <class F> void for_rows(std::size_t n, const Executor& executor, const F& f) {
-    executor.for_each((n + row - 1) / row, [&](std::size_t r) {
-        for (std::size_t i = r * row; i < std::min(n, (r + 1) * row); ++i)
+    executor.for_each((n + bodies_in_turn - 1) / bodies_in_turn, [&](std::size_t r) {
+        for (std::size_t i = r * bodies_in_turn; i < std::min(n, (r + 1) * bodies_in_turn); ++i)
             f(i);
     });
 }

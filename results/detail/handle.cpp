@@ -38,6 +38,13 @@ Handle string_type(std::size_t width) {
     return type;
 }
 
+Handle number_type(Stored stored, std::string_view doing) {
+    return Handle(H5Tcopy(stored == Stored::real     ? H5T_NATIVE_DOUBLE
+                          : stored == Stored::uint32 ? H5T_NATIVE_UINT32
+                                                     : H5T_NATIVE_UINT64),
+                  H5Tclose, doing);
+}
+
 Silence::Silence() {
     H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);

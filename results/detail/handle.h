@@ -1,5 +1,7 @@
 #pragma once
 
+#include "results/schema.h"
+
 #include <hdf5.h>
 
 #include <stdexcept>
@@ -43,6 +45,8 @@ class Handle {
     herr_t (*close_)(hid_t);
 };
 
+/// Our type of a column of numbers.
+Handle number_type(Stored stored, std::string_view doing);
 /// Scalar text: UTF-8 of variable length.
 Handle text_type();
 /// UTF-8 of `width` bytes, padded with zero bytes.

@@ -119,14 +119,14 @@ Cases nested(const HardCaseSpec& spec, const Random& random) {
     return finished(std::move(cases), spec, *spec.k, random);
 }
 
-Cases identical(const HardCaseSpec& spec, const Random& random) {
+Cases all_identical(const HardCaseSpec& spec, const Random& random) {
     const std::size_t n = std::size_t{1} << *spec.k;
     BoxCases cases{std::vector<Aabb<float>>(n, Aabb<float>{{-1, -2, -3}, {1, 2, 3}}), all_pairs(n)};
     return finished(std::move(cases), spec, 0, random);
 }
 
-HardCaseFamily family(std::string_view name, std::string_view summary,
-                      decltype(HardCaseFamily::generate) generate) {
+HardCaseFamily box_family(std::string_view name, std::string_view summary,
+                          decltype(HardCaseFamily::generate) generate) {
     return {.name = name,
             .summary = summary,
             .panel = Panel::degenerate,
@@ -142,22 +142,23 @@ HardCaseFamily family(std::string_view name, std::string_view summary,
 } // namespace
 
 HardCaseFamily touching_grid_family() {
-    return family("touching_grid", "unit cubes side by side; those that touch count as pairs",
-                  touching_grid);
+    return box_family("touching_grid", "unit cubes side by side; those that touch count as pairs",
+                      touching_grid);
 }
 
 HardCaseFamily flat_boxes_family() {
-    return family("flat_boxes", "squares, segments and points of a lattice, touching", flat);
+    return box_family("flat_boxes", "squares, segments and points of a lattice, touching", flat);
 }
 
 HardCaseFamily nested_boxes_family() {
-    return family("nested_boxes", "concentric boxes, n (n - 1) / 2 pairs; n is at most 8192",
-                  nested);
+    return box_family("nested_boxes", "concentric boxes, n (n - 1) / 2 pairs; n is at most 8192",
+                      nested);
 }
 
 HardCaseFamily identical_boxes_family() {
-    HardCaseFamily row = family(
-        "identical_boxes", "2^k times the same box, all pairs overlap (n is not used)", identical);
+    HardCaseFamily row =
+        box_family("identical_boxes", "2^k times the same box, all pairs overlap (n is not used)",
+                   all_identical);
     row.k_meaning = "2^k boxes";
     row.k_default = 8;
     row.k_max = 13;

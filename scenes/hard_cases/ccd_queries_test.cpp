@@ -57,7 +57,7 @@ std::string error_of(const fs::path& file) {
 
 TEST(CcdQueries, ReadsStartThenEnd) {
     const Folder folder;
-    const fs::path file = folder.write("a.csv", std::string("# a comment\r\n\n") + falling);
+    const fs::path file = folder.write("a.csv", fmt::format("# a comment\r\n\n{}", falling));
     const MotionCases cases = read("ccd_queries_vertex_face", file);
     EXPECT_EQ(cases.kind, MotionKind::vertex_face);
     ASSERT_EQ(cases.motions.size(), 1u);

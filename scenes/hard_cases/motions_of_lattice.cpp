@@ -8,7 +8,7 @@ namespace {
 // A vertex and the corners of a face, or the ends of two edges. Where a comment says y <= 0, it
 // holds at the start and at the end and so, the motion being linear, all the time.
 
-using Four = std::array<LatticePoint, 4>;
+using LatticeFour = std::array<LatticePoint, 4>;
 
 LatticePoint draw_flat_point(Draws& draws, std::int64_t size) {
     return draw_point(draws, {-size, -size, 0}, {size, size, 0});
@@ -16,7 +16,7 @@ LatticePoint draw_flat_point(Draws& draws, std::int64_t size) {
 
 /// The vertex at the origin, which lies inside the face or, every other time, on its edge or
 /// corner.
-Four touching_vertex_face(Draws& draws, std::int64_t size) {
+LatticeFour touching_vertex_face(Draws& draws, std::int64_t size) {
     LatticeTriangle face;
     if (draw_coin(draws)) {
         face = draw_around_origin(draws, size);
@@ -30,7 +30,7 @@ Four touching_vertex_face(Draws& draws, std::int64_t size) {
 }
 
 /// Edges that cross at the origin, or meet there with one end or both.
-Four touching_edge_edge(Draws& draws, std::int64_t size) {
+LatticeFour touching_edge_edge(Draws& draws, std::int64_t size) {
     const LatticePoint step = draw_point(draws, {-size / 2, 1, 0}, {size / 2, size / 2, 0});
     const std::int64_t back = draw_integer(draws, 0, 2), forth = draw_integer(draws, 1, 2);
     const std::int64_t left = draw_coin(draws) ? 0 : -draw_integer(draws, 1, size);
@@ -110,7 +110,7 @@ LatticeMotion coplanar_vertex_face(Draws& draws, std::int64_t size) {
     }
     default: // y >= 1 against y <= 0
         motion.touch = Known::no;
-        for (Four* points : {&motion.start, &motion.end})
+        for (LatticeFour* points : {&motion.start, &motion.end})
             for (std::size_t p = 0; p < 4; ++p)
                 (*points)[p] = p == 0 ? draw_point(draws, {-size, 1, 0}, {size, size, 0})
                                       : draw_point(draws, {-size, -size, 0}, {size, 0, 0});
@@ -121,8 +121,8 @@ LatticeMotion coplanar_vertex_face(Draws& draws, std::int64_t size) {
 LatticeMotion coplanar_edge_edge(Draws& draws, std::int64_t size) {
     LatticeMotion motion{{}, touching_edge_edge(draws, size), Known::yes};
     const auto on_line = [](std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) {
-        return Four{LatticePoint{a, 0, 0}, LatticePoint{b, 0, 0}, LatticePoint{c, 0, 0},
-                    LatticePoint{d, 0, 0}};
+        return LatticeFour{LatticePoint{a, 0, 0}, LatticePoint{b, 0, 0}, LatticePoint{c, 0, 0},
+                           LatticePoint{d, 0, 0}};
     };
     const auto length = [&] { return draw_integer(draws, 1, size); };
     switch (draw_integer(draws, 0, 4)) {
@@ -154,7 +154,7 @@ LatticeMotion coplanar_edge_edge(Draws& draws, std::int64_t size) {
     }
     default: // y >= 1 against y <= 0
         motion.touch = Known::no;
-        for (Four* points : {&motion.start, &motion.end})
+        for (LatticeFour* points : {&motion.start, &motion.end})
             for (std::size_t p = 0; p < 4; ++p)
                 (*points)[p] = p >= 2 ? draw_point(draws, {-size, 1, 0}, {size, size, 0})
                                       : draw_point(draws, {-size, -size, 0}, {size, 0, 0});
@@ -186,8 +186,8 @@ LatticeMotion tangential_vertex_face(Draws& draws, std::int64_t size) {
     const std::int64_t x = draw_integer(draws, 1, size);
     const std::int64_t width = 2 * x + draw_integer(draws, 0, size);
     const auto at = [&](std::int64_t s) {
-        return Four{LatticePoint{x, r.y - r.b * s, r.a * s + r.lift}, LatticePoint{},
-                    LatticePoint{width, 0, 0}, LatticePoint{0, 4 * r.y, 4 * r.a * s}};
+        return LatticeFour{LatticePoint{x, r.y - r.b * s, r.a * s + r.lift}, LatticePoint{},
+                           LatticePoint{width, 0, 0}, LatticePoint{0, 4 * r.y, 4 * r.a * s}};
     };
     return {at(-1), at(1), r.touch};
 }
@@ -200,9 +200,10 @@ LatticeMotion tangential_edge_edge(Draws& draws, std::int64_t size) {
     const std::int64_t left = -draw_integer(draws, size, 2 * size);
     const std::int64_t right = draw_integer(draws, size, 2 * size);
     const auto at = [&](std::int64_t s) {
-        return Four{LatticePoint{left, 0, 0}, LatticePoint{right, 0, 0},
-                    LatticePoint{x - imbalance, -r.y - r.b * s, -r.a * s + r.lift},
-                    LatticePoint{x + 3 * imbalance, 3 * r.y - r.b * s, 3 * r.a * s + r.lift}};
+        return LatticeFour{
+            LatticePoint{left, 0, 0}, LatticePoint{right, 0, 0},
+            LatticePoint{x - imbalance, -r.y - r.b * s, -r.a * s + r.lift},
+            LatticePoint{x + 3 * imbalance, 3 * r.y - r.b * s, 3 * r.a * s + r.lift}};
     };
     return {at(-1), at(1), r.touch};
 }

@@ -38,7 +38,7 @@ Obb<double> draw_obb(Draws& draws) {
 }
 
 /// Centres up to 1.75 apart: about half of them touch.
-ObbPairCase generic(Draws& draws, int) {
+ObbPairCase generic_boxes(Draws& draws, int) {
     ObbPairCase pair{draw_obb(draws), draw_obb(draws)};
     pair.a.centre = draw_offset(draws);
     pair.b.centre = pair.a.centre + 1.75 * draws.in_ball();
@@ -111,7 +111,7 @@ Cases rotated(const HardCaseSpec& spec, const Random& random) {
 
 HardCaseFamily generic_obbs_family() {
     return rounded_family("generic_obbs", "boxes in any pose, about half of the pairs touching",
-                          Panel::generic, obb_pairs<generic>);
+                          Panel::generic, obb_pairs<generic_boxes>);
 }
 
 HardCaseFamily kissing_obbs_family() {

@@ -19,7 +19,7 @@ template <class Draw> Cases ray_boxes(const HardCaseSpec& spec, const Random& ra
     return cases;
 }
 
-RayBoxCase generic(Draws& draws, int) {
+RayBoxCase generic_ray_at_box(Draws& draws, int) {
     RayBoxCase result;
     result.box.extend(Vec3<float>(draws.in_ball()));
     result.box.extend(Vec3<float>(draws.in_ball()));
@@ -118,7 +118,7 @@ HardCaseFamily generic_ray_boxes_family() {
             .scale_min = -80,
             .scale_max = 120,
             .generate = [](const HardCaseSpec& spec, const Random& random) {
-                return ray_boxes(spec, random, generic);
+                return ray_boxes(spec, random, generic_ray_at_box);
             }};
 }
 

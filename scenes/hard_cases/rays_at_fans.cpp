@@ -9,8 +9,9 @@ namespace {
 /// Rays and fans are built around the origin, where the ray passes, in the basis (x, y / 2^k, D):
 /// seen along the ray's direction D the triangles cover a disc around the origin, whatever their
 /// heights along D. Sizes are integers below 2^24 after the tilt, so that floats hold them all.
-constexpr int size_bits = 20, k_max = 12;
-constexpr std::int64_t size = 1 << 18; ///< of a fan across the ray; squeezed to size / 2^k in y
+constexpr int fan_size_bits = 20, fan_k_max = 12;
+constexpr std::int64_t fan_size =
+    1 << 18; ///< of a fan across the ray; squeezed to fan_size / 2^k in y
 
 struct Fan {
     std::vector<LatticePoint> corners; ///< x, y, height; the ray is aimed at [0] or between 0 and 1
@@ -26,7 +27,7 @@ Fan draw_vertex_fan(Draws& draws) {
     Fan fan{{LatticePoint{}}, {}, false};
     for (std::size_t i = 0; i < 8; ++i)
         if (i == 0 || i == 3 || i == 5 || draw_coin(draws)) {
-            const std::int64_t radius = draw_integer(draws, size / 2, size);
+            const std::int64_t radius = draw_integer(draws, fan_size / 2, fan_size);
             const std::int64_t height = draw_integer(draws, -6, 6);
             fan.corners.push_back({radius * compass[i][0], radius * compass[i][1], height});
         }
@@ -37,11 +38,13 @@ Fan draw_vertex_fan(Draws& draws) {
 
 /// Two triangles on both sides of an edge through the origin.
 Fan draw_edge_fan(Draws& draws) {
-    const LatticePoint step{draw_integer(draws, size / 8, size / 4), 0, draw_integer(draws, -1, 1)};
+    const LatticePoint step{draw_integer(draws, fan_size / 8, fan_size / 4), 0,
+                            draw_integer(draws, -1, 1)};
     const std::int64_t back = draw_integer(draws, 2, 4), forth = draw_integer(draws, 2, 4);
     const auto side = [&](std::int64_t sign) {
-        return LatticePoint{draw_integer(draws, -size / 4, size / 4),
-                            sign * draw_integer(draws, size / 2, size), draw_integer(draws, -6, 6)};
+        return LatticePoint{draw_integer(draws, -fan_size / 4, fan_size / 4),
+                            sign * draw_integer(draws, fan_size / 2, fan_size),
+                            draw_integer(draws, -6, 6)};
     };
     const LatticePoint left = side(1), right = side(-1);
     return {{-back * step, forth * step, left, right}, {{0, 1, 2}, {1, 0, 3}}, true};
@@ -63,13 +66,13 @@ template <Fan (*draw_fan)(Draws&)> Cases rays_at(const HardCaseSpec& spec, const
             draw_point(draws, {-65535, -65535, 16384}, {65535, 65535, 65535});
         const Fan fan = draw_fan(draws);
         const LatticeMap tilt = draw_tilt(draws, 1);
-        const LatticePoint shift =
-            draw_point(draws, {-2 * size, -2 * size, -2 * size}, {2 * size, 2 * size, 2 * size});
+        const LatticePoint shift = draw_point(draws, {-2 * fan_size, -2 * fan_size, -2 * fan_size},
+                                              {2 * fan_size, 2 * fan_size, 2 * fan_size});
         const bool is_exact = draw_coin(draws) || *spec.k > k_rounded;
         const double factor =
             is_exact ? 1 : 1 + static_cast<double>(draw_integer(draws, 1, 255)) / 256;
         const auto placed = [&](LatticePoint p) {
-            return Vec3<float>(factor * to_scene(tilt(p + shift), -size_bits));
+            return Vec3<float>(factor * to_scene(tilt(p + shift), -fan_size_bits));
         };
         const auto corner = [&](std::size_t c) {
             const LatticePoint p = fan.corners[c];
@@ -95,8 +98,8 @@ template <Fan (*draw_fan)(Draws&)> Cases rays_at(const HardCaseSpec& spec, const
     return cases;
 }
 
-HardCaseFamily family(std::string_view name, std::string_view summary,
-                      decltype(HardCaseFamily::generate) generate) {
+HardCaseFamily fan_family(std::string_view name, std::string_view summary,
+                          decltype(HardCaseFamily::generate) generate) {
     return {.name = name,
             .summary = summary,
             .panel = Panel::touching,
@@ -104,8 +107,8 @@ HardCaseFamily family(std::string_view name, std::string_view summary,
                 "the fan is 2^-k as wide as long; above 5 all rays pass through it exactly",
             .k_default = 0,
             .k_min = 0,
-            .k_max = k_max,
-            .scale_min = -149 + size_bits + 8,
+            .k_max = fan_k_max,
+            .scale_min = -149 + fan_size_bits + 8,
             .scale_max = 120,
             .generate = generate};
 }
@@ -113,14 +116,15 @@ HardCaseFamily family(std::string_view name, std::string_view summary,
 } // namespace
 
 HardCaseFamily ray_through_edge_family() {
-    return family("ray_through_edge", "rays at the shared edge of two triangles; they must hit one",
-                  rays_at<draw_edge_fan>);
+    return fan_family("ray_through_edge",
+                      "rays at the shared edge of two triangles; they must hit one",
+                      rays_at<draw_edge_fan>);
 }
 
 HardCaseFamily ray_through_vertex_family() {
-    return family("ray_through_vertex",
-                  "rays at the middle of a closed fan of triangles; they must hit one",
-                  rays_at<draw_vertex_fan>);
+    return fan_family("ray_through_vertex",
+                      "rays at the middle of a closed fan of triangles; they must hit one",
+                      rays_at<draw_vertex_fan>);
 }
 
 } // namespace boxwood

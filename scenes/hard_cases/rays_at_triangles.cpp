@@ -26,7 +26,7 @@ Triangle<float> rounded(const Triangle<double>& t) {
     return {Vec3<float>(t.a), Vec3<float>(t.b), Vec3<float>(t.c)};
 }
 
-Triangle<float> generic(Draws& draws, int, RayCase& ray) {
+Triangle<float> generic_ray(Draws& draws, int, RayCase& ray) {
     const Triangle<double> t = draw_triangle(draws);
     const Vec inside = draw_inside(t, draws), aside = draws.in_ball();
     const Vec target = draw_coin(draws) ? inside : inside + aside;
@@ -62,8 +62,8 @@ Triangle<float> grazing(Draws& draws, int k, RayCase& ray) {
     const Vec n = normal_of(t);
     const Vec up = n * (1 / length(n));
     const Vec along = cross(up, draws.unit_vector());
-    const int steepness = -static_cast<int>(draw_integer(draws, 0, 20));
-    const Vec direction = along + std::ldexp(draws.uniform(-1, 1), steepness) * up;
+    const int exponent = -static_cast<int>(draw_integer(draws, 0, 20));
+    const Vec direction = along + std::ldexp(draws.uniform(-1, 1), exponent) * up;
     ray.ray.direction = Vec3<float>(direction);
     ray.ray.origin = Vec3<float>(target - std::ldexp(draws.uniform(1, 2), k) * direction);
     return rounded(t);
@@ -99,7 +99,7 @@ HardCaseFamily generic_rays_family() {
             .scale_min = -80,
             .scale_max = 120,
             .generate = [](const HardCaseSpec& spec, const Random& random) {
-                return single_rays(spec, random, generic);
+                return single_rays(spec, random, generic_ray);
             }};
 }
 

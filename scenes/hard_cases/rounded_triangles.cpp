@@ -20,7 +20,7 @@ Triangle<double> shuffled(const Triangle<double>& t, Draws& draws) {
     return {corners[0], corners[1], corners[2]};
 }
 
-TrianglePairCase generic(Draws& draws, int) { return draw_generic_pair(draws); }
+TrianglePairCase generic_pair(Draws& draws, int) { return draw_generic_pair(draws); }
 TrianglePairCase vertex_on_face(Draws& draws, int) { return draw_vertex_on_face(draws); }
 TrianglePairCase edge_on_edge(Draws& draws, int) { return draw_edge_on_edge(draws); }
 
@@ -142,7 +142,7 @@ TrianglePairCase draw_edge_on_edge(Draws& draws) {
 HardCaseFamily generic_triangles_family() {
     return rounded_family("generic_triangles",
                           "triangles in the unit ball, half of the pairs hitting", Panel::generic,
-                          rounded_pairs<generic>);
+                          rounded_pairs<generic_pair>);
 }
 
 HardCaseFamily vertex_on_face_family() {

@@ -33,6 +33,7 @@ def mesh(tmp_path):
         (("test", "--only", "a|b"), "--only 'a|b': give letters, digits and underscores"),
         (("sweep", "--nix"), "unknown argument '--nix'"),
         (("sweep", "--only"), "--only needs a value"),
+        (("sweep", "--preset", "debug"), "--preset 'debug' is not optimised: release or ci"),
         (("sweep", "--config", "nix.toml"), "no readable configuration file 'nix.toml'"),
         (("sweep", "--quick", "--config", "x"), "exclude each other"),
         (("sweep", "--config", "{config}", "--mesh", "nix.obj"), "no readable mesh file 'nix.obj'"),

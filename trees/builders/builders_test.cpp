@@ -4,6 +4,7 @@
 #include "trees/inspect/quality.h"
 #include "trees/inspect/validate.h"
 #include "trees/testing/box_families.h"
+#include "trees/testing/each_builder.h"
 #include "trees/testing/every_executor.h"
 #include "trees/testing/same_tree.h"
 
@@ -15,16 +16,24 @@
 namespace boxwood {
 namespace {
 
-TEST(Builders, MakeValidTreesOfEveryFamily) {
+std::vector<std::string> builder_names() {
+    std::vector<std::string> names;
+    for (const BuilderEntry& builder : builders())
+        names.emplace_back(builder.name);
+    return names;
+}
+INSTANTIATE_TEST_SUITE_P(, EachBuilder, testing::ValuesIn(builder_names()),
+                         [](const auto& of) { return of.param; });
+
+TEST_P(EachBuilder, MakesValidTreesOfEveryFamily) {
     for (const BoxFamily& family : box_families())
-        for (const BuilderEntry& builder : builders())
-            for (const ExecutorEntry& executor : executors()) {
-                const Tree tree = builder.make({})(
-                    family.boxes, *executor.make(executor.name == "serial" ? 1 : 2));
-                ASSERT_EQ(tree.size(), family.boxes.size());
-                const auto fault = validate(tree, family.boxes);
-                EXPECT_FALSE(fault) << builder.name << " on " << family.name << ": " << *fault;
-            }
+        for (const ExecutorEntry& executor : executors()) {
+            const Tree tree =
+                build(family.boxes, *executor.make(executor.name == "serial" ? 1 : 2));
+            ASSERT_EQ(tree.size(), family.boxes.size());
+            const auto fault = validate(tree, family.boxes);
+            EXPECT_FALSE(fault) << family.name << ": " << *fault;
+        }
 }
 
 /// The default and both ends of a range, or each choice.
@@ -41,16 +50,14 @@ std::vector<SettingValue> extremes(const SettingInfo& setting) {
     return values;
 }
 
-TEST(Builders, EveryFiniteSettingMakesValidTrees) {
+TEST_P(EachBuilder, MakesValidTreesByEveryFiniteSetting) {
     const std::vector<Box> boxes = random_boxes(3000, .1f, 4);
-    for (const BuilderEntry& builder : builders())
-        for (const SettingInfo& setting : builder.settings)
-            for (const SettingValue& value : extremes(setting)) {
-                const Settings settings{{std::string(setting.name), value}};
-                const Tree tree = builder.make(settings)(boxes, serial());
-                EXPECT_FALSE(validate(tree, boxes))
-                    << builder.name << " " << setting.name << " " << to_text(value);
-            }
+    for (const SettingInfo& setting : builder_.settings)
+        for (const SettingValue& value : extremes(setting)) {
+            const Settings settings{{std::string(setting.name), value}};
+            const Tree tree = builder_.make(settings)(boxes, serial());
+            EXPECT_FALSE(validate(tree, boxes)) << setting.name << " " << to_text(value);
+        }
 }
 
 TEST(TopDown, MakesValidTreesBySplitsOfOnesOwn) {
@@ -131,17 +138,15 @@ TEST(BinnedSahBuilder, DepthIsBoundedOnGeometricSpacing) {
     EXPECT_GT(depth, 2u * std::bit_width(boxes.size()) + 17) << "the limit was not put to the test";
 }
 
-TEST(Builders, MakeTheSameTreeOnEveryExecutorAndInstructionSet) {
+TEST_P(EachBuilder, MakesTheSameTreeOnEveryExecutorAndInstructionSet) {
     std::vector<Box> boxes = random_boxes(30000, .05f, 10);
     for (std::size_t i = 0; i < 9000; ++i)
         boxes[3 * i] = boxes[i];
-    for (const BuilderEntry& builder : builders()) {
-        SCOPED_TRACE(builder.name);
-        const BuildFunction build = builder.make({});
-        const Tree expected = build(boxes, serial());
+    for (const std::vector<Box>& set : {boxes, random_boxes(20000, .05f, 3)}) {
+        const Tree expected = build(set);
         for (const auto& [name, executor] : parallel_executors())
-            EXPECT_TRUE(same_tree(expected, build(boxes, *executor))) << name;
-        on_every_target([&] { EXPECT_TRUE(same_tree(expected, build(boxes, serial()))); });
+            EXPECT_TRUE(same_tree(expected, build(set, *executor))) << name;
+        on_every_target([&] { EXPECT_TRUE(same_tree(expected, build(set))); });
     }
 }
 
@@ -159,7 +164,7 @@ TEST(Builders, RankByCostOnBoxesOfManySizes) {
     EXPECT_LT(1.1 * binned, cost("median"));
 }
 
-TEST(Builders, SpareSumsAndAreasOfHugeBoxesFromOverflow) {
+TEST_P(EachBuilder, SparesSumsAndAreasOfHugeBoxesFromOverflow) {
     constexpr float huge = 3e38f;
     std::vector<Box> boxes;
     for (int i = 0; i < 1000; ++i) {
@@ -168,12 +173,10 @@ TEST(Builders, SpareSumsAndAreasOfHugeBoxesFromOverflow) {
         boxes.push_back({p, p});
     }
     boxes.push_back({{-huge, -huge, -huge}, {huge, huge, huge}});
-    for (const BuilderEntry& builder : builders()) {
-        const Tree tree = builder.make({})(boxes, serial());
-        EXPECT_EQ(validate(tree, boxes).value_or(""), "") << builder.name;
-        // Halves of a tree that sees nothing would be as large as the whole.
-        EXPECT_LT(quality(tree, boxes).sah_cost, 120) << builder.name;
-    }
+    const Tree tree = build(boxes);
+    EXPECT_EQ(validate(tree, boxes).value_or(""), "");
+    // Halves of a tree that sees nothing would be as large as the whole.
+    EXPECT_LT(quality(tree, boxes).sah_cost, 120);
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "trees/layouts/wide.h"
 #include "trees/queries/self_pairs.h"
 #include "trees/testing/box_families.h"
+#include "trees/testing/each_builder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -86,16 +87,15 @@ template <class F> void for_each_wide(const F& f) {
     f.template operator()<Quantised8Layout>();
 }
 
-TEST(WideLayouts, HoldEachItemOnceWithinItsBounds) {
-    for (const BoxFamily& family : box_families())
-        for (const BuilderEntry& builder : builders()) {
-            SCOPED_TRACE(family.name + " " + std::string(builder.name));
-            const Tree tree = builder.make({})(family.boxes, serial());
-            for_each_wide([&]<class L>() {
-                SCOPED_TRACE(L::name);
-                expect_sound(L(tree, serial()), family.boxes);
-            });
-        }
+TEST_P(EachBuilder, WideLayoutsHoldEachItemOnceWithinItsBounds) {
+    for (const BoxFamily& family : box_families()) {
+        SCOPED_TRACE(family.name);
+        const Tree tree = build(family.boxes);
+        for_each_wide([&]<class L>() {
+            SCOPED_TRACE(L::name);
+            expect_sound(L(tree, serial()), family.boxes);
+        });
+    }
 }
 
 TEST(WideLayouts, AreTheSameOnEveryExecutor) {
@@ -179,16 +179,12 @@ TEST(QuantisedBlock, ContainsItsChildrenWhateverTheFloats) {
     EXPECT_LT(slack, 1.01 / 255) << "planes should be less than a step away";
 }
 
-TEST(Quantised8Layout, TakesLessMemory) {
-    const std::vector<Box> boxes = random_boxes(20000, .02f, 4);
-    for (const BuilderEntry& builder : builders()) {
-        const Tree tree = builder.make({})(boxes, serial());
-        // Leaves are exact: those of few items, of trees cut by number, save little.
-        const double share = builder.name == "hilbert" ? .95 : .77;
-        EXPECT_LT(static_cast<double>(Quantised8Layout(tree, serial()).bytes()),
-                  share * static_cast<double>(Wide8Layout(tree, serial()).bytes()))
-            << builder.name;
-    }
+TEST_P(EachBuilder, Quantised8LayoutTakesLessMemory) {
+    const Tree tree = build(random_boxes(20000, .02f, 4));
+    // Leaves are exact: those of few items, of trees cut by number, save little.
+    const double share = builder_.name == "hilbert" ? .95 : .77;
+    EXPECT_LT(static_cast<double>(Quantised8Layout(tree, serial()).bytes()),
+              share * static_cast<double>(Wide8Layout(tree, serial()).bytes()));
 }
 
 /// Boxes of doubles that overlap by less than a float can tell.
@@ -205,7 +201,7 @@ std::vector<Aabb<double>> close_boxes(std::size_t n) {
     return boxes;
 }
 
-TEST(LayoutsOfDoubles, AnswerPairsOfDoublesExactly) {
+TEST_P(EachBuilder, LayoutsOfDoublesAnswerPairsOfDoublesExactly) {
     const std::vector<Aabb<double>> boxes = close_boxes(1500);
     std::vector<Box> floats;
     for (const Aabb<double>& box : boxes)
@@ -219,28 +215,26 @@ TEST(LayoutsOfDoubles, AnswerPairsOfDoublesExactly) {
             of_floats += overlaps(floats[i], floats[j]);
         }
     ASSERT_GT(of_floats, expected.size() + 100) << "floats would do";
-    for (const BuilderEntry& builder : builders()) {
-        const Tree tree = builder.make({})(floats, serial());
-        std::size_t with_doubles = 0;
-        for (const LayoutEntry& entry : layouts()) {
-            EXPECT_EQ(entry.make_of_doubles != nullptr, entry.precision == "f64");
-            if (!entry.make_of_doubles)
-                continue;
-            SCOPED_TRACE(std::string(builder.name) + "." + std::string(entry.name));
-            ++with_doubles;
-            const auto layout = entry.make_of_doubles(tree, boxes, serial());
-            std::vector<Pair> pairs;
-            AppendPairs sink(pairs);
-            layout->self_pairs(serial(), sink);
-            std::ranges::sort(pairs);
-            EXPECT_EQ(pairs, expected);
-            const auto half = entry.make_of_doubles(tree, boxes, serial());
-            CountPairs both;
-            layout->tree_pairs(*half, serial(), both);
-            EXPECT_EQ(both.count(), 2 * expected.size() + boxes.size());
-        }
-        EXPECT_EQ(with_doubles, 2u);
+    const Tree tree = build(floats);
+    std::size_t with_doubles = 0;
+    for (const LayoutEntry& entry : layouts()) {
+        EXPECT_EQ(entry.make_of_doubles != nullptr, entry.precision == "f64");
+        if (!entry.make_of_doubles)
+            continue;
+        SCOPED_TRACE(entry.name);
+        ++with_doubles;
+        const auto layout = entry.make_of_doubles(tree, boxes, serial());
+        std::vector<Pair> pairs;
+        AppendPairs sink(pairs);
+        layout->self_pairs(serial(), sink);
+        std::ranges::sort(pairs);
+        EXPECT_EQ(pairs, expected);
+        const auto half = entry.make_of_doubles(tree, boxes, serial());
+        CountPairs both;
+        layout->tree_pairs(*half, serial(), both);
+        EXPECT_EQ(both.count(), 2 * expected.size() + boxes.size());
     }
+    EXPECT_EQ(with_doubles, 2u);
 }
 
 TEST(LayoutsOfDoubles, RefuseBadBoxesByIndexAndOtherCounts) {

@@ -4,6 +4,7 @@
 #include "trees/inspect/validate.h"
 #include "trees/optimizers/refit.h"
 #include "trees/testing/box_families.h"
+#include "trees/testing/each_builder.h"
 #include "trees/testing/every_executor.h"
 #include "trees/testing/same_tree.h"
 
@@ -37,16 +38,14 @@ Tree chain_of(Boxes boxes) {
     return tree;
 }
 
-TEST(Reinsertion, KeepsEveryFamilyValidAndNeverCostsMore) {
-    for (const BoxFamily& family : box_families())
-        for (const BuilderEntry& builder : builders()) {
-            Tree tree = builder.make({})(family.boxes, serial());
-            const double before = inner_area(tree);
-            ReinsertionOptimizer{}.improve(tree, serial());
-            ASSERT_EQ(validate(tree, family.boxes).value_or(""), "")
-                << builder.name << " on " << family.name;
-            EXPECT_LE(inner_area(tree), before * (1 + 1e-9)) << builder.name << family.name;
-        }
+TEST_P(EachBuilder, ReinsertionKeepsEveryFamilyValidAndNeverCostsMore) {
+    for (const BoxFamily& family : box_families()) {
+        Tree tree = build(family.boxes);
+        const double before = inner_area(tree);
+        ReinsertionOptimizer{}.improve(tree, serial());
+        ASSERT_EQ(validate(tree, family.boxes).value_or(""), "") << family.name;
+        EXPECT_LE(inner_area(tree), before * (1 + 1e-9)) << family.name;
+    }
 }
 
 TEST(Reinsertion, IsReachedByItsWordWithItsSettings) {

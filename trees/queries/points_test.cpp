@@ -3,6 +3,7 @@
 #include "trees/builder.h"
 #include "trees/layout.h"
 #include "trees/testing/box_families.h"
+#include "trees/testing/each_builder.h"
 #include "trees/testing/every_executor.h"
 #include "trees/testing/layouts_answering.h"
 #include "trees/testing/triangle_soup.h"
@@ -135,31 +136,29 @@ void expect_answers(const AnyLayout& layout, const Queries& q, const Expected& e
         ASSERT_EQ(near[i], e.nearest[k * i]) << i;
 }
 
-TEST(Points, RegionsAndNeighboursAgreeWithBruteForce) {
+TEST_P(EachBuilder, PointsRegionsAndNeighboursAgreeWithBruteForce) {
     for (const BoxFamily& family : box_families()) {
         SCOPED_TRACE(family.name);
         const Queries q = queries_for(family.boxes);
         const Expected e = brute_force(family.boxes, q);
-        for (const BuilderEntry& builder : builders()) {
-            const Tree tree = builder.make({})(family.boxes, serial());
-            for (const LayoutEntry& entry : layouts_answering(
-                     {Query::points, Query::regions, Query::nearest, Query::closest_points})) {
-                SCOPED_TRACE(std::string(builder.name) + "." + std::string(entry.name));
-                const auto layout = entry.make(tree, serial());
-                Work work;
-                expect_answers(*layout, q, e, serial(), &work);
-                const auto found = static_cast<std::uint64_t>(std::ranges::count_if(
-                    e.nearest, [](const Neighbour& n) { return n.item != Neighbour::none; }));
-                const auto any = static_cast<std::uint64_t>(
-                    family.boxes.empty() ? 0 : std::ranges::count_if(q.points, [](Vec3<float> p) {
-                        return is_finite(p);
-                    }));
-                EXPECT_EQ(work.answers,
-                          e.points.size() + e.boxes.size() + e.balls.size() + found + any);
-                EXPECT_EQ(work.box_tests > 0, !family.boxes.empty());
-                if (&builder == &builders().front())
-                    on_every_target([&] { expect_answers(*layout, q, e, serial()); });
-            }
+        const Tree tree = build(family.boxes);
+        for (const LayoutEntry& entry : layouts_answering(
+                 {Query::points, Query::regions, Query::nearest, Query::closest_points})) {
+            SCOPED_TRACE(entry.name);
+            const auto layout = entry.make(tree, serial());
+            Work work;
+            expect_answers(*layout, q, e, serial(), &work);
+            const auto found = static_cast<std::uint64_t>(std::ranges::count_if(
+                e.nearest, [](const Neighbour& n) { return n.item != Neighbour::none; }));
+            const auto any = static_cast<std::uint64_t>(
+                family.boxes.empty() ? 0 : std::ranges::count_if(q.points, [](Vec3<float> p) {
+                    return is_finite(p);
+                }));
+            EXPECT_EQ(work.answers,
+                      e.points.size() + e.boxes.size() + e.balls.size() + found + any);
+            EXPECT_EQ(work.box_tests > 0, !family.boxes.empty());
+            if (&builder_ == &builders().front())
+                on_every_target([&] { expect_answers(*layout, q, e, serial()); });
         }
     }
 }
@@ -234,7 +233,7 @@ SurfacePoint closest_of_all(const TriangleMesh& mesh, Vec3<float> point) {
     return best;
 }
 
-TEST(ClosestPoints, AgreeWithTheKernelOnEveryTriangle) {
+TEST_P(EachBuilder, ClosestPointsAgreeWithTheKernelOnEveryTriangle) {
     for (const TriangleMesh& mesh :
          {soup(2000, .1f, 1), soup(300, 1, 1e30f), soup(300, .5f, 1e-38f), soup(5, 1, 1),
           soup(1, 1, 1), TriangleMesh{}}) {
@@ -246,28 +245,28 @@ TEST(ClosestPoints, AgreeWithTheKernelOnEveryTriangle) {
         std::vector<SurfacePoint> expected;
         for (const Vec3<float> p : points)
             expected.push_back(closest_of_all(mesh, p));
-        for (const BuilderEntry& builder : builders())
-            for (const LayoutEntry& entry : layouts_answering({Query::closest_points})) {
-                SCOPED_TRACE(std::string(builder.name) + "." + std::string(entry.name));
-                const auto layout = entry.make(builder.make({})(items, serial()), serial());
-                const auto expect = [&](const Executor& executor, Work* work) {
-                    std::vector<SurfacePoint> got(points.size());
-                    layout->closest_points(points, mesh, executor, got, work);
-                    for (std::size_t i = 0; i < got.size(); ++i) {
-                        ASSERT_EQ(got[i].triangle, expected[i].triangle) << i;
-                        ASSERT_EQ(got[i].squared_distance, expected[i].squared_distance) << i;
-                        ASSERT_EQ(got[i].point, expected[i].point) << i;
-                    }
-                };
-                Work work;
-                expect(serial(), &work);
-                EXPECT_EQ(work.triangle_tests > 0, !items.empty());
-                if (&builder != &builders().front())
-                    continue;
-                on_every_target([&] { expect(serial(), nullptr); });
-                for (const ExecutorEntry& executor : executors())
-                    expect(*executor.make(executor.name == "serial" ? 1 : 4), nullptr);
-            }
+        const Tree tree = build(items);
+        for (const LayoutEntry& entry : layouts_answering({Query::closest_points})) {
+            SCOPED_TRACE(entry.name);
+            const auto layout = entry.make(tree, serial());
+            const auto expect = [&](const Executor& executor, Work* work) {
+                std::vector<SurfacePoint> got(points.size());
+                layout->closest_points(points, mesh, executor, got, work);
+                for (std::size_t i = 0; i < got.size(); ++i) {
+                    ASSERT_EQ(got[i].triangle, expected[i].triangle) << i;
+                    ASSERT_EQ(got[i].squared_distance, expected[i].squared_distance) << i;
+                    ASSERT_EQ(got[i].point, expected[i].point) << i;
+                }
+            };
+            Work work;
+            expect(serial(), &work);
+            EXPECT_EQ(work.triangle_tests > 0, !items.empty());
+            if (&builder_ != &builders().front())
+                continue;
+            on_every_target([&] { expect(serial(), nullptr); });
+            for (const ExecutorEntry& executor : executors())
+                expect(*executor.make(executor.name == "serial" ? 1 : 4), nullptr);
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 #include "trees/builder.h"
 #include "trees/layout.h"
 #include "trees/testing/brute_force_rays.h"
+#include "trees/testing/each_builder.h"
 #include "trees/testing/every_executor.h"
 #include "trees/testing/layouts_answering.h"
 #include "trees/testing/triangle_soup.h"
@@ -134,21 +135,19 @@ void expect_hits(const AnyLayout& layout, const TriangleMesh& mesh,
     });
 }
 
-TEST(Rays, AgreeWithBruteForceForEveryWayExecutorAndInstructionSet) {
+TEST_P(EachBuilder, RaysAgreeWithBruteForceForEveryLayoutExecutorAndInstructionSet) {
     const std::vector<Ray<float>> rays = test_rays();
     for (const TriangleMesh& mesh :
          {sphere(40), triangle_soup(3000), triangle_soup(1), triangle_soup(5), TriangleMesh{}}) {
-        const std::vector<Box> boxes = triangle_boxes(mesh);
         const std::vector<RayHit> expected = brute_force<Watertight>(mesh, rays);
         if (mesh.triangles.size() > 1000) {
             EXPECT_GT(std::ranges::count_if(expected, &RayHit::hit), 200);
         }
-        for (const BuilderEntry& builder : builders())
-            for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
-                SCOPED_TRACE(std::string(builder.name) + "." + std::string(entry.name));
-                const auto layout = entry.make(builder.make({})(boxes, serial()), serial());
-                expect_hits<Watertight>(*layout, mesh, rays, expected);
-            }
+        const Tree tree = build(triangle_boxes(mesh));
+        for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
+            SCOPED_TRACE(entry.name);
+            expect_hits<Watertight>(*entry.make(tree, serial()), mesh, rays, expected);
+        }
     }
 }
 

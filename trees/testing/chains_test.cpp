@@ -4,6 +4,7 @@
 #include "trees/layout.h"
 #include "trees/optimizers/refit.h"
 #include "trees/queries/sorted_rays.h"
+#include "trees/testing/each_builder.h"
 #include "trees/testing/layouts_answering.h"
 
 #include <gtest/gtest.h>
@@ -193,67 +194,60 @@ double cpu_seconds() {
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-TEST(Chains, EveryBuilderStaysInTimeAndDepthOnASmallStack) {
+TEST_P(EachBuilder, StaysInTimeAndDepthOnASmallStack) {
     constexpr std::uint32_t m = 40'000;
-    for (const BuilderEntry& entry : builders()) {
-        const BuildFunction build = entry.make({});
-        const auto seconds_of = [&](const std::vector<Box>& boxes, const std::string& name) {
-            double seconds = 0;
-            on_a_small_stack([&] {
-                const double start = cpu_seconds();
-                const Tree tree = build(boxes, serial());
-                seconds = cpu_seconds() - start;
-                EXPECT_EQ(validate(tree, boxes).value_or(""), "") << entry.name << ", " << name;
-                // Depth bounded by the logarithm of n and the bits of a coordinate.
-                EXPECT_LE(quality(tree, boxes, {1, 1, 0}).depth_max, 300u)
-                    << entry.name << ", " << name;
-            });
-            return seconds;
-        };
-        std::vector<Box> boxes;
-        for (std::uint32_t i = 0; i < m; ++i) {
-            const auto at = [&](std::uint32_t k) { return static_cast<float>(i * k % 7919); };
-            boxes.push_back({{at(31), at(577), at(2011)}, {at(31) + 9, at(577) + 9, at(2011) + 9}});
-        }
-        const double usual = seconds_of(boxes, "scattered");
-        for (const Hard& family : hard) {
-            for (std::uint32_t i = 0; i < m; ++i)
-                boxes[i] = family.box(static_cast<float>(i));
-            // Quadratic: some hundred times as much.
-            EXPECT_LE(seconds_of(boxes, family.name), 30 * usual + .1)
-                << entry.name << ", " << family.name;
-        }
+    const auto seconds_of = [&](const std::vector<Box>& boxes, const std::string& name) {
+        double seconds = 0;
+        on_a_small_stack([&] {
+            const double start = cpu_seconds();
+            const Tree tree = build(boxes);
+            seconds = cpu_seconds() - start;
+            EXPECT_EQ(validate(tree, boxes).value_or(""), "") << name;
+            // Depth bounded by the logarithm of n and the bits of a coordinate.
+            EXPECT_LE(quality(tree, boxes, {1, 1, 0}).depth_max, 300u) << name;
+        });
+        return seconds;
+    };
+    std::vector<Box> boxes;
+    for (std::uint32_t i = 0; i < m; ++i) {
+        const auto at = [&](std::uint32_t k) { return static_cast<float>(i * k % 7919); };
+        boxes.push_back({{at(31), at(577), at(2011)}, {at(31) + 9, at(577) + 9, at(2011) + 9}});
+    }
+    const double usual = seconds_of(boxes, "scattered");
+    for (const Hard& family : hard) {
+        for (std::uint32_t i = 0; i < m; ++i)
+            boxes[i] = family.box(static_cast<float>(i));
+        // Quadratic: some hundred times as much.
+        EXPECT_LE(seconds_of(boxes, family.name), 30 * usual + .1) << family.name;
     }
 }
 
 /// Of identical boxes every query touches no more than a few boxes per answer.
-TEST(Chains, WorkOnIdenticalBoxesIsThatOfTheOutput) {
+TEST_P(EachBuilder, WorkOnIdenticalBoxesIsThatOfTheOutput) {
     const std::vector<Box> boxes(4000, Box{{0, 0, 0}, {1, 1, 1}}), few(20, boxes[0]);
     const std::vector<Vec3<float>> points(20, Vec3<float>{.5f, 1, 0});
     const std::vector<Sphere<float>> balls(20, Sphere<float>{{2, .5f, .5f}, 1});
-    for (const BuilderEntry& builder : builders()) {
-        const Tree tree = builder.make({})(boxes, serial());
-        for (const LayoutEntry& entry : layouts_answering(
-                 {Query::self_pairs, Query::tree_pairs, Query::points, Query::regions})) {
-            SCOPED_TRACE(std::string(builder.name) + "." + std::string(entry.name));
-            const auto layout = entry.make(tree, serial());
-            CountPairs count;
-            const auto expect_little = [&](const Work& work, std::uint64_t answers) {
-                EXPECT_EQ(work.answers, answers);
-                EXPECT_LE(work.box_tests, 5 * answers + 100);
-            };
-            expect_little(layout->tree_pairs_counted(*layout, count), 4000u * 4000);
-            Work work;
-            layout->points(points, serial(), count, &work);
-            expect_little(work, 20 * 4000);
-            layout->regions(few, serial(), count, &(work = {}));
-            expect_little(work, 20 * 4000);
-            layout->regions(balls, serial(), count, &(work = {}));
-            expect_little(work, 20 * 4000);
-            std::vector<Neighbour> near(1000 * 20);
-            layout->nearest(points, 1000, serial(), near, &(work = {}));
-            EXPECT_LE(work.box_tests, 5u * 20 * 4000); // a tie goes to the lowest item
-        }
+    const Tree tree = build(boxes);
+    for (const LayoutEntry& entry :
+         layouts_answering({Query::self_pairs, Query::tree_pairs, Query::points, Query::regions})) {
+        SCOPED_TRACE(entry.name);
+        const auto layout = entry.make(tree, serial());
+        CountPairs count;
+        const auto expect_little = [&](const Work& work, std::uint64_t answers) {
+            EXPECT_EQ(work.answers, answers);
+            EXPECT_LE(work.box_tests, 5 * answers + 100);
+        };
+        expect_little(layout->tree_pairs_counted(*layout, count), 4000u * 4000);
+        Work work;
+        layout->points(points, serial(), count, &work);
+        expect_little(work, 20 * 4000);
+        layout->regions(few, serial(), count, &(work = {}));
+        expect_little(work, 20 * 4000);
+        layout->regions(balls, serial(), count, &(work = {}));
+        expect_little(work, 20 * 4000);
+        std::vector<Neighbour> near(1000 * 20);
+        layout->nearest(points, 1000, serial(), near, &(work = {}));
+        EXPECT_LE(work.box_tests, 5u * 20 * 4000); // a tie goes to the lowest item
     }
 }
 

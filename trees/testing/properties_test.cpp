@@ -3,6 +3,7 @@
 #include "trees/layout.h"
 #include "trees/queries/sinks.h"
 #include "trees/testing/brute_force.h"
+#include "trees/testing/each_builder.h"
 #include "trees/testing/every_executor.h"
 #include "trees/testing/layouts_answering.h"
 #include "trees/testing/same_tree.h"
@@ -47,17 +48,20 @@ const Executor& any_executor() {
     return *all[*rc::gen::inRange<std::size_t>(0, all.size())].run;
 }
 
-RC_GTEST_PROP(Properties, EveryBuilderMakesOneValidTree, ()) {
-    const std::vector<Box> boxes = *any_boxes();
-    const Executor& executor = any_executor();
-    for (const std::string& way : ways_to_build()) {
-        const BuildFunction build = make_builder(way);
-        const Tree tree = build(boxes, serial());
-        if (const auto fault = validate(tree, boxes))
-            RC_FAIL(way + ": " + *fault);
-        if (!same_tree(build(boxes, executor), tree))
-            RC_FAIL(way + ": another tree on " + std::to_string(executor.threads()) + " threads");
-    }
+TEST_P(EachBuilder, MakesOneValidTreeOfAnyBoxes) {
+    EXPECT_TRUE(rc::check([&] {
+        const std::vector<Box> boxes = *any_boxes();
+        const Executor& executor = any_executor();
+        for (const std::string& way : ways_to_build(builder_)) {
+            const BuildFunction build_so = make_builder(way);
+            const Tree tree = build_so(boxes, serial());
+            if (const auto fault = validate(tree, boxes))
+                RC_FAIL(way + ": " + *fault);
+            if (!same_tree(build_so(boxes, executor), tree))
+                RC_FAIL(way + ": another tree on " + std::to_string(executor.threads()) +
+                        " threads");
+        }
+    }));
 }
 
 RC_GTEST_PROP(Properties, EveryLayoutOfAnyTreeFindsThePairs, ()) {
@@ -99,7 +103,7 @@ RC_GTEST_PROP(Properties, EveryLayoutOfAnyTreeFindsWhatRegionsMeet, ()) {
 }
 
 /// Large enough for builders to share out their work.
-TEST(Properties, ManyBoxesMakeTheSameTreeOnEveryExecutor) {
+TEST_P(EachBuilder, MakesTheSameTreeOfManyBoxesOnEveryExecutor) {
     for (const std::uint32_t seed : {1u, 2u}) {
         std::mt19937 random(seed);
         // Odd: on a lattice, with many equal centres.
@@ -112,12 +116,12 @@ TEST(Properties, ManyBoxesMakeTheSameTreeOnEveryExecutor) {
                     box.min[k] = std::floor(box.min[k]);
             box.max = box.min + Vec3<float>{.02f, .01f, 0};
         }
-        for (const std::string& way : ways_to_build()) {
-            const BuildFunction build = make_builder(way);
-            const Tree tree = build(boxes, serial());
+        for (const std::string& way : ways_to_build(builder_)) {
+            const BuildFunction build_so = make_builder(way);
+            const Tree tree = build_so(boxes, serial());
             EXPECT_EQ(validate(tree, boxes).value_or(""), "") << way;
             for (const auto& [name, executor] : parallel_executors())
-                EXPECT_TRUE(same_tree(build(boxes, *executor), tree))
+                EXPECT_TRUE(same_tree(build_so(boxes, *executor), tree))
                     << way << ", " << name << " threads, seed " << seed;
         }
     }

@@ -3,11 +3,10 @@
 #include "trees/layout.h"
 #include "trees/queries/sinks.h"
 #include "trees/testing/box_families.h"
+#include "trees/testing/each_builder.h"
 #include "trees/testing/every_executor.h"
 #include "trees/testing/layouts_answering.h"
-#include "trees/testing/same_tree.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,21 +16,19 @@
 namespace boxwood {
 namespace {
 
-void for_all_ways(const std::function<void(const BuilderEntry&, const LayoutEntry&)>& test) {
-    for (const BuilderEntry& builder : builders())
-        for (const LayoutEntry& layout :
-             layouts_answering({Query::self_pairs, Query::tree_pairs})) {
-            SCOPED_TRACE(std::string(builder.name) + "." + std::string(layout.name));
-            test(builder, layout);
-        }
+void for_all_layouts(const std::function<void(const LayoutEntry&)>& test) {
+    for (const LayoutEntry& layout : layouts_answering({Query::self_pairs, Query::tree_pairs})) {
+        SCOPED_TRACE(layout.name);
+        test(layout);
+    }
 }
 
-TEST(SelfPairs, AgreeWithBruteForceOnEveryFamilyWayAndExecutor) {
+TEST_P(EachBuilder, SelfPairsAgreeWithBruteForceOnEveryFamilyLayoutAndExecutor) {
     for (const BoxFamily& family : box_families()) {
         SCOPED_TRACE(family.name);
         const std::vector<Pair> expected = brute_force(family.boxes);
-        for_all_ways([&](const BuilderEntry& builder, const LayoutEntry& entry) {
-            const Tree tree = builder.make({})(family.boxes, serial());
+        const Tree tree = build(family.boxes);
+        for_all_layouts([&](const LayoutEntry& entry) {
             const auto layout = entry.make(tree, serial());
             std::vector<Pair> first;
             for (const auto& [name, executor] : every_executor()) {
@@ -53,7 +50,7 @@ TEST(SelfPairs, AgreeWithBruteForceOnEveryFamilyWayAndExecutor) {
     }
 }
 
-TEST(TreePairs, AgreeWithBruteForceOnEveryFamilyWayAndExecutor) {
+TEST_P(EachBuilder, TreePairsAgreeWithBruteForceOnEveryFamilyLayoutAndExecutor) {
     const std::vector<BoxFamily> all = box_families();
     for (std::size_t f = 0; f < all.size(); ++f) {
         const Boxes a = all[f].boxes, b = all[(f + 1) % all.size()].boxes;
@@ -63,9 +60,10 @@ TEST(TreePairs, AgreeWithBruteForceOnEveryFamilyWayAndExecutor) {
             for (std::uint32_t j = 0; j < b.size(); ++j)
                 if (overlaps(a[i], b[j]))
                     expected.push_back({i, j});
-        for_all_ways([&](const BuilderEntry& builder, const LayoutEntry& entry) {
-            const auto layout_a = entry.make(builder.make({})(a, serial()), serial());
-            const auto layout_b = entry.make(builder.make({})(b, serial()), serial());
+        const Tree tree_a = build(a), tree_b = build(b);
+        for_all_layouts([&](const LayoutEntry& entry) {
+            const auto layout_a = entry.make(tree_a, serial());
+            const auto layout_b = entry.make(tree_b, serial());
             std::vector<Pair> first;
             for (const ExecutorEntry& executor : executors()) {
                 std::vector<Pair> pairs;
@@ -122,20 +120,11 @@ TEST(TreePairs, RefuseTwoLayouts) {
                  std::invalid_argument);
 }
 
-TEST(SelfPairs, TreesAreTheSameOnEveryExecutor) {
-    const std::vector<Box> boxes = random_boxes(20000, .05f, 3);
-    for (const BuilderEntry& builder : builders()) {
-        SCOPED_TRACE(builder.name);
-        const Tree expected = builder.make({})(boxes, serial());
-        for (const auto& [name, executor] : parallel_executors())
-            EXPECT_TRUE(same_tree(builder.make({})(boxes, *executor), expected)) << name;
-    }
-}
-
-TEST(SelfPairs, EarlyExitStopsTheTraversal) {
+TEST_P(EachBuilder, EarlyExitStopsTheTraversal) {
     const std::vector<Box> boxes(500, Box{{0, 0, 0}, {1, 1, 1}});
-    for_all_ways([&](const BuilderEntry& builder, const LayoutEntry& entry) {
-        const auto layout = entry.make(builder.make({})(boxes, serial()), serial());
+    const Tree tree = build(boxes);
+    for_all_layouts([&](const LayoutEntry& entry) {
+        const auto layout = entry.make(tree, serial());
         std::size_t seen = 0;
         ForEachPair sink([&](Pair) { return ++seen < 10; });
         layout->self_pairs(serial(), sink);
@@ -143,10 +132,11 @@ TEST(SelfPairs, EarlyExitStopsTheTraversal) {
     });
 }
 
-TEST(SelfPairs, WorkOnIdenticalBoxesIsThatOfTheOutput) {
+TEST_P(EachBuilder, SelfPairsOfIdenticalBoxesAreTheWorkOfTheOutput) {
     const std::vector<Box> boxes(4000, Box{{0, 0, 0}, {1, 1, 1}});
-    for_all_ways([&](const BuilderEntry& builder, const LayoutEntry& entry) {
-        const auto layout = entry.make(builder.make({})(boxes, serial()), serial());
+    const Tree tree = build(boxes);
+    for_all_layouts([&](const LayoutEntry& entry) {
+        const auto layout = entry.make(tree, serial());
         CountPairs count;
         const Work work = layout->self_pairs_counted(count);
         EXPECT_EQ(count.count(), 4000u * 3999 / 2);
@@ -177,7 +167,7 @@ TEST(SelfPairs, TraverseATreeThatIsAChain) {
     }
 }
 
-TEST(Builders, RefuseBadBoxesByIndex) {
+TEST_P(EachBuilder, RefusesBadBoxesByIndex) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float inf = std::numeric_limits<float>::infinity();
     for (const Box& bad :
@@ -185,10 +175,12 @@ TEST(Builders, RefuseBadBoxesByIndex) {
           Box{{0, 0, 0}, {1, 1, inf}}, Box{{0, 2, 0}, {1, 1, 1}}, Box{}}) {
         std::vector<Box> boxes = random_boxes(20, .1f, 1);
         boxes[13] = bad;
-        for (const BuilderEntry& builder : builders())
-            EXPECT_THAT([&] { builder.make({})(boxes, serial()); },
-                        testing::Throws<InvalidBox>(testing::Field(&InvalidBox::index, 13u)))
-                << builder.name;
+        try {
+            build(boxes);
+            FAIL() << "took a bad box";
+        } catch (const InvalidBox& error) {
+            EXPECT_EQ(error.index, 13u);
+        }
     }
 }
 
