@@ -10,8 +10,6 @@ namespace boxwood::bench {
 
 /// What is the same for all contenders of one job: scene, task, threads.
 using JobKey = std::tuple<std::uint32_t, std::string, std::uint32_t>;
-inline JobKey job_of(const results::Cell& cell) {
-    return {cell.scene_id, cell.task, cell.threads};
-}
+inline JobKey job_of(const results::Cell& cell) { return {cell.scene_id, cell.task, cell.threads}; }
 
 } // namespace boxwood::bench
