@@ -184,7 +184,7 @@ class Findings {
     std::string rival_words(std::uint32_t rival_id, std::uint32_t ours_id) const {
         const results::Variant& rival = variant(*cells_.at(rival_id));
         const results::Variant& ours = variant(*cells_.at(ours_id));
-        return rival.is_peer                   ? library_words(rival.library)
+        return rival.is_peer                   ? rival.library_title
                : rival.builder != ours.builder ? rival.builder
                : rival.layout != ours.layout   ? rival.layout
                                                : rival.kernel;
