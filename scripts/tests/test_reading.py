@@ -166,7 +166,7 @@ def edited(table, column, value, row=0):
     return make
 
 
-DERIVES = "bad.h5 --out NEW.h5` derives what can be, else measure again"
+DERIVES = "bad.h5 --out NEW.h5` derives it"
 ELSE = "use another copy, or measure again"
 @pytest.mark.parametrize(
     "make, said",
@@ -184,11 +184,14 @@ ELSE = "use another copy, or measure again"
         (dropped("samples"), f"table samples is missing; {ELSE}"),
         (dropped("compare"), f"table compare is missing; `boxwood merge "),
         (dropped("stage_costs"), DERIVES),
-        (dropped("samples.phase"), "column samples.phase is missing; `boxwood merge "),
+        (dropped("samples.phase"), f"column samples.phase is missing; {ELSE}"),
+        *((dropped(column), DERIVES) for column in sorted(reader.DERIVED_COLUMNS)),
         (dropped("medians.times_limit"), DERIVES),
         (edited("compare", "verdict", b"quicker"), f'column compare.verdict holds the unknown word "quicker"; {ELSE}'),
         (edited("compare", "reason", b"moody"), f'column compare.reason holds the unknown word "moody"; {ELSE}'),
         (edited("compare", "family", b"foes"), f'column compare.family holds the unknown word "foes"; {ELSE}'),
+        (edited("samples", "wall_ns", -5.5, 3), f"column samples.wall_ns holds -5.5 in row 3, which is no time; {ELSE}"),
+        (edited("samples", "wall_ns", math.inf), f"column samples.wall_ns holds inf in row 0, which is no time; {ELSE}"),
         (edited("samples", "phase", b"tea"), f'column samples.phase holds the unknown word "tea"; {ELSE}'),
         (edited("cells", "status", b"maybe"), f'column cells.status holds the unknown word "maybe"; {ELSE}'),
         (edited("findings", "topic", b"gossip"), f'column findings.topic holds the unknown word "gossip"; {ELSE}'),
