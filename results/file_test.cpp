@@ -107,7 +107,7 @@ TEST_F(ResultFile, MissingAndExtremeValuesComeBack) {
     results.cells.resize(1);
     results.shards.resize(1);
     results.samples.resize(1);
-    results.samples[0].wall_ns = -0.0;
+    results.samples[0].off_median = -0.0;
     results.checks.resize(1);
     results.checks[0].witness = std::string(1024, 'w'); // as wide as the column
     results.env.resize(1);
@@ -133,7 +133,7 @@ TEST_F(ResultFile, MoreRowsThanAChunk) {
     results.samples.assign(10'000, {});
     for (std::uint32_t i = 0; i < results.samples.size(); ++i) {
         results.samples[i].position = i;
-        results.samples[i].wall_ns = i * 1.25;
+        results.samples[i].wall_ns = (i + 1) * 1.25;
     }
     write(file_, results);
     EXPECT_EQ(difference(results, read(file_)), "");
@@ -230,7 +230,8 @@ TEST_F(ResultFile, UnknownColumnsAreSkippedAndMissingOnesKeepDefaults) {
         for (const char* name : {"medians", "drift"}) // as in a file of an older minor version
             checked(H5Ldelete(file, name, H5P_DEFAULT), name);
     });
-    EXPECT_SAYS(complaint(file_), "column samples.shard_id is missing; `boxwood merge ");
+    EXPECT_SAYS(complaint(file_),
+                "column samples.shard_id is missing; use another copy, or measure again");
     const Results back = read(file_, Required::measured);
     ASSERT_EQ(back.samples.size(), 2u);
     EXPECT_EQ(back.samples[1].cell_id, 13u);
@@ -286,6 +287,21 @@ TEST_F(ResultFile, AnIdThatNamesNoRowIsAnError) {
     results.cells[2].cell_id = 1;
     write(file_, results);
     EXPECT_SAYS(complaint(file_), "column cells.cell_id holds 1, which stands there twice");
+}
+
+TEST_F(ResultFile, ATimeThatIsNoneIsAnErrorThatNamesItsRow) {
+    for (const double ns : {0.0, -0.0, -5.0, HUGE_VAL}) {
+        Results results = filled_example();
+        results.samples[1].wall_ns = ns;
+        write(file_, results);
+        EXPECT_SAYS(complaint(file_), fmt::format("column samples.wall_ns holds {:g} in row 1, "
+                                                  "which is no time; use another copy",
+                                                  ns));
+    }
+    Results results = filled_example();
+    results.samples[1].wall_ns = missing;
+    write(file_, results);
+    EXPECT_EQ(complaint(file_), "");
 }
 
 TEST_F(ResultFile, AWordThatIsNoneIsAnErrorThatNamesIt) {

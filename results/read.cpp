@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <span>
@@ -73,10 +74,10 @@ struct Placed {
     std::size_t offset, size;
 };
 
-/// What to do where the file lacks what an older version did not write.
-std::string derive_again(const fs::path& path) {
-    return fmt::format("`boxwood merge {} --out NEW.h5` derives what can be, else measure again",
-                       path.string());
+/// What to do about a file that lacks something.
+std::string remedy(const fs::path& path, bool is_derived) {
+    return is_derived ? fmt::format("`boxwood merge {} --out NEW.h5` derives it", path.string())
+                      : "use another copy, or measure again";
 }
 
 /// The rows of a table, of the columns that we know.
@@ -100,8 +101,14 @@ Handle wanted_type(Stored stored, hid_t in_file, std::string_view where) {
     return string_type(H5Tget_size(in_file));
 }
 
+struct Wanted {
+    std::string column;
+    Stored stored;
+    bool is_derived;
+};
+
 Records read_records(hid_t file, const fs::path& path, const std::string& name,
-                     std::span<const std::pair<std::string, Stored>> columns, Required required) {
+                     std::span<const Wanted> columns, Required required) {
     Records records;
     const Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, name);
     const Handle space(H5Dget_space(dataset), H5Sclose, name);
@@ -111,11 +118,11 @@ Records read_records(hid_t file, const fs::path& path, const std::string& name,
 
     std::vector<Handle> types;
     for (std::size_t i = 0; i < columns.size(); ++i) {
-        const auto& [column, stored] = columns[i];
+        const auto& [column, stored, is_derived] = columns[i];
         const int index = H5Tget_member_index(in_file, column.c_str());
         const std::string where = fmt::format("{}.{}", name, column);
         if (index < 0 && required == Required::everything)
-            fail(fmt::format("column {} is missing; {}", where, derive_again(path)));
+            fail(fmt::format("column {} is missing; {}", where, remedy(path, is_derived)));
         if (index < 0)
             continue;
         const Handle theirs(H5Tget_member_type(in_file, static_cast<unsigned>(index)), H5Tclose,
@@ -129,7 +136,7 @@ Records read_records(hid_t file, const fs::path& path, const std::string& name,
         return records;
     const Handle record(H5Tcreate(H5T_COMPOUND, records.size), H5Tclose, name);
     for (std::size_t i = 0; i < types.size(); ++i)
-        checked(H5Tinsert(record, columns[records.columns[i].column].first.c_str(),
+        checked(H5Tinsert(record, columns[records.columns[i].column].column.c_str(),
                           records.columns[i].offset, types[i]),
                 name);
     records.bytes.resize(records.n * records.size);
@@ -153,15 +160,14 @@ void get_table(hid_t file, const fs::path& path, const Table<Row>& table, Requir
                std::vector<Row>& rows) {
     const std::string name(table.name);
     if (!has_link(file, name.c_str())) {
-        if (!table.is_derived)
-            fail(fmt::format("table {} is missing; use another copy, or measure again", name));
-        if (required == Required::everything)
-            fail(fmt::format("table {} is missing; {}", name, derive_again(path)));
+        if (!table.is_derived || required == Required::everything)
+            fail(fmt::format("table {} is missing; {}", name, remedy(path, table.is_derived)));
         return;
     }
-    std::vector<std::pair<std::string, Stored>> columns;
+    std::vector<Wanted> columns;
     for (const auto& column : table.columns)
-        columns.emplace_back(column.name, stored(column));
+        columns.push_back(
+            {std::string(column.name), stored(column), table.is_derived || column.is_derived});
     const Records records = read_records(file, path, name, columns, required);
     rows.resize(records.n);
     for (const Placed& placed : records.columns)
@@ -174,7 +180,7 @@ void get_table(hid_t file, const fs::path& path, const Table<Row>& table, Requir
                         const std::string_view text(start, strnlen(start, placed.size));
                         if constexpr (Worded<Value>)
                             row.*member =
-                                known_word<Value>(text, name, columns[placed.column].first);
+                                known_word<Value>(text, name, columns[placed.column].column);
                         else
                             row.*member = text;
                     } else {
@@ -206,6 +212,15 @@ void get_texts(hid_t file, std::map<std::string, std::string>& texts) {
     }
 }
 
+/// NaN stands for a time that is missing.
+void require_times(std::span<const Sample> samples) {
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        if (const double ns = samples[i].wall_ns; ns <= 0 || std::isinf(ns))
+            fail(fmt::format("column samples.wall_ns holds {:g} in row {}, which is no time; use "
+                             "another copy, or measure again",
+                             ns, i));
+}
+
 Results read_open(hid_t file, const fs::path& path, Required required) {
     if (!has_attribute(file, "format") || text_attribute(file, "format") != format_name)
         fail("an HDF5 file, but not a Boxwood result file (no attribute "
@@ -226,6 +241,7 @@ Results read_open(hid_t file, const fs::path& path, Required required) {
     for_each_table(
         [&](const auto& table) { get_table(file, path, table, required, results.*table.rows); });
     require_valid_ids(results);
+    require_times(results.samples);
     get_texts(file, results.texts);
     return results;
 }

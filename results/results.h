@@ -268,6 +268,7 @@ struct Finding {
     std::uint32_t place = 0; ///< its place on the screen: losses first
     Topic topic = Topic::none;
     std::uint32_t is_headline = 0; ///< 1 if it stands for its question on one screen
+    std::uint32_t is_loss = 0;     ///< 1 if the rival is better for sure
     std::uint32_t scene_id = no_id;
     std::string task;
     std::uint32_t threads = 1;

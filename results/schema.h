@@ -28,7 +28,8 @@ template <class Row> struct Column {
                  Topic Row::*>
         member;
     std::string_view unit, summary;
-    std::size_t width = 0; ///< bytes of a string; a longer one is an error, never cut
+    std::size_t width = 0;   ///< bytes of a string; a longer one is an error, never cut
+    bool is_derived = false; ///< by bench/analysis, in a table that is measured
 };
 
 /// How the values of a column stand in the file.

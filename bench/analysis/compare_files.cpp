@@ -2,10 +2,12 @@
 #include "bench/analysis/wording.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 namespace boxwood::bench {
 namespace {
@@ -40,102 +42,174 @@ struct Timed {
     Status status;
     const Times::Phases* phases;
 };
-std::multimap<std::string, Timed> timed_by_name(const Results& results, const Times& times,
-                                                const FileOptions& options) {
+using ByName = std::multimap<std::string, Timed>;
+
+ByName timed_by_name(const Results& results, const Times& times, bool of_peers,
+                     const FileOptions& options) {
     std::map<std::uint32_t, std::uint64_t> content_of;
     for (const auto& scene : results.scenes)
         content_of[scene.scene_id] = scene.content_hash;
     std::map<std::uint32_t, bool> is_peer;
     for (const auto& variant : results.variants)
         is_peer[variant.variant_id] = variant.is_peer != 0;
-    std::multimap<std::string, Timed> timed;
+    ByName timed;
     for (const auto& cell : results.cells)
         if (const auto found = times.by_cell().find(cell.cell_id);
-            found != times.by_cell().end() && (options.with_peers || !is_peer[cell.variant_id]) &&
-            (!options.wanted || options.wanted(cell.name)))
+            found != times.by_cell().end() && is_peer[cell.variant_id] == of_peers &&
+            (of_peers || !options.wanted || options.wanted(cell.name)))
             timed.emplace(cell.name, Timed{cell.cell_id, content_of[cell.scene_id], cell.status,
                                            &found->second});
     return timed;
 }
 
-Gate gate_of(const FileRow& row, const FileOptions& options) {
+bool is_sum(Phase phase) {
+    return phase == Phase::build_and_query || phase == Phase::update_and_query;
+}
+
+/// The cells of one side, ours or the peers', of both files.
+class Sides {
+  public:
+    Sides(const Results& head, ByName in_base, ByName in_head)
+        : head_(head), in_base_(std::move(in_base)), in_head_(std::move(in_head)) {}
+
+    /// Adds to what was found; the rows are decided as one family.
+    void compare(const FileOptions& options, std::optional<double> floor) {
+        for (const auto& [name, a] : in_base_)
+            compare_cell(name, a);
+        const auto rulings = decide(logs_, options.delta, floor.value_or(0));
+        for (std::size_t i = 0; i < claims_.size(); ++i)
+            set_ruling(rows[claims_[i]].comparison, rulings[i]);
+    }
+
+    std::vector<FileRow> rows;
+    std::vector<Lost> lost;
+    std::size_t family_size() const { return claims_.size(); }
+    /// Those that the base has not, once compared.
+    const ByName& only_head() const { return in_head_; }
+
+  private:
+    void compare_cell(const std::string& name, const Timed& a) {
+        const auto match = in_head_.find(name); // equal names of a merged file match in order
+        if (match == in_head_.end()) {
+            lost.push_back({name, "not timed"});
+            // Because it throws or crashes: not merely left out.
+            for (const auto& cell : head_.cells)
+                if (cell.name == name && cell.status == Status::wrong)
+                    rows.push_back(
+                        wrong_row(name, row_of(a.cell_id, cell.cell_id, Phase::query), a.status));
+            return;
+        }
+        const Timed b = match->second;
+        in_head_.erase(match);
+        if (a.content != b.content) {
+            lost.push_back({name, "another scene"});
+            return;
+        }
+        if (is_right(a.status) && !is_right(b.status) && b.status != Status::wrong)
+            lost.push_back({name, "its answer was not checked"});
+        for (const auto& [phase, rounds] : *a.phases)
+            if (!is_sum(phase))
+                compare_phase(name, a, b, phase, rounds);
+    }
+
+    void compare_phase(const std::string& name, const Timed& a, const Timed& b, Phase phase,
+                       const Times::Rounds& rounds) {
+        Comparison row = row_of(a.cell_id, b.cell_id, phase);
+        if (a.status == Status::wrong || b.status == Status::wrong) {
+            rows.push_back(
+                wrong_row(name, row, b.status == Status::wrong ? a.status : Status::wrong));
+            return;
+        }
+        const auto other = b.phases->find(phase);
+        if (other == b.phases->end()) {
+            lost.push_back({name, std::string(to_string(phase)) + " not timed"});
+            return;
+        }
+        std::vector<double> ratios = log_ratios(rounds, other->second);
+        row.n_pairs = ratios.size();
+        claims_.push_back(rows.size());
+        FileRow& added = rows.emplace_back(FileRow{name, row});
+        std::tie(added.base_ns, added.head_ns) = paired_medians(rounds, other->second);
+        added.max_ratio = paired_ratio(ratios).ci_hi;
+        logs_.push_back(std::move(ratios));
+    }
+
+    const Results& head_;
+    ByName in_base_, in_head_;
+    std::vector<std::size_t> claims_; ///< rows
+    std::vector<std::vector<double>> logs_;
+};
+
+Gate gate_of(const FileRow& row, const FileOptions& options, bool times_count) {
     const Comparison& c = row.comparison;
     if (c.verdict == Verdict::wrong)
         return row.is_newly_wrong ? Gate::fails : Gate::passes;
+    if (!times_count)
+        return Gate::open;
     if (c.verdict == Verdict::slower && c.ci_lo > 1 + options.fail_if.value_or(0))
         return Gate::fails;
     const bool may_be_told = c.n_pairs >= min_pairs_verdict && c.reason != Reason::too_noisy;
-    return may_be_told && row.max_ratio <= 1 + options.fail_if.value_or(options.delta)
-               ? Gate::passes
-               : Gate::open;
+    return may_be_told && row.max_ratio <= 1 + options.limit() ? Gate::passes : Gate::open;
+}
+
+std::set<std::string> cpus_of(const Results& results) {
+    std::set<std::string> cpus;
+    for (const auto& env : results.env)
+        cpus.insert(env.cpu);
+    return cpus;
+}
+
+std::set<std::string> common(const std::set<std::string>& a, const std::set<std::string>& b) {
+    std::set<std::string> both;
+    std::ranges::set_intersection(a, b, std::inserter(both, both.end()));
+    return both;
+}
+
+/// The middle one of the ratios that are known.
+double middle_ratio(const std::vector<FileRow>& rows) {
+    std::vector<double> ratios;
+    for (const FileRow& row : rows)
+        if (!std::isnan(row.comparison.ratio))
+            ratios.push_back(row.comparison.ratio);
+    return median_interval(std::move(ratios)).mid;
 }
 
 } // namespace
 
 FileComparison compare_files(const Results& base, const Results& head, const FileOptions& options) {
     FileComparison result;
-    std::set<std::string> common;
-    std::ranges::set_intersection(machines_of(base), machines_of(head),
-                                  std::inserter(common, common.end()));
-    result.is_same_machine = !common.empty();
+    const std::set<std::string> machines = common(machines_of(base), machines_of(head));
+    result.is_same_machine = !machines.empty();
+    result.is_same_cpu = !common(cpus_of(base), cpus_of(head)).empty();
     const auto floors = {noise_floor(base), noise_floor(head)};
     result.floor = std::max(floors); // an absent one is less than any
 
-    const Times base_times(base, common), head_times(head, common);
-    const auto in_base = timed_by_name(base, base_times, options);
-    auto in_head = timed_by_name(head, head_times, options);
-
-    std::vector<std::size_t> claims; // rows
-    std::vector<std::vector<double>> logs;
-    for (const auto& [name, a] : in_base) {
-        const auto match = in_head.find(name); // equal names of a merged file match in order
-        if (match == in_head.end()) {
-            result.only_base.push_back(name);
-            // Not timed any more because it throws or crashes: not merely left out.
-            for (const auto& cell : head.cells)
-                if (cell.name == name && cell.status == Status::wrong)
-                    result.rows.push_back(
-                        wrong_row(name, row_of(a.cell_id, cell.cell_id, Phase::query), a.status));
-            continue;
-        }
-        const Timed b = match->second;
-        in_head.erase(match);
-        if (a.content != b.content) {
-            result.other_content.push_back(name);
-            continue;
-        }
-        for (const auto& [phase, rounds] : *a.phases) {
-            const auto other = b.phases->find(phase);
-            if (phase == Phase::build_and_query || phase == Phase::update_and_query ||
-                other == b.phases->end())
-                continue;
-            Comparison row = row_of(a.cell_id, b.cell_id, phase);
-            std::vector<double> ratios = log_ratios(rounds, other->second);
-            row.n_pairs = ratios.size();
-            if (a.status == Status::wrong || b.status == Status::wrong) {
-                result.rows.push_back(
-                    wrong_row(name, row, b.status == Status::wrong ? a.status : Status::wrong));
-                continue;
-            }
-            claims.push_back(result.rows.size());
-            FileRow& added = result.rows.emplace_back(FileRow{name, row});
-            std::tie(added.base_ns, added.head_ns) = paired_medians(rounds, other->second);
-            added.max_ratio = paired_ratio(ratios).ci_hi;
-            logs.push_back(std::move(ratios));
-        }
-    }
-    for (const auto& [name, timed] : in_head)
+    const Times base_times(base, machines), head_times(head, machines);
+    const auto sides_of = [&](bool of_peers) {
+        Sides sides(head, timed_by_name(base, base_times, of_peers, options),
+                    timed_by_name(head, head_times, of_peers, options));
+        sides.compare(options, result.floor);
+        return sides;
+    };
+    result.peers = sides_of(true).rows;
+    result.peers_ratio = middle_ratio(result.peers);
+    result.peers_moved =
+        std::max(result.peers_ratio, 1 / result.peers_ratio) > 1 + options.limit(); // not for NaN
+    Sides ours = sides_of(false);
+    result.family_size = ours.family_size();
+    for (const auto& [name, timed] : ours.only_head())
         result.only_head.push_back(name);
-    result.family_size = claims.size();
-    const auto rulings = decide(logs, options.delta, result.floor.value_or(0));
-    for (std::size_t i = 0; i < claims.size(); ++i)
-        set_ruling(result.rows[claims[i]].comparison, rulings[i]);
-    result.gate =
-        result.only_base.empty() && result.other_content.empty() ? Gate::passes : Gate::open;
+    result.rows = std::move(ours.rows);
+    result.lost = std::move(ours.lost);
+
+    const bool times_count = result.is_same_cpu && !result.peers_moved;
+    result.gate = result.lost.empty() && !result.rows.empty() ? Gate::passes : Gate::open;
     for (FileRow& row : result.rows) {
-        row.gate = gate_of(row, options);
+        row.gate = gate_of(row, options, times_count);
         result.gate = std::max(result.gate, row.gate);
     }
+    for (FileRow& row : result.peers)
+        row.gate = Gate::passes;
     return result;
 }
 

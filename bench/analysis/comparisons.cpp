@@ -1,5 +1,6 @@
 #include "bench/analysis/comparisons.h"
 
+#include "bench/analysis/index.h"
 #include "bench/analysis/job.h"
 #include "bench/analysis/status.h"
 #include "bench/analysis/wording.h"
@@ -21,30 +22,6 @@ using results::Reason;
 using results::Results;
 using results::Status;
 using results::Verdict;
-
-/// The rows of a file by id.
-class Index {
-  public:
-    explicit Index(const Results& results) : results_(results) {
-        for (const results::Variant& variant : results.variants)
-            variants_[variant.variant_id] = &variant;
-        for (const results::KernelRow& row : results.kernels)
-            kernels_.insert(row.cell_id);
-    }
-    const Results& results() const { return results_; }
-    const results::Variant& variant(const Cell& cell) const {
-        return *variants_.at(cell.variant_id);
-    }
-    bool is_peer(const Cell& cell) const { return variant(cell).is_peer != 0; }
-    bool is_kernel(const Cell& cell) const { return kernels_.contains(cell.cell_id); }
-    bool keeps_structure(const Cell& cell) const { return variant(cell).keeps_structure != 0; }
-    const std::string& stages(const Cell& cell) const { return variant(cell).stages; }
-
-  private:
-    const Results& results_;
-    std::map<std::uint32_t, const results::Variant*> variants_;
-    std::set<std::uint32_t> kernels_;
-};
 
 /// Makes the rows of one family after another.
 class Judge {
@@ -126,30 +103,6 @@ void against_peers(const Index& index, const Times& times, Judge& judge) {
     }
 }
 
-const Cell* reference_in(const Index& index, const Cell& judged) {
-    if (index.is_peer(judged) || index.is_kernel(judged) || !index.stages(judged).empty())
-        return nullptr;
-    const results::Variant& variant = index.variant(judged);
-    const Cell* best = nullptr;
-    int best_fit = -1;
-    for (const Cell& cell : index.results().cells) {
-        if (cell.scene_id != judged.scene_id || cell.task != judged.task ||
-            cell.threads != judged.threads || index.is_peer(cell) || !is_right(cell.status) ||
-            cell.executor != judged.executor || cell.precision != judged.precision ||
-            cell.classes != judged.classes)
-            continue;
-        const results::Variant& other = index.variant(cell);
-        const bool is_alike = !variant.is_reference && other.layout == variant.layout &&
-                              other.kernel == variant.kernel;
-        const int fit = !other.is_reference ? 0 : is_alike ? 2 : 1;
-        if (fit > best_fit) {
-            best = &cell;
-            best_fit = fit;
-        }
-    }
-    return best == &judged ? nullptr : best;
-}
-
 /// Claims that come one by one, put together by a key and the phase.
 template <class Key> class Grouped {
   public:
@@ -172,7 +125,7 @@ template <class Key> class Grouped {
 void against_ours(const Index& index, const Times& times, Judge& judge) {
     Grouped<JobKey> claims;
     for (const Cell& cell : index.results().cells)
-        if (const Cell* reference = reference_in(index, cell))
+        if (const Cell* reference = reference_of(index, cell))
             claims.add(job_of(cell), times, *reference, cell);
     claims.judge(judge, Family::ours);
 }
@@ -222,6 +175,30 @@ void against_fewer_stages(const Index& index, const Times& times, Judge& judge) 
 
 } // namespace
 
+const Cell* reference_of(const Index& index, const Cell& judged) {
+    if (index.is_peer(judged) || index.is_kernel(judged) || !index.stages(judged).empty())
+        return nullptr;
+    const results::Variant& variant = index.variant(judged);
+    const Cell* best = nullptr;
+    int best_fit = -1;
+    for (const Cell& cell : index.results().cells) {
+        if (cell.scene_id != judged.scene_id || cell.task != judged.task ||
+            cell.threads != judged.threads || index.is_peer(cell) || !is_right(cell.status) ||
+            cell.executor != judged.executor || cell.precision != judged.precision ||
+            cell.classes != judged.classes)
+            continue;
+        const results::Variant& other = index.variant(cell);
+        const bool is_alike = !variant.is_reference && other.layout == variant.layout &&
+                              other.kernel == variant.kernel;
+        const int fit = !other.is_reference ? 0 : is_alike ? 2 : 1;
+        if (fit > best_fit) {
+            best = &cell;
+            best_fit = fit;
+        }
+    }
+    return best == &judged ? nullptr : best;
+}
+
 void set_ruling(Comparison& row, const Ruling& ruling) {
     row.n_pairs = ruling.ratio.n_pairs;
     row.ratio = ruling.ratio.ratio;
@@ -251,10 +228,6 @@ std::vector<Comparison> comparisons_of(const Results& results, const Times& time
     against_one_thread(index, times, judge);
     against_fewer_stages(index, times, judge);
     return judge.take();
-}
-
-const Cell* reference_of(const Results& results, const Cell& judged) {
-    return reference_in(Index(results), judged);
 }
 
 } // namespace boxwood::bench

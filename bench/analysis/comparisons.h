@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bench/analysis/index.h"
 #include "bench/analysis/times.h"
 #include "results/results.h"
 
@@ -31,7 +32,7 @@ std::vector<results::Comparison> comparisons_of(const results::Results& results,
 /// precision and classes the builder hilbert with the same layout and kernel, else its first
 /// hilbert, else its first. Null if that is itself, or it is a kernel on hard cases or a way to
 /// play a scene.
-const results::Cell* reference_of(const results::Results& results, const results::Cell& judged);
+const results::Cell* reference_of(const Index& index, const results::Cell& judged);
 
 /// The names in Cell::classes.
 std::vector<std::string> split_classes(const std::string& classes);
@@ -52,27 +53,36 @@ struct FileRow {
     bool is_newly_wrong = false; ///< right in the base, wrong in the head
     Gate gate = Gate::open;
 };
+/// What the base has of a cell and the head has not, so that nothing can be said of it.
+struct Lost {
+    std::string cell, why;
+    bool operator==(const Lost&) const = default;
+};
 struct FileComparison {
-    std::vector<FileRow> rows;
-    std::vector<std::string> only_base, only_head; ///< cells that were timed in one file alone
-    std::vector<std::string> other_content;        ///< cells whose scenes differ
+    std::vector<FileRow> rows;          ///< of ours
+    std::vector<FileRow> peers;         ///< a gate for nothing: where they moved, the machine did
+    std::vector<Lost> lost;             ///< of ours
+    std::vector<std::string> only_head; ///< cells of ours
     std::size_t family_size = 0;
-    std::optional<double> floor; ///< the larger one of the two files
-    bool is_same_machine = false;
+    std::optional<double> floor;  ///< the larger one of the two files
+    double peers_ratio = unknown; ///< the middle one of the peers' timings, head over base
+    bool peers_moved = false;     ///< by more than the limit: the times say nothing of the code
+    bool is_same_cpu = false, is_same_machine = false;
     Gate gate = Gate::open; ///< of all
 };
 struct FileOptions {
     double delta = default_delta;                          ///< "same" is within this
     std::optional<double> fail_if{};                       ///< slower by more than this fails
-    bool with_peers = false;                               ///< else cells of ours alone
-    std::function<bool(const std::string& cell)> wanted{}; ///< else all
+    std::function<bool(const std::string& cell)> wanted{}; ///< else all; of the peers always all
+    /// How much slower a timing may be.
+    double limit() const { return fail_if.value_or(delta); }
 };
 /// Cells are matched by name, rounds by number: within a machine state that both files have, else
-/// in order of time. All rows are one family. Needs Cell::status in both.
+/// in order of time. All rows of ours are one family. Needs Cell::status in both.
 /// A row fails if it is newly wrong, or its verdict is slower and the interval that decided lies
-/// above 1 + fail_if (1 without it); it passes if max_ratio is at most 1 + fail_if (else 1 + delta)
-/// and the noise allows a verdict. All fail if one does; all pass if every row does and no cell of
-/// the base is gone or has another scene.
+/// above 1 + fail_if (1 without it); it passes if max_ratio is at most 1 + limit and the noise
+/// allows a verdict. All fail if one does; all pass if every row does and nothing is lost. On
+/// another processor, or where the peers moved, times neither fail nor pass.
 FileComparison compare_files(const results::Results& base, const results::Results& head,
                              const FileOptions& options = {});
 

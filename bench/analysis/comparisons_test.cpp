@@ -272,7 +272,7 @@ TEST(CompareFamilies, OursThreadsAndStages) {
     expect(mine, two, Family::threads, 25. / 40);
     expect(required, all, Family::stages, 3);
     expect(without, required, Family::stages, 1.25);
-    EXPECT_EQ(reference_of(run.results, run.results.cells[hilbert]), nullptr); // itself
+    EXPECT_EQ(reference_of(Index(run.results), run.results.cells[hilbert]), nullptr); // itself
 }
 
 TEST(CompareClasses, OnlyWithinOneOfThem) {
@@ -386,9 +386,10 @@ TEST(CompareFiles, WhatCannotBeCompared) {
     head.results.cells[other].scene_id = 1;
     head.time(other, Phase::query, steady(100));
     const auto result = compared(base.results, head.results);
-    EXPECT_EQ(result.only_base, (std::vector<std::string>{"crashes", "gone"}));
+    EXPECT_EQ(result.lost, (std::vector<Lost>{{"crashes", "not timed"},
+                                              {"gone", "not timed"},
+                                              {"other_scene", "another scene"}}));
     EXPECT_EQ(result.only_head, std::vector<std::string>{"new"});
-    EXPECT_EQ(result.other_content, std::vector<std::string>{"other_scene"});
     ASSERT_EQ(result.rows.size(), 2u);
     for (const auto& row : result.rows) {
         EXPECT_TRUE(row.is_newly_wrong) << row.name;

@@ -50,7 +50,7 @@ TEST_F(Findings, HoldTheBestOfOursAgainstTheBestRival) {
     EXPECT_EQ(row.rival, rival);
     EXPECT_EQ(row.together, "wins 3.00x over FCL"); // 1200 / 400
     EXPECT_EQ(row.alone, "wins 3.67x");             // 1100 / 300, over the same
-    EXPECT_EQ(row.certainty, "3.00-3.00");
+    EXPECT_EQ(row.certainty, "3.00 to 3.00 (both)");
     EXPECT_EQ(row.question, "overlapping pairs, uniform 10");
     EXPECT_FALSE(is_promise_broken(run.results));
 }
@@ -70,9 +70,9 @@ TEST_F(Findings, ChooseTheBestOfEachMeasureByItself) {
     const Finding& row = only();
     EXPECT_EQ(row.ours, builds);
     EXPECT_EQ(row.ours_alone, queries);
-    EXPECT_EQ(row.together, "wins 3.25x over FCL"); // 1300 / 400
-    EXPECT_EQ(row.alone, "wins 3.00x");             // 600 / 200
-    EXPECT_EQ(row.certainty, "3.00-3.00 (query)");  // of what it is ranked by
+    EXPECT_EQ(row.together, "wins 3.25x over FCL");   // 1300 / 400
+    EXPECT_EQ(row.alone, "wins 3.00x");               // 600 / 200
+    EXPECT_EQ(row.certainty, "3.00 to 3.00 (query)"); // of what it is ranked by
 }
 
 TEST_F(Findings, RankUpdatesWithTheirQueriesAndBuildsThatNothingFollows) {
@@ -86,7 +86,7 @@ TEST_F(Findings, RankUpdatesWithTheirQueriesAndBuildsThatNothingFollows) {
     run = {};
     for (const auto& [name, build] : {std::pair{"hilbert", 1000.}, {"embree.low", 700.}})
         run.time(run.cell("uniform", 10, "build", name), Phase::build, build);
-    EXPECT_EQ(only().together, "LOSES 0.70x to Embree");
+    EXPECT_EQ(only().together, "LOSES 0.700x to Embree");
 }
 
 TEST_F(Findings, LossesComeFirstAndOneRowStandsForAQuestion) {
@@ -102,11 +102,11 @@ TEST_F(Findings, LossesComeFirstAndOneRowStandsForAQuestion) {
     for (const Finding& row : run.results.findings)
         if (row.is_headline)
             headlines.push_back(row.question + ": " + row.together);
-    EXPECT_THAT(headlines, ElementsAre("overlapping pairs, uniform 1k, 2 threads: LOSES 0.76x to "
-                                       "FCL",
+    EXPECT_THAT(headlines, ElementsAre("overlapping pairs, 2 threads, uniform 1k: LOSES 0.762x "
+                                       "to FCL",
                                        "overlapping pairs, bars 10: even with Embree"));
     EXPECT_EQ(run.results.findings.size(), 5u);
-    EXPECT_THAT(screen(), HasSubstr("and 3 more"));
+    EXPECT_THAT(screen(), HasSubstr("and 3 more, of which ours lose 1: "));
 }
 
 TEST_F(Findings, WithoutPeersOursStandAgainstTheirReference) {
@@ -134,7 +134,7 @@ TEST_F(Findings, NeverRankWhatIsWrong) {
     EXPECT_TRUE(run.results.findings.empty());
     EXPECT_FALSE(is_promise_broken(run.results)); // a peer promised nothing
     run.results.checks[add("uniform", "pairs", "bad.packed", 1, 1)].status = results::Status::wrong;
-    EXPECT_THAT(screen(), HasSubstr("1 of ours wrong"));
+    EXPECT_THAT(screen(), HasSubstr("1 of ours wrong (" + run.results.cells.back().name + "), "));
     EXPECT_TRUE(is_promise_broken(run.results));
 }
 
@@ -229,6 +229,7 @@ TEST_F(Findings, OneScreenHoldsAHundredQuestions) {
         add(scene, "pairs", "fcl.tree", 100, 200 + 10 * i);
     }
     std::istringstream lines(screen());
+    EXPECT_THAT(screen_text(run.results, 1), HasSubstr("and 100 more, of which ours lose "));
     std::size_t n = 0;
     for (std::string line; std::getline(lines, line); ++n) {
         EXPECT_LE(line.size(), 100u) << line;

@@ -1,5 +1,6 @@
 #include "bench/analysis/health.h"
 
+#include "bench/analysis/index.h"
 #include "bench/analysis/promises.h"
 #include "bench/analysis/statistics.h"
 
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace boxwood::bench {
 namespace {
@@ -16,19 +16,22 @@ using results::Health;
 using results::Results;
 using results::Status;
 
-void count_answers(const Results& results, Health& health) {
-    std::map<std::uint32_t, bool> is_peer;
-    for (const results::Variant& variant : results.variants)
-        is_peer[variant.variant_id] = variant.is_peer != 0;
+/// Counts the answers; gives the name of the first wrong one of ours.
+std::string count_answers(const Results& results, Health& health) {
+    const Index index(results);
+    std::string first_wrong;
     for (const results::Cell& cell : results.cells) {
         const bool is_wrong = cell.status == Status::wrong;
         if (cell.status == Status::unchecked || cell.status == Status::unsupported ||
             (is_wrong && is_judged_by_promise(results, cell)))
             continue;
         ++health.answers;
-        if (is_wrong)
-            ++(is_peer[cell.variant_id] ? health.wrong_peers : health.wrong_ours);
+        if (is_wrong && index.is_peer(cell))
+            ++health.wrong_peers;
+        else if (is_wrong && ++health.wrong_ours == 1)
+            first_wrong = cell.name;
     }
+    return first_wrong;
 }
 
 std::string trust_text(const Health& health) {
@@ -47,11 +50,14 @@ std::string trust_text(const Health& health) {
     return text + (std::isnan(health.floor) ? ": no cell was timed twice" : ": quiet enough");
 }
 
-/// Names the kernels that break a promise, the first ones at least.
-std::string correctness_text(const Results& results, const Health& health) {
+/// Names the first of our wrong answers, and the kernels that break a promise, the first ones at
+/// least.
+std::string correctness_text(const Results& results, const Health& health,
+                             const std::string& first_wrong) {
     constexpr std::uint64_t max_named = 2;
-    std::string text = fmt::format("{} answers checked: {} of ours wrong, {} of the peers' wrong",
-                                   health.answers, health.wrong_ours, health.wrong_peers);
+    std::string text = fmt::format(
+        "{} answers checked: {} of ours wrong{}, {} of the peers' wrong", health.answers,
+        health.wrong_ours, first_wrong.empty() ? "" : " (" + first_wrong + ")", health.wrong_peers);
     std::uint64_t named = 0;
     for (const results::KernelRow& row : results.kernels)
         if (row.is_broken && named++ < max_named)
@@ -73,10 +79,10 @@ Health health_of(const Results& results, std::optional<double> floor, double del
     health.floor = floor.value_or(results::missing);
     health.delta = delta;
     health.is_too_noisy = floor && *floor > max_floor;
-    count_answers(results, health);
+    const std::string first_wrong = count_answers(results, health);
     health.broken_promises = broken_promises(results);
     health.trust = trust_text(health);
-    health.correctness = correctness_text(results, health);
+    health.correctness = correctness_text(results, health, first_wrong);
     if (health.is_too_noisy)
         health.advice = fmt::format("REPEAT THIS: the same work timed twice differed by more than "
                                     "{:.0f} %, so no time here means anything. Close other "

@@ -81,18 +81,27 @@ std::string screen_text(const results::Results& results, std::size_t max_lines) 
             topics.push_back(std::move(rows));
     }
     // Each topic takes two lines more, and the last may say that there is more.
-    std::size_t left = max_lines - taken - 1 - 2 * topics.size(), shown = 0;
+    const std::size_t fixed = taken + 1 + 2 * topics.size();
+    std::size_t left = max_lines > fixed ? max_lines - fixed : 0, shown = 0, losses = 0;
     for (std::size_t topic = 0; topic < topics.size(); ++topic) {
         std::size_t others = 0; // lines that later topics need at least
         for (std::size_t later = topic + 1; later < topics.size(); ++later)
             others += std::min(topics[later].findings.size(), left / topics.size());
-        const std::size_t n = std::min(topics[topic].findings.size(), left - others);
-        text += "\n" + table_text(*topics[topic].topic, std::span(topics[topic].findings).first(n));
+        const std::size_t n =
+            std::min(topics[topic].findings.size(), left - std::min(left, others));
+        if (n > 0)
+            text +=
+                "\n" + table_text(*topics[topic].topic, std::span(topics[topic].findings).first(n));
         left -= n;
         shown += n;
+        for (std::size_t i = 0; i < n; ++i)
+            losses += topics[topic].findings[i]->is_loss;
     }
     if (const std::size_t more = results.findings.size() - shown; more > 0)
-        text += fmt::format("and {} more: boxwood show FILE.h5 --all\n", more);
+        text += fmt::format(
+            "and {} more, of which ours lose {}: boxwood show FILE.h5 --all\n", more,
+            static_cast<std::size_t>(std::ranges::count(results.findings, 1u, &Finding::is_loss)) -
+                losses);
     return text;
 }
 

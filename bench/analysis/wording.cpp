@@ -36,12 +36,8 @@ Outcome outcome_of(const Comparison& row) {
     }
 }
 
-std::string short_ratio(double ratio) {
-    return fmt::format("{:.{}f}", ratio, ratio >= 100 ? 0 : ratio >= 10 ? 1 : 2);
-}
-
 std::string outcome_text(const Comparison& row, const std::string& rival) {
-    const std::string ratio = short_ratio(1 / row.ratio) + "x";
+    const std::string ratio = ratio_text(1 / row.ratio) + "x";
     const auto said = [&](std::string_view start, std::string_view link) {
         return rival.empty() ? std::string(start) : fmt::format("{} {}{}", start, link, rival);
     };
@@ -76,12 +72,12 @@ std::string reason_text(results::Reason reason) {
     return "";
 }
 
-std::string certainty_text(const Comparison& row) {
+std::string certainty_text(const Comparison& row, double lo, double hi, std::string_view of) {
     if (row.verdict == Verdict::cannot_tell && row.reason != results::Reason::crosses_1)
         return reason_text(row.reason);
-    if (std::isnan(row.ci_lo))
-        return "";
-    return fmt::format("{}-{}", short_ratio(1 / row.ci_hi), short_ratio(1 / row.ci_lo));
+    return std::isnan(lo) ? ""
+                          : fmt::format("{} to {}{}{}", ratio_text(lo), ratio_text(hi),
+                                        of.empty() ? "" : " ", of);
 }
 
 std::string verdict_text(const Comparison& row) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 /// Comparisons in words that a newcomer knows.
 namespace boxwood::bench {
@@ -16,8 +17,10 @@ Outcome outcome_of(const results::Comparison& row);
 /// before.
 std::string outcome_text(const results::Comparison& row, const std::string& rival);
 
-/// The interval that decided, as the rival's time over ours; else why nothing can be told.
-std::string certainty_text(const results::Comparison& row);
+/// Its interval from `lo` to `hi`, as the reader sees the ratio, and `of` what it is; else why
+/// nothing can be told.
+std::string certainty_text(const results::Comparison& row, double lo, double hi,
+                           std::string_view of = "");
 
 std::string reason_text(results::Reason reason);
 
@@ -26,9 +29,6 @@ std::string verdict_text(const results::Comparison& row);
 
 /// "3.12x (3.01 to 3.20)": a ratio with its interval, where it has one; "-" for no ratio.
 std::string interval_text(double ratio, double lo, double hi);
-
-/// "0.73", "12.3", "120": short enough for a screen.
-std::string short_ratio(double ratio);
 
 std::string count_words(std::uint64_t n); ///< "10k"
 std::string spaced(std::string name);     ///< with spaces for underscores

@@ -9,13 +9,14 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <iostream>
-#include <map>
 #include <memory>
+#include <set>
 #include <string_view>
 
 namespace boxwood::bench {
@@ -29,63 +30,120 @@ std::string said_of(const FileRow& row) {
     return row.is_newly_wrong ? "newly wrong" : row.comparison.words;
 }
 
+/// What the rows come to.
+struct Counts {
+    std::size_t timings = 0, slower = 0, open = 0;
+    std::set<std::string> newly_wrong; ///< cells
+
+    explicit Counts(const FileComparison& comparison) {
+        for (const FileRow& row : comparison.rows)
+            if (row.is_newly_wrong) {
+                newly_wrong.insert(row.name);
+            } else if (row.comparison.verdict != results::Verdict::wrong) {
+                ++timings;
+                slower += row.gate == Gate::fails;
+                open += row.gate == Gate::open;
+            }
+    }
+};
+
+std::string comma_list(const std::vector<std::string>& parts) {
+    return fmt::format("{}", fmt::join(parts, ", "));
+}
+
 /// "REGRESSION: 2 of 120 timings are slower by more than 5 %", with the exit code it stands for.
 std::string verdict_line(const FileComparison& comparison, const FileOptions& options) {
-    std::map<Gate, std::size_t> count;
-    std::size_t newly_wrong = 0;
-    for (const FileRow& row : comparison.rows) {
-        ++count[row.gate];
-        newly_wrong += row.is_newly_wrong;
+    const Counts counts(comparison);
+    const std::string by = fmt::format(" by more than {:g} %", 100 * options.limit());
+    if (comparison.gate == Gate::passes)
+        return fmt::format("FINE: none of {} timings is slower{}\n", counts.timings, by);
+    std::vector<std::string> parts;
+    if (comparison.gate == Gate::fails) {
+        if (counts.slower > 0)
+            parts.push_back(fmt::format("{} of {} timings slower{}", counts.slower, counts.timings,
+                                        options.fail_if ? by : ""));
+        if (const std::size_t n = counts.newly_wrong.size(); n > 0)
+            parts.push_back(
+                fmt::format("the answers of {} cell{} newly wrong", n, n > 1 ? "s" : ""));
+        return "REGRESSION: " + comma_list(parts) + "\n";
     }
-    const std::string limit = fmt::format("{:g} %", 100 * options.fail_if.value_or(options.delta));
-    const std::size_t n = comparison.rows.size(),
-                      lost = comparison.only_base.size() + comparison.other_content.size();
-    switch (comparison.gate) {
-    case Gate::passes:
-        return fmt::format("FINE: none of {} timings is slower by more than {}\n", n, limit);
-    case Gate::fails: {
-        std::string text = "REGRESSION:";
-        if (const std::size_t slower = count[Gate::fails] - newly_wrong; slower > 0)
-            text += fmt::format(" {} of {} timings slower{}{}", slower, n,
-                                options.fail_if ? " by more than " + limit : "",
-                                newly_wrong > 0 ? "," : "");
-        if (newly_wrong > 0)
-            text += fmt::format(" {} of {} answers newly wrong", newly_wrong, n);
-        return text + "\n";
-    }
-    case Gate::open:
-        break;
-    }
-    std::string text = "CAN'T TELL:";
-    if (count[Gate::open] > 0)
-        text += fmt::format(" {} of {} timings may be slower by more than {}{}", count[Gate::open],
-                            n, limit, lost > 0 ? "," : "");
-    if (lost > 0)
-        text += fmt::format(" {} cells of the base cannot be compared", lost);
-    return text + "\n";
+    if (!comparison.is_same_cpu)
+        parts.push_back("the processors differ");
+    else if (comparison.peers_moved)
+        parts.push_back(fmt::format("the machine changed and not our code alone, as the peers take "
+                                    "{} of their time",
+                                    ratio_text(comparison.peers_ratio)));
+    else if (counts.open > 0)
+        parts.push_back(
+            fmt::format("{} of {} timings may be slower{}", counts.open, counts.timings, by));
+    if (!comparison.lost.empty())
+        parts.push_back(fmt::format("{} of the base's timings or answers have no counterpart",
+                                    comparison.lost.size()));
+    if (comparison.rows.empty())
+        parts.push_back("no timing of ours is in both files");
+    return "CAN'T TELL: " + comma_list(parts) + "\n";
 }
 
 std::string_view gate_word(Gate gate) {
     return gate == Gate::passes ? "passes" : gate == Gate::fails ? "fails" : "open";
 }
 
-std::string commit_of(const Results& results) {
+std::string file_text(std::string_view which, const Results& results) {
     std::string text;
     for (const auto& env : results.env)
-        text +=
-            fmt::format("{}{}{} on {}", text.empty() ? "" : ", ",
-                        env.git_commit.empty() ? "?" : env.git_commit.substr(0, 12),
-                        env.git_dirty ? " with changes" : "", env.host.empty() ? "?" : env.host);
-    return text.empty() ? "no machine named" : text;
+        text += fmt::format("{}{}{} on {}, {}", text.empty() ? "" : "; ",
+                            env.git_commit.empty() ? "?" : env.git_commit.substr(0, 12),
+                            env.git_dirty ? " with changes" : "", env.host.empty() ? "?" : env.host,
+                            env.cpu.empty() ? "?" : env.cpu);
+    return fmt::format("{}: {}{}\n", which, text.empty() ? "no machine named" : text,
+                       results.is_sealed
+                           ? ""
+                           : "\n  THIS FILE WAS CHANGED after it was written: it need "
+                             "not say what was measured");
 }
 
-std::string names_text(std::string_view what, const std::vector<std::string>& names) {
+/// What a reader has to know before the table.
+std::string notes_text(const FileComparison& comparison) {
     std::string text;
-    if (!names.empty())
-        text = fmt::format("\n{}:\n", what);
-    for (const std::string& name : names)
-        text += fmt::format("- {}\n", name);
+    if (!std::isnan(comparison.peers_ratio))
+        text += fmt::format("peers' timings: {}, the middle one takes {} of its time in the base\n",
+                            comparison.peers.size(), ratio_text(comparison.peers_ratio));
+    if (comparison.floor)
+        text += fmt::format("A/A noise floor +-{:.1f} %: no difference below it is claimed\n",
+                            100 * *comparison.floor);
+    if (!comparison.is_same_machine)
+        text +=
+            "two machine states (machine, build or commit): rounds are paired in order of time\n";
+    const bool is_short = std::ranges::any_of(comparison.rows, [](const FileRow& row) {
+        return row.comparison.reason == Reason::too_few_rounds;
+    });
+    const std::size_t needed = rounds_needed(comparison.family_size);
+    if (is_short || (comparison.gate == Gate::open && needed > min_pairs_verdict))
+        text += fmt::format("more rounds are needed: a verdict on {} comparisons at once takes at "
+                            "least {} rounds in both files\n",
+                            comparison.family_size, needed);
     return text;
+}
+
+std::string table_text(const std::vector<FileRow>& rows, const FileView& view) {
+    TextTable table({"cell", "phase", ">rounds", ">base", ">head", ">head/base", ">interval",
+                     ">at most", "head is", "gate"});
+    for (const FileRow& file_row : rows) {
+        const Comparison& row = file_row.comparison;
+        const bool is_news = file_row.gate != Gate::passes ||
+                             row.verdict == results::Verdict::faster ||
+                             row.verdict == results::Verdict::slower;
+        if (view.all || is_news)
+            table.add({file_row.name, std::string(to_string(row.phase)),
+                       std::to_string(row.n_pairs), time_text(file_row.base_ns),
+                       time_text(file_row.head_ns), ratio_text(row.ratio),
+                       fmt::format("{} to {}", ratio_text(row.ci_lo), ratio_text(row.ci_hi)),
+                       ratio_text(file_row.max_ratio), said_of(file_row),
+                       std::string(gate_word(file_row.gate))});
+    }
+    if (table.empty())
+        return "";
+    return "\n" + (view.markdown ? table.markdown() : table.text());
 }
 
 } // namespace
@@ -121,70 +179,63 @@ int exit_code_of(Gate gate) {
 
 std::string comparison_text(const Results& base, const Results& head,
                             const FileComparison& comparison, const FileOptions& options,
-                            bool markdown) {
-    TextTable table({"cell", "phase", ">rounds", ">base", ">head", ">head/base", ">interval",
-                     ">at most", "head is", "gate"});
-    bool is_short = false;
-    for (const FileRow& file_row : comparison.rows) {
-        const Comparison& row = file_row.comparison;
-        is_short = is_short || row.reason == Reason::too_few_rounds;
-        table.add({file_row.name, std::string(to_string(row.phase)), std::to_string(row.n_pairs),
-                   time_text(file_row.base_ns), time_text(file_row.head_ns), ratio_text(row.ratio),
-                   fmt::format("{} to {}", ratio_text(row.ci_lo), ratio_text(row.ci_hi)),
-                   ratio_text(file_row.max_ratio), said_of(file_row),
-                   std::string(gate_word(file_row.gate))});
-    }
-
-    std::string text = verdict_line(comparison, options);
-    text += fmt::format("base: {}\nhead: {}\n\n", commit_of(base), commit_of(head));
-    text += markdown ? table.markdown() : table.text();
-    text +=
-        "\n\"interval\" decided \"head is\" (all rows corrected together); the gate passes a row "
-        "whose \"at most\" (95 %\nof this row alone) is within the limit, and fails one that is "
-        "slower with its interval above the limit\n";
-    if (comparison.floor)
-        text += fmt::format("A/A noise floor +-{:.1f} %: no difference below it is claimed\n",
-                            100 * *comparison.floor);
-    if (!comparison.is_same_machine)
-        text += "The two files are of different machine states (another machine, build or "
-                "commit): rounds are paired in order of time.\n";
-    const std::size_t needed = rounds_needed(comparison.family_size);
-    if (is_short || (comparison.gate == Gate::open && needed > min_pairs_verdict))
-        text += fmt::format("More rounds are needed: a verdict on {} comparisons at once takes at "
-                            "least {} rounds in both files.\n",
-                            comparison.family_size, needed);
-    text += names_text("Only in the base", comparison.only_base);
-    text += names_text("Only in the head", comparison.only_head);
-    text += names_text("Not compared, as their scenes differ", comparison.other_content);
+                            const FileView& view) {
+    std::string text = verdict_line(comparison, options) + file_text("base", base) +
+                       file_text("head", head) + notes_text(comparison);
+    for (const Lost& lost : comparison.lost)
+        text += fmt::format("lost: {}: {} in the head\n", lost.cell, lost.why);
+    const std::string table = table_text(comparison.rows, view);
+    text += table;
+    if (!table.empty())
+        text += "\n\"interval\" decided \"head is\" (all rows corrected together); the gate "
+                "passes a row whose \"at most\"\n(95 % of this row alone) is within the limit, and "
+                "fails one that is slower with its interval above the limit\n";
+    if (!view.all)
+        return text + "every row, and the peers': --all\n";
+    std::vector<FileRow> peers;
+    for (const FileRow& row : comparison.peers)
+        if (!options.wanted || options.wanted(row.name))
+            peers.push_back(row);
+    if (const std::string peers_table = table_text(peers, view); !peers_table.empty())
+        text += "\npeers, which no gate looks at:\n" + peers_table;
+    if (!comparison.only_head.empty())
+        text += "\nonly in the head:\n";
+    for (const std::string& name : comparison.only_head)
+        text += fmt::format("- {}\n", name);
     return text;
 }
 
-std::string comparison_json(const FileComparison& comparison) {
-    const auto list_of = [](const std::vector<std::string>& names) {
-        std::string text;
-        for (const std::string& name : names)
-            text += (text.empty() ? "" : ", ") + json_string(name);
-        return "[" + text + "]";
+std::string comparison_json(const Results& base, const Results& head,
+                            const FileComparison& comparison) {
+    const auto rows_json = [](const std::vector<FileRow>& file_rows) {
+        std::vector<std::string> rows;
+        for (const FileRow& row : file_rows) {
+            const Comparison& c = row.comparison;
+            rows.push_back(fmt::format(
+                "\n  {{\"cell\": {}, \"phase\": \"{}\", \"n_pairs\": {}, \"ratio\": {}, \"ci_lo\": "
+                "{}, \"ci_hi\": {}, \"p_adj\": {}, \"verdict\": \"{}\", \"reason\": \"{}\", "
+                "\"newly_wrong\": {}, \"max_ratio\": {}, \"gate\": \"{}\"}}",
+                json_string(row.name), to_string(c.phase), c.n_pairs, json_number(c.ratio),
+                json_number(c.ci_lo), json_number(c.ci_hi), json_number(c.p_adj),
+                to_string(c.verdict), to_string(c.reason), row.is_newly_wrong,
+                json_number(row.max_ratio), gate_word(row.gate)));
+        }
+        return "[" + comma_list(rows) + "]";
     };
-    std::string rows;
-    for (const FileRow& row : comparison.rows) {
-        const Comparison& c = row.comparison;
-        rows += fmt::format(
-            "{}\n  {{\"cell\": {}, \"phase\": \"{}\", \"n_pairs\": {}, \"ratio\": {}, \"ci_lo\": "
-            "{}, "
-            "\"ci_hi\": {}, \"p_adj\": {}, \"verdict\": \"{}\", \"reason\": \"{}\", "
-            "\"newly_wrong\": {}, \"max_ratio\": {}, \"gate\": \"{}\"}}",
-            rows.empty() ? "" : ",", json_string(row.name), to_string(c.phase), c.n_pairs,
-            json_number(c.ratio), json_number(c.ci_lo), json_number(c.ci_hi), json_number(c.p_adj),
-            to_string(c.verdict), to_string(c.reason), row.is_newly_wrong,
-            json_number(row.max_ratio), gate_word(row.gate));
-    }
-    return fmt::format("{{\"gate\": \"{}\", \"floor\": {}, \"same_machine\": {}, \"only_base\": "
-                       "{}, \"only_head\": {}, "
-                       "\"other_content\": {}, \"rows\": [{}]}}\n",
-                       gate_word(comparison.gate), json_number(comparison.floor.value_or(unknown)),
-                       comparison.is_same_machine, list_of(comparison.only_base),
-                       list_of(comparison.only_head), list_of(comparison.other_content), rows);
+    std::vector<std::string> lost, only_head;
+    for (const Lost& what : comparison.lost)
+        lost.push_back(fmt::format("{{\"cell\": {}, \"why\": {}}}", json_string(what.cell),
+                                   json_string(what.why)));
+    for (const std::string& name : comparison.only_head)
+        only_head.push_back(json_string(name));
+    return fmt::format(
+        "{{\"gate\": \"{}\", \"sealed\": {{\"base\": {}, \"head\": {}}}, \"same_cpu\": {}, "
+        "\"same_machine\": {}, \"peers_moved\": {}, \"peers_ratio\": {}, \"floor\": {}, \"lost\": "
+        "[{}], \"only_head\": [{}], \"rows\": {}, \"peers\": {}}}\n",
+        gate_word(comparison.gate), base.is_sealed, head.is_sealed, comparison.is_same_cpu,
+        comparison.is_same_machine, comparison.peers_moved, json_number(comparison.peers_ratio),
+        json_number(comparison.floor.value_or(unknown)), comma_list(lost), comma_list(only_head),
+        rows_json(comparison.rows), rows_json(comparison.peers));
 }
 
 void add_compare(CLI::App& app, int& exit_code) {
@@ -203,18 +254,18 @@ void add_compare(CLI::App& app, int& exit_code) {
     compare->add_option("--delta", options->delta, "\"same\" means within this")
         ->capture_default_str();
     compare->add_option("--only", options->only, "cells whose name has a match of this regex");
-    compare->add_flag("--all", options->all, "peers too: where they changed, the machine did");
+    compare->add_flag("--all", options->all,
+                      "every row, and the peers', which no gate looks at; else what changed");
     CLI::Option* markdown =
         compare->add_flag("--markdown", options->markdown, "the table in Markdown");
     compare->add_flag("--json", options->json, "all of it as JSON")->excludes(markdown);
     compare->footer(
         "Example: boxwood compare base.h5 head.h5 --fail-if \"slower>5%\"\n"
         "Exit codes: 0 fine, 1 a regression, 2 bad input, 3 can't tell (too few or too noisy "
-        "rounds, or cells of the base are gone).");
+        "rounds, the head lacks what the base has, another processor, or the peers changed too).");
     compare->callback([options, &exit_code] {
         FileOptions chosen;
         chosen.delta = percent_of(options->delta);
-        chosen.with_peers = options->all;
         if (!options->fail_if.empty())
             chosen.fail_if = fail_threshold(options->fail_if);
         if (!options->only.empty())
@@ -223,13 +274,15 @@ void add_compare(CLI::App& app, int& exit_code) {
             };
         const Results base = read_results(options->base), head = read_results(options->head);
         const FileComparison comparison = compare_files(base, head, chosen);
-        if (comparison.rows.empty() && comparison.other_content.empty())
-            throw BadInput(fmt::format("compare: '{}' and '{}' have no timed cell {}in common{}",
-                                       options->base, options->head, options->all ? "" : "of ours ",
+        if (comparison.rows.empty() && comparison.lost.empty() &&
+            (comparison.peers.empty() || !options->all))
+            throw BadInput(fmt::format("compare: '{}' and '{}' have no timed cell of ours in "
+                                       "common{}",
+                                       options->base, options->head,
                                        options->only.empty() ? "" : " that --only leaves"));
-        std::cout << (options->json
-                          ? comparison_json(comparison)
-                          : comparison_text(base, head, comparison, chosen, options->markdown));
+        std::cout << (options->json ? comparison_json(base, head, comparison)
+                                    : comparison_text(base, head, comparison, chosen,
+                                                      {options->markdown, options->all}));
         exit_code = exit_code_of(comparison.gate);
     });
 }

@@ -16,10 +16,15 @@ double fail_threshold(const std::string& condition);
 /// The exit code of `boxwood compare`.
 int exit_code_of(Gate gate);
 
-/// One line with the verdict, the table, and what is to be said about it.
+struct FileView {
+    bool markdown = false;
+    bool all = false; ///< else only the rows that changed or are open, and none of the peers'
+};
+/// One line with the verdict, what is to be known about it, and the table.
 std::string comparison_text(const results::Results& base, const results::Results& head,
                             const FileComparison& comparison, const FileOptions& options,
-                            bool markdown);
-std::string comparison_json(const FileComparison& comparison);
+                            const FileView& view = {});
+std::string comparison_json(const results::Results& base, const results::Results& head,
+                            const FileComparison& comparison);
 
 } // namespace boxwood::bench

@@ -46,8 +46,25 @@ int exit_of(const results::Results& base, const results::Results& head,
 }
 
 std::string text_of(const results::Results& base, const results::Results& head,
-                    bool markdown = false) {
-    return comparison_text(base, head, compare_files(base, head), {}, markdown);
+                    const FileView& view = {}) {
+    return comparison_text(base, head, compare_files(base, head), {}, view);
+}
+
+/// Adds cell 1, of a peer with this time in each of the rounds.
+results::Results with_peer(results::Results results, double ns) {
+    results.variants.push_back(results.variants[0]);
+    results.variants[1].variant_id = 1;
+    results.variants[1].is_peer = 1;
+    results.cells.push_back(results.cells[0]);
+    results.cells[1].cell_id = results.cells[1].variant_id = 1;
+    results.cells[1].name = "soup/peer";
+    for (std::size_t i = results.samples.size(); i-- > 0;) {
+        results.samples.push_back(results.samples[i]);
+        results.samples.back().cell_id = 1;
+        results.samples.back().wall_ns = ns;
+    }
+    analyse(results);
+    return results;
 }
 
 TEST(CompareCommand, Percentages) {
@@ -96,17 +113,35 @@ TEST(CompareCommand, ExitCodesFollowFromTheIntervalsShown) {
     EXPECT_EQ(exit_of(base, wide, 0.1), exit_success);
 }
 
-TEST(CompareCommand, PeersAreNoGateUnlessAsked) {
-    auto base = timed(100), head = timed(300);
-    for (auto* file : {&base, &head})
-        file->variants[0].is_peer = 1;
-    EXPECT_TRUE(compare_files(base, head).rows.empty());
-    EXPECT_EQ(compare_files(base, head, {.with_peers = true}).gate, Gate::fails);
-    const auto none = [](const std::string& cell) { return cell != "soup/ours"; };
-    EXPECT_TRUE(compare_files(base, head, {.with_peers = true, .wanted = none}).rows.empty());
+TEST(CompareCommand, PeersAreNoGateButSayWhetherTheMachineChanged) {
+    const auto base = with_peer(timed(100), 1000);
+    EXPECT_EQ(exit_of(base, with_peer(timed(110), 1000)), exit_failed);
+    EXPECT_EQ(exit_of(base, with_peer(timed(100), 1030)), exit_success);
+    for (const double peer_ns : {1110., 900.}) {
+        const auto head = with_peer(timed(110), peer_ns);
+        EXPECT_EQ(exit_of(base, head), exit_cannot_tell) << peer_ns;
+        EXPECT_EQ(exit_of(base, head, 0.12), exit_success) << peer_ns;
+        EXPECT_THAT(text_of(base, head),
+                    StartsWith("CAN'T TELL: the machine changed and not our code alone, as the "
+                               "peers take "));
+    }
+    const auto wrong = with_peer(timed(100, 9, results::Status::wrong), 2000);
+    EXPECT_EQ(exit_of(base, wrong), exit_failed); // an answer is no matter of time
+    EXPECT_THAT(text_of(base, base), Not(HasSubstr("soup/peer")));
+    EXPECT_THAT(text_of(base, base, {.all = true}), HasSubstr("soup/peer"));
 }
 
-TEST(CompareCommand, CellsThatAreGoneCannotBeTold) {
+TEST(CompareCommand, OnAnotherProcessorTimesSayNothing) {
+    auto head = timed(150);
+    head.env[0].cpu = "another";
+    EXPECT_EQ(exit_of(timed(100), head), exit_cannot_tell);
+    EXPECT_THAT(text_of(timed(100), head), StartsWith("CAN'T TELL: the processors differ\n"));
+    head.checks[0].status = results::Status::wrong;
+    analyse(head);
+    EXPECT_EQ(exit_of(timed(100), head), exit_failed);
+}
+
+TEST(CompareCommand, WhatTheHeadLacksIsListedAndCannotBeTold) {
     auto base = timed(100);
     base.cells.push_back(base.cells[0]);
     base.cells[1].cell_id = 1;
@@ -115,15 +150,45 @@ TEST(CompareCommand, CellsThatAreGoneCannotBeTold) {
     base.samples.back().cell_id = 1;
     analyse(base);
     EXPECT_EQ(exit_of(base, timed(100)), exit_cannot_tell);
-    EXPECT_THAT(text_of(base, timed(100)), HasSubstr("Only in the base:\n- soup/gone"));
+    EXPECT_THAT(text_of(base, timed(100)),
+                StartsWith("CAN'T TELL: 1 of the base's timings or answers have no counterpart\n"));
+    EXPECT_THAT(text_of(base, timed(100)), HasSubstr("\nlost: soup/gone: not timed in the head\n"));
     EXPECT_EQ(exit_of(timed(100), base), exit_success);
+
     auto other = timed(100);
     other.scenes[0].content_hash = 1;
     EXPECT_EQ(exit_of(timed(100), other), exit_cannot_tell);
+
+    const auto unchecked = timed(100, 9, results::Status::unchecked);
+    EXPECT_EQ(exit_of(timed(100), unchecked), exit_cannot_tell);
+    EXPECT_THAT(text_of(timed(100), unchecked),
+                HasSubstr("its answer was not checked in the head"));
+    EXPECT_EQ(exit_of(unchecked, unchecked), exit_success);
+
+    auto with_build = timed(100);
+    for (std::size_t i = with_build.samples.size(); i-- > 0;) {
+        with_build.samples.push_back(with_build.samples[i]);
+        with_build.samples.back().phase = results::Phase::build;
+    }
+    analyse(with_build);
+    EXPECT_EQ(exit_of(with_build, timed(100)), exit_cannot_tell);
+    EXPECT_THAT(text_of(with_build, timed(100)), HasSubstr("lost: soup/ours: build not timed in"));
+
+    const auto none = [](const std::string& cell) { return cell != "soup/ours"; };
+    EXPECT_EQ(compare_files(timed(100), timed(100), {.wanted = none}).gate, Gate::open);
+}
+
+TEST(CompareCommand, AnEditedFileIsNamedOnTop) {
+    auto head = timed(100);
+    head.is_sealed = false;
+    EXPECT_THAT(text_of(timed(100), head), HasSubstr("\nhead: 0123456789ab on ?, ?\n  THIS FILE"));
+    EXPECT_THAT(comparison_json(head, head, compare_files(head, head)),
+                HasSubstr("\"sealed\": {\"base\": false, \"head\": false}"));
 }
 
 TEST(CompareCommand, JsonHasEveryRowAndItsReason) {
-    const std::string json = comparison_json(compare_files(timed(100, 3), timed(110, 3)));
+    const auto base = timed(100, 3), head = timed(110, 3);
+    const std::string json = comparison_json(base, head, compare_files(base, head));
     EXPECT_THAT(json, HasSubstr("\"cell\": \"soup/ours\", \"phase\": \"query\", \"n_pairs\": 3"));
     EXPECT_THAT(json, HasSubstr("\"verdict\": \"cannot_tell\", \"reason\": \"too_few_rounds\""));
     EXPECT_THAT(json, HasSubstr("\"ci_lo\": null"));
@@ -136,15 +201,15 @@ TEST(CompareCommand, SaysWhatItSaw) {
     EXPECT_THAT(slower, StartsWith("REGRESSION: 1 of 1 timings slower\n"));
     EXPECT_THAT(text_of(timed(100), timed(101)),
                 StartsWith("FINE: none of 1 timings is slower by more than 5 %\n"));
-    EXPECT_THAT(slower, Not(HasSubstr("More rounds")));
+    EXPECT_THAT(slower, Not(HasSubstr("more rounds")));
     const std::string few = text_of(timed(100, 3), timed(110, 3));
     EXPECT_THAT(few, StartsWith("CAN'T TELL: 1 of 1 timings may be slower by more than 5 %\n"));
     EXPECT_THAT(few, HasSubstr("can't tell (too few rounds)"));
     EXPECT_THAT(few, HasSubstr("at least 9 rounds"));
-    EXPECT_THAT(text_of(timed(100), timed(110), true),
+    EXPECT_THAT(text_of(timed(100), timed(110), {.markdown = true}),
                 HasSubstr("| cell | phase | rounds | base | head | head/base |"));
     EXPECT_THAT(text_of(timed(100), timed(100, 9, results::Status::wrong)),
-                StartsWith("REGRESSION: 1 of 1 answers newly wrong\n"));
+                StartsWith("REGRESSION: the answers of 1 cell newly wrong\n"));
 }
 
 } // namespace

@@ -78,6 +78,10 @@ DERIVED = {
     "work": ("cell_id", "node_visits", "box_tests", "query_ns"),
     "drift": ("shard_id", "n", "disturbed", "off_median", "is_farthest"),
 }
+DERIVED_COLUMNS = {  # in tables that are measured
+    "cells.status", "samples.off_median", "trees.on_front", "kernels.is_broken", "kernels.label", "kernels.ns",
+    "kernels.wrong", "kernels.wrong_per_million", "kernels.maybe_per_million",
+}
 # Columns of ids, wherever they stand, and whose they are; results/schema.h has the same.
 REFERENCES = {
     "env_id": "env", "scene_id": "scenes", "variant_id": "variants", "cell_id": "cells", "shard_id": "shards",
@@ -144,13 +148,16 @@ def is_sealed(path):
 
 
 def read_table(file, path, name, columns):
-    derive_again = f"`boxwood merge {path} --out NEW.h5` derives what can be, else measure again"
+    def remedy(is_derived):
+        return f"`boxwood merge {path} --out NEW.h5` derives it" if is_derived else AGAIN
+
     if name not in file:
-        raise BadFile(path, f"table {name} is missing; {derive_again if name in DERIVED else AGAIN}")
+        raise BadFile(path, f"table {name} is missing; {remedy(name in DERIVED)}")
     fields = file[name].dtype.fields or {}
     for column in columns:
         if column not in fields:
-            raise BadFile(path, f"column {name}.{column} is missing; {derive_again}")
+            is_derived = name in DERIVED or f"{name}.{column}" in DERIVED_COLUMNS
+            raise BadFile(path, f"column {name}.{column} is missing; {remedy(is_derived)}")
     try:
         return with_text(file[name][:])
     except OSError as error:
@@ -183,6 +190,13 @@ def check_ids(path, tables):
                 raise BadFile(path, f"column {name}.{column} holds {stray}, which no row of {target} has; {AGAIN}")
 
 
+def check_times(path, samples):
+    """NaN stands for a time that is missing."""
+    for row in np.flatnonzero((samples["wall_ns"] <= 0) | np.isinf(samples["wall_ns"]))[:1]:
+        wall_ns = f"{samples['wall_ns'][row]:g}"
+        raise BadFile(path, f"column samples.wall_ns holds {wall_ns} in row {row}, which is no time; {AGAIN}")
+
+
 def check_header(path, attrs):
     if as_text(attrs.get("format", "")) != "boxwood-results":
         raise BadFile(path, 'an HDF5 file, but not a Boxwood result file (no attribute format="boxwood-results")')
@@ -212,6 +226,7 @@ def load(path):
         for name, table in tables.items():
             check_words(path, name, table)
         check_ids(path, tables)
+        check_times(path, tables["samples"])
         if len(tables["health"]) != 1:
             raise BadFile(path, f"not analysed; `boxwood merge {path} --out NEW.h5` does that")
         texts = {name: as_text(text[()]) for name, text in file.get("text", {}).items()}

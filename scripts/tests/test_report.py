@@ -103,7 +103,7 @@ def test_one_round_gives_a_page_that_says_so(small, script, tmp_path):
 
 
 def test_a_noisy_run_says_repeat_this_instead_of_findings(tmp_path, script):
-    made = synthetic.full(9)
+    made = synthetic.small(9, twin=True)
     for row in made.rows["samples"]:
         if row["flags"] & 4:
             row["wall_ns"] *= 1.5
@@ -114,7 +114,8 @@ def test_a_noisy_run_says_repeat_this_instead_of_findings(tmp_path, script):
 
 
 def test_a_broken_promise_stands_on_the_first_screen(tmp_path, script):
-    made = synthetic.full()
+    made = synthetic.small()
+    made.kernels()
     row = next(row for row in made.rows["kernels"] if row["kernel"] == "guigue_devillers_exact")
     row.update(false_neg=1, status="wrong", witness="replay me")
     out = tmp_path / "r.html"

@@ -18,12 +18,13 @@ template <class Real, bool by_cross> class NearestPairSearch {
     using Pair = one_lane::PointPair<Real>;
 
     /// Two guesses, and all features if both were wrong.
-    static bool find(const Triangle<Real>& a, const Triangle<Real>& b, Pair& found) {
+    HWY_INLINE static bool find(const Triangle<Real>& a, const Triangle<Real>& b, Pair& found) {
         Guess guess(a, b);
         return guess.next(found) || look_closer(a, b, &guess, found);
     }
     /// One guess, and all features if it was wrong: what a batch does.
-    static bool find_by_one_guess(const Triangle<Real>& a, const Triangle<Real>& b, Pair& found) {
+    HWY_INLINE static bool find_by_one_guess(const Triangle<Real>& a, const Triangle<Real>& b,
+                                             Pair& found) {
         Guess guess(a, b);
         return guess.next(found) || look_closer(a, b, nullptr, found);
     }

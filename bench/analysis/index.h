@@ -1,0 +1,60 @@
+#pragma once
+
+#include "results/results.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+namespace boxwood::bench {
+
+/// The rows of a file by id or name, and what a cell is by them.
+class Index {
+  public:
+    explicit Index(const results::Results& results) : results_(results) {
+        for (const results::SceneRow& scene : results.scenes)
+            scenes_[scene.scene_id] = &scene;
+        for (const results::Variant& variant : results.variants)
+            variants_[variant.variant_id] = &variant;
+        for (const results::Cell& cell : results.cells)
+            cells_[cell.cell_id] = &cell;
+        for (const results::TaskRow& task : results.tasks)
+            tasks_[task.task] = &task;
+        for (const results::KernelRow& row : results.kernels)
+            kernels_.insert(row.cell_id);
+    }
+    const results::Results& results() const { return results_; }
+    const results::Cell& cell(std::uint32_t id) const { return *cells_.at(id); }
+    const results::SceneRow& scene(std::uint32_t id) const { return *scenes_.at(id); }
+    const results::Variant& variant(const results::Cell& cell) const {
+        return *variants_.at(cell.variant_id);
+    }
+    const results::TaskRow& task(const std::string& name) const {
+        const auto found = tasks_.find(name);
+        if (found == tasks_.end())
+            throw std::runtime_error(fmt::format("the table tasks has no row '{}'", name));
+        return *found->second;
+    }
+    bool is_peer(const results::Cell& cell) const { return variant(cell).is_peer != 0; }
+    bool keeps_structure(const results::Cell& cell) const {
+        return variant(cell).keeps_structure != 0;
+    }
+    /// Of a way to play a moving scene, else empty.
+    const std::string& stages(const results::Cell& cell) const { return variant(cell).stages; }
+    /// A kernel on hard cases.
+    bool is_kernel(const results::Cell& cell) const { return kernels_.contains(cell.cell_id); }
+
+  private:
+    const results::Results& results_;
+    std::map<std::uint32_t, const results::SceneRow*> scenes_;
+    std::map<std::uint32_t, const results::Variant*> variants_;
+    std::map<std::uint32_t, const results::Cell*> cells_;
+    std::map<std::string, const results::TaskRow*> tasks_;
+    std::set<std::uint32_t> kernels_;
+};
+
+} // namespace boxwood::bench
