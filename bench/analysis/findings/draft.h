@@ -15,10 +15,10 @@ namespace boxwood::bench {
 struct Draft {
     results::Finding finding;
     Outcome outcome = Outcome::open;
-    double ratio = 1;             ///< the lower, the worse for us
-    std::string question;         ///< "nearest hit, primary rays"
-    std::string how;              ///< class and threads: ", packets, 2 threads"
-    std::string where;            ///< "sphere mesh 10k"
+    double ratio = 1;     ///< the lower, the worse for us
+    std::string question; ///< "nearest hit, primary rays"
+    std::string how;      ///< class and threads: ", packets, 2 threads"
+    std::string where;    ///< "sphere mesh 10k"
     std::uint64_t n_items = 0;
 };
 /// Of a row about this scene: what is asked where.

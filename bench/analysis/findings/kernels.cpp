@@ -12,8 +12,7 @@ namespace boxwood::bench {
 /// For each task and panel the cheapest kernel that is never wrong.
 std::vector<Draft> kernel_findings(const Index& index) {
     std::vector<Draft> drafts;
-    std::map<std::pair<std::string, std::string>, std::vector<const results::KernelCost*>>
-        panels;
+    std::map<std::pair<std::string, std::string>, std::vector<const results::KernelCost*>> panels;
     for (const results::KernelCost& cost : index.results().kernel_costs)
         if (!cost.is_peer)
             panels[{cost.task, cost.panel}].push_back(&cost); // by rising time
@@ -35,9 +34,9 @@ std::vector<Draft> kernel_findings(const Index& index) {
             draft.outcome = Outcome::wins;
             draft.ratio = fastest.ns / (*right)->ns;
             row.together = fmt::format("{}, {}", (*right)->kernel, time_text((*right)->ns));
-            row.alone = *right == &fastest ? "the fastest of ours"
-                                           : fmt::format("{}x {}", ratio_text(1 / draft.ratio),
-                                                         fastest.kernel);
+            row.alone = *right == &fastest
+                            ? "the fastest of ours"
+                            : fmt::format("{}x {}", ratio_text(1 / draft.ratio), fastest.kernel);
             row.certainty = fmt::format("{} right", (*right)->n);
         }
         draft.question = fmt::format("{}, {}", index.task(key.first).title, key.second);
