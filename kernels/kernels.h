@@ -38,7 +38,7 @@
 #include "kernels/triangle_triangle/sat_certified.h"          // with proven gaps and overlaps
 #include "kernels/triangle_triangle/triangle_kernel.h"        // contract
 
-// Least distance
+// Minimum distance
 #include "kernels/features/point_segment.h"            // foot on the line, clamped
 #include "kernels/features/point_triangle.h"           // by region, and by cross product
 #include "kernels/features/segment_segment.h"          // Ericson, and by cross product

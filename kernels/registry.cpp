@@ -26,16 +26,16 @@ constexpr auto motion_rows = []<class... K>(std::type_identity<std::tuple<K...>>
     return std::array{KernelInfo{K::vertex_face_info}..., KernelInfo{K::edge_edge_info}...};
 }(std::type_identity<ContinuousKernels>{});
 
-template <std::size_t... n> constexpr auto joined(const std::array<KernelInfo, n>&... parts) {
+template <std::size_t... n> constexpr auto concatenated(const std::array<KernelInfo, n>&... parts) {
     std::array<KernelInfo, (n + ...)> all{};
     auto to = all.begin();
     ((to = std::copy(parts.begin(), parts.end(), to)), ...);
     return all;
 }
-constexpr auto all_rows =
-    joined(std::array{closed_overlap}, rows<RayBoxKernels>(), ray_rows, triangle_rows,
-           rows<DistanceKernels>(), rows<SegmentDistanceKernels>(), rows<PointTriangleKernels>(),
-           rows<PointSegmentKernels>(), rows<BoxFitKernels>(), rows<ObbKernels>(), motion_rows);
+constexpr auto all_rows = concatenated(
+    std::array{closed_overlap}, rows<RayBoxKernels>(), ray_rows, triangle_rows,
+    rows<DistanceKernels>(), rows<SegmentDistanceKernels>(), rows<PointTriangleKernels>(),
+    rows<PointSegmentKernels>(), rows<BoxFitKernels>(), rows<ObbKernels>(), motion_rows);
 
 } // namespace
 

@@ -5,7 +5,7 @@
 namespace boxwood::results {
 
 const FigureTables& figure_tables() {
-    constexpr std::size_t word = 64; // bytes
+    constexpr std::size_t word = 64, name = 160; // bytes
     constexpr bool derived = true;
     static const FigureTables all{
         {"frame_medians",
@@ -46,6 +46,7 @@ const FigureTables& figure_tables() {
          {
              {"cell_id", &StageCost::cell_id, "", "of cells"},
              {"stage", &StageCost::stage, "", "in the order of the plan", word},
+             {"effect", &StageCost::effect, "", "that it advances; empty for the others", word},
              {"required", &StageCost::required, "", "1 if the scene requires it"},
              {"calls", &StageCost::calls, "", "of one pass through the frames"},
              {"items", &StageCost::items, "", "handled in these calls"},
@@ -103,6 +104,8 @@ const FigureTables& figure_tables() {
          &Results::query_kernels,
          {
              {"cell_id", &QueryKernel::cell_id, "", "of cells"},
+             {"group", &QueryKernel::group, "", "of queries that differ by the kernel alone"},
+             {"tree", &QueryKernel::tree, "", "builder, layout and traversal", name},
              {"times_fastest", &QueryKernel::times_fastest, "",
               "its query over that of the fastest under the tree"},
          },

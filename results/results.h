@@ -57,13 +57,19 @@ struct TaskRow {
     std::string task;          ///< "rays_closest"
     std::string title;         ///< "nearest hit"
     Phase total = Phase::none; ///< what one use costs
+    std::string total_title;   ///< "build and one query"
 };
 
 struct Variant {
     std::uint32_t variant_id = 0;
     std::string name, library, lib_version, builder, layout, traversal, kernel, predicates;
+    std::string library_title; ///< for readers: "FCL"
     std::uint32_t is_peer = 0;
-    std::uint32_t keeps_structure = 1; ///< 0 if its build only copies the input
+    std::uint32_t is_reference = 0; ///< its builder is the one that our others are held against
+    std::uint32_t place = 0;    ///< of its builder, policy, way to play or library in its registry
+    std::uint32_t is_plain = 1; ///< 0 if its builder or policy has settings, or an optimizer
+    std::uint32_t answers_from_cache = 0; ///< 1 if its query tells nothing of its structure
+    std::uint32_t keeps_structure = 1;    ///< 0 if its build only copies the input
     std::string stages; ///< of ways to play a scene: required, all, or the effect that is left out
     std::string params_json, notes;
 };
@@ -121,7 +127,8 @@ struct FrameRow {
 /// scene does not require has a row of zeros, so that what was left out can be seen.
 struct EffectRow {
     std::uint32_t cell_id = 0, shard_id = 0, round = 0;
-    std::string stage; ///< advance_<effect> | move | fit | update | pairs | filter | ...
+    std::string stage;  ///< advance_<effect> | move | fit | update | pairs | filter | ...
+    std::string effect; ///< that it advances; empty for the others
     std::uint32_t required = 0;
     std::uint64_t calls = 0, items = 0;
     double total_ns = missing;
@@ -310,7 +317,7 @@ struct FrameStats {
 /// One stage of the plan of a moving scene over the rounds, in a mean frame.
 struct StageCost {
     std::uint32_t cell_id = 0;
-    std::string stage;
+    std::string stage, effect;
     std::uint32_t required = 0;
     std::uint64_t calls = 0, items = 0, bytes = 0; ///< as in effects
     double ns = 0, until_ns = 0; ///< of a frame: its own, and with all stages before it
@@ -345,6 +352,8 @@ struct Escalation {
 /// A whole query with one kernel, where others stand under the same tree.
 struct QueryKernel {
     std::uint32_t cell_id = 0;
+    std::uint32_t group = 0;        ///< of queries that differ by the kernel alone
+    std::string tree;               ///< "binned_sah.wide8.rays"
     double times_fastest = missing; ///< its time over that of the fastest of them
 };
 

@@ -2,6 +2,7 @@
 
 #include "kernels/suggest.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #define BOXWOOD_SCENES(X)                                                                          \
@@ -31,6 +32,10 @@ std::span<const SceneEntry> scene_generators() {
     static const SceneEntry entries[] = {BOXWOOD_SCENES(BOXWOOD_ROW)};
 #undef BOXWOOD_ROW
     return entries;
+}
+
+const SceneEntry& file_generator() {
+    return *std::ranges::find(scene_generators(), true, &SceneEntry::reads_file);
 }
 
 const SceneEntry& scene_generator(std::string_view name) {

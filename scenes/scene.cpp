@@ -132,13 +132,12 @@ Scene family_scene(const HardCaseFamily& family, const SceneSpec& spec) {
 /// The row of the spec's generator. Throws std::invalid_argument for what does not go together.
 const SceneEntry& checked(const SceneSpec& spec) {
     const SceneEntry& entry = scene_generator(spec.generator);
-    const bool reads_file = entry.name == "mesh";
-    if (reads_file && spec.file.empty())
-        throw std::invalid_argument("scene mesh: no file is given; name an OBJ, PLY or STL file");
-    if (!reads_file && !spec.file.empty())
+    if (entry.reads_file && spec.file.empty())
         throw std::invalid_argument(
-            fmt::format("scene {} reads no file, but {} is given; use the scene mesh", entry.name,
-                        spec.file.string()));
+            fmt::format("scene {}: no file is given; name an OBJ, PLY or STL file", entry.name));
+    if (!entry.reads_file && !spec.file.empty())
+        throw std::invalid_argument(
+            fmt::format("scene {} reads no file, but {} is given", entry.name, spec.file.string()));
     const bool has_points = spec.n_points != 0 && spec.regions.empty();
     if ((spec.k && !has_points) || spec.scale != 0)
         throw std::invalid_argument(

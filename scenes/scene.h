@@ -75,11 +75,14 @@ struct SceneEntry {
     std::string_view human_name; ///< "{n} uniform boxes"; {file}: the file's name
     std::string_view summary;
     Scene (*generate)(const SceneSpec&);
-    bool has_mesh;      ///< boxes of triangles, at which rays can be aimed
-    bool uses_overlaps; ///< spec.overlaps steers the sizes
+    bool has_mesh;           ///< boxes of triangles, at which rays can be aimed
+    bool uses_overlaps;      ///< spec.overlaps steers the sizes
+    bool reads_file = false; ///< spec.file holds it: n, seed and overlaps are unused
 };
 
 std::span<const SceneEntry> scene_generators();
+/// The one that reads a file.
+const SceneEntry& file_generator();
 
 /// A kind of rays aimed at a mesh scene.
 struct RayKindEntry {

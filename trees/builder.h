@@ -56,6 +56,7 @@ struct BuilderEntry {
     std::string_view name, summary;
     std::vector<SettingInfo> settings;
     std::function<BuildFunction(const Settings&)> make;
+    bool is_reference = false; ///< the one that the others are held against
 };
 
 std::span<const BuilderEntry> builders();

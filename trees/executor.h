@@ -4,6 +4,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -34,12 +35,16 @@ concept ExecutorType = std::derived_from<E, Executor> && !std::is_abstract_v<E>;
 struct ExecutorEntry {
     std::string_view name, summary;
     std::unique_ptr<Executor> (*make)(unsigned threads);
+    unsigned max_threads = std::numeric_limits<unsigned>::max();
 };
 
 std::span<const ExecutorEntry> executors();
 
+/// The executor to take for so many threads where none is named: serial, else tbb.
+std::string_view default_executor(unsigned threads);
+
 /// The executor by its registered name. Throws std::invalid_argument for an unknown one, and for
-/// `serial` with more than one thread.
+/// no threads or more than it can have.
 std::unique_ptr<Executor> make_executor(std::string_view name, unsigned threads);
 
 /// One thread, the caller's own.

@@ -87,17 +87,23 @@ std::span<const UpdateEntry> updates() {
 
 std::span<const TraversalEntry> traversals() {
     static constexpr std::array<TraversalEntry, 9> entries{{
+        // in the order of `Query`
         {"self_pairs", "every unordered pair of overlapping items of one tree, once"},
         {"tree_pairs", "every overlapping pair between the items of two trees, once"},
         {"rays", "for each ray the nearest triangle, or whether there is any, or all of them"},
-        {"sorted_rays", "the same of a batch taken by direction and place, answers put back"},
-        {"single_rays", "the same of one ray in a call, as fast alone as it can be"},
         {"points", "for each point all items that contain it"},
         {"regions", "for each box or sphere all items that share a point with it"},
         {"nearest", "for each point the k nearest items"},
         {"closest_points", "for each point the nearest point of a mesh"},
+        // further ways to answer rays
+        {"sorted_rays", "rays of a batch taken by direction and place, answers put back"},
+        {"single_rays", "one ray in a call, as fast alone as it can be"},
     }};
     return entries;
+}
+
+std::string_view to_string(Query query) {
+    return traversals()[static_cast<std::size_t>(query)].name;
 }
 
 BuildFunction make_builder(std::string_view name, const Settings& settings) {
@@ -128,12 +134,6 @@ BuildFunction make_builder(std::string_view name, const Settings& settings) {
     return made;
 }
 
-std::string_view to_string(Query query) {
-    constexpr std::array<std::string_view, 7> names{
-        "self_pairs", "tree_pairs", "rays", "points", "regions", "nearest", "closest_points"};
-    return names[static_cast<std::size_t>(query)];
-}
-
 bool LayoutEntry::answers(Query query) const {
     return std::ranges::find(queries, query) != queries.end();
 }
@@ -156,10 +156,13 @@ std::unique_ptr<Executor> make_executor(std::string_view name, unsigned threads)
     const ExecutorEntry& entry = entry_named(name, executors(), "executor");
     if (threads == 0)
         throw std::invalid_argument("an executor needs at least one thread");
-    if (entry.name == "serial" && threads != 1)
-        throw std::invalid_argument("the executor 'serial' has one thread, not " +
-                                    std::to_string(threads) + "; choose openmp or tbb");
+    if (threads > entry.max_threads)
+        throw std::invalid_argument("the executor '" + std::string(name) + "' cannot have " +
+                                    std::to_string(threads) + " threads; choose " +
+                                    std::string(default_executor(threads)));
     return entry.make(threads);
 }
+
+std::string_view default_executor(unsigned threads) { return threads == 1 ? "serial" : "tbb"; }
 
 } // namespace boxwood

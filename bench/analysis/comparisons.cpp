@@ -4,6 +4,7 @@
 #include "bench/analysis/job.h"
 #include "bench/analysis/status.h"
 #include "bench/analysis/wording.h"
+#include "trees/executor.h"
 
 #include <algorithm>
 #include <set>
@@ -134,11 +135,12 @@ void against_one_thread(const Index& index, const Times& times, Judge& judge) {
     const auto contender_of = [](const Cell& cell) {
         return Contender{cell.scene_id, cell.task, cell.variant_id, cell.precision};
     };
-    std::map<Contender, const Cell*> single; // serial if there is one
+    const std::string_view usual = default_executor(1);
+    std::map<Contender, const Cell*> single; // of the usual executor if there is one
     for (const Cell& cell : index.results().cells)
         if (cell.threads == 1 && !index.is_kernel(cell)) {
             const Cell*& kept = single[contender_of(cell)];
-            if (!kept || (kept->executor != "serial" && cell.executor == "serial"))
+            if (!kept || (kept->executor != usual && cell.executor == usual))
                 kept = &cell;
         }
     Grouped<JobKey> claims;
@@ -186,9 +188,9 @@ const Cell* reference_of(const Index& index, const Cell& judged) {
             cell.classes != judged.classes)
             continue;
         const results::Variant& other = index.variant(cell);
-        const bool is_alike = variant.builder != "hilbert" && other.layout == variant.layout &&
+        const bool is_alike = !variant.is_reference && other.layout == variant.layout &&
                               other.kernel == variant.kernel;
-        const int fit = other.builder != "hilbert" ? 0 : is_alike ? 2 : 1;
+        const int fit = !other.is_reference ? 0 : is_alike ? 2 : 1;
         if (fit > best_fit) {
             best = &cell;
             best_fit = fit;

@@ -199,7 +199,7 @@ TEST(ComparePeers, WrongIsNeverRanked) {
 }
 
 TEST(ComparePeers, AFamilyIsCorrected) {
-    Maker maker(9); // p of one claim is 2/512: at most 12 of them can be told
+    Maker maker(9); // p of one claim is 2/512: at most 12 of them can be decided
     const auto ours = maker.cell("ours", false);
     maker.time(ours, Phase::query, steady(1));
     for (int i = 0; i < 12; ++i)

@@ -2,6 +2,7 @@
 
 #include "bench/analysis/figures/kernel_rows.h"
 #include "bench/io/text_table.h"
+#include "scenes/hard_cases/hard_cases.h"
 
 #include <fmt/format.h>
 
@@ -83,7 +84,9 @@ std::vector<KernelCost> kernel_costs_of(const results::Results& results) {
         all.push_back(std::move(sum.first));
     }
     std::ranges::stable_sort(all, {}, [](const KernelCost& cost) {
-        return std::tuple(cost.task, cost.panel, cost.is_peer, cost.ns);
+        const auto* panel =
+            std::ranges::find(all_panels, cost.panel, [](Panel p) { return to_string(p); });
+        return std::tuple(cost.task, panel, cost.is_peer, cost.ns);
     });
     set_rates_and_front(all, by_error);
     return all;

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace boxwood::bench {
 
@@ -22,13 +21,6 @@ std::string count_words(std::uint64_t n) {
     return n >= 1'000'000 && n % 100'000 == 0 ? fmt::format("{:g}M", static_cast<double>(n) / 1e6)
            : n >= 1000 && n % 100 == 0        ? fmt::format("{:g}k", static_cast<double>(n) / 1e3)
                                               : std::to_string(n);
-}
-
-std::string library_words(const std::string& library) {
-    static const std::map<std::string, std::string> words{
-        {"fcl", "FCL"}, {"cgal", "CGAL"}, {"embree", "Embree"}, {"bullet", "Bullet"}};
-    const auto found = words.find(library);
-    return found == words.end() ? spaced(library) : found->second;
 }
 
 Outcome outcome_of(const Comparison& row) {
@@ -96,9 +88,12 @@ std::string verdict_text(const Comparison& row) {
 }
 
 std::string interval_text(double ratio, double lo, double hi) {
-    if (std::isnan(lo) || std::isnan(hi))
-        return ratio_text(ratio);
-    return fmt::format("{} [{}, {}]", ratio_text(ratio), ratio_text(lo), ratio_text(hi));
+    if (std::isnan(ratio))
+        return "-";
+    const std::string text = ratio_text(ratio) + "x";
+    return std::isnan(lo) || std::isnan(hi)
+               ? text
+               : fmt::format("{} ({} to {})", text, ratio_text(lo), ratio_text(hi));
 }
 
 } // namespace boxwood::bench

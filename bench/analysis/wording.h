@@ -27,12 +27,10 @@ std::string reason_text(results::Reason reason);
 /// "faster", "can't tell (too few rounds)": the verdict of a comparison, with its reason.
 std::string verdict_text(const results::Comparison& row);
 
-/// "3.12 [3.01, 3.20]": a ratio with its interval, where it has one; "-" for no ratio.
+/// "3.12x (3.01 to 3.20)": a ratio with its interval, where it has one; "-" for no ratio.
 std::string interval_text(double ratio, double lo, double hi);
 
-// "Embree" of embree, "10k" of 10,000.
-std::string library_words(const std::string& library);
-std::string count_words(std::uint64_t n);
-std::string spaced(std::string name); ///< with spaces for underscores
+std::string count_words(std::uint64_t n); ///< "10k"
+std::string spaced(std::string name);     ///< with spaces for underscores
 
 } // namespace boxwood::bench

@@ -45,7 +45,7 @@ void run_plan(const PlanOptions& options) {
         file.n = *options.n;
     if (options.seed)
         file.seed = *options.seed;
-    const auto executor = make_executor(options.threads == 1 ? "serial" : "tbb", options.threads);
+    const auto executor = make_executor(default_executor(options.threads), options.threads);
     const Extent extent = options.all_stages ? Extent::all_stages : Extent::required;
     if (!options.play)
         fmt::print("{}", plan_text(MovingScene(file), extent, options.json));

@@ -53,12 +53,11 @@ const LayoutEntry& chosen_layout(const TreeChoice& choice) {
 }
 
 std::unique_ptr<Executor> chosen_executor(const TreeChoice& choice) {
-    const auto known = names_of(executors());
-    if (std::find(known.begin(), known.end(), choice.executor) == known.end())
-        throw BadInput(unknown_name("executor", choice.executor, known));
-    const unsigned all = choice.executor == "serial"
-                             ? 1
-                             : std::clamp(std::thread::hardware_concurrency(), 1u, max_threads);
+    const auto entry = std::ranges::find(executors(), choice.executor, &ExecutorEntry::name);
+    if (entry == executors().end())
+        throw BadInput(unknown_name("executor", choice.executor, names_of(executors())));
+    const unsigned all = std::clamp(std::thread::hardware_concurrency(), 1u,
+                                    std::min(max_threads, entry->max_threads));
     return make_executor(choice.executor, choice.threads.value_or(all));
 }
 

@@ -66,7 +66,7 @@ TEST_F(QueryTriangles, TheDefaultIsExact) {
     EXPECT_EQ(answer(rows(tiny)), "0\n");
 }
 
-TEST_F(QueryTriangles, EveryRungAnswersASimpleQuestion) {
+TEST_F(QueryTriangles, EveryKernelAnswersASimpleQuestion) {
     for (const char* kernel :
          {"moller_f32", "moller_f64", "sat_f64", "sat_certified", "guigue_devillers_f32",
           "guigue_devillers_f64", "guigue_devillers_exact", "rational"}) {

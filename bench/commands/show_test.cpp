@@ -1,13 +1,17 @@
 #include "bench/commands/show.h"
 
 #include "bench/analysis/analyse.h"
+#include "bench/analysis/wording.h"
 #include "bench/io/text_table.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <limits>
+#include <set>
+#include <sstream>
 
 namespace boxwood::bench {
 namespace {
@@ -42,6 +46,7 @@ results::Results four_cells() {
         variant.variant_id = id;
         variant.name = names[id];
         variant.library = id == 0 ? "boxwood" : variant.name.substr(0, variant.name.find('.'));
+        variant.library_title = variant.library == "fcl" ? "FCL" : variant.library;
         variant.is_peer = id > 0;
         results.variants.push_back(variant);
         results::Cell cell;
@@ -67,7 +72,7 @@ results::Results four_cells() {
             results.samples.push_back(sample);
         }
     }
-    results.tasks.push_back({"pairs", "overlapping pairs", results::Phase::build_and_query});
+    results.tasks.push_back({"pairs", "overlapping pairs", results::Phase::build_and_query, ""});
     results.counters.push_back({0, "box_tests", 12345});
     analyse(results);
     return results;
@@ -81,9 +86,10 @@ TEST(Show, AllSaysWhatIsInTheFile) {
           "wrong, not ranked: embree.fast f32 serial: 3 missing and 0 extra of 70; pair 4,9",
           "unsupported: bullet.dbvt f32 serial: no rays"})
         EXPECT_THAT(text, HasSubstr(part));
-    EXPECT_THAT(text, ::testing::ContainsRegex("binned_sah.wide8 f32 serial +fcl.tree f32 serial "
-                                               "+peers +query +9 +2.00 \\[1.[0-9]+, 2.[0-9]+\\] +"
-                                               "faster"));
+    EXPECT_THAT(text,
+                ::testing::ContainsRegex("binned_sah.wide8 f32 serial +fcl.tree f32 serial "
+                                         "+peers +query +9 +2.00x \\(1.[0-9]+ to 2.[0-9]+\\) +"
+                                         "faster"));
     EXPECT_THAT(text, HasSubstr("not ranked: a wrong answer"));
     EXPECT_THAT(text, ::testing::ContainsRegex("overlapping pairs, soup 1k +wins 2.00x over FCL"));
 }
@@ -118,17 +124,28 @@ TEST(TextTable, AlignsAndEscapes) {
     EXPECT_EQ(table.markdown(), "| name | n |\n| --- | ---: |\n| a\\|b | 1 |\n| \u00b5 | 234 |\n");
 }
 
-TEST(TextTable, ThreeDigits) {
-    EXPECT_EQ(time_text(0.5), "0.50 ns");
-    EXPECT_EQ(time_text(999.4), "999 ns");
-    EXPECT_EQ(time_text(999.6), "1.00 us");
-    EXPECT_EQ(time_text(12'345'678), "12.3 ms");
-    EXPECT_EQ(time_text(5e12), "5000 s");
-    EXPECT_EQ(time_text(std::numeric_limits<double>::quiet_NaN()), "-");
-    EXPECT_EQ(ratio_text(0.4117), "0.412");
-    EXPECT_EQ(ratio_text(1), "1.00");
-    EXPECT_EQ(ratio_text(12.34), "12.3");
-    EXPECT_EQ(ratio_text(123.4), "123");
+/// The table of examples that the Python scripts are held to as well.
+TEST(TextTable, NumbersAreAsTheTableSays) {
+    std::ifstream table("scripts/tests/numbers.csv");
+    std::string line;
+    std::getline(table, line);
+    ASSERT_EQ(line, "kind,numbers,text");
+    std::set<std::string> kinds;
+    while (std::getline(table, line)) {
+        const std::size_t first = line.find(','), second = line.find(',', first + 1);
+        const std::string kind = line.substr(0, first);
+        kinds.insert(kind);
+        std::istringstream words(line.substr(first + 1, second - first - 1));
+        std::vector<double> numbers;
+        for (std::string word; words >> word;)
+            numbers.push_back(std::stod(word));
+        const std::string text = kind == "time" ? time_text(numbers.at(0))
+                                 : kind == "ratio"
+                                     ? ratio_text(numbers.at(0))
+                                     : interval_text(numbers.at(0), numbers.at(1), numbers.at(2));
+        EXPECT_EQ(text, line.substr(second + 1)) << line;
+    }
+    EXPECT_EQ(kinds, (std::set<std::string>{"time", "ratio", "interval"}));
 }
 
 } // namespace

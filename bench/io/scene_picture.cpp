@@ -45,16 +45,15 @@ BoxedBodies boxed(const Bodies& bodies) {
             made.boxes.push_back(fitted_box(bodies, i));
             made.body.push_back(i);
         }
-    made.tree = BinnedSahBuilder{}.build(made.boxes, *make_executor("serial", 1));
+    made.tree = BinnedSahBuilder{}.build(made.boxes, serial());
     return made;
 }
 
 std::vector<Pair> overlapping_bodies(const MovingScene& scene, const BoxedBodies& boxed) {
-    const auto serial = make_executor("serial", 1);
-    const BinaryLayout layout(boxed.tree, *serial);
+    const BinaryLayout layout(boxed.tree, serial());
     std::vector<Pair> found;
     AppendPairs sink(found);
-    self_pairs(layout, *serial, sink);
+    self_pairs(layout, serial(), sink);
     std::vector<Pair> pairs;
     for (const Pair p : found) {
         const auto [a, b] = std::minmax(boxed.body[p.a], boxed.body[p.b]);
@@ -113,12 +112,19 @@ void ScenePicture::add_queries(const MovingScene& scene, Frame& frame) const {
         std::vector<Box> regions;
         std::vector<Ray<float>> rays;
         std::vector<Vec3<float>> points;
-        if (query.name == "regions")
+        switch (probes_of(query.name)) {
+        case Probes::regions:
             regions_of_frame(scene, query, regions);
-        else if (query.name == "rays")
+            break;
+        case Probes::rays:
             rays_of_frame(scene, query, rays);
-        else if (query.name == "points" || query.name == "nearest")
+            break;
+        case Probes::points:
             points_of_frame(scene, query, points);
+            break;
+        case Probes::none:
+            break;
+        }
         some(regions);
         some(rays);
         some(points);

@@ -27,4 +27,7 @@ std::string time_text(double ns);
 /// Three digits: "0.412", "3.12", "120"; "-" for NaN.
 std::string ratio_text(double ratio);
 
+// scripts/boxwood_results/words.py has the same rules; scripts/tests/numbers.csv is the test of
+// both.
+
 } // namespace boxwood::bench

@@ -135,6 +135,7 @@ Peer brute_force_peer() {
 
     Peer peer;
     peer.name = "brute_force";
+    peer.title = "brute force";
     peer.summary = "all pairs with SIMD, the oracle of pairs";
     peer.version = fmt::format("Highway {}.{}.{}", HWY_MAJOR, HWY_MINOR, HWY_PATCH);
     peer.build = "ours: instruction set chosen at run time";

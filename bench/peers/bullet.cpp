@@ -157,6 +157,7 @@ ContenderEntry entry(std::string name, std::string summary, std::string build, W
 Peer bullet_peer() {
     Peer peer;
     peer.name = "bullet";
+    peer.title = "Bullet";
     peer.summary = "Bullet Physics: dynamic bounding volume tree";
     peer.version = fmt::format("{}.{}", BT_BULLET_VERSION / 100, BT_BULLET_VERSION % 100);
     peer.build = "the distribution's package: single precision, box tests without SSE";

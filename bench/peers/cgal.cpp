@@ -118,6 +118,7 @@ ContenderEntry entry(std::vector<Answering> answers, std::string name, std::stri
 Peer cgal_peer() {
     Peer peer;
     peer.name = "cgal";
+    peer.title = "CGAL";
     peer.summary = "CGAL: streamed segment tree, without a structure that is kept";
     peer.version = CGAL_VERSION_STR;
     peer.build = "headers compiled here with single-precision boxes and TBB";

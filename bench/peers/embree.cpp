@@ -165,6 +165,7 @@ ContenderEntry collide(const char* word, RTCBuildQuality quality) {
 Peer embree_peer() {
     Peer peer;
     peer.name = "embree";
+    peer.title = "Embree";
     peer.summary = "Intel Embree: ray tracing kernels, and collision of user geometry";
     peer.version = RTC_VERSION_STRING;
     peer.build = "the distribution's package: SSE2 to AVX-512 chosen at run time, TBB";

@@ -161,6 +161,7 @@ ContenderEntry entry(std::string name, std::string summary, bool moved_alone = f
 Peer fcl_peer() {
     Peer peer;
     peer.name = "fcl";
+    peer.title = "FCL";
     peer.summary = "Flexible Collision Library: broad phase by dynamic AABB trees";
     peer.version = FCL_VERSION;
     peer.build = "the distribution's package: double precision, no SSE";

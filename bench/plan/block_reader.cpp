@@ -36,7 +36,7 @@ Words peer_names() {
     return words;
 }
 
-Place usual_place(unsigned threads) { return {threads == 1 ? "serial" : "tbb", threads}; }
+Place usual_place(unsigned threads) { return {std::string(default_executor(threads)), threads}; }
 
 } // namespace
 
@@ -57,7 +57,7 @@ bool BlockReader::has(std::string_view key) const { return table_->toml.get(key)
 
 bool BlockReader::takes_mesh() const {
     const auto is_mesh = [](const toml::node& node) {
-        return node.value_or(std::string()) == "mesh";
+        return node.value_or(std::string()) == file_generator().name;
     };
     const toml::node* scene = table_->toml.get("scene");
     const toml::array* all = scene ? scene->as_array() : nullptr;
@@ -193,13 +193,13 @@ std::vector<Place> BlockReader::places() const {
         if (named.empty())
             all.push_back(usual_place(n));
         for (const std::string& executor : named)
-            if (n == 1 || executor != "serial")
+            if (n <= entry_named(executor, executors(), "executor").max_threads)
                 all.push_back({executor, n});
     }
     if (all.empty())
-        fail(fmt::format("executors = \"serial\" has one thread, threads = {} have more: add 1 to "
-                         "threads, or openmp or tbb to executors",
-                         fmt::join(threads(), ", ")),
+        fail(fmt::format("executors = \"{}\" has one thread, threads = {} have more: add 1 to "
+                         "threads, or {} to executors",
+                         fmt::join(named, ", "), fmt::join(threads(), ", "), default_executor(2)),
              "executors");
     return all;
 }

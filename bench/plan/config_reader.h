@@ -63,9 +63,9 @@ class ConfigReader : public TomlReader {
         if (node.is_string() && name.ends_with(".toml"))
             return name;
         Words known = names_of(built_in_scenes());
-        for (const std::string_view generator : names_of(scene_generators()))
-            if (generator != "mesh")
-                known.push_back(generator);
+        for (const SceneEntry& generator : scene_generators())
+            if (!generator.reads_file)
+                known.push_back(generator.name);
         return word(node, "scene", known);
     }
 

@@ -129,7 +129,7 @@ TEST(Config, EveryComplaintNamesThePlaceTheFaultAndTheRemedy) {
                  {"x.toml:4:", "'layuots'", "did you mean 'layouts'"}},
              Row{"one thread where only others are wanted",
                  good + "threads = 2\nexecutors = \"serial\"\n",
-                 {"x.toml:6:", "\"serial\" has one thread", "add 1 to threads, or openmp or tbb"}},
+                 {"x.toml:6:", "\"serial\" has one thread", "add 1 to threads, or tbb"}},
              Row{"no threads at all",
                  "threads = []\n" + good,
                  {"x.toml:1: threads = [] names nothing", "or leave the key out"}},

@@ -64,7 +64,7 @@ class Expansion {
 /// The number of triangles of a mesh file, so that cell names can say it.
 std::size_t mesh_size(const std::filesystem::path& file) {
     SceneSpec spec;
-    spec.generator = "mesh";
+    spec.generator = file_generator().name;
     spec.file = file;
     try {
         return make_scene(spec).boxes.size();

@@ -12,7 +12,7 @@
 namespace boxwood::bench {
 
 /// Keys: scene, n, overlaps. `mesh_is_for`: what triangles are needed for ("aim rays at"), or
-/// empty if boxes are enough. None of the scene "mesh" where the sweep has no mesh file.
+/// empty if boxes are enough. None of a scene read from a file where the sweep has none.
 std::vector<SceneSpec> still_scenes(const BlockReader& block, std::string_view mesh_is_for = {});
 
 /// Keys: scene, n, overlaps, effects, frames. Every moving scene that is named, and every generator

@@ -10,11 +10,13 @@ namespace boxwood::bench {
 
 std::vector<SceneSpec> still_scenes(const BlockReader& block, std::string_view mesh_is_for) {
     const std::vector<std::string> names = block.words("scene", names_of(scene_generators()));
-    const bool is_mesh = std::ranges::count(names, "mesh") > 0;
+    const std::string_view mesh = file_generator().name;
+    const bool is_mesh = std::ranges::count(names, mesh) > 0;
     if (is_mesh && names.size() > 1)
-        block.fail("the scene \"mesh\" needs a [[cells]] block of its own");
+        block.fail(fmt::format("the scene \"{}\" needs a [[cells]] block of its own", mesh));
     if (is_mesh && block.has("n"))
-        block.fail("the scene \"mesh\" takes no n: the size is that of its file", "n");
+        block.fail(fmt::format("the scene \"{}\" takes no n: the size is that of its file", mesh),
+                   "n");
     if (!mesh_is_for.empty())
         for (const std::string& name : names)
             if (!entry_named(name, scene_generators(), "scene").has_mesh)

@@ -20,6 +20,7 @@ void accumulate(std::vector<results::EffectRow>& rows, const Ledger& ledger) {
         for (const LedgerRow& stage : ledger.rows()) {
             results::EffectRow& row = rows.emplace_back();
             row.stage = stage.stage;
+            row.effect = stage.effect;
             row.required = stage.is_required;
             row.calls = stage.calls;
             row.items = stage.items;

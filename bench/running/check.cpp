@@ -143,14 +143,15 @@ void CheckRun::judge_task(const Scene& scene, std::uint32_t scene_id, const Task
                           const std::vector<ContenderEntry>& contenders) {
     const std::unique_ptr<Truth> truth = task.make_truth(scene, all_cores());
     said_.clear();
+    const std::string executor(default_executor(1));
     for (const ContenderEntry& contender : contenders) {
         const std::string name =
             format_cell_name({scene.name, scene.spec.n, scene.spec.seed, std::string(task.name()),
-                              contender.name, contender.precision, "serial", 1});
+                              contender.name, contender.precision, executor, 1});
         const results::Cell cell =
-            record_.cell(name, scene, scene_id, task, contender, "serial", 1);
+            record_.cell(name, scene, scene_id, task, contender, executor, 1);
         double query_ns = 0;
-        Judgement judgement = judged({&scene, &task, "serial", 1}, *truth, contender, query_ns);
+        Judgement judgement = judged({&scene, &task, executor, 1}, *truth, contender, query_ns);
         if (!judgement.kernel) // could not answer
             judgement.kernel.emplace();
         results::KernelRow& row = *judgement.kernel;

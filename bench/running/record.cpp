@@ -21,30 +21,29 @@ std::string random_uuid() {
                        bits(0x0fff, 0x4000), bits(0x3fff, 0x8000), bits(~0u, 0), bits(0xffff, 0));
 }
 
-std::string library_version(const ContenderEntry& contender, const results::Env& env) {
-    for (const Peer& peer : peers())
-        if (peer.name == contender.library)
-            return peer.version;
-    return env.git_commit;
-}
-
 std::string name_without_rays(SceneSpec spec) {
     spec.rays.clear();
     return human_name(spec);
 }
 
-results::Phase total_of(Phases phases) {
+/// What one use of a task costs.
+struct Total {
+    results::Phase phase;
+    const char* title;
+};
+
+Total total_of(Phases phases) {
     switch (phases) {
     case Phases::build:
-        return results::Phase::build;
+        return {results::Phase::build, "build"};
     case Phases::query:
-        return results::Phase::query;
+        return {results::Phase::query, "query"};
     case Phases::frames:
-        return results::Phase::update_and_query;
+        return {results::Phase::update_and_query, "update and query of a frame"};
     case Phases::build_and_query:
         break;
     }
-    return results::Phase::build_and_query;
+    return {results::Phase::build_and_query, "build and one query"};
 }
 
 } // namespace
@@ -129,12 +128,19 @@ std::uint32_t Record::variant_id_of(const ContenderEntry& contender) {
     row.variant_id = static_cast<std::uint32_t>(out.variants.size());
     row.name = contender.name;
     row.library = contender.library;
-    row.lib_version = library_version(contender, out.env.front());
+    const auto peer = std::ranges::find(peers(), contender.library, &Peer::name);
+    const bool is_ours = peer == peers().end();
+    row.library_title = is_ours ? "Boxwood" : peer->title;
+    row.lib_version = is_ours ? out.env.front().git_commit : peer->version;
     row.builder = contender.builder;
     row.layout = contender.layout;
     row.traversal = contender.traversal;
     row.kernel = contender.kernel;
     row.is_peer = contender.is_peer;
+    row.is_reference = contender.is_reference;
+    row.place = static_cast<std::uint32_t>(is_ours ? contender.place : peer->place);
+    row.is_plain = contender.is_plain;
+    row.answers_from_cache = contender.answers_from_cache;
     row.keeps_structure = contender.keeps_structure;
     row.stages = contender.stages;
     row.params_json = contender.params_json;
@@ -144,7 +150,8 @@ std::uint32_t Record::variant_id_of(const ContenderEntry& contender) {
 }
 
 results::TaskRow task_row(const Task& task) {
-    return {std::string(task.name()), task.title(), total_of(task.phases())};
+    const Total total = total_of(task.phases());
+    return {std::string(task.name()), task.title(), total.phase, total.title};
 }
 
 std::uint64_t items_of(const Scene& scene) {

@@ -48,7 +48,7 @@ SceneFile with_all_queries(SceneFile file) {
     return file;
 }
 
-TEST(Answers, EverythingOnGivesTheSameFrameByFrame) {
+TEST(Answers, AllStagesGiveTheSameFrameByFrame) {
     for (const BuiltInScene& entry : built_in_scenes())
         for (const bool all : {false, true}) {
             SCOPED_TRACE(std::string(entry.name) + (all ? ", all queries" : ""));

@@ -7,7 +7,8 @@ namespace boxwood::bench {
 
 Ledger::Ledger(std::span<const PlannedStage> plan) {
     for (const PlannedStage& stage : plan)
-        rows_.push_back({.stage = stage.name, .is_required = stage.is_required});
+        rows_.push_back(
+            {.stage = stage.name, .effect = stage.effect, .is_required = stage.is_required});
 }
 
 std::size_t Ledger::index_of(std::string_view stage) const {

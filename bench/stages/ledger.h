@@ -11,8 +11,8 @@ namespace boxwood::bench {
 
 /// What one stage did since the start of the ledger.
 struct LedgerRow {
-    std::string stage;
-    bool is_required = false; ///< by the scene
+    std::string stage, effect; ///< as PlannedStage
+    bool is_required = false;  ///< by the scene
     std::uint64_t calls = 0;
     std::uint64_t items =
         0; ///< bodies, pairs, vertices, triangles, queries: what the stage handles

@@ -54,11 +54,11 @@ class Plan {
   private:
     /// A stage that the extent all_stages runs all the same.
     void add(std::string_view name, bool required, std::string why) {
-        stages_.push_back({std::string(name), required, required || all_, std::move(why)});
+        stages_.push_back({std::string(name), "", required, required || all_, std::move(why)});
     }
     /// One that cannot run unless it is required.
     void add_only(std::string_view name, bool required, std::string why) {
-        stages_.push_back({std::string(name), required, required, std::move(why)});
+        stages_.push_back({std::string(name), "", required, required, std::move(why)});
     }
 
     void changing() {
@@ -70,6 +70,7 @@ class Plan {
             add_only(fmt::format("advance_{}", effect.name), chosen > 0,
                      chosen > 0 ? fmt::format("laid on {} of {} bodies", chosen, wants_.n)
                                 : "no body has this effect");
+            stages_.back().effect = effect.name;
         }
         const std::size_t fast = scene_.with_velocity().size();
         add("move", fast > 0,

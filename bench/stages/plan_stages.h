@@ -19,14 +19,15 @@ enum class Extent : std::uint8_t {
 /// One stage of the plan of a scene.
 struct PlannedStage {
     std::string name;
+    std::string effect{};     ///< that the stage advances; empty for the others
     bool is_required = false; ///< by the scene, whatever the extent
     bool runs = false;        ///< in this extent; what does not run is not made and has no memory
     std::string why;          ///< required, or not: one clause of plain English
 };
 
-/// All stages there are, in the order in which they run: advance_<effect> of each word of
-/// `effects()`, move, fit, tree, update, box_tree, pairs, filter, transform, mesh_trees,
-/// triangle_pairs, surface, aim, rays, points, regions, nearest.
+/// All stages there are, in the order in which they run: one for each of `effects()`, move, fit,
+/// tree, update, box_tree, pairs, filter, transform, mesh_trees, triangle_pairs, surface, aim,
+/// rays, points, regions, nearest.
 std::vector<PlannedStage> plan_stages(const MovingScene& scene, Extent extent);
 
 /// The stage of this name; there must be one.

@@ -83,7 +83,7 @@ TEST(PlanStages, EveryQueryHasAStageOfItsName) {
     }
 }
 
-TEST(PlanStages, EverythingOnIsCalledForAlike) {
+TEST(PlanStages, AllStagesRequireTheSame) {
     for (const BuiltInScene& entry : built_in_scenes()) {
         SCOPED_TRACE(entry.name);
         const MovingScene scene(load_scene(std::string(entry.name)), 100);

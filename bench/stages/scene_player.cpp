@@ -16,7 +16,7 @@ ScenePlayer::ScenePlayer(MovingScene scene, Extent extent, const Executor& execu
     const bool moves = full || !played.effects().empty();
 
     for (std::size_t i = 0; i < played.effects().size(); ++i)
-        add("advance_" + std::string(played.effects()[i].entry->name),
+        add(std::ranges::find(plan_, played.effects()[i].entry->name, &PlannedStage::effect)->name,
             advance_stage(i, !runs("move") && i + 1 == played.effects().size()), Runs::advancing);
     if (runs("move"))
         add("move", move_stage(), Runs::advancing);

@@ -56,9 +56,10 @@ class Played final : public Contender {
 } // namespace
 
 ContenderEntry stages_contender(Extent extent, std::string_view left_out) {
-    if (!left_out.empty())
-        effect_of(left_out); // throws for an unknown one
     ContenderEntry entry;
+    entry.place = extent == Extent::all_stages ? 1 : 0;
+    if (!left_out.empty()) // throws for an unknown one
+        entry.place = 2 + static_cast<std::size_t>(&effect_of(left_out) - effects().data());
     entry.library = "boxwood";
     entry.is_peer = false;
     entry.precision = "f32";

@@ -33,7 +33,7 @@ TEST(Build, AreExactForOursAndPeersAlsoWhenBuiltAgain) {
         const auto answers = task().make_answers();
         for (const ContenderEntry& entry : all_contenders())
             for (const unsigned threads : {1u, 2u}) {
-                const Job job{&scene, &task(), threads == 1 ? "serial" : "tbb", threads};
+                const Job job{&scene, &task(), std::string(default_executor(threads)), threads};
                 if (entry.unsupported(job))
                     continue;
                 const auto contender = entry.make(job);

@@ -1,6 +1,7 @@
 #include "bench/tasks/contender.h"
 
 #include "bench/tasks/task.h"
+#include "kernels/suggest.h"
 #include "peers_found.h"
 
 #include <fmt/format.h>
@@ -17,15 +18,15 @@ BOXWOOD_PEERS_FOUND(BOXWOOD_DECLARE)
 namespace {
 
 std::optional<std::string> cannot_run(RunsOn where, const Job& job) {
-    const bool is_one_thread = job.executor == "serial" && job.threads == 1;
-    if (is_one_thread)
+    const unsigned max_threads = entry_named(job.executor, executors(), "executor").max_threads;
+    if (max_threads == 1 && job.threads == 1)
         return std::nullopt;
     if (where == RunsOn::one_thread)
         return "runs on one thread only";
     if (where == RunsOn::tbb && job.executor != "tbb")
         return "runs on TBB only";
-    if (job.executor == "serial")
-        return "the executor serial has one thread";
+    if (job.threads > max_threads)
+        return fmt::format("the executor {} cannot have {} threads", job.executor, job.threads);
     return std::nullopt;
 }
 
@@ -60,7 +61,15 @@ std::unique_ptr<Contender> ContenderEntry::make(const Job& job) const {
 
 std::span<const Peer> peers() {
 #define BOXWOOD_CALL(name) name##_peer(),
-    static const std::vector<Peer> found{BOXWOOD_PEERS_FOUND(BOXWOOD_CALL)};
+#define BOXWOOD_NAME(name) #name,
+    static const std::vector<Peer> found = [] {
+        constexpr std::string_view names[] = {BOXWOOD_PEERS(BOXWOOD_NAME)};
+        std::vector<Peer> all{BOXWOOD_PEERS_FOUND(BOXWOOD_CALL)};
+        for (Peer& peer : all)
+            peer.place = static_cast<std::size_t>(std::ranges::find(names, peer.name) - names);
+        return all;
+    }();
+#undef BOXWOOD_NAME
 #undef BOXWOOD_CALL
     return found;
 }

@@ -3,6 +3,7 @@
 #include "bench/tasks/answers.h"
 #include "kernels/decision.h"
 #include "scenes/scene.h"
+#include "trees/executor.h"
 #include "trees/inspect/work.h"
 #include "trees/tree.h"
 
@@ -28,7 +29,7 @@ class Task;
 struct Job {
     const Scene* scene = nullptr;
     const Task* task = nullptr;
-    std::string executor = "serial"; ///< a name of executors()
+    std::string executor{default_executor(1)}; ///< a name of executors()
     unsigned threads = 1;
 };
 
@@ -89,6 +90,10 @@ struct ContenderEntry {
     std::string precision; ///< f32 | f64: storage and box arithmetic
     std::string builder, layout, traversal, kernel; ///< ours; empty where it does not apply
     bool is_peer = true;
+    bool is_reference = false; ///< ours are held against the builder, which has no settings here
+    std::size_t place = 0;     ///< ours: of the builder, policy or way to play in its registry
+    bool is_plain = true;      ///< ours: by default settings, with no optimizer
+    bool answers_from_cache = false; ///< its query tells nothing of its structure
     std::vector<Answering> answers;
     /// Contenders of one job are compared within a class, those of several classes in each. Most
     /// tasks have one, and need not name it; tasks/detail/ray_task.h has those of rays.
@@ -112,10 +117,12 @@ struct ContenderEntry {
 
 /// One peer library: a file of bench/peers/, compiled where its package is found.
 struct Peer {
-    std::string name;    ///< "fcl"
-    std::string summary; ///< one line
-    std::string version; ///< as the library reports it
-    std::string build;   ///< what is known of how it was compiled: SIMD, precision, threads
+    std::string name;      ///< "fcl"
+    std::string title;     ///< for readers: "FCL"
+    std::size_t place = 0; ///< among all peers, found or not
+    std::string summary;   ///< one line
+    std::string version;   ///< as the library reports it
+    std::string build;     ///< what is known of how it was compiled: SIMD, precision, threads
     std::vector<ContenderEntry> contenders;
 };
 

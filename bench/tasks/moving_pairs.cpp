@@ -115,6 +115,9 @@ ContenderEntry moving_contender(const BuilderChoice& policy) {
     entry.is_peer = false;
     entry.precision = "f32";
     entry.builder = name_with_settings(policy.name, policy.settings);
+    entry.place = static_cast<std::size_t>(&update - updates().data());
+    entry.answers_from_cache = update.answers_from_cache;
+    entry.is_plain = policy.settings.empty();
     entry.layout = "packed";
     entry.traversal = "self_pairs";
     entry.name = fmt::format("{}.{}.{}", entry.builder, entry.layout, entry.traversal);

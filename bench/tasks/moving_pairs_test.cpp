@@ -79,7 +79,7 @@ TEST(MovingPairs, EveryPolicyAndPeerFollowsEveryEffect) {
             all.push_back(moving_contender({std::string(update.name), {}}));
         for (const ContenderEntry& entry : all)
             for (const unsigned threads : {1u, 2u}) {
-                const Job job{&scene, &task(), threads == 1 ? "serial" : "tbb", threads};
+                const Job job{&scene, &task(), std::string(default_executor(threads)), threads};
                 if (entry.unsupported(job))
                     continue;
                 const Judgement judgement = judged(entry, job, frames, *truth);

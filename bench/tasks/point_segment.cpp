@@ -1,5 +1,5 @@
-/// The least distance of a point and a segment: a corner of one triangle of a case, an edge of the
-/// other.
+/// The minimum distance of a point and a segment: a corner of one triangle of a case, an edge of
+/// the other.
 
 #include "bench/tasks/detail/kernel_task.h"
 #include "bench/truth/judging/distance_truth.h"
@@ -28,7 +28,7 @@ TrueDistance measured(const TrianglePairCase& c) {
 const Task& point_segment_task() {
     using Kernels = Concatenated<PointSegmentKernels, oracle::RationalPointSegmentKernels>;
     static const KernelTaskOf<Distance, std::vector<TrianglePairCase>> task(
-        "point_segment", "of each case: the least distance of a point and an edge",
+        "point_segment", "of each case: the minimum distance of a point and an edge",
         distance_kernels<Kernels, Input>(),
         [](const CaseScene& scene) { return make_distance_truth(scene, measured); });
     return task;

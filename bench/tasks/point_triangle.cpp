@@ -1,4 +1,5 @@
-/// The least distance of a point and a triangle: a corner of one triangle of a case, and the other.
+/// The minimum distance of a point and a triangle: a corner of one triangle of a case, and the
+/// other.
 
 #include "bench/tasks/detail/kernel_task.h"
 #include "bench/truth/judging/distance_truth.h"
@@ -25,7 +26,7 @@ TrueDistance measured(const TrianglePairCase& c) {
 const Task& point_triangle_task() {
     using Kernels = Concatenated<PointTriangleKernels, oracle::RationalPointTriangleKernels>;
     static const KernelTaskOf<Distance, std::vector<TrianglePairCase>> task(
-        "point_triangle", "of each case: the least distance of a point and a triangle",
+        "point_triangle", "of each case: the minimum distance of a point and a triangle",
         distance_kernels<Kernels, Input>(),
         [](const CaseScene& scene) { return make_distance_truth(scene, measured); });
     return task;

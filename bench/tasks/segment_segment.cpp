@@ -1,4 +1,4 @@
-/// The least distance of two segments: an edge of each triangle of a case.
+/// The minimum distance of two segments: an edge of each triangle of a case.
 
 #include "bench/tasks/detail/kernel_task.h"
 #include "bench/truth/judging/distance_truth.h"
@@ -26,7 +26,7 @@ TrueDistance measured(const TrianglePairCase& c) {
 const Task& segment_segment_task() {
     using Kernels = Concatenated<SegmentDistanceKernels, oracle::RationalSegmentDistanceKernels>;
     static const KernelTaskOf<Distance, std::vector<TrianglePairCase>> task(
-        "segment_segment", "of each case: the least distance of two edges",
+        "segment_segment", "of each case: the minimum distance of two edges",
         distance_kernels<Kernels, Input>(),
         [](const CaseScene& scene) { return make_distance_truth(scene, measured); });
     return task;

@@ -1,4 +1,4 @@
-/// The least distance of two triangles.
+/// The minimum distance of two triangles.
 
 #include "bench/tasks/detail/pair_blocks.h"
 #include "bench/truth/judging/distance_truth.h"
@@ -28,7 +28,7 @@ TrueDistance measured(const TrianglePairCase& c) {
 const Task& triangle_distance_task() {
     using Kernels = Concatenated<DistanceKernels, oracle::RationalTriangleDistanceKernels>;
     static const KernelTaskOf<Distance, std::vector<TrianglePairCase>> task(
-        "triangle_distance", "of each case: the least distance of two triangles",
+        "triangle_distance", "of each case: the minimum distance of two triangles",
         all_kernels<Kernels>([]<class K>(std::type_identity<K>) { return kernel<K>(); }),
         [](const CaseScene& scene) { return make_distance_truth(scene, measured); });
     return task;

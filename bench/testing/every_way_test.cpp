@@ -70,7 +70,7 @@ std::vector<Scene> every_scene(std::size_t n) {
     std::vector<Scene> all;
     for (const SceneEntry& entry : scene_generators()) {
         SceneSpec spec{.generator = std::string(entry.name), .n = n};
-        if (entry.name == "mesh")
+        if (entry.reads_file)
             spec.file = octahedron_file();
         try {
             all.push_back(make_scene(spec));

@@ -34,7 +34,7 @@ struct RunForTest {
         if (std::ranges::find(results.tasks, task, &results::TaskRow::task) == results.tasks.end())
             results.tasks.push_back(task_row(*find_task(task)));
         cell.n_items = n;
-        cell.executor = threads == 1 ? "serial" : "tbb";
+        cell.executor = std::string(default_executor(threads));
         cell.threads = threads;
         results.cells.push_back(cell);
         results::Check check;
@@ -95,8 +95,10 @@ struct RunForTest {
         const std::string first = next();
         row.is_peer = first == "fcl" || first == "embree" || first == "bullet";
         row.library = row.is_peer ? first : "boxwood";
+        row.library_title = first == "fcl" ? "FCL" : first == "embree" ? "Embree" : "Bullet";
         if (!row.is_peer) {
             row.builder = first;
+            row.is_reference = first == "hilbert";
             row.layout = next();
             row.traversal = next();
             row.kernel = next();

@@ -14,7 +14,7 @@ namespace boxwood::oracle {
 
 using RationalPoint = std::array<mpq_class, 3>;
 
-/// Squared least distances; 0 exactly when the two share a point. Any of them may be degenerate.
+/// Squared minimum distances; 0 exactly when the two share a point. Any of them may be degenerate.
 mpq_class squared_distance(const Triangle<double>& a, const Triangle<double>& b);
 mpq_class squared_distance(const Segment<double>& a, const Segment<double>& b);
 mpq_class squared_distance(Vec3<double> a, const Triangle<double>& b);

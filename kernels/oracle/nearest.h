@@ -4,8 +4,8 @@
 
 namespace boxwood::oracle {
 
-/// The squared least distance of two closed sets and a point of each where it is taken, all exact.
-/// The sets may be degenerate. If they share a point, then a = b is one.
+/// The squared minimum distance of two closed sets and a point of each where it is taken, all
+/// exact. The sets may be degenerate. If they share a point, then a = b is one.
 struct Nearest {
     mpq_class squared;
     RationalPoint a, b;

@@ -11,7 +11,7 @@
 
 namespace boxwood {
 
-/// The least distance of two closed sets, scene units, and where it is taken.
+/// The minimum distance of two closed sets, scene units, and where it is taken.
 /// A certified kernel promises lo <= true distance <= hi, and 0 <= lo; `distance` lies between.
 /// A kernel without a bound sets lo = hi = distance. If NaN went in, all three are NaN.
 struct Distance {

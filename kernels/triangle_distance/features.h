@@ -5,7 +5,7 @@
 
 namespace boxwood {
 
-/// The least distance of two triangles over their features, and 0 where they cross, in plain
+/// The minimum distance of two triangles over their features, and 0 where they cross, in plain
 /// arithmetic. Sizes from 2^-900 to 2^1000 (float: all) make no difference. by_cross: the edges'
 /// parameters are solved by their cross product.
 template <class RealOf, bool by_cross> struct FeatureDistance {

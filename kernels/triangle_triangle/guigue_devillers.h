@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/detail/joined.h"
+#include "kernels/detail/concatenated.h"
 #include "kernels/predicates/filtered.h"
 #include "kernels/predicates/rounded.h"
 #include "kernels/triangle_triangle/detail/interval_test.h"
@@ -22,9 +22,9 @@ template <OrientationPredicates P> struct GuigueDevillers {
 
   public:
     using Real = typename P::Real;
-    static constexpr std::string_view name = Joined<name_prefix, P::name>::value;
+    static constexpr std::string_view name = Concatenated<name_prefix, P::name>::value;
     static constexpr KernelInfo info{
-        "triangle_triangle", name,     Joined<summary_prefix, P::summary>::value,
+        "triangle_triangle", name,     Concatenated<summary_prefix, P::summary>::value,
         P::promise,          P::bound, P::cost};
 
     static Decision intersect(const Triangle<Real>& a, const Triangle<Real>& b) {

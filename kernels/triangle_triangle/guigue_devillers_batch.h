@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/detail/joined.h"
+#include "kernels/detail/concatenated.h"
 #include "kernels/triangle_triangle/exact.h"
 #include "kernels/triangle_triangle/guigue_devillers.h"
 #include "kernels/triangle_triangle/triangle_kernel.h"
@@ -28,11 +28,11 @@ template <class R, TriangleKernel Up> struct GuigueDevillersBatch {
 
   public:
     using Real = R;
-    static constexpr std::string_view name = Joined<Up::name, suffix>::value;
+    static constexpr std::string_view name = Concatenated<Up::name, suffix>::value;
     static constexpr KernelInfo info{
         "triangle_triangle",
         name,
-        Joined<begin, Up::name>::value,
+        Concatenated<begin, Up::name>::value,
         Up::info.promise,
         exact ? "270u * (product of the largest |differences| per axis), else the kernel above; "
                 "derived in triangle_triangle/guigue_devillers_batch.cpp"

@@ -26,6 +26,10 @@ struct Mesh {
 
 } // namespace
 
-SceneEntry mesh_scene() { return scene_entry<Mesh>(); }
+SceneEntry mesh_scene() {
+    SceneEntry entry = scene_entry<Mesh>();
+    entry.reads_file = true;
+    return entry;
+}
 
 } // namespace boxwood

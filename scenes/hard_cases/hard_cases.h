@@ -82,6 +82,7 @@ std::size_t n_cases(const Cases& cases); ///< pairs, rays, motions, fits or boxe
 
 /// How ordinary the input is: the panels of the accuracy figures.
 enum class Panel : std::uint8_t { generic, touching, degenerate };
+inline constexpr Panel all_panels[] = {Panel::generic, Panel::touching, Panel::degenerate};
 std::string_view to_string(Panel panel);
 
 /// What a family makes. The same spec gives the same bits on every machine.

@@ -6,6 +6,7 @@
 #include "scenes/effects/effect.h"
 #include "scenes/moving/moving_scene.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace boxwood {
@@ -54,9 +55,14 @@ Vec in_box(const Aabb<double>& box, Draws& draws) {
     return p;
 }
 
+bool follows_camera(const SceneQuery& query) {
+    const auto kind = std::ranges::find(query_kinds(), query.kind, &QueryKindEntry::name);
+    return kind != query_kinds().end() && kind->follows_camera;
+}
+
 /// Where points are laid: within a tenth of the bounds around the eye, or all of the bounds.
 Aabb<double> around(const MovingScene& scene, const SceneQuery& query) {
-    if (query.kind != "flying")
+    if (!follows_camera(query))
         return scene.bodies().bounds;
     const Camera camera(scene);
     const Vec half = .1 * (camera.bounds.max - camera.bounds.min);
@@ -72,26 +78,35 @@ std::span<const SceneQueryEntry> scene_queries() {
         {"rays",
          "the nearest hit of each ray on the surface of the bodies",
          {"kind", "n"},
-         {.kind = "flying", .n = 1000}},
+         {.kind = "flying", .n = 1000},
+         Probes::rays},
         {"points",
          "the bodies whose boxes contain each point",
          {"kind", "n"},
-         {.kind = "flying", .n = 1000}},
+         {.kind = "flying", .n = 1000},
+         Probes::points},
         {"regions",
          "the bodies whose boxes share a point with each box",
          {"kind", "n", "size"},
-         {.kind = "flying", .n = 1000, .size = 4}},
+         {.kind = "flying", .n = 1000, .size = 4},
+         Probes::regions},
         {"nearest",
          "the bodies whose boxes are nearest to each point",
          {"kind", "n", "k"},
-         {.kind = "flying", .n = 1000, .k = 8}},
+         {.kind = "flying", .n = 1000, .k = 8},
+         Probes::points},
     };
     return entries;
 }
 
+Probes probes_of(std::string_view query) {
+    const auto entry = std::ranges::find(scene_queries(), query, &SceneQueryEntry::name);
+    return entry == scene_queries().end() ? Probes::none : entry->probes;
+}
+
 std::span<const QueryKindEntry> query_kinds() {
     static constexpr QueryKindEntry entries[] = {
-        {"flying", "around a camera that flies through the bounds; rays are its own"},
+        {"flying", "around a camera that flies through the bounds; rays are its own", true},
         {"scattered", "anywhere in the bounds, elsewhere in each frame"},
     };
     return entries;
@@ -100,7 +115,7 @@ std::span<const QueryKindEntry> query_kinds() {
 void rays_of_frame(const MovingScene& scene, const SceneQuery& query,
                    std::vector<Ray<float>>& out) {
     out.clear();
-    if (query.kind == "flying") {
+    if (follows_camera(query)) {
         const Camera camera(scene);
         const auto side =
             static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(query.n))));

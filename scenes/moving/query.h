@@ -23,19 +23,27 @@ struct SceneQuery {
     double size = 0;    ///< of regions: mean side, in mean body sides
 };
 
+/// What a query places in the scene.
+enum class Probes : std::uint8_t { none, rays, points, regions };
+
 /// A registry row: the keys that the query takes beside its name, and their defaults.
 struct SceneQueryEntry {
     std::string_view name, summary;
     std::vector<std::string_view> keys; ///< of kind, n, k, size
     SceneQuery defaults;
+    Probes probes = Probes::none;
 };
 std::span<const SceneQueryEntry> scene_queries();
 
 /// Where the rays, points and regions of a query are.
 struct QueryKindEntry {
     std::string_view name, summary;
+    bool follows_camera = false; ///< the one that flies through the bounds
 };
 std::span<const QueryKindEntry> query_kinds();
+
+/// What the query of that name places; none for an unknown one.
+Probes probes_of(std::string_view query);
 
 // What a query needs in the scene's present frame, the same bits on every machine: ray, point or
 // region i depends on the scene's seed and bounds, the frame and i. They replace what `out` holds.

@@ -72,7 +72,7 @@ bool read_flag(const TomlReader& reader, const toml::table& table, std::string_v
 TomlReader::Words generators(bool meshes_alone) {
     TomlReader::Words words;
     for (const SceneEntry& entry : scene_generators())
-        if (entry.name != "mesh" && (entry.has_mesh || !meshes_alone))
+        if (!entry.reads_file && (entry.has_mesh || !meshes_alone))
             words.push_back(entry.name);
     return words;
 }

@@ -21,6 +21,11 @@ class Ratio:
     def known(self):
         return not math.isnan(self.lo)
 
+    @property
+    def text(self):
+        """'3.12x (2.98 to 3.20)'."""
+        return interval_text(self.mid, self.lo, self.hi)
+
     def inverse(self):
         return Ratio(1 / self.mid, 1 / self.hi, 1 / self.lo)
 
@@ -48,7 +53,7 @@ class Comparison:
 
     @property
     def text(self):
-        return interval_text(self.gain)
+        return self.gain.text
 
 
 @dataclass(frozen=True)

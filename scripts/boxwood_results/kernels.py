@@ -3,8 +3,7 @@
 from collections import defaultdict
 from dataclasses import dataclass
 
-PANELS = ("generic", "touching", "degenerate")
-LEAST_ERROR = 2.0**-53  # a relative error below half an ulp of a double is none
+MIN_ERROR = 2.0**-53  # a relative error below half an ulp of a double is none
 
 
 @dataclass
@@ -83,15 +82,16 @@ class Kernel:
     unexcluded: float  # of a million: what so many right answers do not exclude; NaN if some are wrong
     by_error: bool  # its task is judged by errors, not by yes or no
     on_front: bool  # no faster one of ours errs less
+    peer: object = None  # a cell of its library, if that is another
 
 
-def read_costs(table):
-    """In the order of the file: those of ours first, by rising time."""
+def read_costs(table, peers):
+    """In the order of the file: of each task its panels, of each panel those of ours first, by rising time."""
     return [
         Kernel(row["task"], row["panel"], row["kernel"], not row["is_peer"], row["library"], row["promise"],
                float(row["ns"]), int(row["n"]), int(row["wrong"]), int(row["maybe"]), float(row["max_rel_err"]),
                float(row["wrong_per_million"]), float(row["unexcluded_per_million"]), bool(row["by_error"]),
-               bool(row["on_front"]))
+               bool(row["on_front"]), peers.get(row["library"]))
         for row in table
     ]
 

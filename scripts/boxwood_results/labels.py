@@ -51,8 +51,8 @@ def beside_points(ax, labels, later=(), lines=()):
     figure = ax.figure
     pixels = figure.dpi / 72
     frame = ax.get_window_extent()
-    everything = [*labels, *later]
-    marks = [ax.transData.transform((x, y)) for x, y, *_ in everything]
+    all_labels = [*labels, *later]
+    marks = [ax.transData.transform((x, y)) for x, y, *_ in all_labels]
     taken = [Bbox.from_bounds(x - 4 * pixels, y - 4 * pixels, 8 * pixels, 8 * pixels) for x, y in marks]
     corners = [[ax.transData.transform(point) for point in line] for line in lines]
     drawn = [step for line in corners for a, b in zip(line, line[1:]) for step in along(a, b, 4 * pixels)]
@@ -63,8 +63,8 @@ def beside_points(ax, labels, later=(), lines=()):
         x, y = marks[index]
         return sum(abs(x - a) < 90 * pixels and abs(y - b) < 25 * pixels for a, b in marks[: len(labels)])
 
-    for index in sorted(range(len(everything)), key=crowd, reverse=True):
-        (x, y, text, colour), (at_x, at_y) = everything[index], marks[index]
+    for index in sorted(range(len(all_labels)), key=crowd, reverse=True):
+        (x, y, text, colour), (at_x, at_y) = all_labels[index], marks[index]
         width, height = text_size(figure, text)
         best, least = None, math.inf
         for ring, box in candidates(at_x, at_y, width, height, pixels):

@@ -29,7 +29,7 @@ class PlayedScene:
     required: object = None
     all_stages: object = None
     effects: list = field(default_factory=list)  # EffectCosts, the most costly first
-    everything: object = None  # EffectCost of all stages; None if it was not compared
+    all_stages_cost: object = None  # EffectCost; None if it was not compared
 
 
 def played_scenes(run, largest=True):
@@ -50,7 +50,7 @@ def played_scenes(run, largest=True):
             cost = EffectCost(row["what"], float(row["with_ns"]), float(row["without_ns"]), Ratio(
                 float(row["ratio"]), float(row["ci_lo"]), float(row["ci_hi"])), float(row["extra_ns"]))
             if row["cell_without"] == scene.required.cell_id:
-                scene.everything = cost
+                scene.all_stages_cost = cost
             elif row["cell_with"] == scene.required.cell_id:
                 scene.effects.append(cost)
         scene.effects.sort(key=lambda cost: -cost.ratio.mid)

@@ -16,8 +16,9 @@ NO_ID = 2**32 - 1
 MEASURED = {
     "env": ("env_id", "host", "cpu", "ncpu"),
     "scenes": ("scene_id", "name", "n_items", "seed"),
-    "tasks": ("task", "title", "total"),
-    "variants": ("variant_id", "name", "library", "builder", "traversal", "kernel", "keeps_structure", "stages", "notes"),
+    "tasks": ("task", "title", "total", "total_title"),
+    "variants": ("variant_id", "name", "library", "builder", "traversal", "kernel", "is_peer", "place",
+                 "is_plain", "answers_from_cache", "keeps_structure", "stages", "notes", "library_title"),
     "cells": (
         "cell_id", "name", "scene_id", "variant_id", "task", "n_items", "n_queries", "precision",
         "executor", "threads", "class", "status",
@@ -65,7 +66,7 @@ DERIVED = {
     "frame_stats": (
         "cell_id", "fresh_cell", "n", "p50_ns", "p95_ns", "p99_ns", "max_ns", "over_1_ms", "over_16_6_ms", "degradation",
     ),
-    "stage_costs": ("cell_id", "stage", "required", "calls", "items", "bytes", "ns", "until_ns", "share"),
+    "stage_costs": ("cell_id", "stage", "effect", "required", "calls", "items", "bytes", "ns", "until_ns", "share"),
     "effect_costs": (
         "cell_with", "cell_without", "what", "with_ns", "without_ns", "ratio", "ci_lo", "ci_hi", "extra_ns",
     ),
@@ -73,7 +74,7 @@ DERIVED = {
         "task", "kernel", "library", "promise", "is_peer", "log10_condition", "n", "max_rel_err", "bound",
     ),
     "escalations": ("cell_id", "task", "kernel", "share_0", "share_1", "share_2", "share_3"),
-    "query_kernels": ("cell_id", "times_fastest"),
+    "query_kernels": ("cell_id", "group", "tree", "times_fastest"),
     "work": ("cell_id", "node_visits", "box_tests", "query_ns"),
     "drift": ("shard_id", "n", "disturbed", "off_median", "is_farthest"),
 }

@@ -9,12 +9,9 @@ from .reader import load
 
 AA_TWIN, DISTURBED = 4, 1 | 2
 RANKED = ("exact", "conservative", "within_bound")
-OURS = "boxwood"
 WHOLE_QUERY = "typical"  # a kernel row about a whole query, whose cell stays among the others
 REQUIRED, ALL_STAGES = "required", "all"  # ways to play a scene; any other is the effect left out
 TOTAL = "total"  # stands for the phase of a task that says what one use costs
-TOTAL_WORDS = {"update+query": "update and query of a frame", "build+query": "build and one query", "query": "query",
-               "build": "build"}
 
 
 @dataclass(frozen=True)
@@ -23,6 +20,7 @@ class Task:
 
     title: str  # "nearest hit"
     total: str  # the phase that says what one use costs
+    total_title: str  # "build and one query"
 
     @property
     def is_build(self):
@@ -32,10 +30,6 @@ class Task:
     def in_frames(self):
         """An update may have done the work of the query: its time alone says nothing."""
         return self.total == "update+query"
-
-    @property
-    def total_words(self):
-        return TOTAL_WORDS[self.total]
 
 
 @dataclass(frozen=True)
@@ -68,9 +62,14 @@ class Cell:
     n_queries: int
     status: str
     task: Task
+    library_title: str
+    is_peer: bool
+    place: int  # of its builder, policy, way to play or library in its registry
+    is_plain: bool  # else its builder or policy has settings, or an optimizer
+    answers_from_cache: bool  # its query tells nothing of its structure
     keeps_structure: bool  # else its build only copies the input
     stages_played: str  # of ways to play a scene: required, all, or the effect left out
-    label: str = ""  # short, for use within one job
+    label: str  # short, for use within one job
     check: object = None
     medians: dict = field(default_factory=dict)  # phase -> row of /medians
     counters: dict = field(default_factory=dict)
@@ -80,11 +79,11 @@ class Cell:
     frame_stats: object = None
     stages: dict = field(default_factory=dict)  # name -> row of /stage_costs, in the order of the plan
     work: object = None
-    times_fastest: float = math.nan  # of kernels under one tree
+    query_kernel: object = None  # row of /query_kernels
 
     @property
     def ours(self):
-        return self.library == OURS
+        return not self.is_peer
 
     @property
     def family(self):
@@ -98,14 +97,16 @@ class Cell:
         """A scene played without one of its effects: another scene, drawn by itself."""
         return self.stages_played not in ("", REQUIRED, ALL_STAGES)
 
-    def set_label(self, shown):
-        """shown: whether to name the traversal, which follows from most jobs."""
-        if not self.ours:
-            self.label = self.contender
-            return
-        words = [word for word in self.contender.split(".") if word != "tree" and (shown or word != self.traversal)]
+    def set_label(self, names_traversal, names_executor):
+        """Whether to name what follows from most jobs."""
+        words = [word for word in self.contender.split(".") if word != "tree" and (names_traversal or word != self.traversal)]
         text = ".".join(words) + (" f64" if self.precision == "f64" else "")
-        self.label = text if self.executor == "serial" else f"{text} {self.executor}"
+        self.label = f"{text} {self.executor}" if names_executor else text
+
+    @property
+    def times_fastest(self):
+        """Its query over that of the fastest kernel under the same tree."""
+        return float(self.query_kernel["times_fastest"])
 
     @property
     def ranked(self):
@@ -138,6 +139,7 @@ class Run:
     comparisons: list
     findings: list
     tasks: dict  # name -> Task
+    peers: dict  # library -> a cell of it
     topics: list  # rows of /topics
     kernels: list = field(default_factory=list)  # KernelPoint
     kernel_costs: list = field(default_factory=list)  # kernels.Kernel
@@ -188,15 +190,19 @@ def read_cells(source, tasks):
         cells[row["cell_id"]] = Cell(
             int(row["cell_id"]), row["name"], job, variant["name"], variant["library"],
             variant["builder"], variant["traversal"], variant["kernel"], row["precision"], row["executor"],
-            int(row["n_queries"]), row["status"], tasks[row["task"]], bool(variant["keeps_structure"]),
-            variant["stages"], scene_json=column(scene, "params_json", ""),
+            int(row["n_queries"]), row["status"], tasks[row["task"]], variant["library_title"],
+            bool(variant["is_peer"]), int(variant["place"]), bool(variant["is_plain"]),
+            bool(variant["answers_from_cache"]), bool(variant["keeps_structure"]), variant["stages"],
+            label=variant["name"], scene_json=column(scene, "params_json", ""),
         )
-    traversals = {}
+    ours = {}
     for cell in cells.values():
         if cell.ours:
-            traversals.setdefault(cell.job, set()).add(cell.traversal)
-    for cell in cells.values():
-        cell.set_label(len(traversals.get(cell.job, ())) > 1)
+            ours.setdefault(cell.job, []).append(cell)
+    for of_job in ours.values():
+        traversals, executors = {cell.traversal for cell in of_job}, {cell.executor for cell in of_job}
+        for cell in of_job:
+            cell.set_label(len(traversals) > 1, len(executors) > 1)
     return cells
 
 
@@ -238,7 +244,7 @@ def kernel_points(cells, source):
 def read(path):
     """Loads a result file; raises reader.BadFile."""
     source = load(path)
-    tasks = {row["task"]: Task(row["title"], row["total"]) for row in source["tasks"]}
+    tasks = {row["task"]: Task(row["title"], row["total"], row["total_title"]) for row in source["tasks"]}
     cells = read_cells(source, tasks)
     add_medians(cells, source["medians"])
     add_checks(cells, source["checks"])
@@ -250,8 +256,9 @@ def read(path):
     for row in source["work"]:
         cells[row["cell_id"]].work = row
     for row in source["query_kernels"]:
-        cells[row["cell_id"]].times_fastest = float(row["times_fastest"])
-    everything = dict(cells)
+        cells[row["cell_id"]].query_kernel = row
+    all_cells = dict(cells)
+    peers = {cell.library: cell for cell in cells.values() if not cell.ours}
     kernels = kernel_points(cells, source)
     ordered = list(cells.values())
     jobs = sorted(
@@ -259,5 +266,6 @@ def read(path):
         key=lambda job: (job.task, job.scene, job.n, job.threads, job.seed),
     )
     missing = len([row for row in source["samples"] if not row["wall_ns"] >= 0])
-    return Run(source, ordered, jobs, missing, read_comparisons(source["compare"], everything),
-               read_findings(source["findings"], everything), tasks, list(source["topics"]), kernels, read_costs(source["kernel_costs"]))
+    return Run(source, ordered, jobs, missing, read_comparisons(source["compare"], all_cells),
+               read_findings(source["findings"], all_cells), tasks, peers, list(source["topics"]), kernels,
+               read_costs(source["kernel_costs"], peers))

@@ -2,7 +2,7 @@
 
 from .run import TOTAL
 
-MOST_LINES = 12
+MAX_LINES = 12
 
 
 def largest_jobs(jobs):
@@ -15,7 +15,7 @@ def largest_jobs(jobs):
     return list(largest.values())
 
 
-def choose(cells, keep=(), limit=MOST_LINES):
+def choose(cells, keep=(), limit=MAX_LINES):
     """At most `limit` of the cells of one job: those in `keep`, then the best of each family, then the
     best of the rest; wrong ones last. Returns them and how many were left out."""
     kept = {id(cell) for cell in keep}

@@ -1,4 +1,4 @@
-"""How every figure looks: one colour and marker per family, axes in plain units."""
+"""How every figure looks: one colour and marker per contender family, axes in plain units."""
 
 import math
 import zlib
@@ -11,39 +11,15 @@ from matplotlib import colors
 from matplotlib import pyplot as plt
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullFormatter, NullLocator
 
-from .words import time_text
+from .words import count_text, time_tick
 
-# Okabe and Ito 2008 without its yellow, which is faint on white.
-FAMILIES = {
-    "binned_sah": ("#0072B2", "o"),
-    "median": ("#009E73", "s"),
-    "incremental": ("#56B4E9", "^"),
-    "hilbert": ("#332288", "p"),
-    "lbvh": ("#44AA99", "<"),
-    "ploc": ("#117733", ">"),
-    "sweep_sah": ("#882255", "d"),
-    "spatial_sah": ("#AA4499", "H"),
-    "bonsai": ("#999933", "8"),
-    "embree": ("#D55E00", "D"),
-    "fcl": ("#E69F00", "v"),
-    "cgal": ("#CC79A7", "P"),
-    "bullet": ("#000000", "h"),
-    "brute_force": ("#7F7F7F", "*"),
-}
-# Ways to play moving scenes; they stand beside peers, never beside builders. Settings follow the word.
-POLICIES = {
-    "auto": ("#0072B2", "o"),
-    "cached": ("#009E73", "s"),
-    "merge": ("#56B4E9", "^"),
-    "rebuild": ("#332288", "p"),
-    "refit": ("#882255", "d"),
-    "refine": ("#AA4499", "H"),
-    "reinsert": ("#999933", "8"),
-    "required": ("#0072B2", "o"),  # stand beside each other alone
-    "all_stages": ("#D55E00", "D"),
-}
-# For families that come later: Tol's muted colours, chosen by name so that they never change.
-OTHER_COLOURS = ("#332288", "#117733", "#882255", "#999933", "#AA4499", "#44AA99")
+# By place in the registry that the file names (/variants.place): builders, policies or ways to play, which never stand
+# beside each other, and peers. Okabe and Ito 2008 without its yellow, which is faint on white, and Tol's muted colours.
+OURS = (("#009E73", "s"), ("#332288", "p"), ("#0072B2", "o"), ("#882255", "d"), ("#AA4499", "H"), ("#999933", "8"),
+        ("#56B4E9", "^"), ("#44AA99", "<"), ("#117733", ">"), ("#6699CC", "X"), ("#CC6677", "D"))
+PEERS = (("#7F7F7F", "*"), ("#E69F00", "v"), ("#D55E00", "D"), ("#CC79A7", "P"), ("#000000", "h"), ("#661100", "X"),
+         ("#997700", "d"))
+OUR_LOOK = ("#0072B2", "o")  # of all of ours, where names tell them apart
 OTHER_MARKERS = ("<", ">", "p", "h", "d", "H", "8")
 THIN = {"*": 1.7, "P": 1.25, "<": 1.15, ">": 1.15}  # markers that show too little at the size of the others
 INK, FAINT = "#222222", "#B8B8B8"
@@ -74,36 +50,28 @@ plt.rcParams.update(
 )
 
 
-def look(family):
-    """(colour, marker) of a family; the same in every figure and every run. A builder with settings or with
-    a second one behind it has the colour of its first word and a marker of its own."""
-    if family in FAMILIES:
-        return FAMILIES[family]
-    for policy in POLICIES:
-        if family == policy or family.startswith(policy + "_"):
-            return POLICIES[policy]
-    number = zlib.crc32(family.encode())
-    marker = OTHER_MARKERS[number // 7 % len(OTHER_MARKERS)]
-    for word, (colour, _) in FAMILIES.items():
-        if family.startswith(word + "_"):
-            return colour, marker
-    return OTHER_COLOURS[number % len(OTHER_COLOURS)], marker
+def look(what):
+    """(colour, marker) of a cell or kernel by its place, the same in every figure and every run. With settings, an
+    optimizer, or beyond the palette it has the colour of its place and a marker of its own."""
+    palette = OURS if what.ours else PEERS
+    colour, marker = palette[what.place % len(palette)]
+    if what.is_plain and what.place < len(palette):
+        return colour, marker
+    others = [other for other in OTHER_MARKERS if other != marker]
+    return colour, others[zlib.crc32(what.family.encode()) % len(others)]
+
+
+def kernel_look(kernel):
+    return OUR_LOOK if kernel.ours else look(kernel.peer)
 
 
 def looks(names):
-    """{name: (colour, marker)}, no two alike while the colours last: each its own look, or the next free
-    one. Of kernels, which are more than there are colours that can be told apart."""
-    colours, found = ("#0072B2", "#009E73", *OTHER_COLOURS), {}
-    for name in sorted(names):
-        at = colours.index(look(name)[0]) if look(name)[0] in colours else 0
-        free = [colours[(at + k) % len(colours)] for k in range(len(colours))]
-        free = [colour for colour in free if all(colour != other for other, _ in found.values())] or free
-        found[name] = free[0], OTHER_MARKERS[colours.index(free[0]) % len(OTHER_MARKERS)]
-    return found
+    """{name: (colour, marker)} of kernels of ours, no two alike while the colours last."""
+    return {name: OURS[place % len(OURS)] for place, name in enumerate(sorted(names))}
 
 
-def text_colour(family):
-    return readable(look(family)[0])
+def text_colour(what):
+    return readable(look(what)[0])
 
 
 def readable(colour):
@@ -116,7 +84,7 @@ def readable(colour):
 
 def point_style(cell, size=6):
     """Plot arguments of a cell's marker: filled if its answers were right, else hollow."""
-    colour, marker = look(cell.family)
+    colour, marker = look(cell)
     filled = cell.status != "wrong"
     return {
         "marker": marker,
@@ -166,14 +134,7 @@ def log_axis(axis, low, high, text, room=0.06):
 
 
 def time_axis(axis, low, high, room=0.06):
-    log_axis(axis, low, high, time_text, room)
-
-
-def count_text(value):
-    for scale, unit in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
-        if value >= scale:
-            return f"{value / scale:g} {unit}"
-    return f"{value:g}"
+    log_axis(axis, low, high, time_tick, room)
 
 
 def count_axis(axis, low, high, room=0.06):

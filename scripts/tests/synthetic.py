@@ -22,9 +22,10 @@ COLUMNS = {
     "packages": [("env_id", U4), ("library", WORD), ("version", WORD), ("build", TEXT), ("present", U4)],
     "scenes": [("scene_id", U4), ("name", NAME), ("generator", WORD), ("n_items", U8), ("seed", U8),
                ("n_frames", U8), ("content_hash", U8), ("params_json", TEXT)],
-    "tasks": [("task", WORD), ("title", NAME), ("total", WORD)],
-    "variants": [("variant_id", U4), ("name", NAME), ("library", WORD), ("builder", WORD), ("layout", WORD),
-                 ("traversal", WORD), ("kernel", WORD), ("is_peer", U4), ("keeps_structure", U4), ("stages", WORD),
+    "tasks": [("task", WORD), ("title", NAME), ("total", WORD), ("total_title", NAME)],
+    "variants": [("variant_id", U4), ("name", NAME), ("library", WORD), ("library_title", WORD), ("builder", WORD),
+                 ("layout", WORD), ("traversal", WORD), ("kernel", WORD), ("is_peer", U4), ("is_reference", U4),
+                 ("place", U4), ("is_plain", U4), ("answers_from_cache", U4), ("keeps_structure", U4), ("stages", WORD),
                  ("notes", TEXT)],
     "cells": [("cell_id", U4), ("name", "S320"), ("scene_id", U4), ("variant_id", U4), ("task", WORD), ("class", NAME),
               ("n_items", U8), ("n_queries", U8), ("precision", WORD), ("executor", WORD), ("threads", U4),
@@ -35,8 +36,8 @@ COLUMNS = {
                 ("cpu_ns", F8), ("iterations", U8), ("nvcsw", U8), ("nivcsw", U8), ("minflt", U8), ("flags", U4)],
     "frames": [("cell_id", U4), ("shard_id", U4), ("round", U4), ("frame", U4), ("update_ns", F8), ("query_ns", F8),
                ("pairs", U8), ("box_tests", U8), ("sah", F8)],
-    "effects": [("cell_id", U4), ("shard_id", U4), ("round", U4), ("stage", WORD), ("required", U4), ("calls", U8),
-                ("items", U8), ("total_ns", F8), ("bytes", U8)],
+    "effects": [("cell_id", U4), ("shard_id", U4), ("round", U4), ("stage", WORD), ("effect", WORD), ("required", U4),
+                ("calls", U8), ("items", U8), ("total_ns", F8), ("bytes", U8)],
     "counters": [("cell_id", U4), ("counter", WORD), ("value", U8)],
     "checks": [("cell_id", U4), ("oracle", WORD), ("status", WORD), ("n_checked", U8), ("n_expected", U8),
                ("n_got", U8), ("missing", U8), ("extra", U8), ("max_ulp", F8), ("witness", TEXT)],
@@ -139,7 +140,8 @@ class Maker:
             self.rows["packages"].append(dict(library=library, version=version, present=bool(version)))
         for round_ in range(rounds):
             self.rows["shards"].append(dict(shard_id=round_, round=round_, load1=0.3, pid=100 + round_))
-        self.rows["tasks"] = [dict(task=task, title=title, total=total) for task, (title, total) in TASKS.items()]
+        self.rows["tasks"] = [dict(task=task, title=title, total=total, total_title=total.replace("+", " and "))
+                              for task, (title, total) in TASKS.items()]
         self.speed = [math.exp(self.random.gauss(0, 0.03)) for _ in range(rounds)]
 
     def id_of(self, table, key, **row):
@@ -149,6 +151,11 @@ class Maker:
             self.rows[table].append({**row, table[:-1] + "_id": ids[key]})
         return ids[key]
 
+    def place_of(self, library, builder, registry="builders"):
+        """Columns of a variant: where it stands in its registry, here by first use."""
+        places = self.ids.setdefault(registry if library == "boxwood" else "peers", {})
+        return dict(place=places.setdefault(builder or library, len(places)), is_plain=1)
+
     def cell(self, scene, n, task, contender, spec, threads, factor=1.0, status="exact", twin=False, queries=0, kernel=""):
         library, builder, build, query, tests = spec
         traversal = {"pairs": "self_pairs", "rays_closest": "rays", "triangle_pairs": "self_pairs", "build": "tree"}[task]
@@ -157,8 +164,10 @@ class Maker:
         name = f"{name}.{kernel}" if kernel else name
         executor = "serial" if threads == 1 else "tbb"
         scene_id = self.id_of("scenes", (scene, n), name=scene, n_items=n, seed=1)
-        variant_id = self.id_of("variants", name, name=name, library=library, builder=builder, traversal=traversal,
-                                kernel=kernel, is_peer=not builder, keeps_structure=library != "cgal", notes="double precision" if library == "fcl" else "")
+        variant_id = self.id_of("variants", name, name=name, library=library, library_title=library.title(), builder=builder,
+                                layout=contender.partition(".")[2] if builder else "", traversal=traversal, kernel=kernel,
+                                is_peer=not builder, keeps_structure=library != "cgal",
+                                **self.place_of(library, builder), notes="double precision" if library == "fcl" else "")
         full = f"{scene}/n{n}-s1/{task}/{name}/f32/{executor}-{threads}"
         classes = ("watertight batches" if "robust" in name else "batches" if not builder else
                    "batches,watertight batches" if kernel == "watertight" else "batches") if task == "rays_closest" else ""
@@ -191,6 +200,7 @@ class Maker:
         scene_id = self.id_of("scenes", (scene, n), name=scene, n_items=n, seed=1, n_frames=frames, params_json=params)
         variant_id = self.id_of("variants", contender, name=contender, library=library, is_peer=library != "boxwood",
                                 builder="" if task == "scene_queries" else builder, keeps_structure=1,
+                                answers_from_cache=contender == "cached", **self.place_of(library, builder, "policies"),
                                 stages=STAGES_OF.get(contender, contender.removeprefix("required.without_"))
                                 if task == "scene_queries" else "")
         full = f"{scene}/n{n}-s1/{task}/{contender}/f32/serial-1"
@@ -227,8 +237,8 @@ class Maker:
         for scene, stages in STAGES.items():
             effects = [stage.removeprefix("advance_") for stage in stages if stage.startswith("advance_")]
             for contender in ("required", "all_stages", *(f"required.without_{effect}" for effect in effects)):
-                everything = contender == "all_stages"
-                took = {stage: ns[everything] for stage, ns in stages.items()}
+                all_stages = contender == "all_stages"
+                took = {stage: ns[all_stages] for stage, ns in stages.items()}
                 if "without" in contender:
                     took["advance_" + contender.split("without_")[1]] = 0
                     took["update"] *= 0.6
@@ -237,6 +247,7 @@ class Maker:
                 for round_ in range(self.rounds):
                     self.rows["effects"] += [
                         dict(cell_id=cell_id, shard_id=round_, round=round_, stage=stage, required=ns[0] > 0,
+                             effect=stage.partition("advance_")[2],
                              calls=20 * (took[stage] > 0), items=20 * n * (took[stage] > 0),
                              total_ns=20 * took[stage] * self.speed[round_],
                              bytes=(ns[2] << 20) if took[stage] else 0)
@@ -255,7 +266,7 @@ class Maker:
         """A kernel on a family of hard cases, as its cell, its samples and its row."""
         scene_id = self.id_of("scenes", (cases, n), name=cases, n_items=n, seed=1)
         variant_id = self.id_of("variants", (task, kernel), name=kernel, library=library, kernel=kernel,
-                                is_peer=library != "boxwood", keeps_structure=1)
+                                is_peer=library != "boxwood", keeps_structure=1, **self.place_of(library, ""))
         full = f"{cases}/n{n}-s1/{task}/{kernel}/f64/serial-1"
         cell_id = self.id_of("cells", full, name=full, scene_id=scene_id, variant_id=variant_id, task=task,
                              n_items=n, n_queries=n, precision="f64", executor="serial", threads=1)

@@ -3,6 +3,7 @@
 import csv
 import dataclasses
 import itertools
+from types import SimpleNamespace
 
 import pytest
 import synthetic
@@ -112,9 +113,10 @@ def test_a_crowd_is_thinned_and_said(tmp_path):
 
 
 def test_families_look_different():
-    looks = [style.look(family) for family in style.FAMILIES]
-    assert len({colour for colour, _ in looks}) == len({marker for _, marker in looks}) == len(looks)
-    assert style.look("ploc") == style.look("ploc")
+    for ours, palette in ((True, style.OURS), (False, style.PEERS)):
+        looks = [style.look(SimpleNamespace(ours=ours, place=place, is_plain=True, family="x")) for place in range(len(palette))]
+        assert len({colour for colour, _ in looks}) == len({marker for _, marker in looks}) == len(looks)
+    assert not {colour for colour, _ in style.OURS} & {colour for colour, _ in style.PEERS}
 
 
 def test_spread_keeps_order_and_gap():
@@ -181,11 +183,11 @@ def test_texts_beside_bars_do_not_overlap(results, name):
 def test_the_ledger_has_every_stage_required_or_not(results):
     rows = [row for row in rows_of("ledger", results) if row["scene"] == "warehouse"]
     ours = {row["stage"]: row for row in rows if row["played"] == "required"}
-    everything = {row["stage"]: row for row in rows if row["played"] == "all_stages"}
-    assert set(ours) == set(everything) == set(synthetic.STAGES["warehouse"])
+    all_stages = {row["stage"]: row for row in rows if row["played"] == "all_stages"}
+    assert set(ours) == set(all_stages) == set(synthetic.STAGES["warehouse"])
     assert ours["pairs"]["ns_a_frame"] == pytest.approx(210e3, rel=0.05) and ours["pairs"]["required"] == 1
     assert ours["transform"]["ns_a_frame"] == ours["transform"]["calls"] == ours["transform"]["bytes"] == 0
-    assert everything["transform"]["ns_a_frame"] == pytest.approx(600e3, rel=0.05)
+    assert all_stages["transform"]["ns_a_frame"] == pytest.approx(600e3, rel=0.05)
     assert sum(row["share"] for row in ours.values()) == pytest.approx(1)
 
 
@@ -203,8 +205,8 @@ def test_effect_costs_are_paired_ratios(results):
     total = sum(ours for ours, *_ in costs.values())
     without = total - costs["advance_drift"][0] - 0.4 * costs["update"][0]
     assert rows["warehouse", "drift"]["ratio"] == pytest.approx(total / without, rel=0.02)
-    everything = sum(all_ for _, all_, _ in costs.values())
-    assert rows["warehouse", "all stages"]["ratio"] == pytest.approx(everything / total, rel=0.02)
+    all_stages = sum(all_ for _, all_, _ in costs.values())
+    assert rows["warehouse", "all stages"]["ratio"] == pytest.approx(all_stages / total, rel=0.02)
 
 
 def test_frame_times_are_percentiles_of_the_frames_and_not_of_the_rounds(results):
@@ -237,10 +239,10 @@ def test_degradation_is_counted_where_it_was(results):
 
 def test_of_many_scenes_those_that_degrade_most_are_drawn_and_all_are_listed(results, monkeypatch):
     module = tree_quality_over_time
-    everything = module.draw(results)[0]
+    complete = module.draw(results)[0]
     monkeypatch.setattr(module, "MAX_SCENES", 1)
     timed, counted = module.draw(results)
-    assert timed.rows == everything.rows and len({row[0] for row in timed.rows}) > 1
+    assert timed.rows == complete.rows and len({row[0] for row in timed.rows}) > 1
     assert sum(bool(ax.lines) for ax in timed.figure.axes) == 1
     assert sum(bool(ax.lines) for ax in counted.figure.axes) == 2
     assert any("the CSV file holds all" in note for note in timed.notes)

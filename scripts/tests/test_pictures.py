@@ -25,7 +25,7 @@ def test_the_axis_of_wrong_answers_ends_at_all():
     figure, (ax,) = style.panels(1)
     accuracy.draw_panel(ax, "generic", [kernel("always_wrong", 5, 1000), kernel("right", 9)], False)
     ticks = [text.get_text() for text in ax.get_yticklabels()]
-    assert ticks[0] == "0" and ticks[-1] == "1 M"
+    assert ticks[0] == "0" and ticks[-1] == "1M"
     assert 1e6 < ax.get_ylim()[1] < 2.5e6  # room for the mark and no further number
     style.plt.close(figure)
 
@@ -42,9 +42,11 @@ def test_an_error_without_a_right_digit_stands_in_the_band_at_the_top(error):
 
 
 def test_settings_keep_the_colour_of_their_builder():
-    for word in ("binned_sah", "bonsai", "sweep_sah"):
-        assert style.look(word + "_agglomerate_below8_leaf_size8")[0] == style.look(word)[0]
-    assert style.look("binned_sah_reinsertion")[0] != style.look("sweep_sah")[0]
+    for place in range(20):  # more than the palette has
+        plain = SimpleNamespace(ours=True, place=place, is_plain=True, family="b")
+        others = [SimpleNamespace(ours=True, place=place, is_plain=False, family=f"b_leaf_size{k}") for k in range(9)]
+        assert {style.look(other)[0] for other in others} == {style.look(plain)[0]}
+        assert place >= len(style.OURS) or style.look(plain)[1] not in {style.look(other)[1] for other in others}
 
 
 def test_kernels_in_one_picture_look_different():
@@ -104,7 +106,7 @@ def test_intervals_of_thread_scaling_are_not_cut(results):
 
 
 def test_a_cost_has_its_sign():
-    assert effect_cost.cost_text(-2e6) == "-2 ms" and effect_cost.cost_text(1e6) == "+1 ms"
+    assert effect_cost.cost_text(-2e6) == "-2.00 ms" and effect_cost.cost_text(1e6) == "+1.00 ms"
 
 
 def test_a_tall_picture_shows_its_axis_at_the_top_too(tmp_path):

@@ -1,5 +1,6 @@
 """What cannot be read is refused with a message that says what to do; what is missing is left out."""
 
+import csv
 import json
 import math
 import re
@@ -16,11 +17,30 @@ def test_reads_what_was_written(full):
     results = run.read(full)
     assert results.rounds == 15 and len(results.jobs) == 19
     cell = next(c for c in results.cells if c.name == "uniform/n1000-s1/pairs/binned_sah.wide8.self_pairs/f32/tbb-2")
-    assert (cell.label, cell.family, cell.ours, cell.job.threads) == ("binned_sah.wide8 tbb", "binned_sah", True, 2)
+    assert (cell.label, cell.family, cell.ours, cell.job.threads) == ("binned_sah.wide8", "binned_sah", True, 2)
     assert cell.status == "exact" and cell.counters["box_tests"] == 41000
     assert cell.has("build") and cell.total == "build+query"
     assert cell.median("build") < cell.median(run.TOTAL) < 1.1 * (cell.median("build") + cell.median("query"))
     assert 0 < results.noise_floor < 0.05
+
+
+def test_an_executor_is_named_where_a_job_has_several(tmp_path):
+    made = synthetic.Maker(2)
+    for contender in ("median.wide8", "median.binary"):
+        made.cell("uniform", 500, "pairs", contender, synthetic.PAIR_CONTENDERS[contender], 1)
+    for row in made.rows["cells"][1:]:
+        row["executor"] = "openmp"
+    results = run.read(made.write(tmp_path / "a.h5"))
+    assert [cell.label for cell in results.cells] == ["median.wide8 serial", "median.binary openmp"]
+
+
+def test_numbers_are_as_the_program_writes_them():
+    with open(synthetic.ROOT / "scripts/tests/numbers.csv", newline="") as table:
+        rows = list(csv.DictReader(table))
+    assert {row["kind"] for row in rows} == {"time", "ratio", "interval"}
+    for row in rows:
+        text = getattr(words, row["kind"] + "_text")(*map(float, row["numbers"].split()))
+        assert text == row["text"], row
 
 
 def test_the_twin_is_no_sample_of_its_cell(full):

@@ -32,7 +32,7 @@ struct BonsaiBuilder {
             Setting<Owner>("prune", "largest root of a mini-tree, by their mean area",
                            &Owner::prune, 0, 1e6),
             Setting<Owner>("agglomerate_below",
-                           "items of the largest node that is joined bottom-up",
+                           "items of the largest node that is agglomerated bottom-up",
                            &Owner::agglomerate_below, 1, Binned::max_agglomerate_below),
             Setting<Owner>("leaf_size", "items that cost as much as one", &Owner::leaf_size, 1,
                            Binned::max_leaf_size),

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -29,7 +30,7 @@ TEST_P(EachBuilder, MakesValidTreesOfEveryFamily) {
     for (const BoxFamily& family : box_families())
         for (const ExecutorEntry& executor : executors()) {
             const Tree tree =
-                build(family.boxes, *executor.make(executor.name == "serial" ? 1 : 2));
+                build(family.boxes, *executor.make(std::min(2u, executor.max_threads)));
             ASSERT_EQ(tree.size(), family.boxes.size());
             const auto fault = validate(tree, family.boxes);
             EXPECT_FALSE(fault) << family.name << ": " << *fault;
@@ -95,10 +96,10 @@ TEST(BinnedSahBuilder, CostsNoMoreThanMedianOnBoxesOfManySizes) {
 TEST(BinnedSahBuilder, LeavesWholeNodesAsTheyLieAndSplitsTheOthersAlike) {
     const std::vector<Box> boxes = random_boxes(5000, .03f, 7);
     for (const int whole : {2, 8, 16}) {
-        const Settings joined{{"leaf_size", 8}, {"agglomerate_below", whole}};
-        Settings halved = joined;
+        const Settings agglomerated{{"leaf_size", 8}, {"agglomerate_below", whole}};
+        Settings halved = agglomerated;
         halved["unsplit_below"] = whole;
-        const Tree a = make_builder("binned_sah", joined)(boxes, serial());
+        const Tree a = make_builder("binned_sah", agglomerated)(boxes, serial());
         const Tree b = make_builder("binned_sah", halved)(boxes, serial());
         EXPECT_FALSE(validate(b, boxes)) << whole;
         const auto limit = static_cast<std::uint32_t>(whole);

@@ -98,6 +98,10 @@ Tree HilbertBuilder::build(Boxes boxes, const Executor& executor) const {
     return tree;
 }
 
-BuilderEntry hilbert_builder() { return builder_entry<HilbertBuilder>(); }
+BuilderEntry hilbert_builder() {
+    BuilderEntry entry = builder_entry<HilbertBuilder>();
+    entry.is_reference = true;
+    return entry;
+}
 
 } // namespace boxwood

@@ -4,8 +4,9 @@
 
 namespace boxwood {
 
-/// Inserts the items one by one, in the order given, into a `DynamicTree` and freezes it: what a
-/// tree that lives through many changes is like. Serial on every executor. O(n log n).
+/// Inserts the items one by one, in the order given, into a `DynamicTree`, then makes the canonical
+/// tree of it: what a tree that lives through many changes is like. Serial on every executor. O(n
+/// log n).
 struct IncrementalBuilder {
     static constexpr std::string_view name = "incremental";
     static constexpr std::string_view summary =

@@ -69,6 +69,7 @@ struct UpdateEntry {
     std::string_view name, summary;
     std::vector<SettingInfo> settings;
     std::function<std::unique_ptr<Updater>(const Settings&)> make;
+    bool answers_from_cache = false; ///< with pairs found before, whatever became of the tree
 };
 
 std::span<const UpdateEntry> updates();

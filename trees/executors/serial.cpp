@@ -21,7 +21,7 @@ const Executor& serial() {
 
 ExecutorEntry serial_executor() {
     return {"serial", "one thread, the caller's own",
-            [](unsigned) -> std::unique_ptr<Executor> { return std::make_unique<Serial>(); }};
+            [](unsigned) -> std::unique_ptr<Executor> { return std::make_unique<Serial>(); }, 1};
 }
 
 } // namespace boxwood

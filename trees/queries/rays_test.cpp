@@ -118,7 +118,7 @@ void expect_hits(const AnyLayout& layout, const TriangleMesh& mesh,
     on_every_target([&] {
         for (const ExecutorEntry& executor : executors()) {
             std::vector<RayHit> hits(rays.size()), any(rays.size());
-            const auto run = executor.make(executor.name == "serial" ? 1 : 2);
+            const auto run = executor.make(std::min(2u, executor.max_threads));
             layout.rays(rays, RayQuery::closest, K::name, triangles, *run, hits);
             layout.rays(rays, RayQuery::any, K::name, triangles, *run, any);
             for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -186,7 +186,7 @@ TEST(Rays, FindEveryHitOnceForEveryWayExecutorAndInstructionSet) {
             on_every_target([&] {
                 for (const ExecutorEntry& executor : executors()) {
                     AppendHits sink;
-                    const auto run = executor.make(executor.name == "serial" ? 1 : 2);
+                    const auto run = executor.make(std::min(2u, executor.max_threads));
                     layout->rays_all(rays, "watertight", triangles, *run, sink);
                     EXPECT_TRUE(sink.all == expected) << executor.name;
                 }

@@ -14,12 +14,12 @@ struct ExecutorToTry {
     std::unique_ptr<Executor> run;
 };
 
-/// Each executor of the registry with 1, 2 and 4 threads, serial with 1 alone.
+/// Each executor of the registry with those of 1, 2 and 4 threads that it can have.
 inline std::vector<ExecutorToTry> every_executor() {
     std::vector<ExecutorToTry> all;
     for (const ExecutorEntry& entry : executors())
         for (const unsigned threads : {1u, 2u, 4u})
-            if (entry.name != "serial" || threads == 1)
+            if (threads <= entry.max_threads)
                 all.push_back({std::string(entry.name) + " on " + std::to_string(threads),
                                entry.make(threads)});
     return all;

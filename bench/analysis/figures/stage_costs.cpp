@@ -40,7 +40,8 @@ std::vector<StageCost> stage_costs_of(const Results& results) {
         double until = 0;
         for (const Stage& stage : plans[cell.cell_id]) {
             const EffectRow& row = *stage.first;
-            StageCost cost{cell.cell_id, row.stage, row.required, row.calls, row.items, row.bytes};
+            StageCost cost{cell.cell_id, row.stage, row.effect, row.required,
+                           row.calls,    row.items, row.bytes};
             if (row.calls > 0 && !stage.ns.empty())
                 cost.ns = median_interval(stage.ns).mid / n_frames[cell.scene_id];
             cost.until_ns = until += cost.ns;

@@ -56,7 +56,7 @@ TEST(EffectCosts, AreThePairedRatiosAndWhatTheyAreWorth) {
         return cell;
     };
     const auto required = add("required", 1000), all = add("all_stages", 3000),
-               calm = add("required.without_drift", 800);
+               without_drift = add("required.without_drift", 800);
     analyse(run.results);
     const auto& costs = run.results.effect_costs;
     ASSERT_EQ(costs.size(), 2u);
@@ -64,7 +64,7 @@ TEST(EffectCosts, AreThePairedRatiosAndWhatTheyAreWorth) {
         const bool is_effect = cost.what == "drift";
         EXPECT_EQ(cost.what, is_effect ? "drift" : "all stages");
         EXPECT_EQ(cost.cell_with, is_effect ? required : all);
-        EXPECT_EQ(cost.cell_without, is_effect ? calm : required);
+        EXPECT_EQ(cost.cell_without, is_effect ? without_drift : required);
         EXPECT_NEAR(cost.with_ns, is_effect ? 1000 : 3000, 1e-9);
         EXPECT_NEAR(cost.without_ns, is_effect ? 800 : 1000, 1e-9);
         EXPECT_NEAR(cost.ratio, is_effect ? 1.25 : 3, 1e-12);

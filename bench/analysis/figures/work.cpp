@@ -1,12 +1,15 @@
 #include "bench/analysis/figures/work.h"
 
+#include "bench/analysis/job.h"
 #include "bench/analysis/times.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <string>
+#include <string_view>
 #include <tuple>
 
 namespace boxwood::bench {
@@ -21,35 +24,34 @@ std::vector<QueryKernel> query_kernels_of(const Results& results) {
     for (const results::Variant& variant : results.variants)
         variants[variant.variant_id] = &variant;
     const MedianIndex medians(results);
-    using Tree = std::tuple<std::uint32_t, std::uint64_t, std::string, std::uint32_t, std::string,
-                            std::string, std::string>;
     struct Query {
         std::uint32_t cell_id;
-        std::string kernel;
+        std::string_view kernel;
         double ns;
     };
+    using Tree = std::tuple<JobKey, std::string, std::string, std::string>; // executor, precision
     std::map<Tree, std::vector<Query>> trees;
     for (const results::Cell& cell : results.cells) {
         const results::Variant& variant = *variants.at(cell.variant_id);
         const double ns = medians.ns(cell.cell_id, Phase::query);
-        std::string tree = variant.name;
-        const std::size_t at = tree.find("." + variant.kernel);
-        if (variant.is_peer || variant.kernel.empty() || at == std::string::npos || std::isnan(ns))
-            continue; // a kernel on hard cases bears its own name
-        tree.erase(at, 1 + variant.kernel.size());
-        trees[{cell.scene_id, cell.n_items, cell.task, cell.threads, cell.executor, cell.precision,
-               tree}]
-            .push_back({cell.cell_id, variant.kernel, ns});
+        if (variant.builder.empty() || variant.kernel.empty() || std::isnan(ns))
+            continue; // a peer, or on hard cases, or no kernel
+        const std::string tree =
+            fmt::format("{}.{}.{}", variant.builder, variant.layout, variant.traversal);
+        trees[{job_of(cell), cell.executor, cell.precision, tree}].push_back(
+            {cell.cell_id, variant.kernel, ns});
     }
     std::vector<QueryKernel> all;
-    for (const auto& [tree, queries] : trees) {
-        std::set<std::string> kernels;
+    std::uint32_t group = 0;
+    for (auto& [tree, queries] : trees) {
+        std::ranges::sort(queries, {}, &Query::ns);
+        if (std::ranges::all_of(queries, [&](const Query& query) {
+                return query.kernel == queries.front().kernel;
+            }))
+            continue;
         for (const Query& query : queries)
-            kernels.insert(query.kernel);
-        const double fastest = std::ranges::min(queries, {}, &Query::ns).ns;
-        for (const Query& query : queries)
-            if (kernels.size() > 1)
-                all.push_back({query.cell_id, query.ns / fastest});
+            all.push_back({query.cell_id, group, std::get<3>(tree), query.ns / queries.front().ns});
+        ++group;
     }
     return all;
 }

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 
 namespace boxwood::bench {
 namespace {
@@ -49,10 +48,16 @@ TEST(QueryKernels, AreHeldAgainstTheFastestUnderTheSameTree) {
     add("median.wide8.self_pairs", 50);         // without a kernel
     add("embree.wide8", 50);
     analyse(run.results);
-    std::map<std::uint32_t, double> times;
-    for (const auto& row : run.results.query_kernels)
-        times[row.cell_id] = row.times_fastest;
-    EXPECT_EQ(times, (std::map<std::uint32_t, double>{{fast, 1}, {exact, 2.5}}));
+    const auto& rows = run.results.query_kernels;
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(rows[0].cell_id, fast);
+    EXPECT_EQ(rows[0].times_fastest, 1);
+    EXPECT_EQ(rows[1].cell_id, exact);
+    EXPECT_EQ(rows[1].times_fastest, 2.5);
+    for (const auto& row : rows) {
+        EXPECT_EQ(row.group, 0u);
+        EXPECT_EQ(row.tree, "median.wide8.self_pairs");
+    }
 }
 
 } // namespace

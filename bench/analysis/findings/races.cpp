@@ -126,7 +126,7 @@ class Races {
     std::string rival_words(std::uint32_t rival_id, std::uint32_t ours_id) const {
         const results::Variant& rival = index_.variant(index_.cell(rival_id));
         const results::Variant& ours = index_.variant(index_.cell(ours_id));
-        return rival.is_peer                   ? library_words(rival.library)
+        return rival.is_peer                   ? rival.library_title
                : rival.builder != ours.builder ? rival.builder
                : rival.layout != ours.layout   ? rival.layout
                                                : rival.kernel;

@@ -31,7 +31,7 @@ void KernelTask::expand(const BlockReader& block, AddCell add) const {
         contenders.push_back(peer);
     for (const SceneSpec& scene : case_scenes(block, *this))
         for (const ContenderEntry& entry : contenders)
-            add(scene, entry, "serial", 1);
+            add(scene, entry, std::string(default_executor(1)), 1);
 }
 
 ContenderEntry KernelTask::kernel_contender(std::string_view kernel) const {

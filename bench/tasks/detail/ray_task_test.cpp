@@ -174,7 +174,7 @@ TEST(RaysAll, AreAllThereOnceWithEveryWayAndEmbree) {
         std::ranges::copy(peers_that_answer("rays_all"), std::back_inserter(contenders));
         for (const ContenderEntry& contender : contenders)
             for (const unsigned threads : {1u, 2u}) {
-                const Job job{&scene, &task, threads == 1 ? "serial" : "tbb", threads};
+                const Job job{&scene, &task, std::string(default_executor(threads)), threads};
                 const auto answers = answers_of<Pair>(contender, job);
                 const Judgement judged = truth->judge(answers, contender);
                 EXPECT_NE(judged.status, Status::wrong)
@@ -283,7 +283,7 @@ TEST(RaysBatches, EmbreesPacketsAnswerRight) {
         const auto truth = task.make_truth(scene, 1);
         for (const ContenderEntry& peer : peers_that_answer(name))
             for (const unsigned threads : {1u, 2u}) {
-                const Job job{&scene, &task, threads == 1 ? "serial" : "tbb", threads};
+                const Job job{&scene, &task, std::string(default_executor(threads)), threads};
                 const Judgement judged = truth->judge(answers_of<RayHit>(peer, job), peer);
                 EXPECT_NE(judged.status, Status::wrong)
                     << peer.name << ": " << judged.check.witness;

@@ -78,6 +78,9 @@ ContenderEntry TreeTask::contender(const Choice& choice) const {
     entry.is_peer = false;
     entry.precision = layout.precision;
     entry.builder = name_with_settings(choice.builder, choice.settings);
+    entry.place = static_cast<std::size_t>(&builder - builders().data());
+    entry.is_plain = entry.builder == builder.name;
+    entry.is_reference = builder.is_reference && entry.is_plain;
     entry.layout = choice.layout;
     entry.traversal = way.traversal;
     entry.kernel = way.kernel;

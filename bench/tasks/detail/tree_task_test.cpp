@@ -81,7 +81,7 @@ SceneSpec spec_of(const Task& task, std::size_t n) {
 /// Builds and queries twice each; the answers are right, and so are those of the counted pass.
 void expect_right(const Scene& scene, const Task& task, const ContenderEntry& entry,
                   unsigned threads, Truth& truth) {
-    const Job job{&scene, &task, threads == 1 ? "serial" : "tbb", threads};
+    const Job job{&scene, &task, std::string(default_executor(threads)), threads};
     ASSERT_FALSE(entry.unsupported(job));
     const auto contender = entry.make(job);
     const auto answers = task.make_answers(), counted = task.make_answers();

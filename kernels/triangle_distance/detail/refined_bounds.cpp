@@ -213,9 +213,9 @@ DistanceBounds refined_bounds(const Triangle<double>& a, const Triangle<double>&
     return Search(a, b).bounds();
 }
 
-// The least distance is between two corners (at least g = 2^grid), a corner and an edge e (a whole
-// multiple of g^2, if not 0, over |e|), or on a line normal to two edges or a face: a multiple of
-// g^3 over |n|, n the cross product of two edges, |n| <= 3 * 4^size.
+// The minimum distance is between two corners (at least g = 2^grid), a corner and an edge e (a
+// whole multiple of g^2, if not 0, over |e|), or on a line normal to two edges or a face: a
+// multiple of g^3 over |n|, n the cross product of two edges, |n| <= 3 * 4^size.
 double min_separation(int grid, int size) {
     const int exponent = 3 * grid - 2 * size - 2;
     return exponent < -1074 ? 0 : std::ldexp(1.0, exponent);

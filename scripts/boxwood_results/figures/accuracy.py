@@ -5,7 +5,7 @@ import math
 from matplotlib.ticker import FixedFormatter, FixedLocator, NullLocator
 
 from .. import labels, style
-from ..kernels import LEAST_ERROR, PANELS
+from ..kernels import MIN_ERROR
 from ..picture import Picture, Skip
 
 NAME = "accuracy"
@@ -28,7 +28,7 @@ def value(kernel):
         return kernel.per_million
     if kernel.error > NO_DIGIT:
         return math.inf
-    return kernel.error if kernel.error > LEAST_ERROR else 0.0
+    return kernel.error if kernel.error > MIN_ERROR else 0.0
 
 
 def y_axis(ax, values, bars, measured):
@@ -64,7 +64,7 @@ def draw_panel(ax, panel, found, measured):
     style.time_axis(ax.xaxis, min(r.ns for r in found), max(r.ns for r in found), room=0.15)
     marks, lines = [], []
     for kernel, v in zip(found, values):
-        colour, marker = style.look(kernel.library if not kernel.ours else "binned_sah")
+        colour, marker = style.kernel_look(kernel)
         y = height(v)
         if kernel.unexcluded == kernel.unexcluded:
             ax.plot([kernel.ns, kernel.ns], [band, kernel.unexcluded], color=colour, linewidth=1, alpha=0.45, zorder=2)
@@ -72,7 +72,7 @@ def draw_panel(ax, panel, found, measured):
         ax.plot([kernel.ns], [y], marker=marker, markersize=7, linestyle="", zorder=5, markeredgewidth=1.3,
                 markeredgecolor=colour if not kernel.ours else "white",
                 markerfacecolor="white" if not kernel.ours else colour)
-        marks.append((kernel.ns, y, kernel.name, style.text_colour(kernel.library if not kernel.ours else "binned_sah")))
+        marks.append((kernel.ns, y, kernel.name, style.readable(colour)))
     best = [(kernel.ns, height(v)) for kernel, v in zip(found, values) if kernel.on_front]
     ax.plot([x for x, _ in best], [y for _, y in best], color=style.FAINT, linewidth=1.1, zorder=1)
     style.title(ax, f"{panel} input, {max(r.n for r in found):,} cases")
@@ -85,10 +85,9 @@ def draw_panel(ax, panel, found, measured):
 def draw(run):
     pictures = []
     for task in dict.fromkeys(kernel.task for kernel in run.kernel_costs):
-        panels = [(p, [k for k in run.kernel_costs if (k.task, k.panel) == (task, p)]) for p in PANELS]
-        panels = [(panel, found) for panel, found in panels if found]
-        if not panels:
-            continue
+        of_task = [kernel for kernel in run.kernel_costs if kernel.task == task]
+        panels = [(panel, [kernel for kernel in of_task if kernel.panel == panel])
+                  for panel in dict.fromkeys(kernel.panel for kernel in of_task)]
         measured = panels[0][1][0].by_error
         figure, axes = style.panels(len(panels), width=10.5, height=4.3, columns=1)
         rows = []

@@ -54,7 +54,7 @@ def draw_panel(ax, job, cells, run, rows):
         ax.plot([x], [y], **{**style.point_style(cell, 7), "linestyle": ""}, zorder=5)
         if cell.status == "wrong":
             style.cross_out(ax, x, y)
-        marks.append((x, y, names[id(cell)], style.text_colour(cell.family)))
+        marks.append((x, y, names[id(cell)], style.text_colour(cell)))
     pays = {id(cell): queries for cell, queries in steps if queries == queries}
     joints = []
     for cheap, dear in zip(best, best[1:]):

@@ -3,7 +3,7 @@
 import math
 
 from .. import labels, style
-from ..kernels import LEAST_ERROR
+from ..kernels import MIN_ERROR
 from ..picture import Picture, Skip
 
 NAME = "condition"
@@ -15,7 +15,7 @@ HOW_TO_READ = (
     "not pass. Dotted: u times the condition and u times its square, u = 2^-53."
 )
 COLUMNS = ("task", "kernel", "library", "log10_condition", "n", "max_rel_err", "bound")
-FLOOR, CEILING = LEAST_ERROR, 20.0
+FLOOR, CEILING = MIN_ERROR, 20.0
 
 
 def lines_of(run):
@@ -45,7 +45,7 @@ def draw(run):
         rows, ends = [], []
         looks = style.looks({kernel for ours, _, kernel, _ in lines if ours})
         for (ours, library, kernel, promise), line in sorted(lines.items(), key=lambda item: (not item[0][0], item[0][2])):
-            colour, marker = looks[kernel] if ours else style.look(library)
+            colour, marker = looks[kernel] if ours else style.look(run.peers[library])
             xs = sorted(line)
             ys = [min(max(line[x][1], FLOOR), CEILING) for x in xs]
             ax.plot(xs, ys, color=colour, marker=marker, markersize=4, linewidth=1.3, linestyle="-" if ours else "--",

@@ -6,7 +6,7 @@ from .. import style
 from ..findings import footer
 from ..moving import played_scenes
 from ..picture import Picture, Skip
-from ..words import interval_text, time_text
+from ..words import ratio_text, time_text
 
 NAME = "effect_cost"
 TITLE = "What an effect costs"
@@ -17,13 +17,13 @@ HOW_TO_READ = (
 )
 COLUMNS = ("scene", "n", "threads", "what", "with_ns", "without_ns", "ratio", "ratio_lo", "ratio_hi")
 ROW, GAP = 0.23, 0.12  # inches
-EFFECT, ALL = style.look("required"), style.look("all_stages")
+EFFECT, ALL = ("#0072B2", "o"), ("#D55E00", "D")
 TALL = 8  # inches from which the axis stands at the top, too
 
 
 def entries_of(scene):
     """[(cost, look)] of one scene, the most costly effect first."""
-    return [(cost, EFFECT) for cost in scene.effects] + [(cost, ALL) for cost in [scene.everything] if cost]
+    return [(cost, EFFECT) for cost in scene.effects] + [(cost, ALL) for cost in [scene.all_stages_cost] if cost]
 
 
 def cost_text(ns):
@@ -60,7 +60,7 @@ def draw(run):
             ax.plot([ratio.mid], [y], marker=marker, markersize=6.5, color=colour, markeredgecolor="white",
                     markeredgewidth=0.6, zorder=4)
             ax.text(-0.02, y, cost.what, transform=ax.get_yaxis_transform(), ha="right", va="center", fontsize=8)
-            said = f"{interval_text(ratio)}   {cost_text(cost.extra_ns)} a frame"
+            said = f"{ratio.text}   {cost_text(cost.extra_ns)} a frame"
             ax.text(1.03, y, said, transform=ax.get_yaxis_transform(), va="center", fontsize=7.5)
             ends += [ratio.lo, ratio.hi] if ratio.known else [ratio.mid]
             rows.append((job.scene, job.n, job.threads, cost.what, cost.with_ns, cost.without_ns, ratio.mid, ratio.lo,
@@ -74,5 +74,5 @@ def draw(run):
     ax.grid(axis="y", visible=False)
     ax.spines["left"].set_visible(False)
     figure.text(0.02 / size[0], 0.06 / size[1], footer(run), fontsize=7.5, color="#666666")
-    said = "; ".join(f"{row[3]} in {row[0]} {row[6]:.2f}x" for row in rows)
+    said = "; ".join(f"{row[3]} in {row[0]} {ratio_text(row[6])}x" for row in rows)
     return [Picture(NAME, figure, TITLE, f"Time of a frame with an effect over without it. {said}.", COLUMNS, rows)]

@@ -76,7 +76,7 @@ def draw_marks(ax, comparisons, heights, floor):
             continue
         ratio, peer = comparison.gain, comparison.a
         strength = 0.45 if comparison.verdict == "cannot_tell" else 1.0
-        colour, marker = style.look(peer.family)
+        colour, marker = style.look(peer)
         if ratio.known:
             ax.plot([ratio.lo, ratio.hi], [height, height], color=colour, linewidth=1.8, alpha=strength, zorder=3)
         ax.plot([ratio.mid], [height], marker=marker, markersize=6.5, color=colour, alpha=strength,
@@ -85,7 +85,7 @@ def draw_marks(ax, comparisons, heights, floor):
 
 def said_of(comparison):
     words = comparison.verdict_text
-    return f"Boxwood {words}" if comparison.verdict in ("faster", "slower") else words
+    return f"{comparison.b.library_title} {words}" if comparison.verdict in ("faster", "slower") else words
 
 
 def ratio_axis(ax, comparisons):
@@ -137,7 +137,7 @@ def draw_one(run, task, threads, found, floor):
         ax.tick_params(axis="x", labeltop=height > TALL)
         ax.set_ylim(y - 0.12, 0)
         ax.set_yticks([])
-        ax.set_title(known.total_words if phase == TOTAL else "query alone", fontsize=10,
+        ax.set_title(known.total_title if phase == TOTAL else "query alone", fontsize=10,
                      weight="bold")
         for (at, block, peer), comparison in zip(entries, comparisons):
             if peer is None:
@@ -150,7 +150,7 @@ def draw_one(run, task, threads, found, floor):
                 continue
             if column == 0:
                 ax.text(-0.03, at, peer.label, transform=ax.get_yaxis_transform(), ha="right", va="center",
-                        fontsize=8, color=style.text_colour(peer.family))
+                        fontsize=8, color=style.text_colour(peer))
             if comparison is None:
                 said = "the peer has no build" if not peer.keeps_structure else "no build"
                 ax.text(1.03, at, said, transform=ax.get_yaxis_transform(), va="center", fontsize=7.5,
@@ -163,7 +163,7 @@ def draw_one(run, task, threads, found, floor):
                          peer.label, peer.library, comparison.phase, comparison.rounds, gain.mid, gain.lo, gain.hi,
                          comparison.verdict, comparison.reason))
     said = "; ".join(
-        f"{row[2]}, {row[6]}, {row[8]}: {ratio_text(row[10])} {row[13].replace('_', ' ')}" for row in rows
+        f"{row[2]}, {row[6]}, {row[8]}: {ratio_text(row[10])}x {row[13].replace('_', ' ')}" for row in rows
     )
     figure.text(0.02 / size[0], 0.06 / size[1], footer(run), fontsize=7.5, color="#666666")
     jobs = {block.job for block in found}

@@ -35,7 +35,7 @@ def draw_panel(ax, job, cells, rows):
             ax.axvline(at, color="#444444", linewidth=1, linestyle="--", zorder=1)
             ax.text(at, 1.0, words, transform=ax.get_xaxis_transform(), ha="center", va="bottom", fontsize=7)
     for y, (marks, cell) in enumerate(found):
-        colour, marker = style.look(cell.family)
+        colour, marker = style.look(cell)
         p50, p95, p99, worst = marks
         ax.plot([p50, worst], [y, y], color=colour, linewidth=1.2, zorder=2)
         ax.plot([p95, p99], [y, y], linestyle="", marker="|", markersize=8, color=colour, markeredgewidth=1.5, zorder=3)
@@ -45,7 +45,7 @@ def draw_panel(ax, job, cells, rows):
         if cell.status == "wrong":
             style.cross_out(ax, p50, y)
         ax.text(-0.025, y, cell.label, transform=ax.get_yaxis_transform(), ha="right", va="center", fontsize=7.5,
-                color=style.text_colour(cell.family))
+                color=style.text_colour(cell))
         ax.text(1.025, y, f"{time_text(p50)} to {time_text(worst)}", transform=ax.get_yaxis_transform(), va="center",
                 fontsize=7)
         rows.append((job.task, job.scene, job.n, job.threads, cell.label, cell.library, cell.status,

@@ -3,7 +3,7 @@
 from .. import labels, style
 from ..moving import frame_ns, played_scenes
 from ..picture import Picture, Skip
-from ..words import interval_text, time_text
+from ..words import time_text, time_tick
 
 NAME = "ledger"
 TITLE = "Only what the scene requires"
@@ -13,19 +13,20 @@ HOW_TO_READ = (
     "the bar. What neither runs is named: it has no call, no time and no memory."
 )
 COLUMNS = ("scene", "n", "threads", "played", "stage", "required", "calls", "items", "ns_a_frame", "share", "bytes")
-COLOURS = {
-    "advance": "#999933", "move": "#DDCC77", "fit": "#44AA99", "tree": "#88CCEE", "update": "#0072B2",
-    "box_tree": "#6699CC", "pairs": "#56B4E9", "filter": "#332288", "aim": "#AA4499", "transform": "#882255", "mesh_trees": "#CC79A7", "triangle_pairs": "#D55E00",
-    "surface": "#E69F00", "rays": "#117733", "points": "#009E73", "regions": "#7F7F7F", "nearest": "#000000",
-}
+OF_EFFECTS = "#999933"
+# Of the other stages, in the order of the plan.
+COLOURS = ("#DDCC77", "#44AA99", "#88CCEE", "#0072B2", "#6699CC", "#56B4E9", "#332288", "#882255", "#CC79A7", "#D55E00",
+           "#E69F00", "#AA4499", "#117733", "#009E73", "#7F7F7F", "#000000")
 WIDTH, LEFT, PANEL = 10.5, 1.15, 7.6  # inches
 BAR, STEP, LINE, HEAD, FOOT = 0.27, 0.38, 0.13, 0.3, 0.62
 LETTERS = 135  # of a line of small text
 
 
-def colour_of(stage):
-    word = "advance" if stage.startswith("advance_") else stage
-    return COLOURS.get(word) or style.look(word)[0]
+def colours_of(cell):
+    """{stage: colour}, the same for any scene of one plan."""
+    others = [name for name, stage in cell.stages.items() if not stage["effect"]]
+    places = {name: place for place, name in enumerate(others)}
+    return {name: COLOURS[places[name] % len(COLOURS)] if name in places else OF_EFFECTS for name in cell.stages}
 
 
 def is_dark(colour):
@@ -57,10 +58,10 @@ def wrapped(words, lead, width):
 
 def draw_bar(ax, cell, y, limit):
     """One stacked bar; gives the stages that are too narrow to be named inside."""
-    left, narrow = 0.0, []
+    left, narrow, colours = 0.0, [], colours_of(cell)
     pixels = ax.get_window_extent().width / limit
     for name, ns in costs(cell):
-        colour = colour_of(name)
+        colour = colours[name]
         ax.barh(y, ns, left=left, height=BAR, color=colour, edgecolor="white", linewidth=0.8)
         if labels.text_size(ax.figure, name)[0] + 8 < ns * pixels:
             ax.text(left + ns / 2, y, name, ha="center", va="center", fontsize=labels.SIZE,
@@ -79,12 +80,12 @@ def narrow_lines(narrow):
 def idle_lines(scene):
     """What neither way to play the scene runs, in lines."""
     both = scene.all_stages.stages if scene.all_stages else {}
-    idle = [name for name, stage in scene.required.stages.items()
+    idle = [stage for name, stage in scene.required.stages.items()
             if not stage["calls"] and not both.get(name, stage)["calls"]]
-    effects = [name.removeprefix("advance_") for name in idle if name.startswith("advance_")]
-    stages = [name for name in idle if not name.startswith("advance_")]
-    told = (("not required (0):", stages), ("effects not required (0):", effects))
-    return [line for lead, names in told if names for line in wrapped(names, lead, LETTERS)]
+    effects = [stage["effect"] for stage in idle if stage["effect"]]
+    stages = [stage["stage"] for stage in idle if not stage["effect"]]
+    groups = (("not required (0):", stages), ("effects not required (0):", effects))
+    return [line for lead, names in groups if names for line in wrapped(names, lead, LETTERS)]
 
 
 def sides_of(scene):
@@ -114,13 +115,13 @@ def draw_scene(ax, scene, rows):
                   int(stage["required"]), int(stage["calls"]), int(stage["items"]), float(stage["ns"]),
                   float(stage["share"]), int(stage["bytes"]))
                  for name, stage in cell.stages.items()]
-    ratio = f": all stages take {interval_text(scene.everything.ratio)} as long" if scene.everything else ""
+    ratio = f": all stages take {scene.all_stages_cost.ratio.text} as long" if scene.all_stages_cost else ""
     ax.set_title(f"{scene.job}".replace(f" · {scene.job.task}", "") + ratio, fontsize=9.5)
     ax.set_yticks([])
     ax.spines["left"].set_visible(False)
     ax.grid(axis="y", visible=False)
     ax.xaxis.set_major_locator(style.MaxNLocator(6))
-    ax.xaxis.set_major_formatter(lambda value, _: time_text(value) if value else "0")
+    ax.xaxis.set_major_formatter(lambda value, _: time_tick(value) if value else "0")
     ax.tick_params(axis="x", labelsize=7.5)
     for place, line in enumerate(idle_lines(scene)):
         ax.annotate(line, (0, 0), xycoords="axes fraction", xytext=(0, -22 - 9 * place), textcoords="offset points",
@@ -141,7 +142,7 @@ def draw(run):
         top -= height
     said = "; ".join(
         f"{s.job}: {time_text(frame_ns(s.required))} a frame for what is required"
-        + (f", all stages {interval_text(s.everything.ratio)} as long" if s.everything else "")
+        + (f", all stages {s.all_stages_cost.ratio.text} as long" if s.all_stages_cost else "")
         for s in scenes
     )
     return [Picture(NAME, figure, TITLE, f"Time of a frame by stage. {said}.", COLUMNS, rows)]

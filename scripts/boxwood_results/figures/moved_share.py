@@ -5,7 +5,7 @@ from ..metrics import METRICS
 from ..moving import moved_share
 from ..picture import Picture, Skip
 from ..run import TOTAL
-from ..selection import MOST_LINES, wrong_notes
+from ..selection import MAX_LINES, wrong_notes
 from ..words import time_text
 
 NAME = "moved_share"
@@ -33,13 +33,13 @@ def groups_of(run):
 
 
 def choose_lines(lines):
-    """The best of each family where all moves, then the rest, at most MOST_LINES."""
+    """The best of each family where all moves, then the rest, at most MAX_LINES."""
     order, families = [], set()
     for line in sorted(lines, key=lambda line: line[max(line)].median(TOTAL)):
         family = line[max(line)].family
         order.append((family in families, len(order), line))
         families.add(family)
-    return [line for _, _, line in sorted(order, key=lambda item: item[:2])][:MOST_LINES]
+    return [line for _, _, line in sorted(order, key=lambda item: item[:2])][:MAX_LINES]
 
 
 def draw_panel(ax, key, lines, rows):
@@ -54,7 +54,7 @@ def draw_panel(ax, key, lines, rows):
             if line[share].status == "wrong":
                 style.cross_out(ax, share, time)
             rows.append((words, n, threads, cell.label, cell.library, line[share].status, share, time))
-        ends.append((x[-1], y[-1], cell.label, style.text_colour(cell.family)))
+        ends.append((x[-1], y[-1], cell.label, style.text_colour(cell)))
         times += y
         shares.update(x)
     style.log_axis(ax.xaxis, min(shares), max(shares), lambda value: f"{100 * value:g} %", room=0.03)

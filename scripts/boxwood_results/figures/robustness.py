@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.colors import LinearSegmentedColormap
 
 from .. import style
-from ..kernels import LEAST_ERROR, by_kernel_family
+from ..kernels import MIN_ERROR, by_kernel_family
 from ..picture import Picture, Skip
 
 NAME = "robustness"
@@ -29,15 +29,15 @@ def entry(point, measured):
         error = point.error
         if point.row["bound_violations"]:
             return f"{int(point.row['bound_violations'])} out", 1.0
-        if not error > LEAST_ERROR:
+        if not error > MIN_ERROR:
             return "0", None
         if error < 1e-9:
             return f"{error:.0e}", None
         return ("inf" if math.isinf(error) else f"{error:.0e}"), min(1.0, (math.log10(error) + 9) / 9)
     rate, undecided = float(point.row["wrong_per_million"]), float(point.row["maybe_per_million"])
-    text = "0" if not rate else style.count_text(float(f"{rate:.2g}")).replace(" ", "")
+    text = "0" if not rate else style.count_text(float(f"{rate:.2g}"))
     if undecided:
-        text += f" ({style.count_text(float(f'{undecided:.2g}')).replace(' ', '')})"
+        text += f" ({style.count_text(float(f'{undecided:.2g}'))})"
     return text, min(1.0, math.log10(max(rate, 1)) / 6) if rate else None
 
 

@@ -7,7 +7,7 @@ from .. import labels, style
 from ..metrics import METRICS
 from ..picture import Picture, Skip
 from ..run import TOTAL
-from ..selection import MOST_LINES, wrong_notes
+from ..selection import MAX_LINES, wrong_notes
 
 NAME = "size_scaling"
 TITLE = "How time grows with n"
@@ -34,13 +34,13 @@ def lines_of(run, task, scene, seed, threads):
 
 
 def choose_lines(lines, phase):
-    """The best of each family at the largest n, then the rest of the peers, at most MOST_LINES."""
+    """The best of each family at the largest n, then the rest of the peers, at most MAX_LINES."""
     order, families = [], set()
     for line in sorted(lines, key=lambda line: (-line[-1].job.n, line[-1].median(phase))):
         order.append((line[-1].family in families, len(order), line))
         families.add(line[-1].family)
     kept = [line for again, _, line in sorted(order, key=lambda o: o[:2]) if not (again and line[-1].ours)]
-    return kept[:MOST_LINES]
+    return kept[:MAX_LINES]
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,7 @@ def draw_panel(ax, lines, phase, known_fits, rows):
                 style.cross_out(ax, size, time)
             rows.append((at.job.task, at.job.scene, at.job.threads, phase_name(at, phase), at.label, at.library, at.status, size,
                          time, fit.mid, fit.lo, fit.hi, fit.off_line))
-        ends.append((x[-1], y[-1], f"{cell.label}  {exponent_text(fit)}", style.text_colour(cell.family)))
+        ends.append((x[-1], y[-1], f"{cell.label}  {exponent_text(fit)}", style.text_colour(cell)))
     low, high = min(sizes), max(sizes)
     start = min(all_times) / 1.6
     guide = [start * (n * math.log(n)) / (low * math.log(low)) for n in (low, high)]

@@ -5,7 +5,8 @@ from ..findings import THREADS
 from ..metrics import METRICS
 from ..picture import Picture, Skip
 from ..run import TOTAL
-from ..selection import MOST_LINES, wrong_notes
+from ..selection import MAX_LINES, wrong_notes
+from ..words import ratio_text
 
 NAME = "thread_scaling"
 TITLE = "What threads give"
@@ -32,7 +33,7 @@ def lines_of(run):
 
 
 def best_lines(lines):
-    """The fastest of each of our builders and every peer, at most MOST_LINES."""
+    """The fastest of each of our builders and every peer, at most MAX_LINES."""
     kept, families = [], set()
     for line in sorted(lines, key=lambda line: line[-1].b.median(TOTAL)):
         cell = line[-1].b
@@ -40,7 +41,7 @@ def best_lines(lines):
             continue
         families.add(cell.family)
         kept.append(line)
-    return kept[:MOST_LINES]
+    return kept[:MAX_LINES]
 
 
 def draw_panel(ax, job, lines, rows):
@@ -55,9 +56,9 @@ def draw_panel(ax, job, lines, rows):
         for x, gain in gains:
             if gain.known:  # set aside a little, so that bars of neighbours do not cover each other
                 aside = x * (1 + 0.006 * (place - (len(lines) - 1) / 2))
-                ax.plot([aside, aside], [gain.lo, gain.hi], color=style.look(last.family)[0], linewidth=1)
+                ax.plot([aside, aside], [gain.lo, gain.hi], color=style.look(last)[0], linewidth=1)
         x, gain = gains[-1]
-        ends.append((x, gain.mid, f"{last.label}  {gain.mid:.2f}x", style.text_colour(last.family)))
+        ends.append((x, gain.mid, f"{last.label}  {ratio_text(gain.mid)}x", style.text_colour(last)))
         most = max(most, x)
         lowest = min(lowest, *(g.lo if g.known else g.mid for _, g in gains))
         highest = max(highest, *(g.hi if g.known else g.mid for _, g in gains))
@@ -66,7 +67,7 @@ def draw_panel(ax, job, lines, rows):
     ax.set_xlim(1 - 0.04 * most, most * 1.03)
     ax.set_ylim(min(0.9, lowest * 0.95), max(highest, most) * 1.05)
     ax.set_xticks(sorted({1, *(row.b.job.threads for line in lines for row in line)}))
-    style.title(ax, f"{job.scene} {job.n:,} · {job.task} · {lines[0][-1].b.task.total_words}")
+    style.title(ax, f"{job.scene} {job.n:,} · {job.task} · {lines[0][-1].b.task.total_title}")
     ax.set_xlabel(METRICS["threads"].axis)
     ax.set_ylabel(METRICS["thread_scaling"].axis)
     return ends
@@ -89,7 +90,7 @@ def draw(run):
         for ax, (job, lines) in zip(axes, panels):
             labels.at_line_ends(ax, draw_panel(ax, job, lines, rows))
             notes += wrong_notes([cell for cell in run.cells if cell.job.scene == job.scene and cell.job.task == task])
-        said = "; ".join(f"{row[3]} on {row[1]} with {row[6]} threads {row[7]:.2f}x" for row in rows)
+        said = "; ".join(f"{row[3]} on {row[1]} with {row[6]} threads {ratio_text(row[7])}x" for row in rows)
         pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {task}", f"Gain by threads: {said}.",
                                 COLUMNS, rows, notes))
     return pictures

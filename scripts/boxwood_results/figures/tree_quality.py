@@ -34,7 +34,7 @@ def draw_panel(ax, job, cells, rows):
         ax.plot([x], [y], **{**style.point_style(cell, 7), "linestyle": ""}, zorder=5)
         if cell.status == "wrong":
             style.cross_out(ax, x, y)
-        marks.append((x, y, cell.label, style.text_colour(cell.family)))
+        marks.append((x, y, cell.label, style.text_colour(cell)))
         rows.append((job.scene, job.n, job.threads, cell.label, cell.library, cell.status, x, y))
     style.title(ax, str(job))
     ax.set_xlabel(METRICS["build"].axis)

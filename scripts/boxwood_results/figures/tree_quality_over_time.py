@@ -4,14 +4,15 @@ from .. import labels, style
 from ..metrics import METRICS
 from ..picture import Picture, Skip
 from ..selection import choose, largest_jobs, left_out_note, wrong_notes
+from ..words import ratio_text
 
 NAME = "tree_quality_over_time"
 TITLE = "How trees degrade"
 HOW_TO_READ = (
     "Lower is better. Each line is the query of each frame by one way to keep the structure, over the query of the same "
     "frame by our structure that is rebuilt for every frame (where there is none, over its own first frame). A "
-    "structure that degrades climbs. The policy cached, which answers from the pairs that it found, is left out; auto "
-    "stands below 1 where it does the same. Where it was counted, a second picture holds what does not depend on the "
+    "structure that degrades climbs. A policy that always answers from the pairs that it found before is left out; one "
+    "that chooses to stands below 1 there. Where it was counted, a second picture holds what does not depend on the "
     "machine: the tests of boxes that the query of each frame made, per item, and those that a random ray "
     "would make by the surface-area heuristic."
 )
@@ -40,7 +41,7 @@ def draw_panel(ax, job, cells, fresh):
         if cell is not fresh:
             style_of = {**style.point_style(cell, 4), "markevery": max(1, len(frames) // 10)}
             ax.plot(frames, ratios, **style_of, linewidth=1.3)
-            ends.append((frames[-1], ratios[-1], f"{cell.label}  {ratios[-1]:.2f}x", style.text_colour(cell.family)))
+            ends.append((frames[-1], ratios[-1], f"{cell.label}  {ratio_text(ratios[-1])}x", style.text_colour(cell)))
             all_ratios += ratios
     ax.axhline(1, color="#555555", linewidth=1, zorder=1)
     last = max(int(cell.frames[-1]["frame"]) for cell in cells)
@@ -80,7 +81,7 @@ def draw_counted_panel(ax, job, cells, column, axis):
         ax.plot(*zip(*points), **style_of, linewidth=1.3)
         value = points[-1][1]
         ends.append((*points[-1], f"{cell.label}  {value:,.0f}" if value >= 1000 else f"{cell.label}  {value:.3g}",
-                     style.text_colour(cell.family)))
+                     style.text_colour(cell)))
         shown += [value for _, value in points]
     style.count_axis(ax.yaxis, min(shown, default=1), max(shown, default=1))
     ax.set_xlim(0, max(int(counted_frames(cell)[-1]["frame"]) for cell in cells))
@@ -115,7 +116,7 @@ def draw_counted(drawn, all_panels, notes):
 def draw(run):
     panels = []
     for job in largest_jobs(run.jobs):
-        cells = [c for c in run.of(job) if len(c.frames) >= MIN_FRAMES and not c.builder.startswith("cached")]
+        cells = [c for c in run.of(job) if len(c.frames) >= MIN_FRAMES and not c.answers_from_cache]
         if not any(c.stages_played for c in cells) and len(cells) >= 2 and job.threads == 1:
             fresh = next((c for c in cells if c.cell_id == cells[0].frame_stats["fresh_cell"]), None)
             shown, left_out = choose(cells, keep=[fresh] if fresh else (), limit=9)
@@ -135,6 +136,6 @@ def draw(run):
         labels.at_line_ends(ax, draw_panel(ax, job, cells, fresh))
         last.update({(job.scene, cell.label): ratio_rows(job, cell)[-1][8] for cell in cells})
         notes += said
-    said = "; ".join(f"{name} on {scene} {ratio:.2f}x at the last frame" for (scene, name), ratio in last.items())
+    said = "; ".join(f"{name} on {scene} {ratio_text(ratio)}x at the last frame" for (scene, name), ratio in last.items())
     return [Picture(NAME, figure, TITLE, f"Query of each frame over that of a fresh tree. {said}.", COLUMNS, rows, notes),
             *draw_counted(drawn, panels, cut)]

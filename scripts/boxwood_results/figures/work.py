@@ -53,14 +53,14 @@ def scatter(ax, job, points, x_name, y_name, time_on_y):
     style.title(ax, f"{job} · ours: {shared}" if shared else str(job))
     ax.set_xlabel(METRICS[x_name].axis)
     ax.set_ylabel(METRICS[y_name].axis)
-    labels.beside_points(ax, [(x, y, label, style.text_colour(c.family)) for c, x, y, label in standing])
+    labels.beside_points(ax, [(x, y, label, style.text_colour(c)) for c, x, y, label in standing])
 
 
 def draw(run):
     by_task = {}
     for job in largest_jobs(run.jobs):
-        counted = [c for c in run.of(job) if c.work is not None and not math.isnan(c.work["box_tests"])
-                    and c.executor == "serial"]
+        counted = [c for c in run.of(job) if c.work is not None and not math.isnan(c.work["box_tests"])]
+        counted = list({(c.contender, c.precision): c for c in reversed(counted)}.values())[::-1]  # of any executor
         if job.threads == 1 and len(counted) >= 2 and not run.tasks[job.task].in_frames:
             by_task.setdefault(job.task, []).append((job, counted))
     if not by_task:

@@ -97,7 +97,7 @@ HWY_INLINE void unite(Clusters& clusters, const std::uint32_t* a, const std::uin
 /// of the lanes, which pairs equal boxes evenly and makes at least one pair per round.
 HWY_INLINE void join(const Prim8* prims, std::uint32_t n, float edge, Place place, Tree& tree) {
     Clusters clusters;
-    alignas(32) float box[31][8]; // of the items 0 .. n - 1, and of what is joined in order
+    alignas(32) float box[31][8]; // of the items 0 .. n - 1, and of what is agglomerated in order
     alignas(64) std::uint32_t key[16], a[16] = {}, b[16] = {};
     std::uint32_t id[16], left[32], right[32], count[32];
     for (std::uint32_t i = 0; i < 16; ++i) {

@@ -68,6 +68,10 @@ struct Cached {
 
 } // namespace
 
-UpdateEntry cached_update() { return update_entry<Cached>(); }
+UpdateEntry cached_update() {
+    UpdateEntry entry = update_entry<Cached>();
+    entry.answers_from_cache = true;
+    return entry;
+}
 
 } // namespace boxwood

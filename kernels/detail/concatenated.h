@@ -8,7 +8,7 @@
 namespace boxwood {
 
 /// Strings put together at compile time, for the names of kernels that are templates.
-template <const std::string_view&... parts> struct Joined {
+template <const std::string_view&... parts> struct Concatenated {
   private:
     static constexpr auto chars = [] {
         std::array<char, (parts.size() + ...)> all{};
