@@ -83,7 +83,8 @@ template <class Real, bool by_cross> class NearestPairSearch {
 
 template <class Real> Distance distance_of(const one_lane::PointPair<Real>& found) {
     const auto d = static_cast<double>(std::sqrt(found.squared));
-    return {d, d, d, Vec3<double>(found.a), Vec3<double>(found.b), 0};
+    const Vec3<Real>&a = found.a, &b = found.b;
+    return {d, d, d, {a.x, a.y, a.z}, {b.x, b.y, b.z}, 0};
 }
 
 template <auto find, class Real>
