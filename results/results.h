@@ -254,6 +254,9 @@ struct KernelCost {
     double wrong_per_million = missing;
     double unexcluded_per_million = missing; ///< a rate that n right answers do not exclude (95 %)
     std::uint32_t by_error = 0; ///< 1 if its task is judged by errors, and not by yes or no
+    /// By which kernels are ranked: wrong_per_million; by errors max_rel_err, 0 up to half an ulp
+    /// of a double and infinite above 1, where no digit is right.
+    double badness = missing;
     std::uint32_t on_front = 0; ///< 1 if ours and no faster one of ours errs less
 };
 

@@ -371,6 +371,8 @@ const Tables& tables() {
              {"unexcluded_per_million", &KernelCost::unexcluded_per_million, "",
               "a rate of wrong ones that n right answers do not exclude (95 %)"},
              {"by_error", &KernelCost::by_error, "", "1 if judged by errors, not by yes or no"},
+             {"badness", &KernelCost::badness, "",
+              "wrong per million; or the error, 0 up to half an ulp, infinite above 1"},
              {"on_front", &KernelCost::on_front, "",
               "1 if ours and no faster one of ours errs less"},
          },

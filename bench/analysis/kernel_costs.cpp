@@ -19,9 +19,7 @@ namespace {
 using results::KernelCost;
 using results::KernelRow;
 
-/// How much a kernel errs, for ranking: where errors tell, half an ulp of a double is none, and
-/// above 1 no digit is right.
-double badness(const KernelCost& cost) {
+double badness_of(const KernelCost& cost) {
     if (!cost.by_error)
         return cost.wrong_per_million;
     return cost.max_rel_err > 1         ? std::numeric_limits<double>::infinity()
@@ -38,9 +36,10 @@ void set_rates_and_front(std::vector<KernelCost>& costs, const std::set<std::str
         cost.by_error = by_error.contains(cost.task);
         if (!cost.by_error && cost.wrong == 0)
             cost.unexcluded_per_million = std::min(3e6 / n, 1e6);
+        cost.badness = badness_of(cost);
         if (best && (best->task != cost.task || best->panel != cost.panel))
             best = nullptr;
-        cost.on_front = !cost.is_peer && (!best || badness(cost) < badness(*best));
+        cost.on_front = !cost.is_peer && (!best || cost.badness < best->badness);
         if (cost.on_front)
             best = &cost;
     }

@@ -81,6 +81,7 @@ class Kernel:
     per_million: float
     unexcluded: float  # of a million: what so many right answers do not exclude; NaN if some are wrong
     by_error: bool  # its task is judged by errors, not by yes or no
+    badness: float  # wrong of a million; or the error, 0 where there is none to speak of, infinite where no digit is right
     on_front: bool  # no faster one of ours errs less
     peer: object = None  # a cell of its library, if that is another
 
@@ -91,7 +92,7 @@ def read_costs(table, peers):
         Kernel(row["task"], row["panel"], row["kernel"], not row["is_peer"], row["library"], row["promise"],
                float(row["ns"]), int(row["n"]), int(row["wrong"]), int(row["maybe"]), float(row["max_rel_err"]),
                float(row["wrong_per_million"]), float(row["unexcluded_per_million"]), bool(row["by_error"]),
-               bool(row["on_front"]), peers.get(row["library"]))
+               float(row["badness"]), bool(row["on_front"]), peers.get(row["library"]))
         for row in table
     ]
 

@@ -51,7 +51,7 @@ DERIVED = {
     "break_even": ("cell_a", "cell_b", "queries"),
     "kernel_costs": (
         "task", "panel", "kernel", "library", "promise", "is_peer", "ns", "n", "wrong", "maybe", "max_rel_err",
-        "wrong_per_million", "unexcluded_per_million", "by_error", "on_front",
+        "wrong_per_million", "unexcluded_per_million", "by_error", "badness", "on_front",
     ),
     "topics": ("topic", "title", "question", "together", "alone", "certainty"),
     "findings": (

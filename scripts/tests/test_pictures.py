@@ -18,7 +18,8 @@ def results(full):
 
 def kernel(name, ns, wrong=0, error=math.nan):
     return Kernel("triangle_triangle", "generic", name, True, "boxwood", "no promise", ns, 1000, wrong, 0, error,
-                  1000 * wrong, math.nan if wrong else 3000, error == error, False)
+                  1000 * wrong, math.nan if wrong else 3000, error == error,
+                  (math.inf if error > 1 else error) if error == error else 1000 * wrong, False)
 
 
 def test_the_axis_of_wrong_answers_ends_at_all():

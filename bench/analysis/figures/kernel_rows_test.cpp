@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -86,6 +87,7 @@ TEST_F(KernelRows, OnTheFrontStandThoseOfOursThatNoFasterOneOfOursBetters) {
     for (const auto& cost : run.results.kernel_costs) {
         EXPECT_EQ(cost.wrong_per_million, 1000.0 * static_cast<double>(cost.wrong));
         EXPECT_EQ(cost.by_error, 0u);
+        EXPECT_EQ(cost.badness, cost.wrong_per_million);
         unexcluded[cost.kernel] = cost.unexcluded_per_million;
     }
     EXPECT_EQ(unexcluded["right"], 3000); // 3 / 1000
@@ -106,10 +108,24 @@ TEST_F(KernelRows, DistancesAreJudgedByTheirErrors) {
     distance("half_an_ulp", 7, 0x1p-54);
     distance("none", 8, 0);
     EXPECT_EQ(front(), (std::set<std::string>{"no_digit", "some", "half_an_ulp"}));
+    std::vector<double> badness; // by rising time
     for (const auto& cost : run.results.kernel_costs) {
         EXPECT_EQ(cost.by_error, 1u);
         EXPECT_TRUE(std::isnan(cost.unexcluded_per_million));
+        badness.push_back(cost.badness);
     }
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    EXPECT_THAT(badness, ElementsAre(inf, inf, 1e-9, 1e-6, 0, 0));
+}
+
+TEST_F(KernelRows, PanelsStandInOneOrder) {
+    for (const char* panel : {"touching", "degenerate", "generic"})
+        add(panel, "triangle_triangle", "any", 5).panel = panel;
+    analyse(run.results);
+    std::vector<std::string> panels;
+    for (const auto& cost : run.results.kernel_costs)
+        panels.push_back(cost.panel);
+    EXPECT_THAT(panels, ElementsAre("generic", "touching", "degenerate"));
 }
 
 TEST_F(KernelRows, ConditionsAreTheWorstOverTheFamilies) {

@@ -5,7 +5,6 @@ import math
 from matplotlib.ticker import FixedFormatter, FixedLocator, NullLocator
 
 from .. import labels, style
-from ..kernels import MIN_ERROR
 from ..picture import Picture, Skip
 
 NAME = "accuracy"
@@ -20,15 +19,6 @@ HOW_TO_READ = (
 NO_DIGIT = 1.0
 COLUMNS = ("task", "panel", "kernel", "library", "promise", "ns", "n", "wrong", "per_million", "maybe",
            "max_rel_err")
-
-
-def value(kernel):
-    """What is on the y axis; 0 in the band at the bottom, infinity in that at the top."""
-    if not kernel.by_error:
-        return kernel.per_million
-    if kernel.error > NO_DIGIT:
-        return math.inf
-    return kernel.error if kernel.error > MIN_ERROR else 0.0
 
 
 def y_axis(ax, values, bars, measured):
@@ -55,7 +45,7 @@ def y_axis(ax, values, bars, measured):
 
 
 def draw_panel(ax, panel, found, measured):
-    values = [value(r) for r in found]
+    values = [r.badness for r in found]
     band, top = y_axis(ax, values, [r.unexcluded for r in found], measured)
 
     def height(v):
