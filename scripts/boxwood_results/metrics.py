@@ -2,8 +2,6 @@
 
 from dataclasses import dataclass
 
-from .run import TOTAL
-
 
 @dataclass(frozen=True)
 class Metric:
@@ -19,7 +17,6 @@ class Metric:
 METRICS = {
     "build": Metric("time to build", "ns", "lower is better"),
     "query": Metric("time of one query", "ns", "lower is better"),
-    TOTAL: Metric("time to build and query once", "ns", "lower is better"),
     "frame": Metric("time of one frame", "ns", "lower is better"),
     "n": Metric("items n", "", ""),
     "ratio": Metric("peer's time / Boxwood's time", "", "right: Boxwood is faster"),

@@ -54,7 +54,7 @@ def draw(run):
             ax.xaxis.set_major_formatter(lambda value, _: time_tick(value) if value else "0")
             ax.xaxis.set_major_locator(style.MaxNLocator(4))
             ax.grid(axis="y", visible=False)
-            ax.set_title(f"{job}, {cells[0].executor}\n{tree}", fontsize=8.5)
+            ax.set_title(f"{job}\n{tree}, {cells[0].executor}", fontsize=8.5)
             ax.set_xlabel(METRICS["query"].axis, fontsize=8)
             box = ax.get_position()
             ax.set_position([box.x0 + 0.28 * box.width, box.y0, 0.72 * box.width, box.height])

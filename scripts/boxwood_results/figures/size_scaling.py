@@ -106,7 +106,7 @@ def draw_panel(ax, lines, phase, known_fits, rows):
     threads = "1 thread" if job.threads == 1 else f"{job.threads} threads"
     style.title(ax, f"{job.scene} · {job.task} · {threads} · {phase_name(lines[0][-1], phase)}")
     ax.set_xlabel(METRICS["n"].axis)
-    ax.set_ylabel(METRICS["frame" if phase_name(lines[0][-1], phase) == "update+query" else phase].axis)
+    ax.set_ylabel(f"time of {lines[0][-1].task.total_title} (lower is better)" if phase == TOTAL else METRICS[phase].axis)
     return ends, fits
 
 
