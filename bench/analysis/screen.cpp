@@ -17,7 +17,7 @@ using results::Finding;
 using results::Health;
 using results::TopicRow;
 
-constexpr std::size_t columns = 100;
+constexpr std::size_t columns = 120;
 
 std::string cut(const std::string& text, std::size_t width = columns) {
     return text.size() <= width ? text : text.substr(0, width - 3) + "...";
@@ -99,7 +99,7 @@ std::string screen_text(const results::Results& results, std::size_t max_lines) 
     }
     if (const std::size_t more = results.findings.size() - shown; more > 0)
         text += fmt::format(
-            "and {} more, of which ours lose {}: boxwood show FILE.h5 --all\n", more,
+            "and {} more ({} losses): boxwood show FILE.h5 --all\n", more,
             static_cast<std::size_t>(std::ranges::count(results.findings, 1u, &Finding::is_loss)) -
                 losses);
     return text;
