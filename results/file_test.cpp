@@ -322,8 +322,9 @@ TEST_F(ResultFile, WhoChangesItBreaksTheSeal) {
     EXPECT_TRUE(read(file_).is_sealed);
     set_attribute("schema_minor", 0); // nothing is different but that it was written to
     EXPECT_FALSE(read(file_).is_sealed);
-    write(file_, read(file_));
-    EXPECT_TRUE(read(file_).is_sealed);
+    const Results changed = read(file_);
+    write(file_, merge(std::span(&changed, 1)));
+    EXPECT_FALSE(read(file_).is_sealed); // for good
 }
 
 TEST_F(ResultFile, TruncatedAnywhereIsAnError) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <set>
 #include <stdexcept>
@@ -33,9 +34,9 @@ class Renumbering {
 };
 
 /// Rows that are one when their keys are equal; the first one stays.
-template <class Key, class Row> class Joined {
+template <class Key, class Row> class Merged {
   public:
-    explicit Joined(std::vector<Row>& rows) : rows_(rows) {}
+    explicit Merged(std::vector<Row>& rows) : rows_(rows) {}
     /// The number of the row of this key, and whether it is new.
     std::pair<std::uint32_t, bool> add(const Key& key, const Row& row) {
         const auto next = static_cast<std::uint32_t>(rows_.size());
@@ -88,21 +89,21 @@ class Merger {
 
     Results all_;
     bool first_ = true;
-    Joined<std::string, Env> env_{all_.env};
-    Joined<std::pair<std::uint32_t, std::string>, Package> packages_{all_.packages};
-    Joined<std::tuple<std::string, std::uint64_t, std::uint64_t, std::uint64_t>, SceneRow> scenes_{
+    Merged<std::string, Env> env_{all_.env};
+    Merged<std::pair<std::uint32_t, std::string>, Package> packages_{all_.packages};
+    Merged<std::tuple<std::string, std::uint64_t, std::uint64_t, std::uint64_t>, SceneRow> scenes_{
         all_.scenes};
-    Joined<std::string, TaskRow> tasks_{all_.tasks};
-    Joined<Strings, Variant> variants_{all_.variants};
-    Joined<std::tuple<std::string, std::uint32_t, std::uint32_t, std::string>, Cell> cells_{
+    Merged<std::string, TaskRow> tasks_{all_.tasks};
+    Merged<Strings, Variant> variants_{all_.variants};
+    Merged<std::tuple<std::string, std::uint32_t, std::uint32_t, std::string>, Cell> cells_{
         all_.cells};
-    Joined<std::tuple<std::uint32_t, std::uint32_t, std::uint64_t, std::uint32_t>, Shard> shards_{
+    Merged<std::tuple<std::uint32_t, std::uint32_t, std::uint64_t, std::uint32_t>, Shard> shards_{
         all_.shards};
-    Joined<std::pair<std::uint32_t, std::string>, Counter> counters_{all_.counters};
-    Joined<std::pair<std::uint32_t, std::string>, Check> checks_{all_.checks};
-    Joined<std::uint32_t, TreeRow> trees_{all_.trees};
-    Joined<std::pair<std::uint32_t, std::string>, KernelRow> kernels_{all_.kernels};
-    Joined<std::pair<std::uint32_t, double>, ConditionRow> conditions_{all_.conditions};
+    Merged<std::pair<std::uint32_t, std::string>, Counter> counters_{all_.counters};
+    Merged<std::pair<std::uint32_t, std::string>, Check> checks_{all_.checks};
+    Merged<std::uint32_t, TreeRow> trees_{all_.trees};
+    Merged<std::pair<std::uint32_t, std::string>, KernelRow> kernels_{all_.kernels};
+    Merged<std::pair<std::uint32_t, double>, ConditionRow> conditions_{all_.conditions};
     std::map<std::string, std::uint64_t> content_of_; ///< of the scene of a cell name
     Strings names_of_shards_;                         ///< of the parts that brought them
     // Of the part that is being added.
@@ -255,7 +256,9 @@ Results merge(std::span<const Results> parts, std::span<const std::string> names
     Merger merger;
     for (std::size_t i = 0; i < parts.size(); ++i)
         merger.add(parts[i], i < names.size() ? names[i] : fmt::format("part {}", i + 1));
-    return merger.take();
+    Results all = merger.take();
+    all.is_sealed = std::ranges::all_of(parts, &Results::is_sealed);
+    return all;
 }
 
 } // namespace boxwood::results

@@ -121,7 +121,7 @@ Records read_records(hid_t file, const fs::path& path, const std::string& name,
         const auto& [column, stored, is_derived] = columns[i];
         const int index = H5Tget_member_index(in_file, column.c_str());
         const std::string where = fmt::format("{}.{}", name, column);
-        if (index < 0 && required == Required::everything)
+        if (index < 0 && required == Required::all)
             fail(fmt::format("column {} is missing; {}", where, remedy(path, is_derived)));
         if (index < 0)
             continue;
@@ -160,7 +160,7 @@ void get_table(hid_t file, const fs::path& path, const Table<Row>& table, Requir
                std::vector<Row>& rows) {
     const std::string name(table.name);
     if (!has_link(file, name.c_str())) {
-        if (!table.is_derived || required == Required::everything)
+        if (!table.is_derived || required == Required::all)
             fail(fmt::format("table {} is missing; {}", name, remedy(path, table.is_derived)));
         return;
     }

@@ -411,7 +411,9 @@ struct Results {
     std::vector<QueryKernel> query_kernels;
     std::vector<WorkRow> work;
     std::vector<Drift> drift;
-    bool is_sealed = true; ///< as read: false if another program changed the file since
+    /// As read: false if another program changed the file since. Then none is written with a seal
+    /// that holds its rows.
+    bool is_sealed = true;
 };
 
 /// Writes to a temporary name beside `file`, marks it complete last, closes, syncs and renames: a
@@ -421,13 +423,13 @@ void write(const std::filesystem::path& file, const Results& results);
 
 /// What a file must hold: every table and column; or the tables that were measured alone, for who
 /// derives the rest.
-enum class Required : std::uint8_t { everything, measured };
+enum class Required : std::uint8_t { all, measured };
 
 /// Throws std::runtime_error naming the file, the cause and what to do for one that is missing,
 /// truncated, not HDF5, not ours, incomplete, or of another major version; that lacks what is
 /// required; or that holds a word that is none, or an id of no row. Unknown tables and columns are
 /// skipped.
-Results read(const std::filesystem::path& file, Required required = Required::everything);
+Results read(const std::filesystem::path& file, Required required = Required::all);
 
 /// Joins results of one or several machines: equal scenes, variants, cells and machine states (by
 /// content key) become one row, and ids are remapped. Shards that stand in several parts are kept

@@ -259,7 +259,7 @@ void write_image(const Results& results, hid_t access) {
 }
 
 /// Replaces `file` by the content, as a whole or not at all.
-void replace(const fs::path& file, std::span<const std::byte> content) {
+void replace(const fs::path& file, std::span<const std::byte> content, bool is_sealed) {
     const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
     if (!fs::exists(folder))
         fail(fmt::format("the folder '{}' does not exist; create it first", folder.string()));
@@ -271,7 +271,8 @@ void replace(const fs::path& file, std::span<const std::byte> content) {
         Seal seal;
         seal.add(content);
         out.write(content);
-        out.write(seal.bytes());
+        if (is_sealed)
+            out.write(seal.bytes());
         out.sync();
         out.close();
         fs::rename(temporary, file);
@@ -292,7 +293,8 @@ void write(const fs::path& file, const Results& results) try {
     checked(H5Pset_fapl_core(access, growth, /*backing_store=*/false), "file access");
     const Image image(access);
     write_image(results, access);
-    replace(fs::exists(file) ? fs::canonical(file) : file, image.bytes()); // a link stays a link
+    replace(fs::exists(file) ? fs::canonical(file) : file, image.bytes(),
+            results.is_sealed); // a link stays a link
 } catch (const std::system_error& error) {
     throw std::runtime_error(
         fmt::format("cannot write result file '{}': {}", file.string(), error.code().message()));

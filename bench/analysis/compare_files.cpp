@@ -1,4 +1,5 @@
 #include "bench/analysis/comparisons.h"
+#include "bench/analysis/job.h"
 #include "bench/analysis/wording.h"
 
 #include <algorithm>
@@ -38,6 +39,7 @@ FileRow wrong_row(const std::string& name, Comparison row, Status before) {
 
 struct Timed {
     std::uint32_t cell_id;
+    JobKey job;
     std::uint64_t content;
     Status status;
     const Times::Phases* phases;
@@ -57,8 +59,8 @@ ByName timed_by_name(const Results& results, const Times& times, bool of_peers,
         if (const auto found = times.by_cell().find(cell.cell_id);
             found != times.by_cell().end() && is_peer[cell.variant_id] == of_peers &&
             (of_peers || !options.wanted || options.wanted(cell.name)))
-            timed.emplace(cell.name, Timed{cell.cell_id, content_of[cell.scene_id], cell.status,
-                                           &found->second});
+            timed.emplace(cell.name, Timed{cell.cell_id, job_of(cell), content_of[cell.scene_id],
+                                           cell.status, &found->second});
     return timed;
 }
 
@@ -76,14 +78,17 @@ class Sides {
     void compare(const FileOptions& options, std::optional<double> floor) {
         for (const auto& [name, a] : in_base_)
             compare_cell(name, a);
-        const auto rulings = decide(logs_, options.delta, floor.value_or(0));
-        for (std::size_t i = 0; i < claims_.size(); ++i)
-            set_ruling(rows[claims_[i]].comparison, rulings[i]);
+        for (const auto& [job, family] : families_) {
+            const auto rulings = decide(family.logs, options.delta, floor.value_or(0));
+            for (std::size_t i = 0; i < rulings.size(); ++i)
+                set_ruling(rows[family.rows[i]].comparison, rulings[i]);
+            max_family = std::max(max_family, rulings.size());
+        }
     }
 
     std::vector<FileRow> rows;
     std::vector<Lost> lost;
-    std::size_t family_size() const { return claims_.size(); }
+    std::size_t max_family = 0; ///< claims
     /// Those that the base has not, once compared.
     const ByName& only_head() const { return in_head_; }
 
@@ -127,20 +132,24 @@ class Sides {
         }
         std::vector<double> ratios = log_ratios(rounds, other->second);
         row.n_pairs = ratios.size();
-        claims_.push_back(rows.size());
+        Family& family = families_[{a.job, phase}];
+        family.rows.push_back(rows.size());
         FileRow& added = rows.emplace_back(FileRow{name, row});
         std::tie(added.base_ns, added.head_ns) = paired_medians(rounds, other->second);
         added.max_ratio = paired_ratio(ratios).ci_hi;
-        logs_.push_back(std::move(ratios));
+        family.logs.push_back(std::move(ratios));
     }
 
     const Results& head_;
     ByName in_base_, in_head_;
-    std::vector<std::size_t> claims_; ///< rows
-    std::vector<std::vector<double>> logs_;
+    struct Family {
+        std::vector<std::size_t> rows;
+        std::vector<std::vector<double>> logs;
+    };
+    std::map<std::pair<JobKey, Phase>, Family> families_;
 };
 
-Gate gate_of(const FileRow& row, const FileOptions& options, bool times_count) {
+Gate gate_of(const FileRow& row, const FileOptions& options, bool times_count, double floor) {
     const Comparison& c = row.comparison;
     if (c.verdict == Verdict::wrong)
         return row.is_newly_wrong ? Gate::fails : Gate::passes;
@@ -148,7 +157,8 @@ Gate gate_of(const FileRow& row, const FileOptions& options, bool times_count) {
         return Gate::open;
     if (c.verdict == Verdict::slower && c.ci_lo > 1 + options.fail_if.value_or(0))
         return Gate::fails;
-    const bool may_be_told = c.n_pairs >= min_pairs_verdict && c.reason != Reason::too_noisy;
+    const bool may_be_told = c.n_pairs >= min_pairs_verdict &&
+                             (floor <= options.limit() || c.verdict == Verdict::faster);
     return may_be_told && row.max_ratio <= 1 + options.limit() ? Gate::passes : Gate::open;
 }
 
@@ -196,16 +206,17 @@ FileComparison compare_files(const Results& base, const Results& head, const Fil
     result.peers_moved =
         std::max(result.peers_ratio, 1 / result.peers_ratio) > 1 + options.limit(); // not for NaN
     Sides ours = sides_of(false);
-    result.family_size = ours.family_size();
+    result.max_family = ours.max_family;
     for (const auto& [name, timed] : ours.only_head())
         result.only_head.push_back(name);
     result.rows = std::move(ours.rows);
     result.lost = std::move(ours.lost);
 
     const bool times_count = result.is_same_cpu && !result.peers_moved;
-    result.gate = result.lost.empty() && !result.rows.empty() ? Gate::passes : Gate::open;
+    const bool is_timed = result.max_family > 0;
+    result.gate = result.lost.empty() && is_timed ? Gate::passes : Gate::open;
     for (FileRow& row : result.rows) {
-        row.gate = gate_of(row, options, times_count);
+        row.gate = gate_of(row, options, times_count, result.floor.value_or(0));
         result.gate = std::max(result.gate, row.gate);
     }
     for (FileRow& row : result.peers)

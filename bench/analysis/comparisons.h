@@ -29,9 +29,9 @@ std::vector<results::Comparison> comparisons_of(const results::Results& results,
                                                 double delta);
 
 /// The cell of ours that `judged` is held against: of the right ones of its job, executor,
-/// precision and classes the builder hilbert with the same layout and kernel, else its first
-/// hilbert, else its first. Null if that is itself, or it is a kernel on hard cases or a way to
-/// play a scene.
+/// precision and classes the reference builder with the same layout and kernel, else its first one
+/// of the reference builder, else its first. Null if that is itself, or it is a kernel on hard
+/// cases or a way to play a scene.
 const results::Cell* reference_of(const Index& index, const results::Cell& judged);
 
 /// The names in Cell::classes.
@@ -63,10 +63,10 @@ struct FileComparison {
     std::vector<FileRow> peers;         ///< a gate for nothing: where they moved, the machine did
     std::vector<Lost> lost;             ///< of ours
     std::vector<std::string> only_head; ///< cells of ours
-    std::size_t family_size = 0;
-    std::optional<double> floor;  ///< the larger one of the two files
-    double peers_ratio = unknown; ///< the middle one of the peers' timings, head over base
-    bool peers_moved = false;     ///< by more than the limit: the times say nothing of the code
+    std::size_t max_family = 0;         ///< rows that were decided together, at the most
+    std::optional<double> floor;        ///< the larger one of the two files
+    double peers_ratio = unknown;       ///< the middle one of the peers' timings, head over base
+    bool peers_moved = false; ///< by more than the limit: the times say nothing of the code
     bool is_same_cpu = false, is_same_machine = false;
     Gate gate = Gate::open; ///< of all
 };
@@ -78,11 +78,13 @@ struct FileOptions {
     double limit() const { return fail_if.value_or(delta); }
 };
 /// Cells are matched by name, rounds by number: within a machine state that both files have, else
-/// in order of time. All rows of ours are one family. Needs Cell::status in both.
+/// in order of time on one processor. Rows of one job (scene, task, threads) and phase are decided
+/// together, as within a file. Needs Cell::status in both.
 /// A row fails if it is newly wrong, or its verdict is slower and the interval that decided lies
 /// above 1 + fail_if (1 without it); it passes if max_ratio is at most 1 + limit and the noise
-/// allows a verdict. All fail if one does; all pass if every row does and nothing is lost. On
-/// another processor, or where the peers moved, times neither fail nor pass.
+/// floor is no higher (or the verdict is faster). All fail if one does; all pass if every row does,
+/// one is timed and nothing is lost. On another processor, or where the peers moved, times neither
+/// fail nor pass.
 FileComparison compare_files(const results::Results& base, const results::Results& head,
                              const FileOptions& options = {});
 

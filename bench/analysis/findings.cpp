@@ -97,8 +97,8 @@ std::vector<Finding> findings_of(const Results& results) {
 }
 
 std::vector<results::TopicRow> topics() {
-    return {{Topic::race, "against the best rival, losses first", "rival's time / ours",
-             "build + query", "query alone", "interval"},
+    return {{Topic::race, "against the best rival, losses first", "rival's best time / our best",
+             "build + query", "query alone", "interval (of which)"},
             {Topic::kernel, "kernels on hard cases", "kernels on hard cases", "cheapest, a call",
              "against our fastest", "errors"},
             {Topic::scene, "moving scenes, a frame", "moving scenes", "what they require",

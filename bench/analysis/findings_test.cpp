@@ -116,6 +116,12 @@ TEST_F(Findings, WithoutPeersOursStandAgainstTheirReference) {
     EXPECT_EQ(only().alone, "wins 3.00x");
 }
 
+TEST_F(Findings, StayWhereTheReferenceIsTheFastest) {
+    add("uniform", "pairs", "hilbert.packed", 100, 100);
+    add("uniform", "pairs", "mine.packed", 100, 300);
+    EXPECT_EQ(only().together, "LOSES 0.500x to hilbert");
+}
+
 TEST_F(Findings, SayWhyNothingCanBeTold) {
     run.rounds = 5;
     add("uniform", "pairs", "ours.packed", 100, 300);

@@ -47,7 +47,10 @@ std::string trust_text(const Health& health) {
         return text + ": too noisy";
     if (health.rounds < min_pairs_verdict)
         return text + fmt::format(": {} rounds give verdicts", min_pairs_verdict);
-    return text + (std::isnan(health.floor) ? ": no cell was timed twice" : ": quiet enough");
+    if (std::isnan(health.floor))
+        return text + ": no cell was timed twice";
+    const bool is_disturbed = 2 * health.disturbed > health.samples;
+    return text + (is_disturbed ? ": fit for verdicts, though not quiet" : ": quiet enough");
 }
 
 /// Names the first of our wrong answers, and the kernels that break a promise, the first ones at

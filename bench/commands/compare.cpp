@@ -73,14 +73,19 @@ std::string verdict_line(const FileComparison& comparison, const FileOptions& op
         parts.push_back(fmt::format("the machine changed and not our code alone, as the peers take "
                                     "{} of their time",
                                     ratio_text(comparison.peers_ratio)));
+    else if (comparison.floor.value_or(0) > options.limit() && counts.open > 0)
+        parts.push_back(fmt::format("the noise floor of {:.1f} % is above {:g} %, and so {} of {} "
+                                    "timings are open",
+                                    100 * *comparison.floor, 100 * options.limit(), counts.open,
+                                    counts.timings));
     else if (counts.open > 0)
         parts.push_back(
             fmt::format("{} of {} timings may be slower{}", counts.open, counts.timings, by));
     if (!comparison.lost.empty())
         parts.push_back(fmt::format("{} of the base's timings or answers have no counterpart",
                                     comparison.lost.size()));
-    if (comparison.rows.empty())
-        parts.push_back("no timing of ours is in both files");
+    if (counts.timings == 0)
+        parts.push_back("no timing of ours with right answers is in both files");
     return "CAN'T TELL: " + comma_list(parts) + "\n";
 }
 
@@ -114,14 +119,14 @@ std::string notes_text(const FileComparison& comparison) {
     if (!comparison.is_same_machine)
         text +=
             "two machine states (machine, build or commit): rounds are paired in order of time\n";
-    const bool is_short = std::ranges::any_of(comparison.rows, [](const FileRow& row) {
-        return row.comparison.reason == Reason::too_few_rounds;
-    });
-    const std::size_t needed = rounds_needed(comparison.family_size);
-    if (is_short || (comparison.gate == Gate::open && needed > min_pairs_verdict))
-        text += fmt::format("more rounds are needed: a verdict on {} comparisons at once takes at "
-                            "least {} rounds in both files\n",
-                            comparison.family_size, needed);
+    const std::size_t needed = rounds_needed(comparison.max_family);
+    if (std::ranges::any_of(comparison.rows, [&](const FileRow& row) {
+            return row.gate == Gate::open && row.comparison.n_pairs > 0 &&
+                   row.comparison.n_pairs < needed;
+        }))
+        text += fmt::format("more rounds are needed: a verdict on {} comparisons of one job at "
+                            "once takes at least {} rounds in both files\n",
+                            comparison.max_family, needed);
     return text;
 }
 
@@ -187,7 +192,7 @@ std::string comparison_text(const Results& base, const Results& head,
     const std::string table = table_text(comparison.rows, view);
     text += table;
     if (!table.empty())
-        text += "\n\"interval\" decided \"head is\" (all rows corrected together); the gate "
+        text += "\n\"interval\" decided \"head is\" (rows of one job corrected together); the gate "
                 "passes a row whose \"at most\"\n(95 % of this row alone) is within the limit, and "
                 "fails one that is slower with its interval above the limit\n";
     if (!view.all)

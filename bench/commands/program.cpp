@@ -1,6 +1,7 @@
 #include "bench/commands/program.h"
 
 #include "bench/commands/command.h"
+#include "bench/io/say.h"
 #include "bench/running/environment.h"
 #include "kernels/suggest.h"
 
@@ -146,7 +147,7 @@ int run(int argc, char** argv) {
 
 int fail(const std::string& what) {
     std::fflush(stdout);
-    fmt::print(stderr, "boxwood: error: {}\n", what);
+    say("boxwood: error: " + what + "\n");
     return exit_bad_input;
 }
 

@@ -4,6 +4,7 @@
 #include "bench/commands/query.h"
 #include "bench/io/csv.h"
 #include "bench/io/json.h"
+#include "bench/io/say.h"
 #include "kernels/oracle/registry.h"
 #include "kernels/registry.h"
 #include "kernels/suggest.h"
@@ -102,9 +103,9 @@ void answer_touch(std::span<const TrianglePair> pairs, const Format& format, Blo
         text << fmt::format("],\"undecided\":[{}],\"tiers\":[{}]}}\n", fmt::join(undecided, ","),
                             tiers);
     else if (!undecided.empty())
-        fmt::print(stderr, "{} of {} rows undecided by {}, printed as {}; the first is row {}\n",
-                   undecided.size(), pairs.size(), K::name, digit(Answer::maybe, K::info.promise),
-                   undecided.front() + 1);
+        say(fmt::format("{} of {} rows undecided by {}, printed as {}; the first is row {}\n",
+                        undecided.size(), pairs.size(), K::name,
+                        digit(Answer::maybe, K::info.promise), undecided.front() + 1));
 }
 
 std::string point(Vec3<double> p) {

@@ -1,4 +1,5 @@
 #include "bench/commands/command.h"
+#include "bench/io/say.h"
 #include "bench/io/scene_picture.h"
 #include "scenes/moving/moving_scene.h"
 
@@ -85,8 +86,8 @@ void show_scene(const SceneOptions& options) {
     std::optional<std::size_t> n = options.n;
     if (is_drawn && !n && file.n > max_drawn) {
         n = max_drawn;
-        fmt::print(stderr, "drawing {} instead of {} bodies; --n {} draws them all\n", max_drawn,
-                   file.n, file.n);
+        say(fmt::format("drawing {} instead of {} bodies; --n {} draws them all\n", max_drawn,
+                        file.n, file.n));
     }
     MovingScene scene(std::move(file), n);
     describe(scene);

@@ -44,20 +44,20 @@ void Progress::show(const Moment& moment) {
         return;
     winsize size{};
     const bool known = ioctl(fileno(out_), TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
-    fmt::print(out_, "\r\x1b[K{}", bar_line(moment, known ? size.ws_col - 1u : 79u));
+    write("\r\x1b[K" + bar_line(moment, known ? size.ws_col - 1u : 79u));
     std::fflush(out_);
     drawn_ = true;
 }
 
 void Progress::say(const std::string& line) {
     clear();
-    fmt::print(out_, "{}\n", line);
+    write(fmt::format("{}\n", line));
     std::fflush(out_);
 }
 
 void Progress::clear() {
     if (drawn_)
-        fmt::print(out_, "\r\x1b[K");
+        write("\r\x1b[K");
     std::fflush(out_);
     drawn_ = false;
 }

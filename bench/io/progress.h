@@ -52,6 +52,8 @@ class Progress {
 
   private:
     void clear();
+    /// A full or closed file loses the text and nothing else.
+    void write(const std::string& text) { std::fputs(text.c_str(), out_); }
 
     std::FILE* out_;
     bool is_terminal_, drawn_ = false;

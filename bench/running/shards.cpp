@@ -72,8 +72,9 @@ Lock::~Lock() {
 }
 
 Shards::Shards(const fs::path& out, std::string sweep_hash, std::string env_hash)
-    : all_(out.string() + ".shards"), folder_(all_ / (sweep_hash + "-" + env_hash)),
-      sweep_hash_(std::move(sweep_hash)), env_hash_(std::move(env_hash)) {}
+    : all_((fs::exists(out) ? fs::canonical(out) : out).string() + ".shards"),
+      folder_(all_ / (sweep_hash + "-" + env_hash)), sweep_hash_(std::move(sweep_hash)),
+      env_hash_(std::move(env_hash)) {}
 
 Shards::~Shards() {
     if (!lock_)

@@ -6,6 +6,7 @@
 #include "bench/io/bad_input.h"
 #include "bench/io/csv.h"
 #include "bench/io/read_results.h"
+#include "bench/io/say.h"
 #include "bench/running/calibration.h"
 #include "bench/running/child.h"
 #include "bench/running/environment.h"
@@ -294,10 +295,8 @@ void list_cells(const SweepOptions& options) {
         guess_s += guessed_cell_s(cell, plan.min_time_ms) *
                    (std::min(rounds, cell.rounds.value_or(rounds)) + 1);
     }
-    fmt::print(stderr,
-               "{} cells, {} rounds, sweep {}: about {} (a guess; the preparation "
-               "measures)\n",
-               plan.cells.size(), rounds, plan.sweep_hash, duration_text(guess_s));
+    say(fmt::format("{} cells, {} rounds, sweep {}: about {} (a guess; the preparation measures)\n",
+                    plan.cells.size(), rounds, plan.sweep_hash, duration_text(guess_s)));
 }
 
 int run_sweep(const SweepOptions& options) { return Sweep(options).run(); }

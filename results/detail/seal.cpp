@@ -30,7 +30,10 @@ std::array<std::byte, 16> Seal::bytes() const {
 SealState state_of_seal(const std::filesystem::path& file) {
     Seal seal;
     std::array<std::byte, 16> found{};
+    errno = 0;
     std::ifstream in(file, std::ios::binary);
+    if (!in)
+        throw std::system_error(errno ? errno : EIO, std::generic_category());
     const auto read = [&](std::span<std::byte> to) {
         errno = 0;
         if (!in.read(reinterpret_cast<char*>(to.data()), static_cast<std::streamsize>(to.size())))

@@ -130,6 +130,13 @@ def with_text(array):
     return decoded
 
 
+def fnv_1a(data):
+    fnv = 0xCBF29CE484222325
+    for byte in data:
+        fnv = (fnv ^ byte) * 0x100000001B3 & 0xFFFFFFFFFFFFFFFF
+    return fnv
+
+
 def is_sealed(path):
     """Whether the seal behind the HDF5 data fits, as results/detail/seal.h has it; a program that changes the file
     drops the seal. Raises BadFile for a seal that does not fit."""
@@ -139,10 +146,7 @@ def is_sealed(path):
     body, mark, seal = data[:-16], data[-16:-8], data[-8:]
     if mark != b"boxwseal":
         return False
-    fnv = 0xCBF29CE484222325
-    for byte in body:
-        fnv = (fnv ^ byte) * 0x100000001B3 & 0xFFFFFFFFFFFFFFFF
-    if fnv != int.from_bytes(seal, "little"):
+    if fnv_1a(body) != int.from_bytes(seal, "little"):
         raise BadFile(path, "it is damaged: its content is not what was written (checksum); use another copy")
     return True
 

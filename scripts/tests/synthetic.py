@@ -11,6 +11,8 @@ import h5py
 import numpy as np
 import pytest
 
+from boxwood_results.reader import fnv_1a
+
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = Path(os.environ.get("BOXWOOD_BUILD", ROOT / "build" / "release")) / "boxwood"
 WORD, NAME, TEXT = "S64", "S160", "S1024"
@@ -324,6 +326,8 @@ class Maker:
             file.attrs.update({"format": "boxwood-results", "schema_major": np.uint32(2), "schema_minor": np.uint32(0),
                                "run_uuid": "u", "created_utc": "2025-01-01T00:00:00Z", "sweep_hash": "h",
                                "generator": "synthetic", "complete": np.uint32(1)})
+        with raw.open("rb+") as file:
+            file.write(b"boxwseal" + fnv_1a(file.read()).to_bytes(8, "little"))
         merged(path, raw)
         raw.unlink()
         if not attrs and not drop:

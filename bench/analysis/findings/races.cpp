@@ -94,13 +94,15 @@ class Races {
     /// Our best of a phase against the best rival that it was compared with.
     const Comparison* best_pair(const Sides& sides, Phase phase, const std::string& name,
                                 std::uint32_t& ours_id, std::uint32_t& rival_id) const {
-        const Cell* ours = best_of(sides.ours, phase);
+        std::vector<const Cell*> all = sides.ours;
+        if (sides.peers.empty()) // the reference itself is the rival
+            std::erase_if(all, [&](const Cell* cell) { return !reference_of(index_, *cell); });
+        const Cell* ours = best_of(all, phase);
         if (!ours)
             return nullptr;
         const Comparison* best = nullptr;
         if (sides.peers.empty()) {
-            if (const Cell* reference = reference_of(index_, *ours))
-                best = compared(*reference, *ours, phase, "");
+            best = compared(*reference_of(index_, *ours), *ours, phase, "");
         } else {
             for (const Cell* peer : sides.peers) {
                 const Comparison* row = compared(*peer, *ours, phase, name);

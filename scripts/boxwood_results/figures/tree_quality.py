@@ -50,7 +50,7 @@ def draw(run):
         if len(cells) >= 2:
             jobs.append((job, cells))
     if not jobs:
-        raise Skip("no two builders were timed alone (the task tree)")
+        raise Skip("no two builders were timed alone (the task build)")
     figure, axes = style.panels(len(jobs), width=5.4, height=3.9)
     rows, notes, said = [], [], []
     for ax, (job, cells) in zip(axes, jobs):
