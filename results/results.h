@@ -286,7 +286,8 @@ struct Finding {
 
 /// Whether the run can be believed.
 struct Health {
-    std::uint64_t rounds = 0, samples = 0;
+    std::uint64_t rounds = 0; ///< of the cell that was timed in the most of them
+    std::uint64_t samples = 0;
     std::uint64_t disturbed = 0;    ///< samples that lost time to the hypervisor or a switch
     double floor = missing;         ///< the A/A noise floor, relative
     double delta = missing;         ///< with which the verdicts were made

@@ -415,7 +415,7 @@ const Tables& tables() {
          "whether the run can be believed: one row",
          &Results::health,
          {
-             {"rounds", &Health::rounds, "", "on all machines"},
+             {"rounds", &Health::rounds, "", "of the cell with the most"},
              {"samples", &Health::samples, "", "timed"},
              {"disturbed", &Health::disturbed, "", "samples that lost time to others"},
              {"floor", &Health::floor, "", "noise floor, relative"},

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace boxwood::bench {
 namespace {
@@ -32,6 +34,16 @@ std::string count_answers(const Results& results, Health& health) {
             first_wrong = cell.name;
     }
     return first_wrong;
+}
+
+/// Of the cell that was timed in the most of them.
+std::uint64_t max_rounds(const Results& results) {
+    std::map<std::pair<std::uint32_t, results::Phase>, std::uint64_t> rounds;
+    std::uint64_t highest = 0;
+    for (const results::Sample& sample : results.samples)
+        if ((sample.flags & results::aa_twin) == 0)
+            highest = std::max(highest, ++rounds[{sample.cell_id, sample.phase}]);
+    return highest;
 }
 
 std::string trust_text(const Health& health) {
@@ -73,7 +85,7 @@ std::string correctness_text(const Results& results, const Health& health,
 
 Health health_of(const Results& results, std::optional<double> floor, double delta) {
     Health health;
-    health.rounds = results.shards.size();
+    health.rounds = max_rounds(results);
     health.samples = results.samples.size();
     health.disturbed = static_cast<std::uint64_t>(
         std::ranges::count_if(results.samples, [](const results::Sample& sample) {

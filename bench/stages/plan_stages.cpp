@@ -17,7 +17,8 @@ struct Wants {
             std::ranges::count_if(bodies.mesh, [](std::uint32_t m) { return m != no_mesh; }));
         for (const SceneQuery& query : scene.file().queries) {
             names.push_back(query.name);
-            if (query.name == "points" || query.name == "regions" || query.name == "nearest")
+            if (const Probes probes = probes_of(query.name);
+                probes == Probes::points || probes == Probes::regions)
                 box_queries.push_back(query.name);
         }
         moves = !scene.effects().empty();
@@ -138,9 +139,11 @@ class Plan {
                  : wants_.moves ? "rays meet it; bodies that have changed are written in place"
                                 : "rays meet it; made once, as nothing moves");
         add_only("aim", aim, aim ? "queries go with the frame" : "no queries to place");
-        for (const std::string_view name : {"rays", "points", "regions", "nearest"}) {
-            const SceneQuery* query = query_named(scene_.file(), name);
-            add_only(name, query != nullptr,
+        for (const SceneQueryEntry& entry : scene_queries()) {
+            if (entry.probes == Probes::none)
+                continue;
+            const SceneQuery* query = query_named(scene_.file(), entry.name);
+            add_only(entry.name, query != nullptr,
                      query ? fmt::format("{} {}", query->n, query->kind) : "not queried");
         }
     }

@@ -52,9 +52,9 @@ ScenePlayer::ScenePlayer(MovingScene scene, Extent extent, const Executor& execu
     }
     if (runs("aim"))
         add("aim", aim_stage(), Runs::querying);
-    for (const std::string_view word : {"rays", "points", "regions", "nearest"})
-        if (runs(word))
-            add(word, query_stage(word), Runs::querying);
+    for (const SceneQueryEntry& query : scene_queries())
+        if (query.probes != Probes::none && runs(query.name))
+            add(query.name, query_stage(query.name), Runs::querying);
 }
 
 ScenePlayer::~ScenePlayer() = default;

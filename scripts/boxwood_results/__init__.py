@@ -1,1 +1,1 @@
-"""Reads Boxwood result files: statistics, figures, report. Never measures, never writes one."""
+"""Reads Boxwood result files for figures and the report. Never measures, decides or writes one."""

@@ -4,7 +4,8 @@
 
 /// The one list of layouts, by the traversals that serve them: X(name, type). The registry, the
 /// declarations of all queries and the traversals themselves follow from it.
-/// A new layout is its file, which ends in `LayoutEntry NAME_layout()`, and a row here.
+/// A new layout is its file, which ends in `LayoutEntry NAME_layout()`, and its name among
+/// BOXWOOD_OWN_LAYOUTS; one in another list needs what the traversals of that list ask of it.
 
 /// Nodes of two children and one item per leaf: traversals/binary_*.cpp.
 #define BOXWOOD_BINARY_LAYOUTS(X) X(binary, BinaryLayout) X(binary_f64, BinaryLayoutF64)
