@@ -228,6 +228,16 @@ TEST(NoiseFloor, FromTheTwinAndBoundsClaims) {
     EXPECT_EQ(row.delta, default_delta);
 }
 
+TEST(NoiseFloor, IsThatOfTheNoisiestPhase) {
+    Maker maker(9);
+    const auto ours = maker.cell("ours", false);
+    maker.time(ours, Phase::build, steady(100));
+    maker.time(ours, Phase::query, steady(100));
+    maker.time(ours, Phase::build, steady(130), results::aa_twin);
+    maker.time(ours, Phase::query, steady(102), results::aa_twin);
+    EXPECT_NEAR(noise_floor(maker.results).value(), 0.30, 1e-9);
+}
+
 TEST(ComparePeers, WhereOneSideKeepsNoStructureOnlyTheSumIsCompared) {
     Maker maker(9);
     const auto ours = maker.cell("ours", false), copies = maker.cell("copies", true);
@@ -273,6 +283,21 @@ TEST(CompareFamilies, OursThreadsAndStages) {
     expect(required, all, Family::stages, 3);
     expect(without, required, Family::stages, 1.25);
     EXPECT_EQ(reference_of(Index(run.results), run.results.cells[hilbert]), nullptr); // itself
+}
+
+TEST(CompareFamilies, AReferenceRunsOnAsManyThreads) {
+    RunForTest run;
+    const auto one = run.cell("uniform", 1000, "pairs", "hilbert.wide8"),
+               two = run.cell("uniform", 1000, "pairs", "hilbert.wide8", 2),
+               mine = run.cell("uniform", 1000, "pairs", "mine.wide8"),
+               on_two = run.cell("uniform", 1000, "pairs", "mine.wide8", 2),
+               on_four = run.cell("uniform", 1000, "pairs", "mine.wide8", 4);
+    set_statuses(run.results);
+    const Index index(run.results);
+    const auto& cells = run.results.cells;
+    EXPECT_EQ(reference_of(index, cells[mine]), &cells[one]);
+    EXPECT_EQ(reference_of(index, cells[on_two]), &cells[two]);
+    EXPECT_EQ(reference_of(index, cells[on_four]), nullptr);
 }
 
 TEST(CompareClasses, OnlyWithinOneOfThem) {

@@ -2,6 +2,7 @@
 
 #include "bench/io/bad_input.h"
 #include "bench/io/fields.h"
+#include "bench/io/say.h"
 
 #include <fmt/format.h>
 
@@ -61,6 +62,7 @@ void read_csv(std::string_view text, const std::string& source, const CsvFormat&
               FunctionRef<void(std::span<const double>, std::size_t)> row) {
     text = without_byte_order_mark(text);
     std::array<double, max_columns> numbers;
+    std::size_t n_rows = 0;
     for (std::size_t line = 1; !text.empty(); ++line) {
         const std::string_view whole = trimmed(take_until(text, '\n'));
         if (whole.empty() || whole.front() == '#')
@@ -98,7 +100,10 @@ void read_csv(std::string_view text, const std::string& source, const CsvFormat&
                                           : fmt::format("{} to {}", format.min, format.max),
                                       format.columns));
         row({numbers.data(), n}, line);
+        ++n_rows;
     }
+    if (n_rows == 0)
+        say(fmt::format("boxwood: warning: {} holds no rows of {}\n", source, format.columns));
 }
 
 std::string source_name(const std::string& path) { return path == "-" ? "standard input" : path; }

@@ -18,7 +18,8 @@ struct CsvFormat {
 /// Calls row(numbers, line) for each row of `text`, in order; lines count from 1. Blank lines and
 /// lines that start with # are skipped, as are spaces around numbers and CR before LF.
 /// Numbers are decimal (1, -2.5, 1e-3, inf, nan) or hex floats (0x1.8p-3), rounded to nearest.
-/// Throws BadInput naming source:line for anything else, and for a number beyond all doubles.
+/// Throws BadInput naming source:line for anything else, and for a number beyond all doubles. A
+/// text without rows is a warning on stderr.
 void read_csv(std::string_view text, const std::string& source, const CsvFormat& format,
               FunctionRef<void(std::span<const double> numbers, std::size_t line)> row);
 

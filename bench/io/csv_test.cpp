@@ -50,6 +50,16 @@ TEST(Csv, RowsCommentsBlanksSpacesAndLineEnds) {
     EXPECT_EQ(rows_of("1,2\n3,4,5\n", two_or_three), (Rows{{1, 2}, {3, 4, 5}}));
 }
 
+TEST(Csv, ATextWithoutRowsIsAWarning) {
+    const auto warning_of = [](std::string_view text) {
+        ::testing::internal::CaptureStderr();
+        rows_of(text, two);
+        return ::testing::internal::GetCapturedStderr();
+    };
+    EXPECT_EQ(warning_of("# only a comment\n"), "boxwood: warning: in.csv holds no rows of a,b\n");
+    EXPECT_EQ(warning_of("1,2\n"), "");
+}
+
 TEST(Csv, LinesCountFromOneAndCountEveryLine) {
     std::vector<std::size_t> lines;
     read_csv("# head\n1,2\n\n3,4\n", "in.csv", two,

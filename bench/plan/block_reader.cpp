@@ -23,17 +23,17 @@ template <class Read> auto refusing(const Read& read) -> decltype(read()) {
 }
 
 /// "all", every peer library (found or not), and every contender of those that were found.
-Words peer_names() {
-    Words words{"all"};
+Names peer_names() {
+    Names names{"all"};
     for (const Peer& peer : peers()) {
-        words.push_back(peer.name);
+        names.push_back(peer.name);
         for (const ContenderEntry& contender : peer.contenders)
             if (contender.name != peer.name)
-                words.push_back(contender.name);
+                names.push_back(contender.name);
     }
     for (const std::string_view name : absent_peers())
-        words.emplace_back(name);
-    return words;
+        names.emplace_back(name);
+    return names;
 }
 
 Place usual_place(unsigned threads) { return {std::string(default_executor(threads)), threads}; }
@@ -46,8 +46,8 @@ BlockReader::BlockReader(std::shared_ptr<const ConfigReader> reader,
 
 std::string BlockReader::place() const { return reader_->place(table_->toml.source()); }
 
-Words BlockReader::keys() const {
-    Words all;
+Names BlockReader::keys() const {
+    Names all;
     for (const auto& [key, value] : table_->toml)
         all.push_back(key.str());
     return all;
@@ -70,9 +70,9 @@ void BlockReader::fail(const std::string& message, std::string_view key) const {
     throw std::logic_error(message); // not reached: fail throws
 }
 
-std::vector<std::string> BlockReader::words(std::string_view key, const Words& known,
+std::vector<std::string> BlockReader::names(std::string_view key, const Names& known,
                                             std::vector<std::string> otherwise) const {
-    refusing([&] { reader_->words(table_->toml, key, otherwise, known); });
+    refusing([&] { reader_->names(table_->toml, key, otherwise, known); });
     return otherwise;
 }
 
@@ -106,13 +106,13 @@ std::vector<BuilderChoice> BlockReader::builders() const {
 }
 
 std::vector<BuilderChoice> BlockReader::choices(
-    std::string_view key, std::string_view what, const Words& known,
+    std::string_view key, std::string_view what, const Names& known,
     FunctionRef<void(const std::string& name, const Settings& settings)> try_out) const {
     std::vector<BuilderChoice> all;
     refusing([&] {
         reader_->list(table_->toml, key, all, [&](const toml::node& node) {
             return reader_->choice(
-                node, what, [&](const toml::node& name) { return reader_->word(name, key, known); },
+                node, what, [&](const toml::node& name) { return reader_->name(name, key, known); },
                 try_out);
         });
     });
@@ -152,20 +152,20 @@ std::vector<std::size_t> BlockReader::sizes(std::vector<std::size_t> otherwise) 
     return {n.begin(), n.end()};
 }
 
-std::vector<std::string> BlockReader::kernels(const Words& known,
+std::vector<std::string> BlockReader::kernels(const Names& known,
                                               std::vector<std::string> otherwise) const {
-    Words allowed{"all"};
+    Names allowed{"all"};
     allowed.insert(allowed.end(), known.begin(), known.end());
-    const std::vector<std::string> named = words("kernels", allowed, std::move(otherwise));
+    const std::vector<std::string> named = names("kernels", allowed, std::move(otherwise));
     return std::ranges::find(named, "all") == named.end()
                ? named
                : std::vector<std::string>(known.begin(), known.end());
 }
 
 std::vector<ContenderEntry> BlockReader::peers(std::string_view task) const {
-    const std::vector<std::string> names = words("peers", peer_names());
+    const std::vector<std::string> named = names("peers", peer_names());
     const auto is_named = [&](std::string_view name) {
-        return std::ranges::find(names, name) != names.end();
+        return std::ranges::find(named, name) != named.end();
     };
     std::vector<ContenderEntry> chosen;
     for (const Peer& peer : bench::peers())
@@ -187,7 +187,7 @@ std::vector<unsigned> BlockReader::threads() const {
 }
 
 std::vector<Place> BlockReader::places() const {
-    const std::vector<std::string> named = words("executors", names_of(executors()));
+    const std::vector<std::string> named = names("executors", names_of(executors()));
     std::vector<Place> all;
     for (const unsigned n : threads()) {
         if (named.empty())

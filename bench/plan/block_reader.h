@@ -42,7 +42,7 @@ struct Place {
 /// BadInput, "file:line: what is wrong and what is allowed".
 class BlockReader {
   public:
-    using Words = std::vector<std::string_view>;
+    using Names = std::vector<std::string_view>;
     struct Table; ///< the block as parsed
 
     BlockReader(std::shared_ptr<const ConfigReader> reader, std::shared_ptr<const Table> table);
@@ -52,7 +52,7 @@ class BlockReader {
     /// "FILE:LINE"
     std::string place() const;
     /// The keys that the block has, in the order of the alphabet.
-    Words keys() const;
+    Names keys() const;
     bool has(std::string_view key) const;
     /// Whether its scene is the mesh file of the sweep.
     bool takes_mesh() const;
@@ -60,7 +60,7 @@ class BlockReader {
     [[noreturn]] void fail(const std::string& message, std::string_view key = {}) const;
 
     // A list, or one value; `otherwise` if the block does not have the key.
-    std::vector<std::string> words(std::string_view key, const Words& known,
+    std::vector<std::string> names(std::string_view key, const Names& known,
                                    std::vector<std::string> otherwise = {}) const;
     std::vector<std::int64_t> integers(std::string_view key, std::int64_t min, std::int64_t max,
                                        std::vector<std::int64_t> otherwise = {}) const;
@@ -69,7 +69,7 @@ class BlockReader {
     std::vector<BuilderChoice> builders() const;
     /// try_out throws std::invalid_argument for a bad setting.
     std::vector<BuilderChoice>
-    choices(std::string_view key, std::string_view what, const Words& known,
+    choices(std::string_view key, std::string_view what, const Names& known,
             FunctionRef<void(const std::string& name, const Settings& settings)> try_out) const;
     /// Each element is what is laid on the bodies of one scene.
     std::vector<std::vector<EffectChoice>> effects() const;
@@ -82,7 +82,7 @@ class BlockReader {
     // Keys of many tasks.
     std::vector<std::size_t> sizes(std::vector<std::size_t> otherwise) const; ///< n
     /// Registry names, "all" resolved.
-    std::vector<std::string> kernels(const Words& known, std::vector<std::string> otherwise) const;
+    std::vector<std::string> kernels(const Names& known, std::vector<std::string> otherwise) const;
     /// A library stands for those of its contenders that answer the task; a contender named in full
     /// is there even if all it can say is "unsupported".
     std::vector<ContenderEntry> peers(std::string_view task) const;

@@ -7,7 +7,7 @@ namespace boxwood::bench {
 
 /// The parts of a cell's name
 /// `<scene>/n<items>-s<seed>/<task>/<contender>/<precision>/<executor>-<threads>`.
-/// Words are [a-z0-9_]+; a contender is words joined by dots.
+/// Each part is of [a-z0-9_]+; a contender is such parts joined by dots.
 struct CellName {
     std::string scene;
     std::uint64_t n_items = 0, seed = 0;
@@ -15,7 +15,7 @@ struct CellName {
     unsigned threads = 1;
 };
 
-/// Throws std::invalid_argument naming the part that is not made of words.
+/// Throws std::invalid_argument naming the part that is not made of [a-z0-9_]+.
 std::string format_cell_name(const CellName& name);
 
 } // namespace boxwood::bench

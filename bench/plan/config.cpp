@@ -14,22 +14,22 @@ namespace boxwood::bench {
 namespace {
 
 /// Of every [[cells]] block.
-const Words common_keys{"task", "rounds"};
+const Names common_keys{"task", "rounds"};
 
 bool takes(const Task& task, std::string_view key) {
     return std::ranges::count(task.keys(), key) > 0;
 }
 
-Words task_names() {
-    Words names;
+Names task_names() {
+    Names names;
     for (const Task* task : tasks())
         names.push_back(task->name());
     return names;
 }
 
 /// Of all tasks.
-Words known_keys() {
-    Words known = common_keys;
+Names known_keys() {
+    Names known = common_keys;
     for (const Task* task : tasks())
         for (const std::string_view key : task->keys())
             if (std::ranges::find(known, key) == known.end())
@@ -39,7 +39,7 @@ Words known_keys() {
 
 /// The keys of a table are known, and none is an empty list, which would leave nothing to measure.
 void check_keys(const ConfigReader& reader, const toml::table& table, std::string_view where,
-                const Words& known) {
+                const Names& known) {
     reader.require_known_keys(table, where, known);
     for (const auto& [key, value] : table)
         if (const toml::array* list = value.as_array(); list && list->empty() && key != "cells")
@@ -55,7 +55,7 @@ void require_takers(const BlockReader& reader, const std::vector<const Task*>& b
         if (std::ranges::find(common_keys, key) != common_keys.end() ||
             std::ranges::any_of(block_tasks, [&](const Task* task) { return takes(*task, key); }))
             continue;
-        Words takers;
+        Names takers;
         for (const Task* task : tasks())
             if (takes(*task, key))
                 takers.push_back(task->name());
@@ -79,7 +79,7 @@ Block read_block(const std::shared_ptr<const ConfigReader>& reader,
         {},
         {}};
     reader->list(table, "task", block.tasks, [&](const toml::node& node) {
-        return find_task(reader->word(node, "task", task_names()));
+        return find_task(reader->name(node, "task", task_names()));
     });
     if (block.tasks.empty()) {
         reader->fail(table.source(), fmt::format("[[cells]] needs a task: one or more of {}",

@@ -13,16 +13,16 @@
 
 namespace boxwood::bench {
 
-using Words = TomlReader::Words;
+using Names = TomlReader::Names;
 
-/// What sweep files hold beyond words and numbers.
+/// What sweep files hold beyond names and numbers.
 class ConfigReader : public TomlReader {
   public:
     using TomlReader::TomlReader;
 
     unsigned threads(const toml::node& node) const {
         if (node.is_string()) {
-            word(node, "threads", {"all"});
+            name(node, "threads", {"all"});
             return std::max(1u, std::thread::hardware_concurrency());
         }
         return static_cast<unsigned>(whole(node, "threads", 1, 1024));
@@ -59,26 +59,25 @@ class ConfigReader : public TomlReader {
 
     /// A generator, a built-in moving scene, or the path of a scene file.
     std::string moving_scene(const toml::node& node) const {
-        const std::string name = node.value_or(std::string());
-        if (node.is_string() && name.ends_with(".toml"))
-            return name;
-        Words known = names_of(built_in_scenes());
+        if (const std::string path = node.value_or(std::string()); path.ends_with(".toml"))
+            return path;
+        Names known = names_of(built_in_scenes());
         for (const SceneEntry& generator : scene_generators())
             if (!generator.reads_file)
                 known.push_back(generator.name);
-        return word(node, "scene", known);
+        return name(node, "scene", known);
     }
 
   private:
     /// "ploc", or with an optimizer after it "ploc+reinsertion".
     std::string builder_name(const toml::node& node) const {
-        const std::string words = node.value_or(std::string());
-        const std::size_t plus = words.find('+');
+        const std::string names = node.value_or(std::string());
+        const std::size_t plus = names.find('+');
         if (!node.is_string() || plus == std::string::npos)
-            return word(node, "builders", names_of(builders()));
-        require_known(node, "builders", words.substr(0, plus), names_of(builders()));
-        require_known(node, "optimizers", words.substr(plus + 1), names_of(optimizers()));
-        return words;
+            return name(node, "builders", names_of(builders()));
+        require_known(node, "builders", names.substr(0, plus), names_of(builders()));
+        require_known(node, "optimizers", names.substr(plus + 1), names_of(optimizers()));
+        return names;
     }
 };
 

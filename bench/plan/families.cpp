@@ -15,12 +15,12 @@ constexpr std::array panels{Panel::generic, Panel::touching, Panel::degenerate};
 
 /// What the scene key of a sweep file may say: families, "all", and the panels.
 std::vector<std::string_view> family_names() {
-    std::vector<std::string_view> words{"all"};
+    std::vector<std::string_view> names{"all"};
     for (const Panel panel : panels)
-        words.push_back(to_string(panel));
+        names.push_back(to_string(panel));
     for (const HardCaseFamily& family : hard_case_families())
-        words.push_back(family.name);
-    return words;
+        names.push_back(family.name);
+    return names;
 }
 
 /// Whether a name stands for several families.
@@ -86,7 +86,7 @@ std::vector<SceneSpec> case_scenes(const BlockReader& block, const Task& task) {
     std::vector<SceneSpec> all;
     SceneSpec spec;
     spec.seed = block.inputs().seed;
-    for (const std::string& name : block.words("scene", family_names())) {
+    for (const std::string& name : block.names("scene", family_names())) {
         require_cases(block, name, task);
         for (const HardCaseFamily* family : families_of(name, task))
             for (const std::size_t n : sizes)

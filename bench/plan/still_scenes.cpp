@@ -9,7 +9,7 @@
 namespace boxwood::bench {
 
 std::vector<SceneSpec> still_scenes(const BlockReader& block, std::string_view mesh_is_for) {
-    const std::vector<std::string> names = block.words("scene", names_of(scene_generators()));
+    const std::vector<std::string> names = block.names("scene", names_of(scene_generators()));
     const std::string_view mesh = file_generator().name;
     const bool is_mesh = std::ranges::count(names, mesh) > 0;
     if (is_mesh && names.size() > 1)

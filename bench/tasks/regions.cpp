@@ -42,7 +42,7 @@ class Regions final : public PairAnswers<PointTask> {
                                         const SceneSpec& scene) const override {
         std::vector<SceneSpec> all;
         for (const std::string& kind :
-             block.words("regions", names_of(region_kinds()), {"boxes"})) {
+             block.names("regions", names_of(region_kinds()), {"boxes"})) {
             all.push_back(PointTask::with_queries(block, scene).front());
             all.back().regions = kind;
         }

@@ -135,10 +135,10 @@ class SceneQueries final : public Task {
 
     void expand(const BlockReader& block, AddCell add) const override {
         const std::vector<std::string> stages =
-            block.words("stages", {required_variant, all_stages_variant});
-        BlockReader::Words known = names_of(effects());
+            block.names("stages", {required_variant, all_stages_variant});
+        BlockReader::Names known = names_of(effects());
         known.insert(known.begin(), "each");
-        const std::vector<std::string> left_out = block.words("without", known);
+        const std::vector<std::string> left_out = block.names("without", known);
         if (stages.empty() && left_out.empty())
             block.fail("scene_queries needs stages: required, all_stages, or both");
         for (const SceneSpec& scene : moving_scenes(block)) {

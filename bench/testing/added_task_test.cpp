@@ -78,7 +78,7 @@ class PointDepths final : public Task {
     SceneKind scenes() const override { return SceneKind::still; }
     void expand(const BlockReader& block, AddCell add) const override {
         std::vector<ContenderEntry> ours;
-        for (const std::string& way : block.words("ways", {"right", "forgetful"}, {"right"})) {
+        for (const std::string& way : block.names("ways", {"right", "forgetful"}, {"right"})) {
             ContenderEntry& entry = ours.emplace_back();
             entry.name = "count." + way;
             entry.library = "boxwood";

@@ -25,18 +25,18 @@ SceneQuery read_query(const TomlReader& reader, const toml::node& node) {
     const toml::node* name = table ? table->get("name") : &node;
     if (!name || (!table && !node.is_string()))
         reader.fail(node.source(), "a query is a name, or {name = \"NAME\", n = NUMBER, ...}");
-    const std::string found = reader.word(*name, "queries", names_of(scene_queries()));
+    const std::string found = reader.name(*name, "queries", names_of(scene_queries()));
     const SceneQueryEntry& entry =
         *std::ranges::find(scene_queries(), found, &SceneQueryEntry::name);
     SceneQuery query = entry.defaults;
     query.name = found;
     if (!table)
         return query;
-    TomlReader::Words known = entry.keys;
+    TomlReader::Names known = entry.keys;
     known.push_back("name");
     reader.require_known_keys(*table, "the query " + found, known);
     if (const toml::node* kind = table->get("kind"))
-        query.kind = reader.word(*kind, "kind", names_of(query_kinds()));
+        query.kind = reader.name(*kind, "kind", names_of(query_kinds()));
     if (const toml::node* n = table->get("n"))
         query.n = reader.whole(*n, "n", 1, max_queries);
     if (const toml::node* k = table->get("k"))
@@ -69,12 +69,12 @@ bool read_flag(const TomlReader& reader, const toml::table& table, std::string_v
     return *value;
 }
 
-TomlReader::Words generators(bool meshes_alone) {
-    TomlReader::Words words;
+TomlReader::Names generators(bool meshes_alone) {
+    TomlReader::Names names;
     for (const SceneEntry& entry : scene_generators())
         if (!entry.reads_file && (entry.has_mesh || !meshes_alone))
-            words.push_back(entry.name);
-    return words;
+            names.push_back(entry.name);
+    return names;
 }
 
 BodyGroup read_group(const TomlReader& reader, const toml::table& table) {
@@ -86,7 +86,7 @@ BodyGroup read_group(const TomlReader& reader, const toml::table& table) {
     if (!generator)
         reader.fail(table.source(),
                     "[[bodies]] needs a generator, such as generator = \"uniform\"");
-    group.generator = reader.word(*generator, "generator", generators(false));
+    group.generator = reader.name(*generator, "generator", generators(false));
     if (const toml::node* n = table.get("n"))
         group.n = reader.whole(*n, "n", 1, max_bodies);
     if (const toml::node* share = table.get("share")) {
@@ -99,7 +99,7 @@ BodyGroup read_group(const TomlReader& reader, const toml::table& table) {
         group.overlaps = reader.number(*overlaps, "overlaps", 0, 1e6);
     const toml::node* triangles = table.get("triangles");
     if (const toml::node* shape = table.get("shape")) {
-        group.shape = reader.word(*shape, "shape", generators(true));
+        group.shape = reader.name(*shape, "shape", generators(true));
         if (!triangles)
             reader.fail(shape->source(), "a shape needs triangles, such as triangles = 100");
         group.triangles = reader.whole(*triangles, "triangles", 1, max_bodies);
@@ -146,7 +146,7 @@ SceneFile parse_scene_file(std::string_view text, const std::string& file) {
     if (const toml::node* fps = root.get("frames_per_second"))
         scene.frames_per_second = reader.number(*fps, "frames_per_second", 1e-3, 1e6);
     if (const toml::node* view = root.get("view"))
-        scene.view = reader.word(*view, "view", {"xy", "xz", "yz"});
+        scene.view = reader.name(*view, "view", {"xy", "xz", "yz"});
     read_queries(reader, root, scene.queries);
     const toml::node* bodies = root.get("bodies");
     const toml::array* groups = bodies ? bodies->as_array() : nullptr;

@@ -27,7 +27,7 @@ void TomlReader::fail(const toml::source_region& source, const std::string& mess
 }
 
 void TomlReader::require_known_keys(const toml::table& table, std::string_view where,
-                                    const Words& known) const {
+                                    const Names& known) const {
     for (const auto& [key, value] : table)
         if (std::ranges::find(known, key.str()) == known.end())
             fail(key.source(), unknown_name(fmt::format("key of {}", where), key.str(), known));
@@ -74,13 +74,13 @@ std::string TomlReader::text(const toml::node& node, std::string_view key) const
 }
 
 void TomlReader::require_known(const toml::node& node, std::string_view key, std::string_view name,
-                               const Words& known) const {
+                               const Names& known) const {
     if (std::ranges::find(known, name) == known.end())
         fail(node.source(), fmt::format("{}: {}", key, unknown_name("name", name, known)));
 }
 
-std::string TomlReader::word(const toml::node& node, std::string_view key,
-                             const Words& known) const {
+std::string TomlReader::name(const toml::node& node, std::string_view key,
+                             const Names& known) const {
     const auto value = node.value<std::string>();
     if (!value)
         fail(node.source(), fmt::format("{} must be a name in quotes", key));
@@ -88,9 +88,9 @@ std::string TomlReader::word(const toml::node& node, std::string_view key,
     return *value;
 }
 
-void TomlReader::words(const toml::table& table, std::string_view key,
-                       std::vector<std::string>& out, const Words& known) const {
-    list(table, key, out, [&](const toml::node& node) { return word(node, key, known); });
+void TomlReader::names(const toml::table& table, std::string_view key,
+                       std::vector<std::string>& out, const Names& known) const {
+    list(table, key, out, [&](const toml::node& node) { return name(node, key, known); });
 }
 
 } // namespace boxwood

@@ -18,7 +18,7 @@ namespace boxwood {
 /// "file:line: what is wrong and what is allowed".
 class TomlReader {
   public:
-    using Words = std::vector<std::string_view>;
+    using Names = std::vector<std::string_view>;
 
     explicit TomlReader(std::string file) : file_(std::move(file)) {}
 
@@ -28,7 +28,7 @@ class TomlReader {
     [[noreturn]] void fail(const toml::source_region& source, const std::string& message) const;
 
     void require_known_keys(const toml::table& table, std::string_view where,
-                            const Words& known) const;
+                            const Names& known) const;
     double number(const toml::node& node, std::string_view key, double min, double max) const;
     std::uint64_t whole(const toml::node& node, std::string_view key, std::int64_t min,
                         std::int64_t max) const;
@@ -37,9 +37,9 @@ class TomlReader {
     SettingValue setting(const toml::node& node, std::string_view key) const;
     /// Refuses a name of the node that is not one of the known ones.
     void require_known(const toml::node& node, std::string_view key, std::string_view name,
-                       const Words& known) const;
+                       const Names& known) const;
     /// One of the known names.
-    std::string word(const toml::node& node, std::string_view key, const Words& known) const;
+    std::string name(const toml::node& node, std::string_view key, const Names& known) const;
 
     /// "NAME", or {name = "NAME", SETTING = VALUE, ...}. read: the name's node to the name;
     /// try_out(name, settings) throws std::invalid_argument for a bad setting; is_taken(key,
@@ -82,8 +82,8 @@ class TomlReader {
         else
             out.push_back(read(*node));
     }
-    void words(const toml::table& table, std::string_view key, std::vector<std::string>& out,
-               const Words& known) const;
+    void names(const toml::table& table, std::string_view key, std::vector<std::string>& out,
+               const Names& known) const;
 
   private:
     std::string file_;

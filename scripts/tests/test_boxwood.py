@@ -118,7 +118,13 @@ def test_pairs_closer_than_floats_can_tell():
     assert answer("query", "pairs", "-", stdin=csv(boxes, float.hex)) == expected
 
 
-@pytest.mark.parametrize("n", [0, 1, 2, 3])
+def test_no_boxes_have_no_pairs():
+    done = boxwood("query", "pairs", "-")
+    assert (done.returncode, done.stdout) == (0, "")
+    assert done.stderr == "boxwood: warning: standard input holds no rows of min_x,min_y,min_z,max_x,max_y,max_z\n"
+
+
+@pytest.mark.parametrize("n", [1, 2, 3])
 def test_few_boxes(n):
     boxes = np.tile([0.0, 0, 0, 1, 1, 1], (n, 1))
     assert answer("query", "pairs", "-", stdin=csv(boxes)) == lines(brute_force(boxes))

@@ -93,6 +93,12 @@ def test_figures_without_data_are_left_out(tmp_path, script, small, name):
     assert list(tmp_path.iterdir()) == []
 
 
+def test_all_that_is_left_out_takes_one_line(tmp_path, script, small):
+    done = script("plot", small, "--format", "svg", "--out", tmp_path)
+    assert done.returncode == 0 and done.stderr.count("\n") == 1
+    assert "size_scaling" in done.stderr and "run_health" in done.stderr and "forest" not in done.stderr
+
+
 def test_a_run_with_peers_alone_is_drawn(tmp_path):
     made = synthetic.Maker(3)
     for contender in ("fcl.dynamic_aabb_tree", "bullet.dbvt"):

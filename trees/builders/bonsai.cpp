@@ -62,34 +62,35 @@ std::vector<Cell> cells_of(std::span<const std::uint64_t> keys, std::uint32_t ma
 }
 
 /// A subtree of a mini-tree, which becomes a leaf of the top tree.
-struct Twig {
+struct Subtree {
     std::uint32_t mini, node;
 };
 
 /// The mini-trees, or where their roots have more than `prune` times the mean area, the largest
 /// subtrees that have not.
-std::vector<Twig> pruned(std::span<const Tree> minis, double prune) {
+std::vector<Subtree> pruned(std::span<const Tree> minis, double prune) {
     double sum = 0;
     for (const Tree& mini : minis)
         sum += mini.nodes[0].box.half_area();
     // A little more, so that equal roots are not larger than their mean.
     const double max_area = (1 + 0x1p-20) * prune * sum / static_cast<double>(minis.size());
-    std::vector<Twig> twigs, waiting;
+    std::vector<Subtree> subtrees, waiting;
     for (std::uint32_t m = 0; m < minis.size(); ++m) {
         const Tree& mini = minis[m];
         waiting.push_back({m, 0});
         while (!waiting.empty()) {
-            const Twig twig = waiting.back();
+            const Subtree subtree = waiting.back();
             waiting.pop_back();
-            if (mini.is_leaf(twig.node) || mini.nodes[twig.node].box.half_area() <= max_area) {
-                twigs.push_back(twig);
+            if (mini.is_leaf(subtree.node) ||
+                mini.nodes[subtree.node].box.half_area() <= max_area) {
+                subtrees.push_back(subtree);
                 continue;
             }
-            waiting.push_back({m, static_cast<std::uint32_t>(mini.right(twig.node))});
-            waiting.push_back({m, twig.node + 1});
+            waiting.push_back({m, static_cast<std::uint32_t>(mini.right(subtree.node))});
+            waiting.push_back({m, subtree.node + 1});
         }
     }
-    return twigs;
+    return subtrees;
 }
 
 /// Where a subtree goes: its first node and slot, and its items.
@@ -97,14 +98,14 @@ struct Place {
     std::uint32_t node, first, count;
 };
 
-/// Where the nodes of the top tree and the twigs at its leaves go in the whole tree.
-std::vector<Place> places(const Tree& top, std::span<const Twig> twigs,
+/// Where the nodes of the top tree and the subtrees at its leaves go in the whole tree.
+std::vector<Place> places(const Tree& top, std::span<const Subtree> subtrees,
                           std::span<const Tree> minis) {
     std::vector<Place> at(top.nodes.size(), Place{});
     for (std::size_t i = at.size(); i-- > 0;) {
         if (top.is_leaf(i)) {
-            const Twig twig = twigs[top.item(i)];
-            at[i].count = minis[twig.mini].nodes[twig.node].count;
+            const Subtree subtree = subtrees[top.item(i)];
+            at[i].count = minis[subtree.mini].nodes[subtree.node].count;
         } else
             at[i].count = at[Tree::left(i)].count + at[top.right(i)].count;
     }
@@ -141,14 +142,14 @@ Tree BonsaiBuilder::build(Boxes boxes, const Executor& executor) const {
         minis[i] = binned.build(own.span(), serial());
     });
 
-    const std::vector<Twig> twigs = pruned(minis, prune);
-    Buffer<Box> roots(twigs.size());
-    for (std::size_t i = 0; i < twigs.size(); ++i)
-        roots[i] = minis[twigs[i].mini].nodes[twigs[i].node].box;
+    const std::vector<Subtree> subtrees = pruned(minis, prune);
+    Buffer<Box> roots(subtrees.size());
+    for (std::size_t i = 0; i < subtrees.size(); ++i)
+        roots[i] = minis[subtrees[i].mini].nodes[subtrees[i].node].box;
     const Tree top = SweepSahBuilder{}.build(roots.span(), executor);
 
     Tree tree(boxes.size());
-    const std::vector<Place> at = places(top, twigs, minis);
+    const std::vector<Place> at = places(top, subtrees, minis);
     constexpr std::size_t chunk = 64; // nodes of the top tree
     executor.for_each((at.size() + chunk - 1) / chunk, [&](std::size_t c) {
         for (std::size_t i = c * chunk; i < std::min(at.size(), (c + 1) * chunk); ++i) {
@@ -157,12 +158,13 @@ Tree BonsaiBuilder::build(Boxes boxes, const Executor& executor) const {
                 tree.nodes[node] = {top.nodes[i].box, first, count};
                 continue;
             }
-            const auto [m, root] = twigs[top.item(i)];
+            const auto [m, root] = subtrees[top.item(i)];
             const Tree& mini = minis[m];
             const std::uint32_t from = mini.nodes[root].first;
             for (std::uint32_t k = 0; k < 2 * count - 1; ++k) {
-                const TreeNode& twig = mini.nodes[root + k];
-                tree.nodes[node + k] = {twig.box, first + (twig.first - from), twig.count};
+                const TreeNode& from_node = mini.nodes[root + k];
+                tree.nodes[node + k] = {from_node.box, first + (from_node.first - from),
+                                        from_node.count};
             }
             for (std::uint32_t k = 0; k < count; ++k)
                 tree.order[first + k] = curved.item(cells[m].begin + mini.order[from + k]);

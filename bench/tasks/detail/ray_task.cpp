@@ -108,7 +108,7 @@ std::vector<std::string_view> RayTask::keys() const {
 
 std::vector<SceneSpec> RayTask::with_queries(const BlockReader& block,
                                              const SceneSpec& scene) const {
-    const std::vector<std::string> kinds = block.words("rays", names_of(ray_kinds()));
+    const std::vector<std::string> kinds = block.names("rays", names_of(ray_kinds()));
     if (kinds.empty())
         block.fail(fmt::format("the task {} needs rays: one or more of {}", name(),
                                fmt::join(names_of(ray_kinds()), ", ")));
@@ -155,7 +155,7 @@ std::vector<Choice> HitTask::variants(const BlockReader& block, const Choice& ch
     std::vector<Choice> all;
     for (const Choice& of_kernel : RayTask::variants(block, choice))
         for (const std::string& order :
-             block.words("ray_order", names_of(ray_orders()), {"given"})) {
+             block.names("ray_order", names_of(ray_orders()), {"given"})) {
             all.push_back(of_kernel);
             all.back().ray_order = order;
         }

@@ -9,15 +9,15 @@
 
 namespace boxwood::bench {
 
-std::string name_with_settings(std::string word, const Settings& settings) {
-    std::ranges::replace(word, '+', '_');
+std::string name_with_settings(std::string text, const Settings& settings) {
+    std::ranges::replace(text, '+', '_');
     for (const auto& [name, value] : settings) {
-        word += fmt::format("_{}", name);
+        text += fmt::format("_{}", name);
         for (const char c : to_text(value))
             if (c != '+')
-                word += c == '.' ? '_' : c == '-' ? 'm' : c;
+                text += c == '.' ? '_' : c == '-' ? 'm' : c;
     }
-    return word;
+    return text;
 }
 
 std::string settings_json(const Settings& settings) {
@@ -52,7 +52,7 @@ void TreeTask::expand(const BlockReader& block, AddCell add) const {
             scenes.push_back(spec);
     std::vector<ContenderEntry> ours;
     const std::vector<std::string> layout_names =
-        block.words("layouts", names_of(layouts()), {"wide8"});
+        block.names("layouts", names_of(layouts()), {"wide8"});
     for (const BuilderChoice& builder : block.builders())
         for (const std::string& layout : layout_names)
             for (const Choice& choice :

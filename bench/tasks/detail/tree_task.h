@@ -10,8 +10,8 @@
 
 namespace boxwood::bench {
 
-/// "binned_sah_bins16": words [a-z0-9_], so 1.5 is written 1_5, a minus m and a plus _.
-std::string name_with_settings(std::string word, const Settings& settings);
+/// "binned_sah_bins16": [a-z0-9_] alone, so 1.5 is written 1_5, a minus m and a plus _.
+std::string name_with_settings(std::string text, const Settings& settings);
 /// As one JSON object.
 std::string settings_json(const Settings& settings);
 
