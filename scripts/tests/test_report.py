@@ -6,6 +6,9 @@ from html.parser import HTMLParser
 import pytest
 import synthetic
 
+from boxwood_results import run
+from boxwood_results.page import main_findings_html, trust_html
+
 VOID = {"meta", "path", "use", "image", "br", "link", "img", "hr", "circle", "rect", "stop"}
 
 
@@ -45,6 +48,13 @@ def page(full, script, tmp_path_factory):
     done = script("report", full, "--out", out)
     assert done.returncode == 0, done.stderr
     return out.read_text(encoding="utf-8")
+
+
+def test_it_begins_with_trust_and_findings(page, full):
+    # test_one_verdict.py holds these two against the program's screen.
+    results = run.read(full)
+    first, rest = page.split("<h2>Main findings</h2>")
+    assert trust_html(results) in first and main_findings_html(results) in rest.split("<h2>")[0]
 
 
 def test_it_needs_nothing_from_outside(page):
