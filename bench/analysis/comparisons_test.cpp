@@ -1,3 +1,4 @@
+#include "bench/analysis/compare_files.h"
 #include "bench/analysis/comparisons.h"
 
 #include "bench/analysis/status.h"

@@ -1,6 +1,7 @@
 #include "bench/analysis/findings.h"
 
 #include "bench/analysis/findings/draft.h"
+#include "bench/io/text_table.h"
 
 #include <fmt/format.h>
 

@@ -12,11 +12,6 @@ namespace boxwood::bench {
 using results::Comparison;
 using results::Verdict;
 
-std::string spaced(std::string name) {
-    std::ranges::replace(name, '_', ' ');
-    return name;
-}
-
 std::string count_words(std::uint64_t n) {
     return n >= 1'000'000 && n % 100'000 == 0 ? fmt::format("{:g}M", static_cast<double>(n) / 1e6)
            : n >= 1000 && n % 100 == 0        ? fmt::format("{:g}k", static_cast<double>(n) / 1e3)

@@ -31,6 +31,5 @@ std::string verdict_text(const results::Comparison& row);
 std::string interval_text(double ratio, double lo, double hi);
 
 std::string count_words(std::uint64_t n); ///< "10k"
-std::string spaced(std::string name);     ///< with spaces for underscores
 
 } // namespace boxwood::bench

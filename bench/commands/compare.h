@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/analysis/comparisons.h"
+#include "bench/analysis/compare_files.h"
 #include "results/results.h"
 
 #include <string>

@@ -101,4 +101,10 @@ std::string time_text(double ns) {
     return fmt::format("{:.{}f} {}", value, digits, unit->name);
 }
 
+std::string spaced(std::string_view name) {
+    std::string words(name);
+    std::ranges::replace(words, '_', ' ');
+    return words;
+}
+
 } // namespace boxwood::bench

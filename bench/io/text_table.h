@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace boxwood::bench {
@@ -26,6 +27,9 @@ std::string time_text(double ns);
 
 /// Three digits: "0.412", "3.12", "120"; "-" for NaN.
 std::string ratio_text(double ratio);
+
+/// A name as words: blanks for underscores.
+std::string spaced(std::string_view name);
 
 // scripts/boxwood_results/words.py has the same rules; scripts/tests/numbers.csv is the test of
 // both.

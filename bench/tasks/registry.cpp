@@ -1,5 +1,6 @@
 /// Every task: to add one, write its file and put its name here.
 
+#include "bench/io/text_table.h"
 #include "bench/tasks/task.h"
 
 #include <fmt/format.h>
@@ -59,11 +60,7 @@ const Task* find_task(std::string_view name) {
 
 void add_task(const Task& task) { registered().push_back(&task); }
 
-std::string Task::title() const {
-    std::string words(name());
-    std::ranges::replace(words, '_', ' ');
-    return words;
-}
+std::string Task::title() const { return spaced(name()); }
 
 ContenderEntry Task::contender(const Choice&) const {
     throw std::invalid_argument(fmt::format("no builder and layout answer {}", name()));
