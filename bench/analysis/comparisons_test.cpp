@@ -301,6 +301,62 @@ TEST(CompareFamilies, AReferenceRunsOnAsManyThreads) {
     EXPECT_EQ(reference_of(index, cells[on_four]), nullptr);
 }
 
+TEST(CompareFamilies, AReferenceDoesTheSameWorkInTheSamePrecision) {
+    RunForTest run;
+    const auto other_class = run.cell("bunny", 100, "rays_closest", "hilbert.wide4"),
+               other_precision = run.cell("bunny", 100, "rays_closest", "hilbert.wide8"),
+               reference = run.cell("bunny", 100, "rays_closest", "hilbert.wide16"),
+               mine = run.cell("bunny", 100, "rays_closest", "mine.wide2");
+    auto& cells = run.results.cells;
+    for (auto& cell : cells)
+        cell.classes = "batches";
+    cells[other_class].classes = "single rays";
+    cells[other_precision].precision = "f64";
+    set_statuses(run.results);
+    EXPECT_EQ(reference_of(Index(run.results), cells[mine]), &cells[reference]);
+}
+
+TEST(CompareFamilies, OneThreadIsThatOfTheUsualExecutor) {
+    for (const bool usual_first : {true, false}) {
+        RunForTest run;
+        const auto first = run.cell("uniform", 1000, "pairs", "mine.wide8"),
+                   second = run.cell("uniform", 1000, "pairs", "mine.wide8"),
+                   two = run.cell("uniform", 1000, "pairs", "mine.wide8", 2);
+        const auto usual = usual_first ? first : second;
+        run.results.cells[usual_first ? second : first].executor = "openmp";
+        for (const auto cell : {first, second, two})
+            run.time(cell, Phase::query, 100);
+        set_statuses(run.results);
+        std::vector<std::uint32_t> held_against;
+        for (const Comparison& row : comparisons_of(run.results, Times(run.results), default_delta))
+            if (row.family == Family::threads)
+                held_against.push_back(row.cell_a);
+        EXPECT_EQ(held_against, std::vector{usual});
+    }
+}
+
+TEST(CompareMachines, RoundsOfOneNumberArePairedInTheOrderOfTime) {
+    Maker maker(2);
+    const auto ours = maker.cell("ours", false), peer = maker.cell("peer", true);
+    const auto add = [&](std::uint32_t cell, std::uint32_t shard, double ns) {
+        results::Sample sample;
+        sample.cell_id = cell;
+        sample.shard_id = shard;
+        sample.phase = Phase::query;
+        sample.wall_ns = ns;
+        maker.results.samples.push_back(sample);
+    };
+    add(ours, 0, 10);
+    add(ours, 1, 20);
+    add(peer, 1, 60); // the rows of a merged file are in any order
+    add(peer, 0, 30);
+    const Times times(maker.results);
+    const std::vector<double> logs = times.log_ratios(ours, peer, Phase::query);
+    ASSERT_EQ(logs.size(), 2u);
+    for (const double log : logs)
+        EXPECT_DOUBLE_EQ(log, std::log(3.0));
+}
+
 TEST(CompareClasses, OnlyWithinOneOfThem) {
     RunForTest run;
     std::map<std::string, std::uint32_t> cells;
@@ -361,6 +417,17 @@ TEST(CompareFiles, AFileWithItselfIsTheSameAfterEnoughRounds) {
         }
         EXPECT_TRUE(same.is_same_machine);
     }
+}
+
+TEST(CompareFiles, TheFloorIsThatOfTheNoisierFile) {
+    Maker quiet(9), noisy(9);
+    for (Maker* maker : {&quiet, &noisy}) {
+        const auto cell = maker->cell("a", false);
+        maker->time(cell, Phase::query, steady(100));
+        maker->time(cell, Phase::query, steady(maker == &quiet ? 101 : 112), results::aa_twin);
+    }
+    EXPECT_NEAR(compared(quiet.results, noisy.results).floor.value(), 0.12, 1e-9);
+    EXPECT_NEAR(compared(noisy.results, quiet.results).floor.value(), 0.12, 1e-9);
 }
 
 TEST(NoiseFloor, AboveTwentyPerCentNothingIsClaimed) {

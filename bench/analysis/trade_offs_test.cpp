@@ -40,6 +40,29 @@ TEST(TradeOffs, JoinThoseThatNoneBettersInBuildAndQuery) {
     EXPECT_TRUE(std::isnan(noisy[1].queries));
 }
 
+TEST(TradeOffs, BreakEvenIsAboveTheFloorOnBothSides) {
+    for (const auto& [build, query] : {std::pair{105., 500.}, {400., 880.}}) {
+        RunForTest run;
+        const auto add = [&](const char* variant, double build_ns, double query_ns) {
+            const auto cell = run.cell("uniform", 100, "pairs", variant);
+            run.time(cell, Phase::build, build_ns);
+            run.time(cell, Phase::query, query_ns);
+            return cell;
+        };
+        const auto cheap = add("cheap", 100, 900);
+        add("dear", build, query);
+        analyse(run.results);
+        ASSERT_EQ(run.results.break_even.size(), 2u);
+        EXPECT_FALSE(std::isnan(run.results.break_even[1].queries));
+        run.time(cheap, Phase::query, 900 * 1.1);
+        for (std::size_t i = run.results.samples.size() - run.rounds;
+             i < run.results.samples.size(); ++i)
+            run.results.samples[i].flags = results::aa_twin;
+        analyse(run.results); // with a floor of 10 %
+        EXPECT_TRUE(std::isnan(run.results.break_even[1].queries)) << build << " and " << query;
+    }
+}
+
 TEST(TradeOffs, OneAloneIsTheBest) {
     RunForTest run;
     const auto cell = run.cell("uniform", 100, "pairs", "alone");
