@@ -238,6 +238,63 @@ TEST(CaseTruth, RaysAtFansMustHitOneOfThem) {
     EXPECT_TRUE(breaks_promise(wrong));
 }
 
+TEST(CaseTruth, NumbersOfExactRaysAreHeldToTheirBounds) {
+    Scene scene;
+    RayCases cases;
+    cases.triangles = {{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {{0, 0, 2}, {1, 0, 2}, {0, 1, 2}}};
+    RayCase ray;
+    ray.ray = {{.25f, .25f, 0}, {0, 0, 1}};
+    ray.count = 2;
+    cases.rays = {ray};
+    scene.cases = cases;
+    const auto is_broken = [&](RayHit said, std::string_view task = "ray_triangle",
+                               Promise promise = Promise::exact) {
+        const auto answers = answers_of<RayHit>({said});
+        const Judgement judgement = judged(scene, task, answers, named(promise));
+        EXPECT_EQ(judgement.check.bound_violations > 0, breaks_promise(judgement));
+        return breaks_promise(judgement);
+    };
+    const float up = std::nextafter(1.f, 2.f), down = 1 - 0x1p-23f;
+    EXPECT_FALSE(is_broken({1, .25f, .25f, 0}));
+    EXPECT_FALSE(is_broken({1, .25f + 0x1p-23f, .25f - 0x1p-23f, 0}));
+    EXPECT_TRUE(is_broken({up, .25f, .25f, 0}));
+    EXPECT_TRUE(is_broken({down, .25f, .25f, 0}));
+    EXPECT_TRUE(is_broken({1, .25f + 0x1p-22f, .25f, 0}));
+    EXPECT_TRUE(is_broken({1, .25f, .25f - 0x1p-22f, 0}));
+    EXPECT_TRUE(is_broken({1, std::nanf(""), .25f, 0}));
+    EXPECT_TRUE(is_broken({1, .25f, .25f, 1})); // the other triangle
+    EXPECT_TRUE(is_broken({1, .25f, .25f, 7})); // none
+    EXPECT_TRUE(is_broken({2, .25f, .25f, 1})); // not the nearest
+    EXPECT_FALSE(is_broken({2, .25f, .25f, 1}, "rays_any"));
+    EXPECT_FALSE(is_broken({up, .25f, .25f, 0}, "ray_triangle", Promise::never_leaks));
+}
+
+TEST(CaseTruth, AClosedMeshMustNotLeak) {
+    // Of a triangle on its own never-leaks says nothing.
+    Scene scene;
+    RayCases cases;
+    cases.triangles = {{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {{1, 1, 1}, {1, 0, 1}, {0, 1, 1}}};
+    RayCase ray;
+    ray.ray = {{.5f, .5f, 0}, {0, 0, 1}};
+    ray.hit = Known::yes;
+    const auto judge = [&](std::uint32_t triangles, RayHit said, Promise promise) {
+        ray.count = triangles;
+        cases.rays = {ray};
+        scene.cases = cases;
+        return judged(scene, "ray_triangle", answers_of<RayHit>({said}), named(promise));
+    };
+    EXPECT_FALSE(breaks_promise(judge(2, {1, .5f, .5f, 1}, Promise::never_leaks)));
+    const Judgement leak = judge(2, {}, Promise::never_leaks);
+    EXPECT_TRUE(breaks_promise(leak));
+    EXPECT_EQ(leak.kernel->bound_violations, 1u);
+    EXPECT_EQ(leak.kernel->false_neg, 0u);
+    const Judgement alone = judge(1, {}, Promise::never_leaks);
+    EXPECT_EQ(alone.status, Status::wrong);
+    EXPECT_FALSE(breaks_promise(alone));
+    EXPECT_FALSE(breaks_promise(judge(2, {}, Promise::none)));
+    EXPECT_TRUE(breaks_promise(judge(2, {}, Promise::exact)));
+}
+
 TEST(CaseTruth, ATimeOfTouchMustNotBeCalledFree) {
     // A vertex falls onto a triangle that lies still: touch at t = 1/2.
     Scene scene;
