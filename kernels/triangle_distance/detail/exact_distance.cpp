@@ -2,7 +2,8 @@
 /// planes that separate them. Their nearest points lie inside two features (corner, edge, face) and
 /// there are such of dimensions 0-0, 0-1, 1-1 (not parallel) or 0-2; the planes there are normal to
 /// both features. So the distance is the greatest of gap / |n| over 38 directions n, and no gap of
-/// another direction is greater. Directions and gaps are whole numbers; what rounds is the quotient.
+/// another direction is greater. Directions and gaps are whole numbers; what rounds is the
+/// quotient.
 
 #include "kernels/triangle_distance/detail/exact_distance.h"
 
