@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -124,12 +125,10 @@ class DistanceTruth final : public CaseTruth {
         return said.distance == truth.nearest ? Worth::exact : Worth::within_bound;
     }
 
-    /// As KernelInfo::relative_width; above the largest double there is no other bound than
-    /// infinity.
+    /// As KernelInfo::relative_width.
     static bool narrow(const Distance& said, double relative_width) {
-        return (std::isfinite(said.hi) &&
-                said.hi - said.lo <= relative_width * said.hi + 0x1p-1073) ||
-               said.hi <= oracle::next_above(said.lo);
+        const double hi = std::min(said.hi, std::numeric_limits<double>::max());
+        return hi - said.lo <= relative_width * hi + 0x1p-1073;
     }
 
     /// Squares are compared, never roots. Zero is said if and only if the two touch (or the true
