@@ -52,6 +52,9 @@ struct KernelInfo {
     Promise promise = Promise::none;
     std::string_view bound = "none"; ///< the error bound and its source, or why there is none
     std::string_view cost = ""; ///< cost class: "about 100 flops", "filter, then integers", ...
+    /// Of certified distances: hi - lo is at most this part of hi, plus 2^-1073, an infinite hi
+    /// taken as the largest double. 0: not promised.
+    double relative_width = 0;
 };
 
 /// What every kernel says of itself at compile time: its name, and its promise with the rest.

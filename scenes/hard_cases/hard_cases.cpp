@@ -27,6 +27,8 @@
     X(slivers)                                                                                     \
     X(needle_triangles)                                                                            \
     X(cap_triangles)                                                                               \
+    X(near_coplanar_needles)                                                                       \
+    X(tiny_gaps)                                                                                   \
     X(zero_area_triangles)                                                                         \
     X(points_and_duplicates)                                                                       \
     X(tiny_triangles)                                                                              \

@@ -4,6 +4,7 @@
 #include "bench/truth/judging/truths.h"
 #include "kernels/oracle/exact_answers.h"
 #include "kernels/oracle/roots.h"
+#include "kernels/oracle/second_opinion.h"
 
 #include <fmt/format.h>
 
@@ -36,6 +37,8 @@ TrueHit truth_of(const RayCase& c, const std::vector<Triangle<float>>& triangles
         if (!is_finite(t.a) || !is_finite(t.b) || !is_finite(t.c))
             continue; // a miss, as the kernels say
         const auto point = oracle::ray_triangle(c.ray, t);
+        require_agreement(point == oracle::second_opinion::ray_triangle(c.ray, t),
+                          [&] { return text_of(c) + " and " + text_of(t); });
         if (point && std::isfinite(oracle::nearest_float(point->t)) &&
             (!nearest || point->t < *nearest))
             nearest = point->t;
