@@ -172,12 +172,13 @@ TEST_F(HugePairs, TheProgramKeepsDenormalsInWhateverModeItIsStarted) {
     const std::string expected = "0,2\n0,4\n1,2\n";
     for (const bool flushing : {false, true})
         for (const LayoutEntry& layout : layouts())
-            if (layout.answers(Query::self_pairs))
+            if (layout.answers(Query::self_pairs)) {
                 EXPECT_EQ(printed({"boxwood", "query", "pairs", boxes.boxes, "--layout",
                                    std::string(layout.name), "--threads", "3"},
                                   flushing),
                           expected)
                     << layout.name << (flushing ? ", flushing" : "");
+            }
     const std::filesystem::path mesh = file_.string() + ".obj";
     std::ofstream(mesh) << "v -1 -1 0\nv 3 -1 0\nv -1 3 0\nf 1 2 3\n";
     const PairsQuery rays = rows("0,0,-1,0,0,1e-40\n");
