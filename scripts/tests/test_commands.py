@@ -9,7 +9,7 @@ import pytest
 from conftest import SCRIPTS
 
 
-@pytest.mark.parametrize("command", ["setup", "test", "sweep", "format"])
+@pytest.mark.parametrize("command", ["setup", "test", "sweep", "fuzz", "format"])
 def test_help_has_an_example(script, command):
     done = script(command, "--help")
     assert done.returncode == 0 and f"Example: scripts/{command} " in done.stdout and "Exit codes" in done.stdout
@@ -27,8 +27,11 @@ def mesh(tmp_path):
     [
         (("setup", "--nix"), "unknown argument '--nix'"),
         (("setup", "--preset"), "--preset needs a name"),
-        (("setup", "--preset", "nix"), "unknown preset 'nix': one of release, debug, tsan, ci"),
-        (("setup", "--for", "nix"), "unknown purpose 'nix': one of sweep, test, style"),
+        (("setup", "--preset", "nix"), "unknown preset 'nix': one of release, debug, tsan, ci, fuzz"),
+        (("fuzz",), "give a name: triangle_triangle"),
+        (("fuzz", "nix"), "no fuzzer 'nix': one of triangle_triangle"),
+        (("fuzz", "box_csv", "1x"), "'1x' is no number of seconds"),
+        (("setup", "--for", "nix"), "unknown purpose 'nix': one of sweep, test, fuzz, style"),
         (("test", "nix"), "unknown argument 'nix'"),
         (("test", "--only", "a|b"), "--only 'a|b': give letters, digits and underscores"),
         (("sweep", "--nix"), "unknown argument '--nix'"),
