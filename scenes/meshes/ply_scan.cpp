@@ -63,8 +63,14 @@ Header take_header(std::string_view& bytes) {
         std::string_view rest = take_line(bytes);
         const std::size_t line = ++header.n_lines;
         const std::string_view word = take_token(rest);
-        if (word == "end_header")
+        if (word == "end_header") {
+            // Without bytes of its own no end of the file would stop a count of 2^64.
+            for (const Element& element : header.elements)
+                if (element.count > 0 && element.properties.empty())
+                    throw MeshError(fmt::format("the {} elements '{}' have no properties",
+                                                element.count, element.name));
             return header;
+        }
         if (word == "format") {
             header.format = take_token(rest);
         } else if (word == "element") {
