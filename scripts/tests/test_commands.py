@@ -64,7 +64,7 @@ def test_packages_are_listed_once_and_well_formed():
     packages = [w[0] for w in words if w]
     assert len(packages) == len(set(packages)) > 20
     assert all(re.fullmatch(r"[a-z0-9+.-]+", name) for name in packages)
-    assert all(w[1:] in ([], ["peer"], ["figures"], ["test"], ["style"]) for w in words if w)
+    assert all(w[1:] in ([], ["peer"], ["figures"], ["test"], ["fuzz"], ["style"]) for w in words if w)
 
 
 def test_without_apt_the_list_is_said_and_nothing_installed(script, tmp_path):
