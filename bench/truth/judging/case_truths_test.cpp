@@ -74,6 +74,18 @@ AnswerList<Distance> distances(const std::vector<std::array<double, 3>>& list) {
     return answers;
 }
 
+/// Of pairs of triangles at two heights, with right witnesses.
+Judgement judged_distances(const Scene& scene, const std::vector<std::array<double, 3>>& said,
+                           const ContenderEntry& contender) {
+    AnswerList<Distance> answers = distances(said);
+    for (std::size_t i = 0; i < said.size(); ++i) {
+        const auto& pair = std::get<std::vector<TrianglePairCase>>(scene.cases)[i];
+        answers.list[i].point_a = pair.a.a;
+        answers.list[i].point_b = pair.b.a;
+    }
+    return judged(scene, "triangle_distance", answers, contender);
+}
+
 TEST(Tally, EveryPromiseAllowsItsOwnErrors) {
     struct Row {
         Promise promise;
@@ -174,7 +186,7 @@ TEST(CaseTruth, DistancesWithoutABoundMayRound) {
 TEST(CaseTruth, CertifiedDistancesMustEnclose) {
     const Scene scene = pairs_of_triangles({{at(0), at(2)}, {at(0), at(0)}});
     const auto judge = [&](std::array<double, 3> a, std::array<double, 3> b, Promise promise) {
-        return judged(scene, "triangle_distance", distances({a, b}), named(promise));
+        return judged_distances(scene, {a, b}, named(promise));
     };
     const std::array<double, 3> zero{0, 0, 0}, wide{1.5, 2.125, 2.25};
     const Judgement held = judge(wide, zero, Promise::certified);
@@ -207,8 +219,7 @@ TEST(CaseTruth, CertifiedDistancesMustBeAsNarrowAsPromised) {
     const auto breaks = [&](double lo, double hi, Promise promise, double relative_width) {
         ContenderEntry contender = named(promise);
         contender.relative_width = relative_width;
-        return breaks_promise(
-            judged(scene, "triangle_distance", distances({{lo, 1, hi}}), contender));
+        return breaks_promise(judged_distances(scene, {{lo, 1, hi}}, contender));
     };
     const double u = 0x1p-53, huge = 1e300, inf = std::numeric_limits<double>::infinity();
     EXPECT_FALSE(breaks(1 - 0x1p-33, 1 + 0x1p-34, Promise::certified, 0x1p-32));
@@ -230,14 +241,13 @@ TEST(CaseTruth, WidthsOfTinyAndHugeDistances) {
     contender.relative_width = 0x1p-32;
     const auto breaks = [&](double gap, std::array<double, 3> said) {
         const Scene scene = pairs_of_triangles({{at(-gap / 2), at(gap / 2)}});
-        return breaks_promise(judged(scene, "triangle_distance", distances({said}), contender));
+        return breaks_promise(judged_distances(scene, {said}, contender));
     };
     EXPECT_FALSE(breaks(tiny, {tiny / 2, tiny, 1.5 * tiny}));
     EXPECT_TRUE(breaks(2 * tiny, {tiny / 2, 2 * tiny, 3 * tiny}));
     Scene far = pairs_of_triangles({{at(-max), at(max)}});
     const auto beyond = [&](double lo) {
-        return breaks_promise(
-            judged(far, "triangle_distance", distances({{lo, inf, inf}}), contender));
+        return breaks_promise(judged_distances(far, {{lo, inf, inf}}, contender));
     };
     EXPECT_FALSE(beyond(max));
     EXPECT_TRUE(beyond(max * (1 - 0x1p-31)));
@@ -362,6 +372,10 @@ TEST(CaseTruth, ATimeOfTouchMustNotBeCalledFree) {
     EXPECT_TRUE(breaks_promise(late));
     EXPECT_EQ(late.kernel->bound_violations, 1u);
     EXPECT_TRUE(breaks_promise(judge({Answer::yes, .25, .375, 0}, Promise::certified)));
+    const double before = std::nextafter(.5, 0), after = std::nextafter(.5, 1);
+    EXPECT_FALSE(breaks_promise(judge({Answer::yes, before, .5, 0}, Promise::exact)));
+    EXPECT_TRUE(breaks_promise(judge({Answer::yes, after, after, 0}, Promise::exact)));
+    EXPECT_TRUE(breaks_promise(judge({Answer::yes, before, before, 0}, Promise::exact)));
     EXPECT_EQ(judge({Answer::yes, .625, .625, 0}, Promise::none).status, Status::exact);
     EXPECT_EQ(judge({Answer::yes, .625, .625, 0}, Promise::none).kernel->max_rel_err, .125);
 }
