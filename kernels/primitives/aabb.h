@@ -18,6 +18,11 @@ template <class Real> struct Aabb {
 
     constexpr bool operator==(const Aabb&) const = default;
 
+    /// Each number to nearest. A float box that holds one of doubles: round_outward.
+    template <class Other> constexpr explicit operator Aabb<Other>() const {
+        return {Vec3<Other>(min), Vec3<Other>(max)};
+    }
+
     constexpr bool is_empty() const { return min.x > max.x || min.y > max.y || min.z > max.z; }
 
     /// What a builder accepts: all six numbers finite and min <= max on every axis.
