@@ -4,7 +4,9 @@
 #include <fstream>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <string>
+#include <string_view>
 
 namespace boxwood::bench {
 namespace {
@@ -26,6 +28,18 @@ std::optional<std::uint64_t> number_after(const std::string& word, const path& f
         if (std::uint64_t number = 0; first == word && stream >> number)
             return number;
     return {};
+}
+
+/// What is left of the address space that `ulimit -v` grants.
+std::uint64_t left_of_address_space(const path& root) {
+    constexpr std::string_view name = "Max address space";
+    std::ifstream limits(root / "proc/self/limits");
+    const std::uint64_t used = number_after("VmSize:", root / "proc/self/status").value_or(0) << 10;
+    for (std::string line; std::getline(limits, line);)
+        if (std::uint64_t limit = 0;
+            line.starts_with(name) && std::istringstream(line.substr(name.size())) >> limit)
+            return limit - std::min(limit, used);
+    return std::numeric_limits<std::uint64_t>::max(); // no such file, or "unlimited"
 }
 
 /// The names that a version of control groups gives its files.
@@ -59,6 +73,7 @@ std::uint64_t available_memory(const path& root) {
     std::uint64_t available = std::numeric_limits<std::uint64_t>::max();
     if (const auto kilobytes = number_after("MemAvailable:", root / "proc/meminfo"))
         available = *kilobytes << 10;
+    available = std::min(available, left_of_address_space(root));
     // Lines NUMBER:CONTROLLERS:PATH; version 2 has no controllers. In a container the path may be
     // the host's, which is not there: then the limits are those of the mount itself.
     std::ifstream groups(root / "proc/self/cgroup");

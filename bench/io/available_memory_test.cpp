@@ -29,6 +29,24 @@ TEST_F(AvailableMemory, IsWhatTheKernelCallsAvailable) {
     EXPECT_LT(available_memory(), std::uint64_t{1} << 50);
 }
 
+TEST_F(AvailableMemory, ALimitOfTheAddressSpaceHolds) {
+    put("proc/meminfo", "MemAvailable:   8000 kB\n");
+    const auto put_limit = [&](const std::string& limit) {
+        put("proc/self/limits",
+            "Limit  Soft Limit  Hard Limit  Units\nMax resident set  1  1  bytes\n"
+            "Max address space         " +
+                limit + "  unlimited  bytes\n");
+    };
+    put_limit("unlimited");
+    EXPECT_EQ(available_memory(root_), 8000u << 10);
+    put_limit("1024000");
+    EXPECT_EQ(available_memory(root_), 1'024'000u);
+    put("proc/self/status", "Name:\tboxwood\nVmSize:\t     900 kB\nVmRSS:\t 1 kB\n");
+    EXPECT_EQ(available_memory(root_), 102'400u);
+    put_limit("900000");
+    EXPECT_EQ(available_memory(root_), 0u);
+}
+
 TEST_F(AvailableMemory, ALimitOfVersion2HoldsFromAnyGroupAbove) {
     put("proc/meminfo", "MemAvailable:   8000 kB\n");
     put("proc/self/cgroup", "0::/outer/inner\n");

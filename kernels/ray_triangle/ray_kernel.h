@@ -15,8 +15,8 @@ namespace boxwood {
 /// their order: hit.t <= t_max always, and the true t may exceed ray.t_max by the rounding of
 /// hit.t, but for the exact kernels, which compare that exactly. A hit has finite t, u and v: what
 /// is so far that t rounds to infinity is a miss, for every kernel and every t_max (make the
-/// direction longer). NaN or infinite input is a miss. Range of the promises: coordinates below
-/// max_ray_coordinate, 2^126, any finite direction.
+/// direction longer). NaN or infinite input is a miss. Range of the promises: coordinates and
+/// directions below max_ray_coordinate, 2^126.
 template <class K>
 concept RayKernel = DescribedKernel<K> &&
     requires(const Ray<float>& ray, const Triangle<float>& triangle, float t_max,

@@ -1,5 +1,6 @@
 #include "scenes/meshes/mesh_file.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -104,6 +105,10 @@ TEST_F(MeshFile, JoinsEqualVerticesAndNoOthers) {
     EXPECT_EQ(mesh.vertices.size(), 5u); // -0 is 0; 1e-30 is not
     EXPECT_EQ(mesh.triangles[1][0], mesh.triangles[0][0]);
     EXPECT_NE(mesh.triangles[2][0], mesh.triangles[0][0]);
+}
+
+TEST_F(MeshFile, ObjMayBeginWithAByteOrderMark) {
+    EXPECT_EQ(soup(load("a.obj", "\xef\xbb\xbf" + vertices + "f 1 2 3\n")), std::vector{first});
 }
 
 TEST_F(MeshFile, ObjErrorsNameTheLine) {
@@ -245,6 +250,33 @@ TEST_F(MeshFile, ReadsBinaryPlyAndSaysWhatIsWrong) {
                 HasSubstr("'popeerty' is no word of a PLY header"));
     EXPECT_THAT(error("h.ply", std::string(good).replace(good.find("_endian"), 7, "_indian")),
                 HasSubstr("is not a PLY format"));
+}
+
+TEST_F(MeshFile, TheFirstVertexMayHaveAnyBytes) {
+    for (std::uint32_t low_byte = 0; low_byte < 256; ++low_byte) {
+        const auto x = std::bit_cast<float>(0x3f800100u | low_byte);
+        const Triangle<float> expected{{x, 0, 0}, {0, 0, 0}, {0, 1, 0}};
+        ASSERT_EQ(soup(load("a.obj", fmt::format("v {} 0 0\nv 0 0 0\nv 0 1 0\nf 1 2 3\n", x))),
+                  std::vector{expected})
+            << low_byte;
+    }
+}
+
+TEST_F(MeshFile, PlyHeadersThatCannotBeMeant) {
+    const std::string good = ply(ply_vertices + "3 0 1 2\n3 0 1 3\n");
+    const auto changed = [&](std::string_view from, std::string_view to) {
+        return error("a.ply", std::string(good).replace(good.find(from), from.size(), to));
+    };
+    EXPECT_EQ(changed("", ""), "no error");
+    EXPECT_THAT(changed("float x", "float px"), HasSubstr("no property 'x'"));
+    EXPECT_THAT(changed("float z", "float Z"), HasSubstr("no property 'z'"));
+    EXPECT_THAT(changed("float y", "list uchar float y"), HasSubstr("no property 'y'"));
+    EXPECT_THAT(changed("float y", "float x"), HasSubstr("a second property 'x'"));
+    EXPECT_THAT(changed("element face", "element vertex"), HasSubstr("a second element 'vertex'"));
+    EXPECT_THAT(changed("ascii 1.0", "ascii 1.1"), HasSubstr("version '1.1'"));
+    EXPECT_EQ(error("b.ply", good + " \r\n\n"), "no error");
+    EXPECT_THAT(error("b.ply", good + "3 0 1 2\n"), HasSubstr("8 bytes follow"));
+    EXPECT_THAT(error("b.ply", binary_ply(1, 3) + "m"), HasSubstr("1 bytes follow"));
 }
 
 /// The values of a PLY file's body in one of its formats.

@@ -27,7 +27,11 @@ float coordinate(std::string_view token, std::size_t line) {
     return tiny ? 0 : value;
 }
 
+/// assimp skips line ends between the header and the first byte, so that is none.
+constexpr char mark = 'v';
+
 void PlyMesh::add_vertex(const std::array<float, 3>& point) {
+    vertices_ += mark;
     vertices_.append(reinterpret_cast<const char*>(point.data()), sizeof point);
 }
 
@@ -48,9 +52,10 @@ std::string PlyMesh::bytes() const {
     if (n_faces_ == 0)
         throw MeshError("holds no triangles");
     return fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n"
-                       "property float x\nproperty float y\nproperty float z\nelement face {}\n"
+                       "property uchar mark\nproperty float x\nproperty float y\n"
+                       "property float z\nelement face {}\n"
                        "property list uint uint vertex_indices\nend_header\n{}{}",
-                       vertices_.size() / sizeof(std::array<float, 3>), n_faces_, vertices_,
+                       vertices_.size() / (1 + sizeof(std::array<float, 3>)), n_faces_, vertices_,
                        faces_);
 }
 

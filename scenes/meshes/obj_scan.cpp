@@ -62,6 +62,9 @@ std::string scan_obj(std::string_view text) {
     std::int64_t n_vertices = 0;
     std::int64_t farthest = 0; // an index may refer to a vertex that comes later
     std::size_t farthest_line = 0;
+    if (constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+        text.starts_with(byte_order_mark))
+        text.remove_prefix(byte_order_mark.size());
     for (std::size_t line = 0; !text.empty();) {
         take_statement(text, line, words);
         if (words.empty())

@@ -42,6 +42,11 @@ struct Element {
     std::string_view name;
     std::uint64_t count = 0;
     std::vector<Property> properties{};
+
+    const Property* find(std::string_view property) const {
+        const auto found = std::ranges::find(properties, property, &Property::name);
+        return found == properties.end() ? nullptr : &*found;
+    }
 };
 struct Header {
     std::string_view format;
@@ -57,6 +62,16 @@ template <class T> T number(std::string_view token, std::string_view place) {
     return value;
 }
 
+void check_vertex(const Element& vertex) {
+    for (const std::string_view axis : {"x", "y", "z"}) {
+        const Property* property = vertex.find(axis);
+        if (!property || property->length)
+            throw MeshError(fmt::format("the element vertex has no property '{}' of one number; it "
+                                        "needs x, y and z",
+                                        axis));
+    }
+}
+
 /// Takes the header off the front. Elements without properties have no data: they count as none.
 Header take_header(std::string_view& bytes) {
     Header header;
@@ -70,8 +85,12 @@ Header take_header(std::string_view& bytes) {
         }
         if (word == "format") {
             header.format = take_token(rest);
+            if (const std::string_view version = take_token(rest); version != "1.0")
+                throw MeshError(fmt::format("line {}: PLY version '{}' is not 1.0", line, version));
         } else if (word == "element") {
             const std::string_view name = take_token(rest);
+            if (std::ranges::find(header.elements, name, &Element::name) != header.elements.end())
+                throw MeshError(fmt::format("line {}: a second element '{}'", line, name));
             header.elements.push_back(
                 {name, number<std::uint64_t>(take_token(rest), fmt::format("line {}", line))});
         } else if (word == "property") {
@@ -81,7 +100,12 @@ Header take_header(std::string_view& bytes) {
             const bool is_list = type == "list";
             const Type* length = is_list ? type_named(take_token(rest), line) : nullptr;
             const Type* value = type_named(is_list ? take_token(rest) : type, line);
-            header.elements.back().properties.push_back({take_token(rest), length, value});
+            Element& element = header.elements.back();
+            const std::string_view name = take_token(rest);
+            if (element.find(name))
+                throw MeshError(fmt::format("line {}: a second property '{}' of element '{}'", line,
+                                            name, element.name));
+            element.properties.push_back({name, length, value});
         } else if (!bytes.empty() && word != "ply" && word != "comment" && word != "obj_info") {
             throw MeshError(fmt::format("line {}: '{}' is no word of a PLY header", line, word));
         }
@@ -108,6 +132,13 @@ class Body {
             throw_truncated();
         text_ = take_line(bytes_);
         ++line_;
+    }
+
+    /// Blanks may follow what the header announces.
+    void end() const {
+        if (bytes_.find_first_not_of(" \t\r\v\f\n") != bytes_.npos)
+            throw MeshError(
+                fmt::format("{} bytes follow the last element that the header has", bytes_.size()));
     }
 
     void skip(const Type& type) { take(type); }
@@ -202,7 +233,10 @@ std::string scan_ply(std::string_view bytes) {
     const Header header = take_header(bytes);
     std::uint64_t n_vertices = 0; // faces may come first
     for (const Element& element : header.elements)
-        n_vertices += element.name == "vertex" ? element.count : 0;
+        if (element.name == "vertex") {
+            check_vertex(element);
+            n_vertices = element.count;
+        }
     Body body(bytes, header);
     PlyMesh mesh;
     std::vector<std::int64_t> corners;
@@ -249,6 +283,7 @@ std::string scan_ply(std::string_view bytes) {
                 mesh.add_vertex(point);
         }
     }
+    body.end();
     return mesh.bytes();
 }
 
