@@ -1,0 +1,243 @@
+#include "trees/cuda/on_host.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <numeric>
+#include <random>
+#include <string>
+#include <ucontext.h>
+#include <vector>
+
+#if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/common_interface_defs.h>
+#endif
+
+namespace boxwood::on_host {
+namespace {
+
+constexpr std::size_t stack_bytes = std::size_t{64} << 10;
+constexpr std::size_t max_threads = 1024;
+
+std::uint64_t current_seed = 1;
+
+/// The threads of one block as fibres: each with a stack of its own, one at a time.
+class Block {
+  public:
+    Block(unsigned n_threads, const std::function<void()>& thread, std::uint64_t seed)
+        : thread_(thread), random_(seed), fibres_(n_threads) {
+        if (n_threads == 0 || n_threads > max_threads)
+            throw Fault("a block has 1 to 1024 threads, not " + std::to_string(n_threads));
+    }
+
+    void run() {
+        running = this;
+        for (Fibre& fibre : fibres_)
+            begin(fibre);
+        std::vector<unsigned> ready;
+        for (unsigned left = static_cast<unsigned>(fibres_.size()); left > 0;) {
+            ready.clear();
+            for (unsigned i = 0; i < fibres_.size(); ++i)
+                if (fibres_[i].state == State::ready)
+                    ready.push_back(i);
+            if (ready.empty())
+                throw Fault("no thread can go on: " + waiting_text());
+            // Some turns, then another choice: to look for the ready ones at each turn is slow.
+            std::shuffle(ready.begin(), ready.end(), random_);
+            for (const unsigned i : ready) {
+                current_ = i;
+                threadIdx = {i, 0, 0};
+                enter(fibres_[i]);
+                if (!fault_.empty())
+                    throw Fault(fault_);
+                left -= fibres_[i].state == State::done;
+            }
+        }
+    }
+
+    std::uint64_t meet(Meeting meeting, unsigned mask, std::uint64_t value, unsigned from) {
+        Fibre& self = fibres_[current_];
+        const unsigned lane = current_ % 32;
+        if (meeting != Meeting::block && (mask >> lane & 1) == 0)
+            fail("lane " + std::to_string(lane) + " is not in its own mask");
+        if (meeting == Meeting::shuffle && (mask >> from & 1) == 0)
+            fail("lane " + std::to_string(lane) + " reads lane " + std::to_string(from) +
+                 ", which is not in the mask");
+        if (!fault_.empty())
+            leave();
+        self.meeting = meeting;
+        self.mask = mask;
+        self.value = value;
+        self.from = from;
+        self.state = State::waiting;
+        if (meeting == Meeting::block)
+            meet_block();
+        else
+            meet_warp(self);
+        leave();
+        return fibres_[current_].result;
+    }
+
+    void give_way() {
+        if (random_() % 4 == 0)
+            leave();
+    }
+
+    static Block* running;
+
+  private:
+    enum class State : std::uint8_t { ready, waiting, done };
+    struct Fibre {
+        ucontext_t context;
+        std::unique_ptr<std::byte[]> stack;
+        State state = State::ready;
+        Meeting meeting = Meeting::block;
+        unsigned mask = 0, from = 0;
+        std::uint64_t value = 0, result = 0;
+    };
+
+    void begin(Fibre& fibre) {
+        getcontext(&fibre.context);
+        fibre.stack = std::make_unique_for_overwrite<std::byte[]>(stack_bytes);
+        fibre.context.uc_stack.ss_sp = fibre.stack.get();
+        fibre.context.uc_stack.ss_size = stack_bytes;
+        fibre.context.uc_link = nullptr;
+        makecontext(&fibre.context, &Block::main, 0);
+    }
+
+    static void main() {
+        switched_from(nullptr);
+        running->thread_();
+        running->fibres_[running->current_].state = State::done;
+        running->leave();
+    }
+
+    void enter(Fibre& fibre) {
+        about_to_switch(&fake_stack_, fibre.stack.get(), stack_bytes);
+        swapcontext(&scheduler_, &fibre.context);
+        switched_from(fake_stack_);
+    }
+    void leave() {
+        Fibre& self = fibres_[current_];
+        void* fake = nullptr;
+        about_to_switch(self.state == State::done ? nullptr : &fake, main_stack_, main_bytes_);
+        swapcontext(&self.context, &scheduler_);
+        switched_from(fake);
+    }
+
+    /// run() throws it once this thread leaves, for good: it holds nothing then that would leak.
+    void fail(const std::string& what) {
+        fault_ = "thread " + std::to_string(current_) + ": " + what;
+    }
+
+    void meet_block() {
+        const auto waits = [](const Fibre& f) {
+            return f.state == State::waiting && f.meeting == Meeting::block;
+        };
+        if (std::ranges::all_of(fibres_, waits))
+            for (Fibre& fibre : fibres_)
+                fibre.state = State::ready;
+    }
+
+    void meet_warp(const Fibre& self) {
+        const std::size_t first = current_ / 32 * 32;
+        const auto each_lane = [&](auto&& visit) {
+            for (unsigned lane = 0; lane < 32; ++lane)
+                if (self.mask >> lane & 1)
+                    visit(lane);
+        };
+        std::uint64_t votes = 0;
+        bool all = true;
+        each_lane([&](unsigned lane) {
+            if (first + lane >= fibres_.size())
+                return fail("the mask has lane " + std::to_string(lane) +
+                            ", which the block has not");
+            const Fibre& other = fibres_[first + lane];
+            if (other.state == State::waiting && other.meeting != Meeting::block &&
+                (other.meeting != self.meeting || other.mask != self.mask))
+                fail("lane " + std::to_string(lane) +
+                     " of its mask waits at another operation or with another mask");
+            all = all && other.state == State::waiting && other.meeting == self.meeting;
+            votes |= std::uint64_t{other.value != 0} << lane;
+        });
+        if (!all || !fault_.empty())
+            return;
+        each_lane([&](unsigned lane) {
+            Fibre& other = fibres_[first + lane];
+            other.result = self.meeting == Meeting::ballot ? votes
+                           : self.meeting == Meeting::shuffle
+                               ? fibres_[first + other.from].value
+                               : 0;
+            other.state = State::ready;
+        });
+    }
+
+    std::string waiting_text() const {
+        const char* const names[] = {"__syncthreads", "__syncwarp", "a vote", "a shuffle"};
+        std::size_t done = 0;
+        std::string text;
+        for (std::size_t i = 0; i < fibres_.size(); ++i)
+            if (fibres_[i].state == State::done)
+                ++done;
+            else if (text.empty())
+                text = "thread " + std::to_string(i) + " waits at " +
+                       names[static_cast<std::size_t>(fibres_[i].meeting)];
+        return text + "; " + std::to_string(done) + " of " + std::to_string(fibres_.size()) +
+               " threads have ended";
+    }
+
+#if defined(__SANITIZE_ADDRESS__)
+    static void about_to_switch(void** fake, const void* bottom, std::size_t size) {
+        __sanitizer_start_switch_fiber(fake, bottom, size);
+    }
+    static void switched_from(void* fake) {
+        const void* bottom = nullptr;
+        std::size_t size = 0;
+        __sanitizer_finish_switch_fiber(fake, &bottom, &size);
+        if (!running->main_stack_) { // the first switch is from the thread that runs the grid
+            running->main_stack_ = bottom;
+            running->main_bytes_ = size;
+        }
+    }
+#else
+    static void about_to_switch(void**, const void*, std::size_t) {}
+    static void switched_from(void*) {}
+#endif
+
+    const std::function<void()>& thread_;
+    std::mt19937_64 random_;
+    std::vector<Fibre> fibres_;
+    ucontext_t scheduler_{};
+    unsigned current_ = 0;
+    std::string fault_;
+    void* fake_stack_ = nullptr;
+    const void* main_stack_ = nullptr;
+    std::size_t main_bytes_ = 0;
+};
+
+Block* Block::running = nullptr;
+
+} // namespace
+
+void set_seed(std::uint64_t seed) { current_seed = seed; }
+
+void run_grid(unsigned n_blocks, unsigned n_threads, const std::function<void()>& thread) {
+    std::vector<unsigned> order(n_blocks);
+    std::iota(order.begin(), order.end(), 0u);
+    std::mt19937_64 random(current_seed);
+    std::shuffle(order.begin(), order.end(), random);
+    gridDim = {n_blocks, 1, 1};
+    blockDim = {n_threads, 1, 1};
+    for (const unsigned block : order) {
+        blockIdx = {block, 0, 0};
+        Block(n_threads, thread, random()).run();
+    }
+}
+
+std::uint64_t meet(Meeting meeting, unsigned mask, std::uint64_t value, unsigned from) {
+    return Block::running->meet(meeting, mask, value, from);
+}
+
+void give_way() { Block::running->give_way(); }
+
+} // namespace boxwood::on_host
