@@ -1,13 +1,64 @@
 #pragma once
 
-// How every kernel is started: by nvcc on a device, by g++ on the host (on_host.h), from one source.
-// A kernel is a `__global__ void` function of plain values and pointers; its grid is a line of blocks.
-
-#if defined(__CUDACC__)
-#include "trees/cuda/detail/stream.h"
-#else
-#include "trees/cuda/on_host.h"
-#endif
+// How kernels are started and where their arrays are, from one source: by nvcc on a device, by g++
+// on the host (on_host.h). A kernel is a `__global__ void` function of plain values and pointers.
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <utility>
+
+#if defined(__CUDACC__)
+#include "trees/cuda/detail/on_device.h"
+#else
+#include "trees/cuda/on_host.h"
+
+#include <algorithm>
+#include <memory>
+#endif
+
+namespace boxwood::cuda {
+
+#if !defined(__CUDACC__)
+
+/// Work that is done in order.
+struct Stream {};
+
+template <class... Parameters, class... Arguments>
+void launch(Stream, std::size_t n_blocks, unsigned n_threads, void (*kernel)(Parameters...),
+            Arguments... arguments) {
+    if (n_blocks > 0)
+        on_host::run_grid(static_cast<unsigned>(n_blocks), n_threads,
+                          [&] { kernel(arguments...); });
+}
+
+/// An array of uninitialised trivial elements in the device's memory.
+template <class T> class Array {
+  public:
+    Array() = default;
+    Array(std::size_t size, Stream)
+        : data_(std::make_unique_for_overwrite<T[]>(size)), size_(size) {}
+    std::size_t size() const { return size_; }
+    T* data() { return data_.get(); }
+    const T* data() const { return data_.get(); }
+
+  private:
+    std::unique_ptr<T[]> data_;
+    std::size_t size_ = 0;
+};
+
+template <class T> void upload(std::span<const T> from, Array<T>& to, Stream) {
+    std::ranges::copy(from, to.data());
+}
+template <class T> void download(const T* from, std::span<T> to, Stream) {
+    std::copy_n(from, to.size(), to.data());
+}
+
+#endif
+
+/// Blocks of n_threads that make at least n threads.
+constexpr std::size_t blocks_for(std::size_t n, std::size_t n_threads) {
+    return (n + n_threads - 1) / n_threads;
+}
+
+} // namespace boxwood::cuda

@@ -164,10 +164,9 @@ class Block {
             return;
         each_lane([&](unsigned lane) {
             Fibre& other = fibres_[first + lane];
-            other.result = self.meeting == Meeting::ballot ? votes
-                           : self.meeting == Meeting::shuffle
-                               ? fibres_[first + other.from].value
-                               : 0;
+            other.result = self.meeting == Meeting::ballot    ? votes
+                           : self.meeting == Meeting::shuffle ? fibres_[first + other.from].value
+                                                              : 0;
             other.state = State::ready;
         });
     }

@@ -49,9 +49,7 @@ void give_way();
 inline boxwood::on_host::Index3 threadIdx, blockIdx, blockDim, gridDim;
 inline constexpr int warpSize = 32;
 
-inline void __syncthreads() {
-    boxwood::on_host::meet(boxwood::on_host::Meeting::block, ~0u);
-}
+inline void __syncthreads() { boxwood::on_host::meet(boxwood::on_host::Meeting::block, ~0u); }
 inline void __syncwarp(unsigned mask = ~0u) {
     boxwood::on_host::meet(boxwood::on_host::Meeting::warp, mask);
 }
@@ -86,6 +84,10 @@ template <class T> T __shfl_down_sync(unsigned mask, T value, unsigned by, unsig
     const unsigned lane = threadIdx.x % width;
     return __shfl_sync(mask, value, lane + by < width ? lane + by : lane, width);
 }
+
+inline int __popc(unsigned x) { return __builtin_popcount(x); }
+/// One more than the place of the lowest set bit; 0 if there is none.
+inline int __ffs(int x) { return __builtin_ffs(x); }
 
 inline void __threadfence() { boxwood::on_host::give_way(); }
 

@@ -1,0 +1,162 @@
+#include "trees/builders/hilbert.h"
+#include "trees/cuda/packed.cuh"
+#include "trees/cuda/packed_pairs.cuh"
+#include "trees/executor.h"
+#include "trees/testing/box_families.h"
+#include "trees/testing/brute_force.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+#include <vector>
+
+namespace boxwood::cuda {
+namespace {
+
+constexpr std::uint64_t seeds = 8;
+
+std::vector<BoxFamily> families() {
+    std::vector<BoxFamily> all = box_families();
+    for (const std::size_t n : {0u, 1u, 2u, 15u, 16u, 17u, 255u, 256u, 257u, 4097u})
+        all.push_back({"random " + std::to_string(n), random_boxes(n, n > 1000 ? .05f : .2f, 5)});
+    return all;
+}
+
+/// A packed layout in the device's memory, with that memory.
+struct OnDevice {
+    Array<Box> boxes, bounds{1, {}};
+    Array<std::uint32_t> order, items;
+    Array<PackedBlock> blocks;
+    PackedView view;
+
+    OnDevice(Boxes of, std::span<const std::uint32_t> by)
+        : boxes(of.size(), {}), order(by.size(), {}),
+          view(packed_levels(static_cast<std::uint32_t>(of.size()))) {
+        upload(of, boxes, {});
+        upload(by, order, {});
+        blocks = {view.first[view.depth], {}};
+        items = {std::size_t{view.leaves()} * view.width, {}};
+        view.blocks = blocks.data();
+        view.items = items.data();
+        fill_packed(view, boxes.data(), order.data(), bounds.data(), {});
+    }
+};
+
+bool same_bytes(const void* a, const void* b, std::size_t n) { return n == 0 || std::memcmp(a, b, n) == 0; }
+
+void expect_same(const OnDevice& made, const PackedLayout& wanted) {
+    ASSERT_EQ(made.view.n, wanted.size());
+    ASSERT_EQ(made.view.depth, wanted.depth());
+    for (std::size_t l = 0; l < wanted.depth(); ++l) {
+        const auto level = wanted.level(l);
+        ASSERT_EQ(made.view.size(static_cast<unsigned>(l)), level.size());
+        EXPECT_TRUE(same_bytes(made.blocks.data() + made.view.first[l], level.data(), level.size_bytes()))
+            << "level " << l;
+    }
+    ASSERT_EQ(made.items.size(), wanted.items().size());
+    EXPECT_TRUE(same_bytes(made.items.data(), wanted.items().data(), wanted.items().size_bytes()));
+    if (wanted.size() > 0) {
+        EXPECT_EQ(*made.bounds.data(), wanted.bounds());
+    }
+}
+
+std::vector<Pair> counted_and_filled(const PackedView& a, const PackedView& b, bool is_self) {
+    Array<std::uint64_t> at(a.leaves(), {});
+    const auto count = is_self ? find_packed_pairs<true, Pass::count> : find_packed_pairs<false, Pass::count>;
+    const auto fill = is_self ? find_packed_pairs<true, Pass::fill> : find_packed_pairs<false, Pass::fill>;
+    std::fill_n(at.data(), at.size(), 0);
+    count(a, b, {at.data(), nullptr, 0}, {});
+    const std::uint64_t n = std::accumulate(at.data(), at.data() + at.size(), std::uint64_t{0});
+    std::exclusive_scan(at.data(), at.data() + at.size(), at.data(), std::uint64_t{0});
+    Array<Pair> pairs(n, {}); // not one place more
+    fill(a, b, {at.data(), pairs.data(), 0}, {});
+    return {pairs.data(), pairs.data() + n};
+}
+
+std::vector<Pair> sorted(std::vector<Pair> pairs) {
+    std::ranges::sort(pairs);
+    return pairs;
+}
+
+TEST(PackedOnDevice, IsTheLayoutOfTheCpu) {
+    const auto serial = make_executor("serial", 1);
+    for (const BoxFamily& family : families()) {
+        SCOPED_TRACE(family.name);
+        const auto order = HilbertBuilder{}.order(family.boxes, *serial);
+        const PackedLayout wanted = PackedLayout::of_order(family.boxes, order.span(), *serial);
+        for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+            on_host::set_seed(seed);
+            expect_same(OnDevice(family.boxes, order.span()), wanted);
+        }
+    }
+}
+
+TEST(PackedOnDevice, RefitsToNewBoxes) {
+    const auto serial = make_executor("serial", 1);
+    for (const BoxFamily& family : families()) {
+        SCOPED_TRACE(family.name);
+        const auto order = HilbertBuilder{}.order(family.boxes, *serial);
+        std::vector<Box> moved = random_boxes(family.boxes.size(), .3f, 11);
+        OnDevice made(family.boxes, order.span());
+        upload(Boxes(moved), made.boxes, {});
+        fill_packed(made.view, made.boxes.data(), nullptr, made.bounds.data(), {});
+        expect_same(made, PackedLayout::of_order(moved, order.span(), *serial));
+    }
+}
+
+TEST(PackedPairsOnDevice, AreThoseOfBruteForce) {
+    const auto serial = make_executor("serial", 1);
+    for (const BoxFamily& family : families()) {
+        SCOPED_TRACE(family.name);
+        const auto order = HilbertBuilder{}.order(family.boxes, *serial);
+        const OnDevice made(family.boxes, order.span());
+        const std::vector<Pair> wanted = brute_force(family.boxes);
+        std::vector<Pair> first;
+        for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+            on_host::set_seed(seed);
+            const std::vector<Pair> found = counted_and_filled(made.view, made.view, true);
+            ASSERT_EQ(sorted(found), wanted) << "seed " << seed;
+            if (seed == 0)
+                first = found;
+            ASSERT_EQ(found, first) << "the order depends on the seed " << seed;
+        }
+    }
+}
+
+TEST(PackedPairsOnDevice, OverflowIsCounted) {
+    const auto serial = make_executor("serial", 1);
+    const std::vector<Box> boxes = random_boxes(600, .2f, 3);
+    const auto order = HilbertBuilder{}.order(boxes, *serial);
+    const OnDevice made(boxes, order.span());
+    const std::vector<Pair> wanted = brute_force(boxes);
+    for (const std::size_t room : {std::size_t{0}, wanted.size() / 2, wanted.size()}) {
+        Array<Pair> pairs(room, {});
+        std::uint64_t n = 0;
+        find_packed_pairs<true, Pass::capped>(made.view, made.view, {&n, pairs.data(), room}, {});
+        EXPECT_EQ(n, wanted.size());
+        const std::vector<Pair> found = sorted({pairs.data(), pairs.data() + room});
+        EXPECT_TRUE(std::ranges::includes(wanted, found));
+        EXPECT_EQ(std::ranges::adjacent_find(found), found.end());
+    }
+}
+
+TEST(PackedPairsOnDevice, OfTwoSets) {
+    const auto serial = make_executor("serial", 1);
+    for (const auto& [n, m] : {std::pair{1, 1}, {17, 300}, {300, 17}, {257, 4097}, {0, 5}, {5, 0}}) {
+        const std::vector<Box> a = random_boxes(static_cast<std::size_t>(n), .2f, 1),
+                               b = random_boxes(static_cast<std::size_t>(m), .05f, 2);
+        const auto order_a = HilbertBuilder{}.order(a, *serial), order_b = HilbertBuilder{}.order(b, *serial);
+        const OnDevice on_a(a, order_a.span()), on_b(b, order_b.span());
+        std::vector<Pair> wanted;
+        for (std::uint32_t i = 0; i < a.size(); ++i)
+            for (std::uint32_t j = 0; j < b.size(); ++j)
+                if (overlaps(a[i], b[j]))
+                    wanted.push_back({i, j});
+        EXPECT_EQ(sorted(counted_and_filled(on_a.view, on_b.view, false)), wanted) << n << " and " << m;
+    }
+}
+
+} // namespace
+} // namespace boxwood::cuda
