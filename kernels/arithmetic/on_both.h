@@ -7,3 +7,17 @@
 #else
 #define BOXWOOD_BOTH
 #endif
+
+#include <cstring>
+
+namespace boxwood {
+
+/// std::bit_cast, which a device cannot call.
+template <class To, class From> BOXWOOD_BOTH To bits_as(From from) {
+    static_assert(sizeof(To) == sizeof(From));
+    To to;
+    memcpy(&to, &from, sizeof to);
+    return to;
+}
+
+} // namespace boxwood

@@ -44,7 +44,9 @@ struct OnDevice {
     }
 };
 
-bool same_bytes(const void* a, const void* b, std::size_t n) { return n == 0 || std::memcmp(a, b, n) == 0; }
+bool same_bytes(const void* a, const void* b, std::size_t n) {
+    return n == 0 || std::memcmp(a, b, n) == 0;
+}
 
 void expect_same(const OnDevice& made, const PackedLayout& wanted) {
     ASSERT_EQ(made.view.n, wanted.size());
@@ -52,7 +54,8 @@ void expect_same(const OnDevice& made, const PackedLayout& wanted) {
     for (std::size_t l = 0; l < wanted.depth(); ++l) {
         const auto level = wanted.level(l);
         ASSERT_EQ(made.view.size(static_cast<unsigned>(l)), level.size());
-        EXPECT_TRUE(same_bytes(made.blocks.data() + made.view.first[l], level.data(), level.size_bytes()))
+        EXPECT_TRUE(
+            same_bytes(made.blocks.data() + made.view.first[l], level.data(), level.size_bytes()))
             << "level " << l;
     }
     ASSERT_EQ(made.items.size(), wanted.items().size());
@@ -64,8 +67,10 @@ void expect_same(const OnDevice& made, const PackedLayout& wanted) {
 
 std::vector<Pair> counted_and_filled(const PackedView& a, const PackedView& b, bool is_self) {
     Array<std::uint64_t> at(a.leaves(), {});
-    const auto count = is_self ? find_packed_pairs<true, Pass::count> : find_packed_pairs<false, Pass::count>;
-    const auto fill = is_self ? find_packed_pairs<true, Pass::fill> : find_packed_pairs<false, Pass::fill>;
+    const auto count =
+        is_self ? find_packed_pairs<true, Pass::count> : find_packed_pairs<false, Pass::count>;
+    const auto fill =
+        is_self ? find_packed_pairs<true, Pass::fill> : find_packed_pairs<false, Pass::fill>;
     std::fill_n(at.data(), at.size(), 0);
     count(a, b, {at.data(), nullptr, 0}, {});
     const std::uint64_t n = std::accumulate(at.data(), at.data() + at.size(), std::uint64_t{0});
@@ -144,17 +149,20 @@ TEST(PackedPairsOnDevice, OverflowIsCounted) {
 
 TEST(PackedPairsOnDevice, OfTwoSets) {
     const auto serial = make_executor("serial", 1);
-    for (const auto& [n, m] : {std::pair{1, 1}, {17, 300}, {300, 17}, {257, 4097}, {0, 5}, {5, 0}}) {
+    for (const auto& [n, m] :
+         {std::pair{1, 1}, {17, 300}, {300, 17}, {257, 4097}, {0, 5}, {5, 0}}) {
         const std::vector<Box> a = random_boxes(static_cast<std::size_t>(n), .2f, 1),
                                b = random_boxes(static_cast<std::size_t>(m), .05f, 2);
-        const auto order_a = HilbertBuilder{}.order(a, *serial), order_b = HilbertBuilder{}.order(b, *serial);
+        const auto order_a = HilbertBuilder{}.order(a, *serial),
+                   order_b = HilbertBuilder{}.order(b, *serial);
         const OnDevice on_a(a, order_a.span()), on_b(b, order_b.span());
         std::vector<Pair> wanted;
         for (std::uint32_t i = 0; i < a.size(); ++i)
             for (std::uint32_t j = 0; j < b.size(); ++j)
                 if (overlaps(a[i], b[j]))
                     wanted.push_back({i, j});
-        EXPECT_EQ(sorted(counted_and_filled(on_a.view, on_b.view, false)), wanted) << n << " and " << m;
+        EXPECT_EQ(sorted(counted_and_filled(on_a.view, on_b.view, false)), wanted)
+            << n << " and " << m;
     }
 }
 

@@ -69,9 +69,9 @@ template <class T> void upload(std::span<const T> from, Array<T>& to, Stream str
             "upload");
 }
 template <class T> void download(const T* from, std::span<T> to, Stream stream) {
-    require(cudaMemcpyAsync(to.data(), from, to.size_bytes(), cudaMemcpyDeviceToHost,
-                            stream.handle),
-            "download");
+    require(
+        cudaMemcpyAsync(to.data(), from, to.size_bytes(), cudaMemcpyDeviceToHost, stream.handle),
+        "download");
 }
 
 } // namespace boxwood::cuda
