@@ -54,6 +54,10 @@ template <class T> void download(const T* from, std::span<T> to, Stream) {
     std::copy_n(from, to.size(), to.data());
 }
 
+inline void fill_words(std::uint32_t* to, std::uint32_t word, std::size_t n, Stream) {
+    std::fill_n(to, n, word);
+}
+
 #endif
 
 /// Blocks of n_threads that make at least n threads.

@@ -89,6 +89,7 @@ inline int __popc(unsigned x) { return __builtin_popcount(x); }
 /// One more than the place of the lowest set bit; 0 if there is none.
 inline int __ffs(int x) { return __builtin_ffs(x); }
 
+template <class T> T __ldcg(const T* at) { return *at; }
 inline void __threadfence() { boxwood::on_host::give_way(); }
 
 /// The old value, as all atomics give.

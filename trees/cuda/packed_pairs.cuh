@@ -1,23 +1,9 @@
 #pragma once
 
 #include "trees/cuda/packed.cuh"
-#include "trees/queries/sinks.h"
+#include "trees/cuda/pairs_to.cuh"
 
 namespace boxwood::cuda {
-
-/// What a pass over the pairs does with them. The first two together give each leaf of `a` its own
-/// place, so that the order is the same each time.
-enum class Pass : std::uint8_t {
-    count, ///< at[leaf] becomes the number of pairs of that leaf of `a`
-    fill,  ///< those of a leaf go to pairs[at[leaf]] and on
-    capped ///< in any order; at[0] counts them all, those beyond `room` are left out
-};
-
-struct PairsTo {
-    std::uint64_t* at;
-    Pair* pairs;
-    std::uint64_t room; ///< of pairs; of Pass::capped alone
-};
 
 constexpr unsigned pair_threads = 256, pair_warps = pair_threads / 32;
 /// Two blocks of one level are opened at a time, so that on the stack each level has at most the 32
@@ -110,15 +96,12 @@ template <bool is_self, Pass pass> class LeafPairs {
         std::uint64_t first = at_;
         if constexpr (pass == Pass::capped) {
             if (lane_ == 0)
-                first = atomicAdd(reinterpret_cast<unsigned long long*>(to_.at),
-                                  static_cast<unsigned long long>(n));
+                first = to_.take(static_cast<unsigned>(n));
             first = __shfl_sync(~0u, first, 0);
         }
         const std::uint64_t place = first + below(hits);
-        if (hit && (pass == Pass::fill || place < to_.room)) {
-            const std::uint32_t x = a_.items[slot_a], y = b_.items[slot_b];
-            to_.pairs[place] = is_self && y < x ? Pair{y, x} : Pair{x, y};
-        }
+        if (hit && (pass == Pass::fill || place < to_.room))
+            to_.pairs[place] = pair_of<is_self>(a_.items[slot_a], b_.items[slot_b]);
         at_ += n;
     }
 

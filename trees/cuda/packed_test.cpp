@@ -1,8 +1,8 @@
 #include "trees/builders/hilbert.h"
 #include "trees/cuda/packed.cuh"
 #include "trees/cuda/packed_pairs.cuh"
+#include "trees/cuda/testing/families.h"
 #include "trees/executor.h"
-#include "trees/testing/box_families.h"
 #include "trees/testing/brute_force.h"
 
 #include <gtest/gtest.h>
@@ -14,15 +14,6 @@
 
 namespace boxwood::cuda {
 namespace {
-
-constexpr std::uint64_t seeds = 8;
-
-std::vector<BoxFamily> families() {
-    std::vector<BoxFamily> all = box_families();
-    for (const std::size_t n : {0u, 1u, 2u, 15u, 16u, 17u, 255u, 256u, 257u, 4097u})
-        all.push_back({"random " + std::to_string(n), random_boxes(n, n > 1000 ? .05f : .2f, 5)});
-    return all;
-}
 
 /// A packed layout in the device's memory, with that memory.
 struct OnDevice {
@@ -87,11 +78,11 @@ std::vector<Pair> sorted(std::vector<Pair> pairs) {
 
 TEST(PackedOnDevice, IsTheLayoutOfTheCpu) {
     const auto serial = make_executor("serial", 1);
-    for (const BoxFamily& family : families()) {
+    for (const BoxFamily& family : device_families()) {
         SCOPED_TRACE(family.name);
         const auto order = HilbertBuilder{}.order(family.boxes, *serial);
         const PackedLayout wanted = PackedLayout::of_order(family.boxes, order.span(), *serial);
-        for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+        for (std::uint64_t seed = 0; seed < fibre_seeds; ++seed) {
             on_host::set_seed(seed);
             expect_same(OnDevice(family.boxes, order.span()), wanted);
         }
@@ -100,7 +91,7 @@ TEST(PackedOnDevice, IsTheLayoutOfTheCpu) {
 
 TEST(PackedOnDevice, RefitsToNewBoxes) {
     const auto serial = make_executor("serial", 1);
-    for (const BoxFamily& family : families()) {
+    for (const BoxFamily& family : device_families()) {
         SCOPED_TRACE(family.name);
         const auto order = HilbertBuilder{}.order(family.boxes, *serial);
         std::vector<Box> moved = random_boxes(family.boxes.size(), .3f, 11);
@@ -113,13 +104,13 @@ TEST(PackedOnDevice, RefitsToNewBoxes) {
 
 TEST(PackedPairsOnDevice, AreThoseOfBruteForce) {
     const auto serial = make_executor("serial", 1);
-    for (const BoxFamily& family : families()) {
+    for (const BoxFamily& family : device_families()) {
         SCOPED_TRACE(family.name);
         const auto order = HilbertBuilder{}.order(family.boxes, *serial);
         const OnDevice made(family.boxes, order.span());
         const std::vector<Pair> wanted = brute_force(family.boxes);
         std::vector<Pair> first;
-        for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+        for (std::uint64_t seed = 0; seed < fibre_seeds; ++seed) {
             on_host::set_seed(seed);
             const std::vector<Pair> found = counted_and_filled(made.view, made.view, true);
             ASSERT_EQ(sorted(found), wanted) << "seed " << seed;

@@ -3,6 +3,7 @@
 // The device's side of launch.h; for nvcc alone.
 
 #include <cstddef>
+#include <cstdint>
 #include <cuda_runtime.h>
 #include <span>
 #include <stdexcept>
@@ -72,6 +73,12 @@ template <class T> void download(const T* from, std::span<T> to, Stream stream) 
     require(
         cudaMemcpyAsync(to.data(), from, to.size_bytes(), cudaMemcpyDeviceToHost, stream.handle),
         "download");
+}
+
+/// The word's four bytes must be the same.
+inline void fill_words(std::uint32_t* to, std::uint32_t word, std::size_t n, Stream stream) {
+    require(cudaMemsetAsync(to, static_cast<int>(word & 255), n * sizeof(word), stream.handle),
+            "fill");
 }
 
 } // namespace boxwood::cuda
