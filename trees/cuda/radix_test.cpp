@@ -113,7 +113,8 @@ TEST(RadixPairsOnDevice, AreThoseOfBruteForce) {
         SCOPED_TRACE(family.name);
         const OnDevice made(family.boxes);
         const std::vector<Pair> wanted = brute_force(family.boxes);
-        const std::vector<Pair> by_stack = counted_and_filled<true, Walk::stack>(made.view, made.view);
+        const std::vector<Pair> by_stack =
+            counted_and_filled<true, Walk::stack>(made.view, made.view);
         ASSERT_EQ(sorted(by_stack), wanted);
         EXPECT_EQ((counted_and_filled<true, Walk::ropes>(made.view, made.view)), by_stack);
     }
@@ -138,7 +139,8 @@ TEST(RadixPairsOnDevice, OverflowIsCounted) {
 }
 
 TEST(RadixPairsOnDevice, OfTwoSets) {
-    for (const auto& [n, m] : {std::pair{1, 1}, {17, 300}, {300, 17}, {257, 4097}, {0, 5}, {5, 0}}) {
+    for (const auto& [n, m] :
+         {std::pair{1, 1}, {17, 300}, {300, 17}, {257, 4097}, {0, 5}, {5, 0}}) {
         const std::vector<Box> a = random_boxes(static_cast<std::size_t>(n), .2f, 1),
                                b = random_boxes(static_cast<std::size_t>(m), .05f, 2);
         const OnDevice on_a(a), on_b(b);

@@ -23,7 +23,8 @@ struct CurveGrid {
 
 /// The cube around the centres, cut into 2^bits cells along each axis.
 BOXWOOD_BOTH inline CurveGrid curve_grid(const Box& centres, int bits) {
-    const Vec3<double> extent = Vec3<double>(centres.max) - Vec3<double>(centres.min);
+    const Vec3<double> extent =
+        static_cast<Vec3<double>>(centres.max) - static_cast<Vec3<double>>(centres.min);
     const double xy = extent.x < extent.y ? extent.y : extent.x;
     const double side = xy < extent.z ? extent.z : xy;
     CurveGrid grid;

@@ -12,8 +12,7 @@ inline constexpr std::uint64_t fibre_seeds = 8;
 inline std::vector<BoxFamily> device_families() {
     std::vector<BoxFamily> all = box_families();
     for (const std::size_t n : {0u, 1u, 2u, 15u, 16u, 17u, 255u, 256u, 257u, 4097u})
-        all.push_back(
-            {"random " + std::to_string(n), random_boxes(n, n > 1000 ? .05f : .2f, 5)});
+        all.push_back({"random " + std::to_string(n), random_boxes(n, n > 1000 ? .05f : .2f, 5)});
     return all;
 }
 
