@@ -20,13 +20,16 @@ struct Decision {
 };
 
 /// The accuracy level of a kernel: what it promises on every finite input.
-/// never_miss: a true yes is never answered no. never_false: a true no is never answered yes.
-/// certified: both; what it is sure of holds (no, yes, an interval), else it says maybe or widens.
-/// exact: certified, and always sure.
-enum class Promise : std::uint8_t { none, never_miss, never_false, certified, exact };
+/// never_leaks: of rays at a closed mesh whose triangles share their vertices bit for bit, one from
+/// inside hits one of them; of a triangle on its own nothing. never_miss: a true yes is never
+/// answered no. never_false: a true no is never answered yes. certified: both; what it is sure of
+/// holds (no, yes, an interval), else it says maybe or widens. exact: certified, and always sure.
+enum class Promise : std::uint8_t { none, never_leaks, never_miss, never_false, certified, exact };
 
 constexpr std::string_view to_string(Promise p) {
     switch (p) {
+    case Promise::never_leaks:
+        return "never-leaks";
     case Promise::never_miss:
         return "never-miss";
     case Promise::never_false:
@@ -49,6 +52,9 @@ struct KernelInfo {
     Promise promise = Promise::none;
     std::string_view bound = "none"; ///< the error bound and its source, or why there is none
     std::string_view cost = ""; ///< cost class: "about 100 flops", "filter, then integers", ...
+    /// Of certified distances: hi - lo is at most this part of hi, plus 2^-1073, an infinite hi
+    /// taken as the largest double. 0: not promised.
+    double relative_width = 0;
 };
 
 /// What every kernel says of itself at compile time: its name, and its promise with the rest.

@@ -175,6 +175,37 @@ TEST(Merge, TheWorseCheckStays) {
     }
 }
 
+TEST(Merge, TheWorseKernelRowStays) {
+    for (const bool swapped : {false, true}) {
+        std::array parts{part("a", 0), part("a", 1)};
+        for (Results& p : parts) {
+            KernelRow row;
+            row.cell_id = p.cells[0].cell_id;
+            row.family = "slivers";
+            row.status = Status::exact;
+            p.kernels = {row};
+        }
+        parts[swapped].kernels[0].status = Status::wrong;
+        parts[swapped].kernels[0].witness = "case 3";
+        const Results all = merge(parts);
+        ASSERT_EQ(all.kernels.size(), 1u);
+        EXPECT_EQ(all.kernels[0].status, Status::wrong);
+        EXPECT_EQ(all.kernels[0].witness, "case 3");
+    }
+}
+
+TEST(Merge, OnePartThatIsChangedOrUnfinishedMarksAll) {
+    for (const bool swapped : {false, true}) {
+        std::array parts{part("a", 0), part("a", 1)};
+        EXPECT_TRUE(merge(parts).is_sealed);
+        EXPECT_TRUE(merge(parts).complete);
+        parts[swapped].is_sealed = false;
+        parts[swapped].complete = false;
+        EXPECT_FALSE(merge(parts).is_sealed);
+        EXPECT_FALSE(merge(parts).complete);
+    }
+}
+
 TEST(Merge, OtherContentUnderTheSameNameIsAnError) {
     std::array parts{part("a", 0), part("b", 0)};
     parts[1].scenes[0].content_hash = 98;

@@ -23,7 +23,7 @@ class Executor {
 
     /// Calls body(i) once for each i < n and returns when all are done. With one thread the calls
     /// come in order; else in any order and at the same time. An exception from a body is rethrown
-    /// here.
+    /// here. Denormals are kept in every body, whatever the mode of the caller or of the thread.
     virtual void for_each(std::size_t n, FunctionRef<void(std::size_t)> body) const = 0;
 };
 

@@ -7,6 +7,11 @@
 /// A builder makes the canonical binary tree, a layout is a function of that tree alone, and a
 /// traversal visits layouts and hands what it finds to a sink; an executor says on which threads.
 /// Trees, answers and their order do not depend on the threads. README.md tells how to add one.
+///
+/// Floats must round to nearest and keep denormals, as when a program starts. Our executors see to
+/// the latter in each body, whatever the mode of a thread. Who calls from a thread that flushes
+/// denormals holds a DenormalFlushing(false) meanwhile (kernels/arithmetic/float_mode.h), or
+/// answers about coordinates below 2^-126 may be wrong.
 
 #include "trees/buffer.h"
 #include "trees/builder.h"
@@ -43,6 +48,7 @@
 #include "trees/ordering/curve_order.h"
 #include "trees/queries/allowed_collisions.h"
 #include "trees/queries/box_distance.h"
+#include "trees/queries/count_up_to.h"
 #include "trees/queries/filters.h"
 #include "trees/queries/nearest.h"
 #include "trees/queries/points.h"

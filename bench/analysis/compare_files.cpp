@@ -1,5 +1,6 @@
 #include "bench/analysis/compare_files.h"
 #include "bench/analysis/comparisons.h"
+#include "bench/analysis/index.h"
 #include "bench/analysis/job.h"
 #include "bench/analysis/wording.h"
 
@@ -49,19 +50,15 @@ using ByName = std::multimap<std::string, Timed>;
 
 ByName timed_by_name(const Results& results, const Times& times, bool of_peers,
                      const FileOptions& options) {
-    std::map<std::uint32_t, std::uint64_t> content_of;
-    for (const auto& scene : results.scenes)
-        content_of[scene.scene_id] = scene.content_hash;
-    std::map<std::uint32_t, bool> is_peer;
-    for (const auto& variant : results.variants)
-        is_peer[variant.variant_id] = variant.is_peer != 0;
+    const Index index(results);
     ByName timed;
     for (const auto& cell : results.cells)
         if (const auto found = times.by_cell().find(cell.cell_id);
-            found != times.by_cell().end() && is_peer[cell.variant_id] == of_peers &&
+            found != times.by_cell().end() && index.is_peer(cell) == of_peers &&
             (of_peers || !options.wanted || options.wanted(cell.name)))
-            timed.emplace(cell.name, Timed{cell.cell_id, job_of(cell), content_of[cell.scene_id],
-                                           cell.status, &found->second});
+            timed.emplace(cell.name,
+                          Timed{cell.cell_id, job_of(cell), index.scene(cell.scene_id).content_hash,
+                                cell.status, &found->second});
     return timed;
 }
 

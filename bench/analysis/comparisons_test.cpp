@@ -1,13 +1,12 @@
-#include "bench/analysis/compare_files.h"
 #include "bench/analysis/comparisons.h"
 
 #include "bench/analysis/status.h"
+#include "bench/testing/maker.h"
 #include "bench/testing/run.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <set>
 #include <tuple>
 
@@ -20,62 +19,6 @@ using results::Phase;
 using results::Reason;
 using results::Results;
 using results::Verdict;
-
-/// Time in ns of a cell in a round.
-using Clock = std::function<double(std::uint32_t round)>;
-
-struct Maker {
-    Results results;
-
-    explicit Maker(std::uint32_t rounds, const std::string& machine = "m", std::uint64_t t0 = 0) {
-        results.env.resize(1);
-        results.env[0].env_hash = machine;
-        results.scenes.resize(1);
-        results.scenes[0].content_hash = 11;
-        for (std::uint32_t round = 0; round < rounds; ++round) {
-            results::Shard shard;
-            shard.shard_id = shard.round = round;
-            shard.t0_utc_ns = t0 + round;
-            results.shards.push_back(shard);
-        }
-    }
-    std::uint32_t cell(const std::string& name, bool is_peer,
-                       results::Status status = results::Status::exact) {
-        const auto id = static_cast<std::uint32_t>(results.cells.size());
-        results::Variant variant;
-        variant.variant_id = id;
-        variant.name = name;
-        variant.is_peer = is_peer;
-        results.variants.push_back(variant);
-        results::Cell cell;
-        cell.cell_id = cell.variant_id = id;
-        cell.name = name;
-        cell.task = "pairs";
-        results.cells.push_back(cell);
-        results::Check check;
-        check.cell_id = id;
-        check.status = status;
-        if (status != results::Status::unchecked)
-            results.checks.push_back(check);
-        return id;
-    }
-    void time(std::uint32_t cell, Phase phase, const Clock& ns, std::uint32_t flags = 0) {
-        for (const auto& shard : results.shards) {
-            results::Sample sample;
-            sample.cell_id = cell;
-            sample.shard_id = shard.shard_id;
-            sample.round = shard.round;
-            sample.phase = phase;
-            sample.wall_ns = ns(shard.round);
-            sample.flags = flags;
-            results.samples.push_back(sample);
-        }
-    }
-};
-
-Clock steady(double ns) {
-    return [ns](std::uint32_t round) { return ns * (1 + 0.001 * (round * 7 % 5)); };
-}
 
 /// The machine slows down from round to round; pairing takes that out.
 Clock drifting(double ns) {
@@ -99,13 +42,6 @@ std::vector<Comparison> against_peers(Results& results) {
     std::vector<Comparison> rows = comparisons_of(results, Times(results), default_delta);
     std::erase_if(rows, [](const Comparison& row) { return row.family != Family::peers; });
     return rows;
-}
-
-/// As two files read from disk are compared.
-FileComparison compared(Results& base, Results& head) {
-    set_statuses(base);
-    set_statuses(head);
-    return compare_files(base, head);
 }
 
 TEST(Medians, MedianSpreadAndTails) {
@@ -301,6 +237,62 @@ TEST(CompareFamilies, AReferenceRunsOnAsManyThreads) {
     EXPECT_EQ(reference_of(index, cells[on_four]), nullptr);
 }
 
+TEST(CompareFamilies, AReferenceDoesTheSameWorkInTheSamePrecision) {
+    RunForTest run;
+    const auto other_class = run.cell("bunny", 100, "rays_closest", "hilbert.wide4"),
+               other_precision = run.cell("bunny", 100, "rays_closest", "hilbert.wide8"),
+               reference = run.cell("bunny", 100, "rays_closest", "hilbert.wide16"),
+               mine = run.cell("bunny", 100, "rays_closest", "mine.wide2");
+    auto& cells = run.results.cells;
+    for (auto& cell : cells)
+        cell.classes = "batches";
+    cells[other_class].classes = "single rays";
+    cells[other_precision].precision = "f64";
+    set_statuses(run.results);
+    EXPECT_EQ(reference_of(Index(run.results), cells[mine]), &cells[reference]);
+}
+
+TEST(CompareFamilies, OneThreadIsThatOfTheUsualExecutor) {
+    for (const bool usual_first : {true, false}) {
+        RunForTest run;
+        const auto first = run.cell("uniform", 1000, "pairs", "mine.wide8"),
+                   second = run.cell("uniform", 1000, "pairs", "mine.wide8"),
+                   two = run.cell("uniform", 1000, "pairs", "mine.wide8", 2);
+        const auto usual = usual_first ? first : second;
+        run.results.cells[usual_first ? second : first].executor = "openmp";
+        for (const auto cell : {first, second, two})
+            run.time(cell, Phase::query, 100);
+        set_statuses(run.results);
+        std::vector<std::uint32_t> held_against;
+        for (const Comparison& row : comparisons_of(run.results, Times(run.results), default_delta))
+            if (row.family == Family::threads)
+                held_against.push_back(row.cell_a);
+        EXPECT_EQ(held_against, std::vector{usual});
+    }
+}
+
+TEST(CompareMachines, RoundsOfOneNumberArePairedInTheOrderOfTime) {
+    Maker maker(2);
+    const auto ours = maker.cell("ours", false), peer = maker.cell("peer", true);
+    const auto add = [&](std::uint32_t cell, std::uint32_t shard, double ns) {
+        results::Sample sample;
+        sample.cell_id = cell;
+        sample.shard_id = shard;
+        sample.phase = Phase::query;
+        sample.wall_ns = ns;
+        maker.results.samples.push_back(sample);
+    };
+    add(ours, 0, 10);
+    add(ours, 1, 20);
+    add(peer, 1, 60); // the rows of a merged file are in any order
+    add(peer, 0, 30);
+    const Times times(maker.results);
+    const std::vector<double> logs = times.log_ratios(ours, peer, Phase::query);
+    ASSERT_EQ(logs.size(), 2u);
+    for (const double log : logs)
+        EXPECT_DOUBLE_EQ(log, std::log(3.0));
+}
+
 TEST(CompareClasses, OnlyWithinOneOfThem) {
     RunForTest run;
     std::map<std::string, std::uint32_t> cells;
@@ -347,22 +339,6 @@ TEST(CompareMachines, RoundsOfTwoMachinesDoNotMix) {
     EXPECT_EQ(rows[0].ci_hi, 0.5);
 }
 
-TEST(CompareFiles, AFileWithItselfIsTheSameAfterEnoughRounds) {
-    for (const std::uint32_t rounds : {2u, 8u, 9u}) {
-        Maker maker(rounds);
-        maker.time(maker.cell("a", false), Phase::query, steady(100));
-        maker.time(maker.cell("b", false), Phase::build, steady(100));
-        const auto same = compared(maker.results, maker.results);
-        ASSERT_EQ(same.rows.size(), 2u);
-        for (const auto& row : same.rows) {
-            EXPECT_EQ(row.comparison.verdict, rounds < 9 ? Verdict::cannot_tell : Verdict::same);
-            EXPECT_EQ(row.comparison.ratio, 1);
-            EXPECT_EQ(row.gate, rounds < 9 ? Gate::open : Gate::passes);
-        }
-        EXPECT_TRUE(same.is_same_machine);
-    }
-}
-
 TEST(NoiseFloor, AboveTwentyPerCentNothingIsClaimed) {
     Maker maker(9);
     const auto ours = maker.cell("ours", false), peer = maker.cell("peer", true);
@@ -373,55 +349,6 @@ TEST(NoiseFloor, AboveTwentyPerCentNothingIsClaimed) {
     EXPECT_EQ(row.verdict, Verdict::cannot_tell);
     EXPECT_EQ(row.reason, Reason::too_noisy);
     EXPECT_EQ(row.words, "can't tell (too noisy)");
-}
-
-TEST(CompareFiles, FasterSlowerAndIdsOfBothFiles) {
-    Maker base(9, "commit1"), head(9, "commit2", 1'000'000);
-    base.time(base.cell("slower", false), Phase::query, steady(100));
-    base.time(base.cell("faster", false), Phase::query, steady(100));
-    base.time(base.cell("same", false), Phase::query, steady(100));
-    head.cell("new", false);
-    head.time(head.cell("same", false), Phase::query, steady(101));
-    head.time(head.cell("faster", false), Phase::query, steady(80));
-    head.time(head.cell("slower", false), Phase::query, steady(130));
-    const auto result = compared(base.results, head.results);
-    ASSERT_EQ(result.rows.size(), 3u);
-    EXPECT_FALSE(result.is_same_machine);
-    for (const auto& row : result.rows) {
-        EXPECT_EQ(to_string(row.comparison.verdict), row.name);
-        EXPECT_EQ(base.results.cells[row.comparison.cell_a].name, row.name);
-        EXPECT_EQ(head.results.cells[row.comparison.cell_b].name, row.name);
-    }
-    EXPECT_NEAR(result.rows[2].comparison.ratio, 1.3, 0.01);
-    EXPECT_TRUE(result.only_head.empty()); // never timed
-}
-
-TEST(CompareFiles, WhatCannotBeCompared) {
-    Maker base(9), head(9);
-    base.time(base.cell("gone", false), Phase::query, steady(100));
-    base.time(base.cell("crashes", false), Phase::query, steady(100));
-    base.time(base.cell("turns_wrong", false), Phase::query, steady(100));
-    base.time(base.cell("other_scene", false), Phase::query, steady(100));
-    head.time(head.cell("turns_wrong", false, results::Status::wrong), Phase::query, steady(100));
-    head.cell("crashes", false, results::Status::wrong);
-    head.time(head.cell("new", false), Phase::query, steady(100));
-    head.results.scenes.push_back({});
-    head.results.scenes[1].scene_id = 1;
-    head.results.scenes[1].content_hash = 12;
-    const auto other = head.cell("other_scene", false);
-    head.results.cells[other].scene_id = 1;
-    head.time(other, Phase::query, steady(100));
-    const auto result = compared(base.results, head.results);
-    EXPECT_EQ(result.lost, (std::vector<Lost>{{"crashes", "not timed"},
-                                              {"gone", "not timed"},
-                                              {"other_scene", "another scene"}}));
-    EXPECT_EQ(result.only_head, std::vector<std::string>{"new"});
-    ASSERT_EQ(result.rows.size(), 2u);
-    for (const auto& row : result.rows) {
-        EXPECT_TRUE(row.is_newly_wrong) << row.name;
-        EXPECT_EQ(row.comparison.verdict, Verdict::wrong);
-    }
-    EXPECT_FALSE(compared(head.results, head.results).rows[0].is_newly_wrong);
 }
 
 } // namespace

@@ -29,6 +29,26 @@ struct Findings : testing::Test {
         run.time(cell, Phase::query, query_ns);
         return cell;
     }
+    std::uint32_t add_kernel(const std::string& kernel, const std::string& promise,
+                             std::uint64_t false_neg, double ns, std::uint64_t maybe = 0) {
+        const auto cell = run.cell("slivers", 100, "triangle_triangle", kernel);
+        run.time(cell, Phase::query, 100 * ns);
+        results::KernelRow row;
+        row.cell_id = cell;
+        row.family = "slivers";
+        row.panel = "degenerate";
+        row.task = "triangle_triangle";
+        row.kernel = kernel;
+        row.promise = promise;
+        row.n = row.tier_0 = 100;
+        row.false_neg = false_neg;
+        row.maybe = maybe;
+        row.status = false_neg > 0 ? results::Status::wrong : results::Status::exact;
+        row.witness = "case 7";
+        run.results.kernels.push_back(row);
+        run.results.checks[cell].status = row.status;
+        return cell;
+    }
     std::string screen() {
         analyse(run.results);
         return screen_text(run.results);
@@ -160,25 +180,6 @@ TEST_F(Findings, ALaterWrongAnswerOrACrashBreaksThePromise) {
 }
 
 TEST_F(Findings, AKernelWithoutAPromiseMayErrAndOneWithMayNot) {
-    const auto add_kernel = [&](const std::string& kernel, const std::string& promise,
-                                std::uint64_t false_neg, double ns) {
-        const auto cell = run.cell("slivers", 100, "triangle_triangle", kernel);
-        run.time(cell, Phase::query, 100 * ns);
-        run.results.checks[cell].status =
-            false_neg > 0 ? results::Status::wrong : results::Status::exact;
-        results::KernelRow row;
-        row.cell_id = cell;
-        row.family = "slivers";
-        row.panel = "degenerate";
-        row.task = "triangle_triangle";
-        row.kernel = kernel;
-        row.promise = promise;
-        row.n = row.tier_0 = 100;
-        row.false_neg = false_neg;
-        row.status = false_neg > 0 ? results::Status::wrong : results::Status::exact;
-        row.witness = "case 7";
-        run.results.kernels.push_back(row);
-    };
     add_kernel("plain", "no promise", 3, 10);
     EXPECT_EQ(only().together, "none is always right");
     EXPECT_EQ(only().certainty, "3 of 100 wrong");
@@ -195,6 +196,58 @@ TEST_F(Findings, AKernelWithoutAPromiseMayErrAndOneWithMayNot) {
     EXPECT_THAT(promises_text(run.results),
                 HasSubstr("BROKEN PROMISE: liar promises never-miss on slivers/"
                           "triangle_triangle\n  case 7"));
+}
+
+TEST_F(Findings, AKernelThatSaysMaybeIsNotAlwaysRight) {
+    add_kernel("unsure", "certified", 0, 10, 1);
+    EXPECT_EQ(only().together, "none is always right");
+    add_kernel("sure", "exact", 0, 25);
+    EXPECT_EQ(only().together, "sure, 25.0 ns");
+}
+
+TEST_F(Findings, AKernelThatErrsInALaterRoundIsNotExcusedByItsPromise) {
+    const auto plain = add_kernel("plain", "no promise", 3, 10);
+    analyse(run.results);
+    EXPECT_EQ(run.results.health[0].wrong_ours, 0u); // it promised nothing
+    run.results.checks[plain].status = results::Status::exact;
+    run.results.samples.front().flags |= results::wrong_answer; // not what was checked
+    analyse(run.results);
+    EXPECT_EQ(run.results.health[0].wrong_ours, 1u);
+    EXPECT_TRUE(is_promise_broken(run.results));
+}
+
+TEST_F(Findings, CountWhatWasAnsweredAndWhatWasDisturbed) {
+    add("uniform", "pairs", "ours.packed", 100, 300);
+    const auto never = add("uniform", "pairs", "fcl.never", 100, 300);
+    run.results.checks[never].status = results::Status::unsupported;
+    run.results.samples[0].flags = results::disturbed_steal;
+    run.results.samples[1].flags = results::disturbed_switches;
+    run.results.samples[2].flags = results::disturbed_steal | results::disturbed_switches;
+    analyse(run.results, 0.07);
+    const results::Health& health = run.results.health.at(0);
+    EXPECT_EQ(health.answers, 1u);
+    EXPECT_EQ(health.disturbed, 3u);
+    EXPECT_EQ(health.samples, 36u);
+    EXPECT_DOUBLE_EQ(health.delta, 0.07);
+    EXPECT_DOUBLE_EQ(delta_of(std::vector<results::Results>{{}, run.results}), 0.07);
+    EXPECT_THAT(screen(), HasSubstr("9 rounds, 8.3 % of the samples disturbed"));
+}
+
+TEST_F(Findings, AWrongAnswerOfATwinIsOne) {
+    const auto ours = add("uniform", "pairs", "ours.packed", 100, 300);
+    run.time(ours, Phase::query, 300);
+    run.results.samples.back().flags = results::aa_twin | results::wrong_answer;
+    analyse(run.results);
+    EXPECT_TRUE(is_promise_broken(run.results));
+}
+
+TEST_F(Findings, AClassWithoutRivalsSaysNothingBesideOneThatHasSome) {
+    const auto ours = add("bunny", "rays_closest", "ours.wide8", 100, 300),
+               hilbert = add("bunny", "rays_closest", "hilbert.wide8", 100, 400),
+               rival = add("bunny", "rays_closest", "embree.rtc", 100, 900);
+    run.results.cells[ours].classes = run.results.cells[hilbert].classes = "packets,batches";
+    run.results.cells[rival].classes = "packets";
+    EXPECT_EQ(only().contender_class, "packets");
 }
 
 TEST_F(Findings, AScenePlayedSaysItsFrameAndWhatEverythingWouldTake) {

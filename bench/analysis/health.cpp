@@ -58,7 +58,7 @@ std::string trust_text(const Health& health) {
     if (health.is_too_noisy)
         return text + ": too noisy";
     if (health.rounds < min_pairs_verdict)
-        return text + fmt::format(": {} rounds give verdicts", min_pairs_verdict);
+        return text + fmt::format(": verdicts need at least {} rounds", min_pairs_verdict);
     if (std::isnan(health.floor))
         return text + ": no cell was timed twice";
     const bool is_disturbed = 2 * health.disturbed > health.samples;

@@ -1,6 +1,7 @@
 #include "bench/analysis/kernel_costs.h"
 
 #include "bench/analysis/figures/kernel_rows.h"
+#include "bench/analysis/index.h"
 #include "bench/io/text_table.h"
 #include "scenes/hard_cases/hard_cases.h"
 
@@ -48,12 +49,7 @@ void set_rates_and_front(std::vector<KernelCost>& costs, const std::set<std::str
 } // namespace
 
 std::vector<KernelCost> kernel_costs_of(const results::Results& results) {
-    std::map<std::uint32_t, const results::Cell*> cells;
-    for (const results::Cell& cell : results.cells)
-        cells[cell.cell_id] = &cell;
-    std::map<std::uint32_t, const results::Variant*> variants;
-    for (const results::Variant& variant : results.variants)
-        variants[variant.variant_id] = &variant;
+    const Index index(results);
     std::set<std::uint32_t> with_conditions; // distances: a false yes or no has none
     for (const results::ConditionRow& row : results.conditions)
         with_conditions.insert(row.cell_id);
@@ -66,7 +62,7 @@ std::vector<KernelCost> kernel_costs_of(const results::Results& results) {
             by_error.insert(row.task);
         if (!is_judged(row) || std::isnan(row.ns))
             continue;
-        const results::Variant& variant = *variants.at(cells.at(row.cell_id)->variant_id);
+        const results::Variant& variant = index.variant(index.cell(row.cell_id));
         const bool is_peer = variant.is_peer != 0;
         auto& [cost, families] = costs[{row.task, row.panel, is_peer, variant.library, row.label}];
         if (families++ == 0)

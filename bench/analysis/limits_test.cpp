@@ -48,6 +48,10 @@ TEST(Limits, OfAnUpdateCountTheItemsThatMoved) {
     EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::update), 8800); // not counted: all of them
     r.counters = {{0, "items_moved", 200}};
     EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::update), 88);
+    r.counters.push_back({0, "box_tests", 10});
+    r.counters.push_back({0, "pairs", 0});
+    EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::query), 2400);
+    EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::update_and_query), 88 + 2400);
     EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::build), 8800);
     r.counters[0].value = 0;
     EXPECT_TRUE(std::isnan(limit_ns(r, cell, Phase::update)));

@@ -1,5 +1,6 @@
 #include "bench/analysis/promises.h"
 
+#include "bench/analysis/index.h"
 #include "bench/truth/crash.h"
 #include "bench/truth/judging/case_truths.h"
 
@@ -53,13 +54,11 @@ bool is_judged_by_promise(const Results& results, const results::Cell& cell) {
 }
 
 bool is_promise_broken(const Results& results) {
-    std::map<std::uint32_t, bool> is_peer;
-    for (const results::Variant& variant : results.variants)
-        is_peer[variant.variant_id] = variant.is_peer != 0;
+    const Index index(results);
     return std::ranges::any_of(results.cells,
                                [&](const results::Cell& cell) {
                                    return cell.status == results::Status::wrong &&
-                                          !is_peer[cell.variant_id] &&
+                                          !index.is_peer(cell) &&
                                           !is_judged_by_promise(results, cell);
                                }) ||
            broken_promises(results) > 0 || std::ranges::any_of(results.checks, has_crashed);

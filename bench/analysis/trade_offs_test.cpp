@@ -12,18 +12,19 @@ namespace {
 
 using results::Phase;
 
+std::uint32_t add_pairs(RunForTest& run, const char* variant, double build_ns, double query_ns) {
+    const auto cell = run.cell("uniform", 100, "pairs", variant);
+    run.time(cell, Phase::build, build_ns);
+    run.time(cell, Phase::query, query_ns);
+    return cell;
+}
+
 TEST(TradeOffs, JoinThoseThatNoneBettersInBuildAndQuery) {
     RunForTest run;
-    const auto add = [&](const char* variant, double build, double query) {
-        const auto cell = run.cell("uniform", 100, "pairs", variant);
-        run.time(cell, Phase::build, build);
-        run.time(cell, Phase::query, query);
-        return cell;
-    };
-    add("worse", 300, 950);
-    const auto best = add("best", 900, 100), cheap = add("cheap", 100, 900),
-               middle = add("middle", 400, 500);
-    const auto wrong = add("wrong", 1, 1);
+    add_pairs(run, "worse", 300, 950);
+    const auto best = add_pairs(run, "best", 900, 100), cheap = add_pairs(run, "cheap", 100, 900),
+               middle = add_pairs(run, "middle", 400, 500);
+    const auto wrong = add_pairs(run, "wrong", 1, 1);
     run.results.checks[wrong].status = results::Status::wrong;
     analyse(run.results);
     const auto& rows = run.results.break_even;
@@ -40,11 +41,26 @@ TEST(TradeOffs, JoinThoseThatNoneBettersInBuildAndQuery) {
     EXPECT_TRUE(std::isnan(noisy[1].queries));
 }
 
+TEST(TradeOffs, BreakEvenIsAboveTheFloorOnBothSides) {
+    for (const auto& [build, query] : {std::pair{105., 500.}, {400., 880.}}) {
+        RunForTest run;
+        const auto cheap = add_pairs(run, "cheap", 100, 900);
+        add_pairs(run, "dear", build, query);
+        analyse(run.results);
+        ASSERT_EQ(run.results.break_even.size(), 2u);
+        EXPECT_FALSE(std::isnan(run.results.break_even[1].queries));
+        run.time(cheap, Phase::query, 900 * 1.1);
+        for (std::size_t i = run.results.samples.size() - run.rounds;
+             i < run.results.samples.size(); ++i)
+            run.results.samples[i].flags = results::aa_twin;
+        analyse(run.results); // with a floor of 10 %
+        EXPECT_TRUE(std::isnan(run.results.break_even[1].queries)) << build << " and " << query;
+    }
+}
+
 TEST(TradeOffs, OneAloneIsTheBest) {
     RunForTest run;
-    const auto cell = run.cell("uniform", 100, "pairs", "alone");
-    run.time(cell, Phase::build, 100);
-    run.time(cell, Phase::query, 100);
+    const auto cell = add_pairs(run, "alone", 100, 100);
     analyse(run.results);
     ASSERT_EQ(run.results.break_even.size(), 1u);
     EXPECT_EQ(run.results.break_even[0].cell_b, cell);

@@ -87,9 +87,13 @@ void add_check(CLI::App& app, int& exit_code) {
     check->add_option("--ccd", options->ccd,
                       "a folder of query files for the families that read files, such as data/ccd");
     check->footer(
-        "A promise is what a kernel states in `boxwood list kernels`: never-miss (no false no),\n"
-        "never-false (no false yes), certified (sure answers and bounds hold), exact. Each family\n"
-        "is judged at its default k; the truth comes by construction or from rational arithmetic.\n"
+        "A promise is what a kernel states in `boxwood list kernels`: never-leaks (rays from "
+        "inside\n"
+        "closed meshes hit, in trees of every layout too), never-miss (no false no), never-false\n"
+        "(no false yes), certified (sure answers and bounds hold), exact (of rays t, u, v and the\n"
+        "triangle too). Each family is judged at its default k; the truth comes by construction "
+        "or\n"
+        "from rational arithmetic.\n"
         "A broken promise is printed with its case in hex floats and the command that replays it.\n"
         "Peers and kernels without a promise are judged on the same cases, and may err.\n\n"
         "Examples:\n"

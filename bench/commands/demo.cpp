@@ -234,7 +234,8 @@ std::string four_link_demo() {
     const auto reported = reported_pairs(tree, allowed);
     text += fmt::format(
         "5. Adjacent links are allowed to overlap\n"
-        "   Links that share a joint always touch; that is no collision. An allowed collision\n"
+        "   Links that share a joint may overlap there; that is no collision. An allowed "
+        "collision\n"
         "   matrix marks the {} adjacent pairs, and a filter drops them from what is found.\n"
         "   Dropped: {}. Left to report: {}.\n\n",
         allowed.size(), pair_names(filtered), reported.size());

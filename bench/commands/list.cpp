@@ -110,8 +110,11 @@ Rows task_rows() {
 Rows peer_rows() {
     Rows rows;
     for (const Peer& peer : peers()) {
-        Row& row = rows.emplace_back(Row{
-            peer.name, fmt::format("{} ({}; {})", peer.summary, peer.version, peer.build), {}, {}});
+        Row& row = rows.emplace_back(Row{peer.name,
+                                         fmt::format("{} ({}{}{})", peer.summary, peer.version,
+                                                     peer.build.empty() ? "" : "; ", peer.build),
+                                         {},
+                                         {}});
         std::string contenders;
         for (const ContenderEntry& c : peer.contenders) {
             contenders += fmt::format("{}{{\"name\":{},\"summary\":{},\"notes\":{}}}",

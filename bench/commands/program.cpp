@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cfenv>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -167,15 +168,35 @@ int finish(int exit_code) {
     return fail("standard output: cannot write it all: is the disk full?");
 }
 
+/// Rounding to nearest, denormals kept, no traps, in this thread and in those that it starts: a
+/// library that was loaded before us may have set something else.
+class DefaultFloatMode {
+  public:
+    DefaultFloatMode() {
+        std::fegetenv(&before_);
+        std::fesetenv(FE_DFL_ENV);
+    }
+    ~DefaultFloatMode() { std::fesetenv(&before_); }
+    DefaultFloatMode(const DefaultFloatMode&) = delete;
+    DefaultFloatMode& operator=(const DefaultFloatMode&) = delete;
+
+  private:
+    std::fenv_t before_;
+};
+
 } // namespace
 
 int run_program(int argc, char** argv) {
+    const DefaultFloatMode float_mode;
     // A write to a closed pipe then fails, and `finish` decides what that means.
     std::signal(SIGPIPE, SIG_IGN);
     // So does a write beyond the limit of `ulimit -f`.
     std::signal(SIGXFSZ, SIG_IGN);
     try {
         return finish(run(argc, argv));
+    } catch (const Interrupted& interrupted) {
+        say(std::string("boxwood: ") + interrupted.what() + "\n");
+        return exit_interrupted;
     } catch (const std::bad_alloc&) {
         return fail("not enough memory");
     } catch (const std::exception& error) {

@@ -58,9 +58,12 @@ struct PairsQuery {
     std::string boxes; ///< a file of rows min_x,min_y,min_z,max_x,max_y,max_z; - for standard input
     TreeChoice tree;
     Format format;
-    bool count = false; ///< only how many
+    bool count = false;                     ///< only how many
+    std::optional<std::uint64_t> limit;     ///< at most so many pairs, not with `count`
+    std::optional<std::uint64_t> max_bytes; ///< of the list; all that is available if not given
 };
-/// Prints every unordered pair of boxes that share a point, once, sorted. Exact in double.
+/// Prints every unordered pair of boxes that share a point, once, sorted. Exact in double. Throws
+/// BadInput if the list does not fit in the memory that is available, and Interrupted.
 void run(const PairsQuery& query, std::ostream& out);
 void add_query_pairs(CLI::App& query);
 

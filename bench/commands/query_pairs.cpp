@@ -8,14 +8,17 @@
 
 #include "bench/commands/command.h"
 #include "bench/commands/query.h"
+#include "bench/commands/watched_pairs.h"
+#include "bench/io/available_memory.h"
 #include "bench/io/csv.h"
+#include "bench/io/say.h"
+#include "bench/running/interrupt.h"
 #include "kernels/arithmetic/rounding.h"
+#include "trees/queries/count_up_to.h"
 #include "trees/queries/filters.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -55,15 +58,88 @@ Box to_float(const Aabb<double>& box) {
     return {min(max(rounded.min, low), high), min(max(rounded.max, low), high)};
 }
 
-/// Throws BadInput if that many pairs cannot be held: the list, and the parts it is joined from.
-void require_memory(std::uint64_t pairs) {
-    const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
-    const double have = static_cast<double>(pages) * static_cast<double>(page);
-    const double need = static_cast<double>(pairs) * 2 * sizeof(Pair);
-    if (need > have)
-        throw BadInput(fmt::format("{} pairs overlap; listing them takes {:.0f} GB of memory, this "
-                                   "machine has {:.0f}; --count only counts them",
-                                   pairs, need * 1e-9, have * 1e-9));
+/// The boxes of a query in a tree, which finds the pairs.
+class PairFinder {
+  public:
+    explicit PairFinder(const PairsQuery& query) {
+        const BuildFunction build = chosen_builder(query.tree);
+        const LayoutEntry& layout = chosen_layout(query.tree);
+        executor_ = chosen_executor(query.tree);
+        boxes_ = read_boxes(query.boxes);
+        std::vector<Box> float_boxes(boxes_.size());
+        std::transform(boxes_.begin(), boxes_.end(), float_boxes.begin(), to_float);
+        Tree tree;
+        doubles_ = layout.make_of_doubles != nullptr;
+        layout_ = doubles_
+                      ? layout.make_of_doubles(build(float_boxes, *executor_), boxes_, *executor_)
+                      : make_layout(layout, build, float_boxes, *executor_, tree);
+    }
+    std::size_t boxes() const { return boxes_.size(); }
+
+    /// Into the sink, in an order that depends on the tree alone if `in_order`. Throws Interrupted
+    /// at Ctrl-C; `found` says how much was found by then.
+    void find(PairSink& sink, bool in_order, const char* stage,
+              const std::function<std::string()>& found) const {
+        const CtrlC ctrl_c;
+        Progress progress(stderr);
+        const auto search = [&](PairSink& to) {
+            WatchedPairs watched(to, progress, stage, found);
+            layout_->self_pairs(in_order ? serial() : *executor_, watched);
+            if (CtrlC::pressed())
+                throw Interrupted(
+                    fmt::format("interrupted while {}, {}, after {:.0f} % of the work", stage,
+                                found(), 100 * watched.fraction()));
+        };
+        if (doubles_)
+            return search(sink);
+        FilteredPairs exact([&](Pair p) { return overlaps(boxes_[p.a], boxes_[p.b]); }, sink);
+        search(exact);
+    }
+
+  private:
+    std::unique_ptr<Executor> executor_;
+    std::vector<Aabb<double>> boxes_;
+    std::unique_ptr<AnyLayout> layout_;
+    bool doubles_ = false;
+};
+
+/// Counts, until there are more than `limit`.
+std::uint64_t count_pairs(const PairFinder& finder, std::uint64_t limit, bool in_order) {
+    CountPairsUpTo counter(limit);
+    finder.find(counter, in_order, "counting",
+                [&] { return fmt::format("{} pairs", counter.count()); });
+    return counter.count();
+}
+
+/// The pairs in order, all or `limit` of them. Counting first is cheap beside printing, and makes
+/// sure that the list fits. Throws BadInput if it does not.
+std::vector<Pair> list_pairs(const PairFinder& finder, const PairsQuery& query, bool& complete) {
+    const std::optional<std::uint64_t> limit = query.limit;
+    const std::uint64_t memory = query.max_bytes ? *query.max_bytes : available_memory();
+    const std::uint64_t most = memory / (2 * sizeof(Pair)); // the list, and parts it is joined from
+    const std::uint64_t enough = std::min(most, limit.value_or(most));
+    const std::uint64_t count = count_pairs(finder, enough, limit.has_value());
+    complete = count <= enough;
+    if (!complete && enough == most && limit != most)
+        throw BadInput(fmt::format("more than {} pairs overlap, and to list them takes more than "
+                                   "the {:.1f} GB of memory that are available; --count counts "
+                                   "them, --limit N prints N of them",
+                                   most, static_cast<double>(memory) * 1e-9));
+    std::vector<Pair> pairs;
+    pairs.reserve(std::min(count, enough));
+    const auto found = [&] { return fmt::format("{} pairs", pairs.capacity()); };
+    if (complete) {
+        AppendPairs append(pairs);
+        finder.find(append, limit.has_value(), "listing", found);
+    } else {
+        ForEachPair first([&](Pair pair) {
+            pairs.push_back(pair);
+            return pairs.size() < enough;
+        });
+        finder.find(first, true, "listing", found);
+    }
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
 }
 
 void print_lines(const std::vector<Pair>& pairs, BlockWriter& text) {
@@ -82,58 +158,42 @@ void print_json(const std::vector<Pair>& pairs, BlockWriter& text) {
 } // namespace
 
 void run(const PairsQuery& query, std::ostream& out) {
-    const BuildFunction build = chosen_builder(query.tree);
-    const LayoutEntry& layout_entry = chosen_layout(query.tree);
-    const std::unique_ptr<Executor> executor = chosen_executor(query.tree);
-    const std::vector<Aabb<double>> boxes = read_boxes(query.boxes);
-
-    std::vector<Box> float_boxes(boxes.size());
-    std::transform(boxes.begin(), boxes.end(), float_boxes.begin(), to_float);
-    Tree tree;
-    const bool doubles = layout_entry.make_of_doubles != nullptr;
-    const auto layout =
-        doubles ? layout_entry.make_of_doubles(build(float_boxes, *executor), boxes, *executor)
-                : make_layout(layout_entry, build, float_boxes, *executor, tree);
-    const auto find_pairs = [&](PairSink& sink) {
-        if (doubles) {
-            layout->self_pairs(*executor, sink);
-            return;
-        }
-        FilteredPairs exact([&](Pair p) { return overlaps(boxes[p.a], boxes[p.b]); }, sink);
-        layout->self_pairs(*executor, exact);
-    };
-
-    // Counting first is cheap beside printing, and makes sure that the list will fit.
-    CountPairs counter;
-    find_pairs(counter);
-    const std::string count = std::to_string(counter.count());
+    const PairFinder finder(query);
 
     std::vector<Pair> pairs;
-    if (!query.count) {
-        require_memory(counter.count());
-        pairs.reserve(counter.count());
-        AppendPairs append(pairs);
-        find_pairs(append);
-        std::sort(pairs.begin(), pairs.end());
+    std::uint64_t count = 0;
+    bool complete = true;
+    if (query.count) {
+        count = count_pairs(finder, std::numeric_limits<std::uint64_t>::max(), false);
+    } else {
+        pairs = list_pairs(finder, query, complete);
+        count = pairs.size();
     }
 
     BlockWriter text(out);
     if (query.format.json) {
-        text << "{\"boxes\":" << std::to_string(boxes.size()) << ",\"count\":" << count;
+        text << "{\"boxes\":" << std::to_string(finder.boxes())
+             << ",\"count\":" << std::to_string(count);
+        if (query.limit)
+            text << ",\"complete\":" << (complete ? "true" : "false");
         if (!query.count) {
             text << ",\"pairs\":[";
             print_json(pairs, text);
             text << "]";
         }
         text << "}\n";
-        return;
+    } else {
+        if (query.format.header)
+            text << (query.count ? "count\n" : "i,j\n");
+        if (query.count)
+            text << std::to_string(count) << "\n";
+        else
+            print_lines(pairs, text);
     }
-    if (query.format.header)
-        text << (query.count ? "count\n" : "i,j\n");
-    if (query.count)
-        text << count << "\n";
-    else
-        print_lines(pairs, text);
+    if (!complete)
+        say(fmt::format("boxwood: stopped at {} pairs (--limit); there are more, and --count says "
+                        "how many\n",
+                        count));
 }
 
 void add_query_pairs(CLI::App& query) {
@@ -141,13 +201,20 @@ void add_query_pairs(CLI::App& query) {
     CLI::App* pairs = query.add_subcommand(
         "pairs", "every pair of boxes that share a point, as lines i,j with i < j, sorted");
     pairs->add_option("BOXES.csv", options->boxes, "the boxes; - reads standard input")->required();
-    pairs->add_flag("--count", options->count, "print only how many pairs there are");
+    auto* count = pairs->add_flag("--count", options->count, "print only how many pairs there are");
+    pairs
+        ->add_option("--limit", options->limit,
+                     "print at most so many pairs, the first that are found, on one thread: which "
+                     "ones depends on the builder and layout")
+        ->check(CLI::Range(std::uint64_t{1}, std::numeric_limits<std::uint64_t>::max()))
+        ->excludes(count);
     add_format_options(*pairs, options->format);
     add_tree_options(*pairs, options->tree, "the answers are the same for every choice");
     pairs->footer(
         "Rows: min_x,min_y,min_z,max_x,max_y,max_z, decimal or hex float, read as doubles; blank\n"
         "lines and lines with # in front are skipped. Boxes are closed (one shared point\n"
-        "counts) and numbered from 0. No pair is missed or added by rounding.\n\n"
+        "counts) and numbered from 0. No pair is missed or added by rounding. A list that does\n"
+        "not fit in memory is an error, which comes before anything is printed.\n\n"
         "Example, which prints 0,1:\n"
         "  printf '0,0,0,1,1,1\\n1,1,1,2,2,2\\n3,3,3,4,4,4\\n' | boxwood query pairs -");
     pairs->callback([options] { run(*options, std::cout); });

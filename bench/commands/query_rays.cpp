@@ -3,6 +3,10 @@
 #include "bench/commands/command.h"
 #include "bench/commands/query.h"
 #include "bench/io/csv.h"
+#include "bench/io/ray_range.h"
+#include "kernels/arithmetic/rounding.h"
+#include "kernels/oracle/rational.h"
+#include "kernels/ray_box/slabs.h"
 #include "kernels/registry.h"
 #include "kernels/suggest.h"
 #include "scenes/meshes/mesh_file.h"
@@ -19,9 +23,9 @@ namespace {
 
 constexpr CsvFormat ray_format{"ox,oy,oz,dx,dy,dz[,tmax]", 6, 7};
 constexpr std::array ray_columns{"ox", "oy", "oz", "dx", "dy", "dz"};
-constexpr double max_coordinate = 0x1p126; // beyond it the ray kernels make no promise
+constexpr double max_coordinate = double{max_ray_coordinate};
 
-/// Rays are rounded to floats, to nearest: the kernels' own numbers.
+/// Rays are rounded to floats, to nearest, but for tmax: the kernels' own numbers.
 std::vector<Ray<float>> read_rays(const std::string& path) {
     const std::string source = source_name(path);
     std::vector<Ray<float>> rays;
@@ -44,17 +48,43 @@ std::vector<Ray<float>> read_rays(const std::string& path) {
                 throw_bad_row(
                     source, line,
                     fmt::format("tmax is {}; it must be 0 or more (or be left out)", v[6]));
-            ray.t_max = static_cast<float>(v[6]); // beyond all floats: infinity, no limit
+            ray.t_max = round_down(v[6]); // no hit beyond what was written
         }
         rays.push_back(ray);
     });
     return rays;
 }
 
+using oracle::RationalRays;
+
 void require_kernel(const std::string& name) {
-    const std::vector<std::string_view> known = names_of(ray_kernels());
+    std::vector<std::string_view> known = names_of(ray_kernels());
+    known.push_back(RationalRays::name);
     if (std::find(known.begin(), known.end(), name) == known.end())
         throw BadInput(unknown_name("ray kernel", name, known));
+}
+
+TriangleMesh read_mesh(const std::string& file) {
+    TriangleMesh mesh = load_mesh(file);
+    if (const auto vertex = beyond_ray_range(mesh))
+        throw BadInput(fmt::format("mesh {} {}", file, out_of_ray_range(mesh, *vertex)));
+    return mesh;
+}
+
+/// Every triangle whose box the ray does not miss, without a tree: the rational kernel allocates.
+RayHit rational_hit(const Ray<float>& ray, const TriangleMesh& mesh, std::span<const Box> boxes) {
+    const RaySlabs slabs(ray);
+    RayHit best;
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+        RayHit hit;
+        if (clip(slabs, boxes[i], ray.t_min, ray.t_max).hit() &&
+            RationalRays::intersect({}, ray, mesh.triangle(i), ray.t_max, hit) &&
+            (!best.hit() || hit.t < best.t)) {
+            best = hit;
+            best.triangle = i;
+        }
+    }
+    return best;
 }
 
 void print_lines(std::span<const RayHit> hits, bool any, BlockWriter& text) {
@@ -94,18 +124,23 @@ void run(const RaysQuery& query, std::ostream& out) {
     const LayoutEntry& layout_entry = chosen_layout(query.tree);
     const std::unique_ptr<Executor> executor = chosen_executor(query.tree);
     require_kernel(query.kernel);
-    const TriangleMesh mesh = load_mesh(query.mesh);
+    const TriangleMesh mesh = read_mesh(query.mesh);
     const std::vector<Ray<float>> rays = read_rays(query.rays);
 
     std::vector<Box> boxes(mesh.triangles.size());
     for (std::size_t i = 0; i < boxes.size(); ++i)
         boxes[i] = mesh.triangle(i).bounds();
-    Tree tree;
-    const std::unique_ptr<AnyLayout> layout =
-        make_layout(layout_entry, build, boxes, *executor, tree);
     std::vector<RayHit> hits(rays.size());
-    layout->rays(rays, query.any ? RayQuery::any : RayQuery::closest, query.kernel,
-                 layout->triangles(mesh, *executor), *executor, hits);
+    if (query.kernel == RationalRays::name) {
+        executor->for_each(rays.size(),
+                           [&](std::size_t i) { hits[i] = rational_hit(rays[i], mesh, boxes); });
+    } else {
+        Tree tree;
+        const std::unique_ptr<AnyLayout> layout =
+            make_layout(layout_entry, build, boxes, *executor, tree);
+        layout->rays(rays, query.any ? RayQuery::any : RayQuery::closest, query.kernel,
+                     layout->triangles(mesh, *executor), *executor, hits);
+    }
 
     BlockWriter text(out);
     if (query.format.json)
@@ -122,17 +157,22 @@ void add_query_rays(CLI::App& query) {
     rays->add_option("MESH", options->mesh, "a mesh file (OBJ, PLY, STL)")->required();
     rays->add_option("RAYS.csv", options->rays, "the rays; - reads standard input")->required();
     rays->add_flag("--any", options->any, "print only 1 or 0: whether the ray hits anything");
-    rays->add_option("--kernel", options->kernel, "a ray kernel of `boxwood list kernels`")
+    rays->add_option("--kernel", options->kernel,
+                     "a ray kernel of `boxwood list kernels`; rational uses no tree and is slow")
         ->capture_default_str();
     add_format_options(*rays, options->format);
     add_tree_options(*rays, options->tree,
                      "the answers are the same for every choice, but for the rounding of plain "
                      "float kernels");
     rays->footer(
-        "Rows: ox,oy,oz,dx,dy,dz[,tmax], decimal or hex float, rounded to floats; blank lines and\n"
-        "lines with # in front are skipped. The hit is at origin + t * direction with\n"
+        "Rows: ox,oy,oz,dx,dy,dz[,tmax], decimal or hex float, rounded to floats (tmax down); "
+        "blank\n"
+        "lines and lines with # in front are skipped. The hit is at origin + t * direction with\n"
         "0 <= t <= tmax, which is (1 - u - v) a + u b + v c on the triangle (a, b, c). Of hits at\n"
-        "the same t the lowest triangle is named; triangles are numbered from 0 in file order.\n\n"
+        "the same t the lowest triangle is named; triangles are numbered from 0 in file order.\n"
+        "Coordinates of mesh and rays are below 2^126 (8.5e37) in size. With every kernel a ray\n"
+        "ends at the largest float: what lies beyond t = 3.4e38 is a miss, so make a direction of\n"
+        "1e-42 longer.\n\n"
         "Example:\n"
         "  echo 0,0,-10,0,0,1 | boxwood query rays model.obj -");
     rays->callback([options] { run(*options, std::cout); });

@@ -180,6 +180,28 @@ TEST_F(QueryRaysOnASquare, BadRaysAreNamed) {
     EXPECT_THAT(complaint(rays("0,0,0,1,0\n")), HasSubstr("5 columns, expected 6 to 7"));
 }
 
+TEST_F(QueryRaysOnASquare, AMeshBeyondTheRangeOfTheKernelsIsRefused) {
+    RaysQuery query = rays("0,0,-1,0,0,1\n");
+    query.mesh = put("far.obj", "v 0 0 0\nv 2e38 0 0\nv 0 2 0\nf 1 2 3\n");
+    EXPECT_THAT(complaint(query),
+                ::testing::AllOf(HasSubstr("far.obj has a vertex at (2e+38, 0, 0)"),
+                                 HasSubstr("below 2^126")));
+}
+
+TEST_F(QueryRaysOnASquare, EveryKernelAnswersTheSameAndNothingBeyondTmax) {
+    // At t = 1 with a tmax whose nearest float is 1; at t = 1e43, where no float is.
+    for (const std::string_view kernel :
+         {"moller_trumbore_f32", "baldwin_weber_f32", "plucker_f32", "watertight",
+          "moller_trumbore_f64", "exact", "rational"}) {
+        RaysQuery query = rays("1.5,.5,-1,0,0,1,0.9999999999\n1.5,.5,-1,0,0,1,1.0000000001\n"
+                               "1.5,.5,-10,0,0,1e-42\n1.5,.5,0,1,0,0\n");
+        query.kernel = kernel;
+        EXPECT_EQ(answer(query), "miss\n0,1,0.5,0.25\nmiss\nmiss\n") << kernel;
+        query.any = true;
+        EXPECT_EQ(answer(query), "0\n1\n0\n0\n") << kernel;
+    }
+}
+
 TEST_F(QueryRaysOnASquare, NoRaysAndUnknownKernel) {
     RaysQuery query = rays("");
     EXPECT_EQ(answer(query), "");

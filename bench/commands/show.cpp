@@ -1,6 +1,7 @@
 #include "bench/commands/show.h"
 
-#include "bench/analysis/comparisons.h"
+#include "bench/analysis/index.h"
+#include "bench/analysis/job.h"
 #include "bench/analysis/kernel_costs.h"
 #include "bench/analysis/promises.h"
 #include "bench/analysis/screen.h"
@@ -98,16 +99,14 @@ std::string scenes_text(const Results& results) {
 /// The cells that do the same work, and what is known of them.
 class Group {
   public:
-    Group(const Results& results, std::vector<const Cell*> cells)
-        : results_(results), cells_(std::move(cells)) {
-        for (const auto& variant : results.variants)
-            variants_[variant.variant_id] = &variant;
+    Group(const Index& index, std::vector<const Cell*> cells)
+        : index_(index), results_(index.results()), cells_(std::move(cells)) {
         for (const Cell* cell : cells_)
             labels_[cell->cell_id] = label_of(*cell);
-        for (const Median& row : results.medians)
+        for (const Median& row : results_.medians)
             if (labels_.contains(row.cell_id))
                 medians_[row.cell_id].push_back(&row);
-        for (const Check& check : results.checks)
+        for (const Check& check : results_.checks)
             if (labels_.contains(check.cell_id))
                 checks_[check.cell_id].push_back(&check);
     }
@@ -115,9 +114,8 @@ class Group {
 
   private:
     std::string label_of(const Cell& cell) const {
-        const auto variant = variants_.find(cell.variant_id);
-        const std::string& name = variant == variants_.end() ? cell.name : variant->second->name;
-        std::string label = fmt::format("{} {} {}", name, cell.precision, cell.executor);
+        std::string label =
+            fmt::format("{} {} {}", index_.variant(cell).name, cell.precision, cell.executor);
         if (!cell.isa.empty())
             label += " " + cell.isa;
         return label;
@@ -150,17 +148,12 @@ class Group {
                 for (const double ns : {median->median_ns, median->mad_ns, median->min_ns,
                                         median->p95_ns, median->p99_ns})
                     row.push_back(time_text(ns));
-                row.push_back(is_peer(*cell) ? "" : ratio_text(median->times_limit));
+                row.push_back(index_.is_peer(*cell) ? "" : ratio_text(median->times_limit));
                 table.add(std::move(row));
                 row = {"", ""};
             }
         }
         return table.text();
-    }
-
-    bool is_peer(const Cell& cell) const {
-        const auto variant = variants_.find(cell.variant_id);
-        return variant != variants_.end() && variant->second->is_peer;
     }
 
     /// What is wrong or unsupported, with the witness or the reason.
@@ -226,9 +219,9 @@ class Group {
         return table.empty() ? "" : table.text();
     }
 
+    const Index& index_;
     const Results& results_;
     std::vector<const Cell*> cells_;
-    std::map<std::uint32_t, const results::Variant*> variants_;
     std::map<std::uint32_t, std::string> labels_;
     std::map<std::uint32_t, std::vector<const Median*>> medians_;
     std::map<std::uint32_t, std::vector<const Check*>> checks_;
@@ -274,20 +267,17 @@ std::string all_text(const Results& results) {
     std::string text = header_text(results) + scenes_text(results);
     if (!results.kernels.empty())
         text += "\n" + kernel_costs_text(results) + "\n" + promises_text(results);
-    std::set<std::uint32_t> kernels;
-    for (const results::KernelRow& row : results.kernels)
-        kernels.insert(row.cell_id);
-    using Work = std::tuple<std::uint32_t, std::string, std::uint32_t>;
-    std::map<Work, std::vector<const Cell*>> groups;
-    std::vector<Work> order;
+    const Index index(results);
+    std::map<JobKey, std::vector<const Cell*>> groups;
+    std::vector<JobKey> order;
     for (const Cell& cell : results.cells) {
-        const Work work{cell.scene_id, cell.task, cell.threads};
-        if (!groups.contains(work))
-            order.push_back(work);
-        groups[work].push_back(&cell);
+        const JobKey job = job_of(cell);
+        if (!groups.contains(job))
+            order.push_back(job);
+        groups[job].push_back(&cell);
     }
-    for (const Work& work : order)
-        text += Group(results, groups[work]).text();
+    for (const JobKey& job : order)
+        text += Group(index, groups[job]).text();
     return text + findings_text(results);
 }
 

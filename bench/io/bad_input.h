@@ -9,6 +9,11 @@ class BadInput : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// Ctrl-C: the message says what was done by then. Exit code 130.
+class Interrupted : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 inline constexpr int exit_success = 0;
 inline constexpr int exit_failed = 1;      ///< a check or a promise failed
 inline constexpr int exit_bad_input = 2;   ///< also any other exception that reaches main

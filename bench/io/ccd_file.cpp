@@ -92,8 +92,7 @@ std::vector<CcdFileQuery> read_ccd_queries(std::string_view text, const std::str
         (place < 4 ? query.motion.start : query.motion.end)[place % 4] = std::move(point);
     }
     if (n_rows == 0)
-        throw_bad_row(source, 1,
-                      fmt::format("no query; each is {} rows {}", rows_per_query, columns));
+        warn_of_no_rows(source, columns);
     if (const std::size_t left = n_rows % rows_per_query; left != 0)
         throw_bad_row(source, queries.back().lines[0],
                       fmt::format("the last query has {} row{} of {}: four points at the start, "

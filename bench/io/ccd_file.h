@@ -20,7 +20,8 @@ struct CcdFileQuery {
 
 /// Reads rows x_num,x_den,y_num,y_den,z_num,z_den,truth of integers of any size, eight a query: the
 /// points at the start, then at the end; truth, 0 or 1, is the same in all eight. Blank lines and
-/// lines with # in front are skipped. Throws BadInput naming source:line, what and the remedy.
+/// lines with # in front are skipped; if that is all there is, a warning and no query. Throws
+/// BadInput naming source:line, what and the remedy.
 std::vector<CcdFileQuery> read_ccd_queries(std::string_view text, const std::string& source);
 
 /// The motion as doubles. Throws BadInput naming source:line for a coordinate that is not a double.

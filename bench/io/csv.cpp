@@ -103,7 +103,11 @@ void read_csv(std::string_view text, const std::string& source, const CsvFormat&
         ++n_rows;
     }
     if (n_rows == 0)
-        say(fmt::format("boxwood: warning: {} holds no rows of {}\n", source, format.columns));
+        warn_of_no_rows(source, format.columns);
+}
+
+void warn_of_no_rows(const std::string& source, std::string_view columns) {
+    say(fmt::format("boxwood: warning: {} holds no rows of {}\n", source, columns));
 }
 
 std::string source_name(const std::string& path) { return path == "-" ? "standard input" : path; }

@@ -23,6 +23,9 @@ struct CsvFormat {
 void read_csv(std::string_view text, const std::string& source, const CsvFormat& format,
               FunctionRef<void(std::span<const double> numbers, std::size_t line)> row);
 
+/// The warning to stderr of a text that has only blank lines and comments.
+void warn_of_no_rows(const std::string& source, std::string_view columns);
+
 /// "source:line: what" as BadInput.
 [[noreturn]] void throw_bad_row(const std::string& source, std::size_t line,
                                 const std::string& what);

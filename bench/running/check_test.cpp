@@ -178,6 +178,47 @@ TEST(Check, BoxFamiliesAreHeldAgainstTheirKnownNumberOfPairs) {
     EXPECT_EQ(lost.kernels[0].false_neg, 29u);
 }
 
+/// What the kernel named says, with `spoil` done to one hit.
+ContenderEntry spoilt(const Task& task, const ContenderEntry& kernel,
+                      const std::function<void(RayHit&)>& spoil) {
+    return made_up(kernel.promise, [&task, kernel, spoil](const Scene& scene, Answers& answers) {
+        const std::unique_ptr<Contender> right = kernel.make({&scene, &task});
+        right->build();
+        right->query(answers);
+        spoil(list_of<RayHit>(answers).at(7));
+    });
+}
+
+TEST(Check, OneWrongHitOfManyIsFound) {
+    SceneSpec spec;
+    spec.generator = "ray_in_mesh";
+    spec.n = 64;
+    const Scene scene = make_scene(spec);
+    struct Fault {
+        const char* what;
+        bool exact_is_broken, watertight_is_broken;
+        std::function<void(RayHit&)> spoil;
+    };
+    const std::vector<Fault> faults{
+        {"none", false, false, [](RayHit&) {}},
+        {"a leak", true, true, [](RayHit& hit) { hit = {}; }},
+        {"t", true, false, [](RayHit& hit) { hit.t *= 1 + 0x1p-21f; }},
+        {"u", true, false, [](RayHit& hit) { hit.u += 0x1p-21f; }},
+        {"the triangle", true, false, [](RayHit& hit) { hit.triangle ^= 1; }}};
+    for (const std::string_view name : {"ray_triangle", "rays_closest"})
+        for (const ContenderEntry& kernel : find_task(name)->contenders_on_cases()) {
+            if (kernel.promise == Promise::none ||
+                (!kernel.layout.empty() && kernel.layout != "wide8"))
+                continue;
+            for (const Fault& fault : faults)
+                EXPECT_EQ(broken_promises(checked(
+                              scene, name, spoilt(*find_task(name), kernel, fault.spoil))) > 0,
+                          kernel.promise == Promise::exact ? fault.exact_is_broken
+                                                           : fault.watertight_is_broken)
+                    << kernel.name << ": " << fault.what;
+        }
+}
+
 TEST(CheckScenes, HoldTheEndsOfEveryFamilysScale) {
     CheckOptions options;
     options.only = "^slivers/triangle_triangle/";

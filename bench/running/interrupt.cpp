@@ -4,10 +4,18 @@
 #include <sys/signalfd.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <system_error>
 
 namespace boxwood::bench {
+namespace {
+
+constexpr int ending_signals[] = {SIGINT, SIGTERM};
+std::atomic<bool> ctrl_c_pressed = false;
+static_assert(std::atomic<bool>::is_always_lock_free); // a signal handler may set it
+
+} // namespace
 
 Interrupt::Interrupt() {
     sigset_t caught;
@@ -37,5 +45,24 @@ bool Interrupt::requested() {
         requested_ = true;
     return requested_;
 }
+
+CtrlC::CtrlC() {
+    ctrl_c_pressed = false;
+    struct sigaction note {};
+    note.sa_handler = [](int) { ctrl_c_pressed = true; };
+    note.sa_flags = SA_RESTART | SA_RESETHAND;
+    for (int i = 0; i < 2; ++i) {
+        sigaction(ending_signals[i], nullptr, &before_[i]);
+        if (before_[i].sa_handler != SIG_IGN)
+            sigaction(ending_signals[i], &note, nullptr);
+    }
+}
+
+CtrlC::~CtrlC() {
+    for (int i = 0; i < 2; ++i)
+        sigaction(ending_signals[i], &before_[i], nullptr);
+}
+
+bool CtrlC::pressed() { return ctrl_c_pressed.load(std::memory_order_relaxed); }
 
 } // namespace boxwood::bench

@@ -26,4 +26,18 @@ class Interrupt {
     bool requested_ = false;
 };
 
+/// For work in threads of this process: while it lives, the first Ctrl-C or SIGTERM is noted, and a
+/// second one ends the process as it did before. One at a time.
+class CtrlC {
+  public:
+    CtrlC();
+    ~CtrlC();
+    CtrlC(const CtrlC&) = delete;
+
+    static bool pressed();
+
+  private:
+    struct sigaction before_[2];
+};
+
 } // namespace boxwood::bench

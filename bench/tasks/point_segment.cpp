@@ -20,7 +20,7 @@ template <class Real> struct Input {
 
 TrueDistance measured(const TrianglePairCase& c) {
     const Input<double> in(c);
-    return true_distance(oracle::squared_distance(in.a, in.b), {in.a, in.b.a, in.b.b});
+    return true_distance(oracle::squared_distance(in.a, in.b), {in.a}, {in.b.a, in.b.b});
 }
 
 } // namespace

@@ -18,7 +18,7 @@ template <class Real> struct Input {
 };
 
 TrueDistance measured(const TrianglePairCase& c) {
-    return true_distance(oracle::squared_distance(c.a.a, c.b), {c.a.a, c.b.a, c.b.b, c.b.c});
+    return true_distance(oracle::squared_distance(c.a.a, c.b), {c.a.a}, {c.b.a, c.b.b, c.b.c});
 }
 
 } // namespace

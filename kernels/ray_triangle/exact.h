@@ -13,10 +13,11 @@ namespace boxwood {
 
 /// Exact ray-triangle test, two-sided: whether they meet is always right, for all finite floats, in
 /// any floating-point mode that rounds to nearest. A ray in the triangle's plane misses, and a
-/// degenerate triangle is never hit. t is within 0.63 ulp of the true one and u, v within 2^-23; t
-/// may round to infinity. As t is rounded, `t_max` is compared with hit.t, so that the nearest of
-/// several does not depend on their order; ray.t_min and ray.t_max are compared exactly. What it
-/// hits lies in the triangle's box, and the box test loses no true point: any slack will do.
+/// degenerate triangle is never hit. t is within 0.63 ulp of the true one and u, v within 2^-23; as
+/// for all kernels it is a miss if t rounds to infinity. As t is rounded, `t_max` is compared with
+/// hit.t, so that the nearest of several does not depend on their order; ray.t_min and ray.t_max
+/// are compared exactly. What it hits lies in the triangle's box, and the box test loses no true
+/// point: any slack will do.
 ///
 /// Tier 0, u = 2^-53: with corners A, B, C seen from the origin, the volumes d.(B x (c - b)) and
 /// cyclic have 7 roundings, so each is within 8u P, P = max|d_k| R S, where R and S are the sums of
@@ -93,7 +94,7 @@ struct ExactRayTriangle {
             compare(t, r.t_max, ray.t_max, ray, triangle, depth, tier) > 0)
             return {Answer::no, tier};
         const float rounded = std::min(std::max(static_cast<float>(t + 0.0), ray.t_min), ray.t_max);
-        if (!(rounded <= t_max))
+        if (!(rounded <= t_max && rounded < std::numeric_limits<float>::infinity()))
             return {Answer::no, tier};
         hit.t = rounded;
         hit.u = static_cast<float>(std::clamp(w.b / depth, 0.0, 1.0) + 0.0);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cfloat>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -208,6 +210,47 @@ TYPED_TEST(EveryRayKernel, MissWhereAnInputIsNoNumber) {
     EXPECT_FALSE(this->hits(ray, good, hit));
     ray = {{1, 1, 1}, {0, 0, -1}, 0, nan_f};
     EXPECT_FALSE(this->hits(ray, good, hit));
+}
+
+TYPED_TEST(EveryRayKernel, HitWithFiniteNumbersOrNotAtAll) {
+    // Any finite floats: from zeros and denormals to those whose products overflow.
+    std::mt19937 random(23);
+    const auto any_float = [&] {
+        const auto bits = static_cast<std::uint32_t>(random());
+        const auto x = std::bit_cast<float>(bits);
+        return random() % 4 == 0 || !std::isfinite(x) ? static_cast<float>(bits % 3) : x;
+    };
+    const auto mostly_small = [&] {
+        return random() % 5 == 0 ? any_float() : std::ldexp(1.0f, static_cast<int>(random() % 3));
+    };
+    int hits = 0;
+    for (int i = 0; i < 300000; ++i) {
+        const auto number = [&] { return i % 2 == 0 ? any_float() : mostly_small(); };
+        const auto point = [&] { return Point{number(), number(), number()}; };
+        const Ray<float> ray{point(), point()};
+        RayHit hit;
+        if (!this->hits(ray, {point(), point(), point()}, hit))
+            continue;
+        ++hits;
+        ASSERT_TRUE(std::isfinite(hit.t) && std::isfinite(hit.u) && std::isfinite(hit.v)) << i;
+    }
+    EXPECT_GT(hits, 100);
+}
+
+TYPED_TEST(EveryRayKernel, MissWhatIsBeyondTheLargestFloat) {
+    const Triangle<float> t{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    RayHit hit;
+    EXPECT_TRUE(this->hits({{.25f, .25f, -10}, {0, 0, 1e-37f}}, t, hit));
+    EXPECT_FALSE(this->hits({{.25f, .25f, -10}, {0, 0, 1e-42f}}, t, hit));
+    EXPECT_FALSE(this->hits({{.25f, .25f, -10}, {0, 0, 1e-42f}, 0, FLT_MAX}, t, hit));
+}
+
+TYPED_TEST(EveryRayKernel, MissWhereAllProductsUnderflow) {
+    const Triangle<float> t{{0, 0, 0}, {1e-25f, 0, 0}, {0, 1e-25f, 0}};
+    for (const Point d : {Point{1e-25f, 1e-25f, 0}, Point{1, 1, 0}}) {
+        RayHit hit;
+        EXPECT_FALSE(this->hits({{}, d}, t, hit)) << hit.u; // in the plane
+    }
 }
 
 // --- Generic input against the oracle

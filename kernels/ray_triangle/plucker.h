@@ -40,9 +40,9 @@ struct Plucker {
                           c = triangle.c - ray.origin;
         const float u = side(d, b, c), v = side(d, c, a), w = side(d, a, b); // facing a, b, c
         const float sum = u + v + w, zero = 0x1p-23f * std::abs(sum);
-        if (!((std::min({u, v, w}) >= -zero || std::max({u, v, w}) <= zero) &&
+        if (!((std::min({u, v, w}) >= -zero || std::max({u, v, w}) <= zero) && sum != 0 &&
               std::abs(sum) < std::numeric_limits<float>::infinity()))
-            return false;
+            return false; // a sum of 0: the ray is in the plane, or all of it underflows
         const Vec3<float> n = cross(b - a, c - a);
         const float t = dot(a, n) / dot(d, n) + 0.0f; // + 0 makes +0 of -0
         if (!(t >= ray.t_min && t <= t_max && t < std::numeric_limits<float>::infinity()))

@@ -14,16 +14,17 @@ namespace boxwood {
 /// vertex bit for bit. For one triangle on its own there is no promise: vertices are sheared in
 /// float, so a ray within rounding of an edge or of the triangle's plane may be called either way,
 /// and at a shared edge both triangles may be hit. Where the shear is exact, rays in the plane
-/// miss. Coordinates below 2^126 in size; a hit whose t overflows float is a miss. Source: Woop,
-/// Benthin, Wald 2013, "Watertight Ray/Triangle Intersection".
+/// miss. Range: ray_kernel.h; below 2^126 a sheared corner is at most the largest float. Source:
+/// Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection".
 ///
 /// Bound, u = 2^-24: a corner at (X, Y, Z) from the origin, Z along the largest component of the
-/// direction, moves across the ray by at most 2u |X| + 4u |s Z| in x, s = d_x / d_z (its roundings:
-/// X; s, Z, product; difference), and by u |Z| along it; the same for all triangles that share it.
-/// A closed mesh so moved stays closed: nothing leaks from an origin that is not itself left
-/// outside, 6u times the farthest corner from the mesh. What is hit may lie beside the triangle's
-/// box, by much if the triangle reaches far behind the hit: `ray_margin` (ray_box/slabs.h) makes up
-/// for it.
+/// direction, moves across the ray by at most 2u |X| + 4u |s Z| + 2^-150 (|Z| + 1) in x, s = d_x /
+/// d_z (its roundings: X; s, Z, product; difference; s and the product may underflow), and by u |Z|
+/// along it; the same for all triangles that share it. A closed mesh so moved stays closed: nothing
+/// leaks from an origin that is not itself left outside. What the rounding of s moves is a shear,
+/// which leaves no origin outside, so it is enough to be 6u times the farthest corner and 2^-150
+/// from the mesh. What is hit may lie beside the triangle's box, by much if the triangle reaches
+/// far behind the hit: RaySlabs and FusedSlabs (ray_box/) make up for it.
 struct Watertight {
     static constexpr std::string_view name = "watertight";
     static constexpr KernelInfo info{
@@ -31,7 +32,7 @@ struct Watertight {
         name,
         "shear to ray space, float edge functions that reject and double ones that decide: no leak "
         "at shared edges (Woop, Benthin, Wald 2013)",
-        Promise::none,
+        Promise::never_leaks,
         "corners move across the ray by 2u |X| + 4u |s Z|, u = 2^-24, alike for all who share "
         "them; the signs that follow are exact: closed meshes do not leak (watertight.h)",
         "9 differences, 12 products in float to reject; to hit, 12 products in double"};

@@ -2,6 +2,7 @@
 
 #include "kernels/arithmetic/float_mode.h"
 #include "kernels/detail/rescale.h"
+#include "kernels/triangle_distance/detail/exact_distance.h"
 #include "kernels/triangle_distance/detail/nearest_pair.h"
 #include "kernels/triangle_distance/detail/refined_bounds.h"
 #include "kernels/triangle_triangle/exact.h"
@@ -86,17 +87,21 @@ double scaled_up(double x, int exponent) {
     } else if (!tight(bounds)) {
         tier = 2;
     }
-    if (tier == 2)
+    int scale = e;
+    if (tier == 2) {
         bounds = refined_bounds(ua, ub);
-    if (tier != 1 && bounds.distance == 0) // too small to decide
-        bounds.distance = bounds.hi;
-    bounds = {scaled_down(bounds.lo, e), scaled_up(bounds.hi, e),
-              scaled_up(bounds.distance, e), // not to 0
-              times_power_of_two(bounds.point_a, e), times_power_of_two(bounds.point_b, e)};
-    if (tier == 2 && !(bounds.lo > 0)) {
-        bounds.lo = std::min(min_separation(coordinate_grid(a, b), e), bounds.hi);
-        tier = 3;
+        if (!tight(bounds)) {
+            tier = 3;
+            const Scaled d = exact_distance(a, b);
+            bounds.lo = d.m * (1 - 0x1p-49);
+            bounds.hi = d.m * (1 + 0x1p-49);
+            bounds.distance = d.m;
+            scale = d.exponent;
+        }
     }
+    bounds = {scaled_down(bounds.lo, scale), scaled_up(bounds.hi, scale),
+              scaled_up(bounds.distance, scale), // not to 0
+              times_power_of_two(bounds.point_a, e), times_power_of_two(bounds.point_b, e)};
     return between(bounds, tier);
 }
 

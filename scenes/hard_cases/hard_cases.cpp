@@ -27,6 +27,8 @@
     X(slivers)                                                                                     \
     X(needle_triangles)                                                                            \
     X(cap_triangles)                                                                               \
+    X(near_coplanar_needles)                                                                       \
+    X(tiny_gaps)                                                                                   \
     X(zero_area_triangles)                                                                         \
     X(points_and_duplicates)                                                                       \
     X(tiny_triangles)                                                                              \
@@ -36,6 +38,8 @@
     X(generic_rays)                                                                                \
     X(ray_through_edge)                                                                            \
     X(ray_through_vertex)                                                                          \
+    X(ray_in_mesh)                                                                                 \
+    X(ray_in_stretched_mesh)                                                                       \
     X(ray_in_plane)                                                                                \
     X(ray_grazing)                                                                                 \
     X(ray_at_small_triangle)                                                                       \

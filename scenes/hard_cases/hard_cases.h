@@ -28,12 +28,14 @@ struct TrianglePairCase {
     Known touch = Known::unknown;
 };
 
-/// A ray and the triangles [first, first + count) of `RayCases::triangles`: one, or a closed fan.
-/// `hit`: whether it must hit at least one of them.
+/// A ray and the triangles [first, first + count) of `RayCases::triangles`: one, or a closed fan or
+/// mesh, which the next rays may share. `hit`: whether it must hit at least one of them.
 struct RayCase {
     Ray<float> ray;
     std::uint32_t first = 0, count = 1;
     Known hit = Known::unknown;
+
+    bool is_closed() const { return count > 1; }
 };
 struct RayCases {
     std::vector<Triangle<float>> triangles;

@@ -1,18 +1,36 @@
 #include "kernels/oracle/exact_answers.h"
 #include "kernels/oracle/rational.h"
+#include "kernels/oracle/second_opinion.h"
 #include "scenes/hard_cases/hard_cases.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
+#include <span>
 
 namespace boxwood {
 namespace {
 
-// The truth of each case in rational arithmetic.
+// The truth of each case in rational arithmetic, where a second oracle agrees.
 
-bool truth(const TrianglePairCase& c) { return oracle::intersect(c.a, c.b); }
+namespace second = oracle::second_opinion;
+
+bool truth(const TrianglePairCase& c) {
+    const std::array a{c.a.a, c.a.b, c.a.c}, b{c.b.a, c.b.b, c.b.c};
+    EXPECT_EQ(oracle::squared_distance(c.a, c.b), second::squared_distance(a, b));
+    const std::span edge_a = std::span(a).first(2), edge_b = std::span(b).first(2);
+    EXPECT_EQ(oracle::squared_distance(Segment{a[0], a[1]}, Segment{b[0], b[1]}),
+              second::squared_distance(edge_a, edge_b));
+    const std::span corner_a = std::span(a).first(1);
+    EXPECT_EQ(oracle::squared_distance(a[0], c.b), second::squared_distance(corner_a, b));
+    EXPECT_EQ(oracle::squared_distance(a[0], Segment{b[0], b[1]}),
+              second::squared_distance(corner_a, edge_b));
+    const bool touch = oracle::intersect(c.a, c.b);
+    EXPECT_EQ(touch, second::squared_distance(a, b) == 0);
+    return touch;
+}
 bool truth(const RayBoxCase& c) { return oracle::ray_box(c.ray, c.box); }
 bool truth(const ObbPairCase& c) {
     const auto pose = [](const Obb<double>& b) {
@@ -33,17 +51,22 @@ std::vector<Judged> judged(const Cases& cases) {
             if constexpr (std::is_same_v<C, RayCases>) {
                 for (const RayCase& c : all.rays) {
                     bool hit = false;
-                    for (std::uint32_t i = c.first; i < c.first + c.count; ++i)
-                        hit |= oracle::ray_triangle(c.ray, all.triangles[i]).has_value();
+                    for (std::uint32_t i = c.first; i < c.first + c.count; ++i) {
+                        const auto point = oracle::ray_triangle(c.ray, all.triangles[i]);
+                        EXPECT_EQ(point == second::ray_triangle(c.ray, all.triangles[i]), true);
+                        hit |= point.has_value();
+                    }
                     result.push_back({c.hit, hit});
                 }
             } else if constexpr (std::is_same_v<C, MotionCases>) {
                 const oracle::ExactContinuous exact;
                 for (const MotionCase& c : all.motions) {
-                    const Impact impact = all.kind == MotionKind::vertex_face
-                                              ? exact.vertex_face(c.motion)
-                                              : exact.edge_edge(c.motion);
+                    const bool is_face = all.kind == MotionKind::vertex_face;
+                    const Impact impact =
+                        is_face ? exact.vertex_face(c.motion) : exact.edge_edge(c.motion);
                     EXPECT_NE(impact.answer, Answer::maybe);
+                    EXPECT_TRUE(is_face ? second::confirms_vertex_face(c.motion, impact)
+                                        : second::confirms_edge_edge(c.motion, impact));
                     result.push_back({c.touch, impact.answer == Answer::yes});
                 }
             } else if constexpr (std::is_same_v<C, std::vector<RayBoxCase>>) {

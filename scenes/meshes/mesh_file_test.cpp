@@ -239,6 +239,15 @@ TEST_F(MeshFile, ReadsBinaryPlyAndSaysWhatIsWrong) {
                 AllOf(HasSubstr("face 1"), HasSubstr("index -1")));
     for (std::size_t size = good.find("end_header"); size < good.size(); ++size)
         EXPECT_THAT(error("e.ply", good.substr(0, size)), HasSubstr("truncated")) << size;
+    // Nothing to read for each of 2^64 - 1 elements: it took for ever.
+    EXPECT_THAT(error("f.ply", "ply\nformat binary_little_endian 1.0\n"
+                               "element face 18446744073709551615\nend_header\n"),
+                HasSubstr("elements 'face' have no properties"));
+    // What assimp reads otherwise than the scan does crashes it.
+    EXPECT_THAT(error("g.ply", std::string(good).replace(good.find("property"), 4, "pope")),
+                HasSubstr("'popeerty' is no word of a PLY header"));
+    EXPECT_THAT(error("h.ply", std::string(good).replace(good.find("_endian"), 7, "_indian")),
+                HasSubstr("is not a PLY format"));
 }
 
 std::string text_stl(const std::string& bad_vertex = "1 0 0") {

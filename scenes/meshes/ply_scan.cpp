@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <vector>
@@ -62,9 +63,21 @@ Header take_header(std::string_view& bytes) {
     while (!bytes.empty()) {
         std::string_view rest = take_line(bytes);
         const std::size_t line = ++header.n_lines;
-        const std::string_view word = take_token(rest);
-        if (word == "end_header")
+        const std::string_view whole = rest, word = take_token(rest);
+        // A control character parts words here, but not for assimp, which then reads on for ever.
+        if (word != "comment" && word != "obj_info" &&
+            std::ranges::any_of(whole, [](char c) { return c != '\t' && (c < ' ' || c > '~'); }))
+            throw MeshError(fmt::format("line {}: a PLY header is of printable ASCII", line));
+        if (word == "end_header") {
+            if (whole != word)
+                throw MeshError(fmt::format("line {}: more than 'end_header'", line));
+            // Without bytes of its own no end of the file would stop a count of 2^64.
+            for (const Element& element : header.elements)
+                if (element.count > 0 && element.properties.empty())
+                    throw MeshError(fmt::format("the {} elements '{}' have no properties",
+                                                element.count, element.name));
             return header;
+        }
         if (word == "format") {
             header.format = take_token(rest);
         } else if (word == "element") {
@@ -82,6 +95,8 @@ Header take_header(std::string_view& bytes) {
             property.size = type_size(type, line);
             property.name = take_token(rest);
             header.elements.back().properties.push_back(property);
+        } else if (!bytes.empty() && word != "ply" && word != "comment" && word != "obj_info") {
+            throw MeshError(fmt::format("line {}: '{}' is no word of a PLY header", line, word));
         }
     }
     throw MeshError("truncated PLY: the header does not end with 'end_header'");
@@ -157,7 +172,7 @@ void scan_ply(std::string_view bytes) {
     const Header header = take_header(bytes);
     if (header.format == "ascii")
         scan_text(bytes, header);
-    else if (header.format.starts_with("binary_"))
+    else if (header.format == "binary_little_endian" || header.format == "binary_big_endian")
         scan_binary(bytes, header);
     else
         throw MeshError(fmt::format("'{}' is not a PLY format", header.format));

@@ -192,7 +192,9 @@ std::vector<Ray<float>> make_rays(std::string_view kind, const TriangleMesh& mes
     BOXWOOD_RAY_KINDS(BOXWOOD_MAKE)
 #undef BOXWOOD_MAKE
     for (const Ray<float>& ray : rays)
-        if (!is_finite(ray.origin) || !is_finite(ray.direction))
+        if (const Vec3<float> o = ray.origin;
+            !(std::max({std::abs(o.x), std::abs(o.y), std::abs(o.z)}) < max_ray_coordinate) ||
+            !is_finite(ray.direction))
             throw std::runtime_error("rays: the mesh is so large that rays at it overflow a float; "
                                      "scale it down");
     return rays;

@@ -8,7 +8,6 @@ from .kernels import KernelPoint, read_costs
 from .reader import load
 
 AA_TWIN, DISTURBED = 4, 1 | 2
-RANKED = ("exact", "conservative", "within_bound")
 WHOLE_QUERY = "typical"  # a kernel row about a whole query, whose cell stays among the others
 REQUIRED, ALL_STAGES = "required", "all"  # ways to play a scene; any other is the effect left out
 TOTAL = "total"  # stands for the phase of a task that says what one use costs
@@ -107,10 +106,6 @@ class Cell:
     def times_fastest(self):
         """Its query over that of the fastest kernel under the same tree."""
         return float(self.query_kernel["times_fastest"])
-
-    @property
-    def ranked(self):
-        return self.status in RANKED and self.timed
 
     @property
     def timed(self):

@@ -9,7 +9,7 @@ import pytest
 from conftest import SCRIPTS
 
 
-@pytest.mark.parametrize("command", ["setup", "test", "sweep", "format"])
+@pytest.mark.parametrize("command", ["setup", "test", "sweep", "fuzz", "format"])
 def test_help_has_an_example(script, command):
     done = script(command, "--help")
     assert done.returncode == 0 and f"Example: scripts/{command} " in done.stdout and "Exit codes" in done.stdout
@@ -27,8 +27,11 @@ def mesh(tmp_path):
     [
         (("setup", "--nix"), "unknown argument '--nix'"),
         (("setup", "--preset"), "--preset needs a name"),
-        (("setup", "--preset", "nix"), "unknown preset 'nix': one of release, debug, tsan, ci"),
-        (("setup", "--for", "nix"), "unknown purpose 'nix': one of sweep, test, style"),
+        (("setup", "--preset", "nix"), "unknown preset 'nix': one of release, debug, tsan, ci, fuzz"),
+        (("fuzz",), "give a name: triangle_triangle"),
+        (("fuzz", "nix"), "no fuzzer 'nix': one of triangle_triangle"),
+        (("fuzz", "box_csv", "1x"), "'1x' is no number of seconds"),
+        (("setup", "--for", "nix"), "unknown purpose 'nix': one of sweep, test, fuzz, style"),
         (("test", "nix"), "unknown argument 'nix'"),
         (("test", "--only", "a|b"), "--only 'a|b': give letters, digits and underscores"),
         (("sweep", "--nix"), "unknown argument '--nix'"),
@@ -61,7 +64,7 @@ def test_packages_are_listed_once_and_well_formed():
     packages = [w[0] for w in words if w]
     assert len(packages) == len(set(packages)) > 20
     assert all(re.fullmatch(r"[a-z0-9+.-]+", name) for name in packages)
-    assert all(w[1:] in ([], ["peer"], ["figures"], ["test"], ["style"]) for w in words if w)
+    assert all(w[1:] in ([], ["peer"], ["figures"], ["test"], ["fuzz"], ["style"]) for w in words if w)
 
 
 def test_without_apt_the_list_is_said_and_nothing_installed(script, tmp_path):

@@ -90,7 +90,7 @@ def test_builders_alone_have_no_query(full):
 def test_a_wrong_cell_is_never_ranked(full):
     results = run.read(full)
     wrong = next(c for c in results.cells if c.job.scene == "bars" and c.label == "bullet.dbvt")
-    assert wrong.status == "wrong" and not wrong.ranked
+    assert wrong.status == "wrong" and wrong.timed
     assert {c.verdict for c in results.comparisons if wrong in (c.a, c.b)} == {"wrong"}
     assert not any(wrong in (f.rival, f.rival_alone) for f in results.findings)
 

@@ -79,7 +79,7 @@ def test_a_result_file_opens_with_h5dump(swept):
 def test_these_scripts_read_it(swept, script, tmp_path):
     results = run.read(swept)
     assert results.rounds == 2 and results.noise_floor != results.noise_floor
-    assert [f.topic for f in results.findings] == [findings.RACE] and results.findings[0].ours.ranked
+    assert [f.topic for f in results.findings] == [findings.RACE] and results.findings[0].ours.status == "exact"
     assert results.findings[0].certainty == "too few rounds"
     assert script("report", swept, "--out", tmp_path / "r.html").returncode == 0
 

@@ -150,6 +150,8 @@ void RayRefit::refit(TriangleBlocks& tree, const TriangleMesh& mesh, const Execu
             is_stale_[above_node_[n] / W] = 1;
         }
     }
+    if (!tree.blocks.empty())
+        require_ray_range(tree.bounds);
 }
 
 double RayRefit::surface(const TriangleBlocks& tree) {

@@ -20,7 +20,7 @@ class RayRefit {
     /// The corners of the triangles [first, last) are others.
     void note(std::size_t first, std::size_t last);
     /// Brings the tree that it was started with up to what the mesh is now. The same on every
-    /// executor.
+    /// executor. Throws as triangles_of.
     void refit(TriangleBlocks& tree, const TriangleMesh& mesh, const Executor& executor);
 
     /// Sum of half the surface areas of all boxes but the root's, over that of the root: what a ray

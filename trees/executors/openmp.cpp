@@ -1,3 +1,4 @@
+#include "kernels/arithmetic/float_mode.h"
 #include "trees/executor.h"
 #include "trees/executors/detail/fork_join.h"
 
@@ -25,6 +26,7 @@ class OpenMp final : public Executor {
 #pragma omp parallel for schedule(dynamic, 1) num_threads(static_cast <int>(threads_))
         for (std::size_t i = 0; i < n; ++i) {
             const ForkJoin::Task task(fork_join);
+            const DenormalFlushing off(false);
             try {
                 body(i);
             } catch (...) {

@@ -1,5 +1,7 @@
 #include "trees/executor.h"
 
+#include "kernels/arithmetic/float_mode.h"
+
 namespace boxwood {
 namespace {
 
@@ -7,6 +9,7 @@ class Serial final : public Executor {
   public:
     unsigned threads() const override { return 1; }
     void for_each(std::size_t n, FunctionRef<void(std::size_t)> body) const override {
+        const DenormalFlushing off(false);
         for (std::size_t i = 0; i < n; ++i)
             body(i);
     }

@@ -1,3 +1,4 @@
+#include "kernels/arithmetic/float_mode.h"
 #include "trees/executor.h"
 #include "trees/executors/detail/fork_join.h"
 
@@ -33,6 +34,7 @@ class Tbb final : public Executor {
                 tbb::blocked_range<std::size_t>(0, n, 1),
                 [&](const tbb::blocked_range<std::size_t>& range) {
                     const ForkJoin::Task task(fork_join);
+                    const DenormalFlushing off(false);
                     for (std::size_t i = range.begin(); i < range.end(); ++i)
                         body(i);
                 },

@@ -43,8 +43,11 @@ class HitSink {
 };
 
 /// triangles_of: the triangles of the mesh whose triangle boxes the layout was made of; the same on
-/// every executor. The other queries take those of this very layout and a `kernel` by its name
-/// (std::invalid_argument for an unknown one).
+/// every executor. A mesh with a coordinate of max_ray_coordinate, 2^126, or more throws
+/// std::invalid_argument. The other queries take those of this very layout and a `kernel` by its
+/// name (std::invalid_argument for an unknown one). Origins must be below 2^126 too, else kernels
+/// but `exact` may miss; a ray that is not finite is a miss. What is so far that t rounds to
+/// infinity is a miss for every kernel (kernels/ray_triangle/ray_kernel.h).
 /// rays: hits[i] answers rays[i]; hits.size() == rays.size(), else std::invalid_argument. `work`,
 /// if given, is added to, and the executor must be serial().
 /// rays_all: every hit of every ray with t_min <= t <= t_max, each triangle once.

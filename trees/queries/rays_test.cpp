@@ -2,6 +2,7 @@
 #include "kernels/testing/every_target.h"
 #include "trees/builder.h"
 #include "trees/layout.h"
+#include "trees/testing/append_hits.h"
 #include "trees/testing/brute_force_rays.h"
 #include "trees/testing/each_builder.h"
 #include "trees/testing/every_executor.h"
@@ -69,25 +70,6 @@ std::vector<Ray<float>> test_rays() {
     }
     return rays;
 }
-
-/// All hits of all rays, in the order of the chunks.
-class AppendHits final : public HitSink {
-  public:
-    void begin(std::size_t chunks, bool) override { parts_.assign(chunks, {}); }
-    bool take(std::size_t chunk, std::uint32_t ray, std::span<const RayHit> hits) override {
-        for (const RayHit& hit : hits)
-            parts_[chunk].emplace_back(ray, hit);
-        return true;
-    }
-    void end() override {
-        for (const auto& part : parts_)
-            all.insert(all.end(), part.begin(), part.end());
-    }
-    std::vector<std::pair<std::uint32_t, RayHit>> all;
-
-  private:
-    std::vector<std::vector<std::pair<std::uint32_t, RayHit>>> parts_;
-};
 
 template <RayKernel K>
 std::vector<std::pair<std::uint32_t, RayHit>> all_by_brute_force(const TriangleMesh& mesh,

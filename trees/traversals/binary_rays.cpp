@@ -2,6 +2,7 @@
 #include "kernels/ray_box/slabs.h"
 #include "trees/layouts/binary.h"
 #include "trees/traversals/ray_traversal.h"
+#include "trees/traversals/ray_tree.h"
 
 namespace boxwood::detail {
 namespace {
@@ -21,7 +22,7 @@ void trace(const L& layout, const Block* blocks, const Ray<float>& ray, State& s
            Buffer<Waiting>& stack) {
     const auto& tree = layout.tree();
     const Box bounds = box_of(tree.nodes[0]);
-    const RaySlabs slabs(ray, ray_margin(ray, bounds));
+    const RaySlabs slabs(ray, bounds);
     const auto entry = [&](std::size_t node) {
         return clip(slabs, box_of(tree.nodes[node]), state.t_min(), state.t_max());
     };
@@ -79,6 +80,7 @@ TriangleBlocks blocks_in_order(const L& layout, const TriangleMesh& mesh,
     if (n == 0)
         return made;
     made.bounds = box_of(layout.tree().nodes[0]);
+    require_ray_range(made.bounds);
     made.blocks = Buffer<std::byte>(n * sizeof(Block));
     auto* blocks = reinterpret_cast<Block*>(made.blocks.data());
     constexpr std::size_t row = 256;

@@ -1,4 +1,6 @@
+#include "kernels/registry.h"
 #include "kernels/testing/closed_meshes.h"
+#include "kernels/testing/every_target.h"
 #include "trees/builder.h"
 #include "trees/layout.h"
 #include "trees/queries/single_rays.h"
@@ -43,13 +45,26 @@ std::size_t leaks(const AnyLayout& layout, const TriangleMesh& mesh, std::string
     return n;
 }
 
+class CountHits final : public HitSink {
+  public:
+    void begin(std::size_t, bool) override {}
+    bool take(std::size_t, std::uint32_t, std::span<const RayHit> hits) override {
+        n += hits.size();
+        return true;
+    }
+    void end() override {}
+    std::size_t n = 0;
+};
+
 /// Calls use(kernel, mesh, layout, n) for the kernels that must not leak and every layout.
 template <class Use> void for_each_tight_way(const TriangleMesh& mesh, const Use& use) {
     for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
         const auto layout = layout_of(mesh, entry);
-        for (const std::string_view kernel : {"watertight", "exact"}) {
-            SCOPED_TRACE(std::string(kernel) + " " + std::string(entry.name));
-            use(kernel, *layout);
+        for (const KernelInfo& kernel : ray_kernels()) {
+            if (kernel.promise == Promise::none)
+                continue;
+            SCOPED_TRACE(std::string(kernel.name) + " " + std::string(entry.name));
+            use(kernel.name, *layout);
         }
     }
 }
@@ -110,6 +125,87 @@ TEST(RayLeaks, NoneOfTheRaysThatLeakElsewhere) {
     // The kernel below is seen to leak, or nothing was tested.
     EXPECT_GT(leaks(*layout_of(mesh, *find_layout("binary")), mesh, "moller_trumbore_f32", rays),
               10u);
+}
+
+TEST(RayLeaks, NoneWhereTheShearUnderflows) {
+    // A flat prism, and a sphere stretched by 1e60.
+    constexpr float far = 1e10f;
+    TriangleMesh prism;
+    for (const float y : {-1e-36f, 3e-37f, 1e-36f})
+        for (const auto& [x, z] : {std::pair{-far, -far}, {far, -far}, {far, far}, {-far, far}})
+            prism.vertices.push_back({x, y, z});
+    prism.triangles = {{0, 1, 2}, {0, 2, 3}, {8, 9, 10}, {8, 10, 11}};
+    for (std::uint32_t level = 0; level < 8; level += 4)
+        for (std::uint32_t i = 0; i < 4; ++i) {
+            const std::uint32_t a = level + i, b = level + (i + 1) % 4;
+            prism.triangles.push_back({a, b, b + 4});
+            prism.triangles.push_back({a, b + 4, a + 4});
+        }
+    TriangleMesh sphere = uv_sphere(12, 6);
+    for (Point& p : sphere.vertices)
+        p = {1e30f * p.x, 1e-30f * p.y, p.z};
+    std::vector<Ray<float>> at_sphere;
+    for (const Point& p : sphere.vertices)
+        at_sphere.push_back({{}, -.7f * p});
+    for_each_tight_way(prism, [&](std::string_view kernel, const AnyLayout& layout) {
+        const Ray<float> ray{{}, {1e10f, 6e-37f, 1e9f}};
+        EXPECT_EQ(leaks(layout, prism, kernel, {&ray, 1}), 0u);
+    });
+    for_each_tight_way(sphere, [&](std::string_view kernel, const AnyLayout& layout) {
+        EXPECT_EQ(leaks(layout, sphere, kernel, at_sphere), 0u);
+    });
+}
+
+TEST(RayLeaks, NoneAtTheEndsOfTheRange) {
+    // Coordinates up to the largest float below 2^126, and denormal ones; beyond it none are taken.
+    const auto scaled_sphere = [](int exponent) {
+        TriangleMesh mesh = uv_sphere(12, 6);
+        for (Point& p : mesh.vertices)
+            p = {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent), std::ldexp(p.z, exponent)};
+        return mesh;
+    };
+    for (const int exponent : {125, 120, -120, -135}) {
+        const TriangleMesh mesh = scaled_sphere(exponent);
+        std::vector<Ray<float>> rays;
+        for (const auto& [a, b, c] : mesh.triangles) {
+            rays.push_back({{}, .5f * (mesh.vertices[a] + mesh.vertices[b])});
+            rays.push_back({.25f * mesh.vertices[a], mesh.vertices[b] - .25f * mesh.vertices[a]});
+        }
+        for_each_tight_way(mesh, [&](std::string_view kernel, const AnyLayout& layout) {
+            EXPECT_EQ(leaks(layout, mesh, kernel, rays), 0u) << exponent;
+        });
+    }
+    const TriangleMesh beyond = scaled_sphere(126);
+    for (const LayoutEntry& entry : layouts_answering({Query::rays}))
+        EXPECT_THROW(layout_of(beyond, entry)->triangles(beyond), std::invalid_argument);
+}
+
+TEST(RayLeaks, BeyondTheLargestFloatEveryWayMisses) {
+    // t = 10 / 1e-42 is none, 10 / 1e-37 = 1e38 is one: closest, any and all, in a batch and alone.
+    const TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+    for (const LayoutEntry& entry : layouts_answering({Query::rays}))
+        for (const KernelInfo& kernel : ray_kernels()) {
+            SCOPED_TRACE(std::string(kernel.name) + " " + std::string(entry.name));
+            const auto layout = layout_of(mesh, entry);
+            const TriangleBlocks triangles = layout->triangles(mesh);
+            on_every_target([&] {
+                for (const float speed : {1e-42f, 1e-37f}) {
+                    const Ray<float> ray{{.25f, .25f, -10}, {0, 0, speed}};
+                    const bool expected = speed == 1e-37f;
+                    for (const RayQuery query : {RayQuery::closest, RayQuery::any}) {
+                        RayHit hit;
+                        layout->rays({&ray, 1}, query, kernel.name, triangles, serial(), {&hit, 1});
+                        EXPECT_EQ(hit.hit(), expected);
+                    }
+                    const SingleRays single(*layout, kernel.name, triangles);
+                    EXPECT_EQ(single.closest(ray).hit(), expected);
+                    EXPECT_EQ(single.any(ray), expected);
+                    CountHits all;
+                    layout->rays_all({&ray, 1}, kernel.name, triangles, serial(), all);
+                    EXPECT_EQ(all.n, expected);
+                }
+            });
+        }
 }
 
 TEST(RayLeaks, NoneAlongCorridors) {

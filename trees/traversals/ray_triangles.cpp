@@ -41,6 +41,7 @@ template <class Node> class RayTree {
     }
 
     TriangleBlocks finish(std::uint32_t root, const Box& bounds) {
+        require_ray_range(bounds);
         made_.root = root;
         made_.bounds = bounds;
         return std::move(made_);

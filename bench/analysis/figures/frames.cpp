@@ -1,6 +1,8 @@
 #include "bench/analysis/figures/frames.h"
 
+#include "bench/analysis/job.h"
 #include "bench/analysis/statistics.h"
+#include "bench/analysis/status.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,13 +52,10 @@ std::map<std::uint32_t, std::uint32_t> fresh_cells(const Results& results) {
     for (const results::Variant& variant : results.variants)
         if (variant.builder == rebuilt_every_frame)
             rebuilt.insert(variant.variant_id);
-    const auto job_of = [](const results::Cell& cell) {
-        return std::tuple(cell.scene_id, cell.n_items, cell.task, cell.threads);
-    };
-    std::map<decltype(job_of(results.cells.front())), std::uint32_t> fresh;
+    std::map<JobKey, std::uint32_t> fresh;
     for (const results::Cell& cell : results.cells)
         if (with_frames.contains(cell.cell_id) && rebuilt.contains(cell.variant_id) &&
-            cell.status != results::Status::wrong)
+            is_right(cell.status))
             fresh.emplace(job_of(cell), cell.cell_id); // the first stays
     std::map<std::uint32_t, std::uint32_t> found;
     for (const results::Cell& cell : results.cells)

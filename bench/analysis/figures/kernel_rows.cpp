@@ -1,5 +1,6 @@
 #include "bench/analysis/figures/kernel_rows.h"
 
+#include "bench/analysis/index.h"
 #include "bench/analysis/times.h"
 
 #include <array>
@@ -18,26 +19,6 @@ using results::KernelCondition;
 using results::KernelRow;
 using results::Results;
 
-/// The cells and variants of a file by id.
-class Contenders {
-  public:
-    explicit Contenders(const Results& results) {
-        for (const results::Cell& cell : results.cells)
-            cells_[cell.cell_id] = &cell;
-        for (const results::Variant& variant : results.variants)
-            variants_[variant.variant_id] = &variant;
-    }
-    const results::Cell& cell(const KernelRow& row) const { return *cells_.at(row.cell_id); }
-    const results::Variant& variant(const KernelRow& row) const {
-        return *variants_.at(cell(row).variant_id);
-    }
-    bool is_peer(const KernelRow& row) const { return variant(row).is_peer != 0; }
-
-  private:
-    std::map<std::uint32_t, const results::Cell*> cells_;
-    std::map<std::uint32_t, const results::Variant*> variants_;
-};
-
 using Tiers = std::array<std::uint64_t, 4>;
 
 Tiers tiers_of(const KernelRow& row) { return {row.tier_0, row.tier_1, row.tier_2, row.tier_3}; }
@@ -55,12 +36,12 @@ bool is_judged(const KernelRow& row) {
 }
 
 void set_kernel_rows(Results& results) {
-    const Contenders contenders(results);
+    const Index index(results);
     const MedianIndex medians(results);
     for (KernelRow& row : results.kernels) {
-        const std::string& precision = contenders.cell(row).precision;
+        const std::string& precision = index.cell(row.cell_id).precision;
         row.label = row.kernel;
-        if (contenders.is_peer(row) && precision != "f64" &&
+        if (index.is_peer(index.cell(row.cell_id)) && precision != "f64" &&
             row.kernel.find(precision) == std::string::npos)
             row.label += " " + precision;
         const auto n = static_cast<double>(row.n);
@@ -73,7 +54,7 @@ void set_kernel_rows(Results& results) {
 }
 
 std::vector<KernelCondition> kernel_conditions_of(const Results& results) {
-    const Contenders contenders(results);
+    const Index index(results);
     std::map<std::uint32_t, std::vector<const results::ConditionRow*>> of_cell;
     for (const results::ConditionRow& row : results.conditions)
         of_cell[row.cell_id].push_back(&row);
@@ -82,8 +63,8 @@ std::vector<KernelCondition> kernel_conditions_of(const Results& results) {
     for (const KernelRow& kernel : results.kernels) {
         if (!is_judged(kernel))
             continue;
-        const bool is_peer = contenders.is_peer(kernel);
-        const std::string& library = contenders.variant(kernel).library;
+        const bool is_peer = index.is_peer(index.cell(kernel.cell_id));
+        const std::string& library = index.variant(index.cell(kernel.cell_id)).library;
         for (const results::ConditionRow* row : of_cell[kernel.cell_id]) {
             KernelCondition& worst =
                 found
@@ -104,11 +85,11 @@ std::vector<KernelCondition> kernel_conditions_of(const Results& results) {
 }
 
 std::vector<Escalation> escalations_of(const Results& results) {
-    const Contenders contenders(results);
+    const Index index(results);
     std::map<std::pair<std::string, std::string>, std::vector<const KernelRow*>> kernels;
     std::set<std::pair<std::string, std::string>> adaptive;
     for (const KernelRow& row : results.kernels) {
-        if (!is_judged(row) || contenders.is_peer(row))
+        if (!is_judged(row) || index.is_peer(index.cell(row.cell_id)))
             continue;
         kernels[{row.task, row.label}].push_back(&row);
         if (row.tier_0 > 0 && row.tier_1 + row.tier_2 + row.tier_3 > 0)

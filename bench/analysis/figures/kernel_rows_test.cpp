@@ -53,6 +53,19 @@ class KernelRows : public testing::Test {
     RunForTest run;
 };
 
+TEST_F(KernelRows, TheWorstErrorOfAllFamiliesCounts) {
+    run.results.kernels.reserve(9);
+    for (const auto& [family, error] : {std::pair{"slivers", 1e-3}, {"needles", 1e-9}}) {
+        KernelRow& row = add(family, "triangle_distance", "mine", 7);
+        row.max_rel_err = error;
+        condition(row.cell_id, 1, 10, error);
+    }
+    analyse(run.results);
+    ASSERT_EQ(run.results.kernel_costs.size(), 1u);
+    EXPECT_EQ(run.results.kernel_costs[0].max_rel_err, 1e-3);
+    EXPECT_EQ(run.results.kernel_costs[0].badness, 1e-3);
+}
+
 TEST_F(KernelRows, HaveALabelATimeAndRates) {
     run.results.kernels.reserve(9);
     KernelRow& row = add("slivers", "triangle_triangle", "mine_f32", 7, 2, "f32");

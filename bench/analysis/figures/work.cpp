@@ -1,5 +1,6 @@
 #include "bench/analysis/figures/work.h"
 
+#include "bench/analysis/index.h"
 #include "bench/analysis/job.h"
 #include "bench/analysis/times.h"
 
@@ -20,9 +21,7 @@ using results::Results;
 using results::WorkRow;
 
 std::vector<QueryKernel> query_kernels_of(const Results& results) {
-    std::map<std::uint32_t, const results::Variant*> variants;
-    for (const results::Variant& variant : results.variants)
-        variants[variant.variant_id] = &variant;
+    const Index index(results);
     const MedianIndex medians(results);
     struct Query {
         std::uint32_t cell_id;
@@ -32,7 +31,7 @@ std::vector<QueryKernel> query_kernels_of(const Results& results) {
     using Tree = std::tuple<JobKey, std::string, std::string, std::string>; // executor, precision
     std::map<Tree, std::vector<Query>> trees;
     for (const results::Cell& cell : results.cells) {
-        const results::Variant& variant = *variants.at(cell.variant_id);
+        const results::Variant& variant = index.variant(cell);
         const double ns = medians.ns(cell.cell_id, Phase::query);
         if (variant.builder.empty() || variant.kernel.empty() || std::isnan(ns))
             continue; // a peer, or on hard cases, or no kernel

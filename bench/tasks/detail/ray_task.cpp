@@ -1,7 +1,9 @@
 #include "bench/tasks/detail/ray_task.h"
 
+#include "bench/io/ray_range.h"
 #include "bench/tasks/detail/ray_classes.h"
 #include "bench/truth/hit_truth.h"
+#include "bench/truth/judging/case_truths.h"
 #include "kernels/registry.h"
 #include "kernels/suggest.h"
 #include "trees/queries/single_rays.h"
@@ -70,6 +72,86 @@ class Hits final : public RayContender {
     std::optional<SingleRays> single_; ///< of the order "single"
 };
 
+/// A tree for each fan or mesh of the cases, and its rays.
+class HitsOfCases final : public Contender {
+  public:
+    HitsOfCases(const Job& job, const BuildFunction& build, const LayoutEntry& layout,
+                std::string kernel, RayQuery query, std::string_view order)
+        : cases_(std::get<RayCases>(job.scene->cases)), build_(build), layout_(layout),
+          kernel_(std::move(kernel)), query_(query), is_single_(order == "single") {}
+
+    void build() override {
+        groups_.clear();
+        for (const RayCase& c : cases_.rays) {
+            if (groups_.empty() || groups_.back().first != c.first)
+                add_group(c);
+            groups_.back().rays.push_back(c.ray);
+        }
+    }
+
+    void query(Answers& answers) override {
+        std::vector<RayHit>& hits = list_of<RayHit>(answers);
+        hits.assign(cases_.rays.size(), {});
+        auto next = hits.begin();
+        for (const Group& group : groups_) {
+            const std::span<RayHit> own(next, group.rays.size());
+            if (is_single_)
+                one_by_one(group, own);
+            else
+                group.layout->rays(group.rays, query_, kernel_, group.triangles, serial(), own);
+            for (RayHit& hit : own)
+                if (hit.hit())
+                    hit.triangle += group.first;
+            next += static_cast<std::ptrdiff_t>(own.size());
+        }
+    }
+
+  private:
+    struct Group {
+        std::uint32_t first; ///< of its triangles
+        std::unique_ptr<AnyLayout> layout;
+        TriangleBlocks triangles;
+        std::vector<Ray<float>> rays;
+    };
+
+    void add_group(const RayCase& c) {
+        TriangleMesh mesh;
+        std::vector<Box> boxes;
+        for (std::uint32_t k = c.first; k < c.first + c.count; ++k) {
+            const Triangle<float>& t = cases_.triangles[k];
+            const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
+            mesh.vertices.insert(mesh.vertices.end(), {t.a, t.b, t.c});
+            mesh.triangles.push_back({n, n + 1, n + 2});
+            boxes.push_back(t.bounds());
+        }
+        Tree tree;
+        Group& group = groups_.emplace_back();
+        group.first = c.first;
+        if (build_.build_of_mesh)
+            group.layout = layout_.make(build_.build_of_mesh(mesh, serial()), serial());
+        else
+            group.layout = make_layout(layout_, build_, boxes, serial(), tree);
+        group.triangles = group.layout->triangles(mesh);
+    }
+
+    void one_by_one(const Group& group, std::span<RayHit> hits) const {
+        const SingleRays single(*group.layout, kernel_, group.triangles);
+        for (std::size_t i = 0; i < hits.size(); ++i)
+            if (query_ == RayQuery::closest)
+                hits[i] = single.closest(group.rays[i]);
+            else if (single.any(group.rays[i]))
+                hits[i].triangle = 0;
+    }
+
+    const RayCases& cases_;
+    BuildFunction build_;
+    const LayoutEntry& layout_;
+    std::string kernel_;
+    RayQuery query_;
+    bool is_single_;
+    std::vector<Group> groups_;
+};
+
 const std::array orders{
     RayOrderEntry{"given",
                   "a batch as it comes, some of its rays on their way at a time",
@@ -104,6 +186,12 @@ std::vector<std::string_view> RayTask::keys() const {
     std::vector<std::string_view> all = TreeTask::keys();
     all.insert(all.end(), {"rays", "n_rays", "kernels"});
     return all;
+}
+
+std::optional<std::string> RayTask::missing(const Scene& scene) const {
+    if (const auto vertex = beyond_ray_range(scene.mesh))
+        return "the mesh " + out_of_ray_range(scene.mesh, *vertex);
+    return TreeTask::missing(scene);
 }
 
 std::vector<SceneSpec> RayTask::with_queries(const BlockReader& block,
@@ -147,7 +235,40 @@ std::vector<NamedCount> HitTask::counters(const Answers& answers, const Work* wo
     return counts;
 }
 
+bool HitTask::fits(const Cases& cases) const {
+    const auto* rays = std::get_if<RayCases>(&cases);
+    return rays && std::ranges::any_of(rays->rays, &RayCase::is_closed);
+}
+
+/// Kernels with a promise, in every layout; one that rounds also one ray at a time, and in trees of
+/// cut triangles.
+std::vector<ContenderEntry> HitTask::contenders_on_cases() const {
+    std::vector<ContenderEntry> all;
+    for (const KernelInfo& kernel : ray_kernels()) {
+        std::vector<std::pair<const char*, const char*>> ways; // builder, order
+        if (kernel.promise != Promise::none)
+            ways.emplace_back("binned_sah", "given");
+        if (kernel.promise == Promise::never_leaks)
+            ways.insert(ways.end(), {{"binned_sah", "single"}, {"spatial_sah", "given"}});
+        for (const LayoutEntry& layout : layouts())
+            for (const auto& [builder, order] : ways)
+                if (layout.answers(Query::rays))
+                    all.push_back(contender({.builder = builder,
+                                             .settings = {},
+                                             .layout = std::string(layout.name),
+                                             .kernel = std::string(kernel.name),
+                                             .ray_order = order}));
+    }
+    return all;
+}
+
+std::optional<std::string> HitTask::missing(const Scene& scene) const {
+    return fits(scene.cases) ? std::nullopt : RayTask::missing(scene);
+}
+
 std::unique_ptr<Truth> HitTask::make_truth(const Scene& scene, unsigned threads) const {
+    if (fits(scene.cases))
+        return make_fan_truth({scene, name(), threads});
     return make_hit_truth(scene, query_, threads);
 }
 
@@ -165,8 +286,15 @@ std::vector<Choice> HitTask::variants(const BlockReader& block, const Choice& ch
 TreeTask::Way HitTask::way(const Choice& choice) const {
     const RayOrderEntry& order = entry_named(choice.ray_order, ray_orders(), "ray order");
     const KernelInfo& kernel = entry_named(choice.kernel, ray_kernels(), "ray kernel");
+    const auto make = [kernel = choice.kernel, query = query_, order = order.name](
+                          const Job& job, BuildFunction build,
+                          const LayoutEntry& layout) -> std::unique_ptr<Contender> {
+        if (std::holds_alternative<RayCases>(job.scene->cases))
+            return std::make_unique<HitsOfCases>(job, build, layout, kernel, query, order);
+        return std::make_unique<Hits>(job, std::move(build), layout, kernel, query, order);
+    };
     return {order.traversal, choice.kernel,
-            kernel.promise,  maker<Hits>(choice.kernel, query_, order.name),
+            kernel.promise,  make,
             Query::rays,     ray_class::of_ours(order.classes, choice.kernel)};
 }
 

@@ -4,6 +4,7 @@
 #include "bench/tasks/detail/tree_task.h"
 #include "kernels/primitives/ray.h"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -41,6 +42,7 @@ class RayContender : public TreeContender {
 class RayTask : public TreeTask {
   public:
     std::vector<std::string_view> keys() const override;
+    std::optional<std::string> missing(const Scene& scene) const override;
     std::uint64_t n_queries(const Scene& scene) const override { return scene.rays.size(); }
 
   protected:
@@ -50,12 +52,16 @@ class RayTask : public TreeTask {
     std::vector<Choice> variants(const BlockReader& block, const Choice& choice) const override;
 };
 
-/// One hit of each ray: the nearest, or any; also with the key ray_order.
+/// One hit of each ray: the nearest, or any; also with the key ray_order. On the cases of closed
+/// fans and meshes each has a tree of its own.
 class HitTask : public RayTask {
   public:
     explicit HitTask(RayQuery query) : query_(query) {}
 
     std::vector<std::string_view> keys() const override;
+    bool fits(const Cases& cases) const override;
+    std::vector<ContenderEntry> contenders_on_cases() const override;
+    std::optional<std::string> missing(const Scene& scene) const override;
     std::unique_ptr<Answers> make_answers() const override;
     std::vector<NamedCount> counters(const Answers& answers, const Work* work) const override;
     std::unique_ptr<Truth> make_truth(const Scene& scene, unsigned threads) const override;

@@ -36,6 +36,12 @@ class Row {
 
 } // namespace
 
+std::string text_of(std::span<const Vec3<double>> points) {
+    Row row;
+    for (const Vec3<double>& p : points)
+        row << p;
+    return row.text();
+}
 std::string text_of(const TrianglePairCase& c) { return (Row() << c.a << c.b).text(); }
 
 std::string text_of(const Triangle<float>& t) { return (Row() << t).text(); }

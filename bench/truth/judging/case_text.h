@@ -3,6 +3,7 @@
 #include "scenes/hard_cases/hard_cases.h"
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 /// Cases in words: hex floats, comma-separated, as the query commands read them.
@@ -10,6 +11,7 @@ namespace boxwood::bench {
 
 std::string text_of(const TrianglePairCase& c); ///< a.a, a.b, a.c, b.a, b.b, b.c
 std::string text_of(const Triangle<float>& t);
+std::string text_of(std::span<const Vec3<double>> points);
 std::string text_of(const RayCase& c);     ///< origin, direction, t_min, t_max
 std::string text_of(const RayBoxCase& c);  ///< the ray, box min, box max
 std::string text_of(const MotionCase& c);  ///< four start points, four end points

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,12 +16,16 @@
 ///
 /// Each kernel is judged on the case as it reads it: one that reads floats on the coordinates
 /// rounded to float. A case with NaN or infinity in it is not judged: nothing is promised there.
+/// Where the rational oracle is itself judged as a kernel, each of its answers has to agree with a
+/// second oracle (kernels/oracle/second_opinion.h) first.
 ///
 /// Wrong are: a false yes or no; a distance off by more than 64 u L (u the precision's roundoff, L
 /// the largest extent of the pair), too small counted as a false yes and too large as a false no; a
 /// box that does not hold the exact one. What a kernel promises is judged by its promise instead:
-/// never-miss may say yes too often, never-false no, certified may say maybe and must enclose a
-/// distance or a first touch.
+/// never-leaks must hit closed fans and meshes, never-miss may say yes too often, never-false no,
+/// certified may say maybe and must enclose a distance, within the width it states, or a first
+/// touch. What exact encloses lies between neighbouring doubles; of exact kernels of rays t must be
+/// within 0.63 ulp, u and v within 2^-23, and the triangle one that is hit there.
 namespace boxwood::bench {
 
 /// What the truths of cases are made from. The scene outlives them; its cases are of their kind.
@@ -35,6 +40,13 @@ struct CaseScene {
 std::unique_ptr<CaseTruth> make_fan_truth(const CaseScene& scene);
 std::unique_ptr<CaseTruth> make_impact_truth(const CaseScene& scene);
 std::unique_ptr<CaseTruth> make_fit_truth(const CaseScene& scene);
+
+/// Unless they agree, throws std::logic_error: then no truth is known, and nothing is judged.
+/// case_text(): the case in words.
+template <class CaseText> void require_agreement(bool oracles_agree, const CaseText& case_text) {
+    if (!oracles_agree)
+        throw std::logic_error("the oracle and its second opinion differ on " + case_text());
+}
 
 /// Cut down to one of them. Throws std::out_of_range if there is no such case.
 Cases only_case(const Cases& cases, std::size_t i);

@@ -3,6 +3,7 @@
 #include "bench/truth/judging/case_truths.h"
 
 #include "bench/tasks/task.h"
+#include "bench/truth/judging/distance_truth.h"
 #include "bench/truth/judging/tally.h"
 #include "kernels/continuous/continuous_kernel.h"
 #include "kernels/triangle_distance/distance_kernel.h"
@@ -13,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace boxwood::bench {
 namespace {
@@ -200,6 +202,47 @@ TEST(CaseTruth, CertifiedDistancesMustEnclose) {
     }
 }
 
+TEST(CaseTruth, CertifiedDistancesMustBeAsNarrowAsPromised) {
+    const Scene scene = pairs_of_triangles({{at(0), at(1)}});
+    const auto breaks = [&](double lo, double hi, Promise promise, double relative_width) {
+        ContenderEntry contender = named(promise);
+        contender.relative_width = relative_width;
+        return breaks_promise(
+            judged(scene, "triangle_distance", distances({{lo, 1, hi}}), contender));
+    };
+    const double u = 0x1p-53, huge = 1e300, inf = std::numeric_limits<double>::infinity();
+    EXPECT_FALSE(breaks(1 - 0x1p-33, 1 + 0x1p-34, Promise::certified, 0x1p-32));
+    EXPECT_TRUE(breaks(1 - 0x1p-33, 1 + 0x1p-32, Promise::certified, 0x1p-32));
+    for (const double hi : {huge, inf}) {
+        EXPECT_TRUE(breaks(0, hi, Promise::certified, 0x1p-32)) << hi;
+        EXPECT_FALSE(breaks(0, hi, Promise::certified, 0)) << hi; // no width is promised
+        EXPECT_TRUE(breaks(0, hi, Promise::exact, 0)) << hi;
+    }
+    EXPECT_TRUE(breaks(0, 1, Promise::certified, 0x1p-32)); // lo = 0
+    EXPECT_FALSE(breaks(1 - u, 1, Promise::exact, 0));
+    EXPECT_TRUE(breaks(1 - u, 1 + 2 * u, Promise::exact, 0));
+}
+
+TEST(CaseTruth, WidthsOfTinyAndHugeDistances) {
+    const double tiny = 0x1p-1073, max = std::numeric_limits<double>::max();
+    const double inf = std::numeric_limits<double>::infinity();
+    ContenderEntry contender = named(Promise::certified);
+    contender.relative_width = 0x1p-32;
+    const auto breaks = [&](double gap, std::array<double, 3> said) {
+        const Scene scene = pairs_of_triangles({{at(-gap / 2), at(gap / 2)}});
+        return breaks_promise(judged(scene, "triangle_distance", distances({said}), contender));
+    };
+    EXPECT_FALSE(breaks(tiny, {tiny / 2, tiny, 1.5 * tiny}));
+    EXPECT_TRUE(breaks(2 * tiny, {tiny / 2, 2 * tiny, 3 * tiny}));
+    Scene far = pairs_of_triangles({{at(-max), at(max)}});
+    const auto beyond = [&](double lo) {
+        return breaks_promise(
+            judged(far, "triangle_distance", distances({{lo, inf, inf}}), contender));
+    };
+    EXPECT_FALSE(beyond(max));
+    EXPECT_TRUE(beyond(max * (1 - 0x1p-31)));
+}
+
 TEST(CaseTruth, TheOtherDistancesTakePartsOfThePair) {
     // a.a = (0,0,0), a.a a.b along x; b.b b.a along x at height 3, b.c at height 1 over a.a.
     const Triangle<double> a{{0, 0, 0}, {1, 0, 0}, {0, -9, 0}}, b{{5, 0, 3}, {4, 0, 3}, {0, 0, 1}};
@@ -238,6 +281,63 @@ TEST(CaseTruth, RaysAtFansMustHitOneOfThem) {
     EXPECT_TRUE(breaks_promise(wrong));
 }
 
+TEST(CaseTruth, NumbersOfExactRaysAreHeldToTheirBounds) {
+    Scene scene;
+    RayCases cases;
+    cases.triangles = {{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {{0, 0, 2}, {1, 0, 2}, {0, 1, 2}}};
+    RayCase ray;
+    ray.ray = {{.25f, .25f, 0}, {0, 0, 1}};
+    ray.count = 2;
+    cases.rays = {ray};
+    scene.cases = cases;
+    const auto is_broken = [&](RayHit said, std::string_view task = "ray_triangle",
+                               Promise promise = Promise::exact) {
+        const auto answers = answers_of<RayHit>({said});
+        const Judgement judgement = judged(scene, task, answers, named(promise));
+        EXPECT_EQ(judgement.check.bound_violations > 0, breaks_promise(judgement));
+        return breaks_promise(judgement);
+    };
+    const float up = std::nextafter(1.f, 2.f), down = 1 - 0x1p-23f;
+    EXPECT_FALSE(is_broken({1, .25f, .25f, 0}));
+    EXPECT_FALSE(is_broken({1, .25f + 0x1p-23f, .25f - 0x1p-23f, 0}));
+    EXPECT_TRUE(is_broken({up, .25f, .25f, 0}));
+    EXPECT_TRUE(is_broken({down, .25f, .25f, 0}));
+    EXPECT_TRUE(is_broken({1, .25f + 0x1p-22f, .25f, 0}));
+    EXPECT_TRUE(is_broken({1, .25f, .25f - 0x1p-22f, 0}));
+    EXPECT_TRUE(is_broken({1, std::nanf(""), .25f, 0}));
+    EXPECT_TRUE(is_broken({1, .25f, .25f, 1})); // the other triangle
+    EXPECT_TRUE(is_broken({1, .25f, .25f, 7})); // none
+    EXPECT_TRUE(is_broken({2, .25f, .25f, 1})); // not the nearest
+    EXPECT_FALSE(is_broken({2, .25f, .25f, 1}, "rays_any"));
+    EXPECT_FALSE(is_broken({up, .25f, .25f, 0}, "ray_triangle", Promise::never_leaks));
+}
+
+TEST(CaseTruth, AClosedMeshMustNotLeak) {
+    // Of a triangle on its own never-leaks says nothing.
+    Scene scene;
+    RayCases cases;
+    cases.triangles = {{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {{1, 1, 1}, {1, 0, 1}, {0, 1, 1}}};
+    RayCase ray;
+    ray.ray = {{.5f, .5f, 0}, {0, 0, 1}};
+    ray.hit = Known::yes;
+    const auto judge = [&](std::uint32_t triangles, RayHit said, Promise promise) {
+        ray.count = triangles;
+        cases.rays = {ray};
+        scene.cases = cases;
+        return judged(scene, "ray_triangle", answers_of<RayHit>({said}), named(promise));
+    };
+    EXPECT_FALSE(breaks_promise(judge(2, {1, .5f, .5f, 1}, Promise::never_leaks)));
+    const Judgement leak = judge(2, {}, Promise::never_leaks);
+    EXPECT_TRUE(breaks_promise(leak));
+    EXPECT_EQ(leak.kernel->bound_violations, 1u);
+    EXPECT_EQ(leak.kernel->false_neg, 0u);
+    const Judgement alone = judge(1, {}, Promise::never_leaks);
+    EXPECT_EQ(alone.status, Status::wrong);
+    EXPECT_FALSE(breaks_promise(alone));
+    EXPECT_FALSE(breaks_promise(judge(2, {}, Promise::none)));
+    EXPECT_TRUE(breaks_promise(judge(2, {}, Promise::exact)));
+}
+
 TEST(CaseTruth, ATimeOfTouchMustNotBeCalledFree) {
     // A vertex falls onto a triangle that lies still: touch at t = 1/2.
     Scene scene;
@@ -252,6 +352,9 @@ TEST(CaseTruth, ATimeOfTouchMustNotBeCalledFree) {
         return judged(scene, "vertex_face", answers_of<Impact>({impact}), named(promise));
     };
     EXPECT_EQ(judge({Answer::yes, .5, .5, 0}, Promise::exact).status, Status::exact);
+    EXPECT_FALSE(
+        breaks_promise(judge({Answer::yes, .5, std::nextafter(.5, 1), 0}, Promise::exact)));
+    EXPECT_TRUE(breaks_promise(judge({Answer::yes, .25, .75, 0}, Promise::exact)));
     EXPECT_FALSE(breaks_promise(judge({Answer::yes, .25, .75, 0}, Promise::certified)));
     EXPECT_FALSE(breaks_promise(judge({Answer::maybe, .25, .75, 0}, Promise::never_miss)));
     EXPECT_TRUE(breaks_promise(judge({Answer::no, 1, 1, 0}, Promise::never_miss)));
@@ -261,6 +364,23 @@ TEST(CaseTruth, ATimeOfTouchMustNotBeCalledFree) {
     EXPECT_TRUE(breaks_promise(judge({Answer::yes, .25, .375, 0}, Promise::certified)));
     EXPECT_EQ(judge({Answer::yes, .625, .625, 0}, Promise::none).status, Status::exact);
     EXPECT_EQ(judge({Answer::yes, .625, .625, 0}, Promise::none).kernel->max_rel_err, .125);
+}
+
+TEST(CaseTruth, NothingIsJudgedWhereOraclesDiffer) {
+    EXPECT_EQ(true_distance(4, {{0, 0, 0}}, {{1, 1, 2}, {-1, -1, 2}}).nearest, 2);
+    try {
+        true_distance(mpq_class(4) + mpq_class(1, 1'000'000'007), {{0, 0, 0}}, {{0, 0, 2}});
+        ADD_FAILURE() << "a wrong squared distance passed";
+    } catch (const std::logic_error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("its second opinion differ on 0,0,0,0,0,2"));
+    }
+    // What is known by construction has a say too.
+    Scene scene;
+    MotionCases cases;
+    cases.motions = {{LinearMotion{}, Known::no}}; // all is one point
+    scene.cases = cases;
+    EXPECT_THROW(judged(scene, "vertex_face", answers_of<Impact>({Impact{}}), named(Promise::none)),
+                 std::logic_error);
 }
 
 TEST(CaseTruth, AFittedBoxMustHoldTheExactOne) {

@@ -4,10 +4,13 @@
 #include "bench/truth/judging/tally.h"
 #include "bench/truth/judging/truths.h"
 #include "kernels/oracle/exact_answers.h"
+#include "kernels/oracle/roots.h"
+#include "kernels/oracle/second_opinion.h"
 #include "kernels/triangle_distance/distance_kernel.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -72,7 +75,7 @@ class DistanceTruth final : public CaseTruth {
             note_error(tally, decades, said, truth, contender.precision);
             tally.note(i, contender.promise == Promise::none
                               ? unpromised(tally, said, truth, contender.precision)
-                              : promised(tally, said, truth));
+                              : promised(tally, said, truth, contender.relative_width));
         }
         Judgement judgement = tally.finish([&](std::size_t i) {
             return fmt::format("case {}: said {}, truth {:a}; {}; {}", i, answer_text(answers, i),
@@ -122,9 +125,16 @@ class DistanceTruth final : public CaseTruth {
         return said.distance == truth.nearest ? Worth::exact : Worth::within_bound;
     }
 
+    /// As KernelInfo::relative_width.
+    static bool narrow(const Distance& said, double relative_width) {
+        const double hi = std::min(said.hi, std::numeric_limits<double>::max());
+        return hi - said.lo <= relative_width * hi + 0x1p-1073;
+    }
+
     /// Squares are compared, never roots. Zero is said if and only if the two touch (or the true
     /// distance is less than every positive double).
-    static Worth promised(Tally& tally, const Distance& said, const TrueDistance& truth) {
+    static Worth promised(Tally& tally, const Distance& said, const TrueDistance& truth,
+                          double relative_width) {
         const bool encloses = said.lo >= 0 && said.lo <= said.distance &&
                               said.distance <= said.hi &&
                               oracle::compare(said.lo, truth.squared) <= 0 &&
@@ -133,7 +143,10 @@ class DistanceTruth final : public CaseTruth {
         const bool touch_is_zero = sgn(truth.squared) != 0 || said.distance == 0;
         const bool is_rounded = tally.promise() != Promise::exact || truth.nearest == 0 ||
                                 std::abs(oracle::ulps_off(said.distance, truth.squared)) <= 1;
-        if (encloses && zero_is_right && touch_is_zero && is_rounded)
+        const bool is_narrow = tally.promise() == Promise::exact
+                                   ? said.hi <= oracle::next_above(said.lo)
+                                   : relative_width == 0 || narrow(said, relative_width);
+        if (encloses && zero_is_right && touch_is_zero && is_rounded && is_narrow)
             return said.distance == truth.nearest ? Worth::exact : Worth::within_bound;
         tally.violated();
         return Worth::broken_promise;
@@ -146,10 +159,15 @@ class DistanceTruth final : public CaseTruth {
 
 } // namespace
 
-TrueDistance true_distance(mpq_class squared, std::initializer_list<Vec3<double>> points) {
+TrueDistance true_distance(mpq_class squared, std::initializer_list<Vec3<double>> a,
+                           std::initializer_list<Vec3<double>> b) {
+    const std::vector<Vec3<double>> points_a(a), points_b(b);
+    require_agreement(oracle::second_opinion::squared_distance(points_a, points_b) == squared,
+                      [&] { return text_of(points_a) + ',' + text_of(points_b); });
     Aabb<double> box;
-    for (const Vec3<double>& p : points)
-        box.extend(p);
+    for (const auto* points : {&points_a, &points_b})
+        for (const Vec3<double>& p : *points)
+            box.extend(p);
     const Vec3<double> size = box.max - box.min;
     const double nearest = oracle::nearest_sqrt(squared);
     return {std::move(squared), nearest, std::max({size.x, size.y, size.z})};

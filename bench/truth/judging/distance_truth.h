@@ -13,8 +13,9 @@ struct TrueDistance {
     double nearest; ///< of all doubles
     double extent;  ///< L: the longest side of the box around all that is measured
 };
-/// points: all corners of the two things measured.
-TrueDistance true_distance(mpq_class squared, std::initializer_list<Vec3<double>> points);
+/// squared: by the first oracle. a, b: the corners of the two things measured.
+TrueDistance true_distance(mpq_class squared, std::initializer_list<Vec3<double>> a,
+                           std::initializer_list<Vec3<double>> b);
 
 /// The distance of two things in each case.
 std::unique_ptr<CaseTruth> make_distance_truth(const CaseScene& scene,

@@ -4,6 +4,7 @@
 #include "bench/truth/judging/truths.h"
 #include "kernels/oracle/exact_answers.h"
 #include "kernels/oracle/roots.h"
+#include "kernels/oracle/second_opinion.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +19,17 @@ struct TrueHit {
     double t; ///< the nearest double to the nearest hit; NaN if it is a miss
 };
 
-/// The nearest of a fan. Whether it must be hit may be known better: a closed fan has no gaps.
+double float_ulp(double x) {
+    int exponent = 0;
+    std::frexp(x, &exponent);
+    return std::ldexp(1.0, std::max(exponent - 24, -149));
+}
+
+/// What exact.h says of its numbers; a truth in double is 2^-29 ulp off.
+constexpr double max_ulp = 0.63 + 0x1p-29, max_weight_error = 0x1p-23;
+
+/// The nearest of a fan or mesh, up to the largest float. Whether it must be hit may be known
+/// better: a closed fan has no gaps.
 TrueHit truth_of(const RayCase& c, const std::vector<Triangle<float>>& triangles) {
     std::optional<mpq_class> nearest;
     for (std::uint32_t k = c.first; k < c.first + c.count; ++k) {
@@ -26,7 +37,10 @@ TrueHit truth_of(const RayCase& c, const std::vector<Triangle<float>>& triangles
         if (!is_finite(t.a) || !is_finite(t.b) || !is_finite(t.c))
             continue; // a miss, as the kernels say
         const auto point = oracle::ray_triangle(c.ray, t);
-        if (point && (!nearest || point->t < *nearest))
+        require_agreement(point == oracle::second_opinion::ray_triangle(c.ray, t),
+                          [&] { return text_of(c) + " and " + text_of(t); });
+        if (point && std::isfinite(oracle::nearest_float(point->t)) &&
+            (!nearest || point->t < *nearest))
             nearest = point->t;
     }
     return {c.hit == Known::unknown ? nearest.has_value() : c.hit == Known::yes,
@@ -49,9 +63,17 @@ class FanTruth final : public CaseTruth {
                 continue;
             const RayHit& said = list_of<RayHit>(answers)[i];
             tally.called(0);
-            tally.answered(i, said.hit() ? Answer::yes : Answer::no, truths[i]->hit);
-            if (!said.hit() || std::isnan(truths[i]->t))
+            if (contender.promise == Promise::never_leaks && cases_.rays[i].is_closed() &&
+                truths[i]->hit && !said.hit())
+                tally.leaked(i);
+            else
+                tally.answered(i, said.hit() ? Answer::yes : Answer::no, truths[i]->hit);
+            if (!said.hit() || std::isnan(truths[i]->t) || scene_.task == "rays_any")
                 continue;
+            if (contender.promise == Promise::exact && !is_exact(i, said, truths[i]->t)) {
+                tally.violated();
+                tally.note(i, Worth::broken_promise);
+            }
             const auto t = static_cast<double>(said.t);
             if (t != truths[i]->t) {
                 const double error = std::abs(t - truths[i]->t);
@@ -79,20 +101,36 @@ class FanTruth final : public CaseTruth {
     }
     std::string answer_text(const Answers& answers, std::size_t i) const override {
         const RayHit& hit = list_of<RayHit>(answers)[i];
-        return hit.hit() ? fmt::format("hit at t = {:a}", static_cast<double>(hit.t)) : "miss";
+        return hit.hit()
+                   ? fmt::format("hit at t = {:a}, u = {:a}, v = {:a} of triangle {}",
+                                 static_cast<double>(hit.t), static_cast<double>(hit.u),
+                                 static_cast<double>(hit.v), hit.triangle - cases_.rays[i].first)
+                   : "miss";
     }
 
   private:
+    /// Whether t is the nearest one's, and t, u and v are those of the triangle that is named.
+    bool is_exact(std::size_t i, const RayHit& said, double nearest) const {
+        const RayCase& c = cases_.rays[i];
+        if (said.triangle < c.first || said.triangle - c.first >= c.count)
+            return false;
+        const auto point = oracle::ray_triangle(c.ray, cases_.triangles[said.triangle]);
+        if (!point)
+            return false;
+        const auto is_near = [](float x, double truth, double error) {
+            return std::abs(static_cast<double>(x) - truth) <= error;
+        };
+        const double t = oracle::nearest_double(point->t);
+        return is_near(said.t, nearest, max_ulp * float_ulp(nearest)) &&
+               is_near(said.t, t, max_ulp * float_ulp(t)) &&
+               is_near(said.u, oracle::nearest_double(point->u), max_weight_error) &&
+               is_near(said.v, oracle::nearest_double(point->v), max_weight_error);
+    }
+
     std::string first_triangle(std::size_t i) const {
         if (cases_.rays[i].count != 1)
             return "";
         return " (" + text_of(cases_.triangles[cases_.rays[i].first]) + ")";
-    }
-
-    static double float_ulp(double x) {
-        int exponent = 0;
-        std::frexp(x, &exponent);
-        return std::ldexp(1.0, std::max(exponent - 24, -149));
     }
 
     CaseScene scene_;

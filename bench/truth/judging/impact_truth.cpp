@@ -3,6 +3,8 @@
 #include "bench/truth/judging/tally.h"
 #include "bench/truth/judging/truths.h"
 #include "kernels/oracle/rational.h"
+#include "kernels/oracle/roots.h"
+#include "kernels/oracle/second_opinion.h"
 
 #include <fmt/format.h>
 
@@ -21,7 +23,13 @@ TrueImpact truth_of(const MotionCase& c, MotionKind kind) {
     const oracle::ExactContinuous exact;
     const Impact first =
         kind == MotionKind::vertex_face ? exact.vertex_face(c.motion) : exact.edge_edge(c.motion);
-    return {c.touch == Known::unknown ? first.answer == Answer::yes : c.touch == Known::yes, first};
+    const bool touch = first.answer == Answer::yes;
+    const bool is_right = c.touch == Known::unknown || (c.touch == Known::yes) == touch;
+    const auto confirms = kind == MotionKind::vertex_face
+                              ? oracle::second_opinion::confirms_vertex_face
+                              : oracle::second_opinion::confirms_edge_edge;
+    require_agreement(is_right && confirms(c.motion, first), [&] { return text_of(c); });
+    return {touch, first};
 }
 
 class ImpactTruth final : public CaseTruth {
@@ -41,7 +49,7 @@ class ImpactTruth final : public CaseTruth {
             const Impact& said = list_of<Impact>(answers)[i];
             tally.called(said.tier);
             tally.answered(i, said.answer, truths[i]->touch);
-            if (!truths[i]->touch || truths[i]->first.answer != Answer::yes)
+            if (!truths[i]->touch)
                 continue;
             judge_time(tally, i, said, truths[i]->first);
         }
@@ -68,15 +76,18 @@ class ImpactTruth final : public CaseTruth {
 
   private:
     /// The error is that of t, relative to the step. A kernel with a promise must not call free
-    /// what is not, nor end before the first touch.
+    /// what is not, nor end before the first touch; between an exact one's times there is no
+    /// double.
     static void judge_time(Tally& tally, std::size_t i, const Impact& said, const Impact& first) {
         if (said.answer == Answer::yes && std::isfinite(said.t_hit))
             tally.error(results::missing, std::max(std::abs(said.t_free - first.t_free),
                                                    std::abs(said.t_hit - first.t_hit)));
         if (tally.promise() == Promise::none)
             return;
+        const bool too_wide =
+            tally.promise() == Promise::exact && !(said.t_hit <= oracle::next_above(said.t_free));
         if (!(said.t_free <= first.t_hit) ||
-            (said.answer == Answer::yes && !(said.t_hit >= first.t_free))) {
+            (said.answer == Answer::yes && !(said.t_hit >= first.t_free)) || too_wide) {
             tally.violated();
             tally.note(i, Worth::broken_promise);
         }

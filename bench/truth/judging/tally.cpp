@@ -32,6 +32,7 @@ Worth worth_of(Promise promise, Answer said, bool truth) {
         return Worth::exact;
     switch (promise) {
     case Promise::none:
+    case Promise::never_leaks: // of closed meshes: Tally::leaked
         return Worth::wrong;
     case Promise::never_miss:
         return truth ? Worth::broken_promise : Worth::conservative;
@@ -71,6 +72,13 @@ void Tally::answered(std::size_t i, Answer said, bool truth) {
     true_yes_ += truth;
     said_yes_ += yes;
     note(i, worth_of(promise_, said, truth));
+}
+
+void Tally::leaked(std::size_t i) {
+    violated();
+    is_yes_no_ = true;
+    ++true_yes_;
+    note(i, Worth::broken_promise);
 }
 
 void Tally::error(double ulp, double relative) {

@@ -29,6 +29,8 @@ class Tally {
     void too_large() { ++row_.false_neg; }
     void undecided() { ++row_.maybe; }
     void violated() { ++row_.bound_violations; }
+    /// A miss where what never leaks has to hit: a violation, and no false no besides.
+    void leaked(std::size_t i);
     void error(double ulp, double relative);
     /// Notes what case `i` is worth; NaN and zero errors do not matter here.
     void note(std::size_t i, Worth worth);

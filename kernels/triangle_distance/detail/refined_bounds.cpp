@@ -2,11 +2,9 @@
 
 #include "kernels/arithmetic/detail/double_double.h"
 #include "kernels/features/segment_segment.h"
-#include "kernels/predicates/detail/binary64.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 
@@ -211,25 +209,6 @@ class Search {
 
 DistanceBounds refined_bounds(const Triangle<double>& a, const Triangle<double>& b) {
     return Search(a, b).bounds();
-}
-
-// The minimum distance is between two corners (at least g = 2^grid), a corner and an edge e (a
-// whole multiple of g^2, if not 0, over |e|), or on a line normal to two edges or a face: a
-// multiple of g^3 over |n|, n the cross product of two edges, |n| <= 3 * 4^size.
-double min_separation(int grid, int size) {
-    const int exponent = 3 * grid - 2 * size - 2;
-    return exponent < -1074 ? 0 : std::ldexp(1.0, exponent);
-}
-
-int coordinate_grid(const Triangle<double>& a, const Triangle<double>& b) {
-    int grid = 1024;
-    for (const Vec3<double>* p : {&a.a, &a.b, &a.c, &b.a, &b.b, &b.c})
-        for (int k = 0; k < 3; ++k) {
-            const Binary64 x((*p)[k]);
-            if (x.mantissa != 0)
-                grid = std::min(grid, x.weight - 1074 + std::countr_zero(x.mantissa));
-        }
-    return grid;
 }
 
 } // namespace boxwood::detail

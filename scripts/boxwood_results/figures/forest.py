@@ -178,6 +178,7 @@ def draw(run):
     for block in blocks(run):
         groups.setdefault((block.job.task, block.job.threads), []).append(block)
     if not groups:
-        raise Skip("no job has both a ranked variant of ours and a ranked peer")
+        raise Skip("the run is too noisy for findings" if run.health["is_too_noisy"] else
+                   "no job has both a ranked variant of ours and a ranked peer")
     floor = run.noise_floor
     return [draw_one(run, task, threads, found, floor) for (task, threads), found in groups.items()]

@@ -15,11 +15,11 @@ namespace boxwood::detail {
 ///
 /// Each box holds all points of the triangle on its side and what lies within `pad` of them, as far
 /// as the box of the whole does; pad = 2^-22 of the triangle's extent along each axis.
-/// Why: ray_margin moves corner i by up to 2u |X_i|, u = 2^-24, which is a slack relative to the
-/// point that the corners are mixed to as long as all X_i have one sign. Else the sum of w_i |X_i|
-/// goes beyond it by at most half the extent: u of the extent across. The roundings here are at
-/// most 2^-50 of a coordinate; an extent that is not zero is at least 2^-24 of that, and a zero one
-/// gives exact coordinates.
+/// Why: corner i moves by up to 2u |X_i|, u = 2^-24 (ray_box/slabs.h), which is a slack relative to
+/// the point that the corners are mixed to as long as all X_i have one sign. Else the sum of w_i
+/// |X_i| goes beyond it by at most half the extent: u of the extent across. The roundings here are
+/// at most 2^-50 of a coordinate; an extent that is not zero is at least 2^-24 of that, and a zero
+/// one gives exact coordinates.
 class ClippedTriangle {
   public:
     explicit ClippedTriangle(const Triangle<float>& t) {

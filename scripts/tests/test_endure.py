@@ -1,0 +1,24 @@
+"""The short forms of scripts/endure; that of its frames is bench/stages/endurance_test.cpp."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+BUILD = Path(os.environ.get("BOXWOOD_BUILD", ROOT / "build" / "release"))
+built = pytest.mark.skipif(not (BUILD / "boxwood").exists(), reason=f"{BUILD / 'boxwood'} is not built")
+
+
+def test_help_says_what_there_is(script):
+    done = script("endure", "--help")
+    assert done.returncode == 0 and "Example: scripts/endure kill" in done.stdout
+    assert all(name in done.stdout for name in ("kill", "two", "frames", "tsan"))
+    assert script("endure", "nix").returncode == 2
+
+
+@built
+@pytest.mark.parametrize("name, times, said", [("kill", 4, "4 kills -9"), ("two", 1, "1 times two sweeps")])
+def test_a_short_form(script, name, times, said):
+    done = script("endure", name, "--times", times)
+    assert done.returncode == 0 and said in done.stdout, done.stdout + done.stderr
