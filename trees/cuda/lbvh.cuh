@@ -43,10 +43,11 @@ constexpr std::uint32_t nobody = 0xffffffff;
 /// Another thread wrote it: not from a cache of this one's.
 template <class T> __device__ T from_other(const T* at) {
     static_assert(sizeof(T) % 4 == 0);
-    T value;
+    std::uint32_t words[sizeof(T) / 4];
     for (unsigned i = 0; i < sizeof(T) / 4; ++i)
-        reinterpret_cast<std::uint32_t*>(&value)[i] =
-            __ldcg(reinterpret_cast<const std::uint32_t*>(at) + i);
+        words[i] = __ldcg(reinterpret_cast<const std::uint32_t*>(at) + i);
+    T value;
+    memcpy(&value, words, sizeof value);
     return value;
 }
 
