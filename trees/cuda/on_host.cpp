@@ -37,9 +37,9 @@ class Block {
 
     void run() {
         running = this;
-        static std::vector<std::unique_ptr<std::byte[]>> stacks(max_threads);
+        static std::vector<Context> contexts(max_threads);
         for (std::size_t i = 0; i < fibres_.size(); ++i)
-            begin(fibres_[i], stacks[i]);
+            begin(*(fibres_[i].own = &contexts[i]));
         std::vector<unsigned> ready;
         for (unsigned left = static_cast<unsigned>(fibres_.size()); left > 0;) {
             ready.clear();
@@ -47,7 +47,7 @@ class Block {
                 if (fibres_[i].state == State::ready)
                     ready.push_back(i);
             if (ready.empty())
-                throw Fault("no thread can go on: " + waiting_text());
+                end("no thread can go on: " + waiting_text());
             // Some turns, then another choice: to look for the ready ones at each turn is slow.
             std::shuffle(ready.begin(), ready.end(), random_);
             for (const unsigned i : ready) {
@@ -55,7 +55,7 @@ class Block {
                 threadIdx = {i, 0, 0};
                 enter(fibres_[i]);
                 if (!fault_.empty())
-                    throw Fault(fault_);
+                    end(fault_);
                 left -= fibres_[i].state == State::done;
             }
         }
@@ -93,62 +93,76 @@ class Block {
 
   private:
     enum class State : std::uint8_t { ready, waiting, done };
-    struct Fibre {
-        ucontext_t context;
-        std::jmp_buf at; ///< where it goes on, once it has begun
+    /// A stack, and where on it a thread goes on. One whose thread has ended takes another.
+    struct Context {
+        std::unique_ptr<std::byte[]> stack;
+        ucontext_t start;
+        std::jmp_buf at;
         bool begun = false;
-        std::byte* stack = nullptr;
+    };
+    struct Fibre {
+        Context* own = nullptr;
         State state = State::ready;
         Meeting meeting = Meeting::block;
         unsigned mask = 0, from = 0;
         std::uint64_t value = 0, result = 0;
     };
 
-    void begin(Fibre& fibre, std::unique_ptr<std::byte[]>& stack) {
-        if (!stack)
-            stack = std::make_unique_for_overwrite<std::byte[]>(stack_bytes);
-        fibre.stack = stack.get();
-        getcontext(&fibre.context);
-        fibre.context.uc_stack.ss_sp = fibre.stack;
-        fibre.context.uc_stack.ss_size = stack_bytes;
-        fibre.context.uc_link = nullptr;
-        makecontext(&fibre.context, &Block::main, 0);
+    static void begin(Context& context) {
+        if (context.begun)
+            return;
+        if (!context.stack)
+            context.stack = std::make_unique_for_overwrite<std::byte[]>(stack_bytes);
+        getcontext(&context.start);
+        context.start.uc_stack.ss_sp = context.stack.get();
+        context.start.uc_stack.ss_size = stack_bytes;
+        context.start.uc_link = nullptr;
+        makecontext(&context.start, &Block::main, 0);
     }
 
     static void main() {
-        switched_from(nullptr);
-        running->thread_();
-        running->fibres_[running->current_].state = State::done;
-        running->leave();
+        for (;;) {
+            switched_from(nullptr);
+            running->thread_();
+            running->fibres_[running->current_].state = State::done;
+            running->leave();
+        }
+    }
+
+    [[noreturn]] void end(const std::string& fault) {
+        for (Fibre& fibre : fibres_)
+            if (fibre.state != State::done)
+                fibre.own->begun = false;
+        throw Fault(fault);
     }
 
     void enter(Fibre& fibre) {
-        about_to_switch(&fake_stack_, fibre.stack, stack_bytes);
-        go(fibre);
+        about_to_switch(&fake_stack_, fibre.own->stack.get(), stack_bytes);
+        go(*fibre.own);
         switched_from(fake_stack_);
     }
     void leave() {
         Fibre& self = fibres_[current_];
         void* fake = nullptr;
         about_to_switch(self.state == State::done ? nullptr : &fake, main_stack_, main_bytes_);
-        go_back(self);
+        go_back(*self.own);
         switched_from(fake);
     }
 
 #if defined(__SANITIZE_ADDRESS__)
-    void go(Fibre& fibre) { swapcontext(&scheduler_, &fibre.context); }
-    void go_back(Fibre& self) { swapcontext(&self.context, &scheduler_); }
+    void go(Context& context) { swapcontext(&scheduler_, &context.start); }
+    void go_back(Context& context) { swapcontext(&context.start, &scheduler_); }
 #else
     // Without the system call that swapcontext makes each time.
-    void go(Fibre& fibre) {
+    void go(Context& context) {
         if (_setjmp(back_) != 0)
             return;
-        if (std::exchange(fibre.begun, true))
-            _longjmp(fibre.at, 1);
-        setcontext(&fibre.context);
+        if (std::exchange(context.begun, true))
+            _longjmp(context.at, 1);
+        setcontext(&context.start);
     }
-    void go_back(Fibre& self) {
-        if (_setjmp(self.at) == 0)
+    void go_back(Context& context) {
+        if (_setjmp(context.at) == 0)
             _longjmp(back_, 1);
     }
     std::jmp_buf back_;
