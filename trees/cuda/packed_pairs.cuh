@@ -11,7 +11,8 @@ constexpr unsigned pair_threads = 256, pair_warps = pair_threads / 32;
 constexpr unsigned pair_stack = 2 + 30 * PackedView::max_levels;
 
 /// One leaf of `a` against `b`, by a warp: up to two blocks of `b` are opened at a time, one by
-/// each half of the warp. Within one layout (is_self) only leaves from the own one on, each pair once.
+/// each half of the warp. Within one layout (is_self) only leaves from the own one on, each pair
+/// once.
 template <bool is_self, Pass pass> class LeafPairs {
   public:
     __device__ LeafPairs(const PackedView& a, const PackedView& b, const PairsTo& to,
@@ -34,8 +35,7 @@ template <bool is_self, Pass pass> class LeafPairs {
                 unsigned level = 1;
                 while (top >= b_.first[level + 1])
                     ++level;
-                const bool two =
-                    size > 1 && next >= b_.first[level] && next < b_.first[level + 1];
+                const bool two = size > 1 && next >= b_.first[level] && next < b_.first[level + 1];
                 size = open(half() == 0 ? top : next, half() == 0 || two, level, bounds,
                             size - (two ? 2 : 1));
             }
@@ -61,8 +61,8 @@ template <bool is_self, Pass pass> class LeafPairs {
         const std::uint32_t child = (node - b_.first[level]) * b_.width + k();
         // The last leaf below the child, and one more.
         const std::uint64_t end = (std::uint64_t{child} + 1) << (4 * (level - 1));
-        const bool hit = has && (!is_self || end > leaf_) &&
-                         overlaps(bounds, lane_box(b_.blocks[node], k()));
+        const bool hit =
+            has && (!is_self || end > leaf_) && overlaps(bounds, lane_box(b_.blocks[node], k()));
         unsigned hits = __ballot_sync(~0u, hit);
         if (level > 1) {
             if (hit)
@@ -79,7 +79,8 @@ template <bool is_self, Pass pass> class LeafPairs {
         const Box mine = lane_box(b_.blocks[c], k());
         for (unsigned i = 0; i < 8; ++i) {
             const unsigned q = half() * 8 + i;
-            emit((!is_self || c != leaf_ || q < k()) && overlaps(lane_box(a_.blocks[leaf_], q), mine),
+            emit((!is_self || c != leaf_ || q < k()) &&
+                     overlaps(lane_box(a_.blocks[leaf_], q), mine),
                  leaf_ * a_.width + q, c * b_.width + k());
         }
     }
@@ -127,8 +128,8 @@ __global__ void packed_pairs(PackedView a, PackedView b, PairsTo to) {
 template <bool is_self, Pass pass>
 void find_packed_pairs(const PackedView& a, const PackedView& b, const PairsTo& to, Stream stream) {
     if (a.n > 0 && b.n > 0)
-        launch(stream, blocks_for(a.leaves(), pair_warps), pair_threads, packed_pairs<is_self, pass>,
-               a, b, to);
+        launch(stream, blocks_for(a.leaves(), pair_warps), pair_threads,
+               packed_pairs<is_self, pass>, a, b, to);
 }
 
 } // namespace boxwood::cuda
