@@ -6,6 +6,7 @@
 // places in the binary tree, but for the root, and filled. The order within a level is that of a
 // race, and nothing depends on it.
 
+#include "trees/cuda/binary.cuh"
 #include "trees/cuda/primitives.h"
 #include "trees/cuda/wide8.cuh"
 
@@ -131,8 +132,7 @@ template <class Node> __global__ void begin_collapse(Collapse<Node> to) {
     const std::uint32_t n = to.from.n;
     if (node + 1 >= n)
         return;
-    for (const std::uint32_t child : {to.from.nodes[node].left, to.from.nodes[node].right})
-        to.room.parents[to.from.is_leaf(child) ? RadixTreeView::slot(child) : n + child] = node;
+    set_parents(to.from.nodes, node, n, to.room.parents);
     to.room.met[node] = to.room.ranks[node] = 0;
     if (node != 0)
         return;

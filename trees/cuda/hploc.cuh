@@ -1,21 +1,8 @@
 #pragma once
 
-#include "trees/cuda/lbvh.cuh"
+#include "trees/cuda/binary.cuh"
 
 namespace boxwood::cuda {
-
-struct BinaryNode {
-    Box box;
-    std::uint32_t left, right; ///< a node, or a slot with RadixNode::leaf_bit
-};
-
-/// A binary tree in the device's memory. One slot: no nodes.
-struct BinaryView {
-    std::uint32_t n = 0;
-    std::uint32_t* items = nullptr; ///< slot -> item
-    BinaryNode* nodes = nullptr;    ///< n - 1
-    std::uint32_t* root = nullptr;  ///< a node, or the only slot with leaf_bit
-};
 
 /// H-PLOC over n boxes in the order of their codes (Benthin, Meister, Barczak, Mehta, Woop 2024,
 /// "H-PLOC: Hierarchical Parallel Locally-Ordered Clustering for Bounding Volume Hierarchy

@@ -75,6 +75,26 @@ TEST(HplocOnDevice, HoldsEachItemOnceUnderExactBoxesAndIsTheSameEachTime) {
     }
 }
 
+TEST(HplocOnDevice, RefitsToNewBoxes) {
+    for (const BoxFamily& family : device_families()) {
+        SCOPED_TRACE(family.name);
+        if (family.boxes.empty())
+            continue;
+        OnDevice made(family.boxes);
+        const std::uint32_t n = made.view.n;
+        std::vector<std::uint32_t> parents(2 * n);
+        launch({}, blocks_for(n, radix_threads), radix_threads, find_parents, made.view,
+               parents.data(), made.met.data());
+        for (std::uint64_t seed = 0; seed < seeds_for(family); ++seed) {
+            on_host::set_seed(seed);
+            made.boxes = random_boxes(n, .3f, static_cast<unsigned>(seed));
+            refit_binary_tree(made.view, made.boxes.data(), parents.data(), made.met.data(), {});
+            Walked{made};
+            ASSERT_FALSE(HasFailure()) << "seed " << seed;
+        }
+    }
+}
+
 /// The sum of all inner nodes' areas.
 double cost(const OnDevice& made) {
     double sum = 0;

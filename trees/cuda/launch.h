@@ -58,6 +58,9 @@ inline void fill_words(std::uint32_t* to, std::uint32_t word, std::size_t n, Str
     std::fill_n(to, n, word);
 }
 
+/// Until all is done that was started before.
+inline void wait(Stream) {}
+
 #endif
 
 /// Blocks of n_threads that make at least n threads.

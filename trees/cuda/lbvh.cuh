@@ -24,9 +24,7 @@ struct RadixTreeView {
     RadixNode* nodes = nullptr;     ///< n - 1
     std::uint32_t* root = nullptr;  ///< a node, or the only slot with leaf_bit
 
-    BOXWOOD_BOTH static bool is_leaf(std::uint32_t ref) {
-        return (ref & RadixNode::leaf_bit) != 0;
-    }
+    BOXWOOD_BOTH static bool is_leaf(std::uint32_t ref) { return (ref & RadixNode::leaf_bit) != 0; }
     BOXWOOD_BOTH static std::uint32_t slot(std::uint32_t ref) { return ref & ~RadixNode::leaf_bit; }
 };
 

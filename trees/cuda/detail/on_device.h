@@ -75,6 +75,8 @@ template <class T> void download(const T* from, std::span<T> to, Stream stream) 
         "download");
 }
 
+inline void wait(Stream stream) { require(cudaStreamSynchronize(stream.handle), "a kernel"); }
+
 /// The word's four bytes must be the same.
 inline void fill_words(std::uint32_t* to, std::uint32_t word, std::size_t n, Stream stream) {
     require(cudaMemsetAsync(to, static_cast<int>(word & 255), n * sizeof(word), stream.handle),
