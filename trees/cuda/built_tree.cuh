@@ -81,6 +81,13 @@ class BuiltTree {
     template <class Visit> void each_array(std::size_t n, const Visit& visit);
     void reserve(std::size_t n, Stream stream);
     void set_views();
+    void forget() {
+        n_ = 0;
+        packed_ = {};
+        radix_ = {};
+        hploc_ = {};
+        wide8_ = {};
+    }
     template <int bits, class Code>
     void sort_codes(const Box* boxes, Array<Code>& codes, Array<Code>& sorted, Stream stream);
     template <class Node> void make_wide8(const Node* nodes, const Box* boxes, Stream stream);
@@ -221,8 +228,7 @@ void BuiltTree::make_wide8(const Node* nodes, const Box* boxes, Stream stream) {
 inline void BuiltTree::enqueue(const Box* boxes, std::size_t n, Stream stream) {
     if (n > max_items)
         require_valid(Boxes(boxes, n)); // says so
-    n_ = 0;
-    set_views(); // of nothing, if there is no memory
+    forget();                           // what there is not memory for
     reserve(n, stream);
     n_ = static_cast<std::uint32_t>(n);
     set_views();
@@ -284,8 +290,7 @@ inline void BuiltTree::build(const Box* boxes, std::size_t n, Stream stream) {
             wait(stream);
         }
     } catch (...) {
-        n_ = 0;
-        set_views();
+        forget();
         throw;
     }
 }
