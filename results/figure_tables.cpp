@@ -4,10 +4,10 @@
 
 namespace boxwood::results {
 
-const FigureTables& figure_tables() {
+std::vector<Table> figure_tables() {
     constexpr std::size_t word = 64, name = 160; // bytes
     constexpr bool derived = true;
-    static const FigureTables all{
+    return {
         {"frame_medians",
          "one frame of one cell over its rounds",
          &Results::frame_medians,
@@ -132,7 +132,6 @@ const FigureTables& figure_tables() {
          },
          derived},
     };
-    return all;
 }
 
 } // namespace boxwood::results

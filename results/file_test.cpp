@@ -84,20 +84,23 @@ TEST_F(ResultFile, EveryColumnComesBack) {
 }
 
 TEST_F(ResultFile, EveryMemberIsAColumn) {
-    // A member without a column would be lost silently: the columns, laid out in the order of the
-    // table with the padding of the compiler, must fill the struct.
-    for_each_table([]<class Row>(const Table<Row>& table) {
-        std::size_t end = 0;
-        for (const auto& column : table.columns)
-            std::visit(
-                [&]<class Value>(Value Row::*) {
-                    end = (end + alignof(Value) - 1) / alignof(Value) * alignof(Value);
-                    end += sizeof(Value);
-                },
-                column.member);
-        EXPECT_EQ((end + alignof(Row) - 1) / alignof(Row) * alignof(Row), sizeof(Row))
-            << table.name;
-    });
+    // A member without a column would be lost silently: in the order of their places the columns,
+    // with the padding of the compiler, must fill the struct.
+    for (const Table& table : tables()) {
+        std::vector<Column> columns = table.columns;
+        std::ranges::sort(columns, {}, &Column::at);
+        std::size_t end = 0, widest = 1;
+        const auto pad = [&](std::size_t to) { end = (end + to - 1) / to * to; };
+        for (const Column& column : columns) {
+            const std::size_t alignment = std::min(column.size, alignof(std::string));
+            pad(alignment);
+            EXPECT_EQ(column.at, end) << table.name << "." << column.name;
+            end += column.size;
+            widest = std::max(widest, alignment);
+        }
+        pad(widest);
+        EXPECT_EQ(end, table.row_size) << table.name;
+    }
 }
 
 TEST_F(ResultFile, MissingAndExtremeValuesComeBack) {
@@ -122,9 +125,8 @@ TEST_F(ResultFile, EmptyTablesStand) {
     write(file_, Results{});
     EXPECT_EQ(difference(Results{}, read(file_)), "");
     change([](hid_t file) {
-        for_each_table([&](const auto& table) {
+        for (const Table& table : tables())
             EXPECT_GT(H5Lexists(file, std::string(table.name).c_str(), H5P_DEFAULT), 0);
-        });
     });
 }
 
@@ -248,7 +250,7 @@ TEST_F(ResultFile, UnknownColumnsAreSkippedAndMissingOnesKeepDefaults) {
 }
 
 TEST_F(ResultFile, AMissingTableIsAnErrorThatSaysWhatToDo) {
-    for_each_table([&](const auto& table) {
+    for (const Table& table : tables()) {
         write(file_, filled_example(1));
         change([&](hid_t file) {
             checked(H5Ldelete(file, std::string(table.name).c_str(), H5P_DEFAULT), table.name);
@@ -262,27 +264,26 @@ TEST_F(ResultFile, AMissingTableIsAnErrorThatSaysWhatToDo) {
             EXPECT_NO_THROW(read(file_, Required::measured)) << table.name;
         else
             EXPECT_THROW(read(file_, Required::measured), std::runtime_error) << table.name;
-    });
+    }
 }
 
 TEST_F(ResultFile, AnIdThatNamesNoRowIsAnError) {
-    for_each_table([&]<class Row>(const Table<Row>& table) {
-        for (const auto& column : table.columns)
+    for (const Table& table : tables())
+        for (const Column& column : table.columns)
             for (const Reference& reference : references) {
                 if (reference.column != column.name || reference.table == table.name)
                     continue;
                 Results results = filled_example();
-                const auto member = std::get<std::uint32_t Row::*>(column.member);
-                (results.*table.rows)[1].*member = 77;
+                auto& id = column.value<std::uint32_t>(table.rows(results)[1]);
+                id = 77;
                 write(file_, results);
                 EXPECT_SAYS(complaint(file_),
                             fmt::format("column {}.{} holds 77, which no row of {} has; use",
                                         table.name, column.name, reference.table));
-                (results.*table.rows)[1].*member = no_id;
+                id = no_id;
                 write(file_, results);
                 EXPECT_EQ(complaint(file_).empty(), table.is_derived) << table.name;
             }
-    });
     Results results = filled_example();
     results.cells[2].cell_id = 1;
     write(file_, results);
@@ -388,15 +389,15 @@ TEST_F(ResultFile, PythonReadsIt) {
 TEST(ResultsReadme, NamesEveryTableAndColumn) {
     const std::string readme = bytes_of("results/README.md");
     ASSERT_FALSE(readme.empty()) << "tests run in the root of the repository";
-    for_each_table([&](const auto& table) {
+    for (const Table& table : tables()) {
         const auto heading = readme.find(fmt::format("## /{}\n", table.name));
         ASSERT_NE(heading, std::string::npos) << table.name;
         const auto end = readme.find("\n## ", heading);
         const std::string section = readme.substr(heading, end - heading);
-        for (const auto& column : table.columns)
+        for (const Column& column : table.columns)
             EXPECT_NE(section.find(fmt::format("| `{}` |", column.name)), std::string::npos)
                 << table.name << "." << column.name;
-    });
+    }
 }
 
 } // namespace

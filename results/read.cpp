@@ -70,7 +70,7 @@ bool has_link(hid_t group, const char* name) {
 
 /// A column that the file has: where it stands in the records we ask HDF5 for.
 struct Placed {
-    std::size_t column; ///< of the table
+    const Column* column;
     std::size_t offset, size;
 };
 
@@ -101,15 +101,9 @@ Handle wanted_type(Stored stored, hid_t in_file, std::string_view where) {
     return string_type(H5Tget_size(in_file));
 }
 
-struct Wanted {
-    std::string column;
-    Stored stored;
-    bool is_derived;
-};
-
-Records read_records(hid_t file, const fs::path& path, const std::string& name,
-                     std::span<const Wanted> columns, Required required) {
+Records read_records(hid_t file, const fs::path& path, const Table& table, Required required) {
     Records records;
+    const std::string name(table.name);
     const Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, name);
     const Handle space(H5Dget_space(dataset), H5Sclose, name);
     const Handle in_file(H5Dget_type(dataset), H5Tclose, name);
@@ -117,18 +111,18 @@ Records read_records(hid_t file, const fs::path& path, const std::string& name,
         fail(fmt::format("{} is not a table", name));
 
     std::vector<Handle> types;
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-        const auto& [column, stored, is_derived] = columns[i];
-        const int index = H5Tget_member_index(in_file, column.c_str());
-        const std::string where = fmt::format("{}.{}", name, column);
+    for (const Column& column : table.columns) {
+        const int index = H5Tget_member_index(in_file, std::string(column.name).c_str());
+        const std::string where = fmt::format("{}.{}", name, column.name);
         if (index < 0 && required == Required::all)
-            fail(fmt::format("column {} is missing; {}", where, remedy(path, is_derived)));
+            fail(fmt::format("column {} is missing; {}", where,
+                             remedy(path, table.is_derived || column.is_derived)));
         if (index < 0)
             continue;
         const Handle theirs(H5Tget_member_type(in_file, static_cast<unsigned>(index)), H5Tclose,
                             where);
-        types.push_back(wanted_type(stored, theirs, where));
-        records.columns.push_back({i, records.size, H5Tget_size(types.back())});
+        types.push_back(wanted_type(column.stored, theirs, where));
+        records.columns.push_back({&column, records.size, H5Tget_size(types.back())});
         records.size += records.columns.back().size;
     }
     records.n = static_cast<std::size_t>(checked(H5Sget_simple_extent_npoints(space), name));
@@ -136,7 +130,7 @@ Records read_records(hid_t file, const fs::path& path, const std::string& name,
         return records;
     const Handle record(H5Tcreate(H5T_COMPOUND, records.size), H5Tclose, name);
     for (std::size_t i = 0; i < types.size(); ++i)
-        checked(H5Tinsert(record, columns[records.columns[i].column].column.c_str(),
+        checked(H5Tinsert(record, std::string(records.columns[i].column->name).c_str(),
                           records.columns[i].offset, types[i]),
                 name);
     records.bytes.resize(records.n * records.size);
@@ -145,51 +139,32 @@ Records read_records(hid_t file, const fs::path& path, const std::string& name,
     return records;
 }
 
-template <Worded Enum>
-Enum known_word(std::string_view word, std::string_view table, std::string_view column) {
-    const std::optional<Enum> value = from_string<Enum>(word);
-    if (!value)
-        fail(fmt::format("column {}.{} holds the unknown word \"{}\"; use another copy, or "
-                         "measure again",
-                         table, column, word));
-    return *value;
-}
-
-template <class Row>
-void get_table(hid_t file, const fs::path& path, const Table<Row>& table, Required required,
-               std::vector<Row>& rows) {
-    const std::string name(table.name);
-    if (!has_link(file, name.c_str())) {
+void get_table(hid_t file, const fs::path& path, const Table& table, Required required,
+               Results& results) {
+    if (!has_link(file, std::string(table.name).c_str())) {
         if (!table.is_derived || required == Required::all)
-            fail(fmt::format("table {} is missing; {}", name, remedy(path, table.is_derived)));
+            fail(
+                fmt::format("table {} is missing; {}", table.name, remedy(path, table.is_derived)));
         return;
     }
-    std::vector<Wanted> columns;
-    for (const auto& column : table.columns)
-        columns.push_back(
-            {std::string(column.name), stored(column), table.is_derived || column.is_derived});
-    const Records records = read_records(file, path, name, columns, required);
-    rows.resize(records.n);
-    for (const Placed& placed : records.columns)
-        std::visit(
-            [&]<class Value>(Value Row::*member) {
-                const std::byte* from = records.bytes.data() + placed.offset;
-                for (Row& row : rows) {
-                    if constexpr (stored_as<Value> == Stored::text) {
-                        const auto* start = reinterpret_cast<const char*>(from);
-                        const std::string_view text(start, strnlen(start, placed.size));
-                        if constexpr (Worded<Value>)
-                            row.*member =
-                                known_word<Value>(text, name, columns[placed.column].column);
-                        else
-                            row.*member = text;
-                    } else {
-                        std::memcpy(&(row.*member), from, sizeof(Value));
-                    }
-                    from += records.size;
-                }
-            },
-            table.columns[placed.column].member);
+    const Records records = read_records(file, path, table, required);
+    table.resize(results, records.n);
+    const auto rows = table.rows(results);
+    for (const auto& [column, offset, size] : records.columns) {
+        const std::byte* from = records.bytes.data() + offset;
+        for (std::size_t i = 0; i < rows.n; ++i, from += records.size) {
+            if (column->stored != Stored::text) {
+                std::memcpy(rows[i] + column->at, from, size);
+                continue;
+            }
+            const auto* start = reinterpret_cast<const char*>(from);
+            const std::string_view text(start, strnlen(start, size));
+            if (!column->set_text(rows[i], text))
+                fail(fmt::format("column {}.{} holds the unknown word \"{}\"; use another copy, "
+                                 "or measure again",
+                                 table.name, column->name, text));
+        }
+    }
 }
 
 void get_texts(hid_t file, std::map<std::string, std::string>& texts) {
@@ -238,8 +213,8 @@ Results read_open(hid_t file, const fs::path& path, Required required) {
     results.created_utc = text_attribute(file, "created_utc");
     results.sweep_hash = text_attribute(file, "sweep_hash");
     results.generator = text_attribute(file, "generator");
-    for_each_table(
-        [&](const auto& table) { get_table(file, path, table, required, results.*table.rows); });
+    for (const Table& table : tables())
+        get_table(file, path, table, required, results);
     require_valid_ids(results);
     require_times(results.samples);
     get_texts(file, results.texts);

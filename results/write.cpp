@@ -14,7 +14,6 @@
 #include <cstring>
 #include <span>
 #include <system_error>
-#include <type_traits>
 
 namespace boxwood::results {
 namespace {
@@ -27,61 +26,36 @@ constexpr hsize_t rows_per_chunk = 4096;
 
 [[noreturn]] void fail(std::string_view cause) { throw std::runtime_error(std::string(cause)); }
 
-/// A column of any table.
-struct Field {
-    std::string_view table, name, unit, summary;
-    Stored stored;
-    std::size_t size, offset; ///< bytes
-};
-
-template <class Row> std::vector<Field> fields_of(const Table<Row>& table) {
-    std::vector<Field> fields;
-    std::size_t offset = 0;
-    for (const auto& column : table.columns) {
-        const std::size_t size = std::visit(
-            [&]<class Value>(Value Row::*) {
-                return Worded<Value>                        ? word_width
-                       : std::is_same_v<Value, std::string> ? column.width
-                                                            : sizeof(Value);
-            },
-            column.member);
-        fields.push_back(
-            {table.name, column.name, column.unit, column.summary, stored(column), size, offset});
-        offset += size;
-    }
-    return fields;
+/// Bytes of a value in the file.
+std::size_t size_in_file(const Column& column) {
+    return column.stored == Stored::text ? column.width : column.size;
 }
 
-void encode_text(const Field& field, std::string_view text, std::byte* to) {
-    if (text.size() > field.size)
-        fail(fmt::format("{}.{}: \"{:.40}...\" has {} bytes, the column holds {}", field.table,
-                         field.name, text, text.size(), field.size));
+void encode_text(std::string_view table, const Column& column, std::string_view text,
+                 std::byte* to) {
+    if (text.size() > column.width)
+        fail(fmt::format("{}.{}: \"{:.40}...\" has {} bytes, the column holds {}", table,
+                         column.name, text, text.size(), column.width));
     if (const std::size_t zero = text.find('\0'); zero != text.npos)
-        fail(fmt::format("{}.{}: \"{:.40}\" holds a zero byte", field.table, field.name,
+        fail(fmt::format("{}.{}: \"{:.40}\" holds a zero byte", table, column.name,
                          text.substr(0, zero)));
     std::memcpy(to, text.data(), text.size());
 }
 
 /// The rows as the packed records of the dataset.
-template <class Row>
-std::vector<std::byte> encode(const Table<Row>& table, std::span<const Field> fields,
-                              std::size_t record_size, const std::vector<Row>& rows) {
-    std::vector<std::byte> records(rows.size() * record_size); // zero bytes pad the strings
-    for (std::size_t i = 0; i < fields.size(); ++i)
-        std::visit(
-            [&]<class Value>(Value Row::*member) {
-                std::byte* to = records.data() + fields[i].offset;
-                for (const Row& row : rows) {
-                    if constexpr (Worded<Value>)
-                        encode_text(fields[i], to_string(row.*member), to);
-                    else if constexpr (stored_as<Value> == Stored::text)
-                        encode_text(fields[i], row.*member, to);
-                    else
-                        std::memcpy(to, &(row.*member), sizeof(Value));
-                    to += record_size;
-                }
-            },
-            table.columns[i].member);
+std::vector<std::byte> encode(const Table& table, std::size_t record_size, const Results& results) {
+    const auto rows = table.rows(results);
+    std::vector<std::byte> records(rows.n * record_size); // zero bytes pad the texts
+    std::size_t offset = 0;
+    for (const Column& column : table.columns) {
+        std::byte* to = records.data() + offset;
+        for (std::size_t i = 0; i < rows.n; ++i, to += record_size)
+            if (column.stored == Stored::text)
+                encode_text(table.name, column, column.text(rows[i]), to);
+            else
+                std::memcpy(to, rows[i] + column.at, column.size);
+        offset += size_in_file(column);
+    }
     return records;
 }
 
@@ -100,25 +74,31 @@ void put_text(hid_t object, const char* name, std::string_view value) {
     put_attribute(object, name, text_type(), &pointer);
 }
 
-/// {"column": "value", ...}; the texts of schema.cpp need no escapes.
-std::string json_of(std::span<const Field> fields, std::string_view Field::*text) {
+/// {"column": "value", ...}; the texts of the schema need no escapes.
+std::string json_of(const Table& table, std::string_view Column::*text) {
     std::string json;
-    for (const Field& field : fields)
-        json += fmt::format("{}\"{}\": \"{}\"", json.empty() ? "{" : ", ", field.name, field.*text);
+    for (const Column& column : table.columns)
+        json +=
+            fmt::format("{}\"{}\": \"{}\"", json.empty() ? "{" : ", ", column.name, column.*text);
     return json + "}";
 }
 
-void put_records(hid_t file, std::string_view table, std::string_view summary,
-                 std::span<const Field> fields, hsize_t n, std::size_t record_size,
-                 const std::vector<std::byte>& records) {
-    const std::string name(table);
+void put_table(hid_t file, const Table& table, const Results& results) {
+    const std::string name(table.name);
+    std::size_t record_size = 0;
+    for (const Column& column : table.columns)
+        record_size += size_in_file(column);
     const Handle type(H5Tcreate(H5T_COMPOUND, record_size), H5Tclose, name);
-    for (const Field& field : fields)
-        checked(H5Tinsert(type, std::string(field.name).c_str(), field.offset,
-                          field.stored == Stored::text ? string_type(field.size)
-                                                       : number_type(field.stored, name)),
+    std::size_t offset = 0;
+    for (const Column& column : table.columns) {
+        checked(H5Tinsert(type, std::string(column.name).c_str(), offset,
+                          column.stored == Stored::text ? string_type(column.width)
+                                                        : number_type(column.stored, name)),
                 name);
+        offset += size_in_file(column);
+    }
 
+    const hsize_t n = table.rows(results).n;
     const hsize_t unlimited = H5S_UNLIMITED;
     const hsize_t chunk = n == 0 ? rows_per_chunk : std::min(n, rows_per_chunk);
     const Handle space(H5Screate_simple(1, &n, &unlimited), H5Sclose, name);
@@ -132,18 +112,12 @@ void put_records(hid_t file, std::string_view table, std::string_view summary,
         H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose,
         name);
     if (n > 0)
-        checked(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, records.data()), name);
-    put_text(dataset, "summary", summary);
-    put_text(dataset, "units", json_of(fields, &Field::unit));
-    put_text(dataset, "columns", json_of(fields, &Field::summary));
-}
-
-template <class Row>
-void put_table(hid_t file, const Table<Row>& table, const std::vector<Row>& rows) {
-    const std::vector<Field> fields = fields_of(table);
-    const std::size_t size = fields.back().offset + fields.back().size;
-    put_records(file, table.name, table.summary, fields, rows.size(), size,
-                encode(table, fields, size, rows));
+        checked(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT,
+                         encode(table, record_size, results).data()),
+                name);
+    put_text(dataset, "summary", table.summary);
+    put_text(dataset, "units", json_of(table, &Column::unit));
+    put_text(dataset, "columns", json_of(table, &Column::summary));
 }
 
 void put_texts(hid_t file, const std::map<std::string, std::string>& texts) {
@@ -251,7 +225,8 @@ void write_image(const Results& results, hid_t access) {
     put_text(file, "created_utc", results.created_utc);
     put_text(file, "sweep_hash", results.sweep_hash);
     put_text(file, "generator", results.generator);
-    for_each_table([&](const auto& table) { put_table(file, table, results.*table.rows); });
+    for (const Table& table : tables())
+        put_table(file, table, results);
     put_texts(file, results.texts);
     const std::uint32_t complete = results.complete;
     put_attribute(file, "complete", H5T_NATIVE_UINT32, &complete);

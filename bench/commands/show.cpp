@@ -228,24 +228,27 @@ class Group {
 };
 
 /// A row as a JSON object.
-template <class Row> std::string json_of(const results::Table<Row>& table, const Row& row) {
+std::string json_of(const results::Table& table, const std::byte* row) {
+    const auto count = []<class Value>(Value value) {
+        return value == std::numeric_limits<Value>::max() ? "null" : std::to_string(value);
+    };
     std::string text;
-    for (const auto& column : table.columns) {
+    for (const results::Column& column : table.columns) {
         text += (text.empty() ? "{" : ", ") + json_string(column.name) + ": ";
-        std::visit(
-            [&]<class Value>(Value Row::*member) {
-                const Value& value = row.*member;
-                if constexpr (std::is_same_v<Value, std::string>)
-                    text += json_string(value);
-                else if constexpr (results::Worded<Value>)
-                    text += json_string(to_string(value));
-                else if constexpr (std::is_same_v<Value, double>)
-                    text += json_number(value);
-                else
-                    text +=
-                        value == std::numeric_limits<Value>::max() ? "null" : std::to_string(value);
-            },
-            column.member);
+        switch (column.stored) {
+        case results::Stored::uint32:
+            text += count(column.value<std::uint32_t>(row));
+            break;
+        case results::Stored::uint64:
+            text += count(column.value<std::uint64_t>(row));
+            break;
+        case results::Stored::real:
+            text += json_number(column.value<double>(row));
+            break;
+        case results::Stored::text:
+            text += json_string(column.text(row));
+            break;
+        }
     }
     return text + "}";
 }
@@ -300,14 +303,15 @@ std::string csv_text(const Results& results) {
 
 std::string json_text(const Results& results) {
     std::string text;
-    results::for_each_table([&]<class Row>(const results::Table<Row>& table) {
+    for (const results::Table& table : results::tables()) {
         if (!table.is_derived && table.name != "cells")
-            return;
-        std::string rows;
-        for (const Row& row : results.*table.rows)
-            rows += (rows.empty() ? "\n  " : ",\n  ") + json_of(table, row);
-        text += fmt::format("{}\"{}\": [{}]", text.empty() ? "{" : ",\n ", table.name, rows);
-    });
+            continue;
+        const auto rows = table.rows(results);
+        std::string all;
+        for (std::size_t i = 0; i < rows.n; ++i)
+            all += (i == 0 ? "\n  " : ",\n  ") + json_of(table, rows[i]);
+        text += fmt::format("{}\"{}\": [{}]", text.empty() ? "{" : ",\n ", table.name, all);
+    }
     return text + "}\n";
 }
 

@@ -16,22 +16,19 @@ results::Results changed(Reader in) {
     while (!in.at_end()) {
         const std::size_t wanted = in.take<std::uint8_t>(), column = in.take<std::uint8_t>();
         const auto number = in.take<std::uint32_t>();
-        std::size_t table_index = 0;
-        results::for_each_table([&]<class Row>(const results::Table<Row>& table) {
-            if (table_index++ != wanted || table.columns.size() == 0)
-                return;
-            Row& row = (results.*table.rows)[0];
-            std::visit(
-                [&]<class Value>(Value Row::*member) {
-                    if constexpr (std::is_arithmetic_v<Value>)
-                        row.*member = static_cast<Value>(number);
-                    else if constexpr (std::is_same_v<Value, std::string>)
-                        row.*member = std::string(number % 5, static_cast<char>(number >> 8));
-                },
-                (*std::next(table.columns.begin(),
-                            static_cast<std::ptrdiff_t>(column % table.columns.size())))
-                    .member);
-        });
+        if (wanted >= results::tables().size())
+            continue;
+        const results::Table& table = results::tables()[wanted];
+        const results::Column& at = table.columns[column % table.columns.size()];
+        std::byte* row = table.rows(results)[0];
+        if (at.stored == results::Stored::uint32)
+            at.value<std::uint32_t>(row) = number;
+        else if (at.stored == results::Stored::uint64)
+            at.value<std::uint64_t>(row) = number;
+        else if (at.stored == results::Stored::real)
+            at.value<double>(row) = number;
+        else
+            at.set_text(row, std::string(number % 5, static_cast<char>(number >> 8)));
     }
     return results;
 }

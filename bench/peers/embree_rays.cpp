@@ -217,6 +217,11 @@ ContenderEntry rays(Wanted wanted, int width, bool robust) {
         : width == 1          ? "single rays"
                               : "packets of rays in the order given, context flag INCOHERENT");
     e.runs_on = RunsOn::tbb;
+    e.cannot = [](const Job& job) -> std::optional<std::string> {
+        if (std::holds_alternative<RayCases>(job.scene->cases))
+            return "answers about the rays of a scene, not about cases";
+        return std::nullopt;
+    };
     e.classes = {ray_class::batches};
     if (wanted != Wanted::all)
         e.classes = width == 1 ? std::vector{ray_class::single, ray_class::batches}

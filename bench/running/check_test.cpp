@@ -6,6 +6,7 @@
 #include "bench/analysis/promises.h"
 #include "bench/io/bad_input.h"
 #include "bench/plan/families.h"
+#include "bench/tasks/all_hits.h"
 #include "bench/tasks/task.h"
 #include "bench/truth/judging/case_truths.h"
 #include "kernels/triangle_distance/distance_kernel.h"
@@ -16,6 +17,7 @@
 
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdio>
@@ -216,6 +218,57 @@ TEST(Check, OneWrongHitOfManyIsFound) {
                           kernel.promise == Promise::exact ? fault.exact_is_broken
                                                            : fault.watertight_is_broken)
                     << kernel.name << ": " << fault.what;
+        }
+}
+
+TEST(Check, AllHitsLackNoneRepeatNoneAndAreInOrder) {
+    SceneSpec spec;
+    spec.generator = "ray_through_mesh";
+    spec.n = 32;
+    const Scene scene = make_scene(spec);
+    const Task& task = *find_task("rays_all");
+    using At = std::ptrdiff_t;
+    struct Fault {
+        const char* what;
+        std::function<void(AllHits&, At)> spoil; ///< at the first of two hits of a ray
+    };
+    const std::vector<Fault> faults{
+        {"none", [](AllHits&, At) {}},
+        {"one is missing",
+         [](AllHits& all, At k) {
+             all.list.erase(all.list.begin() + k);
+             all.hits.erase(all.hits.begin() + k);
+         }},
+        {"one is there twice",
+         [](AllHits& all, At k) {
+             all.list.insert(all.list.begin() + k, all.list[std::size_t(k)]);
+             all.hits.insert(all.hits.begin() + k, all.hits[std::size_t(k)]);
+         }},
+        {"the order",
+         [](AllHits& all, At k) {
+             std::iter_swap(all.list.begin() + k, all.list.begin() + k + 1);
+             std::iter_swap(all.hits.begin() + k, all.hits.begin() + k + 1);
+         }},
+        {"t", [](AllHits& all, At k) { all.hits[std::size_t(k)].t *= 1 + 0x1p-21f; }},
+        {"the triangle", [](AllHits& all, At k) { all.hits[std::size_t(k)].triangle ^= 1; }}};
+    for (const ContenderEntry& right : task.contenders_on_cases())
+        for (const Fault& fault : faults) {
+            if (right.layout != "wide8")
+                continue;
+            ContenderEntry wrong = made_up(right.promise, [&](const Scene& s, Answers& answers) {
+                const std::unique_ptr<Contender> contender = right.make({&s, &task});
+                contender->build();
+                contender->query(answers);
+                auto& all = dynamic_cast<AllHits&>(answers);
+                const auto several =
+                    std::ranges::adjacent_find(all.list, {}, &Pair::a) - all.list.begin();
+                ASSERT_LT(std::size_t(several), all.list.size());
+                fault.spoil(all, several);
+            });
+            wrong.kernel = right.kernel;
+            EXPECT_EQ(broken_promises(checked(scene, "rays_all", wrong)) > 0,
+                      fault.what != std::string("none"))
+                << right.name << ": " << fault.what;
         }
 }
 

@@ -164,10 +164,9 @@ results::Results without_rounds(results::Results results) {
     results.samples.clear();
     results.frames.clear();
     results.effects.clear();
-    results::for_each_table([&](const auto& table) {
+    for (const results::Table& table : results::tables())
         if (table.is_derived)
-            (results.*table.rows).clear();
-    });
+            table.resize(results, 0);
     return results;
 }
 

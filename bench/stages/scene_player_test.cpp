@@ -11,7 +11,7 @@
 namespace boxwood::bench {
 namespace {
 
-const std::string uniform = "[[bodies]]\ngenerator = \"uniform\"\n";
+const std::string uniform_bodies = "[[bodies]]\ngenerator = \"uniform\"\n";
 
 SceneFile file_of(const std::string& text, std::size_t n) {
     SceneFile file = parse_scene_file(text, "mine.toml");
@@ -60,8 +60,8 @@ TEST(ScenePlayer, EffectsThatAreNotUsedCostNothing) {
     for (const EffectEntry& effect : effects())
         every += (every.back() == '[' ? "" : ", ") + std::string("{name = \"") +
                  std::string(effect.name) + "\", share = 0}";
-    const auto one = played(file_of(uniform, 500), 10);
-    const auto other = played(file_of(uniform + every + "]\n", 500), 10);
+    const auto one = played(file_of(uniform_bodies, 500), 10);
+    const auto other = played(file_of(uniform_bodies + every + "]\n", 500), 10);
     const auto &a = one->ledger().rows(), &b = other->ledger().rows();
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -182,7 +182,7 @@ TEST(ScenePlayer, NoFilterNamedNoFilterLookedUp) {
 }
 
 TEST(ScenePlayer, NothingDeformsNoVertexIsTouched) {
-    const SceneFile file = file_of(uniform + "effects = [\"deform\", \"drift\"]\n", 100);
+    const SceneFile file = file_of(uniform_bodies + "effects = [\"deform\", \"drift\"]\n", 100);
     const auto player = played(file, 5);
     expect_untouched(player->ledger().row("advance_deform"));
     expect_untouched(player->ledger().row("transform"));
@@ -190,7 +190,7 @@ TEST(ScenePlayer, NothingDeformsNoVertexIsTouched) {
 }
 
 TEST(ScenePlayer, RestedFramesFindNothingAnew) {
-    SceneFile file = file_of(uniform + "effects = \"gravity\"\n", 100);
+    SceneFile file = file_of(uniform_bodies + "effects = \"gravity\"\n", 100);
     const auto player = played(file, 1500); // all of it lies on the floor
     const std::uint64_t found = player->ledger().row("pairs").items;
     const std::vector<Pair> pairs = player->query().pairs;

@@ -25,7 +25,7 @@ class Answers {
 };
 
 /// Answers that are a list: pairs, hits, distances ...
-template <class T> struct AnswerList final : Answers {
+template <class T> struct AnswerList : Answers {
     std::vector<T> list;
 
     std::size_t size() const override { return list.size(); }

@@ -35,7 +35,7 @@ Scene start_of(const std::shared_ptr<const SceneFile>& file) {
     return make_scene(spec);
 }
 
-const Task& task() { return *find_task("moving_pairs"); }
+const Task& moving_pairs() { return *find_task("moving_pairs"); }
 
 /// What all frames are worth, after one pass and after another from a new build.
 Judgement judged(const ContenderEntry& entry, const Job& job, Frames& frames, Truth& truth) {
@@ -47,7 +47,7 @@ Judgement judged(const ContenderEntry& entry, const Job& job, Frames& frames, Tr
         FramesHash hash;
         contender->build();
         play(*contender, &frames, answers, times, [&](std::size_t index, const Frame& frame) {
-            hash.add(task().hash(answers));
+            hash.add(moving_pairs().hash(answers));
             truth.note_frame(index, frame, answers, entry);
         });
         value = hash.value();
@@ -72,14 +72,15 @@ TEST(MovingPairs, EveryPolicyAndPeerFollowsEveryEffect) {
         const auto file = uniform(effects, 1500);
         const Scene scene = start_of(file);
         Frames frames(file);
-        const auto truth = task().make_truth(scene, 2);
+        const auto truth = moving_pairs().make_truth(scene, 2);
         std::vector<ContenderEntry> all = peers_that_answer("moving_pairs");
         EXPECT_EQ(all.empty(), peers().size() < 2);
         for (const UpdateEntry& update : updates())
             all.push_back(moving_contender({std::string(update.name), {}}));
         for (const ContenderEntry& entry : all)
             for (const unsigned threads : {1u, 2u}) {
-                const Job job{&scene, &task(), std::string(default_executor(threads)), threads};
+                const Job job{&scene, &moving_pairs(), std::string(default_executor(threads)),
+                              threads};
                 if (entry.unsupported(job))
                     continue;
                 const Judgement judgement = judged(entry, job, frames, *truth);
@@ -97,8 +98,8 @@ TEST(MovingPairs, APeerThatCannotSaysWhy) {
     const Scene comers = start_of(uniform({{"spawn", {}, 1}}, 10)),
                 stayers = start_of(uniform({{"drift", {}, 1}}, 10));
     for (const ContenderEntry& entry : peers_that_answer("moving_pairs")) {
-        EXPECT_EQ(entry.unsupported({&stayers, &task(), "serial", 1}), std::nullopt);
-        EXPECT_EQ(entry.unsupported({&comers, &task(), "serial", 1}).has_value(),
+        EXPECT_EQ(entry.unsupported({&stayers, &moving_pairs(), "serial", 1}), std::nullopt);
+        EXPECT_EQ(entry.unsupported({&comers, &moving_pairs(), "serial", 1}).has_value(),
                   entry.name == "embree.rtc_collide.refit");
     }
 }

@@ -1,8 +1,10 @@
 /// For each ray every triangle that it meets, as pairs (ray, triangle).
 
+#include "bench/tasks/all_hits.h"
 #include "bench/tasks/detail/pair_answers.h"
 #include "bench/tasks/detail/ray_classes.h"
 #include "bench/tasks/detail/ray_task.h"
+#include "bench/truth/judging/case_truths.h"
 #include "bench/truth/rays_all_truth.h"
 #include "kernels/registry.h"
 #include "kernels/suggest.h"
@@ -35,7 +37,7 @@ class HitPairs final : public HitSink {
     std::vector<std::vector<Pair>> parts_;
 };
 
-class AllHits final : public RayContender {
+class AllHitsOfMesh final : public RayContender {
   public:
     using RayContender::RayContender;
     void query(Answers& answers) override {
@@ -49,6 +51,47 @@ class AllHits final : public RayContender {
     HitPairs sink_;
 };
 
+/// The hits of one mesh's rays, numbered from the first of them on.
+class AppendHits final : public HitSink {
+  public:
+    AppendHits(AllHits& to, std::size_t first_ray, std::uint32_t first_triangle)
+        : to_(to), first_ray_(static_cast<std::uint32_t>(first_ray)), first_(first_triangle) {}
+
+    void begin(std::size_t, bool) override {}
+    bool take(std::size_t, std::uint32_t ray, std::span<const RayHit> hits) override {
+        for (RayHit hit : hits) {
+            hit.triangle += first_;
+            to_.list.push_back({first_ray_ + ray, hit.triangle});
+            to_.hits.push_back(hit);
+        }
+        return true;
+    }
+    void end() override {}
+
+  private:
+    AllHits& to_;
+    std::uint32_t first_ray_, first_;
+};
+
+class AllHitsOfCases final : public TreesOfCases {
+  public:
+    AllHitsOfCases(const Job& job, const BuildFunction& build, const LayoutEntry& layout,
+                   std::string kernel)
+        : TreesOfCases(job, build, layout), kernel_(std::move(kernel)) {}
+    void query(Answers& answers) override {
+        auto& to = dynamic_cast<AllHits&>(answers);
+        to.list.clear();
+        to.hits.clear();
+        for (const Group& group : groups_) {
+            AppendHits sink(to, group.first_ray, group.first);
+            group.layout->rays_all(group.rays, kernel_, group.triangles, serial(), sink);
+        }
+    }
+
+  private:
+    std::string kernel_;
+};
+
 class RaysAll final : public PairAnswers<RayTask> {
   public:
     std::string_view name() const override { return "rays_all"; }
@@ -56,7 +99,10 @@ class RaysAll final : public PairAnswers<RayTask> {
     std::string_view summary() const override {
         return "for each ray every triangle that it meets";
     }
+    std::unique_ptr<Answers> make_answers() const override { return std::make_unique<AllHits>(); }
     std::unique_ptr<Truth> make_truth(const Scene& scene, unsigned threads) const override {
+        if (fits(scene.cases))
+            return make_all_hits_of_cases_truth({scene, name(), threads});
         return make_all_hits_truth(scene, threads);
     }
     std::vector<NamedCount> counters(const Answers& answers, const Work* work) const override {
@@ -68,9 +114,19 @@ class RaysAll final : public PairAnswers<RayTask> {
   protected:
     Way way(const Choice& choice) const override {
         const KernelInfo& kernel = entry_named(choice.kernel, ray_kernels(), "ray kernel");
-        return {"rays_all",     choice.kernel,
-                kernel.promise, maker<AllHits>(choice.kernel),
-                Query::rays,    ray_class::of_ours({ray_class::batches}, choice.kernel)};
+        const auto make = [of_mesh = maker<AllHitsOfMesh>(choice.kernel),
+                           of_cases = maker<AllHitsOfCases>(choice.kernel)](
+                              const Job& job, BuildFunction build, const LayoutEntry& layout) {
+            const bool has_cases = std::holds_alternative<RayCases>(job.scene->cases);
+            return has_cases ? of_cases(job, std::move(build), layout)
+                             : of_mesh(job, std::move(build), layout);
+        };
+        return {"rays_all", choice.kernel, kernel.promise,
+                make,       Query::rays,   ray_class::of_ours({ray_class::batches}, choice.kernel)};
+    }
+    /// Cut triangles stand in several leaves, but no hit twice.
+    std::vector<CaseWay> ways_on_cases(Promise) const override {
+        return {{"binned_sah", "given"}, {"spatial_sah", "given"}};
     }
 };
 

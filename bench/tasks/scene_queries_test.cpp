@@ -20,14 +20,15 @@ using testing::HasSubstr;
 
 const Report silent = [](std::size_t, std::size_t, const std::string&) {};
 
-Plan plan_of(const std::string& keys) {
+Plan query_plan_of(const std::string& keys) {
     return make_plan("min_time_ms = 0.1\n[[cells]]\ntask = \"scene_queries\"\n" + keys, "x.toml",
                      {});
 }
 
 TEST(SceneQueries, ASweepChecksEveryFrameAndKeepsTheLedger) {
-    const Plan plan = plan_of("scene = [\"crowd\", \"arm_in_clutter\"]\nn = 150\nframes = 4\n"
-                              "stages = [\"required\", \"all_stages\"]\nwithout = \"each\"\n");
+    const Plan plan =
+        query_plan_of("scene = [\"crowd\", \"arm_in_clutter\"]\nn = 150\nframes = 4\n"
+                      "stages = [\"required\", \"all_stages\"]\nwithout = \"each\"\n");
     std::set<std::string> names;
     for (const PlannedCell& cell : plan.cells)
         names.insert(cell.name);
@@ -99,7 +100,8 @@ class LosesAPair final : public Contender {
 };
 
 TEST(SceneQueries, ALostPairIsSeenAndNamed) {
-    const Plan plan = plan_of("scene = \"popcorn\"\nn = 300\nframes = 5\nstages = \"required\"\n");
+    const Plan plan =
+        query_plan_of("scene = \"popcorn\"\nn = 300\nframes = 5\nstages = \"required\"\n");
     const Scene scene = make_scene(plan.cells.at(0).scene);
     const Task& task = *find_task("scene_queries");
     const Job job{&scene, &task, "serial", 1};
@@ -127,7 +129,7 @@ TEST(SceneQueries, ALostPairIsSeenAndNamed) {
 
 TEST(SceneQueries, SweepFilesSayWhatIsWrong) {
     const auto error_of = [](const std::string& keys) {
-        return complaint_of<BadInput>([&] { plan_of(keys); });
+        return complaint_of<BadInput>([&] { query_plan_of(keys); });
     };
     EXPECT_THAT(error_of("scene = \"crowd\"\n"), HasSubstr("needs stages"));
     EXPECT_THAT(error_of("scene = \"crowd\"\nstages = \"all_stage\"\n"), HasSubstr("'all_stages'"));

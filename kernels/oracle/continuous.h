@@ -15,8 +15,11 @@ struct RationalMotion {
 /// t_free and t_hit are the doubles next to the first touch, equal where it is a double.
 /// Tier 0: no root of the coplanarity cubic. 1: decided at its roots. 2: coplanar all the time.
 /// Method: signs of polynomials in t with integer coefficients, at roots isolated by Descartes'
-/// rule in the Bernstein basis and halved where a sign is open; zeros are proven by a common
+/// rule in the Bernstein basis and refined where a sign is open; zeros are proven by a common
 /// divisor.
+/// Cost: microseconds; up to some 20 ms where coordinates span all doubles. They are then integers
+/// of 2,100 bits, the coefficients of the cubic have 6,300, and so two of its roots may be apart
+/// only after 2 * 6,300 halvings, of numbers that grow by 3 bits each.
 Impact vertex_face(const RationalMotion& motion);
 Impact edge_edge(const RationalMotion& motion);
 

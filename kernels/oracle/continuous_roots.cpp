@@ -58,21 +58,30 @@ Polynomial greatest_common_divisor(Polynomial f, Polynomial g) {
     return primitive(f);
 }
 
-/// The roots of f in the open cell, appended in ascending order.
-void isolate(const Polynomial& f, Cell cell, Bernstein local, std::vector<Root>& roots) {
-    const int changes = local.changes();
-    if (changes == 1)
+/// The roots of f in the open interval (0, 1), appended in ascending order. The sign changes on the
+/// two halves of a cell are no more than on the cell, so at most one half has two of them or more,
+/// and there is one cell to go on with, however near to one another two roots are.
+void isolate(const Polynomial& f, Bernstein local, std::vector<Root>& roots) {
+    std::vector<Root> later; // above the cell, descending
+    Cell cell;
+    while (local.changes() > 1) {
+        Bernstein upper = local.halve();
+        Cell lower_cell{2 * cell.index, cell.level + 1};
+        Cell upper_cell{lower_cell.index + 1, lower_cell.level};
+        const bool go_up = upper.changes() > 1;
+        if (go_up && local.changes() == 1)
+            roots.push_back(Root::inside(f, std::move(lower_cell), std::move(local)));
+        if (!go_up && upper.changes() == 1)
+            later.push_back(Root::inside(f, upper_cell, upper));
+        if (upper.b[0] == 0)
+            (go_up ? roots : later).push_back(Root::at_lower_end(f, upper_cell));
+        if (go_up)
+            local = std::move(upper);
+        cell = std::move(go_up ? upper_cell : lower_cell);
+    }
+    if (local.changes() == 1)
         roots.push_back(Root::inside(f, std::move(cell), std::move(local)));
-    if (changes < 2)
-        return;
-    Bernstein upper = local.halve();
-    ++cell.level;
-    cell.index *= 2;
-    isolate(f, cell, std::move(local), roots);
-    ++cell.index;
-    if (upper.b[0] == 0)
-        roots.push_back(Root::at_lower_end(f, cell));
-    isolate(f, std::move(cell), std::move(upper), roots);
+    roots.insert(roots.end(), later.rbegin(), later.rend());
 }
 
 mpq_class fraction(const Integer& index, unsigned level) {
@@ -159,17 +168,20 @@ int Bernstein::first_sign() const {
 
 Bernstein Bernstein::halve() {
     // De Casteljau without the divisions: the row of the triangle that is k sums deep is 2^k times
-    // too large.
+    // too large. In place: memory is what a deep cell's long numbers cost.
     Bernstein upper = *this;
     const auto n = static_cast<unsigned>(std::max(degree, 0));
+    const auto shift = [](Integer& to, const Integer& from, unsigned bits) {
+        mpz_mul_2exp(to.get_mpz_t(), from.get_mpz_t(), bits);
+    };
     for (unsigned k = 0; k <= n; ++k) {
-        b[k] = shifted(upper.b[0], n - k);
+        shift(b[k], upper.b[0], n - k);
         for (unsigned i = 0; i + k < n; ++i)
             upper.b[i] += upper.b[i + 1];
     }
     // What is left in place i has been summed n - i times.
     for (unsigned i = 0; i <= n; ++i)
-        upper.b[i] = shifted(upper.b[i], i);
+        shift(upper.b[i], upper.b[i], i);
     return upper;
 }
 
@@ -188,6 +200,23 @@ void Root::refine() {
     if (is_lower_end_)
         return;
     const int before = local_.first_sign();
+    const Integer first = abs(local_.b[0]), last = abs(local_.b[at(local_.degree)]);
+    if (first != 0 && last != 0) {
+        const Integer guess = shifted(first, jump_) / (first + last);
+        Cell cell{shifted(cell_.index, jump_) + guess, cell_.level + jump_};
+        Bernstein local(f_, cell);
+        const int lower = sgn(local.b[0]), upper = sgn(local.b[at(local.degree)]);
+        if (lower != -before && upper != before) {
+            if (upper == 0)
+                ++cell.index;
+            is_lower_end_ = lower == 0 || upper == 0;
+            cell_ = std::move(cell);
+            local_ = std::move(local);
+            jump_ *= 2;
+            return;
+        }
+        jump_ = std::max(jump_ / 2, 1u);
+    }
     Bernstein upper = local_.halve();
     ++cell_.level;
     cell_.index *= 2;
@@ -200,44 +229,42 @@ void Root::refine() {
 }
 
 int Root::sign_of(const Polynomial& g) {
-    const Bernstein start(g, cell_);
-    if (is_lower_end_)
-        return start.degree < 0 ? 0 : sgn(start.b[0]);
-    if (start.changes() == 0)
-        return start.first_sign();
-    // A common divisor has at most this root in the open cell, and it is simple.
-    if (Bernstein(greatest_common_divisor(f_, g), cell_).changes() % 2 != 0)
-        return 0;
-    while (true) {
-        refine();
+    for (bool may_be_zero = true;; refine()) {
         const Bernstein local(g, cell_);
         if (is_lower_end_)
-            return sgn(local.b[0]);
+            return local.degree < 0 ? 0 : sgn(local.b[0]);
         if (local.changes() == 0)
             return local.first_sign();
+        // A common divisor has at most this root in the open cell, and it is simple.
+        if (std::exchange(may_be_zero, false) &&
+            Bernstein(greatest_common_divisor(f_, g), cell_).changes() % 2 != 0)
+            return 0;
     }
 }
 
 int compare(Root& a, Root& b) {
-    bool may_be_equal = true;
-    while (true) {
-        // On cells of equal size: either the same, or apart but for a common end.
-        while (a.cell_.level < b.cell_.level && !a.is_lower_end_)
-            a.refine();
-        while (b.cell_.level < a.cell_.level && !b.is_lower_end_)
-            b.refine();
-        const unsigned level = std::max(a.cell_.level, b.cell_.level);
-        const Integer m = shifted(a.cell_.index, level - a.cell_.level);
-        const Integer n = shifted(b.cell_.index, level - b.cell_.level);
+    for (bool may_be_equal = true;;) {
+        // One cell is within the other, or they are apart but for a common end.
+        const unsigned coarse = std::min(a.cell_.level, b.cell_.level);
+        const unsigned fine = std::max(a.cell_.level, b.cell_.level);
+        const Integer m = a.cell_.index >> (a.cell_.level - coarse);
+        const Integer n = b.cell_.index >> (b.cell_.level - coarse);
         if (m != n)
             return m < n ? -1 : 1;
-        if (a.is_lower_end_ || b.is_lower_end_)
-            return static_cast<int>(b.is_lower_end_) - static_cast<int>(a.is_lower_end_);
-        if (std::exchange(may_be_equal, false) &&
-            Bernstein(greatest_common_divisor(a.f_, b.f_), a.cell_).changes() % 2 != 0)
+        const int ends = sgn(Integer(shifted(a.cell_.index, fine - a.cell_.level) -
+                                     shifted(b.cell_.index, fine - b.cell_.level)));
+        if (a.is_lower_end_ && b.is_lower_end_)
+            return ends;
+        if (a.is_lower_end_ && ends <= 0)
+            return -1;
+        if (b.is_lower_end_ && ends >= 0)
+            return 1;
+        Root& wider = a.cell_.level == coarse ? a : b;
+        Root& narrower = &wider == &a ? b : a;
+        if (!narrower.is_lower_end_ && std::exchange(may_be_equal, false) &&
+            Bernstein(greatest_common_divisor(a.f_, b.f_), narrower.cell_).changes() % 2 != 0)
             return 0;
-        a.refine();
-        b.refine();
+        wider.refine();
     }
 }
 
@@ -270,7 +297,7 @@ std::vector<Root> roots_in_unit_interval(const Polynomial& given) {
     if (local.b[0] == 0)
         roots.push_back(Root::at_lower_end(f, all));
     const bool one_is_root = local.b[at(local.degree)] == 0;
-    isolate(f, all, std::move(local), roots);
+    isolate(f, std::move(local), roots);
     if (one_is_root)
         roots.push_back(Root::at_lower_end(f, {1, 0}));
     return roots;

@@ -54,7 +54,9 @@ class Root {
     bool is_lower_end() const { return is_lower_end_; }
     const Cell& cell() const { return cell_; }
 
-    /// Halves the cell. For a root that is a lower end: nothing.
+    /// Makes the cell 2^-jump as wide around where the secant meets 0, jump twice as large each
+    /// time that the root is there, else halves it: so d levels take some log d steps (quadratic
+    /// interval refinement, Abbott 2006). For a root that is a lower end: nothing.
     void refine();
     /// The sign of g at the root. May refine.
     int sign_of(const Polynomial& g);
@@ -72,6 +74,7 @@ class Root {
     Cell cell_;
     Bernstein local_; ///< f on the cell, unless the root is its lower end
     bool is_lower_end_;
+    unsigned jump_ = 1;
 };
 
 /// The distinct roots of f in [0, 1], ascending; none for the polynomial 0.

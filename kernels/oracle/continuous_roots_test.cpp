@@ -97,6 +97,23 @@ TEST(PolynomialRoots, CloseAndTinyOnes) {
     EXPECT_EQ(compare(tiny, two_to_minus_1074), -1);
 }
 
+TEST(PolynomialRoots, ThreeInOneDeepCell) {
+    // 2^-5000 (1, 2, 3) / 7 + 1/3: further apart from 0 and 1 than any stack is deep.
+    const Integer far = Integer(1) << 5000;
+    const auto near_third = [&](int k) { return Polynomial{{-(7 * far + 3 * k), 21 * far, 0, 0}}; };
+    std::vector<Root> roots = roots_in_unit_interval(near_third(1) * near_third(2) * near_third(3));
+    ASSERT_EQ(roots.size(), 3u);
+    for (int k = 0; k < 3; ++k) {
+        Root& root = roots[static_cast<std::size_t>(k)];
+        for (int other = 0; other < 4; ++other)
+            EXPECT_EQ(root.sign_of(near_third(other)), k + 1 > other ? 1 : k + 1 < other ? -1 : 0);
+        Root alone = roots_in_unit_interval(near_third(k + 1)).at(0);
+        EXPECT_EQ(compare(root, alone), 0);
+    }
+    EXPECT_EQ(compare(roots[0], roots[2]), -1);
+    EXPECT_EQ(compare(roots[2], roots[1]), 1);
+}
+
 TEST(PolynomialRoots, SortedComparisonIsAnOrder) {
     std::mt19937_64 random(5);
     std::uniform_int_distribution<long> coefficient(-6, 6);

@@ -85,7 +85,7 @@ struct ExactContinuous {
         "coplanarity cubic over the integers, roots isolated, inside test by signs at the roots",
         Promise::exact,
         "no rounding; the touch is bracketed by neighbouring doubles",
-        "GMP integers: microseconds"};
+        "GMP integers: microseconds, milliseconds where coordinates span hundreds of octaves"};
     static constexpr KernelInfo edge_edge_info{"edge_edge",
                                                name,
                                                vertex_face_info.summary,

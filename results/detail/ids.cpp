@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <set>
 #include <stdexcept>
-#include <type_traits>
 
 namespace boxwood::results::detail {
 namespace {
@@ -26,35 +26,30 @@ std::string_view referred(std::string_view column) {
                     id, problem));
 }
 
-/// visit(column name, member, table of the ids) for every column of ids.
-template <class Row, class Visit> void for_each_id(const Table<Row>& table, Visit&& visit) {
-    for (const auto& column : table.columns)
-        if (const auto* member = std::get_if<std::uint32_t Row::*>(&column.member))
-            if (const std::string_view ids_of = referred(column.name); !ids_of.empty())
-                visit(column.name, *member, ids_of);
+/// visit(table, column, id, table of the ids) for every id of the results.
+template <class Visit> void for_each_id(const Results& results, Visit&& visit) {
+    for (const Table& table : tables())
+        for (const Column& column : table.columns)
+            if (const std::string_view ids_of = referred(column.name); !ids_of.empty()) {
+                const auto rows = table.rows(results);
+                for (std::size_t i = 0; i < rows.n; ++i)
+                    visit(table, column.name, column.value<std::uint32_t>(rows[i]), ids_of);
+            }
 }
 
 } // namespace
 
 void require_valid_ids(const Results& results) {
     std::map<std::string_view, std::set<std::uint32_t>> ids;
-    for_each_table([&]<class Row>(const Table<Row>& table) {
-        for_each_id(table, [&](std::string_view column, auto member, std::string_view ids_of) {
-            if (ids_of != table.name)
-                return;
-            for (const Row& row : results.*table.rows)
-                if (!ids[table.name].insert(row.*member).second)
-                    fail(table.name, column, row.*member, "which stands there twice");
-        });
+    for_each_id(results, [&](const Table& table, std::string_view column, std::uint32_t id,
+                             std::string_view ids_of) {
+        if (ids_of == table.name && !ids[table.name].insert(id).second)
+            fail(table.name, column, id, "which stands there twice");
     });
-    for_each_table([&]<class Row>(const Table<Row>& table) {
-        for_each_id(table, [&](std::string_view column, auto member, std::string_view ids_of) {
-            for (const Row& row : results.*table.rows)
-                if (!ids[ids_of].contains(row.*member) &&
-                    !(table.is_derived && row.*member == no_id))
-                    fail(table.name, column, row.*member,
-                         fmt::format("which no row of {} has", ids_of));
-        });
+    for_each_id(results, [&](const Table& table, std::string_view column, std::uint32_t id,
+                             std::string_view ids_of) {
+        if (!ids[ids_of].contains(id) && !(table.is_derived && id == no_id))
+            fail(table.name, column, id, fmt::format("which no row of {} has", ids_of));
     });
 }
 

@@ -5,11 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <iterator>
 #include <string>
-#include <type_traits>
 
 namespace boxwood::results {
 
@@ -23,30 +22,29 @@ inline Results filled_example(std::size_t rows_per_table = 3) {
     results.generator = "boxwood test";
     results.texts = {{"argv", "boxwood sweep"}, {"lscpu", "Modell: \u00e4\n"}, {"empty", ""}};
     std::uint64_t next = 1;
-    for_each_table([&]<class Row>(const Table<Row>& table) {
-        auto& rows = results.*table.rows;
-        rows.resize(rows_per_table);
-        for (Row& row : rows)
-            for (const auto& column : table.columns) {
+    for (const Table& table : tables()) {
+        table.resize(results, rows_per_table);
+        const auto rows = table.rows(results);
+        for (std::size_t i = 0; i < rows.n; ++i)
+            for (const Column& column : table.columns) {
                 if (std::ranges::find(references, column.name, &Reference::column) !=
                     std::end(references)) {
-                    row.*std::get<std::uint32_t Row::*>(column.member) =
-                        static_cast<std::uint32_t>(&row - rows.data());
+                    column.value<std::uint32_t>(rows[i]) = static_cast<std::uint32_t>(i);
                     continue;
                 }
-                ++next;
-                std::visit(
-                    [&]<class Value>(Value Row::*member) {
-                        if constexpr (Worded<Value>)
-                            row.*member = static_cast<Value>(next % Words<Value>::all.size());
-                        else if constexpr (std::is_same_v<Value, std::string>)
-                            row.*member = fmt::format("{} \u00b5 {}", column.name, next);
-                        else
-                            row.*member = static_cast<Value>(next * 0x9e3779b97f4a7c15 >> 20);
-                    },
-                    column.member);
+                const std::uint64_t number = ++next * 0x9e3779b97f4a7c15 >> 20;
+                if (column.stored == Stored::uint32)
+                    column.value<std::uint32_t>(rows[i]) = static_cast<std::uint32_t>(number);
+                else if (column.stored == Stored::uint64)
+                    column.value<std::uint64_t>(rows[i]) = number;
+                else if (column.stored == Stored::real)
+                    column.value<double>(rows[i]) = static_cast<double>(number);
+                else if (column.words.empty())
+                    column.set_text(rows[i], fmt::format("{} \u00b5 {}", column.name, next));
+                else
+                    column.set_text(rows[i], column.words[next % column.words.size()]);
             }
-    });
+    }
     return results;
 }
 
@@ -57,27 +55,18 @@ inline std::string difference(const Results& a, const Results& b) {
         return "header";
     if (a.texts != b.texts)
         return "texts";
-    std::string where;
-    for_each_table([&]<class Row>(const Table<Row>& table) {
-        const auto &left = a.*table.rows, &right = b.*table.rows;
-        if (left.size() != right.size()) {
-            where = fmt::format("{}: {} and {} rows", table.name, left.size(), right.size());
-            return;
-        }
-        for (std::size_t i = 0; i < left.size(); ++i)
-            for (const auto& column : table.columns)
-                std::visit(
-                    [&]<class Value>(Value Row::*member) {
-                        bool equal = left[i].*member == right[i].*member;
-                        if constexpr (std::is_same_v<Value, double>)
-                            equal = std::bit_cast<std::uint64_t>(left[i].*member) ==
-                                    std::bit_cast<std::uint64_t>(right[i].*member);
-                        if (!equal && where.empty())
-                            where = fmt::format("{}.{} of row {}", table.name, column.name, i);
-                    },
-                    column.member);
-    });
-    return where;
+    for (const Table& table : tables()) {
+        const auto left = table.rows(a), right = table.rows(b);
+        if (left.n != right.n)
+            return fmt::format("{}: {} and {} rows", table.name, left.n, right.n);
+        for (std::size_t i = 0; i < left.n; ++i)
+            for (const Column& column : table.columns)
+                if (column.stored == Stored::text
+                        ? column.text(left[i]) != column.text(right[i])
+                        : std::memcmp(left[i] + column.at, right[i] + column.at, column.size) != 0)
+                    return fmt::format("{}.{} of row {}", table.name, column.name, i);
+    }
+    return "";
 }
 
 } // namespace boxwood::results

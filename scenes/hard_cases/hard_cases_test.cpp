@@ -318,6 +318,7 @@ TEST(HardCases, SameBitsOnEveryMachine) {
         {"ray_in_plane", 2275906484095796451u},
         {"ray_in_stretched_mesh", 10115283102105447385u},
         {"ray_through_edge", 9284143858727831251u},
+        {"ray_through_mesh", 3829898785785850445u},
         {"ray_through_vertex", 16507112624556922491u},
         {"rotated_boxes", 16579140992361086362u},
         {"separated_triangles", 14049160957508766538u},

@@ -68,8 +68,10 @@ Vec3<float> stretched(Vec p, const Exponents& by) {
     return Vec3<float>(Vec{std::ldexp(p.x, by[0]), std::ldexp(p.y, by[1]), std::ldexp(p.z, by[2])});
 }
 
-/// From the middle, or near it, at a vertex, an edge or anywhere, every fourth an ulp aside.
-Ray<float> draw_ray(const Mesh& mesh, const Exponents& by, Draws& draws) {
+/// From the middle, or near it, at a vertex, an edge or anywhere, every fourth an ulp aside. Those
+/// through the mesh come from four times as far on the other side: 1.5 to 6.5 away, so outside, and
+/// pass by where the others begin, 0.15 and more inside.
+Ray<float> draw_ray(const Mesh& mesh, const Exponents& by, bool is_through, Draws& draws) {
     const auto& [ia, ib, ic] = mesh.triangles[static_cast<std::size_t>(
         draw_integer(draws, 0, static_cast<std::int64_t>(mesh.triangles.size()) - 1))];
     const Vec a = mesh.vertices[ia], b = mesh.vertices[ib], c = mesh.vertices[ic];
@@ -79,8 +81,9 @@ Ray<float> draw_ray(const Mesh& mesh, const Exponents& by, Draws& draws) {
     const Vec target = kind == 0   ? a
                        : kind == 1 ? on_edge + draws.uniform() * (c - on_edge)
                                    : on_edge;
+    const Vec middle = draw_coin(draws) ? on_grid(inside * draws.in_ball()) : Vec{};
     const Vec3<float> origin =
-        stretched(draw_coin(draws) ? on_grid(inside * draws.in_ball()) : Vec{}, by);
+        stretched(is_through ? middle - 4.0 * (on_grid(target) - middle) : middle, by);
     Ray<float> ray{origin, Vec3<float>(Vec(stretched(target, by)) - Vec(origin))};
     if (draw_integer(draws, 0, 3) == 0)
         for (int axis = 0; axis < 3; ++axis)
@@ -91,7 +94,7 @@ Ray<float> draw_ray(const Mesh& mesh, const Exponents& by, Draws& draws) {
 
 /// Axes are stretched by powers of two: all by 2^scale, one by 2^k more, one by 2^-k, and one by
 /// something between them.
-Cases rays_in_meshes(const HardCaseSpec& spec, const Random& random) {
+Cases rays_in_meshes(const HardCaseSpec& spec, const Random& random, bool is_through = false) {
     RayCases cases;
     Mesh mesh;
     Exponents by{};
@@ -104,7 +107,7 @@ Cases rays_in_meshes(const HardCaseSpec& spec, const Random& random) {
             shuffle(by, draws);
         }
         RayCase& ray = cases.rays.emplace_back();
-        ray.ray = draw_ray(mesh, by, draws);
+        ray.ray = draw_ray(mesh, by, is_through, draws);
         ray.ray.origin = scaled(ray.ray.origin, spec.scale);
         ray.count = static_cast<std::uint32_t>(mesh.triangles.size());
         ray.hit = Known::yes;
@@ -138,6 +141,20 @@ HardCaseFamily ray_in_mesh_family() {
             }};
 }
 
+/// Scales: coordinates below 6.5 2^123.
+HardCaseFamily ray_through_mesh_family() {
+    return {.name = "ray_through_mesh",
+            .summary = "rays through closed meshes, in and out again; they must hit",
+            .panel = Panel::touching,
+            .scale_min = grid_bits - 149,
+            .scale_max = 123,
+            .generate = [](const HardCaseSpec& spec, const Random& random) {
+                HardCaseSpec round = spec;
+                round.k = 0;
+                return rays_in_meshes(round, random, true);
+            }};
+}
+
 HardCaseFamily ray_in_stretched_mesh_family() {
     return {.name = "ray_in_stretched_mesh",
             .summary = "rays from inside closed meshes 4^k as long as wide; they must hit",
@@ -148,7 +165,9 @@ HardCaseFamily ray_in_stretched_mesh_family() {
             .k_max = 100,
             .scale_min = grid_bits + 100 - 149,
             .scale_max = 25,
-            .generate = rays_in_meshes};
+            .generate = [](const HardCaseSpec& spec, const Random& random) {
+                return rays_in_meshes(spec, random);
+            }};
 }
 
 } // namespace boxwood

@@ -132,7 +132,7 @@ TriangleMesh load(const fs::path& file) {
     if (extension == ".obj")
         ply = scan_obj(bytes);
     else if (extension == ".ply")
-        scan_ply(bytes);
+        ply = scan_ply(bytes);
     else if (extension == ".stl")
         scan_stl(bytes);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -24,6 +25,33 @@ float coordinate(std::string_view token, std::size_t line) {
         throw MeshError(
             fmt::format("line {}: the coordinate '{}' is not a finite float", line, token));
     return tiny ? 0 : value;
+}
+
+void PlyMesh::add_vertex(const std::array<float, 3>& point) {
+    vertices_.append(reinterpret_cast<const char*>(point.data()), sizeof point);
+}
+
+void PlyMesh::add_face(std::span<const std::int64_t> corners) {
+    if (corners.size() < 3)
+        return;
+    ++n_faces_;
+    const auto put = [&](std::uint32_t value) {
+        faces_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    put(static_cast<std::uint32_t>(corners.size()));
+    for (const std::int64_t corner : corners)
+        put(static_cast<std::uint32_t>(corner));
+}
+
+std::string PlyMesh::bytes() const {
+    static_assert(std::endian::native == std::endian::little);
+    if (n_faces_ == 0)
+        throw MeshError("holds no triangles");
+    return fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n"
+                       "property float x\nproperty float y\nproperty float z\nelement face {}\n"
+                       "property list uint uint vertex_indices\nend_header\n{}{}",
+                       vertices_.size() / sizeof(std::array<float, 3>), n_faces_, vertices_,
+                       faces_);
 }
 
 std::string_view take_token(std::string_view& text) {

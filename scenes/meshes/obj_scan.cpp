@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <bit>
+#include <array>
 #include <charconv>
 #include <cstdint>
 #include <vector>
@@ -49,25 +49,13 @@ std::int64_t vertex_of(Token corner, std::int64_t n_vertices) {
     return index > 0 ? index : n_vertices + index + 1;
 }
 
-void put(std::string& bytes, const void* value, std::size_t size) {
-    bytes.append(static_cast<const char*>(value), size);
-}
-
-std::string binary_ply(std::int64_t n_vertices, std::string_view vertices, std::int64_t n_faces,
-                       std::string_view faces) {
-    static_assert(std::endian::native == std::endian::little);
-    return fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n"
-                       "property float x\nproperty float y\nproperty float z\nelement face {}\n"
-                       "property list uint uint vertex_indices\nend_header\n{}{}",
-                       n_vertices, n_faces, vertices, faces);
-}
-
 } // namespace
 
 std::string scan_obj(std::string_view text) {
-    std::string vertices, faces;
+    PlyMesh mesh;
+    std::vector<std::int64_t> corners;
     std::vector<Token> words;
-    std::int64_t n_vertices = 0, n_faces = 0;
+    std::int64_t n_vertices = 0;
     std::int64_t farthest = 0; // an index may refer to a vertex that comes later
     std::size_t farthest_line = 0;
     for (std::size_t line = 0; !text.empty();) {
@@ -79,36 +67,29 @@ std::string scan_obj(std::string_view text) {
                 throw MeshError(
                     fmt::format("line {}: a vertex needs three coordinates, here are {}", line,
                                 words.size() - 1));
-            for (std::size_t k = 1; k < 4; ++k) {
-                const float x = coordinate(words[k].text, words[k].line);
-                put(vertices, &x, sizeof x);
-            }
+            std::array<float, 3> point;
+            for (std::size_t k = 0; k < 3; ++k)
+                point[k] = coordinate(words[k + 1].text, words[k + 1].line);
+            mesh.add_vertex(point);
             ++n_vertices;
         } else if (words[0].text == "f") {
-            const auto n_corners = static_cast<std::uint32_t>(words.size() - 1);
-            const bool polygon = n_corners >= 3; // else a point or a line
-            n_faces += polygon;
-            if (polygon)
-                put(faces, &n_corners, sizeof n_corners);
+            corners.clear();
             for (std::size_t k = 1; k < words.size(); ++k) {
                 const std::int64_t number = vertex_of(words[k], n_vertices);
                 if (number > farthest) {
                     farthest = number;
                     farthest_line = words[k].line;
                 }
-                const auto index = static_cast<std::uint32_t>(number - 1);
-                if (polygon)
-                    put(faces, &index, sizeof index);
+                corners.push_back(number - 1);
             }
+            mesh.add_face(corners);
         }
     }
     if (farthest > n_vertices)
         throw MeshError(fmt::format("line {}: vertex index {} is out of range; the file has {} "
                                     "vertices",
                                     farthest_line, farthest, n_vertices));
-    if (n_faces == 0)
-        throw MeshError("holds no triangles");
-    return binary_ply(n_vertices, vertices, n_faces, faces);
+    return mesh.bytes();
 }
 
 } // namespace boxwood

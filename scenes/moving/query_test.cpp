@@ -29,7 +29,7 @@ std::vector<std::string> names(const SceneFile& file) {
     return names;
 }
 
-std::string complaint(const std::string& text) {
+std::string refusal(const std::string& text) {
     return complaint_of([&] { parse_scene_file(text, "mine.toml"); });
 }
 
@@ -51,7 +51,7 @@ TEST(SceneQueries, AreReadFromTheFile) {
 
 TEST(SceneQueries, BadOnesAreRefusedWithTheirPlace) {
     const auto of = [](const std::string& queries) {
-        return complaint("n = 10\nqueries = " + queries + "\n" + uniform);
+        return refusal("n = 10\nqueries = " + queries + "\n" + uniform);
     };
     EXPECT_THAT(of("\"pears\""),
                 HasSubstr("mine.toml:2: queries: unknown name 'pears'; did you mean "
@@ -67,10 +67,10 @@ TEST(SceneQueries, BadOnesAreRefusedWithTheirPlace) {
     EXPECT_THAT(of("{name = \"rays\", n = 1.5}"), HasSubstr("n must be a whole number"));
     EXPECT_THAT(of("{name = \"nearest\", k = 0}"), HasSubstr("k = 0 is out of range"));
     EXPECT_THAT(of("{name = \"regions\", size = nan}"), HasSubstr("out of range"));
-    EXPECT_THAT(complaint(uniform + "margin = -1\n"), HasSubstr("mine.toml:3: margin = -1 is out"));
-    EXPECT_THAT(complaint(uniform + "group_ignored = 3\n"),
+    EXPECT_THAT(refusal(uniform + "margin = -1\n"), HasSubstr("mine.toml:3: margin = -1 is out"));
+    EXPECT_THAT(refusal(uniform + "group_ignored = 3\n"),
                 HasSubstr("mine.toml:3: group_ignored must be true or false"));
-    EXPECT_THAT(complaint(uniform + "group_ignord = true\n"),
+    EXPECT_THAT(refusal(uniform + "group_ignord = true\n"),
                 HasSubstr("did you mean 'group_ignored'?"));
 }
 

@@ -195,8 +195,10 @@ std::vector<Ray<float>> make_rays(std::string_view kind, const TriangleMesh& mes
         if (const Vec3<float> o = ray.origin;
             !(std::max({std::abs(o.x), std::abs(o.y), std::abs(o.z)}) < max_ray_coordinate) ||
             !is_finite(ray.direction))
-            throw std::runtime_error("rays: the mesh is so large that rays at it overflow a float; "
-                                     "scale it down");
+            throw std::runtime_error(
+                "rays: at this mesh some would start at coordinates that are not "
+                "below 2^126 (8.5e37) in size, or have a direction beyond "
+                "floats: scale the mesh down");
     return rays;
 }
 

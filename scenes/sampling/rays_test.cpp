@@ -2,6 +2,7 @@
 
 #include "scenes/scene.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +11,9 @@
 
 namespace boxwood {
 namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
 
 /// A plain text-book test in double: good enough to count hits, not to judge edges.
 bool meets(const Ray<float>& ray, const Triangle<float>& triangle) {
@@ -100,7 +104,6 @@ TEST(Rays, SurfacePointsAreSpreadByArea) {
 
 TEST(Rays, OddMeshesGiveFiniteRaysOrAnError) {
     const TriangleMesh point{{{5, 5, 5}}, {{0, 0, 0}}};
-    const TriangleMesh huge{{{-3e38f, 0, 0}, {3e38f, 0, 0}, {0, 3e38f, 0}}, {{0, 1, 2}}};
     const TriangleMesh far{{{1e6f, 1e6f, 0}, {1e6f + 1, 1e6f, 0}, {1e6f, 1e6f + 1, 0}},
                            {{0, 1, 2}}};
     for (const RayKindEntry& kind : ray_kinds()) {
@@ -108,7 +111,16 @@ TEST(Rays, OddMeshesGiveFiniteRaysOrAnError) {
         EXPECT_EQ(make_rays(kind.name, far, 50, 1).size(), 50u);
         EXPECT_THROW(make_rays(kind.name, {}, 1, 1), std::invalid_argument);
     }
-    EXPECT_THROW(make_rays("primary", huge, 50, 1), std::runtime_error);
+    for (const float size : {3e38f, 0x1p125f}) { // the camera stands 2.5 radii away
+        const TriangleMesh huge{{{-size, 0, 0}, {size, 0, 0}, {0, size, 0}}, {{0, 1, 2}}};
+        try {
+            make_rays("primary", huge, 50, 1);
+            ADD_FAILURE() << size;
+        } catch (const std::runtime_error& error) {
+            EXPECT_THAT(error.what(),
+                        AllOf(HasSubstr("below 2^126 (8.5e37)"), HasSubstr("scale the mesh down")));
+        }
+    }
     for (const Ray<float>& ray : make_rays("ambient", far, 50, 1))
         EXPECT_GT(ray.origin.z, 0); // off the surface in spite of the far origin
 }

@@ -82,7 +82,8 @@ TEST(Churn, TheDynamicTreeStaysRightGoodAndSmall) {
 }
 
 /// refit never changes the order of its tree, and refine sorts within small parts of it: neither
-/// brings home an item that comes back elsewhere. After such a churn they cost ten times as much.
+/// brings home an item that comes back elsewhere. After such a churn a query tests three boxes in
+/// four, 9 to 10.4 times as many as in a fresh tree; all of them would be 13 times.
 bool keeps_old_order(std::string_view policy) { return policy == "refit" || policy == "refine"; }
 
 TEST(Churn, EveryUpdatePolicyStaysRightGoodAndSmall) {
@@ -116,11 +117,12 @@ TEST(Churn, EveryUpdatePolicyStaysRightGoodAndSmall) {
             ASSERT_EQ(updater->fault(), "") << frame;
             const auto fresh = entry.make({});
             fresh->start(boxes, serial());
+            const double ratio = updater->sah() / fresh->sah();
             RecordProperty(std::string(entry.name) + "_" + std::to_string(frame),
-                           std::to_string(updater->sah() / fresh->sah()) + " " +
-                               std::to_string(updater->bytes()));
-            if (!keeps_old_order(entry.name)) {
-                EXPECT_LE(updater->sah(), 1.1 * fresh->sah()) << frame;
+                           std::to_string(ratio) + " " + std::to_string(updater->bytes()));
+            EXPECT_LE(ratio, keeps_old_order(entry.name) ? 12 : 1.1) << frame;
+            if (keeps_old_order(entry.name)) {
+                EXPECT_GE(ratio, 5) << "the exemption is not needed any more";
             }
             if (frame == 2 * checkpoint)
                 bytes = updater->bytes();

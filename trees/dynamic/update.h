@@ -29,6 +29,9 @@ struct UpdateStep {
 /// A tree over boxes that move from frame to frame, by one policy. The memory is used again, the
 /// answers are those of the newest frame exactly, and they, their order and the tree are the same
 /// on every executor.
+/// `refit` and `refine` never make a new order of all items, which is for `rebuild`, `merge` and
+/// `auto`: once most items are far from where they began, a query tests most boxes. Their SAH is
+/// then 10 and 9 times that of a fresh tree of 2,000 items, 35 and 14 times of 20,000.
 /// An item is absent while its box is the empty one, `Box{}`: it overlaps nothing, and may come and
 /// go between frames.
 class Updater {

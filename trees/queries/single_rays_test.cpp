@@ -29,7 +29,7 @@ TriangleMesh doubled(TriangleMesh mesh) {
 
 /// In all directions, with and without ends; then along axes, +0 and -0 components, within planes
 /// of boxes; then what is not finite, and what overflows.
-std::vector<Ray<float>> test_rays() {
+std::vector<Ray<float>> rays_of_all_kinds() {
     std::mt19937 random(22);
     std::uniform_real_distribution<float> place(-2, 2);
     std::vector<Ray<float>> rays;
@@ -81,7 +81,7 @@ void expect_answers(const SingleRays& single, std::span<const Ray<float>> rays,
 }
 
 TEST(SingleRays, AgreeWithBruteForceForEveryWayAndInstructionSet) {
-    const std::vector<Ray<float>> rays = test_rays();
+    const std::vector<Ray<float>> rays = rays_of_all_kinds();
     for (const TriangleMesh& mesh :
          {uv_sphere(40, 20), triangle_soup(3000, 21), doubled(triangle_soup(300, 21)),
           triangle_soup(9, 21), triangle_soup(1, 21), TriangleMesh{}}) {
@@ -100,7 +100,7 @@ TEST(SingleRays, AgreeWithBruteForceForEveryWayAndInstructionSet) {
 }
 
 TEST(SingleRays, AnswerAsABatchForEveryKernel) {
-    const std::vector<Ray<float>> rays = test_rays();
+    const std::vector<Ray<float>> rays = rays_of_all_kinds();
     std::vector<RayHit> batch(rays.size());
     for (const TriangleMesh& mesh : {uv_sphere(40, 20), triangle_soup(3000, 21)}) {
         const Tree tree = make_builder("binned_sah")(triangle_boxes(mesh), serial());
@@ -118,7 +118,7 @@ TEST(SingleRays, AnswerAsABatchForEveryKernel) {
 
 TEST(SingleRays, AreAnsweredOnManyThreadsAtATime) {
     const TriangleMesh mesh = triangle_soup(2000, 21);
-    const std::vector<Ray<float>> rays = test_rays();
+    const std::vector<Ray<float>> rays = rays_of_all_kinds();
     const std::vector<RayHit> expected = brute_force<Watertight>(mesh, rays);
     for (const LayoutEntry& entry : layouts_answering({Query::rays})) {
         const auto layout =

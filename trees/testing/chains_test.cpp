@@ -4,6 +4,7 @@
 #include "trees/layout.h"
 #include "trees/optimizers/refit.h"
 #include "trees/queries/sorted_rays.h"
+#include "trees/testing/append_hits.h"
 #include "trees/testing/each_builder.h"
 #include "trees/testing/layouts_answering.h"
 
@@ -120,9 +121,20 @@ void expect_answers(const AnyLayout& layout, const TriangleMesh& mesh) {
         EXPECT_EQ(sorted[i].triangle, own);
     }
     // Along the strip, beside every triangle but through every box.
-    const std::vector<Ray<float>> along{{{-1, .75f, .25f}, {1, 0, 0}}};
-    layout.rays(along, RayQuery::any, "watertight", triangles, serial(), std::span(hits).first(1));
+    rays.push_back({{-1, .75f, .25f}, {1, 0, 0}});
+    layout.rays(std::span(rays).last(1), RayQuery::any, "watertight", triangles, serial(),
+                std::span(hits).first(1));
     EXPECT_FALSE(hits[0].hit());
+    for (const char* kernel : {"watertight", "exact"}) {
+        AppendHits all;
+        layout.rays_all(rays, kernel, triangles, serial(), all);
+        ASSERT_EQ(all.all.size(), points.size()) << kernel;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            EXPECT_EQ(all.all[i].first, i) << kernel;
+            EXPECT_EQ(all.all[i].second.triangle, static_cast<std::uint32_t>(points[i].x))
+                << kernel;
+        }
+    }
 }
 
 TEST(Chains, EveryLayoutAnswersEveryQueryOnASmallStack) {

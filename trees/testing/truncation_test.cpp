@@ -12,7 +12,7 @@
 namespace boxwood {
 namespace {
 
-constexpr std::uint32_t n = 100'000;
+constexpr std::uint32_t many = 100'000;
 
 std::vector<ExecutorToTry> one_thread_and_two() {
     std::vector<ExecutorToTry> both;
@@ -25,7 +25,7 @@ std::vector<ExecutorToTry> one_thread_and_two() {
 /// along it.
 TriangleMesh stack_of_triangles() {
     TriangleMesh mesh;
-    for (std::uint32_t i = 0; i < n; ++i) {
+    for (std::uint32_t i = 0; i < many; ++i) {
         const auto z = static_cast<float>(i);
         mesh.vertices.insert(mesh.vertices.end(), {{-1, -1, z}, {2, -1, z}, {-1, 2, z}});
         mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
@@ -34,13 +34,13 @@ TriangleMesh stack_of_triangles() {
 }
 
 void expect_each_once(std::vector<Pair> pairs, const std::string& query) {
-    ASSERT_EQ(pairs.size(), 2 * n) << query;
-    for (std::uint32_t i = 0; i < 2 * n; ++i)
-        ASSERT_EQ(pairs[i], (Pair{i / n, i % n})) << query;
+    ASSERT_EQ(pairs.size(), 2 * many) << query;
+    for (std::uint32_t i = 0; i < 2 * many; ++i)
+        ASSERT_EQ(pairs[i], (Pair{i / many, i % many})) << query;
 }
 
 TEST(Truncation, OneQueryWithAHundredThousandAnswersIsComplete) {
-    const std::vector<Box> boxes(n, Box{{0, 0, 0}, {1, 1, 1}});
+    const std::vector<Box> boxes(many, Box{{0, 0, 0}, {1, 1, 1}});
     const std::vector<Vec3<float>> points(2, Vec3<float>{1, .5f, 0});
     const std::vector<Box> regions(2, Box{{1, 1, 1}, {2, 2, 2}});
     const std::vector<Sphere<float>> balls(2, Sphere<float>{{2, .5f, .5f}, 1});
@@ -58,17 +58,17 @@ TEST(Truncation, OneQueryWithAHundredThousandAnswersIsComplete) {
             expect_each_once(std::exchange(pairs, {}), "boxes");
             layout->regions(balls, *executor.run, sink);
             expect_each_once(std::exchange(pairs, {}), "spheres");
-            std::vector<Neighbour> near(n + 3);
-            layout->nearest({points.data(), 1}, n + 3, *executor.run, near);
-            for (std::uint32_t i = 0; i < n + 3; ++i)
-                ASSERT_EQ(near[i], i < n ? (Neighbour{i, 0}) : Neighbour{}) << i;
+            std::vector<Neighbour> near(many + 3);
+            layout->nearest({points.data(), 1}, many + 3, *executor.run, near);
+            for (std::uint32_t i = 0; i < many + 3; ++i)
+                ASSERT_EQ(near[i], i < many ? (Neighbour{i, 0}) : Neighbour{}) << i;
         }
 }
 
 TEST(Truncation, OneRayThroughAHundredThousandTrianglesHitsEach) {
     const TriangleMesh mesh = stack_of_triangles();
     std::vector<Box> boxes;
-    for (std::uint32_t i = 0; i < n; ++i)
+    for (std::uint32_t i = 0; i < many; ++i)
         boxes.push_back(mesh.triangle(i).bounds());
     const std::vector<Ray<float>> rays(2, Ray<float>{{0, 0, -1}, {0, 0, 1}});
     const Tree tree = make_builder("lbvh")(boxes, serial());
@@ -78,10 +78,10 @@ TEST(Truncation, OneRayThroughAHundredThousandTrianglesHitsEach) {
             const auto layout = entry.make(tree, serial());
             AppendHits hits;
             layout->rays_all(rays, "exact", layout->triangles(mesh), *executor.run, hits);
-            ASSERT_EQ(hits.all.size(), 2 * n);
-            for (std::uint32_t i = 0; i < 2 * n; ++i) {
-                ASSERT_EQ(hits.all[i].first, i / n);
-                ASSERT_EQ(hits.all[i].second.triangle, i % n);
+            ASSERT_EQ(hits.all.size(), 2 * many);
+            for (std::uint32_t i = 0; i < 2 * many; ++i) {
+                ASSERT_EQ(hits.all[i].first, i / many);
+                ASSERT_EQ(hits.all[i].second.triangle, i % many);
             }
         }
 }

@@ -72,68 +72,32 @@ class Hits final : public RayContender {
     std::optional<SingleRays> single_; ///< of the order "single"
 };
 
-/// A tree for each fan or mesh of the cases, and its rays.
-class HitsOfCases final : public Contender {
+class HitsOfCases final : public TreesOfCases {
   public:
     HitsOfCases(const Job& job, const BuildFunction& build, const LayoutEntry& layout,
                 std::string kernel, RayQuery query, std::string_view order)
-        : cases_(std::get<RayCases>(job.scene->cases)), build_(build), layout_(layout),
-          kernel_(std::move(kernel)), query_(query), is_single_(order == "single") {}
-
-    void build() override {
-        groups_.clear();
-        for (const RayCase& c : cases_.rays) {
-            if (groups_.empty() || groups_.back().first != c.first)
-                add_group(c);
-            groups_.back().rays.push_back(c.ray);
-        }
-    }
+        : TreesOfCases(job, build, layout), kernel_(std::move(kernel)), query_(query),
+          order_(order) {}
 
     void query(Answers& answers) override {
         std::vector<RayHit>& hits = list_of<RayHit>(answers);
         hits.assign(cases_.rays.size(), {});
-        auto next = hits.begin();
         for (const Group& group : groups_) {
-            const std::span<RayHit> own(next, group.rays.size());
-            if (is_single_)
+            const auto own = std::span(hits).subspan(group.first_ray, group.rays.size());
+            if (order_ == "single")
                 one_by_one(group, own);
+            else if (order_ == "sorted")
+                sorted_rays(*group.layout, group.rays, query_, kernel_, group.triangles, serial(),
+                            own);
             else
                 group.layout->rays(group.rays, query_, kernel_, group.triangles, serial(), own);
             for (RayHit& hit : own)
                 if (hit.hit())
                     hit.triangle += group.first;
-            next += static_cast<std::ptrdiff_t>(own.size());
         }
     }
 
   private:
-    struct Group {
-        std::uint32_t first; ///< of its triangles
-        std::unique_ptr<AnyLayout> layout;
-        TriangleBlocks triangles;
-        std::vector<Ray<float>> rays;
-    };
-
-    void add_group(const RayCase& c) {
-        TriangleMesh mesh;
-        std::vector<Box> boxes;
-        for (std::uint32_t k = c.first; k < c.first + c.count; ++k) {
-            const Triangle<float>& t = cases_.triangles[k];
-            const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
-            mesh.vertices.insert(mesh.vertices.end(), {t.a, t.b, t.c});
-            mesh.triangles.push_back({n, n + 1, n + 2});
-            boxes.push_back(t.bounds());
-        }
-        Tree tree;
-        Group& group = groups_.emplace_back();
-        group.first = c.first;
-        if (build_.build_of_mesh)
-            group.layout = layout_.make(build_.build_of_mesh(mesh, serial()), serial());
-        else
-            group.layout = make_layout(layout_, build_, boxes, serial(), tree);
-        group.triangles = group.layout->triangles(mesh);
-    }
-
     void one_by_one(const Group& group, std::span<RayHit> hits) const {
         const SingleRays single(*group.layout, kernel_, group.triangles);
         for (std::size_t i = 0; i < hits.size(); ++i)
@@ -143,13 +107,9 @@ class HitsOfCases final : public Contender {
                 hits[i].triangle = 0;
     }
 
-    const RayCases& cases_;
-    BuildFunction build_;
-    const LayoutEntry& layout_;
     std::string kernel_;
     RayQuery query_;
-    bool is_single_;
-    std::vector<Group> groups_;
+    std::string_view order_;
 };
 
 const std::array orders{
@@ -182,13 +142,69 @@ void RayContender::build() {
     triangles_ = layout_->triangles(scene_.mesh, *executor_);
 }
 
+void TreesOfCases::build() {
+    groups_.clear();
+    for (std::size_t i = 0; i < cases_.rays.size(); ++i) {
+        const RayCase& c = cases_.rays[i];
+        if (groups_.empty() || groups_.back().first != c.first)
+            add_group(c, i);
+        groups_.back().rays.push_back(c.ray);
+    }
+}
+
+void TreesOfCases::add_group(const RayCase& c, std::size_t first_ray) {
+    TriangleMesh mesh;
+    std::vector<Box> boxes;
+    for (std::uint32_t k = c.first; k < c.first + c.count; ++k) {
+        const Triangle<float>& t = cases_.triangles[k];
+        const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
+        mesh.vertices.insert(mesh.vertices.end(), {t.a, t.b, t.c});
+        mesh.triangles.push_back({n, n + 1, n + 2});
+        boxes.push_back(t.bounds());
+    }
+    Tree tree;
+    Group& group = groups_.emplace_back();
+    group.first = c.first;
+    group.first_ray = first_ray;
+    if (build_.build_of_mesh)
+        group.layout = layout_.make(build_.build_of_mesh(mesh, serial()), serial());
+    else
+        group.layout = make_layout(layout_, build_, boxes, serial(), tree);
+    group.triangles = group.layout->triangles(mesh);
+}
+
 std::vector<std::string_view> RayTask::keys() const {
     std::vector<std::string_view> all = TreeTask::keys();
     all.insert(all.end(), {"rays", "n_rays", "kernels"});
     return all;
 }
 
+bool RayTask::fits(const Cases& cases) const {
+    const auto* rays = std::get_if<RayCases>(&cases);
+    return rays && std::ranges::any_of(rays->rays, &RayCase::is_closed);
+}
+
+std::vector<ContenderEntry> RayTask::contenders_on_cases() const {
+    std::vector<ContenderEntry> all;
+    for (const KernelInfo& kernel : ray_kernels()) {
+        if (kernel.promise == Promise::none)
+            continue;
+        const std::vector<CaseWay> ways = ways_on_cases(kernel.promise);
+        for (const LayoutEntry& layout : layouts())
+            for (const CaseWay& way : ways)
+                if (layout.answers(Query::rays))
+                    all.push_back(contender({.builder = way.builder,
+                                             .settings = {},
+                                             .layout = std::string(layout.name),
+                                             .kernel = std::string(kernel.name),
+                                             .ray_order = way.ray_order}));
+    }
+    return all;
+}
+
 std::optional<std::string> RayTask::missing(const Scene& scene) const {
+    if (fits(scene.cases))
+        return std::nullopt;
     if (const auto vertex = beyond_ray_range(scene.mesh))
         return "the mesh " + out_of_ray_range(scene.mesh, *vertex);
     return TreeTask::missing(scene);
@@ -235,35 +251,12 @@ std::vector<NamedCount> HitTask::counters(const Answers& answers, const Work* wo
     return counts;
 }
 
-bool HitTask::fits(const Cases& cases) const {
-    const auto* rays = std::get_if<RayCases>(&cases);
-    return rays && std::ranges::any_of(rays->rays, &RayCase::is_closed);
-}
-
-/// Kernels with a promise, in every layout; one that rounds also one ray at a time, and in trees of
-/// cut triangles.
-std::vector<ContenderEntry> HitTask::contenders_on_cases() const {
-    std::vector<ContenderEntry> all;
-    for (const KernelInfo& kernel : ray_kernels()) {
-        std::vector<std::pair<const char*, const char*>> ways; // builder, order
-        if (kernel.promise != Promise::none)
-            ways.emplace_back("binned_sah", "given");
-        if (kernel.promise == Promise::never_leaks)
-            ways.insert(ways.end(), {{"binned_sah", "single"}, {"spatial_sah", "given"}});
-        for (const LayoutEntry& layout : layouts())
-            for (const auto& [builder, order] : ways)
-                if (layout.answers(Query::rays))
-                    all.push_back(contender({.builder = builder,
-                                             .settings = {},
-                                             .layout = std::string(layout.name),
-                                             .kernel = std::string(kernel.name),
-                                             .ray_order = order}));
-    }
-    return all;
-}
-
-std::optional<std::string> HitTask::missing(const Scene& scene) const {
-    return fits(scene.cases) ? std::nullopt : RayTask::missing(scene);
+/// One that rounds also one ray at a time, and in trees of cut triangles.
+std::vector<RayTask::CaseWay> HitTask::ways_on_cases(Promise promise) const {
+    std::vector<CaseWay> ways{{"binned_sah", "given"}, {"binned_sah", "sorted"}};
+    if (promise == Promise::never_leaks)
+        ways.insert(ways.end(), {{"binned_sah", "single"}, {"spatial_sah", "given"}});
+    return ways;
 }
 
 std::unique_ptr<Truth> HitTask::make_truth(const Scene& scene, unsigned threads) const {

@@ -16,22 +16,23 @@ namespace {
 
 using testing::HasSubstr;
 
-ContenderEntry ours(const Choice& choice, std::string_view task) {
+ContenderEntry contender_of(const Choice& choice, std::string_view task) {
     return find_task(task)->contender(choice);
 }
 
 std::string complaint(const Choice& choice, std::string_view task) {
-    return complaint_of([&] { ours(choice, task); });
+    return complaint_of([&] { contender_of(choice, task); });
 }
 
 TEST(OurContender, IsNamedByItsWords) {
-    EXPECT_EQ(ours({"median", {}, "binary", "watertight", "given"}, "pairs").name,
+    EXPECT_EQ(contender_of({"median", {}, "binary", "watertight", "given"}, "pairs").name,
               "median.binary.self_pairs");
     EXPECT_EQ(
-        ours({"binned_sah", {{"bins", 16}}, "wide8", "watertight", "given"}, "tree_pairs").name,
+        contender_of({"binned_sah", {{"bins", 16}}, "wide8", "watertight", "given"}, "tree_pairs")
+            .name,
         "binned_sah_bins16.wide8.tree_pairs");
     const ContenderEntry rays =
-        ours({"median", {}, "wide8", "watertight", "given"}, "rays_closest");
+        contender_of({"median", {}, "wide8", "watertight", "given"}, "rays_closest");
     EXPECT_EQ(rays.name, "median.wide8.rays.watertight");
     EXPECT_FALSE(rays.is_peer);
     EXPECT_EQ(rays.kernel, "watertight");
@@ -136,10 +137,10 @@ TEST(OurContender, RefusesTasksThatNoTreeAnswers) {
 TEST(OurContender, SaysWhatItCannotDo) {
     const Task &pairs = *find_task("pairs"), &rays = *find_task("rays_any");
     const Scene boxes = make_scene(spec_of(pairs, 10));
-    EXPECT_TRUE(ours({}, "rays_any").unsupported({&boxes, &rays, "serial", 1}));
-    EXPECT_TRUE(ours({}, "pairs").unsupported({&boxes, &pairs, "serial", 2}));
-    EXPECT_TRUE(ours({}, "pairs").unsupported({&boxes, &rays, "serial", 1}));
-    EXPECT_FALSE(ours({}, "pairs").unsupported({&boxes, &pairs, "tbb", 2}));
+    EXPECT_TRUE(contender_of({}, "rays_any").unsupported({&boxes, &rays, "serial", 1}));
+    EXPECT_TRUE(contender_of({}, "pairs").unsupported({&boxes, &pairs, "serial", 2}));
+    EXPECT_TRUE(contender_of({}, "pairs").unsupported({&boxes, &rays, "serial", 1}));
+    EXPECT_FALSE(contender_of({}, "pairs").unsupported({&boxes, &pairs, "tbb", 2}));
 }
 
 } // namespace

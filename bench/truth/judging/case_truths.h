@@ -35,9 +35,12 @@ struct CaseScene {
     unsigned threads = 1; ///< that may be used when the truth is computed, which is on first need
 };
 
-/// The hits of rays at triangles or fans; first touches of moving features; fitted boxes. Those of
-/// yes or no and of distances are in verdict_truth.h and distance_truth.h.
+/// The hits of rays at triangles or fans; all hits of rays, which are those of the kernel on each
+/// triangle alone, by t and then by triangle, and an exact one's of the triangles that the rational
+/// oracle hits; first touches of moving features; fitted boxes. Those of yes or no and of distances
+/// are in verdict_truth.h and distance_truth.h.
 std::unique_ptr<CaseTruth> make_fan_truth(const CaseScene& scene);
+std::unique_ptr<CaseTruth> make_all_hits_of_cases_truth(const CaseScene& scene);
 std::unique_ptr<CaseTruth> make_impact_truth(const CaseScene& scene);
 std::unique_ptr<CaseTruth> make_fit_truth(const CaseScene& scene);
 

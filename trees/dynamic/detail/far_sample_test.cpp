@@ -11,10 +11,10 @@ namespace {
 Box cube(float x) { return {{x, 0, 0}, {x + 1, 1, 1}}; }
 
 /// n unit cubes in one place, which reach 1; those that `goes` names go 5 along x.
-struct Moving {
+struct Gone {
     std::size_t gone = 0, about = 0;
 
-    Moving(std::size_t n, const std::function<bool(std::uint32_t)>& goes, float far = 5) {
+    Gone(std::size_t n, const std::function<bool(std::uint32_t)>& goes, float far = 5) {
         std::vector<Box> boxes(n, cube(0));
         FarSample sample;
         sample.start(boxes, 1);
@@ -29,7 +29,7 @@ struct Moving {
 
 TEST(FarSample, OfFewItemsTheNumberIsExact) {
     for (const std::size_t n : {0u, 1u, 15u, 256u}) {
-        const Moving some(n, [](std::uint32_t item) { return item % 7 == 0; });
+        const Gone some(n, [](std::uint32_t item) { return item % 7 == 0; });
         EXPECT_EQ(some.about, some.gone);
     }
 }
@@ -45,17 +45,17 @@ TEST(FarSample, OfManyItemsTheNumberIsAboutRightWhateverThePattern) {
         [](std::uint32_t item) { return (item * 2246822519u >> 28) == 3; },
     };
     for (const auto& pattern : patterns) {
-        const Moving some(n, pattern);
+        const Gone some(n, pattern);
         EXPECT_NEAR(static_cast<double>(some.about), static_cast<double>(some.gone), 0.25 * n / 16);
     }
-    EXPECT_EQ(Moving(n, [](std::uint32_t) { return false; }).about, 0u);
-    EXPECT_EQ(Moving(n, [](std::uint32_t) { return true; }).about, n);
+    EXPECT_EQ(Gone(n, [](std::uint32_t) { return false; }).about, 0u);
+    EXPECT_EQ(Gone(n, [](std::uint32_t) { return true; }).about, n);
 }
 
 TEST(FarSample, FarIsFartherThanTheReach) {
     const auto all = [](std::uint32_t) { return true; };
-    EXPECT_EQ(Moving(100, all, 1.f).about, 0u);
-    EXPECT_EQ(Moving(100, all, 1.01f).about, 100u);
+    EXPECT_EQ(Gone(100, all, 1.f).about, 0u);
+    EXPECT_EQ(Gone(100, all, 1.01f).about, 100u);
 }
 
 TEST(FarSample, WhoCameOrWentIsFar) {

@@ -10,7 +10,7 @@ namespace boxwood {
 using namespace detail;
 namespace {
 
-Box cube(float x) { return {{x, 0, 0}, {x + 1, 1, 1}}; }
+Box unit_cube(float x) { return {{x, 0, 0}, {x + 1, 1, 1}}; }
 
 /// n unit cubes of which those that `goes` names go `far` along x; all are said to have moved.
 struct Moving {
@@ -19,12 +19,12 @@ struct Moving {
     Margins margins;
 
     Moving(std::size_t n, double share, float far, const std::function<bool(std::uint32_t)>& goes)
-        : boxes(n, cube(0)), moved(n) {
+        : boxes(n, unit_cube(0)), moved(n) {
         margins.start(boxes, share);
         std::iota(moved.begin(), moved.end(), 0u);
         for (const std::uint32_t item : moved)
             if (goes(item)) {
-                boxes[item] = cube(far);
+                boxes[item] = unit_cube(far);
                 gone.push_back(item);
             }
     }

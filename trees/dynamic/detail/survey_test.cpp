@@ -11,7 +11,7 @@ namespace boxwood {
 using namespace detail;
 namespace {
 
-constexpr float inf = std::numeric_limits<float>::infinity(),
+constexpr float infinite = std::numeric_limits<float>::infinity(),
                 nan = std::numeric_limits<float>::quiet_NaN();
 
 Survey one_by_one(Boxes boxes) {
@@ -60,7 +60,7 @@ TEST(Survey, EveryBadCoordinateIsFoundWhereverItIs) {
                         << what;
                 };
                 for (int place = 0; place < 6; ++place)
-                    for (const float bad : {nan, inf, -inf}) {
+                    for (const float bad : {nan, infinite, -infinite}) {
                         boxes[i] = {{0, 0, 0}, {1, 1, 1}};
                         (place < 3 ? boxes[i].min : boxes[i].max)[place % 3] = bad;
                         expect_thrown(place);
@@ -71,8 +71,8 @@ TEST(Survey, EveryBadCoordinateIsFoundWhereverItIs) {
                     boxes[i].max[axis] = 0;
                     expect_thrown("min > max");
                     boxes[i] = {{0, 0, 0}, {1, 1, 1}};
-                    boxes[i].min[axis] = inf; // absent along one axis alone
-                    boxes[i].max[axis] = -inf;
+                    boxes[i].min[axis] = infinite; // absent along one axis alone
+                    boxes[i].max[axis] = -infinite;
                     expect_thrown("absent in part");
                 }
             }

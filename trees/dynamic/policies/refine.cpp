@@ -13,7 +13,8 @@ namespace {
 struct Refine {
     static constexpr std::string_view name = "refine";
     static constexpr std::string_view summary =
-        "refit, and one rotating part of the order sorted again in each frame";
+        "refit, and one rotating part of the order sorted again in each frame: for boxes that "
+        "stay near their places, as teleports are not brought home";
 
     double share = .05; ///< of the order, sorted again in a frame
 

@@ -9,7 +9,8 @@ namespace {
 struct Refit {
     static constexpr std::string_view name = "refit";
     static constexpr std::string_view summary =
-        "new bounds in the old order: of all blocks, or only above what moved";
+        "new bounds in the old order, of all blocks or only above what moved: for boxes that stay "
+        "near their places; once most are far away, queries test most boxes";
 
     void start(MovingTree& tree, Boxes boxes, const Executor& executor) {
         tree.reorder(boxes, tree.survey, executor);
