@@ -1,12 +1,17 @@
+#undef _FORTIFY_SOURCE // its longjmp refuses to go from stack to stack
 #include "trees/cuda/on_host.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <csetjmp>
 #include <cstddef>
 #include <memory>
 #include <numeric>
 #include <random>
 #include <string>
 #include <ucontext.h>
+#include <utility>
 #include <vector>
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -32,8 +37,9 @@ class Block {
 
     void run() {
         running = this;
-        for (Fibre& fibre : fibres_)
-            begin(fibre);
+        static std::vector<Context> contexts(max_threads);
+        for (std::size_t i = 0; i < fibres_.size(); ++i)
+            begin(*(fibres_[i].own = &contexts[i]));
         std::vector<unsigned> ready;
         for (unsigned left = static_cast<unsigned>(fibres_.size()); left > 0;) {
             ready.clear();
@@ -41,7 +47,7 @@ class Block {
                 if (fibres_[i].state == State::ready)
                     ready.push_back(i);
             if (ready.empty())
-                throw Fault("no thread can go on: " + waiting_text());
+                end("no thread can go on: " + waiting_text());
             // Some turns, then another choice: to look for the ready ones at each turn is slow.
             std::shuffle(ready.begin(), ready.end(), random_);
             for (const unsigned i : ready) {
@@ -49,7 +55,7 @@ class Block {
                 threadIdx = {i, 0, 0};
                 enter(fibres_[i]);
                 if (!fault_.empty())
-                    throw Fault(fault_);
+                    end(fault_);
                 left -= fibres_[i].state == State::done;
             }
         }
@@ -87,43 +93,80 @@ class Block {
 
   private:
     enum class State : std::uint8_t { ready, waiting, done };
-    struct Fibre {
-        ucontext_t context;
+    /// A stack, and where on it a thread goes on. One whose thread has ended takes another.
+    struct Context {
         std::unique_ptr<std::byte[]> stack;
+        ucontext_t start;
+        std::jmp_buf at;
+        bool begun = false;
+    };
+    struct Fibre {
+        Context* own = nullptr;
         State state = State::ready;
         Meeting meeting = Meeting::block;
         unsigned mask = 0, from = 0;
         std::uint64_t value = 0, result = 0;
     };
 
-    void begin(Fibre& fibre) {
-        getcontext(&fibre.context);
-        fibre.stack = std::make_unique_for_overwrite<std::byte[]>(stack_bytes);
-        fibre.context.uc_stack.ss_sp = fibre.stack.get();
-        fibre.context.uc_stack.ss_size = stack_bytes;
-        fibre.context.uc_link = nullptr;
-        makecontext(&fibre.context, &Block::main, 0);
+    static void begin(Context& context) {
+        if (context.begun)
+            return;
+        if (!context.stack)
+            context.stack = std::make_unique_for_overwrite<std::byte[]>(stack_bytes);
+        getcontext(&context.start);
+        context.start.uc_stack.ss_sp = context.stack.get();
+        context.start.uc_stack.ss_size = stack_bytes;
+        context.start.uc_link = nullptr;
+        makecontext(&context.start, &Block::main, 0);
     }
 
     static void main() {
-        switched_from(nullptr);
-        running->thread_();
-        running->fibres_[running->current_].state = State::done;
-        running->leave();
+        for (;;) {
+            switched_from(nullptr);
+            running->thread_();
+            running->fibres_[running->current_].state = State::done;
+            running->leave();
+        }
+    }
+
+    [[noreturn]] void end(const std::string& fault) {
+        for (Fibre& fibre : fibres_)
+            if (fibre.state != State::done)
+                fibre.own->begun = false;
+        throw Fault(fault);
     }
 
     void enter(Fibre& fibre) {
-        about_to_switch(&fake_stack_, fibre.stack.get(), stack_bytes);
-        swapcontext(&scheduler_, &fibre.context);
+        about_to_switch(&fake_stack_, fibre.own->stack.get(), stack_bytes);
+        go(*fibre.own);
         switched_from(fake_stack_);
     }
     void leave() {
         Fibre& self = fibres_[current_];
         void* fake = nullptr;
         about_to_switch(self.state == State::done ? nullptr : &fake, main_stack_, main_bytes_);
-        swapcontext(&self.context, &scheduler_);
+        go_back(*self.own);
         switched_from(fake);
     }
+
+#if defined(__SANITIZE_ADDRESS__)
+    void go(Context& context) { swapcontext(&scheduler_, &context.start); }
+    void go_back(Context& context) { swapcontext(&context.start, &scheduler_); }
+#else
+    // Without the system call that swapcontext makes each time.
+    void go(Context& context) {
+        if (_setjmp(back_) != 0)
+            return;
+        if (std::exchange(context.begun, true))
+            _longjmp(context.at, 1);
+        setcontext(&context.start);
+    }
+    void go_back(Context& context) {
+        if (_setjmp(context.at) == 0)
+            _longjmp(back_, 1);
+    }
+    std::jmp_buf back_;
+#endif
 
     /// run() throws it once this thread leaves, for good: it holds nothing then that would leak.
     void fail(const std::string& what) {
@@ -131,16 +174,24 @@ class Block {
     }
 
     void meet_block() {
-        const auto waits = [](const Fibre& f) {
-            return f.state == State::waiting && f.meeting == Meeting::block;
-        };
-        if (std::ranges::all_of(fibres_, waits))
-            for (Fibre& fibre : fibres_)
-                fibre.state = State::ready;
+        if (++at_barrier_ < fibres_.size())
+            return;
+        at_barrier_ = 0;
+        for (Fibre& fibre : fibres_)
+            fibre.state = State::ready;
     }
 
     void meet_warp(const Fibre& self) {
         const std::size_t first = current_ / 32 * 32;
+        unsigned& waiting = waiting_[current_ / 32];
+        const unsigned others = waiting & self.mask;
+        waiting |= 1u << current_ % 32;
+        if (others != 0 && (waiting & self.mask) != self.mask) { // all of it when all have come
+            const Fibre& other =
+                fibres_[first + static_cast<std::size_t>(std::countr_zero(others))];
+            if (other.meeting == self.meeting && other.mask == self.mask)
+                return;
+        }
         const auto each_lane = [&](auto&& visit) {
             for (unsigned lane = 0; lane < 32; ++lane)
                 if (self.mask >> lane & 1)
@@ -162,6 +213,7 @@ class Block {
         });
         if (!all || !fault_.empty())
             return;
+        waiting &= ~self.mask;
         each_lane([&](unsigned lane) {
             Fibre& other = fibres_[first + lane];
             other.result = self.meeting == Meeting::ballot    ? votes
@@ -206,8 +258,10 @@ class Block {
     const std::function<void()>& thread_;
     std::mt19937_64 random_;
     std::vector<Fibre> fibres_;
-    ucontext_t scheduler_{};
+    [[maybe_unused]] ucontext_t scheduler_{};
     unsigned current_ = 0;
+    std::size_t at_barrier_ = 0;
+    std::array<unsigned, max_threads / 32> waiting_{}; ///< lanes of each warp, at its operations
     std::string fault_;
     void* fake_stack_ = nullptr;
     const void* main_stack_ = nullptr;

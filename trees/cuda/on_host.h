@@ -10,7 +10,7 @@
 #include <functional>
 #include <stdexcept>
 
-#define __global__
+#define __global__ inline
 #define __device__
 #define __forceinline__ inline
 #define __shared__ static
@@ -89,7 +89,12 @@ inline int __popc(unsigned x) { return __builtin_popcount(x); }
 /// One more than the place of the lowest set bit; 0 if there is none.
 inline int __ffs(int x) { return __builtin_ffs(x); }
 
-template <class T> T __ldcg(const T* at) { return *at; }
+/// Of any type, as on a device.
+template <class T> T __ldcg(const T* at) {
+    T value;
+    __builtin_memcpy(&value, at, sizeof value);
+    return value;
+}
 inline void __threadfence() { boxwood::on_host::give_way(); }
 
 /// The old value, as all atomics give.

@@ -8,6 +8,11 @@ namespace boxwood::cuda {
 
 inline constexpr std::uint64_t fibre_seeds = 8;
 
+/// All of them for few boxes, and two for many.
+inline std::uint64_t seeds_for(const BoxFamily& family) {
+    return family.boxes.size() <= 300 ? fibre_seeds : 2;
+}
+
 /// All families of boxes, and sizes around those of warps, blocks and grids.
 inline std::vector<BoxFamily> device_families() {
     std::vector<BoxFamily> all = box_families();
