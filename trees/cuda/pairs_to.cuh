@@ -44,6 +44,11 @@ template <Pass pass, class Answer> class ThreadAnswers {
             to_.answers[place] = answer;
         ++at_;
     }
+    /// Forgets those of this query; not of Pass::capped, whose places others have.
+    __device__ void restart() {
+        static_assert(pass != Pass::capped);
+        at_ = pass == Pass::fill ? to_.at[query_] : 0;
+    }
     /// After the last one.
     __device__ void finish() const {
         if constexpr (pass == Pass::count)

@@ -61,9 +61,10 @@ __global__ void ray_codes(const Ray<float>* rays, std::uint32_t n, EntryGrid gri
 }
 
 /// Calls test(slot) for every leaf whose box the ray may hit at [ray.t_min, t_max], the nearer
-/// child first, until it says true. `t_max` may become less.
+/// child first, until it says true. `t_max` may become less. False: there was no room for what
+/// waits, and not all were seen; never in this tree.
 template <class Test>
-__device__ void trace(const RadixTreeView& tree, const Ray<float>& ray, const float& t_max,
+__device__ bool trace(const RadixTreeView& tree, const Ray<float>& ray, const float& t_max,
                       const Test& test) {
     struct Waiting {
         std::uint32_t ref;
@@ -77,11 +78,11 @@ __device__ void trace(const RadixTreeView& tree, const Ray<float>& ray, const fl
         return clip(slabs, tree.box(ref), ray.t_min, t_max);
     };
     if (!span_of(at).hit())
-        return;
+        return true;
     for (;;) {
         if (RadixTreeView::is_leaf(at)) {
             if (test(RadixTreeView::slot(at)))
-                return;
+                return true;
         } else {
             const std::uint32_t left = tree.nodes[at].left, right = tree.nodes[at].right;
             const RaySpan in_left = span_of(left), in_right = span_of(right);
@@ -99,7 +100,7 @@ __device__ void trace(const RadixTreeView& tree, const Ray<float>& ray, const fl
         }
         do {
             if (depth == 0)
-                return;
+                return true;
             --depth;
         } while (stack[depth].entry > t_max);
         at = stack[depth].ref;
@@ -116,7 +117,7 @@ __global__ void trace_rays(RaysView<Tree> view, RayHit* hits) {
     RayHit best{ray.t_max, 0, 0, no_triangle};
     if (view.tree.n > 0 && is_finite(ray.origin) && is_finite(ray.direction)) {
         const auto per_ray = K::prepare(ray);
-        trace(view.tree, ray, best.t, [&](std::uint32_t slot) {
+        const auto test = [&](std::uint32_t slot) {
             RayHit hit{};
             if (K::intersect(per_ray, ray, view.triangles[slot], best.t, hit)) {
                 hit.triangle = view.tree.items[slot];
@@ -124,7 +125,10 @@ __global__ void trace_rays(RaysView<Tree> view, RayHit* hits) {
                     best = hit;
             }
             return query == RayQuery::any && best.hit();
-        });
+        };
+        if (!trace(view.tree, ray, best.t, test))
+            for (std::uint32_t slot = 0; slot < view.tree.n && !test(slot); ++slot)
+                ;
     }
     hits[view.ray(i)] = best.hit() ? best : RayHit{};
 }
@@ -136,9 +140,10 @@ struct HitOfRay {
 };
 template <Pass pass> using RayAnswer = std::conditional_t<pass == Pass::capped, HitOfRay, RayHit>;
 
-/// A thread per ray: all hits.
+/// A thread per ray: all hits. In any order only in a tree with room for what waits.
 template <class Tree, RayKernel K, Pass pass>
 __global__ void trace_all(RaysView<Tree> view, AnswersTo<RayAnswer<pass>> to) {
+    static_assert(pass != Pass::capped || std::is_same_v<Tree, RadixTreeView>);
     const std::uint32_t i = blockIdx.x * blockDim.x + threadIdx.x;
     if (i >= view.n)
         return;
@@ -147,7 +152,7 @@ __global__ void trace_all(RaysView<Tree> view, AnswersTo<RayAnswer<pass>> to) {
     ThreadAnswers<pass, RayAnswer<pass>> answers(to, number);
     if (view.tree.n > 0 && is_finite(ray.origin) && is_finite(ray.direction)) {
         const auto per_ray = K::prepare(ray);
-        trace(view.tree, ray, ray.t_max, [&](std::uint32_t slot) {
+        const auto test = [&](std::uint32_t slot) {
             RayHit hit{};
             if (K::intersect(per_ray, ray, view.triangles[slot], ray.t_max, hit)) {
                 hit.triangle = view.tree.items[slot];
@@ -157,7 +162,14 @@ __global__ void trace_all(RaysView<Tree> view, AnswersTo<RayAnswer<pass>> to) {
                     answers.add(hit);
             }
             return false;
-        });
+        };
+        if (!trace(view.tree, ray, ray.t_max, test)) {
+            if constexpr (pass != Pass::capped) {
+                answers.restart();
+                for (std::uint32_t slot = 0; slot < view.tree.n; ++slot)
+                    test(slot);
+            }
+        }
     }
     answers.finish();
 }

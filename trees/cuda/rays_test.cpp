@@ -107,6 +107,22 @@ bool same_bits(const std::vector<RayHit>& a, const std::vector<RayHit>& b) {
            (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(RayHit)) == 0);
 }
 
+/// All hits in any order, with room for half of them.
+template <RayKernel K>
+void expect_capped(const RaysView<RadixTreeView>& view,
+                   const std::vector<std::pair<std::uint32_t, RayHit>>& all) {
+    std::uint64_t n = 0;
+    Array<HitOfRay> some(all.size() / 2, {});
+    find_all_hits<K, Pass::capped>(view, {&n, some.data(), some.size()}, {});
+    EXPECT_EQ(n, all.size());
+    for (const HitOfRay& hit : std::span(some.data(), some.size()))
+        EXPECT_TRUE(std::ranges::binary_search(
+            all, std::pair{hit.ray, hit.hit}, [](const auto& a, const auto& b) {
+                return a.first != b.first ? a.first < b.first
+                                          : BeforeInAnswers{}(a.second, b.second);
+            }));
+}
+
 template <class Tree, RayKernel K>
 std::vector<std::pair<std::uint32_t, RayHit>> all_hits(const RaysView<Tree>& view) {
     std::vector<std::uint64_t> at(view.n + 1);
@@ -120,16 +136,8 @@ std::vector<std::pair<std::uint32_t, RayHit>> all_hits(const RaysView<Tree>& vie
         for (std::uint64_t i = at[ray]; i < at[ray + 1]; ++i)
             all.emplace_back(ray, hits.data()[i]);
 
-    std::uint64_t n = 0; // and with too little room
-    Array<HitOfRay> some(all.size() / 2, {});
-    find_all_hits<K, Pass::capped>(view, {&n, some.data(), some.size()}, {});
-    EXPECT_EQ(n, all.size());
-    for (const HitOfRay& hit : std::span(some.data(), some.size()))
-        EXPECT_TRUE(std::ranges::binary_search(
-            all, std::pair{hit.ray, hit.hit}, [](const auto& a, const auto& b) {
-                return a.first != b.first ? a.first < b.first
-                                          : BeforeInAnswers{}(a.second, b.second);
-            }));
+    if constexpr (std::same_as<Tree, RadixTreeView>)
+        expect_capped<K>(view, all);
     return all;
 }
 
@@ -222,6 +230,40 @@ TEST(RaysOnDevice, OfEqualHitsThatOfTheLowestTriangleWins) {
     std::iota(order.begin(), order.end(), 0u);
     expect_hits<RadixTreeView, Watertight>(made, rays, wanted, order, 2);
     expect_hits<Wide8View, Watertight>(made, rays, wanted, order, 2);
+}
+
+TEST(RaysOnDevice, ATreeTooDeepForTheStackLosesNothing) {
+    // Triangles behind each other; each node has the farthest of its own as a leaf, which waits.
+    constexpr std::uint32_t n = 200;
+    std::vector<Triangle<float>> triangles;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const auto x = static_cast<float>(i);
+        triangles.push_back({{x, -1, -1}, {x, 2, -1}, {x, -1, 2}});
+    }
+    std::vector<std::uint32_t> items(n);
+    std::iota(items.begin(), items.end(), 0u);
+    std::vector<Wide8Node> nodes(n);
+    Box nearer;
+    for (std::uint32_t far = 0; far < n; ++far) {
+        Wide8Node& node = nodes[n - 1 - far];
+        for (unsigned k = 0; k < Wide8Node::width; ++k) {
+            set_lane(node, k, k == 0 ? triangles[far].bounds() : k == 1 ? nearer : Box{});
+            node.ref[k] = nobody;
+        }
+        node.ref[0] = far | RadixNode::leaf_bit;
+        node.ref[1] = n - far;
+        nearer.extend(triangles[far].bounds());
+    }
+    const std::vector<Ray<float>> rays(1, {{-1, 0, 0}, {1, 0, 0}});
+    const RaysView<Wide8View> view{
+        {n, nodes.data(), items.data()}, triangles.data(), rays.data(), 1, nullptr};
+    RayHit hit;
+    find_hits<Watertight, RayQuery::closest>(view, &hit, {});
+    EXPECT_EQ(hit.triangle, 0u);
+    const auto all = all_hits<Wide8View, Watertight>(view);
+    ASSERT_EQ(all.size(), n);
+    for (std::uint32_t i = 0; i < n; ++i)
+        EXPECT_EQ(all[i].second.triangle, i);
 }
 
 TEST(RaysOnDevice, CodesAreThoseOfTheCpusOrder) {

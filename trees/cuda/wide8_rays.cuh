@@ -60,15 +60,16 @@ __device__ inline Wide8Order children_hit(const Wide8Node& node, const RaySlabs&
     return order;
 }
 
-/// As that of the binary tree. What waits is kept by node: the children that are left of it.
+/// As that of the binary tree. What waits is kept by node: the children that are left of it. There
+/// is room for as many levels as a radix tree has; a tree that was made by merging may have more.
 template <class Test>
-__device__ void trace(const Wide8View& tree, const Ray<float>& ray, const float& t_max,
+__device__ bool trace(const Wide8View& tree, const Ray<float>& ray, const float& t_max,
                       const Test& test) {
     struct Waiting {
         std::uint32_t node;
         Wide8Order order;
     };
-    Waiting stack[radix_depth]; // no deeper than the binary tree that it was made of
+    Waiting stack[radix_depth];
     unsigned depth = 0;
     Box bounds;
     for (unsigned child = 0; child < Wide8Node::width; ++child)
@@ -78,7 +79,7 @@ __device__ void trace(const Wide8View& tree, const Ray<float>& ray, const float&
     for (;;) {
         if (open.order.empty()) {
             if (depth == 0)
-                return;
+                return true;
             open = stack[--depth];
         }
         const Wide8Node& node = tree.nodes[open.node];
@@ -89,11 +90,14 @@ __device__ void trace(const Wide8View& tree, const Ray<float>& ray, const float&
         const std::uint32_t ref = node.ref[child];
         if (Wide8View::is_leaf(ref)) {
             if (test(Wide8View::slot(ref)))
-                return;
+                return true;
             continue;
         }
-        if (!open.order.empty())
+        if (!open.order.empty()) {
+            if (depth == radix_depth)
+                return false;
             stack[depth++] = open;
+        }
         open = {ref, children_hit(tree.nodes[ref], slabs, ray.t_min, t_max)};
     }
 }
