@@ -234,6 +234,7 @@ TEST(RaysOnDevice, OfEqualHitsThatOfTheLowestTriangleWins) {
 
 TEST(RaysOnDevice, ATreeTooDeepForTheStackLosesNothing) {
     // Triangles behind each other; each node has the farthest of its own as a leaf, which waits.
+    // The root has the nearest, too, so that a hit has been found when there is no room.
     constexpr std::uint32_t n = 200;
     std::vector<Triangle<float>> triangles;
     for (std::uint32_t i = 0; i < n; ++i) {
@@ -247,21 +248,25 @@ TEST(RaysOnDevice, ATreeTooDeepForTheStackLosesNothing) {
     for (std::uint32_t far = 0; far < n; ++far) {
         Wide8Node& node = nodes[n - 1 - far];
         for (unsigned k = 0; k < Wide8Node::width; ++k) {
-            set_lane(node, k, k == 0 ? triangles[far].bounds() : k == 1 ? nearer : Box{});
+            set_lane(node, k, k == 0 ? triangles[far].bounds() : k == 2 ? nearer : Box{});
             node.ref[k] = nobody;
         }
         node.ref[0] = far | RadixNode::leaf_bit;
-        node.ref[1] = n - far;
+        node.ref[2] = n - far;
         nearer.extend(triangles[far].bounds());
     }
-    const std::vector<Ray<float>> rays(1, {{-1, 0, 0}, {1, 0, 0}});
+    std::swap(nodes[0].ref[1], nodes[n - 1].ref[0]);
+    set_lane(nodes[0], 1, triangles[0].bounds());
+    set_lane(nodes[n - 1], 0, Box{});
+    const std::vector<Ray<float>> rays{{{-1, 0, 0}, {1, 0, 0}}, {{-1, 0, 0}, {1, 0, 0}, 1.5f}};
     const RaysView<Wide8View> view{
-        {n, nodes.data(), items.data()}, triangles.data(), rays.data(), 1, nullptr};
-    RayHit hit;
-    find_hits<Watertight, RayQuery::closest>(view, &hit, {});
-    EXPECT_EQ(hit.triangle, 0u);
+        {n, nodes.data(), items.data()}, triangles.data(), rays.data(), 2, nullptr};
+    RayHit hits[2];
+    find_hits<Watertight, RayQuery::closest>(view, hits, {});
+    EXPECT_EQ(hits[0].triangle, 0u);
+    EXPECT_EQ(hits[1].triangle, 1u);
     const auto all = all_hits<Wide8View, Watertight>(view);
-    ASSERT_EQ(all.size(), n);
+    ASSERT_EQ(all.size(), 2 * n - 1);
     for (std::uint32_t i = 0; i < n; ++i)
         EXPECT_EQ(all[i].second.triangle, i);
 }
