@@ -26,6 +26,9 @@ struct RadixTreeView {
 
     BOXWOOD_BOTH static bool is_leaf(std::uint32_t ref) { return (ref & RadixNode::leaf_bit) != 0; }
     BOXWOOD_BOTH static std::uint32_t slot(std::uint32_t ref) { return ref & ~RadixNode::leaf_bit; }
+    BOXWOOD_BOTH const Box& box(std::uint32_t ref) const {
+        return is_leaf(ref) ? leaves[slot(ref)] : nodes[ref].box;
+    }
 };
 
 /// How high in the tree slots i - 1 and i part: by the first bit in which their codes differ, below

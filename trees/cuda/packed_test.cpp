@@ -1,8 +1,8 @@
 #include "trees/builders/hilbert.h"
-#include "trees/cuda/packed.cuh"
 #include "trees/cuda/packed_pairs.cuh"
 #include "trees/cuda/packed_refit.cuh"
 #include "trees/cuda/testing/families.h"
+#include "trees/cuda/testing/packed_layout.h"
 #include "trees/executor.h"
 #include "trees/testing/brute_force.h"
 
@@ -16,25 +16,7 @@
 namespace boxwood::cuda {
 namespace {
 
-/// A packed layout in the device's memory, with that memory.
-struct OnDevice {
-    Array<Box> boxes, bounds{1, {}};
-    Array<std::uint32_t> order, items;
-    Array<PackedBlock> blocks;
-    PackedView view;
-
-    OnDevice(Boxes of, std::span<const std::uint32_t> by)
-        : boxes(of.size(), {}), order(by.size(), {}),
-          view(packed_levels(static_cast<std::uint32_t>(of.size()))) {
-        upload(of, boxes, {});
-        upload(by, order, {});
-        blocks = {view.first[view.depth], {}};
-        items = {std::size_t{view.leaves()} * view.width, {}};
-        view.blocks = blocks.data();
-        view.items = items.data();
-        fill_packed(view, boxes.data(), order.data(), bounds.data(), {});
-    }
-};
+using OnDevice = MadePackedLayout;
 
 bool same_bytes(const void* a, const void* b, std::size_t n) {
     return n == 0 || std::memcmp(a, b, n) == 0;
