@@ -17,6 +17,7 @@
 
 // Arithmetic
 #include "kernels/arithmetic/float_mode.h" // flush-to-zero, and keeping it out
+#include "kernels/arithmetic/on_both.h"    // what a CUDA device calls too
 #include "kernels/arithmetic/rounding.h"   // double to float, outward
 
 // What all kernels share

@@ -202,11 +202,11 @@ TEST(TrianglesOnDevice, OfAnIndexedMesh) {
 
 TEST(TriangleHitsOnDevice, AreInTheOrderOfTheCandidates) {
     testing::PairFamilies make(8, testing::Kept::as_float);
-    for (const std::size_t size : {0u, 1u, 2u, 31u, 32u, 33u, 255u, 256u, 257u, 4097u}) {
+    for (const std::size_t size : {0u, 1u, 33u, 256u, 257u, 4097u}) {
         OnDevice made(make.generic(size * testing::thinned));
         // More or fewer than there is room for: what was found, and the end of a list.
         for (const std::uint64_t n : {made.n, made.n + 10, made.n / 2})
-            for (std::uint64_t seed = 0; seed < (size > 300 ? 1 : 3); ++seed) {
+            for (std::uint64_t seed = 0; seed < (size > 300 ? 1 : 2); ++seed) {
                 on_host::set_seed(seed);
                 made.n = n;
                 made.answers.assign(made.answers.size(), Answer::yes);
