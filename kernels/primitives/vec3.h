@@ -65,7 +65,7 @@ template <class Real>
     return {a.x < b.x ? b.x : a.x, a.y < b.y ? b.y : a.y, a.z < b.z ? b.z : a.z};
 }
 
-template <class Real> bool is_finite(Vec3<Real> a) {
+template <class Real> BOXWOOD_BOTH bool is_finite(Vec3<Real> a) {
     return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 

@@ -22,31 +22,26 @@ BOXWOOD_BOTH inline float from_ordered(int x) {
 
 constexpr std::uint32_t none_bad = 0xffffffff;
 
-inline Centres no_centres() {
-    const float inf = std::numeric_limits<float>::infinity();
-    return {{ordered(inf), ordered(inf), ordered(inf)},
-            {ordered(-inf), ordered(-inf), ordered(-inf)},
-            none_bad};
+BOXWOOD_BOTH inline Centres no_centres() {
+    const int high = ordered(Box::inf), low = ordered(-Box::inf);
+    return {{high, high, high}, {low, low, low}, none_bad};
 }
 
-constexpr unsigned code_threads = 256;
+constexpr unsigned code_threads = 256, max_measure_blocks = 2048;
 
-/// A thread per box; *to is no_centres() at first.
+/// *to is no_centres() at first. Any number of blocks: each thread takes every so-manyeth box.
 __global__ void measure_centres(const Box* boxes, std::uint32_t n, Centres* to) {
-    const std::uint32_t i = blockIdx.x * blockDim.x + threadIdx.x;
-    Centres all;
-    for (int axis = 0; axis < 3; ++axis) {
-        all.low[axis] = 0x7fffffff;
-        all.high[axis] = -0x7fffffff - 1;
-    }
-    all.first_bad = none_bad;
-    if (i < n) {
+    Centres all = no_centres();
+    for (std::uint64_t i = std::uint64_t{blockIdx.x} * blockDim.x + threadIdx.x; i < n;
+         i += std::uint64_t{gridDim.x} * blockDim.x) {
         const Box box = boxes[i];
         for (int axis = 0; axis < 3; ++axis) {
             const float low = box.min[axis], high = box.max[axis];
             if (!(low - low == 0 && high - high == 0 && low <= high))
-                all.first_bad = i;
-            all.low[axis] = all.high[axis] = ordered(.5f * low + .5f * high);
+                all.first_bad = i < all.first_bad ? static_cast<std::uint32_t>(i) : all.first_bad;
+            const int centre = ordered(.5f * low + .5f * high);
+            all.low[axis] = centre < all.low[axis] ? centre : all.low[axis];
+            all.high[axis] = centre > all.high[axis] ? centre : all.high[axis];
         }
     }
     for (unsigned step = 16; step > 0; step /= 2) {
@@ -134,15 +129,85 @@ BOXWOOD_BOTH std::uint64_t curve_code(const Box& box, Curve curve, const CurveGr
     return spread(x) << 2 | spread(y) << 1 | spread(z);
 }
 
-/// A thread per box: the code by 10 or by 21 bits per axis, and the box's number to be sorted with.
+/// What the codes of some boxes are made by.
+struct CodeRule {
+    CurveGrid grid;
+    bool apart; ///< the long boxes of each axis
+};
+
+/// Half of the extents, which cannot overflow.
+BOXWOOD_BOTH inline Vec3<float> half_extent(const Box& box) {
+    return .5f * box.max - .5f * box.min;
+}
+/// As HilbertBuilder::groups: the axis along which a box is longest, of equal ones the first.
+BOXWOOD_BOTH inline std::uint32_t longest_axis(const Box& box) {
+    const Vec3<float> e = half_extent(box);
+    if (e.z > (e.x < e.y ? e.y : e.x))
+        return 2;
+    return e.y > e.x ? 1 : 0;
+}
+
+/// One block: the rule for boxes with these centres, by a sample of at most 1024 of them as
+/// HilbertBuilder::groups has it. may_part: long boxes may come apart.
+template <int bits>
+__global__ void make_code_rule(const Box* boxes, std::uint32_t n, const Centres* centres,
+                               bool may_part, CodeRule* to) {
+    __shared__ double middles[code_threads], longests[code_threads];
+    const std::uint32_t step = n / 1024 + 1;
+    double middle = 0, longest = 0;
+    for (std::uint64_t i = std::uint64_t{threadIdx.x} * step; may_part && i < n;
+         i += std::uint64_t{code_threads} * step) {
+        const Vec3<float> e = half_extent(boxes[i]);
+        const float low = e.x < e.y ? e.x : e.y, high = e.x < e.y ? e.y : e.x;
+        const float below = e.z < high ? e.z : high;
+        middle += static_cast<double>(low < below ? below : low);
+        longest += static_cast<double>(high < e.z ? e.z : high);
+    }
+    middles[threadIdx.x] = middle;
+    longests[threadIdx.x] = longest;
+    for (unsigned half = code_threads / 2; half > 0; half /= 2) {
+        __syncthreads();
+        if (threadIdx.x < half) {
+            middles[threadIdx.x] += middles[threadIdx.x + half];
+            longests[threadIdx.x] += longests[threadIdx.x + half];
+        }
+    }
+    if (threadIdx.x != 0)
+        return;
+    Box box;
+    for (int axis = 0; axis < 3; ++axis) {
+        box.min[axis] = from_ordered(centres->low[axis]);
+        box.max[axis] = from_ordered(centres->high[axis]);
+    }
+    *to = {curve_grid(box, bits), longests[0] > 3 * middles[0]};
+}
+
+/// A thread per box: the code by 10 or by 21 bits per axis with the group, if they come apart,
+/// above it (for the room of which the finest bit goes), and the box's number to be sorted with.
 template <int bits, class Code>
-__global__ void curve_codes(const Box* boxes, std::uint32_t n, Curve curve, CurveGrid grid,
+__global__ void curve_codes(const Box* boxes, std::uint32_t n, Curve curve, const CodeRule* rule,
                             Code* codes, std::uint32_t* items) {
     const std::uint32_t i = blockIdx.x * blockDim.x + threadIdx.x;
-    if (i < n) {
-        codes[i] = static_cast<Code>(curve_code<bits>(boxes[i], curve, grid));
-        items[i] = i;
-    }
+    if (i >= n)
+        return;
+    constexpr int top = sizeof(Code) * 8 - 2;
+    const Box box = boxes[i];
+    Code code = static_cast<Code>(curve_code<bits>(box, curve, rule->grid));
+    if (rule->apart)
+        code = code >> (3 * bits > top ? 3 * bits - top : 0) | static_cast<Code>(longest_axis(box))
+                                                                   << top;
+    codes[i] = code;
+    items[i] = i;
+}
+
+/// A thread per box. *crowded, 0 at first, becomes the number of codes with eight equal ones before
+/// them: of many of these the order is worth little.
+template <class Code>
+__global__ void count_crowded(const Code* sorted, std::uint32_t n, std::uint32_t* crowded) {
+    const std::uint32_t i = blockIdx.x * blockDim.x + threadIdx.x;
+    const unsigned votes = __ballot_sync(~0u, i >= 8 && i < n && sorted[i - 8] == sorted[i]);
+    if (votes != 0 && threadIdx.x % 32 == 0)
+        atomicAdd(crowded, static_cast<std::uint32_t>(__popc(votes)));
 }
 
 } // namespace boxwood::cuda

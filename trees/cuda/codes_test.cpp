@@ -1,8 +1,10 @@
+#include "trees/builders/hilbert.h"
 #include "trees/cuda/codes.cuh"
 #include "trees/testing/box_families.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -10,11 +12,18 @@
 namespace boxwood::cuda {
 namespace {
 
-Centres measured(Boxes boxes) {
+BoxFamily bars(std::size_t n) {
+    BoxFamily family{"bars", random_boxes(n, .01f, 6)};
+    for (std::size_t i = 0; i < n; ++i)
+        family.boxes[i].max[static_cast<int>(i % 3)] += 2;
+    return family;
+}
+
+Centres measured(Boxes boxes, std::size_t max_blocks = max_measure_blocks) {
     Centres centres = no_centres();
     const auto n = static_cast<std::uint32_t>(boxes.size());
-    launch(Stream{}, blocks_for(n, code_threads), code_threads, measure_centres, boxes.data(), n,
-           &centres);
+    launch(Stream{}, std::min(blocks_for(n, code_threads), max_blocks), code_threads,
+           measure_centres, boxes.data(), n, &centres);
     return centres;
 }
 
@@ -39,24 +48,76 @@ TEST(CodesOnDevice, TheFirstBadBoxIsFound) {
             on_host::set_seed(seed);
             std::vector<Box> boxes = random_boxes(1000, .1f, 1);
             boxes[700] = boxes[413] = bad;
-            EXPECT_EQ(measured(boxes).first_bad, 413u);
+            EXPECT_EQ(measured(boxes, 1 + seed).first_bad, 413u);
         }
 }
 
-template <int bits, class Code> void expect_codes(const BoxFamily& family, Curve curve) {
+CodeRule rule_of(const BoxFamily& family, bool may_part) {
+    const Centres centres = measured(family.boxes);
+    CodeRule rule;
+    launch(Stream{}, 1, code_threads, make_code_rule<10>, family.boxes.data(),
+           static_cast<std::uint32_t>(family.boxes.size()), &centres, may_part, &rule);
+    return rule;
+}
+
+template <int bits, class Code>
+std::vector<Code> codes_of(const BoxFamily& family, Curve curve, bool apart) {
     const auto n = static_cast<std::uint32_t>(family.boxes.size());
-    const CurveGrid grid = curve_grid(boxwood::measure_centres(family.boxes).box, bits);
-    std::vector<Code> wanted(n), found(n);
+    const CodeRule rule{curve_grid(boxwood::measure_centres(family.boxes).box, bits), apart};
+    std::vector<Code> codes(n);
     std::vector<std::uint32_t> items(n);
+    launch(Stream{}, blocks_for(n, code_threads), code_threads, curve_codes<bits, Code>,
+           family.boxes.data(), n, curve, &rule, codes.data(), items.data());
+    for (std::uint32_t i = 0; i < n; ++i)
+        EXPECT_EQ(items[i], i);
+    return codes;
+}
+
+template <int bits, class Code> void expect_codes(const BoxFamily& family, Curve curve) {
+    const CurveGrid grid = curve_grid(boxwood::measure_centres(family.boxes).box, bits);
+    std::vector<Code> wanted(family.boxes.size());
     if constexpr (bits == 10)
         coarse_codes(family.boxes, curve, grid, wanted.data());
     else
         fine_codes(family.boxes, curve, grid, wanted.data());
-    launch(Stream{}, blocks_for(n, code_threads), code_threads, curve_codes<bits, Code>,
-           family.boxes.data(), n, curve, grid, found.data(), items.data());
-    EXPECT_EQ(found, wanted);
-    for (std::uint32_t i = 0; i < n; ++i)
-        EXPECT_EQ(items[i], i);
+    EXPECT_EQ((codes_of<bits, Code>(family, curve, false)), wanted);
+    const GroupOfBox group = HilbertBuilder::groups(bars(1).boxes);
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        const Code above = group(family.boxes[i]);
+        wanted[i] = bits == 10 ? wanted[i] | above << 30 : wanted[i] >> 1 | above << 62;
+    }
+    EXPECT_EQ((codes_of<bits, Code>(family, curve, true)), wanted);
+}
+
+TEST(CodesOnDevice, TheRuleIsThatOfTheHilbertBuilder) {
+    std::vector<BoxFamily> families = box_families();
+    families.push_back(bars(700));
+    families.push_back(bars(2500));
+    for (const BoxFamily& family : families) {
+        SCOPED_TRACE(family.name);
+        if (family.boxes.empty())
+            continue;
+        const CurveGrid grid = curve_grid(boxwood::measure_centres(family.boxes).box, 10);
+        for (std::uint64_t seed = 0; seed < 2; ++seed) {
+            on_host::set_seed(seed);
+            const CodeRule rule = rule_of(family, true);
+            EXPECT_EQ(rule.grid.low, grid.low);
+            EXPECT_EQ(rule.grid.power, grid.power);
+            EXPECT_EQ(rule.grid.scale, grid.scale);
+            EXPECT_EQ(rule.apart, HilbertBuilder::groups(family.boxes) != nullptr);
+        }
+        EXPECT_FALSE(rule_of(family, false).apart);
+    }
+}
+
+TEST(CodesOnDevice, CountsThoseInCrowds) {
+    std::vector<std::uint32_t> codes(1000);
+    for (std::uint32_t i = 0; i < 1000; ++i)
+        codes[i] = i < 40 ? 5 : i < 49 ? 6 : i < 57 ? 7 : i; // 40, 9 and 8 of the same
+    std::uint32_t crowded = 0;
+    launch(Stream{}, blocks_for(1000, code_threads), code_threads, count_crowded<std::uint32_t>,
+           codes.data(), 1000u, &crowded);
+    EXPECT_EQ(crowded, 32u + 1);
 }
 
 TEST(CodesOnDevice, HaveTheBitsOfTheCpu) {

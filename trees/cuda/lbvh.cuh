@@ -24,10 +24,11 @@ struct RadixTreeView {
     RadixNode* nodes = nullptr;     ///< n - 1
     std::uint32_t* root = nullptr;  ///< a node, or the only slot with leaf_bit
 
-    BOXWOOD_BOTH static bool is_leaf(std::uint32_t ref) {
-        return (ref & RadixNode::leaf_bit) != 0;
-    }
+    BOXWOOD_BOTH static bool is_leaf(std::uint32_t ref) { return (ref & RadixNode::leaf_bit) != 0; }
     BOXWOOD_BOTH static std::uint32_t slot(std::uint32_t ref) { return ref & ~RadixNode::leaf_bit; }
+    BOXWOOD_BOTH const Box& box(std::uint32_t ref) const {
+        return is_leaf(ref) ? leaves[slot(ref)] : nodes[ref].box;
+    }
 };
 
 /// How high in the tree slots i - 1 and i part: by the first bit in which their codes differ, below
@@ -43,10 +44,11 @@ constexpr std::uint32_t nobody = 0xffffffff;
 /// Another thread wrote it: not from a cache of this one's.
 template <class T> __device__ T from_other(const T* at) {
     static_assert(sizeof(T) % 4 == 0);
-    T value;
+    std::uint32_t words[sizeof(T) / 4];
     for (unsigned i = 0; i < sizeof(T) / 4; ++i)
-        reinterpret_cast<std::uint32_t*>(&value)[i] =
-            __ldcg(reinterpret_cast<const std::uint32_t*>(at) + i);
+        words[i] = __ldcg(reinterpret_cast<const std::uint32_t*>(at) + i);
+    T value;
+    memcpy(&value, words, sizeof value);
     return value;
 }
 

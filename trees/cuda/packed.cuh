@@ -87,24 +87,45 @@ __global__ void fill_packed_leaves(PackedView to, const Box* boxes, const std::u
         set_lane(to.blocks[to.first[1] + block / to.width], block % to.width, all);
 }
 
-/// A thread per lane of a level that has its used lanes: empties the others, and hands up the
-/// bounds as above.
-__global__ void fill_packed_level(PackedView to, unsigned level, Box* bounds) {
-    const std::uint32_t at = blockIdx.x * blockDim.x + threadIdx.x;
-    const std::uint32_t lane = at % to.width, block = at / to.width;
-    const bool is_block = block < to.size(level);
-    Box box;
-    if (at < to.size(level - 1))
-        box = lane_box(to.blocks[to.first[level] + block], lane);
-    else if (is_block)
-        set_lane(to.blocks[to.first[level] + block], lane, box);
-    const Box all = half_warp_bounds(box);
-    if (lane != 0 || !is_block)
-        return;
-    if (level + 1 == to.depth)
+/// One level, for a kernel: an array that it looks into at a place known late would be copied.
+struct PackedLevel {
+    std::uint32_t first, size; ///< blocks
+    std::uint32_t lanes;       ///< used ones
+    std::uint32_t above;       ///< first block of the level above
+    bool is_top;
+};
+inline PackedLevel packed_level(const PackedView& view, unsigned level) {
+    return {view.first[level], view.size(level), level == 0 ? view.n : view.size(level - 1),
+            view.first[level + 1], level + 1 == view.depth};
+}
+
+__device__ inline void hand_up(PackedBlock* blocks, const PackedLevel& level, std::uint32_t block,
+                               const Box& all, Box* bounds) {
+    if (level.is_top)
         *bounds = all;
     else
-        set_lane(to.blocks[to.first[level + 1] + block / to.width], block % to.width, all);
+        set_lane(blocks[level.above + block / PackedBlock::width], block % PackedBlock::width, all);
+}
+
+/// A thread per lane of a level that has its used lanes: empties the others, and hands up the
+/// bounds as above.
+__global__ void fill_packed_level(PackedBlock* blocks, PackedLevel level, Box* bounds) {
+    const std::uint32_t at = blockIdx.x * blockDim.x + threadIdx.x;
+    const std::uint32_t lane = at % PackedBlock::width, block = at / PackedBlock::width;
+    const bool is_block = block < level.size;
+    Box box;
+    if (at < level.lanes)
+        box = lane_box(blocks[level.first + block], lane);
+    else if (is_block)
+        set_lane(blocks[level.first + block], lane, box);
+    const Box all = half_warp_bounds(box);
+    if (lane == 0 && is_block)
+        hand_up(blocks, level, block, all, bounds);
+}
+
+inline void fill_level(const PackedView& to, unsigned level, Box* bounds, Stream stream) {
+    launch(stream, blocks_for(std::size_t{to.size(level)} * to.width, packed_threads),
+           packed_threads, fill_packed_level, to.blocks, packed_level(to, level), bounds);
 }
 
 /// Makes the layout of valid boxes in this order, or with `order` null refits it to new boxes.
@@ -116,8 +137,7 @@ inline void fill_packed(const PackedView& to, const Box* boxes, const std::uint3
     launch(stream, blocks_for(std::size_t{to.leaves()} * to.width, packed_threads), packed_threads,
            fill_packed_leaves, to, boxes, order, bounds);
     for (unsigned level = 1; level < to.depth; ++level)
-        launch(stream, blocks_for(std::size_t{to.size(level)} * to.width, packed_threads),
-               packed_threads, fill_packed_level, to, level, bounds);
+        fill_level(to, level, bounds, stream);
 }
 
 } // namespace boxwood::cuda

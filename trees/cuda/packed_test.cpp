@@ -1,6 +1,7 @@
 #include "trees/builders/hilbert.h"
 #include "trees/cuda/packed.cuh"
 #include "trees/cuda/packed_pairs.cuh"
+#include "trees/cuda/packed_refit.cuh"
 #include "trees/cuda/testing/families.h"
 #include "trees/executor.h"
 #include "trees/testing/brute_force.h"
@@ -82,7 +83,7 @@ TEST(PackedOnDevice, IsTheLayoutOfTheCpu) {
         SCOPED_TRACE(family.name);
         const auto order = HilbertBuilder{}.order(family.boxes, *serial);
         const PackedLayout wanted = PackedLayout::of_order(family.boxes, order.span(), *serial);
-        for (std::uint64_t seed = 0; seed < fibre_seeds; ++seed) {
+        for (std::uint64_t seed = 0; seed < seeds_for(family); ++seed) {
             on_host::set_seed(seed);
             expect_same(OnDevice(family.boxes, order.span()), wanted);
         }
@@ -100,6 +101,37 @@ TEST(PackedOnDevice, RefitsToNewBoxes) {
         fill_packed(made.view, made.boxes.data(), nullptr, made.bounds.data(), {});
         expect_same(made, PackedLayout::of_order(moved, order.span(), *serial));
     }
+}
+
+TEST(PackedOnDevice, RefitsSomeItems) {
+    const auto serial = make_executor("serial", 1);
+    for (const std::uint32_t n : {1u, 2u, 15u, 16u, 17u, 255u, 256u, 257u, 1000u, 4097u})
+        for (const std::uint32_t some : {0u, 1u, 2u, 40u, 300u, n}) {
+            SCOPED_TRACE(std::to_string(some) + " of " + std::to_string(n));
+            std::vector<Box> boxes = random_boxes(n, .2f, 5);
+            const auto order = HilbertBuilder{}.order(boxes, *serial);
+            OnDevice made(boxes, order.span());
+            Array<std::uint32_t> slots(n, {}), touched(made.blocks.size(), {});
+            std::fill_n(touched.data(), touched.size(), 0u);
+            launch({}, blocks_for(n, packed_threads), packed_threads, find_slots, made.view,
+                   slots.data());
+            for (std::uint32_t seed = 0; seed < 2; ++seed) {
+                on_host::set_seed(seed);
+                const std::vector<Box> to = random_boxes(n, .4f, 20 + seed);
+                std::vector<std::uint32_t> moved; // some of them twice
+                for (std::uint32_t i = 0; i < some; ++i)
+                    moved.push_back((i / 3 * 2 + i % 3) * 7919 % n);
+                for (const std::uint32_t item : moved)
+                    boxes[item] = to[item];
+                upload(Boxes(boxes), made.boxes, {});
+                refit_packed_items(made.view, made.boxes.data(),
+                                   {moved.data(), some, slots.data(), touched.data()},
+                                   made.bounds.data(), {});
+                expect_same(made, PackedLayout::of_order(boxes, order.span(), *serial));
+                EXPECT_TRUE(std::all_of(touched.data(), touched.data() + touched.size(),
+                                        [](std::uint32_t t) { return t == 0; }));
+            }
+        }
 }
 
 TEST(PackedPairsOnDevice, AreThoseOfBruteForce) {

@@ -11,55 +11,57 @@ enum class Walk : std::uint8_t { stack, ropes };
 /// Codes of 63 bits and slots of 30 part at most so often on a path.
 constexpr unsigned radix_depth = 94;
 
-/// Calls visit(slot) for each leaf that overlaps the box and lies at slot `from` or later.
-template <Walk walk, class Visit>
-__device__ void walk_radix_tree(const RadixTreeView& tree, const Box& box, std::uint32_t from,
-                                const Visit& visit) {
+/// Calls visit(slot) for each leaf whose box `admits` takes, as it must take all boxes around such
+/// a box, from the subtree `at` on up to slot `end`. Where a subtree ends within them, none reaches
+/// beyond `end`.
+template <Walk walk, class Admits, class Visit>
+__device__ void walk_radix_tree(const RadixTreeView& tree, std::uint32_t at, std::uint32_t end,
+                                const Admits& admits, const Visit& visit) {
     std::uint32_t stack[walk == Walk::stack ? radix_depth : 1];
     unsigned depth = 0;
-    for (std::uint32_t at = *tree.root;;) {
+    for (;;) {
         std::uint32_t last;
         if (RadixTreeView::is_leaf(at)) {
             last = RadixTreeView::slot(at);
-            if (last >= from && overlaps(box, tree.leaves[last]))
+            if (admits(tree.leaves[last]))
                 visit(last);
         } else {
             const RadixNode& node = tree.nodes[at];
             last = node.last;
-            if (last >= from && overlaps(box, node.box)) {
+            if (admits(node.box)) {
                 if constexpr (walk == Walk::stack)
                     stack[depth++] = node.right;
                 at = node.left;
                 continue;
             }
         }
-        if constexpr (walk == Walk::stack) {
-            if (depth == 0)
-                return;
+        if (walk == Walk::stack && depth > 0) {
             at = stack[--depth];
         } else {
-            if (last + 1 == tree.n)
+            if (last + 1 == end)
                 return;
             at = tree.nodes[last].right;
         }
     }
 }
 
-/// A thread per leaf of `a`. Within one tree (is_self) it meets the leaves after its own.
+/// A thread per leaf of `a`. Within one tree (is_self) it meets the leaves after its own: from the
+/// right child of its own node on, by ropes.
 template <bool is_self, Pass pass, Walk walk>
 __global__ void radix_pairs(RadixTreeView a, RadixTreeView b, PairsTo to) {
     const std::uint32_t slot = blockIdx.x * blockDim.x + threadIdx.x;
-    if (slot >= a.n || (is_self && slot + 1 == a.n && pass != Pass::count))
+    if (slot >= a.n)
         return;
-    std::uint64_t at = pass == Pass::fill ? to.at[slot] : 0;
-    walk_radix_tree<walk>(b, a.leaves[slot], is_self ? slot + 1 : 0, [&](std::uint32_t other) {
-        const std::uint64_t place = pass == Pass::capped ? to.take(1) : at;
-        if (pass == Pass::fill || (pass == Pass::capped && place < to.room))
-            to.pairs[place] = pair_of<is_self>(a.items[slot], b.items[other]);
-        ++at;
-    });
-    if constexpr (pass == Pass::count)
-        to.at[slot] = at;
+    ThreadAnswers<pass, Pair> answers(to, slot);
+    const Box box = a.leaves[slot];
+    if (!is_self || slot + 1 < a.n)
+        walk_radix_tree<walk>(
+            b, is_self ? b.nodes[slot].right : *b.root, b.n,
+            [&](const Box& other) { return overlaps(box, other); },
+            [&](std::uint32_t other) {
+                answers.add(pair_of<is_self>(a.items[slot], b.items[other]));
+            });
+    answers.finish();
 }
 
 template <bool is_self, Pass pass, Walk walk>

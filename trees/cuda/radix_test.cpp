@@ -1,7 +1,6 @@
-#include "trees/cuda/codes.cuh"
-#include "trees/cuda/lbvh.cuh"
 #include "trees/cuda/radix_pairs.cuh"
 #include "trees/cuda/testing/families.h"
+#include "trees/cuda/testing/radix_tree.h"
 #include "trees/testing/brute_force.h"
 
 #include <gtest/gtest.h>
@@ -14,29 +13,7 @@
 namespace boxwood::cuda {
 namespace {
 
-struct OnDevice {
-    Array<Box> boxes, leaves;
-    Array<std::uint32_t> items, met, root{1, {}};
-    Array<std::uint64_t> codes;
-    Array<RadixNode> nodes;
-    RadixTreeView view;
-
-    explicit OnDevice(Boxes of, Curve curve = Curve::hilbert)
-        : boxes(of.size(), {}), leaves(of.size(), {}), items(of.size(), {}),
-          met(of.empty() ? 0 : of.size() - 1, {}), codes(of.size(), {}), nodes(met.size(), {}) {
-        upload(of, boxes, {});
-        std::vector<std::uint64_t> code(of.size());
-        fine_codes(of, curve, curve_grid(boxwood::measure_centres(of).box, 21), code.data());
-        std::iota(items.data(), items.data() + items.size(), 0u);
-        std::stable_sort(items.data(), items.data() + items.size(),
-                         [&](std::uint32_t a, std::uint32_t b) { return code[a] < code[b]; });
-        for (std::size_t i = 0; i < of.size(); ++i)
-            codes.data()[i] = code[items.data()[i]];
-        view = {static_cast<std::uint32_t>(of.size()), leaves.data(), items.data(), nodes.data(),
-                root.data()};
-        make_radix_tree(view, codes.data(), boxes.data(), met.data(), {});
-    }
-};
+using OnDevice = MadeRadixTree;
 
 /// The tree by its definition, from the top: parts a range of slots where the highest bit of codes
 /// and slots changes. Gives the box of what is below.

@@ -8,6 +8,16 @@ namespace boxwood::cuda {
 
 inline constexpr std::uint64_t fibre_seeds = 8;
 
+/// All of them for few boxes, two for many, and of these one where a sanitizer is slow.
+inline std::uint64_t seeds_for(const BoxFamily& family) {
+#if defined(__SANITIZE_ADDRESS__)
+    constexpr std::uint64_t some = 1;
+#else
+    constexpr std::uint64_t some = 2;
+#endif
+    return family.boxes.size() <= 300 ? fibre_seeds : some;
+}
+
 /// All families of boxes, and sizes around those of warps, blocks and grids.
 inline std::vector<BoxFamily> device_families() {
     std::vector<BoxFamily> all = box_families();
