@@ -1,12 +1,18 @@
+#undef _FORTIFY_SOURCE // its longjmp refuses to go from stack to stack
 #include "trees/cuda/on_host.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <csetjmp>
 #include <cstddef>
 #include <memory>
+#include <new>
 #include <numeric>
 #include <random>
 #include <string>
 #include <ucontext.h>
+#include <utility>
 #include <vector>
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -32,8 +38,9 @@ class Block {
 
     void run() {
         running = this;
-        for (Fibre& fibre : fibres_)
-            begin(fibre);
+        static std::vector<std::unique_ptr<std::byte[]>> stacks(max_threads);
+        for (std::size_t i = 0; i < fibres_.size(); ++i)
+            begin(fibres_[i], stacks[i]);
         std::vector<unsigned> ready;
         for (unsigned left = static_cast<unsigned>(fibres_.size()); left > 0;) {
             ready.clear();
@@ -89,17 +96,21 @@ class Block {
     enum class State : std::uint8_t { ready, waiting, done };
     struct Fibre {
         ucontext_t context;
-        std::unique_ptr<std::byte[]> stack;
+        std::jmp_buf at; ///< where it goes on, once it has begun
+        bool begun = false;
+        std::byte* stack = nullptr;
         State state = State::ready;
         Meeting meeting = Meeting::block;
         unsigned mask = 0, from = 0;
         std::uint64_t value = 0, result = 0;
     };
 
-    void begin(Fibre& fibre) {
+    void begin(Fibre& fibre, std::unique_ptr<std::byte[]>& stack) {
+        if (!stack)
+            stack = std::make_unique_for_overwrite<std::byte[]>(stack_bytes);
+        fibre.stack = stack.get();
         getcontext(&fibre.context);
-        fibre.stack = std::make_unique_for_overwrite<std::byte[]>(stack_bytes);
-        fibre.context.uc_stack.ss_sp = fibre.stack.get();
+        fibre.context.uc_stack.ss_sp = fibre.stack;
         fibre.context.uc_stack.ss_size = stack_bytes;
         fibre.context.uc_link = nullptr;
         makecontext(&fibre.context, &Block::main, 0);
@@ -113,17 +124,36 @@ class Block {
     }
 
     void enter(Fibre& fibre) {
-        about_to_switch(&fake_stack_, fibre.stack.get(), stack_bytes);
-        swapcontext(&scheduler_, &fibre.context);
+        about_to_switch(&fake_stack_, fibre.stack, stack_bytes);
+        go(fibre);
         switched_from(fake_stack_);
     }
     void leave() {
         Fibre& self = fibres_[current_];
         void* fake = nullptr;
         about_to_switch(self.state == State::done ? nullptr : &fake, main_stack_, main_bytes_);
-        swapcontext(&self.context, &scheduler_);
+        go_back(self);
         switched_from(fake);
     }
+
+#if defined(__SANITIZE_ADDRESS__)
+    void go(Fibre& fibre) { swapcontext(&scheduler_, &fibre.context); }
+    void go_back(Fibre& self) { swapcontext(&self.context, &scheduler_); }
+#else
+    // Without the system call that swapcontext makes each time.
+    void go(Fibre& fibre) {
+        if (_setjmp(back_) != 0)
+            return;
+        if (std::exchange(fibre.begun, true))
+            _longjmp(fibre.at, 1);
+        setcontext(&fibre.context);
+    }
+    void go_back(Fibre& self) {
+        if (_setjmp(self.at) == 0)
+            _longjmp(back_, 1);
+    }
+    std::jmp_buf back_;
+#endif
 
     /// run() throws it once this thread leaves, for good: it holds nothing then that would leak.
     void fail(const std::string& what) {
@@ -131,16 +161,24 @@ class Block {
     }
 
     void meet_block() {
-        const auto waits = [](const Fibre& f) {
-            return f.state == State::waiting && f.meeting == Meeting::block;
-        };
-        if (std::ranges::all_of(fibres_, waits))
-            for (Fibre& fibre : fibres_)
-                fibre.state = State::ready;
+        if (++at_barrier_ < fibres_.size())
+            return;
+        at_barrier_ = 0;
+        for (Fibre& fibre : fibres_)
+            fibre.state = State::ready;
     }
 
     void meet_warp(const Fibre& self) {
         const std::size_t first = current_ / 32 * 32;
+        unsigned& waiting = waiting_[current_ / 32];
+        const unsigned others = waiting & self.mask;
+        waiting |= 1u << current_ % 32;
+        if (others != 0 && (waiting & self.mask) != self.mask) { // all of it when all have come
+            const Fibre& other =
+                fibres_[first + static_cast<std::size_t>(std::countr_zero(others))];
+            if (other.meeting == self.meeting && other.mask == self.mask)
+                return;
+        }
         const auto each_lane = [&](auto&& visit) {
             for (unsigned lane = 0; lane < 32; ++lane)
                 if (self.mask >> lane & 1)
@@ -162,6 +200,7 @@ class Block {
         });
         if (!all || !fault_.empty())
             return;
+        waiting &= ~self.mask;
         each_lane([&](unsigned lane) {
             Fibre& other = fibres_[first + lane];
             other.result = self.meeting == Meeting::ballot    ? votes
@@ -206,8 +245,10 @@ class Block {
     const std::function<void()>& thread_;
     std::mt19937_64 random_;
     std::vector<Fibre> fibres_;
-    ucontext_t scheduler_{};
+    [[maybe_unused]] ucontext_t scheduler_{};
     unsigned current_ = 0;
+    std::size_t at_barrier_ = 0;
+    std::array<unsigned, max_threads / 32> waiting_{}; ///< lanes of each warp, at its operations
     std::string fault_;
     void* fake_stack_ = nullptr;
     const void* main_stack_ = nullptr;
@@ -231,6 +272,32 @@ void run_grid(unsigned n_blocks, unsigned n_threads, const std::function<void()>
         blockIdx = {block, 0, 0};
         Block(n_threads, thread, random()).run();
     }
+}
+
+namespace {
+
+constexpr std::size_t line = 64; ///< before each allocation stands its size
+std::uint64_t memory = std::uint64_t{1} << 36, taken = 0;
+
+} // namespace
+
+void set_free_memory(std::uint64_t bytes) { memory = taken + bytes; }
+std::uint64_t free_memory() { return memory > taken ? memory - taken : 0; }
+
+void* allocate(std::size_t bytes) {
+    if (bytes > free_memory())
+        throw Fault("an array of " + std::to_string(bytes) + " bytes is more than the " +
+                    std::to_string(free_memory()) + " that are free");
+    auto* const block =
+        static_cast<std::byte*>(::operator new (bytes + line, std::align_val_t{line}));
+    *reinterpret_cast<std::size_t*>(block) = bytes;
+    taken += bytes;
+    return block + line;
+}
+void release(void* at) {
+    auto* const block = static_cast<std::byte*>(at) - line;
+    taken -= *reinterpret_cast<std::size_t*>(block);
+    ::operator delete (block, std::align_val_t{line});
 }
 
 std::uint64_t meet(Meeting meeting, unsigned mask, std::uint64_t value, unsigned from) {
