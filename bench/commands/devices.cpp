@@ -13,7 +13,7 @@
 namespace boxwood::bench {
 namespace {
 
-std::string version_text(int version) {
+std::string cuda_version(int version) {
     return fmt::format("{}.{}", version / 1000, version % 1000 / 10);
 }
 
@@ -82,7 +82,7 @@ std::string device_summary(const Device& device) {
                        device.name, device.multiprocessors,
                        static_cast<double>(device.memory_bytes) / (1 << 30),
                        device.capability_major, device.capability_minor,
-                       version_text(device.driver), version_text(device.runtime));
+                       cuda_version(device.driver), cuda_version(device.runtime));
 }
 
 int chosen_device(std::string_view name, std::span<const Device> there,

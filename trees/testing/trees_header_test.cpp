@@ -28,10 +28,9 @@ TEST(TreesHeader, HoldsAllThatIsPublicAndNothingElse) {
     ASSERT_TRUE(fs::is_directory("trees")) << "run from the root of the sources";
     for (const auto& entry : fs::recursive_directory_iterator("trees")) {
         const std::string path = entry.path().generic_string();
-        const bool internal = path.find("/detail/") != std::string::npos ||
-                              path.starts_with("trees/cuda/") ||
-                              path.starts_with("trees/traversals/") ||
-                              path.starts_with("trees/testing/");
+        const bool internal =
+            path.find("/detail/") != std::string::npos || path.starts_with("trees/cuda/") ||
+            path.starts_with("trees/traversals/") || path.starts_with("trees/testing/");
         if (path.ends_with(".h") && !internal && path != "trees/trees.h")
             there.insert(path);
     }
