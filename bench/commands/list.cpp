@@ -236,7 +236,7 @@ std::string wrapped(std::string lead, std::string_view text) {
 std::string as_text(const Registry& registry) {
     const Rows rows = registry.rows();
     if (rows.empty())
-        return wrapped("none:", registry.why_empty());
+        return wrapped("none: ", registry.why_empty());
     std::size_t width = 0;
     for (const Row& row : rows)
         width = std::max(width, row.name.size());
