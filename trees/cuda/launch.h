@@ -14,7 +14,6 @@
 #include "trees/cuda/on_host.h"
 
 #include <algorithm>
-#include <memory>
 #endif
 
 namespace boxwood::cuda {
@@ -32,23 +31,11 @@ void launch(Stream, std::size_t n_blocks, unsigned n_threads, void (*kernel)(Par
                           [&] { kernel(arguments...); });
 }
 
-/// An array of uninitialised trivial elements in the device's memory.
-template <class T> class Array {
-  public:
-    Array() = default;
-    Array(std::size_t size, Stream)
-        : data_(std::make_unique_for_overwrite<T[]>(size)), size_(size) {}
-    std::size_t size() const { return size_; }
-    T* data() { return data_.get(); }
-    const T* data() const { return data_.get(); }
+inline void* allocate(std::size_t bytes, Stream) { return on_host::allocate(bytes); }
+inline void release(void* memory, Stream) { on_host::release(memory); }
 
-  private:
-    std::unique_ptr<T[]> data_;
-    std::size_t size_ = 0;
-};
-
-template <class T> void upload(std::span<const T> from, Array<T>& to, Stream) {
-    std::ranges::copy(from, to.data());
+template <class T> void upload(std::span<const T> from, T* to, Stream) {
+    std::ranges::copy(from, to);
 }
 template <class T> void download(const T* from, std::span<T> to, Stream) {
     std::copy_n(from, to.size(), to.data());
@@ -62,6 +49,41 @@ inline void fill_words(std::uint32_t* to, std::uint32_t word, std::size_t n, Str
 inline void wait(Stream) {}
 
 #endif
+
+/// An array of uninitialised trivial elements in the device's memory.
+template <class T> class Array {
+  public:
+    Array() = default;
+    Array(std::size_t size, Stream stream)
+        : data_(static_cast<T*>(size > 0 ? allocate(size * sizeof(T), stream) : nullptr)),
+          size_(size), stream_(stream) {}
+    Array(Array&& other) noexcept { swap(other); }
+    Array& operator=(Array&& other) noexcept {
+        swap(other);
+        return *this;
+    }
+    ~Array() {
+        if (data_)
+            release(data_, stream_);
+    }
+    std::size_t size() const { return size_; }
+    T* data() { return data_; }
+    const T* data() const { return data_; }
+
+  private:
+    void swap(Array& other) {
+        std::swap(data_, other.data_);
+        std::swap(size_, other.size_);
+        std::swap(stream_, other.stream_);
+    }
+    T* data_ = nullptr;
+    std::size_t size_ = 0;
+    Stream stream_;
+};
+
+template <class T> void upload(std::span<const T> from, Array<T>& to, Stream stream) {
+    upload(from, to.data(), stream);
+}
 
 /// Blocks of n_threads that make at least n threads.
 constexpr std::size_t blocks_for(std::size_t n, std::size_t n_threads) {

@@ -7,6 +7,7 @@
 #include <csetjmp>
 #include <cstddef>
 #include <memory>
+#include <new>
 #include <numeric>
 #include <random>
 #include <string>
@@ -286,6 +287,32 @@ void run_grid(unsigned n_blocks, unsigned n_threads, const std::function<void()>
         blockIdx = {block, 0, 0};
         Block(n_threads, thread, random()).run();
     }
+}
+
+namespace {
+
+constexpr std::size_t line = 64; ///< before each allocation stands its size
+std::uint64_t memory = std::uint64_t{1} << 36, taken = 0;
+
+} // namespace
+
+void set_free_memory(std::uint64_t bytes) { memory = taken + bytes; }
+std::uint64_t free_memory() { return memory > taken ? memory - taken : 0; }
+
+void* allocate(std::size_t bytes) {
+    if (bytes > free_memory())
+        throw Fault("an array of " + std::to_string(bytes) + " bytes is more than the " +
+                    std::to_string(free_memory()) + " that are free");
+    auto* const block =
+        static_cast<std::byte*>(::operator new (bytes + line, std::align_val_t{line}));
+    *reinterpret_cast<std::size_t*>(block) = bytes;
+    taken += bytes;
+    return block + line;
+}
+void release(void* at) {
+    auto* const block = static_cast<std::byte*>(at) - line;
+    taken -= *reinterpret_cast<std::size_t*>(block);
+    ::operator delete (block, std::align_val_t{line});
 }
 
 std::uint64_t meet(Meeting meeting, unsigned mask, std::uint64_t value, unsigned from) {

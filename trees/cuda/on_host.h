@@ -6,6 +6,7 @@
 // thread gives way to others at barriers, warp operations, atomics and fences alone, so memory that
 // needs a fence which is missing is not found (compute-sanitizer finds that, on a device).
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <stdexcept>
@@ -39,6 +40,13 @@ enum class Meeting : std::uint8_t { block, warp, ballot, shuffle };
 /// Waits for all lanes of `mask` (of the whole block for Meeting::block) to come to the same
 /// meeting. ballot: the lanes whose value is not 0. shuffle: the value of lane `from`.
 std::uint64_t meet(Meeting meeting, unsigned mask, std::uint64_t value = 0, unsigned from = 0);
+
+/// How much of the model's memory is free from now on. To allocate more than is free is a Fault:
+/// whoever needs memory has to look first.
+void set_free_memory(std::uint64_t bytes);
+std::uint64_t free_memory();
+void* allocate(std::size_t bytes);
+void release(void* memory);
 
 /// Lets other threads go first, now and then.
 void give_way();

@@ -2,11 +2,12 @@
 
 // The device's side of launch.h; for nvcc alone.
 
+#include "trees/device.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <cuda_runtime.h>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -15,7 +16,7 @@ namespace boxwood::cuda {
 /// Throws what CUDA says, and of what.
 inline void require(cudaError_t status, const char* what) {
     if (status != cudaSuccess)
-        throw std::runtime_error(std::string("CUDA: ") + what + ": " + cudaGetErrorString(status));
+        throw DeviceError(std::string("CUDA: ") + what + ": " + cudaGetErrorString(status));
 }
 
 /// Work that is done in order.
@@ -32,42 +33,24 @@ void launch(Stream stream, std::size_t n_blocks, unsigned n_threads, void (*kern
     require(cudaGetLastError(), "a kernel does not start");
 }
 
-/// An array of uninitialised trivial elements in the device's memory.
-template <class T> class Array {
-  public:
-    Array() = default;
-    Array(std::size_t size, Stream stream) : size_(size), stream_(stream) {
-        if (size > 0)
-            require(cudaMallocAsync(&data_, size * sizeof(T), stream.handle), "memory");
+inline void* allocate(std::size_t bytes, Stream stream) {
+    void* memory = nullptr;
+    const cudaError_t status = cudaMallocAsync(&memory, bytes, stream.handle);
+    if (status == cudaErrorMemoryAllocation) {
+        std::size_t free = 0, total = 0;
+        cudaGetLastError(); // it is no error of a later call
+        cudaMemGetInfo(&free, &total);
+        throw DeviceOutOfMemory("an array", bytes, free);
     }
-    Array(Array&& other) noexcept { swap(other); }
-    Array& operator=(Array&& other) noexcept {
-        swap(other);
-        return *this;
-    }
-    ~Array() {
-        if (data_)
-            cudaFreeAsync(data_, stream_.handle);
-    }
-    std::size_t size() const { return size_; }
-    T* data() { return data_; }
-    const T* data() const { return data_; }
+    require(status, "memory");
+    return memory;
+}
+inline void release(void* memory, Stream stream) { cudaFreeAsync(memory, stream.handle); }
 
-  private:
-    void swap(Array& other) {
-        std::swap(data_, other.data_);
-        std::swap(size_, other.size_);
-        std::swap(stream_, other.stream_);
-    }
-    T* data_ = nullptr;
-    std::size_t size_ = 0;
-    Stream stream_;
-};
-
-template <class T> void upload(std::span<const T> from, Array<T>& to, Stream stream) {
-    require(cudaMemcpyAsync(to.data(), from.data(), from.size_bytes(), cudaMemcpyHostToDevice,
-                            stream.handle),
-            "upload");
+template <class T> void upload(std::span<const T> from, T* to, Stream stream) {
+    require(
+        cudaMemcpyAsync(to, from.data(), from.size_bytes(), cudaMemcpyHostToDevice, stream.handle),
+        "upload");
 }
 template <class T> void download(const T* from, std::span<T> to, Stream stream) {
     require(
