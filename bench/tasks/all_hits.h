@@ -8,8 +8,8 @@
 
 namespace boxwood::bench {
 
-/// Answers to rays_all: pairs (ray, triangle). On cases also the hits, one to a pair and in the same
-/// order.
+/// Answers to rays_all: pairs (ray, triangle). On cases also the hits, one to a pair and in the
+/// same order.
 struct AllHits final : AnswerList<Pair> {
     std::vector<RayHit> hits;
 };

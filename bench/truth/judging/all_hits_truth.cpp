@@ -81,7 +81,8 @@ class AllHitsOfCasesTruth final : public CaseTruth {
                 continue;
             const RayCase& c = cases_.rays[i];
             tally.called(0);
-            const bool must_hit = c.hit == Known::unknown ? !truths[i]->empty() : c.hit == Known::yes;
+            const bool must_hit =
+                c.hit == Known::unknown ? !truths[i]->empty() : c.hit == Known::yes;
             if (contender.promise == Promise::never_leaks && must_hit && said.empty())
                 tally.leaked(i);
             else
@@ -99,11 +100,12 @@ class AllHitsOfCasesTruth final : public CaseTruth {
             throw std::runtime_error("the hits are not by ray, or of rays that there are not");
         return tally.finish([&](std::size_t i) {
             const RayCase& c = cases_.rays[i];
-            return fmt::format("case {}: said {}, without a tree {}, truth {}; {}, {} triangles; {}",
-                               i, answer_text(answers, i),
-                               list_text(hits_alone(contender.kernel, c, cases_.triangles), c.first),
-                               truth_text(i, contender.precision), case_text(i), c.count,
-                               replay_command(scene_, contender.name, i));
+            return fmt::format(
+                "case {}: said {}, without a tree {}, truth {}; {}, {} triangles; {}", i,
+                answer_text(answers, i),
+                list_text(hits_alone(contender.kernel, c, cases_.triangles), c.first),
+                truth_text(i, contender.precision), case_text(i), c.count,
+                replay_command(scene_, contender.name, i));
         });
     }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "trees/cuda/packed_pairs.cuh"
+#include "trees/cuda/queries/packed_pairs.cuh"
 
 #include <algorithm>
 #include <vector>

@@ -1,9 +1,9 @@
 #include "trees/detail/device_tree.h"
 
-#include "trees/cuda/built_tree.cuh"
+#include "trees/cuda/builds/built_tree.cuh"
 #include "trees/cuda/device/machine.h"
 #include "trees/cuda/device/pair_parts.cuh"
-#include "trees/cuda/radix_pairs.cuh"
+#include "trees/cuda/queries/radix_pairs.cuh"
 
 namespace boxwood::detail {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/testing/triangle_pairs.h"
-#include "trees/cuda/triangles.cuh"
+#include "trees/cuda/triangles/triangles.cuh"
 
 #include <algorithm>
 #include <random>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "trees/cuda/lbvh.cuh"
-#include "trees/cuda/pairs_to.cuh"
+#include "trees/cuda/builds/lbvh.cuh"
+#include "trees/cuda/queries/pairs_to.cuh"
 
 namespace boxwood::cuda {
 

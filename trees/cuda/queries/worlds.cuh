@@ -1,8 +1,8 @@
 #pragma once
 
-#include "trees/cuda/codes.cuh"
-#include "trees/cuda/radix_pairs.cuh"
-#include "trees/cuda/sorted_answers.cuh"
+#include "trees/cuda/builds/codes.cuh"
+#include "trees/cuda/queries/radix_pairs.cuh"
+#include "trees/cuda/queries/sorted_answers.cuh"
 
 namespace boxwood::cuda {
 

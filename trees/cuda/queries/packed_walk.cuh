@@ -1,7 +1,7 @@
 #pragma once
 
-#include "trees/cuda/packed.cuh"
-#include "trees/cuda/pairs_to.cuh"
+#include "trees/cuda/builds/packed.cuh"
+#include "trees/cuda/queries/pairs_to.cuh"
 
 namespace boxwood::cuda {
 

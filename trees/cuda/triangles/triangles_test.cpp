@@ -1,4 +1,4 @@
-#include "trees/cuda/triangles.cuh"
+#include "trees/cuda/triangles/triangles.cuh"
 
 #include "kernels/triangle_triangle/guigue_devillers_batch.h"
 #include "trees/cuda/testing/families.h"

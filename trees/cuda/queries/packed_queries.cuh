@@ -3,9 +3,9 @@
 // Few queries and many boxes: a warp per query and part of a packed layout, so that the parts of
 // one query are searched side by side.
 
-#include "trees/cuda/packed_walk.cuh"
-#include "trees/cuda/rays.cuh"
-#include "trees/cuda/regions.cuh"
+#include "trees/cuda/queries/packed_walk.cuh"
+#include "trees/cuda/queries/rays.cuh"
+#include "trees/cuda/queries/regions.cuh"
 
 namespace boxwood::cuda {
 

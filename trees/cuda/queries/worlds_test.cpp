@@ -1,5 +1,5 @@
+#include "trees/cuda/queries/worlds.cuh"
 #include "trees/cuda/testing/families.h"
-#include "trees/cuda/worlds.cuh"
 #include "trees/testing/brute_force.h"
 
 #include <gtest/gtest.h>

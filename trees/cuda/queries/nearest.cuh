@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/arithmetic/rounding.h"
-#include "trees/cuda/radix_pairs.cuh"
+#include "trees/cuda/queries/radix_pairs.cuh"
 #include "trees/queries/box_distance.h"
 #include "trees/queries/nearest.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "trees/cuda/rays.cuh"
-#include "trees/cuda/wide8.cuh"
+#include "trees/cuda/builds/wide8.cuh"
+#include "trees/cuda/queries/rays.cuh"
 
 namespace boxwood::cuda {
 

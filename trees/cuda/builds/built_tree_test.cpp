@@ -1,5 +1,5 @@
 #include "trees/builders/hilbert.h"
-#include "trees/cuda/built_tree.cuh"
+#include "trees/cuda/builds/built_tree.cuh"
 #include "trees/cuda/testing/families.h"
 #include "trees/ordering/curve_order.h"
 

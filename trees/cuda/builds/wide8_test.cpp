@@ -1,5 +1,5 @@
-#include "trees/cuda/collapse.cuh"
-#include "trees/cuda/hploc.cuh"
+#include "trees/cuda/builds/collapse.cuh"
+#include "trees/cuda/builds/hploc.cuh"
 #include "trees/cuda/testing/families.h"
 #include "trees/layouts/wide.h"
 #include "trees/ordering/curve_order.h"

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "trees/cuda/codes.cuh"
-#include "trees/cuda/collapse.cuh"
-#include "trees/cuda/hploc.cuh"
-#include "trees/cuda/packed_refit.cuh"
+#include "trees/cuda/builds/codes.cuh"
+#include "trees/cuda/builds/collapse.cuh"
+#include "trees/cuda/builds/hploc.cuh"
+#include "trees/cuda/builds/packed_refit.cuh"
 
 #include <stdexcept>
 #include <type_traits>

@@ -1,4 +1,4 @@
-#include "trees/cuda/radix_pairs.cuh"
+#include "trees/cuda/queries/radix_pairs.cuh"
 #include "trees/cuda/testing/families.h"
 #include "trees/cuda/testing/radix_tree.h"
 #include "trees/testing/brute_force.h"

@@ -1,5 +1,5 @@
 #include "trees/builders/ploc.h"
-#include "trees/cuda/hploc.cuh"
+#include "trees/cuda/builds/hploc.cuh"
 #include "trees/cuda/testing/families.h"
 #include "trees/ordering/curve_order.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "trees/cuda/binary.cuh"
+#include "trees/cuda/builds/binary.cuh"
 
 namespace boxwood::cuda {
 

@@ -6,9 +6,9 @@
 // places in the binary tree, but for the root, and filled. The order within a level is that of a
 // race, and nothing depends on it.
 
-#include "trees/cuda/binary.cuh"
+#include "trees/cuda/builds/binary.cuh"
+#include "trees/cuda/builds/wide8.cuh"
 #include "trees/cuda/primitives.h"
-#include "trees/cuda/wide8.cuh"
 
 #include <bit>
 

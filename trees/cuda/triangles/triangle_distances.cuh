@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/triangle_distance/float_pair.h"
-#include "trees/cuda/triangles.cuh"
+#include "trees/cuda/triangles/triangles.cuh"
 
 namespace boxwood::cuda {
 

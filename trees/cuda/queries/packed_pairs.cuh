@@ -1,6 +1,6 @@
 #pragma once
 
-#include "trees/cuda/packed_walk.cuh"
+#include "trees/cuda/queries/packed_walk.cuh"
 
 namespace boxwood::cuda {
 

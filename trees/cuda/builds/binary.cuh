@@ -1,6 +1,6 @@
 #pragma once
 
-#include "trees/cuda/lbvh.cuh"
+#include "trees/cuda/builds/lbvh.cuh"
 
 namespace boxwood::cuda {
 

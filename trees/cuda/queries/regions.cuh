@@ -1,8 +1,8 @@
 #pragma once
 
 #include "kernels/primitives/sphere.h"
-#include "trees/cuda/radix_pairs.cuh"
-#include "trees/cuda/sorted_answers.cuh"
+#include "trees/cuda/queries/radix_pairs.cuh"
+#include "trees/cuda/queries/sorted_answers.cuh"
 #include "trees/queries/box_distance.h"
 
 namespace boxwood::cuda {

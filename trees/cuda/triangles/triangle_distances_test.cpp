@@ -1,4 +1,4 @@
-#include "trees/cuda/triangle_distances.cuh"
+#include "trees/cuda/triangles/triangle_distances.cuh"
 
 #include "kernels/testing/distance_pairs.h"
 #include "kernels/triangle_distance/certified.h"

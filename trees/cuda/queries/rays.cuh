@@ -3,8 +3,8 @@
 #include "kernels/primitives/triangle.h"
 #include "kernels/ray_box/slabs.h"
 #include "kernels/ray_triangle/ray_kernel.h"
-#include "trees/cuda/radix_pairs.cuh"
-#include "trees/cuda/sorted_answers.cuh"
+#include "trees/cuda/queries/radix_pairs.cuh"
+#include "trees/cuda/queries/sorted_answers.cuh"
 #include "trees/ordering/ray_codes.h"
 #include "trees/queries/rays.h"
 

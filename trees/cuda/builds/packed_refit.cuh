@@ -1,6 +1,6 @@
 #pragma once
 
-#include "trees/cuda/packed.cuh"
+#include "trees/cuda/builds/packed.cuh"
 
 namespace boxwood::cuda {
 

@@ -1,5 +1,5 @@
 #include "trees/builders/hilbert.h"
-#include "trees/cuda/codes.cuh"
+#include "trees/cuda/builds/codes.cuh"
 #include "trees/testing/box_families.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include "trees/builders/hilbert.h"
-#include "trees/cuda/packed_pairs.cuh"
-#include "trees/cuda/packed_refit.cuh"
+#include "trees/cuda/builds/packed_refit.cuh"
+#include "trees/cuda/queries/packed_pairs.cuh"
 #include "trees/cuda/testing/families.h"
 #include "trees/cuda/testing/packed_layout.h"
 #include "trees/executor.h"

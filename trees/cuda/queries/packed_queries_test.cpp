@@ -1,7 +1,7 @@
 #include "kernels/registry.h"
 #include "trees/builder.h"
 #include "trees/builders/hilbert.h"
-#include "trees/cuda/packed_queries.cuh"
+#include "trees/cuda/queries/packed_queries.cuh"
 #include "trees/cuda/testing/families.h"
 #include "trees/cuda/testing/packed_layout.h"
 #include "trees/layout.h"
