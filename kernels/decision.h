@@ -24,6 +24,9 @@ struct Decision {
 /// inside hits one of them; of a triangle on its own nothing. never_miss: a true yes is never
 /// answered no. never_false: a true no is never answered yes. certified: both; what it is sure of
 /// holds (no, yes, an interval), else it says maybe or widens. exact: certified, and always sure.
+/// So that none may answer by saying nothing: of generic input, far from contact, at most one
+/// answer in a hundred is maybe, false on the permitted side or wider than 2^-16 of what is
+/// measured.
 enum class Promise : std::uint8_t { none, never_leaks, never_miss, never_false, certified, exact };
 
 constexpr std::string_view to_string(Promise p) {

@@ -234,10 +234,9 @@ std::string four_link_demo() {
     const auto reported = reported_pairs(tree, allowed);
     text += fmt::format(
         "5. Adjacent links are allowed to overlap\n"
-        "   Links that share a joint may overlap there; that is no collision. An allowed "
-        "collision\n"
-        "   matrix marks the {} adjacent pairs, and a filter drops them from what is found.\n"
-        "   Dropped: {}. Left to report: {}.\n\n",
+        "   Links that share a joint may overlap there; that is no collision. An allowed\n"
+        "   collision matrix marks the {} adjacent pairs, and a filter drops them from what is\n"
+        "   found. Dropped: {}. Left to report: {}.\n\n",
         allowed.size(), pair_names(filtered), reported.size());
 
     const FourBoxes bent = four_link_boxes(four_link_bent);

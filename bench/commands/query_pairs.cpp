@@ -219,6 +219,9 @@ void add_query_pairs(CLI::App& query) {
         ->add_option("--limit", options->limit,
                      "print at most so many pairs, the first that are found, on one thread: which "
                      "ones depends on the builder and layout")
+        ->check([](const std::string& text) { // -1 would be read as 2^64 - 1
+            return text.starts_with('-') ? "must be 1 or more, not " + text : "";
+        })
         ->check(CLI::Range(std::uint64_t{1}, std::numeric_limits<std::uint64_t>::max()))
         ->excludes(count);
     add_format_options(*pairs, options->format);

@@ -7,6 +7,7 @@
 #include "bench/running/interrupt.h"
 #include "kernels/arithmetic/float_mode.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -149,6 +150,47 @@ TEST_F(HugePairs, ProgressIsSaidAndCtrlCStops) {
     std::fclose(log);
     EXPECT_THAT(text, HasSubstr("counting: 25 %, 10 pairs, "));
     EXPECT_THAT(text, HasSubstr(" left\n"));
+}
+
+TEST_F(HugePairs, ANegativeLimitIsRefused) {
+    const PairsQuery boxes = rows("0,0,0,1,1,1\n0,0,0,1,1,1\n");
+    for (const char* limit : {"-1", "0", "x"}) {
+        std::vector<std::string> words{"boxwood", "query", "pairs", boxes.boxes,
+                                       fmt::format("--limit={}", limit)};
+        std::vector<char*> pointers;
+        for (std::string& word : words)
+            pointers.push_back(word.data());
+        EXPECT_EQ(run_program(static_cast<int>(words.size()), pointers.data()), 2) << limit;
+    }
+}
+
+TEST_F(HugePairs, ProgressIsByWork) {
+    std::FILE* log = std::tmpfile();
+    Progress progress(log);
+    CountPairs count;
+    WatchedPairs watched(count, progress, "counting", [] { return std::string(); });
+    // As of identical boxes: 90 light chunks, then 10 with 100 times their work.
+    watched.begin(100, true);
+    const std::vector<Pair> light(10'000, Pair{0, 1}), heavy(1'000'000, Pair{0, 1});
+    for (std::size_t chunk = 0; chunk < 90; ++chunk) {
+        watched.take(chunk, light);
+        watched.finish(chunk);
+    }
+    watched.take(90, heavy);            // and not finished
+    EXPECT_LT(watched.fraction(), .35); // of chunks 90 %, of work 17 %
+    for (std::size_t chunk = 91; chunk < 100; ++chunk)
+        watched.take(chunk, heavy);
+    for (std::size_t chunk = 90; chunk < 100; ++chunk)
+        watched.finish(chunk);
+    EXPECT_EQ(watched.fraction(), 1);
+    // Chunks of one size.
+    watched.begin(4, true);
+    for (std::size_t chunk = 0; chunk < 3; ++chunk) {
+        watched.take(chunk, light);
+        watched.finish(chunk);
+    }
+    EXPECT_EQ(watched.fraction(), .75);
+    std::fclose(log);
 }
 
 /// The program's stdout, started while denormals are flushed in this thread or not.

@@ -87,12 +87,17 @@ RayHit rational_hit(const Ray<float>& ray, const TriangleMesh& mesh, std::span<c
     return best;
 }
 
+/// Reads back as a double that is this float, so that a t that is given as tmax, which is rounded
+/// down, hits again.
+std::string exact_text(float t) { return fmt::format("{}", static_cast<double>(t)); }
+
 void print_lines(std::span<const RayHit> hits, bool any, BlockWriter& text) {
     for (const RayHit& hit : hits)
         if (any)
             text << (hit.hit() ? "1\n" : "0\n");
         else if (hit.hit())
-            text << hit.triangle << "," << hit.t << "," << hit.u << "," << hit.v << "\n";
+            text << hit.triangle << "," << exact_text(hit.t) << "," << hit.u << "," << hit.v
+                 << "\n";
         else
             text << "miss\n";
 }
@@ -109,8 +114,8 @@ void print_json(std::span<const RayHit> hits, bool any, BlockWriter& text) {
         if (any)
             text << (hit.hit() ? "1" : "0");
         else if (hit.hit())
-            text << "{\"triangle\":" << hit.triangle << ",\"t\":" << hit.t << ",\"u\":" << hit.u
-                 << ",\"v\":" << hit.v << "}";
+            text << "{\"triangle\":" << hit.triangle << ",\"t\":" << exact_text(hit.t)
+                 << ",\"u\":" << hit.u << ",\"v\":" << hit.v << "}";
         else
             text << "null";
     }
@@ -165,11 +170,12 @@ void add_query_rays(CLI::App& query) {
                      "the answers are the same for every choice, but for the rounding of plain "
                      "float kernels");
     rays->footer(
-        "Rows: ox,oy,oz,dx,dy,dz[,tmax], decimal or hex float, rounded to floats (tmax down); "
-        "blank\n"
-        "lines and lines with # in front are skipped. The hit is at origin + t * direction with\n"
-        "0 <= t <= tmax, which is (1 - u - v) a + u b + v c on the triangle (a, b, c). Of hits at\n"
-        "the same t the lowest triangle is named; triangles are numbered from 0 in file order.\n"
+        "Rows: ox,oy,oz,dx,dy,dz[,tmax], decimal or hex float, rounded to floats (tmax down);\n"
+        "blank lines and lines with # in front are skipped. The hit is at origin + t * direction\n"
+        "with 0 <= t <= tmax (t as printed, rounded to float; of exact and rational the true t\n"
+        "too, which may be above the printed one: as a tmax take the next float), which is\n"
+        "(1 - u - v) a + u b + v c on the triangle (a, b, c). Of hits at the same t the lowest\n"
+        "triangle is named; triangles are numbered from 0 in file order.\n"
         "Coordinates of mesh and rays are below 2^126 (8.5e37) in size. With every kernel a ray\n"
         "ends at the largest float: what lies beyond t = 3.4e38 is a miss, so make a direction of\n"
         "1e-42 longer.\n\n"

@@ -1,10 +1,15 @@
 #include "bench/commands/query.h"
 
 #include "bench/commands/command.h"
+#include "kernels/registry.h"
+#include "kernels/suggest.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -199,6 +204,57 @@ TEST_F(QueryRaysOnASquare, EveryKernelAnswersTheSameAndNothingBeyondTmax) {
         EXPECT_EQ(answer(query), "miss\n0,1,0.5,0.25\nmiss\nmiss\n") << kernel;
         query.any = true;
         EXPECT_EQ(answer(query), "0\n1\n0\n0\n") << kernel;
+    }
+}
+
+TEST_F(QueryRaysOnASquare, APrintedTIsATmaxThatHitsAgain) {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<float> at(.1f, 1.9f), slope(-.1f, .1f), height(.1f, 9);
+    std::vector<std::string> rows;
+    for (int i = 0; i < 300; ++i)
+        rows.push_back(fmt::format("{},{},{},{},{},1", at(random), at(random), -height(random),
+                                   slope(random), slope(random)));
+    std::vector<std::string_view> kernels = names_of(ray_kernels());
+    kernels.push_back("rational");
+    const auto lines_of = [](const std::string& text) {
+        std::vector<std::string> lines;
+        std::istringstream in(text);
+        for (std::string line; std::getline(in, line);)
+            lines.push_back(line);
+        return lines;
+    };
+    const auto t_of = [](const std::string& line) {
+        const std::size_t from = line.find(',') + 1;
+        return line.substr(from, line.find(',', from) - from);
+    };
+    for (const std::string_view kernel : kernels) {
+        SCOPED_TRACE(kernel);
+        std::string text;
+        for (const std::string& row : rows)
+            text += row + "\n";
+        RaysQuery query = rays(text);
+        query.kernel = kernel;
+        const std::vector<std::string> all = lines_of(answer(query));
+        // The exact ones compare the true t, which may be above the printed one by a rounding.
+        const bool is_exact = kernel == "exact" || kernel == "rational";
+        std::string again;
+        std::vector<double> limits;
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            std::string limit = all[i] == "miss" ? "9" : t_of(all[i]);
+            if (is_exact)
+                limit = fmt::format("{:a}", std::nextafter(std::stof(limit), 99.f));
+            again += rows[i] + "," + limit + "\n";
+            limits.push_back(std::stod(limit));
+        }
+        query = rays(again);
+        query.kernel = kernel;
+        const std::vector<std::string> limited = lines_of(answer(query));
+        EXPECT_EQ(limited, all);
+        EXPECT_GT(std::ranges::count_if(all, [](const auto& line) { return line != "miss"; }), 200);
+        for (std::size_t i = 0; i < limited.size(); ++i)
+            if (limited[i] != "miss") {
+                EXPECT_LE(std::stod(t_of(limited[i])), limits[i]);
+            }
     }
 }
 

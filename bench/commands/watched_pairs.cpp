@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace boxwood::bench {
 
 WatchedPairs::WatchedPairs(PairSink& sink, Progress& progress, std::string stage,
@@ -16,8 +18,7 @@ WatchedPairs::WatchedPairs(PairSink& sink, Progress& progress, std::string stage
 }
 
 void WatchedPairs::begin(std::size_t chunks, bool in_order) {
-    chunks_ = chunks;
-    finished_ = 0;
+    chunks_ = std::vector<Chunk>(chunks);
     start_ = Clock::now();
     next_ = period_.count();
     PairFilter::begin(chunks, in_order);
@@ -25,17 +26,34 @@ void WatchedPairs::begin(std::size_t chunks, bool in_order) {
 
 bool WatchedPairs::take(std::size_t chunk, std::span<const Pair> pairs) {
     look();
-    return !CtrlC::pressed() && sink_.take(chunk, pairs);
+    if (CtrlC::pressed())
+        return false;
+    chunks_[chunk].work.fetch_add(pairs.size(), std::memory_order_relaxed);
+    return sink_.take(chunk, pairs);
 }
 
 void WatchedPairs::finish(std::size_t chunk) {
-    ++finished_;
+    chunks_[chunk].work.fetch_add(base, std::memory_order_relaxed);
+    chunks_[chunk].is_finished = true;
     look();
     PairFilter::finish(chunk);
 }
 
 double WatchedPairs::fraction() const {
-    return chunks_ ? static_cast<double>(finished_) / static_cast<double>(chunks_) : 0;
+    double done = 0, squares = 0, left = 0;
+    for (const Chunk& chunk : chunks_) {
+        const auto work = static_cast<double>(chunk.work.load(std::memory_order_relaxed));
+        done += work;
+        squares += work * work;
+    }
+    if (done == 0)
+        return 0;
+    const double expected = squares / done;
+    for (const Chunk& chunk : chunks_)
+        if (!chunk.is_finished)
+            left += std::max(
+                0.0, expected - static_cast<double>(chunk.work.load(std::memory_order_relaxed)));
+    return done / (done + left);
 }
 
 void WatchedPairs::look() {

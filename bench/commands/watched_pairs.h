@@ -9,11 +9,12 @@
 #include <functional>
 #include <mutex>
 #include <string>
+#include <vector>
 
 namespace boxwood::bench {
 
-/// Hands pairs on to another sink, says now and then how far the traversal is, by the share of its
-/// chunks that are finished, and asks it to stop at Ctrl-C (a CtrlC must live).
+/// Hands pairs on to another sink, says now and then how far the traversal is, by the work of
+/// its chunks, and asks it to stop at Ctrl-C (a CtrlC must live).
 class WatchedPairs final : public PairFilter {
   public:
     using Clock = std::chrono::steady_clock;
@@ -27,7 +28,10 @@ class WatchedPairs final : public PairFilter {
     bool take(std::size_t chunk, std::span<const Pair> pairs) override;
     void finish(std::size_t chunk) override;
 
-    /// Of the chunks, how many are finished.
+    /// An estimate of the share of the work that is done. A chunk's work is the pairs that it
+    /// finds, and `base` for its traversal; one that is not finished is expected to be like those
+    /// seen so far, each counted as often as its work: so few heavy chunks behind many light ones
+    /// count.
     double fraction() const;
 
   private:
@@ -38,8 +42,13 @@ class WatchedPairs final : public PairFilter {
     std::function<std::string()> note_;
     Clock::duration period_;
     Clock::time_point start_;
-    std::size_t chunks_ = 0;
-    std::atomic<std::size_t> finished_ = 0;
+    struct Chunk {
+        std::atomic<std::uint64_t> work = 0;
+        std::atomic<bool> is_finished = false;
+    };
+    static constexpr std::uint64_t base = 1000;
+
+    std::vector<Chunk> chunks_;
     std::atomic<Clock::rep> next_ = 0; ///< when to say something, since the start
     std::mutex saying_;
 };

@@ -79,6 +79,12 @@ void read_csv(std::string_view text, const std::string& source, const CsvFormat&
             case Fault::none:
                 break;
             case Fault::not_a_number:
+                if (field.find('#') != std::string_view::npos)
+                    throw_bad_row(source, line,
+                                  "a comment stands behind numbers; put it on a line of its own");
+                if (field.find('\r') != std::string_view::npos)
+                    throw_bad_row(source, line,
+                                  "lines end in carriage returns alone; end them in line feeds");
                 throw_bad_row(
                     source, line,
                     fmt::format("column {} is {}; expected numbers {}, with commas "

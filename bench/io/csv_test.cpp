@@ -135,5 +135,10 @@ TEST(Csv, ReadTextReadsAllOrComplains) {
     EXPECT_THROW(read_text(std::filesystem::temp_directory_path().string()), BadInput);
 }
 
+TEST(Csv, CommentsBehindNumbersAndCarriageReturnsAloneAreNamed) {
+    EXPECT_THAT(complaint("1,2 # c\n", two), HasSubstr("in.csv:1: a comment stands behind"));
+    EXPECT_THAT(complaint("1,2\r3,4\r", two), HasSubstr("in.csv:1: lines end in carriage returns"));
+}
+
 } // namespace
 } // namespace boxwood::bench

@@ -204,9 +204,9 @@ TEST(Check, OneWrongHitOfManyIsFound) {
     const std::vector<Fault> faults{
         {"none", false, false, [](RayHit&) {}},
         {"a leak", true, true, [](RayHit& hit) { hit = {}; }},
-        {"t", true, false, [](RayHit& hit) { hit.t *= 1 + 0x1p-21f; }},
-        {"u", true, false, [](RayHit& hit) { hit.u += 0x1p-21f; }},
-        {"the triangle", true, false, [](RayHit& hit) { hit.triangle ^= 1; }}};
+        {"t", true, true, [](RayHit& hit) { hit.t *= 1 + 0x1p-18f; }},
+        {"u", true, true, [](RayHit& hit) { hit.u += 0x1p-18f; }},
+        {"the triangle", true, true, [](RayHit& hit) { hit.triangle ^= 1; }}};
     for (const std::string_view name : {"ray_triangle", "rays_closest"})
         for (const ContenderEntry& kernel : find_task(name)->contenders_on_cases()) {
             if (kernel.promise == Promise::none ||

@@ -25,11 +25,14 @@ namespace boxwood {
 ///
 /// With the bounds of all triangles to come no triangle that `Watertight` hits is lost. Why, in the
 /// terms of watertight.h: corners at (X_i, Y_i, Z_i) from the origin, |Z_i| <= reach. The kernel
-/// finds weights w_i >= 0 of corners moved by e_i across and f_i along the ray, sum w_i (X_i - s
-/// Z_i
-/// + e_i) = 0 and t d_z = sum w_i (Z_i + f_i). So t d_x = sum w_i (X_i + e_i + s f_i), where |e_i|
-/// <= 2u |X_i| + 4u |s| reach + 2^-150 (reach + 1), |f_i| <= u |Z_i|: t is within 5u reach / |d_z|
-/// + 2^-150 (reach + 1) / |d_x| of the slab of the X_i (1 +- 2u), which the slack of 8u holds;
+/// finds weights w_i >= 0 of corners moved by e_i across and f_i along the ray,
+///
+///   sum w_i (X_i - s Z_i + e_i) = 0,   t d_z = sum w_i (Z_i + f_i),
+///   so t d_x = sum w_i (X_i + e_i + s f_i),
+///   where |e_i| <= 2u |X_i| + 4u |s| reach + 2^-150 (reach + 1), |f_i| <= u |Z_i|:
+///
+/// t is within 5u reach / |d_z| + 2^-150 (reach + 1) / |d_x| of the slab of the X_i (1 +- 2u),
+/// which the slack of 8u holds;
 /// likewise in y, and in z without any of it. Entry and exit may so part by twice that. Where the
 /// second term is within 2u reach / |d_z|, that is 14u reach / |d_z|, and `margin` is 16u: room for
 /// the rounding of t and here; 2^-147 stands for what underflows in denormal coordinates. Where it

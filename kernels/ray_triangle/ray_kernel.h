@@ -12,9 +12,11 @@ namespace boxwood {
 /// true if they meet at t_min <= t <= t_max, and writes t, u and v then and only then; whose
 /// triangle it is (hit.triangle) the caller knows. The argument t_max, at most ray.t_max, is
 /// compared with hit.t as written, so that the nearest of several triangles does not depend on
-/// their order. A hit has finite t, u and v: what is so far that t rounds to infinity is a miss,
-/// for every kernel and every t_max (make the direction longer). NaN or infinite input is a miss.
-/// Range of the promises: coordinates below max_ray_coordinate, 2^126, any finite direction.
+/// their order: hit.t <= t_max always, and the true t may exceed ray.t_max by the rounding of
+/// hit.t, but for the exact kernels, which compare that exactly. A hit has finite t, u and v: what
+/// is so far that t rounds to infinity is a miss, for every kernel and every t_max (make the
+/// direction longer). NaN or infinite input is a miss. Range of the promises: coordinates below
+/// max_ray_coordinate, 2^126, any finite direction.
 template <class K>
 concept RayKernel = DescribedKernel<K> &&
     requires(const Ray<float>& ray, const Triangle<float>& triangle, float t_max,

@@ -8,7 +8,8 @@ namespace boxwood {
 /// denormals; 0, and lo = hi = 0, exactly when they touch. hi - lo <= 2^-32 hi + 2^-1073, so that
 /// lo > 0 if they do not touch, but for distances of at most 2^-1073; hi may be infinite near and
 /// beyond the largest double, and counts as that. Tier 0 is plain, 1 an exact yes, 2 double-double,
-/// 3 whole numbers. Derived in gap_bounds.h and greatest_gap.h. Non-finite input: NaN.
+/// 3 whole numbers. Derived in gap_bounds.h and greatest_gap.h. Witnesses: distance_kernel.h.
+/// Non-finite input: NaN.
 struct CertifiedDistance {
     using Real = double;
     static constexpr std::string_view name = "certified";

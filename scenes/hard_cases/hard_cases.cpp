@@ -44,9 +44,11 @@
     X(ray_in_plane)                                                                                \
     X(ray_grazing)                                                                                 \
     X(ray_at_small_triangle)                                                                       \
+    X(ray_limits)                                                                                  \
     X(generic_ray_boxes)                                                                           \
     X(signed_zero_directions)                                                                      \
     X(slab_corner_ties)                                                                            \
+    X(ray_box_limits)                                                                              \
     X(flat_boxes)                                                                                  \
     X(identical_boxes)                                                                             \
     X(nested_boxes)                                                                                \

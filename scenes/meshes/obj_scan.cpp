@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdint>
@@ -32,13 +33,16 @@ void take_statement(std::string_view& text, std::size_t& line, std::vector<Token
 }
 
 /// The vertex of a face's corner, counted from 1: "7", "7/1", "7//3", "7/1/3", or negative, counted
-/// back from the last vertex before it.
+/// back from the last vertex before it. Corners of one face may differ in form, and a number may be
+/// left out after a slash ("7/"), as some programs write: vertices alone are read.
 std::int64_t vertex_of(Token corner, std::int64_t n_vertices) {
     const auto& [text, line] = corner;
     const std::string_view digits = text.substr(0, text.find('/'));
     std::int64_t index = 0;
     const auto [end, error] = std::from_chars(digits.begin(), digits.end(), index);
-    if (digits.empty() || error != std::errc{} || end != digits.end())
+    const bool is_corner = text.find_first_not_of("-0123456789/") == std::string_view::npos &&
+                           std::ranges::count(text, '/') <= 2;
+    if (digits.empty() || error != std::errc{} || end != digits.end() || !is_corner)
         throw MeshError(fmt::format("line {}: '{}' is not a vertex index", line, text));
     if (index == 0)
         throw MeshError(fmt::format("line {}: vertex index 0; OBJ counts from 1", line));

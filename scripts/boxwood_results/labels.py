@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 from matplotlib.patheffects import withStroke
 from matplotlib.transforms import Bbox
 
@@ -43,6 +44,12 @@ def along(start, end, every):
             for t in range(count + 1)]
 
 
+def held(box, points):
+    """How many of the points are within the box."""
+    x, y = np.reshape(points, (-1, 2)).T
+    return np.count_nonzero((x >= box.x0) & (x <= box.x1) & (y >= box.y0) & (y <= box.y1))
+
+
 def beside_points(ax, labels, later=(), lines=()):
     """labels: [(x, y, text, colour)] in data units; later: more of them that choose last; lines: what is
     drawn besides, as [(x, y), ...] each. Each label goes to the nearest free place within the axes, with a
@@ -67,13 +74,17 @@ def beside_points(ax, labels, later=(), lines=()):
         (x, y, text, colour), (at_x, at_y) = all_labels[index], marks[index]
         width, height = text_size(figure, text)
         best, least = None, math.inf
+        steps_drawn = np.array(drawn)
         for ring, box in candidates(at_x, at_y, width, height, pixels):
+            if ring >= least:  # nor is any that follows nearer
+                break
             outside = box.width * box.height - overlap(box, frame)
             cost = ring + 10 * (sum(overlap(box, other) for other in taken) + outside)
-            cost += 2 * sum(box.contains(*step) for step in drawn)
+            cost += 2 * held(box, steps_drawn)
             if ring > RINGS[1]:
                 steps = along((at_x, at_y), ((box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2), 6 * pixels)[1:]
-                cost += 12 * sum(other.contains(*step) for other in taken for step in steps if not box.contains(*step))
+                outer = [step for step in steps if not box.contains(*step)]
+                cost += 12 * sum(held(other, outer) for other in taken)
             if cost < least:
                 best, least = (ring, box), cost
         ring, box = best

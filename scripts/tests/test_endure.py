@@ -22,3 +22,15 @@ def test_help_says_what_there_is(script):
 def test_a_short_form(script, name, times, said):
     done = script("endure", name, "--times", times)
     assert done.returncode == 0 and said in done.stdout, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("said, code", [("[  PASSED  ] 0 tests.", 1), ("[  PASSED  ] 1 test.", 0),
+                                        ("[  SKIPPED ] Endurance.X\n[  PASSED  ] 0 tests.", 1)])
+def test_frames_fail_where_no_test_ran(script, tmp_path, monkeypatch, said, code):
+    test = tmp_path / "bench" / "boxwood_bench_test"
+    test.parent.mkdir()
+    test.write_text(f"#!/bin/sh\necho '{said}'\n")
+    test.chmod(0o755)
+    monkeypatch.setenv("BOXWOOD_BUILD", str(tmp_path))
+    done = script("endure", "frames")
+    assert done.returncode == code, done.stdout + done.stderr

@@ -8,9 +8,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdlib>
+#include <iostream>
 #include <memory>
 #include <random>
+#include <string_view>
 
 /// Long histories of items that come and go: right answers, a tree nearly as good as a fresh one,
 /// and no growth of memory. BOXWOOD_CHURN=1000000 is the full length.
@@ -19,7 +22,16 @@ namespace {
 
 std::size_t changes() {
     const char* wanted = std::getenv("BOXWOOD_CHURN");
-    return wanted ? std::strtoull(wanted, nullptr, 10) : 60'000;
+    if (!wanted)
+        return 60'000;
+    const std::string_view text(wanted);
+    std::size_t n = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
+    if (error != std::errc{} || end != text.data() + text.size() || n < 6'000) {
+        std::cerr << "BOXWOOD_CHURN is \"" << text << "\", not a whole number from 6000 on\n";
+        std::exit(1);
+    }
+    return n;
 }
 
 constexpr std::uint32_t n = 2000;

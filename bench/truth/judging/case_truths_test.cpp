@@ -32,10 +32,10 @@ ContenderEntry named(Promise promise, const std::string& precision = "f64") {
 }
 
 /// By the row that a result file has of it.
-bool breaks_promise(const Judgement& judgement) {
+bool is_broken(const Judgement& judgement) {
     results::KernelRow row = judgement.kernel.value();
     row.status = judgement.status;
-    return bench::breaks_promise(row);
+    return breaks_promise(row);
 }
 
 /// The unit right triangle at height z.
@@ -72,6 +72,18 @@ AnswerList<Distance> distances(const std::vector<std::array<double, 3>>& list) {
         d.hi = hi;
     }
     return answers;
+}
+
+/// Of pairs of triangles at two heights, with right witnesses.
+Judgement judged_distances(const Scene& scene, const std::vector<std::array<double, 3>>& said,
+                           const ContenderEntry& contender) {
+    AnswerList<Distance> answers = distances(said);
+    for (std::size_t i = 0; i < said.size(); ++i) {
+        const auto& pair = std::get<std::vector<TrianglePairCase>>(scene.cases)[i];
+        answers.list[i].point_a = pair.a.a;
+        answers.list[i].point_b = pair.b.a;
+    }
+    return judged(scene, "triangle_distance", answers, contender);
 }
 
 TEST(Tally, EveryPromiseAllowsItsOwnErrors) {
@@ -113,7 +125,7 @@ TEST(CaseTruth, CountsFalseAnswersAndTiers) {
     EXPECT_EQ(none.kernel->tier_3, 1u);
     EXPECT_NEAR(none.kernel->escalation_rate, 2. / 3, 1e-15);
     EXPECT_EQ(none.status, Status::wrong);
-    EXPECT_FALSE(breaks_promise(none));
+    EXPECT_FALSE(is_broken(none));
     EXPECT_EQ(none.kernel->family, "typical"); // `made` is in no registry
     EXPECT_EQ(none.kernel->task, "triangle_triangle");
     EXPECT_EQ(none.kernel->kernel, "made_up");
@@ -121,7 +133,7 @@ TEST(CaseTruth, CountsFalseAnswersAndTiers) {
     // never-miss reads maybe as yes: two false yes. Its miss is what the witness shows.
     const Judgement miss = judged(scene, "triangle_triangle", answers, named(Promise::never_miss));
     EXPECT_EQ(miss.kernel->false_pos, 2u);
-    EXPECT_TRUE(breaks_promise(miss));
+    EXPECT_TRUE(is_broken(miss));
     EXPECT_THAT(miss.kernel->witness, HasSubstr("case 0: said no, truth yes; 0,0,0,1,0,0,0,1,0,"));
     EXPECT_THAT(miss.kernel->witness,
                 HasSubstr("boxwood check --only '^made/triangle_triangle/made_up$' --k 7 --scale 3 "
@@ -133,7 +145,7 @@ TEST(CaseTruth, CountsFalseAnswersAndTiers) {
         named(Promise::certified));
     EXPECT_EQ(sure.status, Status::conservative);
     EXPECT_EQ(sure.kernel->witness, "");
-    EXPECT_FALSE(breaks_promise(sure));
+    EXPECT_FALSE(is_broken(sure));
 }
 
 TEST(CaseTruth, AKernelOfFloatsIsJudgedOnWhatItReads) {
@@ -147,9 +159,8 @@ TEST(CaseTruth, AKernelOfFloatsIsJudgedOnWhatItReads) {
     const Scene apart = pairs_of_triangles({{at(1), at(1 + 0x1p-40), Known::no}});
     const AnswerList<Decision> touch = verdicts({{Answer::yes, 0}});
     EXPECT_FALSE(
-        breaks_promise(judged(apart, "triangle_triangle", touch, named(Promise::exact, "f32"))));
-    EXPECT_TRUE(
-        breaks_promise(judged(apart, "triangle_triangle", touch, named(Promise::exact, "f64"))));
+        is_broken(judged(apart, "triangle_triangle", touch, named(Promise::exact, "f32"))));
+    EXPECT_TRUE(is_broken(judged(apart, "triangle_triangle", touch, named(Promise::exact, "f64"))));
 }
 
 TEST(CaseTruth, DistancesWithoutABoundMayRound) {
@@ -174,18 +185,18 @@ TEST(CaseTruth, DistancesWithoutABoundMayRound) {
 TEST(CaseTruth, CertifiedDistancesMustEnclose) {
     const Scene scene = pairs_of_triangles({{at(0), at(2)}, {at(0), at(0)}});
     const auto judge = [&](std::array<double, 3> a, std::array<double, 3> b, Promise promise) {
-        return judged(scene, "triangle_distance", distances({a, b}), named(promise));
+        return judged_distances(scene, {a, b}, named(promise));
     };
     const std::array<double, 3> zero{0, 0, 0}, wide{1.5, 2.125, 2.25};
     const Judgement held = judge(wide, zero, Promise::certified);
-    EXPECT_FALSE(breaks_promise(held));
+    EXPECT_FALSE(is_broken(held));
     EXPECT_EQ(held.status, Status::within_bound);
     ASSERT_EQ(held.conditions.size(), 1u);
     EXPECT_EQ(held.conditions[0].log10_condition, 0); // L = d = 2
     EXPECT_EQ(held.conditions[0].n, 1u);
     EXPECT_EQ(held.conditions[0].bound, 0.375);
     EXPECT_EQ(held.conditions[0].max_rel_err, 0.0625);
-    EXPECT_TRUE(breaks_promise(judge(wide, zero, Promise::exact))); // not rounded to nearest
+    EXPECT_TRUE(is_broken(judge(wide, zero, Promise::exact))); // not rounded to nearest
 
     const double above = std::nextafter(2, 3);
     for (const auto& [a, b] : {std::pair{std::array{above, above, above}, zero}, // lo > d
@@ -196,7 +207,7 @@ TEST(CaseTruth, CertifiedDistancesMustEnclose) {
                                {wide, std::array{0., 1e-300, 1e-300}},           // touch, not 0
                                {std::array{0., 0., 3.}, zero}}) {                // 0, no touch
         const Judgement broken = judge(a, b, Promise::certified);
-        EXPECT_TRUE(breaks_promise(broken)) << a[0] << " " << a[1] << " " << a[2];
+        EXPECT_TRUE(is_broken(broken)) << a[0] << " " << a[1] << " " << a[2];
         EXPECT_EQ(broken.kernel->bound_violations, 1u);
         EXPECT_THAT(broken.kernel->witness, HasSubstr("truth 0x"));
     }
@@ -207,8 +218,7 @@ TEST(CaseTruth, CertifiedDistancesMustBeAsNarrowAsPromised) {
     const auto breaks = [&](double lo, double hi, Promise promise, double relative_width) {
         ContenderEntry contender = named(promise);
         contender.relative_width = relative_width;
-        return breaks_promise(
-            judged(scene, "triangle_distance", distances({{lo, 1, hi}}), contender));
+        return is_broken(judged_distances(scene, {{lo, 1, hi}}, contender));
     };
     const double u = 0x1p-53, huge = 1e300, inf = std::numeric_limits<double>::infinity();
     EXPECT_FALSE(breaks(1 - 0x1p-33, 1 + 0x1p-34, Promise::certified, 0x1p-32));
@@ -230,14 +240,13 @@ TEST(CaseTruth, WidthsOfTinyAndHugeDistances) {
     contender.relative_width = 0x1p-32;
     const auto breaks = [&](double gap, std::array<double, 3> said) {
         const Scene scene = pairs_of_triangles({{at(-gap / 2), at(gap / 2)}});
-        return breaks_promise(judged(scene, "triangle_distance", distances({said}), contender));
+        return is_broken(judged_distances(scene, {said}, contender));
     };
     EXPECT_FALSE(breaks(tiny, {tiny / 2, tiny, 1.5 * tiny}));
     EXPECT_TRUE(breaks(2 * tiny, {tiny / 2, 2 * tiny, 3 * tiny}));
     Scene far = pairs_of_triangles({{at(-max), at(max)}});
     const auto beyond = [&](double lo) {
-        return breaks_promise(
-            judged(far, "triangle_distance", distances({{lo, inf, inf}}), contender));
+        return is_broken(judged_distances(far, {{lo, inf, inf}}, contender));
     };
     EXPECT_FALSE(beyond(max));
     EXPECT_TRUE(beyond(max * (1 - 0x1p-31)));
@@ -278,7 +287,7 @@ TEST(CaseTruth, RaysAtFansMustHitOneOfThem) {
     const Judgement wrong = judged(scene, "ray_triangle", answers, named(Promise::exact));
     EXPECT_EQ(wrong.kernel->false_neg, 1u);
     EXPECT_EQ(wrong.kernel->false_pos, 1u);
-    EXPECT_TRUE(breaks_promise(wrong));
+    EXPECT_TRUE(is_broken(wrong));
 }
 
 TEST(CaseTruth, NumbersOfExactRaysAreHeldToTheirBounds) {
@@ -290,26 +299,26 @@ TEST(CaseTruth, NumbersOfExactRaysAreHeldToTheirBounds) {
     ray.count = 2;
     cases.rays = {ray};
     scene.cases = cases;
-    const auto is_broken = [&](RayHit said, std::string_view task = "ray_triangle",
-                               Promise promise = Promise::exact) {
+    const auto breaks = [&](RayHit said, std::string_view task = "ray_triangle",
+                            Promise promise = Promise::exact) {
         const auto answers = answers_of<RayHit>({said});
         const Judgement judgement = judged(scene, task, answers, named(promise));
-        EXPECT_EQ(judgement.check.bound_violations > 0, breaks_promise(judgement));
-        return breaks_promise(judgement);
+        EXPECT_EQ(judgement.check.bound_violations > 0, is_broken(judgement));
+        return is_broken(judgement);
     };
     const float up = std::nextafter(1.f, 2.f), down = 1 - 0x1p-23f;
-    EXPECT_FALSE(is_broken({1, .25f, .25f, 0}));
-    EXPECT_FALSE(is_broken({1, .25f + 0x1p-23f, .25f - 0x1p-23f, 0}));
-    EXPECT_TRUE(is_broken({up, .25f, .25f, 0}));
-    EXPECT_TRUE(is_broken({down, .25f, .25f, 0}));
-    EXPECT_TRUE(is_broken({1, .25f + 0x1p-22f, .25f, 0}));
-    EXPECT_TRUE(is_broken({1, .25f, .25f - 0x1p-22f, 0}));
-    EXPECT_TRUE(is_broken({1, std::nanf(""), .25f, 0}));
-    EXPECT_TRUE(is_broken({1, .25f, .25f, 1})); // the other triangle
-    EXPECT_TRUE(is_broken({1, .25f, .25f, 7})); // none
-    EXPECT_TRUE(is_broken({2, .25f, .25f, 1})); // not the nearest
-    EXPECT_FALSE(is_broken({2, .25f, .25f, 1}, "rays_any"));
-    EXPECT_FALSE(is_broken({up, .25f, .25f, 0}, "ray_triangle", Promise::never_leaks));
+    EXPECT_FALSE(breaks({1, .25f, .25f, 0}));
+    EXPECT_FALSE(breaks({1, .25f + 0x1p-23f, .25f - 0x1p-23f, 0}));
+    EXPECT_TRUE(breaks({up, .25f, .25f, 0}));
+    EXPECT_TRUE(breaks({down, .25f, .25f, 0}));
+    EXPECT_TRUE(breaks({1, .25f + 0x1p-22f, .25f, 0}));
+    EXPECT_TRUE(breaks({1, .25f, .25f - 0x1p-22f, 0}));
+    EXPECT_TRUE(breaks({1, std::nanf(""), .25f, 0}));
+    EXPECT_TRUE(breaks({1, .25f, .25f, 1})); // the other triangle
+    EXPECT_TRUE(breaks({1, .25f, .25f, 7})); // none
+    EXPECT_TRUE(breaks({2, .25f, .25f, 1})); // not the nearest
+    EXPECT_FALSE(breaks({2, .25f, .25f, 1}, "rays_any"));
+    EXPECT_FALSE(breaks({up, .25f, .25f, 0}, "ray_triangle", Promise::never_leaks));
 }
 
 TEST(CaseTruth, AClosedMeshMustNotLeak) {
@@ -326,16 +335,16 @@ TEST(CaseTruth, AClosedMeshMustNotLeak) {
         scene.cases = cases;
         return judged(scene, "ray_triangle", answers_of<RayHit>({said}), named(promise));
     };
-    EXPECT_FALSE(breaks_promise(judge(2, {1, .5f, .5f, 1}, Promise::never_leaks)));
+    EXPECT_FALSE(is_broken(judge(2, {1, .5f, .5f, 1}, Promise::never_leaks)));
     const Judgement leak = judge(2, {}, Promise::never_leaks);
-    EXPECT_TRUE(breaks_promise(leak));
+    EXPECT_TRUE(is_broken(leak));
     EXPECT_EQ(leak.kernel->bound_violations, 1u);
     EXPECT_EQ(leak.kernel->false_neg, 0u);
     const Judgement alone = judge(1, {}, Promise::never_leaks);
     EXPECT_EQ(alone.status, Status::wrong);
-    EXPECT_FALSE(breaks_promise(alone));
-    EXPECT_FALSE(breaks_promise(judge(2, {}, Promise::none)));
-    EXPECT_TRUE(breaks_promise(judge(2, {}, Promise::exact)));
+    EXPECT_FALSE(is_broken(alone));
+    EXPECT_FALSE(is_broken(judge(2, {}, Promise::none)));
+    EXPECT_TRUE(is_broken(judge(2, {}, Promise::exact)));
 }
 
 TEST(CaseTruth, ATimeOfTouchMustNotBeCalledFree) {
@@ -352,16 +361,19 @@ TEST(CaseTruth, ATimeOfTouchMustNotBeCalledFree) {
         return judged(scene, "vertex_face", answers_of<Impact>({impact}), named(promise));
     };
     EXPECT_EQ(judge({Answer::yes, .5, .5, 0}, Promise::exact).status, Status::exact);
-    EXPECT_FALSE(
-        breaks_promise(judge({Answer::yes, .5, std::nextafter(.5, 1), 0}, Promise::exact)));
-    EXPECT_TRUE(breaks_promise(judge({Answer::yes, .25, .75, 0}, Promise::exact)));
-    EXPECT_FALSE(breaks_promise(judge({Answer::yes, .25, .75, 0}, Promise::certified)));
-    EXPECT_FALSE(breaks_promise(judge({Answer::maybe, .25, .75, 0}, Promise::never_miss)));
-    EXPECT_TRUE(breaks_promise(judge({Answer::no, 1, 1, 0}, Promise::never_miss)));
+    EXPECT_FALSE(is_broken(judge({Answer::yes, .5, std::nextafter(.5, 1), 0}, Promise::exact)));
+    EXPECT_TRUE(is_broken(judge({Answer::yes, .25, .75, 0}, Promise::exact)));
+    EXPECT_FALSE(is_broken(judge({Answer::yes, .25, .75, 0}, Promise::certified)));
+    EXPECT_FALSE(is_broken(judge({Answer::maybe, .25, .75, 0}, Promise::never_miss)));
+    EXPECT_TRUE(is_broken(judge({Answer::no, 1, 1, 0}, Promise::never_miss)));
     const Judgement late = judge({Answer::yes, .625, .75, 0}, Promise::never_miss);
-    EXPECT_TRUE(breaks_promise(late));
+    EXPECT_TRUE(is_broken(late));
     EXPECT_EQ(late.kernel->bound_violations, 1u);
-    EXPECT_TRUE(breaks_promise(judge({Answer::yes, .25, .375, 0}, Promise::certified)));
+    EXPECT_TRUE(is_broken(judge({Answer::yes, .25, .375, 0}, Promise::certified)));
+    const double before = std::nextafter(.5, 0), after = std::nextafter(.5, 1);
+    EXPECT_FALSE(is_broken(judge({Answer::yes, before, .5, 0}, Promise::exact)));
+    EXPECT_TRUE(is_broken(judge({Answer::yes, after, after, 0}, Promise::exact)));
+    EXPECT_TRUE(is_broken(judge({Answer::yes, before, before, 0}, Promise::exact)));
     EXPECT_EQ(judge({Answer::yes, .625, .625, 0}, Promise::none).status, Status::exact);
     EXPECT_EQ(judge({Answer::yes, .625, .625, 0}, Promise::none).kernel->max_rel_err, .125);
 }
@@ -393,8 +405,7 @@ TEST(CaseTruth, AFittedBoxMustHoldTheExactOne) {
     const Judgement larger = judge({{-.25, 0, 0}, {1, 2, 5}}, Promise::never_miss);
     EXPECT_EQ(larger.status, Status::conservative);
     EXPECT_EQ(larger.kernel->max_rel_err, .25);
-    EXPECT_TRUE(
-        breaks_promise(judge({{0, 0, 0}, {1, 2, std::nextafter(4, 0)}}, Promise::never_miss)));
+    EXPECT_TRUE(is_broken(judge({{0, 0, 0}, {1, 2, std::nextafter(4, 0)}}, Promise::never_miss)));
     EXPECT_EQ(judge({{0, 0, 0}, {1, nan, 4}}, Promise::none).status, Status::wrong);
 }
 

@@ -25,6 +25,9 @@ double tolerance(const TrueDistance& truth, const std::string& precision) {
            4 * (floats ? 0x1p-149 : std::numeric_limits<double>::denorm_min());
 }
 
+/// Of witnesses with a promise, times the largest coordinate (distance_kernel.h).
+constexpr double witness_error = 0x1p-44, crossing_error = 0x1p-22, min_error = 0x1p-1070;
+
 /// Largest errors and bounds by decade of L/d.
 class Decades {
   public:
@@ -131,6 +134,26 @@ class DistanceTruth final : public CaseTruth {
         return hi - said.lo <= relative_width * hi + 0x1p-1073;
     }
 
+    /// As Distance::point_a says. Beyond the range of doubles nothing is.
+    static bool has_witnesses(const Distance& said, const TrueDistance& truth) {
+        double size = 0;
+        for (const Triangle<double>* t : {&truth.a, &truth.b})
+            for (const Vec3<double>& p : {t->a, t->b, t->c})
+                size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+        const auto is_on = [&](Vec3<double> point, const Triangle<double>& t) {
+            return is_finite(point) && oracle::compare(witness_error * size + min_error,
+                                                       oracle::squared_distance(point, t)) >= 0;
+        };
+        const Vec3<double> gap = said.point_a - said.point_b;
+        // hypot of three makes NaN of an infinity.
+        const double apart = is_finite(gap) ? std::hypot(gap.x, gap.y, gap.z)
+                                            : std::numeric_limits<double>::infinity();
+        const double error =
+            (sgn(truth.squared) == 0 ? crossing_error : witness_error) * size + min_error;
+        return is_on(said.point_a, truth.a) && is_on(said.point_b, truth.b) &&
+               apart >= said.lo - error && apart <= said.hi + error;
+    }
+
     /// Squares are compared, never roots. Zero is said if and only if the two touch (or the true
     /// distance is less than every positive double).
     static Worth promised(Tally& tally, const Distance& said, const TrueDistance& truth,
@@ -146,7 +169,8 @@ class DistanceTruth final : public CaseTruth {
         const bool is_narrow = tally.promise() == Promise::exact
                                    ? said.hi <= oracle::next_above(said.lo)
                                    : relative_width == 0 || narrow(said, relative_width);
-        if (encloses && zero_is_right && touch_is_zero && is_rounded && is_narrow)
+        if (encloses && zero_is_right && touch_is_zero && is_rounded && is_narrow &&
+            has_witnesses(said, truth))
             return said.distance == truth.nearest ? Worth::exact : Worth::within_bound;
         tally.violated();
         return Worth::broken_promise;
@@ -170,7 +194,11 @@ TrueDistance true_distance(mpq_class squared, std::initializer_list<Vec3<double>
             box.extend(p);
     const Vec3<double> size = box.max - box.min;
     const double nearest = oracle::nearest_sqrt(squared);
-    return {std::move(squared), nearest, std::max({size.x, size.y, size.z})};
+    const auto triangle = [](const std::vector<Vec3<double>>& points) {
+        return Triangle<double>{points[0], points[points.size() > 1 ? 1 : 0], points.back()};
+    };
+    return {std::move(squared), nearest, std::max({size.x, size.y, size.z}), triangle(points_a),
+            triangle(points_b)};
 }
 
 std::unique_ptr<CaseTruth> make_distance_truth(const CaseScene& scene,

@@ -1,5 +1,6 @@
 #include "bench/truth/judging/case_text.h"
 #include "bench/truth/judging/case_truths.h"
+#include "bench/truth/judging/moved_corners.h"
 #include "bench/truth/judging/tally.h"
 #include "bench/truth/judging/truths.h"
 #include "kernels/oracle/exact_answers.h"
@@ -68,6 +69,10 @@ class FanTruth final : public CaseTruth {
                 tally.leaked(i);
             else
                 tally.answered(i, said.hit() ? Answer::yes : Answer::no, truths[i]->hit);
+            if (contender.promise == Promise::never_leaks && !is_within_moves(i, said)) {
+                tally.violated();
+                tally.note(i, Worth::broken_promise);
+            }
             if (!said.hit() || std::isnan(truths[i]->t) || scene_.task == "rays_any")
                 continue;
             if (contender.promise == Promise::exact && !is_exact(i, said, truths[i]->t)) {
@@ -109,6 +114,27 @@ class FanTruth final : public CaseTruth {
     }
 
   private:
+    /// Whether the answer is right for some corners that are moved as never-leaks allows: a miss
+    /// only if no triangle is surely hit, a hit no farther than those and of the triangle that is
+    /// named; of any hit the triangle does not count.
+    bool is_within_moves(std::size_t i, const RayHit& said) const {
+        const RayCase& c = cases_.rays[i];
+        const bool is_any = scene_.task == "rays_any";
+        bool may_hit = false;
+        for (std::uint32_t k = c.first; k < c.first + c.count; ++k) {
+            const MovedCorners moved(c.ray, cases_.triangles[k]);
+            may_hit |= moved.allow_a_hit();
+            if (const auto t = moved.surely_hit_by();
+                t && !(said.hit() && (is_any || static_cast<double>(said.t) <= *t)))
+                return false;
+        }
+        if (!said.hit())
+            return true;
+        return is_any ? may_hit
+                      : said.triangle >= c.first && said.triangle - c.first < c.count &&
+                            MovedCorners(c.ray, cases_.triangles[said.triangle]).allow(said);
+    }
+
     /// Whether t is the nearest one's, and t, u and v are those of the triangle that is named.
     bool is_exact(std::size_t i, const RayHit& said, double nearest) const {
         const RayCase& c = cases_.rays[i];

@@ -71,7 +71,10 @@ class FitTruth final : public CaseTruth {
                 continue;
             const Aabb<double>& said = list_of<Aabb<double>>(answers)[i];
             tally.called(0);
-            tally.error(results::missing, excess(said, *truths[i]) / truths[i]->size);
+            const double error = excess(said, *truths[i]) / truths[i]->size;
+            tally.error(results::missing, error);
+            if (!(error <= 0x1p-16))
+                tally.vague(i);
             if (holds(said, *truths[i])) {
                 tally.note(i, said == truths[i]->nearest ? Worth::exact : Worth::conservative);
                 continue;

@@ -76,18 +76,21 @@ class ImpactTruth final : public CaseTruth {
 
   private:
     /// The error is that of t, relative to the step. A kernel with a promise must not call free
-    /// what is not, nor end before the first touch; between an exact one's times there is no
-    /// double.
+    /// what is not, nor end before the first touch, which is `first` if that is a double, else
+    /// inside it; between an exact one's times there is no double.
     static void judge_time(Tally& tally, std::size_t i, const Impact& said, const Impact& first) {
+        const double error =
+            std::max(std::abs(said.t_free - first.t_free), std::abs(said.t_hit - first.t_hit));
         if (said.answer == Answer::yes && std::isfinite(said.t_hit))
-            tally.error(results::missing, std::max(std::abs(said.t_free - first.t_free),
-                                                   std::abs(said.t_hit - first.t_hit)));
+            tally.error(results::missing, error);
+        if (said.answer == Answer::yes && !(error <= 0x1p-16))
+            tally.vague(i);
         if (tally.promise() == Promise::none)
             return;
         const bool too_wide =
             tally.promise() == Promise::exact && !(said.t_hit <= oracle::next_above(said.t_free));
-        if (!(said.t_free <= first.t_hit) ||
-            (said.answer == Answer::yes && !(said.t_hit >= first.t_free)) || too_wide) {
+        if (!(said.t_free <= first.t_free) ||
+            (said.answer == Answer::yes && !(said.t_hit >= first.t_hit)) || too_wide) {
             tally.violated();
             tally.note(i, Worth::broken_promise);
         }

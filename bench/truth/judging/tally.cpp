@@ -46,10 +46,11 @@ Worth worth_of(Promise promise, Answer said, bool truth) {
 }
 
 Tally::Tally(const CaseScene& scene, const ContenderEntry& contender)
-    : promise_(contender.promise), n_cases_(n_cases(scene.scene.cases)) {
+    : promise_(contender.promise), panel_(panel_of(scene.scene)),
+      n_cases_(n_cases(scene.scene.cases)) {
     const HardCaseFamily* family = find_hard_case_family(scene.scene.spec.generator);
     row_.family = family ? std::string(family->name) : "typical";
-    row_.panel = to_string(panel_of(scene.scene));
+    row_.panel = to_string(panel_);
     row_.task = scene.task;
     row_.kernel = contender.name;
     row_.promise = to_string(promise_);
@@ -71,7 +72,19 @@ void Tally::answered(std::size_t i, Answer said, bool truth) {
     is_yes_no_ = true;
     true_yes_ += truth;
     said_yes_ += yes;
-    note(i, worth_of(promise_, said, truth));
+    const Worth worth = worth_of(promise_, said, truth);
+    note(i, worth);
+    if (worth == Worth::conservative)
+        vague(i);
+}
+
+void Tally::vague(std::size_t i) {
+    if (n_vague_++ == 0)
+        first_vague_ = i;
+}
+
+bool Tally::is_useless() const {
+    return promise_ != Promise::none && panel_ == Panel::generic && n_vague_ > 1 + row_.n / 100;
 }
 
 void Tally::leaked(std::size_t i) {

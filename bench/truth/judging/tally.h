@@ -31,25 +31,35 @@ class Tally {
     void violated() { ++row_.bound_violations; }
     /// A miss where what never leaks has to hit: a violation, and no false no besides.
     void leaked(std::size_t i);
+    /// An answer that is not false but says little: undecided, false on the permitted side, or far
+    /// wider than rounding.
+    void vague(std::size_t i);
     void error(double ulp, double relative);
     /// Notes what case `i` is worth; NaN and zero errors do not matter here.
     void note(std::size_t i, Worth worth);
 
     /// The rows. `witness` says a case and its answer in words.
     template <class Witness> Judgement finish(const Witness& witness) {
+        if (is_useless()) {
+            violated();
+            note(first_vague_, Worth::broken_promise);
+        }
         return rows(worst_ >= Worth::wrong ? witness(worst_case_) : std::string());
     }
 
   private:
     Judgement rows(std::string witness) const;
+    /// Whether too much of generic input is left undecided: more than Promise allows.
+    bool is_useless() const;
 
     Promise promise_;
+    Panel panel_;
     std::size_t n_cases_;
     results::KernelRow row_;
     bool is_yes_no_ = false;
     std::uint64_t true_yes_ = 0, said_yes_ = 0;
     Worth worst_ = Worth::exact;
-    std::size_t worst_case_ = 0;
+    std::size_t worst_case_ = 0, first_vague_ = 0, n_vague_ = 0;
 };
 
 } // namespace boxwood::bench
