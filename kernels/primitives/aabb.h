@@ -19,6 +19,11 @@ template <class Real> struct Aabb {
 
     constexpr bool operator==(const Aabb&) const = default;
 
+    /// Each number to nearest. A float box that holds one of doubles: round_outward.
+    template <class Other> BOXWOOD_BOTH constexpr explicit operator Aabb<Other>() const {
+        return {static_cast<Vec3<Other>>(min), static_cast<Vec3<Other>>(max)};
+    }
+
     BOXWOOD_BOTH constexpr bool is_empty() const {
         return min.x > max.x || min.y > max.y || min.z > max.z;
     }

@@ -35,7 +35,8 @@ class BinnedSplitter {
         : boxes_(boxes), executor_(executor), max_bins_(settings.bins),
           whole_(static_cast<std::uint32_t>(settings.unsplit_below)),
           unsplit_(std::max(static_cast<std::uint32_t>(settings.agglomerate_below), whole_)),
-          block_bits_(std::bit_width(static_cast<std::uint32_t>(settings.leaf_size)) - 1),
+          block_bits_(
+              static_cast<int>(std::bit_width(static_cast<std::uint32_t>(settings.leaf_size))) - 1),
           items_(boxes, executor), other_(boxes.size()), tree_(boxes.size()),
           max_depth_(2 * static_cast<std::uint32_t>(std::bit_width(boxes.size())) + 17) {}
 

@@ -55,7 +55,7 @@ Cut coarsest_cut(const Grid& grid, const Box& box) {
         const std::uint32_t a = grid.index(box.min[k], k), b = grid.index(box.max[k], k);
         if (a == b)
             continue;
-        const int level = std::bit_width(a ^ b) - 1;
+        const int level = static_cast<int>(std::bit_width(a ^ b)) - 1;
         const auto plane = static_cast<float>(static_cast<double>(grid.low[k]) +
                                               grid.cell * static_cast<double>(b >> level << level));
         const bool better =

@@ -32,10 +32,8 @@ void BinaryLayoutOf<Real>::make(const Tree& tree, const Executor& executor, cons
 
 template <class Real>
 BinaryLayoutOf<Real>::BinaryLayoutOf(const Tree& tree, const Executor& executor) {
-    make(tree, executor, [&](std::size_t node) {
-        const Box& box = tree.nodes[node].box;
-        return Aabb<Real>{Vec3<Real>(box.min), Vec3<Real>(box.max)};
-    });
+    make(tree, executor,
+         [&](std::size_t node) { return static_cast<Aabb<Real>>(tree.nodes[node].box); });
 }
 
 template <class Real>
@@ -44,7 +42,8 @@ BinaryLayoutOf<Real>::of_doubles(const Tree& tree, std::span<const Aabb<double>>
                                  const Executor& executor) requires std::same_as<Real, double> {
     const Buffer<Aabb<double>> exact = exact_boxes(tree, boxes);
     BinaryLayoutOf made;
-    made.make(tree, executor, [&](std::size_t node) { return exact[node]; });
+    made.make(tree, executor,
+              [&](std::size_t node) { return static_cast<Aabb<Real>>(exact[node]); });
     return made;
 }
 

@@ -19,9 +19,7 @@
 namespace boxwood {
 namespace {
 
-template <class Real> Aabb<Real> as(const Box& box) {
-    return {Vec3<Real>(box.min), Vec3<Real>(box.max)};
-}
+template <class Real> Aabb<Real> as(const Box& box) { return static_cast<Aabb<Real>>(box); }
 
 /// Each item once and with its own box, child boxes around what is below, counts and bounds right.
 template <WideTree L> void expect_sound(const L& layout, Boxes boxes) {

@@ -47,9 +47,9 @@ void PackedLayout::make(const PackedSource& source, std::span<const std::uint32_
     executor.for_each(chunks, [&](std::size_t c) {
         const ChunkRange range(parts, chunks, c);
         if (order.data() != items_.data())
-            std::copy(order.begin() + range.begin * w * w,
-                      order.begin() + std::min(n, range.end * w * w),
-                      items_.begin() + range.begin * w * w);
+            std::copy_n(order.data() + range.begin * w * w,
+                        std::min(n, range.end * w * w) - range.begin * w * w,
+                        items_.data() + range.begin * w * w);
         fill(0, range.begin * w, std::min(leaves, range.end * w));
         if (depth_ > 1)
             fill(1, range.begin, range.end);

@@ -68,10 +68,8 @@ void WideLayout<Real, W>::make(const Tree& tree, const Executor& executor, const
 
 template <class Real, std::size_t W>
 WideLayout<Real, W>::WideLayout(const Tree& tree, const Executor& executor) {
-    make(tree, executor, [&](std::size_t node) {
-        const Box& box = tree.nodes[node].box;
-        return Aabb<Real>{Vec3<Real>(box.min), Vec3<Real>(box.max)};
-    });
+    make(tree, executor,
+         [&](std::size_t node) { return static_cast<Aabb<Real>>(tree.nodes[node].box); });
 }
 
 template <class Real, std::size_t W>
@@ -80,7 +78,8 @@ WideLayout<Real, W>::of_doubles(const Tree& tree, std::span<const Aabb<double>> 
                                 const Executor& executor) requires std::same_as<Real, double> {
     const Buffer<Aabb<double>> exact = exact_boxes(tree, boxes);
     WideLayout made;
-    made.make(tree, executor, [&](std::size_t node) { return exact[node]; });
+    made.make(tree, executor,
+              [&](std::size_t node) { return static_cast<Aabb<Real>>(exact[node]); });
     return made;
 }
 

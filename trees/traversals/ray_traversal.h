@@ -113,7 +113,7 @@ template <RayMode mode, class Trace> void for_each_ray(const RayJob& job, const 
             std::ranges::sort(found, [](const RayHit& a, const RayHit& b) {
                 return a.t != b.t ? a.t < b.t : a.triangle < b.triangle;
             });
-            found.erase(std::ranges::unique(found).begin(), found.end());
+            found.erase(std::unique(found.begin(), found.end()), found.end());
             if (!found.empty() &&
                 !job.sink->take(job.chunk, static_cast<std::uint32_t>(job.first_ray + i), found)) {
                 *job.stop = true;
