@@ -85,10 +85,10 @@ struct RaySlabs {
         int z = 0; // as Watertight has it: of equal components the last
         for (int k = 0; k < 3; ++k) {
             const double o = static_cast<double>(origin[k]);
-            for (const float bound : {bounds.min[k], bounds.max[k]}) {
-                const double distance = std::abs(static_cast<double>(bound) - o);
-                reach = reach < distance ? distance : reach;
-            }
+            const double low = std::abs(static_cast<double>(bounds.min[k]) - o);
+            const double high = std::abs(static_cast<double>(bounds.max[k]) - o);
+            reach = reach < low ? low : reach;
+            reach = reach < high ? high : reach;
             const double size = std::abs(static_cast<double>(ray.direction[k]));
             z = size >= largest ? k : z;
             largest = largest < size ? size : largest;
