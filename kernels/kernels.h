@@ -17,6 +17,7 @@
 
 // Arithmetic
 #include "kernels/arithmetic/float_mode.h" // flush-to-zero, and keeping it out
+#include "kernels/arithmetic/on_both.h"    // what a CUDA device calls too
 #include "kernels/arithmetic/rounding.h"   // double to float, outward
 
 // What all kernels share
@@ -31,6 +32,7 @@
 
 // Do two triangles share a point
 #include "kernels/triangle_triangle/exact.h"                  // filter, integers, fixed point
+#include "kernels/triangle_triangle/float_pair.h"             // as a thread of a device decides
 #include "kernels/triangle_triangle/guigue_devillers.h"       // Guigue, Devillers 2003
 #include "kernels/triangle_triangle/guigue_devillers_batch.h" // sixteen pairs at a time
 #include "kernels/triangle_triangle/moller.h"                 // Moeller 1997
@@ -46,6 +48,7 @@
 #include "kernels/triangle_distance/distance_kernel.h" // contract: triangles, segments, points
 #include "kernels/triangle_distance/features.h"        // 15 features, plain
 #include "kernels/triangle_distance/features_batch.h"  // eight pairs at a time
+#include "kernels/triangle_distance/float_pair.h"      // as a thread of a device measures
 
 // Where a ray meets a triangle
 #include "kernels/ray_triangle/baldwin_weber.h"   // map to the unit triangle

@@ -25,6 +25,7 @@
 #include "trees/builders/spatial_sah.h"
 #include "trees/builders/sweep_sah.h"
 #include "trees/builders/top_down.h"
+#include "trees/device.h"
 #include "trees/dynamic/dynamic_tree.h"
 #include "trees/dynamic/order_degradation.h"
 #include "trees/dynamic/ray_refit.h"

@@ -1,6 +1,7 @@
 #include "bench/commands/doctor.h"
 
 #include "bench/commands/command.h"
+#include "bench/commands/devices.h"
 #include "bench/io/json.h"
 #include "bench/running/environment.h"
 #include "bench/tasks/contender.h"
@@ -109,7 +110,10 @@ struct Examination {
     std::vector<Finding> findings = examine(machine);
 
     Examination() {
-        for (auto more : {examine_program(), examine_disk(".")})
+        const std::vector<Device> gpus = devices();
+        for (auto more :
+             {examine_program(), examine_disk("."),
+              examine_devices(gpus, why_no_device(), gpus.empty() ? DeviceUse{} : device_use())})
             std::move(more.begin(), more.end(), std::back_inserter(findings));
     }
 };

@@ -1,14 +1,21 @@
 #include "bench/commands/doctor.h"
 
+#include "bench/commands/devices.h"
+#include "bench/commands/list.h"
+#include "bench/commands/query.h"
+#include "bench/io/bad_input.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iostream>
 
 namespace boxwood::bench {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 Machine quiet() {
     Machine m;
@@ -73,9 +80,82 @@ TEST(Doctor, AFolderThatIsNotThereIsAWarning) {
 
 TEST(Doctor, TheReportHoldsItsParts) {
     const std::string text = doctor(false);
+    const char* const gpu = devices().empty() ? "GPU: none" : "cuda:0 ECC";
     for (const char* part : {"What may spoil timings", "Instruction sets", "Peers", "brute_force",
-                             "packages:", "GB/s", "free disk"})
+                             "packages:", "GB/s", "free disk", gpu})
         EXPECT_THAT(text, HasSubstr(part));
+}
+
+Device made_up(int index) {
+    Device device;
+    device.index = index;
+    device.name = "NVIDIA H100 PCIe";
+    device.bus_id = "0000:3B:00.0";
+    device.multiprocessors = 114;
+    device.memory_bytes = std::uint64_t{80} << 30;
+    device.capability_major = 9;
+    device.driver = 13020;
+    device.runtime = 13000;
+    device.ecc = true;
+    return device;
+}
+
+const std::vector<Device> two{made_up(0), made_up(1)};
+
+TEST(Devices, AreCalledByNameOrNotAtAll) {
+    EXPECT_EQ(chosen_device("cuda", two, ""), 0);
+    EXPECT_EQ(chosen_device("cuda:1", two, ""), 1);
+    EXPECT_THAT([] { chosen_device("cuda:7", two, ""); },
+                ThrowsMessage<BadInput>(HasSubstr("unknown device 'cuda:7'; did you mean 'cuda:")));
+    EXPECT_THAT([] { chosen_device("cuda:0", {}, "no driver: install it"); },
+                ThrowsMessage<BadInput>("no device 'cuda:0': no driver: install it"));
+}
+
+TEST(Devices, SummaryHasWhatTellsThemApart) {
+    EXPECT_EQ(device_summary(two[0]),
+              "NVIDIA H100 PCIe: 114 multiprocessors, 80.0 GiB, sm_90, driver 13.2, runtime 13.0");
+}
+
+TEST(Devices, DoctorSaysWhyThereIsNone) {
+    const auto findings = examine_devices({}, "no driver", {});
+    ASSERT_EQ(findings.size(), 1u);
+    EXPECT_EQ(findings[0].level, Level::note);
+    EXPECT_EQ(findings[0].advice, "no driver");
+}
+
+TEST(Devices, DoctorReadsClocksAndOtherUsers) {
+    const auto quiet =
+        examine_devices({two.data(), 1}, "", {"00000000:3B:00.0, 1755, 1755, Enabled\n", ""});
+    for (const Finding& f : quiet)
+        EXPECT_EQ(f.level, Level::ok) << f.name;
+    EXPECT_EQ(quiet.at(1).value, "1755 of 1755 MHz");
+
+    Device device = two[0];
+    device.ecc = false;
+    const auto busy =
+        examine_devices({&device, 1}, "",
+                        {"00000000:5E:00.0, 9, 9, Enabled\n00000000:3B:00.0, 345, 1755, Disabled\n",
+                         "00000000:3B:00.0, 4711, 512\n00000000:5E:00.0, 1, 2\n"});
+    EXPECT_EQ(busy.at(1).value, "345 of 1755 MHz");
+    EXPECT_EQ(busy.at(1).level, Level::note);
+    EXPECT_EQ(busy.at(2).level, Level::note);
+    EXPECT_EQ(busy.at(3).level, Level::warn);
+    EXPECT_EQ(busy.at(3).value, "process 4711");
+}
+
+/// On a machine with a device these say what it is.
+TEST(Devices, ListAndQuerySayWhyThereIsNone) {
+    const std::string text = list_text("devices", false);
+    if (!devices().empty())
+        GTEST_SKIP() << text;
+    EXPECT_THAT(why_no_device(), Not(::testing::IsEmpty()));
+    EXPECT_THAT(text, HasSubstr("none: "));
+    EXPECT_THAT(list_text("", false), HasSubstr("`boxwood list devices` says why"));
+    PairsQuery query;
+    query.boxes = "/dev/null";
+    query.device = "cuda:0";
+    EXPECT_THAT([&] { run(query, std::cout); },
+                ThrowsMessage<BadInput>(HasSubstr("no device 'cuda:0': " + why_no_device())));
 }
 
 } // namespace

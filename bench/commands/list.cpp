@@ -1,6 +1,7 @@
 #include "bench/commands/list.h"
 
 #include "bench/commands/command.h"
+#include "bench/commands/devices.h"
 #include "bench/io/json.h"
 #include "bench/io/text_table.h"
 #include "bench/tasks/task.h"
@@ -173,10 +174,23 @@ Rows moving_scene_rows() {
     return rows;
 }
 
+Rows device_rows() {
+    Rows rows;
+    for (const Device& device : devices())
+        rows.push_back({device_name(device),
+                        device_summary(device),
+                        {{"memory_bytes", std::to_string(device.memory_bytes)},
+                         {"multiprocessors", std::to_string(device.multiprocessors)},
+                         {"driver", std::to_string(device.driver)},
+                         {"runtime", std::to_string(device.runtime)}},
+                        {}});
+    return rows;
+}
+
 struct Registry {
     std::string_view name, summary;
     Rows (*rows)();
-    std::string_view if_empty = ""; ///< why it may have no rows
+    std::string (*why_empty)() = nullptr; ///< of one that may have no rows
 };
 
 constexpr std::array registries{
@@ -187,8 +201,7 @@ constexpr std::array registries{
     Registry{"queries", "what a layout can be searched for", [] { return plain(traversals()); }},
     Registry{"updates", "follow boxes that move", [] { return with_settings(updates()); }},
     Registry{"executors", "run work on threads", [] { return plain(executors()); }},
-    Registry{"devices", "run work on a GPU", [] { return Rows{}; },
-             "none: this build has no GPU code"},
+    Registry{"devices", "run work on a GPU", device_rows, why_no_device},
     Registry{"kernels", "decide one primitive or pair", kernel_rows},
     Registry{"families", "hard cases for kernels", family_rows},
     Registry{"scenes", "generate boxes and meshes", [] { return plain(scene_generators()); }},
@@ -223,7 +236,7 @@ std::string wrapped(std::string lead, std::string_view text) {
 std::string as_text(const Registry& registry) {
     const Rows rows = registry.rows();
     if (rows.empty())
-        return fmt::format("{}\n", registry.if_empty);
+        return wrapped("none: ", registry.why_empty());
     std::size_t width = 0;
     for (const Row& row : rows)
         width = std::max(width, row.name.size());
@@ -269,7 +282,8 @@ std::string summary_text() {
         const Rows rows = registry.rows();
         table.add({std::string(registry.name), std::to_string(rows.size()),
                    std::string(registry.summary),
-                   rows.empty() ? std::string(registry.if_empty) : first_names(rows, names_width)});
+                   rows.empty() ? fmt::format("none: `boxwood list {}` says why", registry.name)
+                                : first_names(rows, names_width)});
     }
     return table.text() + "\n`boxwood list builders` explains each name of a registry.\n";
 }

@@ -51,13 +51,6 @@ TEST(List, EveryEntryHasASummaryAndLinesFitTheScreen) {
     }
 }
 
-TEST(List, AnEmptyRegistrySaysWhy) {
-    EXPECT_EQ(list_text("devices", false), "none: this build has no GPU code\n");
-    EXPECT_EQ(list_text("devices", true), "[]\n");
-    EXPECT_THAT(list_text("", false),
-                ContainsRegex("devices +0 .*none: this build has no GPU code"));
-}
-
 TEST(List, AKernelSaysPromiseBoundAndCost) {
     const std::string text = list_text("kernels", false);
     EXPECT_THAT(text, HasSubstr("triangle_triangle, exact: "));

@@ -7,6 +7,7 @@
 /// boxes drops the pairs that only the floats make. A layout of doubles finds no such pairs.
 
 #include "bench/commands/command.h"
+#include "bench/commands/devices.h"
 #include "bench/commands/query.h"
 #include "bench/commands/watched_pairs.h"
 #include "bench/io/available_memory.h"
@@ -62,12 +63,20 @@ Box to_float(const Aabb<double>& box) {
 class PairFinder {
   public:
     explicit PairFinder(const PairsQuery& query) {
+        const std::optional<int> device =
+            query.device.empty()
+                ? std::nullopt
+                : std::optional(chosen_device(query.device, devices(), why_no_device()));
         const BuildFunction build = chosen_builder(query.tree);
         const LayoutEntry& layout = chosen_layout(query.tree);
         executor_ = chosen_executor(query.tree);
         boxes_ = read_boxes(query.boxes);
         std::vector<Box> float_boxes(boxes_.size());
         std::transform(boxes_.begin(), boxes_.end(), float_boxes.begin(), to_float);
+        if (device) {
+            on_device_.emplace(float_boxes, DeviceBvhOptions{.place = {.index = *device}});
+            return;
+        }
         Tree tree;
         doubles_ = layout.make_of_doubles != nullptr;
         layout_ = doubles_
@@ -84,7 +93,10 @@ class PairFinder {
         Progress progress(stderr);
         const auto search = [&](PairSink& to) {
             WatchedPairs watched(to, progress, stage, found);
-            layout_->self_pairs(in_order ? serial() : *executor_, watched);
+            if (on_device_)
+                on_device_->self_pairs(watched);
+            else
+                layout_->self_pairs(in_order ? serial() : *executor_, watched);
             if (CtrlC::pressed())
                 throw Interrupted(
                     fmt::format("interrupted while {}, {}, after {:.0f} % of the work", stage,
@@ -100,6 +112,7 @@ class PairFinder {
     std::unique_ptr<Executor> executor_;
     std::vector<Aabb<double>> boxes_;
     std::unique_ptr<AnyLayout> layout_;
+    std::optional<DeviceBvh> on_device_;
     bool doubles_ = false;
 };
 
@@ -213,6 +226,9 @@ void add_query_pairs(CLI::App& query) {
         ->excludes(count);
     add_format_options(*pairs, options->format);
     add_tree_options(*pairs, options->tree, "the answers are the same for every choice");
+    pairs->add_option("--device", options->device,
+                      "a name of `boxwood list devices`: that GPU finds the pairs, with a tree of "
+                      "its own; the answers are the same");
     pairs->footer(
         "Rows: min_x,min_y,min_z,max_x,max_y,max_z, decimal or hex float, read as doubles; blank\n"
         "lines and lines with # in front are skipped. Boxes are closed (one shared point\n"

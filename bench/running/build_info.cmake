@@ -13,7 +13,7 @@ file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/build_info.h CONTENT
 #define BOXWOOD_ASSIMP_VERSION \"${assimp_VERSION}\"
 #define BOXWOOD_XXHASH_VERSION \"${XXHASH_VERSION}\"
 #define BOXWOOD_EIGEN_VERSION \"${Eigen3_VERSION}\"
-")
+" CONDITION $<COMPILE_LANGUAGE:CXX>) # nvcc has flags of its own
 
 set(cache_text "")
 get_cmake_property(cache_names CACHE_VARIABLES)

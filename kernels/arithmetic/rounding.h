@@ -1,8 +1,8 @@
 #pragma once
 
+#include "kernels/arithmetic/on_both.h"
 #include "kernels/primitives/aabb.h"
 
-#include <bit>
 #include <cstdint>
 
 namespace boxwood {
@@ -10,17 +10,17 @@ namespace boxwood {
 /// The largest float <= x. Monotone. NaN stays NaN, and zeros keep their sign.
 /// Beyond the floats: x > FLT_MAX (finite) gives FLT_MAX, x < -FLT_MAX gives -inf.
 /// Needs flush-to-zero off. A factor (1 - eps) would fail at zero and among the denormals.
-inline float round_down(double x) {
+BOXWOOD_BOTH inline float round_down(double x) {
     // Without a branch, which would be mispredicted half of the time: floats of one sign are in the
     // order of their bits, of negative ones reversed; a zero that is too high is -0.
     const float nearest = static_cast<float>(x);
-    const auto bits = std::bit_cast<std::int32_t>(nearest);
+    const auto bits = bits_as<std::int32_t>(nearest);
     const int too_high = static_cast<double>(nearest) > x;
-    return std::bit_cast<float>(bits - too_high * (bits >> 31 | 1));
+    return bits_as<float>(bits - too_high * (bits >> 31 | 1));
 }
 
 /// The smallest float >= x: -round_down(-x). Finite x > FLT_MAX gives +inf, x < -FLT_MAX -FLT_MAX.
-inline float round_up(double x) { return -round_down(-x); }
+BOXWOOD_BOTH inline float round_up(double x) { return -round_down(-x); }
 
 /// The smallest float box that contains `box`; the empty box stays empty. As both roundings are
 /// monotone and outward, every overlap and containment between boxes (or of points that are floats)

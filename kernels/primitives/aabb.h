@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/arithmetic/on_both.h"
 #include "kernels/primitives/vec3.h"
 
 #include <limits>
@@ -19,11 +20,13 @@ template <class Real> struct Aabb {
     constexpr bool operator==(const Aabb&) const = default;
 
     /// Each number to nearest. A float box that holds one of doubles: round_outward.
-    template <class Other> constexpr explicit operator Aabb<Other>() const {
-        return {Vec3<Other>(min), Vec3<Other>(max)};
+    template <class Other> BOXWOOD_BOTH constexpr explicit operator Aabb<Other>() const {
+        return {static_cast<Vec3<Other>>(min), static_cast<Vec3<Other>>(max)};
     }
 
-    constexpr bool is_empty() const { return min.x > max.x || min.y > max.y || min.z > max.z; }
+    BOXWOOD_BOTH constexpr bool is_empty() const {
+        return min.x > max.x || min.y > max.y || min.z > max.z;
+    }
 
     /// What a builder accepts: all six numbers finite and min <= max on every axis.
     bool is_valid() const {
@@ -31,26 +34,26 @@ template <class Real> struct Aabb {
                min.z <= max.z;
     }
 
-    constexpr void extend(Vec3<Real> p) {
+    BOXWOOD_BOTH constexpr void extend(Vec3<Real> p) {
         min = boxwood::min(min, p);
         max = boxwood::max(max, p);
     }
-    constexpr void extend(const Aabb& b) {
+    BOXWOOD_BOTH constexpr void extend(const Aabb& b) {
         min = boxwood::min(min, b.min);
         max = boxwood::max(max, b.max);
     }
 
-    constexpr bool contains(Vec3<Real> p) const {
+    BOXWOOD_BOTH constexpr bool contains(Vec3<Real> p) const {
         return min.x <= p.x && p.x <= max.x && min.y <= p.y && p.y <= max.y && min.z <= p.z &&
                p.z <= max.z;
     }
-    constexpr bool contains(const Aabb& b) const {
+    BOXWOOD_BOTH constexpr bool contains(const Aabb& b) const {
         return min.x <= b.min.x && b.max.x <= max.x && min.y <= b.min.y && b.max.y <= max.y &&
                min.z <= b.min.z && b.max.z <= max.z;
     }
 
     /// Half of the surface area, in double so that no pair of finite floats overflows; 0 if empty.
-    constexpr double half_area() const {
+    BOXWOOD_BOTH constexpr double half_area() const {
         if (is_empty())
             return 0;
         const double x = static_cast<double>(max.x) - static_cast<double>(min.x);
@@ -60,13 +63,14 @@ template <class Real> struct Aabb {
     }
 };
 
-template <class Real> constexpr Aabb<Real> merge(Aabb<Real> a, const Aabb<Real>& b) {
+template <class Real> BOXWOOD_BOTH constexpr Aabb<Real> merge(Aabb<Real> a, const Aabb<Real>& b) {
     a.extend(b);
     return a;
 }
 
 /// True if the closed boxes share a point. Exact: comparisons only.
-template <class Real> constexpr bool overlaps(const Aabb<Real>& a, const Aabb<Real>& b) {
+template <class Real>
+BOXWOOD_BOTH constexpr bool overlaps(const Aabb<Real>& a, const Aabb<Real>& b) {
     return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
            a.min.z <= b.max.z && b.min.z <= a.max.z;
 }

@@ -25,11 +25,13 @@ inline constexpr std::uint32_t no_triangle = 0xffffffffu;
 /// (1 - u - v) a + u b + v c up to the kernel's error; of a hit all three are finite. A miss has
 /// triangle == no_triangle.
 struct RayHit {
-    float t = std::numeric_limits<float>::infinity();
+    static constexpr float nowhere = std::numeric_limits<float>::infinity();
+
+    float t = nowhere;
     float u = 0, v = 0;
     std::uint32_t triangle = no_triangle;
 
-    constexpr bool hit() const { return triangle != no_triangle; }
+    BOXWOOD_BOTH constexpr bool hit() const { return triangle != no_triangle; }
     constexpr bool operator==(const RayHit&) const = default;
 };
 

@@ -15,7 +15,7 @@ template <class Real> struct Triangle {
 
     constexpr bool operator==(const Triangle&) const = default;
 
-    constexpr Aabb<Real> bounds() const {
+    BOXWOOD_BOTH constexpr Aabb<Real> bounds() const {
         Aabb<Real> box;
         box.extend(a);
         box.extend(b);

@@ -12,7 +12,7 @@ namespace boxwood {
 struct RaySpan {
     float entry, exit;
 
-    constexpr bool hit() const { return entry <= exit; }
+    BOXWOOD_BOTH constexpr bool hit() const { return entry <= exit; }
 };
 
 /// The part of a ray within t_min <= t <= t_max (t_min >= 0) that lies in a closed box. K is made

@@ -3,8 +3,6 @@
 #include "kernels/arithmetic/rounding.h"
 #include "kernels/ray_box/ray_box_kernel.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -52,12 +50,12 @@ struct RaySlabs {
         "6 subtractions, 6 products"};
 
     Vec3<float> origin;
-    Vec3<float> entry_rdir;       ///< 1 / direction, rounded towards zero with the slack above
-    Vec3<float> exit_rdir;        ///< 1 / direction, rounded away from zero
-    std::array<bool, 3> negative; ///< signbit(direction): the near plane is box.max
-    float margin;                 ///< every entry is made earlier by this t
+    Vec3<float> entry_rdir; ///< 1 / direction, rounded towards zero with the slack above
+    Vec3<float> exit_rdir;  ///< 1 / direction, rounded away from zero
+    bool negative[3];       ///< signbit(direction): the near plane is box.max
+    float margin;           ///< every entry is made earlier by this t
 
-    explicit RaySlabs(const Ray<float>& ray) : origin(ray.origin), margin(0) {
+    BOXWOOD_BOTH explicit RaySlabs(const Ray<float>& ray) : origin(ray.origin), margin(0) {
         constexpr double slack = 0x1p-21; // a zero component gives +-inf twice all the same
         for (int k = 0; k < 3; ++k) {
             const float d = ray.direction[k];
@@ -78,31 +76,37 @@ struct RaySlabs {
             }
             entry_rdir[k] = std::copysign(exact ? entry : 0.0f, d);
             exit_rdir[k] = std::copysign(exit, d);
-            negative[static_cast<std::size_t>(k)] = std::signbit(d);
+            negative[k] = std::signbit(d);
         }
     }
 
-    RaySlabs(const Ray<float>& ray, const Aabb<float>& bounds) : RaySlabs(ray) {
+    BOXWOOD_BOTH RaySlabs(const Ray<float>& ray, const Aabb<float>& bounds) : RaySlabs(ray) {
         double reach = 0, largest = 0;
         int z = 0; // as Watertight has it: of equal components the last
         for (int k = 0; k < 3; ++k) {
             const double o = static_cast<double>(origin[k]);
-            reach = std::max({reach, std::abs(static_cast<double>(bounds.min[k]) - o),
-                              std::abs(static_cast<double>(bounds.max[k]) - o)});
+            const double low = std::abs(static_cast<double>(bounds.min[k]) - o);
+            const double high = std::abs(static_cast<double>(bounds.max[k]) - o);
+            reach = reach < low ? low : reach;
+            reach = reach < high ? high : reach;
             const double size = std::abs(static_cast<double>(ray.direction[k]));
             z = size >= largest ? k : z;
-            largest = std::max(largest, size);
+            largest = largest < size ? size : largest;
         }
         const double t_margin = (0x1p-20 * reach + 0x1p-147) / largest;
-        const bool fits = t_margin < static_cast<double>(std::numeric_limits<float>::max());
+        const bool fits = t_margin < max_float;
         margin = fits ? static_cast<float>(t_margin) : 0;
         for (int k = 0; k < 3; ++k) {
             const double size = std::abs(static_cast<double>(ray.direction[k]));
             const bool underflows = 0x1p-150 * (reach + 1) * largest > 0x1p-23 * reach * size;
             if (k != z && size > 0 && (underflows || !fits))
-                entry_rdir[k] = exit_rdir[k] = std::numeric_limits<float>::quiet_NaN();
+                entry_rdir[k] = exit_rdir[k] = no_number;
         }
     }
+
+  private:
+    static constexpr double max_float = std::numeric_limits<float>::max();
+    static constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
 };
 
 /// Clips the closed ray span [t_min, t_max] (t_min >= 0) by a closed box, per axis k:
@@ -113,10 +117,11 @@ struct RaySlabs {
 /// t_max] puts origin + t d into the box, it is a hit with entry <= fl(t) <= exit. Right for +-0
 /// components (0 * inf = NaN is skipped), origins on a face, flat boxes, and the empty box,
 /// which is never hit. NaN in a box or in an rdir does not clip.
-inline RaySpan clip(const RaySlabs& ray, const Aabb<float>& box, float t_min, float t_max) {
+BOXWOOD_BOTH inline RaySpan clip(const RaySlabs& ray, const Aabb<float>& box, float t_min,
+                                 float t_max) {
     float t0 = t_min, t1 = t_max;
     for (int k = 0; k < 3; ++k) {
-        const bool negative = ray.negative[static_cast<std::size_t>(k)];
+        const bool negative = ray.negative[k];
         const float near = negative ? box.max[k] : box.min[k];
         const float far = negative ? box.min[k] : box.max[k];
         const float a = (near - ray.origin[k]) * ray.entry_rdir[k];

@@ -38,33 +38,36 @@ template <class Real> struct MollerTrumbore {
     struct PerRay {
         Vec3<Real> origin, direction;
     };
-    static PerRay prepare(const Ray<float>& ray) {
-        return {Vec3<Real>(ray.origin), Vec3<Real>(ray.direction)};
+    BOXWOOD_BOTH static PerRay prepare(const Ray<float>& ray) {
+        return {static_cast<Vec3<Real>>(ray.origin), static_cast<Vec3<Real>>(ray.direction)};
     }
 
-    static bool intersect(const PerRay& r, const Ray<float>& ray, const Triangle<float>& triangle,
-                          float t_max, RayHit& hit) {
-        const Vec3<Real> a(triangle.a);
-        const Vec3<Real> e1 = Vec3<Real>(triangle.b) - a, e2 = Vec3<Real>(triangle.c) - a;
+    BOXWOOD_BOTH static bool intersect(const PerRay& r, const Ray<float>& ray,
+                                       const Triangle<float>& triangle, float t_max, RayHit& hit) {
+        const auto a = static_cast<Vec3<Real>>(triangle.a);
+        const Vec3<Real> e1 = static_cast<Vec3<Real>>(triangle.b) - a,
+                         e2 = static_cast<Vec3<Real>>(triangle.c) - a;
         const Vec3<Real> p = cross(r.direction, e2);
         const Real det = dot(e1, p), size = std::abs(det);
         const Vec3<Real> s = r.origin - a;
         const Vec3<Real> q = cross(s, e1);
         const Real u = std::copysign(Real{1}, det) * dot(s, p);
         const Real v = std::copysign(Real{1}, det) * dot(r.direction, q);
-        if (!(u >= 0 && v >= 0 && u + v <= size && size < std::numeric_limits<Real>::infinity()))
+        if (!(u >= 0 && v >= 0 && u + v <= size && size < inf))
             return false;
         // det = 0 makes t infinite or NaN, a miss; + 0 makes +0 of -0.
         const Real t_real = dot(e2, q) / det + 0;
         const float t = static_cast<float>(t_real);
-        if (!(t_real >= Real{ray.t_min} && t <= t_max &&
-              t < std::numeric_limits<float>::infinity()))
+        if (!(t_real >= Real{ray.t_min} && t <= t_max && t < RayHit::nowhere))
             return false;
         hit.t = t;
         hit.u = static_cast<float>(u / size + 0);
         hit.v = static_cast<float>(v / size + 0);
         return true;
     }
+
+  private:
+    static constexpr Real inf = std::numeric_limits<Real>::infinity();
 };
 
 } // namespace boxwood

@@ -2,11 +2,8 @@
 
 #include "kernels/ray_triangle/ray_kernel.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 namespace boxwood {
 
@@ -45,15 +42,15 @@ struct Watertight {
         double rdir_z; ///< 1 / direction
     };
 
-    static PerRay prepare(const Ray<float>& ray) {
+    BOXWOOD_BOTH static PerRay prepare(const Ray<float>& ray) {
         // Without branches: those of random rays would be guessed wrong.
-        const std::array<float, 3> o{ray.origin.x, ray.origin.y, ray.origin.z};
-        const std::array<float, 3> d{ray.direction.x, ray.direction.y, ray.direction.z};
+        const float o[] = {ray.origin.x, ray.origin.y, ray.origin.z};
+        const float d[] = {ray.direction.x, ray.direction.y, ray.direction.z};
         const float ax = std::abs(d[0]), ay = std::abs(d[1]), az = std::abs(d[2]);
         const auto y_largest = static_cast<std::size_t>(ay >= ax);
-        const auto z_largest = static_cast<std::size_t>(az >= std::max(ax, ay));
-        const std::size_t z = std::max(y_largest, 2 * z_largest);
-        constexpr std::array<std::size_t, 4> next{1, 2, 0, 1};
+        const auto z_largest = static_cast<std::size_t>(az >= larger(ax, ay));
+        const std::size_t z = larger(y_largest, 2 * z_largest);
+        constexpr std::size_t next[] = {1, 2, 0, 1};
         const std::size_t x = next[z], y = next[z + 1];
         const float valid = d[z] - d[z]; // 0, or NaN for an infinite direction, which then misses
         return {x,
@@ -67,8 +64,8 @@ struct Watertight {
                 1 / static_cast<double>(d[z])};
     }
 
-    static bool intersect(const PerRay& r, const Ray<float>& ray, const Triangle<float>& triangle,
-                          float t_max, RayHit& hit) {
+    BOXWOOD_BOTH static bool intersect(const PerRay& r, const Ray<float>& ray,
+                                       const Triangle<float>& triangle, float t_max, RayHit& hit) {
         // One branch that goes the same way for all triangles of a ray, and no permutation inside.
         return r.z == 0   ? intersect_along<1, 2, 0>(r, ray, triangle, t_max, hit)
                : r.z == 1 ? intersect_along<2, 0, 1>(r, ray, triangle, t_max, hit)
@@ -87,12 +84,12 @@ struct Watertight {
 
     /// The second half, for corners whose signs float did not find to differ. Without branches, as
     /// many that come here are behind the origin or the best hit.
-    static Decision decide(const PerRay& r, const Ray<float>& ray, const Sheared& a,
-                           const Sheared& b, const Sheared& c, float t_max) {
+    BOXWOOD_BOTH static Decision decide(const PerRay& r, const Ray<float>& ray, const Sheared& a,
+                                        const Sheared& b, const Sheared& c, float t_max) {
         // In double the products of floats are exact: these signs are right, zeros included, and
         // the neighbour across an edge computes exactly the negated number.
         const double u = edge(c, b), v = edge(a, c), w = edge(b, a);
-        const double low = std::min({u, v, w}), high = std::max({u, v, w});
+        const double low = smaller(smaller(u, v), w), high = larger(larger(u, v), w);
         // No product over- or underflows: the sum is 0 or within 2^-298 .. 2^260. It is 0 only if
         // all three are: in the plane, or no triangle. Then t is NaN, as for NaN input: a miss.
         const double scale = 1 / (u + v + w);
@@ -101,16 +98,17 @@ struct Watertight {
         const double t_double = height * scale * r.rdir_z + 0.0; // +0 instead of -0
         const float t = static_cast<float>(t_double);
         const bool inside = (low >= 0) | (high <= 0);
-        const bool within = (t_double >= static_cast<double>(ray.t_min)) & (t <= t_max) &
-                            (t < std::numeric_limits<float>::infinity());
+        const bool within =
+            (t_double >= static_cast<double>(ray.t_min)) & (t <= t_max) & (t < RayHit::nowhere);
         return {inside && within, t, static_cast<float>(v * scale + 0.0),
                 static_cast<float>(w * scale + 0.0)};
     }
 
   private:
     template <int x, int y, int z>
-    static bool intersect_along(const PerRay& r, const Ray<float>& ray,
-                                const Triangle<float>& triangle, float t_max, RayHit& hit) {
+    BOXWOOD_BOTH static bool intersect_along(const PerRay& r, const Ray<float>& ray,
+                                             const Triangle<float>& triangle, float t_max,
+                                             RayHit& hit) {
         const auto shear = [&](Vec3<float> p) {
             const float depth = p[z] - r.origin_z;
             return Sheared{p[x] - r.origin_x - r.shear_x * depth,
@@ -133,7 +131,10 @@ struct Watertight {
         return true;
     }
 
-    static double edge(const Sheared& p, const Sheared& q) {
+    template <class Real> BOXWOOD_BOTH static Real smaller(Real a, Real b) { return b < a ? b : a; }
+    template <class Real> BOXWOOD_BOTH static Real larger(Real a, Real b) { return a < b ? b : a; }
+
+    BOXWOOD_BOTH static double edge(const Sheared& p, const Sheared& q) {
         return static_cast<double>(p.x) * static_cast<double>(q.y) -
                static_cast<double>(p.y) * static_cast<double>(q.x);
     }

@@ -8,8 +8,8 @@ namespace boxwood {
 /// denormals; 0, and lo = hi = 0, exactly when they touch. hi - lo <= 2^-32 hi + 2^-1073, so that
 /// lo > 0 if they do not touch, but for distances of at most 2^-1073; hi may be infinite near and
 /// beyond the largest double, and counts as that. Tier 0 is plain, 1 an exact yes, 2 double-double,
-/// 3 whole numbers. Derived in certified.cpp and exact_distance.cpp. Witnesses:
-/// distance_kernel.h. Non-finite input: NaN.
+/// 3 whole numbers. Derived in gap_bounds.h and greatest_gap.h. Witnesses: distance_kernel.h.
+/// Non-finite input: NaN.
 struct CertifiedDistance {
     using Real = double;
     static constexpr std::string_view name = "certified";
@@ -19,7 +19,7 @@ struct CertifiedDistance {
         "plain witnesses and the gap between the planes there; near contact an exact yes or no, "
         "then double-double, at last whole numbers",
         Promise::certified,
-        "lo <= distance <= hi, hi - lo <= 2^-32 hi + 2^-1073; derived in certified.cpp",
+        "lo <= distance <= hi, hi - lo <= 2^-32 hi + 2^-1073; derived in detail/gap_bounds.h",
         "f64 and 80 flops; 2 us near contact, 60 us where double-double does not do (3 ms if the "
         "coordinates span all exponents)",
         0x1p-32};

@@ -60,7 +60,9 @@ HWY_INLINE void reciprocals(Lanes (&x)[3]) {
     x[1] = q * x0;
 }
 
+#define BOXWOOD_LANE HWY_INLINE
 #include "kernels/triangle_distance/detail/nearest_features-inl.h"
+#undef BOXWOOD_LANE
 
 constexpr std::size_t width = TrianglePairBlock<double>::lanes;
 constexpr std::size_t lanes = hn::MaxLanes(df);

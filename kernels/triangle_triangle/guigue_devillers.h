@@ -3,10 +3,19 @@
 #include "kernels/detail/concatenated.h"
 #include "kernels/predicates/filtered.h"
 #include "kernels/predicates/rounded.h"
+#include "kernels/triangle_triangle/detail/determinants.h"
 #include "kernels/triangle_triangle/detail/interval_test.h"
 #include "kernels/triangle_triangle/triangle_kernel.h"
 
 namespace boxwood {
+namespace detail {
+
+/// How a pair gets the signs of predicates P: one sign at a time, or by determinants that share
+/// their normals.
+template <OrientationPredicates P> struct PairSignsOf { using type = Signs<P>; };
+template <class Real> struct PairSignsOf<Rounded<Real>> { using type = Determinants<Real>; };
+
+} // namespace detail
 
 /// The interval test by the signs of predicates P, with their promise: 6 determinants place each
 /// triangle's corners against the other's plane, 2 compare the intervals that the triangles cut out

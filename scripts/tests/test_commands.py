@@ -179,6 +179,23 @@ def test_test_runs_both_kinds_and_keeps_their_closing_lines(toy):
 
 
 @pytest.mark.parametrize(
+    "nvcc, devices, said_of_it",
+    [
+        ("", "none: no nvcc", "CUDA: kernels tested on the host model; no nvcc here"),
+        ("13.0.88", "none: no driver", "compiled by nvcc 13.0.88 and its PTX checked; no device here"),
+        ("13.0.88", "cuda:0  NVIDIA H100", "compiled by nvcc 13.0.88 and its PTX checked; run on NVIDIA H100"),
+    ],
+)
+def test_one_line_says_what_the_device_code_went_through(toy, tmp_path, nvcc, devices, said_of_it):
+    build = tmp_path / "build" / "release"
+    build.mkdir(parents=True)
+    (build / "nvcc_version.txt").write_text(nvcc)
+    fake(build, "boxwood", f"echo '{devices}'")
+    code, said = toy()
+    assert code == 0 and said.count("CUDA:") == 1 and said_of_it in said, said
+
+
+@pytest.mark.parametrize(
     "failing, said_of_it",
     [({"c_test": "false"}, "FAILED: C++ (CTest)"), ({"py_test": "assert False"}, "FAILED: Python (pytest)")],
 )

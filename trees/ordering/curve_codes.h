@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/arithmetic/on_both.h"
 #include "trees/tree.h"
 
 #include <cstdint>
@@ -19,6 +20,23 @@ struct CurveGrid {
     float power = 1; ///< of two: takes huge and tiny coordinates to where nothing overflows
     float scale = 0; ///< from there to cells
 };
+
+/// The cube around the centres, cut into 2^bits cells along each axis.
+BOXWOOD_BOTH inline CurveGrid curve_grid(const Box& centres, int bits) {
+    const Vec3<double> extent =
+        static_cast<Vec3<double>>(centres.max) - static_cast<Vec3<double>>(centres.min);
+    const double xy = extent.x < extent.y ? extent.y : extent.x;
+    const double side = xy < extent.z ? extent.z : xy;
+    CurveGrid grid;
+    if (!(side > 0))
+        return grid;
+    // A side below 2^-60 has all coordinates below 2^-36 (else the centres would be the same).
+    grid.power = side > 0x1p100 ? 0x1p-30f : side < 0x1p-60 ? 0x1p80f : 1.f;
+    grid.low = grid.power * centres.min;
+    grid.scale = static_cast<float>(static_cast<double>(1u << bits) /
+                                    (side * static_cast<double>(grid.power)));
+    return grid;
+}
 
 /// Bounds of the centres of some boxes, and whether all of the boxes are valid.
 struct CentreBounds {

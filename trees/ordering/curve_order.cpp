@@ -33,20 +33,6 @@ Box bounds_of_centres(Boxes boxes, const Executor& executor) {
     return centres;
 }
 
-/// The cube around the centres, cut into 2^bits cells along each axis.
-CurveGrid make_grid(const Box& centres, int bits) {
-    const Vec3<double> extent = Vec3<double>(centres.max) - Vec3<double>(centres.min);
-    const double side = std::max({extent.x, extent.y, extent.z});
-    CurveGrid grid;
-    if (!(side > 0))
-        return grid;
-    // A side below 2^-60 has all coordinates below 2^-36 (else the centres would be the same).
-    grid.power = side > 0x1p100 ? 0x1p-30f : side < 0x1p-60 ? 0x1p80f : 1.f;
-    grid.low = grid.power * centres.min;
-    grid.scale = static_cast<float>(std::ldexp(1, bits) / (side * double{grid.power}));
-    return grid;
-}
-
 /// What is sorted, in eight bytes: the leading bits of the code above, the item below.
 using Records = Buffer<std::uint64_t>;
 std::uint32_t item_of(std::uint64_t record) { return static_cast<std::uint32_t>(record); }
@@ -136,7 +122,7 @@ bool sort_records(Records& records, int bits, const Less& less, const Executor& 
 
 CurveOrder curve_order(Boxes boxes, Curve curve, const Executor& executor) {
     const std::size_t n = boxes.size();
-    const CurveGrid grid = make_grid(bounds_of_centres(boxes, executor), 21);
+    const CurveGrid grid = curve_grid(bounds_of_centres(boxes, executor), 21);
     Buffer<std::uint64_t> codes(n);
     Records records(n);
     constexpr int upper = 32, lower = 31; // bits of a code, sorted in two rounds if need be
@@ -193,7 +179,7 @@ bool coarse_sort(Boxes boxes, Curve curve, const CurveGrid& grid, GroupOfBox gro
 }
 
 CurveGrid coarse_grid(Boxes boxes, const Executor& executor, const Box* centres) {
-    return make_grid(centres ? *centres : bounds_of_centres(boxes, executor), 10);
+    return curve_grid(centres ? *centres : bounds_of_centres(boxes, executor), 10);
 }
 
 Buffer<std::uint32_t> order_by(Boxes boxes, Curve curve, GroupOfBox group, Sorted how,

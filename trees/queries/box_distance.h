@@ -12,12 +12,14 @@ namespace boxwood {
 /// are rounded once, to double, so that the result is off by less than 5 * 2^-53 of itself; it is
 /// exact where the coordinates are multiples of 2^-k below 2^(25-k). It neither over- nor
 /// underflows.
-template <class Real> double squared_distance(Vec3<float> point, const Aabb<Real>& box) {
+template <class Real>
+BOXWOOD_BOTH double squared_distance(Vec3<float> point, const Aabb<Real>& box) {
     double sum = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const double p = static_cast<double>(point[axis]);
-        const double d = std::max(
-            {0.0, static_cast<double>(box.min[axis]) - p, p - static_cast<double>(box.max[axis])});
+        const double below = static_cast<double>(box.min[axis]) - p,
+                     above = p - static_cast<double>(box.max[axis]);
+        const double beside = below < above ? above : below, d = beside < 0 ? 0 : beside;
         sum += d * d;
     }
     return sum;

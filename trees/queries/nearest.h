@@ -15,10 +15,12 @@ namespace boxwood {
 
 /// An item near a point, and the square of the distance from the point to its box (0 inside).
 struct Neighbour {
-    std::uint32_t item = none;
-    double squared_distance = std::numeric_limits<double>::infinity();
-
     static constexpr std::uint32_t none = ~std::uint32_t{0};
+    static constexpr double nowhere = std::numeric_limits<double>::infinity();
+
+    std::uint32_t item = none;
+    double squared_distance = nowhere;
+
     constexpr auto operator<=>(const Neighbour&) const = default;
 };
 

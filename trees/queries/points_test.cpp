@@ -6,6 +6,7 @@
 #include "trees/testing/each_builder.h"
 #include "trees/testing/every_executor.h"
 #include "trees/testing/layouts_answering.h"
+#include "trees/testing/region_queries.h"
 #include "trees/testing/triangle_soup.h"
 
 #include <gtest/gtest.h>
@@ -18,49 +19,6 @@ namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-
-/// Points, boxes and balls to query a family with: at corners of items, around them, anywhere, and
-/// such as hold nothing or everything.
-struct Queries {
-    std::vector<Vec3<float>> points;
-    std::vector<Box> boxes;
-    std::vector<Sphere<float>> balls;
-};
-
-Queries queries_for(Boxes items) {
-    std::mt19937 random(31);
-    std::uniform_real_distribution<float> unit(0, 1);
-    Queries q;
-    q.points = {{0, 0, 0}, {nan, 0, 0}, {0, inf, 0}, {1e30f, -1e30f, 1e-30f}, {.5f, .5f, .5f}};
-    for (int i = 0; i < 40 && !items.empty(); ++i) {
-        const Box& item = items[random() % items.size()];
-        const Box& other = items[random() % items.size()];
-        q.points.push_back(i % 4 == 0 ? item.min : i % 4 == 1 ? item.max : other.min);
-        if (i % 4 == 3)
-            for (int axis = 0; axis < 3; ++axis)
-                q.points.back()[axis] =
-                    item.min[axis] * (1 - unit(random)) + other.max[axis] * unit(random);
-    }
-    for (const Vec3<float> p : q.points) {
-        const Vec3<float> half{unit(random) * .1f, unit(random) * .1f, unit(random) * .1f};
-        q.boxes.push_back({p - half, p + half});
-        q.balls.push_back({p, half.x});
-        const Vec3<float> other = q.points[random() % q.points.size()];
-        q.boxes.push_back({min(p, other), max(p, other)});
-        q.balls.push_back({p, length(p - other)});
-    }
-    for (const Box& box : std::initializer_list<Box>{{{-inf, -inf, -inf}, {inf, inf, inf}},
-                                                     {{-inf, 0, 0}, {.3f, inf, .7f}},
-                                                     {{inf, 0, 0}, {inf, inf, 1}},
-                                                     {{1, 1, 1}, {0, 0, 0}},
-                                                     {{0, nan, 0}, {1, 1, 1}},
-                                                     {{0, 0, 0}, {1, 1, nan}}})
-        q.boxes.push_back(box);
-    for (const Sphere<float>& ball : std::initializer_list<Sphere<float>>{
-             {{0, 0, 0}, inf}, {{0, 0, 0}, 0}, {{0, 0, 0}, -1}, {{0, 0, 0}, nan}, {{nan, 0, 0}, 1}})
-        q.balls.push_back(ball);
-    return q;
-}
 
 /// The same formula as the contract's, on its own.
 double distance_to(Vec3<float> point, const Box& box) {
@@ -87,7 +45,7 @@ struct Expected {
 };
 constexpr std::size_t k = 5;
 
-Expected brute_force(Boxes items, const Queries& q) {
+Expected brute_force(Boxes items, const QueriesOfRegions& q) {
     Expected e;
     for (std::uint32_t i = 0; i < q.points.size(); ++i) {
         std::vector<Neighbour> all;
@@ -115,7 +73,7 @@ Expected brute_force(Boxes items, const Queries& q) {
     return e;
 }
 
-void expect_answers(const AnyLayout& layout, const Queries& q, const Expected& e,
+void expect_answers(const AnyLayout& layout, const QueriesOfRegions& q, const Expected& e,
                     const Executor& executor, Work* work = nullptr) {
     std::vector<Pair> pairs;
     AppendPairs sink(pairs);
@@ -139,7 +97,7 @@ void expect_answers(const AnyLayout& layout, const Queries& q, const Expected& e
 TEST_P(EachBuilder, PointsRegionsAndNeighboursAgreeWithBruteForce) {
     for (const BoxFamily& family : box_families()) {
         SCOPED_TRACE(family.name);
-        const Queries q = queries_for(family.boxes);
+        const QueriesOfRegions q = queries_for(family.boxes);
         const Expected e = brute_force(family.boxes, q);
         const Tree tree = build(family.boxes);
         for (const LayoutEntry& entry : layouts_answering(
@@ -168,7 +126,7 @@ TEST(Points, AnswerInOneOrderOnEveryExecutor) {
     const std::vector<Box> items = random_boxes(3000, .1f, 3);
     std::mt19937 random(4);
     std::uniform_real_distribution<float> unit(0, 1);
-    Queries q;
+    QueriesOfRegions q;
     for (int i = 0; i < 2000; ++i) {
         q.points.push_back({unit(random), unit(random), unit(random)});
         q.balls.push_back({q.points.back(), .1f * unit(random)});

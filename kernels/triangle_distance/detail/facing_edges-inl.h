@@ -2,10 +2,12 @@
 // V, and the guess.
 
 template <class M, class V>
-HWY_INLINE LaneVec3<V> select(M m, const LaneVec3<V>& a, const LaneVec3<V>& b) {
+BOXWOOD_LANE LaneVec3<V> select(M m, const LaneVec3<V>& a, const LaneVec3<V>& b) {
     return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
 }
-template <class V> HWY_INLINE V in_unit(V x) { return max(min(x, constant<V>(1)), constant<V>(0)); }
+template <class V> BOXWOOD_LANE V in_unit(V x) {
+    return max(min(x, constant<V>(1)), constant<V>(0));
+}
 
 /// A triangle by its first corner: the edges to the second and third and between those, and their
 /// squared lengths. Edge k starts at corner k / 2.
@@ -13,7 +15,7 @@ template <class V> struct Shape {
     LaneVec3<V> corner[3], edge[3];
     V squared[3];
 
-    HWY_INLINE Shape(const LaneVec3<V>& c0, const LaneVec3<V>& c1, const LaneVec3<V>& c2)
+    BOXWOOD_LANE Shape(const LaneVec3<V>& c0, const LaneVec3<V>& c1, const LaneVec3<V>& c2)
         : corner{c0, c1, c2}, edge{c1 - c0, c2 - c0, c2 - c1}, squared{dot(edge[0], edge[0]),
                                                                        dot(edge[1], edge[1]),
                                                                        dot(edge[2], edge[2])} {}
@@ -21,7 +23,7 @@ template <class V> struct Shape {
 
 /// A point of a triangle: first corner + u * edge 0 + v * edge 1.
 template <class V> struct Weights { V u, v; };
-template <int edge, class V> HWY_INLINE Weights<V> on_edge(V s) {
+template <int edge, class V> BOXWOOD_LANE Weights<V> on_edge(V s) {
     if constexpr (edge == 0)
         return {s, constant<V>(0)};
     else if constexpr (edge == 1)
@@ -40,9 +42,9 @@ template <class V> struct PointPair {
 /// Three times the way from a's centre to b's, from that between their first corners and the edges
 /// there.
 template <class V>
-HWY_INLINE LaneVec3<V> way_between(const LaneVec3<V>& a0_to_b0, const LaneVec3<V>& a1,
-                                   const LaneVec3<V>& a2, const LaneVec3<V>& b1,
-                                   const LaneVec3<V>& b2) {
+BOXWOOD_LANE LaneVec3<V> way_between(const LaneVec3<V>& a0_to_b0, const LaneVec3<V>& a1,
+                                     const LaneVec3<V>& a2, const LaneVec3<V>& b1,
+                                     const LaneVec3<V>& b2) {
     return constant<V>(3) * a0_to_b0 + ((b1 + b2) - (a1 + a2));
 }
 
@@ -50,9 +52,9 @@ HWY_INLINE LaneVec3<V> way_between(const LaneVec3<V>& a0_to_b0, const LaneVec3<V
 /// clamped; t nearest to it, clamped; s again). True if they are the triangles' nearest: if a0 and
 /// b0, too, lie well beyond the planes through the two points, normal to their offset.
 template <bool by_cross, class V>
-HWY_INLINE auto facing_edges(const LaneVec3<V>& a0, const LaneVec3<V>& a1, const LaneVec3<V>& a2,
-                             const LaneVec3<V>& b0, const LaneVec3<V>& b1, const LaneVec3<V>& b2,
-                             PointPair<V>& pair) {
+BOXWOOD_LANE auto facing_edges(const LaneVec3<V>& a0, const LaneVec3<V>& a1, const LaneVec3<V>& a2,
+                               const LaneVec3<V>& b0, const LaneVec3<V>& b1, const LaneVec3<V>& b2,
+                               PointPair<V>& pair) {
     const V one = constant<V>(1), min_normal = constant<V>(Limits<V>::min_normal);
     const LaneVec3<V> ea = a2 - a1, eb = b2 - b1, r = a1 - b1;
     const V aa = dot(ea, ea), bb = dot(eb, eb), ab = dot(ea, eb);
@@ -87,24 +89,24 @@ template <class V> struct Best {
     V limit, settled;
     Weights<V> a, b;
 
-    HWY_INLINE Best()
+    BOXWOOD_LANE Best()
         : limit(constant<V>(0x1p125)), settled(limit), a{constant<V>(0), constant<V>(0)}, b(a) {}
 
-    template <class M> HWY_INLINE void offer(M when, V candidate, Weights<V> wa, Weights<V> wb) {
+    template <class M> BOXWOOD_LANE void offer(M when, V candidate, Weights<V> wa, Weights<V> wb) {
         take(both(when, candidate < limit), candidate, wa, wb);
     }
-    HWY_INLINE void offer(V candidate, Weights<V> wa, Weights<V> wb) {
+    BOXWOOD_LANE void offer(V candidate, Weights<V> wa, Weights<V> wb) {
         take(candidate < limit, candidate, wa, wb);
     }
-    template <class M> HWY_INLINE void take(M better, V candidate, Weights<V> wa, Weights<V> wb) {
+    template <class M> BOXWOOD_LANE void take(M better, V candidate, Weights<V> wa, Weights<V> wb) {
         limit = select(better, candidate, limit);
         a = {select(better, wa.u, a.u), select(better, wa.v, a.v)};
         b = {select(better, wb.u, b.u), select(better, wb.v, b.v)};
     }
     /// These lanes are final.
-    template <class M> HWY_INLINE void settle(M done) {
+    template <class M> BOXWOOD_LANE void settle(M done) {
         settled = select(done, limit, settled);
         limit = select(done, constant<V>(-1), limit);
     }
-    HWY_INLINE V squared() const { return select(limit < constant<V>(0), settled, limit); }
+    BOXWOOD_LANE V squared() const { return select(limit < constant<V>(0), settled, limit); }
 };

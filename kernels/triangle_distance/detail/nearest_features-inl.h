@@ -2,6 +2,7 @@
 // for plain numbers (one_lane.h), and once per instruction set (features_batch.cpp).
 // V: + - * / unary-, < and <= to a mask; constant<V>(x), select(mask, x, y), min, max, abs,
 // both(m, m), either(m, m), negation(m), any(m), all(m), reciprocals(V (&x)[3]), and Limits<V>.
+// BOXWOOD_LANE: how its functions are declared.
 
 #include "kernels/triangle_distance/detail/facing_edges-inl.h"
 
@@ -11,7 +12,7 @@ template <class V> struct Heights {
 
     /// Whether all are on one side, or not beyond rounding on the other: the squares of smaller
     /// ones are below `noise`.
-    HWY_INLINE auto apart(V noise) const {
+    BOXWOOD_LANE auto apart(V noise) const {
         const V lowest = min(min(of[0], of[1]), of[2]), highest = max(max(of[0], of[1]), of[2]);
         const V zero = constant<V>(0), below = min(lowest, zero), above = max(highest, zero);
         return either(below * below <= noise, above * above <= noise);
@@ -20,12 +21,12 @@ template <class V> struct Heights {
 
 /// The foot of x in the plane of a face, both seen from its first corner. scale: 1 / |normal|^2.
 template <class V>
-HWY_INLINE Weights<V> foot_of(const LaneVec3<V>& x, const Shape<V>& face, const LaneVec3<V>& normal,
-                              V scale) {
+BOXWOOD_LANE Weights<V> foot_of(const LaneVec3<V>& x, const Shape<V>& face,
+                                const LaneVec3<V>& normal, V scale) {
     return {dot(cross(x, face.edge[1]), normal) * scale,
             dot(cross(face.edge[0], x), normal) * scale};
 }
-template <class V> HWY_INLINE auto inside(const Weights<V>& w) {
+template <class V> BOXWOOD_LANE auto inside(const Weights<V>& w) {
     const V zero = constant<V>(0);
     return both(both(zero <= w.u, zero <= w.v), w.u + w.v <= constant<V>(1));
 }
@@ -34,10 +35,10 @@ template <class V> HWY_INLINE auto inside(const Weights<V>& w) {
 /// Offers it if its foot is inside; then nothing else is nearer, and the lane is done if the
 /// triangle is no sliver. x: the corners, from the face's first one.
 template <bool face_is_a, bool again, class M, class V>
-HWY_INLINE M offer_nearest_corner(M apart, const Shape<V>& face, const LaneVec3<V>& normal,
-                                  V inverse_squares, V inverse_sine_squared, const Heights<V>& h,
-                                  const LaneVec3<V>& x0, const LaneVec3<V>& x1,
-                                  const LaneVec3<V>& x2, Best<V>& best) {
+BOXWOOD_LANE M offer_nearest_corner(M apart, const Shape<V>& face, const LaneVec3<V>& normal,
+                                    V inverse_squares, V inverse_sine_squared, const Heights<V>& h,
+                                    const LaneVec3<V>& x0, const LaneVec3<V>& x1,
+                                    const LaneVec3<V>& x2, Best<V>& best) {
     const V zero = constant<V>(0), one = constant<V>(1);
     const V h0 = abs(h.of[0]), h1 = abs(h.of[1]), h2 = abs(h.of[2]);
     const auto second = h1 < h0, third = h2 < min(h0, h1);
@@ -66,7 +67,7 @@ template <class V> struct Passage {
     decltype(V() < V()) lone0, lone1; ///< which corner; 2 if none is set
     V ratio0, ratio1;                 ///< to the lower and to the higher of the other two
 
-    HWY_INLINE explicit Passage(const Heights<V>& h) : lone0(), lone1(), ratio0(), ratio1() {
+    BOXWOOD_LANE explicit Passage(const Heights<V>& h) : lone0(), lone1(), ratio0(), ratio1() {
         const V zero = constant<V>(0);
         const auto s0 = h.of[0] < zero, s1 = h.of[1] < zero, s2 = h.of[2] < zero;
         lone0 = same(s1, s2), lone1 = same(s0, s2);
@@ -76,12 +77,12 @@ template <class V> struct Passage {
         const V scale = h_lone / (drop0 * drop1);
         ratio0 = scale * drop1, ratio1 = scale * drop0;
     }
-    HWY_INLINE V lone(V x0, V x1, V x2) const { return select(lone0, x0, select(lone1, x1, x2)); }
-    HWY_INLINE V lower(V x0, V x1) const { return select(lone0, x1, x0); }
-    HWY_INLINE V higher(V x1, V x2) const { return select(either(lone0, lone1), x2, x1); }
+    BOXWOOD_LANE V lone(V x0, V x1, V x2) const { return select(lone0, x0, select(lone1, x1, x2)); }
+    BOXWOOD_LANE V lower(V x0, V x1) const { return select(lone0, x1, x0); }
+    BOXWOOD_LANE V higher(V x1, V x2) const { return select(either(lone0, lone1), x2, x1); }
 
     /// The point that is t of the way from the one to the other.
-    HWY_INLINE Weights<V> between(V t) const {
+    BOXWOOD_LANE Weights<V> between(V t) const {
         const V one = constant<V>(1);
         const V first = (one - t) * ratio0, second = t * ratio1, rest = (one - first) - second;
         return {select(lone0, first, select(lone1, rest, second)),
@@ -94,20 +95,20 @@ template <class V> struct Cut {
     Passage<V> passage;
     V end0, end1;
 
-    HWY_INLINE Cut(const Heights<V>& h, V p0, V p1, V p2) : passage(h), end0(), end1() {
+    BOXWOOD_LANE Cut(const Heights<V>& h, V p0, V p1, V p2) : passage(h), end0(), end1() {
         const V p = passage.lone(p0, p1, p2);
         end0 = p + passage.ratio0 * (passage.lower(p0, p1) - p);
         end1 = p + passage.ratio1 * (passage.higher(p1, p2) - p);
     }
-    HWY_INLINE V low() const { return min(end0, end1); }
-    HWY_INLINE V high() const { return max(end0, end1); }
+    BOXWOOD_LANE V low() const { return min(end0, end1); }
+    BOXWOOD_LANE V high() const { return max(end0, end1); }
     /// 1 instead of 0.
-    HWY_INLINE V width() const {
+    BOXWOOD_LANE V width() const {
         const V w = end1 - end0, none = constant<V>(0);
         return select(either(w < none, none < w), w, constant<V>(1));
     }
     /// The point at p, between the ends; `inverse` is 1 / width.
-    HWY_INLINE Weights<V> at(V p, V inverse) const {
+    BOXWOOD_LANE Weights<V> at(V p, V inverse) const {
         return passage.between(in_unit((p - end0) * inverse));
     }
 };
@@ -116,11 +117,11 @@ template <class V> struct Cut {
 template <class V> struct LongestAxis {
     decltype(V() < V()) not_x, is_z;
 
-    HWY_INLINE explicit LongestAxis(const LaneVec3<V>& v) : not_x(), is_z() {
+    BOXWOOD_LANE explicit LongestAxis(const LaneVec3<V>& v) : not_x(), is_z() {
         const V x = abs(v.x), y = abs(v.y), z = abs(v.z);
         not_x = x < y, is_z = max(x, y) < z;
     }
-    HWY_INLINE V of(const LaneVec3<V>& p) const {
+    BOXWOOD_LANE V of(const LaneVec3<V>& p) const {
         return select(is_z, p.z, select(not_x, p.y, p.x));
     }
 };
@@ -131,8 +132,8 @@ template <class V> struct LongestAxis {
 /// b.b
 template <bool by_cross, class V> struct Lines {
     V sine_squared, numerator;
-    HWY_INLINE Lines(const LaneVec3<V>& a, const LaneVec3<V>& b, const LaneVec3<V>& r,
-                     V inverse_squares, V ba, V ab, V ca, V fb)
+    BOXWOOD_LANE Lines(const LaneVec3<V>& a, const LaneVec3<V>& b, const LaneVec3<V>& r,
+                       V inverse_squares, V ba, V ab, V ca, V fb)
         : sine_squared(), numerator() {
         if constexpr (by_cross) {
             const LaneVec3<V> n = cross(a, b);
@@ -149,8 +150,8 @@ template <bool by_cross, class V> struct Lines {
 /// Edges i of a and j of b. Ericson 2005, 5.1.9: the lines' parameter s, clamped; t nearest to
 /// that, clamped; s again. Any s will do for parallel lines, and for an edge of no length.
 template <int i, int j, class V>
-HWY_INLINE void edge_pair(const LaneVec3<V>& a, const LaneVec3<V>& b, const LaneVec3<V>& r,
-                          V on_lines, V ba, V ab, V ca, V fb, Best<V>& best) {
+BOXWOOD_LANE void edge_pair(const LaneVec3<V>& a, const LaneVec3<V>& b, const LaneVec3<V>& r,
+                            V on_lines, V ba, V ab, V ca, V fb, Best<V>& best) {
     const V t = in_unit(ab * in_unit(on_lines) + fb);
     const V s = in_unit(ba * t - ca);
     const LaneVec3<V> offset = (r + s * a) - t * b;
@@ -159,9 +160,9 @@ HWY_INLINE void edge_pair(const LaneVec3<V>& a, const LaneVec3<V>& b, const Lane
 
 /// Edge i of a with the three of b; r0 and r1 are from the starts of b's edges to a's.
 template <bool by_cross, int i, class V>
-HWY_INLINE void edge_pairs(const Shape<V>& a, const Shape<V>& b, V inverse_a,
-                           const V (&inverse_b)[3], const LaneVec3<V>& r0, const LaneVec3<V>& r1,
-                           Best<V>& best) {
+BOXWOOD_LANE void edge_pairs(const Shape<V>& a, const Shape<V>& b, V inverse_a,
+                             const V (&inverse_b)[3], const LaneVec3<V>& r0, const LaneVec3<V>& r1,
+                             Best<V>& best) {
     const LaneVec3<V>& e = a.edge[i];
     const V p0 = dot(e, b.edge[0]), p1 = dot(e, b.edge[1]), p2 = dot(e, b.edge[2]);
     const V ba0 = p0 * inverse_a, ba1 = p1 * inverse_a, ba2 = p2 * inverse_a;
@@ -191,7 +192,7 @@ template <class V> struct Facing {
     Heights<V> of_a, of_b;  ///< of its corners, above the other
     Mask a_apart, b_apart;  ///< whether it lies on one side of the other
 
-    HWY_INLINE Facing(const Shape<V>& first, const Shape<V>& second)
+    BOXWOOD_LANE Facing(const Shape<V>& first, const Shape<V>& second)
         : a(first), b(second), d00(a.corner[0] - b.corner[0]), d01(a.corner[0] - b.corner[1]),
           d02(a.corner[0] - b.corner[2]), d10(a.corner[1] - b.corner[0]),
           d20(a.corner[2] - b.corner[0]), d11(a.corner[1] - b.corner[1]),
@@ -207,27 +208,27 @@ template <class V> struct Facing {
         a_apart = of_a.apart(noise * squares_b), b_apart = of_b.apart(noise * squares_a);
     }
 
-    HWY_INLINE Mask in_range() const {
+    BOXWOOD_LANE Mask in_range() const {
         return both(constant<V>(Limits<V>::smallest) < size_squared,
                     size_squared < constant<V>(Limits<V>::largest));
     }
     /// Of the angle at the first corner.
-    HWY_INLINE V sine_squared_a() const { return sine_squared(normal_a, squares_a); }
-    HWY_INLINE V sine_squared_b() const { return sine_squared(normal_b, squares_b); }
+    BOXWOOD_LANE V sine_squared_a() const { return sine_squared(normal_a, squares_a); }
+    BOXWOOD_LANE V sine_squared_b() const { return sine_squared(normal_b, squares_b); }
     /// Whether its normal is mostly rounding, or 0.
-    HWY_INLINE Mask a_sliver() const { return sliver(normal_a, squares_a); }
-    HWY_INLINE Mask b_sliver() const { return sliver(normal_b, squares_b); }
+    BOXWOOD_LANE Mask a_sliver() const { return sliver(normal_a, squares_a); }
+    BOXWOOD_LANE Mask b_sliver() const { return sliver(normal_b, squares_b); }
 
-    HWY_INLINE LaneVec3<V> offset(const Weights<V>& wa, const Weights<V>& wb) const {
+    BOXWOOD_LANE LaneVec3<V> offset(const Weights<V>& wa, const Weights<V>& wb) const {
         return ((d00 + wa.u * a.edge[0]) + wa.v * a.edge[1]) -
                (wb.u * b.edge[0] + wb.v * b.edge[1]);
     }
 
   private:
-    static HWY_INLINE V sine_squared(const LaneVec3<V>& normal, V squares) {
+    static BOXWOOD_LANE V sine_squared(const LaneVec3<V>& normal, V squares) {
         return dot(normal, normal) / max(squares, constant<V>(Limits<V>::min_normal));
     }
-    static HWY_INLINE Mask sliver(const LaneVec3<V>& normal, V squares) {
+    static BOXWOOD_LANE Mask sliver(const LaneVec3<V>& normal, V squares) {
         return dot(normal, normal) <= constant<V>(Limits<V>::sliver) * squares;
     }
 };
@@ -235,8 +236,8 @@ template <class V> struct Facing {
 /// Offers a pair of points that ought to be one; it is 0, and the lane done, if they are but for
 /// rounding: 32u of the size, or of slivers 32u / sin of the angle, while that is within the width.
 template <class M, class V>
-HWY_INLINE M offer_common(M when, const Facing<V>& f, const Weights<V>& wa, const Weights<V>& wb,
-                          Best<V>& best) {
+BOXWOOD_LANE M offer_common(M when, const Facing<V>& f, const Weights<V>& wa, const Weights<V>& wb,
+                            Best<V>& best) {
     const LaneVec3<V> offset = f.offset(wa, wb);
     const V squared = dot(offset, offset), rounding = constant<V>(Limits<V>::rounding);
     M same_point = both(when, squared <= rounding * f.size_squared);
@@ -254,7 +255,7 @@ HWY_INLINE M offer_common(M when, const Facing<V>& f, const Weights<V>& wa, cons
 /// Where each plane parts the other's corners: whether the two cut overlapping parts out of the
 /// planes' common line (Moller 1997).
 template <class M, class V>
-HWY_INLINE M offer_common_line(M parted, const Facing<V>& f, Best<V>& best) {
+BOXWOOD_LANE M offer_common_line(M parted, const Facing<V>& f, Best<V>& best) {
     const LongestAxis<V> axis(cross(f.normal_a, f.normal_b));
     const V start = axis.of(f.d00);
     const Cut<V> cut_a(f.of_a, start, start + axis.of(f.a.edge[0]), start + axis.of(f.a.edge[1]));
@@ -271,7 +272,7 @@ HWY_INLINE M offer_common_line(M parted, const Facing<V>& f, Best<V>& best) {
 
 /// Where a sliver passes through a face's plane: whether one of its two edges does so inside.
 template <bool sliver_is_a, class M, class V>
-HWY_INLINE M offer_passage(M through, const Facing<V>& f, Best<V>& best) {
+BOXWOOD_LANE M offer_passage(M through, const Facing<V>& f, Best<V>& best) {
     const Shape<V>&sliver = sliver_is_a ? f.a : f.b, &face = sliver_is_a ? f.b : f.a;
     const LaneVec3<V>& normal = sliver_is_a ? f.normal_b : f.normal_a;
     const Passage<V> passage(sliver_is_a ? f.of_a : f.of_b);
@@ -291,7 +292,7 @@ HWY_INLINE M offer_passage(M through, const Facing<V>& f, Best<V>& best) {
 }
 
 /// Offers a common point where they cross; those lanes are done.
-template <class V> HWY_INLINE auto offer_crossing(const Facing<V>& f, Best<V>& best) {
+template <class V> BOXWOOD_LANE auto offer_crossing(const Facing<V>& f, Best<V>& best) {
     auto done = negation(either(f.a_apart, f.b_apart));
     if (any(done))
         done = offer_common_line(done, f, best);
@@ -308,7 +309,7 @@ template <class V> HWY_INLINE auto offer_crossing(const Facing<V>& f, Best<V>& b
 /// Offers the nearest corner of each to the other's face, then 9 pairs of edges, in lanes that are
 /// not done.
 template <bool by_cross, class M, class V>
-HWY_INLINE void offer_features(const Facing<V>& f, M done, Best<V>& best) {
+BOXWOOD_LANE void offer_features(const Facing<V>& f, M done, Best<V>& best) {
     const Shape<V>&a = f.a, &b = f.b;
     // Edges shorter than this count as points: what they are of the size is far below rounding.
     const V shortest = constant<V>(Limits<V>::shortest_squared) * f.size_squared;
@@ -343,7 +344,7 @@ HWY_INLINE void offer_features(const Facing<V>& f, M done, Best<V>& best) {
 }
 
 /// The pair that was offered and is best.
-template <class V> HWY_INLINE PointPair<V> best_pair(const Facing<V>& f, const Best<V>& best) {
+template <class V> BOXWOOD_LANE PointPair<V> best_pair(const Facing<V>& f, const Best<V>& best) {
     const LaneVec3<V> on_a = best.a.u * f.a.edge[0] + best.a.v * f.a.edge[1];
     const LaneVec3<V> on_b = best.b.u * f.b.edge[0] + best.b.v * f.b.edge[1];
     return {best.squared(), (f.d00 + on_a) - on_b, f.a.corner[0] + on_a, f.b.corner[0] + on_b};

@@ -31,27 +31,29 @@ template <> struct Limits<float> {
                             min_normal = 0x1p-126, smallest = 0x1p-12, largest = 0x1p40;
 };
 
-template <class V> HWY_INLINE constexpr V constant(double x) { return static_cast<V>(x); }
-template <std::floating_point V> HWY_INLINE V select(bool m, V x, V y) { return m ? x : y; }
-template <std::floating_point V> HWY_INLINE V min(V x, V y) { return x < y ? x : y; }
-template <std::floating_point V> HWY_INLINE V max(V x, V y) { return y < x ? x : y; }
-template <std::floating_point V> HWY_INLINE V abs(V x) { return std::abs(x); }
-HWY_INLINE bool both(bool m, bool n) { return m && n; }
-HWY_INLINE bool either(bool m, bool n) { return m || n; }
-HWY_INLINE bool same(bool m, bool n) { return m == n; }
-HWY_INLINE bool negation(bool m) { return !m; }
-HWY_INLINE bool any(bool m) { return m; }
-HWY_INLINE bool all(bool m) { return m; }
+#define BOXWOOD_LANE BOXWOOD_BOTH HWY_INLINE
+
+template <class V> BOXWOOD_LANE constexpr V constant(double x) { return static_cast<V>(x); }
+template <std::floating_point V> BOXWOOD_LANE V select(bool m, V x, V y) { return m ? x : y; }
+template <std::floating_point V> BOXWOOD_LANE V min(V x, V y) { return x < y ? x : y; }
+template <std::floating_point V> BOXWOOD_LANE V max(V x, V y) { return y < x ? x : y; }
+template <std::floating_point V> BOXWOOD_LANE V abs(V x) { return std::abs(x); }
+BOXWOOD_LANE bool both(bool m, bool n) { return m && n; }
+BOXWOOD_LANE bool either(bool m, bool n) { return m || n; }
+BOXWOOD_LANE bool same(bool m, bool n) { return m == n; }
+BOXWOOD_LANE bool negation(bool m) { return !m; }
+BOXWOOD_LANE bool any(bool m) { return m; }
+BOXWOOD_LANE bool all(bool m) { return m; }
 
 /// 1 / x of three positive numbers. Doubles by one division, as a batch does them.
-HWY_INLINE void reciprocals(double (&x)[3]) {
+BOXWOOD_LANE void reciprocals(double (&x)[3]) {
     const double p = x[0] * x[1], inverse = 1 / (p * x[2]), q = inverse * x[2];
     x[2] = inverse * p;
     const double x0 = x[0];
     x[0] = q * x[1];
     x[1] = q * x0;
 }
-HWY_INLINE void reciprocals(float (&x)[3]) {
+BOXWOOD_LANE void reciprocals(float (&x)[3]) {
     for (float& each : x)
         each = 1 / each;
 }
@@ -59,5 +61,7 @@ HWY_INLINE void reciprocals(float (&x)[3]) {
 template <class V> using LaneVec3 = Vec3<V>;
 
 #include "kernels/triangle_distance/detail/nearest_features-inl.h"
+
+#undef BOXWOOD_LANE
 
 } // namespace boxwood::detail::one_lane

@@ -1,15 +1,14 @@
 #pragma once
 
+#include "kernels/arithmetic/on_both.h"
 #include "kernels/predicates/orientation.h"
 #include "kernels/primitives/triangle.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <tuple>
 
 namespace boxwood::detail {
 
@@ -21,25 +20,25 @@ using Corner = std::size_t;
 class Sides {
   public:
     Sides() = default;
-    Sides(unsigned above, unsigned below, unsigned unknown)
+    BOXWOOD_BOTH Sides(unsigned above, unsigned below, unsigned unknown)
         : bits_(above | below << 3 | unknown << 6) {}
 
-    unsigned above() const { return bits_ & 7; }
-    unsigned below() const { return bits_ >> 3 & 7; }
-    unsigned unknown() const { return bits_ >> 6; }
-    unsigned above_and_below() const { return bits_ & 63; }
-    bool strictly_one_side() const { return one_strictly_one_side(*this, *this); }
+    BOXWOOD_BOTH unsigned above() const { return bits_ & 7; }
+    BOXWOOD_BOTH unsigned below() const { return bits_ >> 3 & 7; }
+    BOXWOOD_BOTH unsigned unknown() const { return bits_ >> 6; }
+    BOXWOOD_BOTH unsigned above_and_below() const { return bits_ & 63; }
+    BOXWOOD_BOTH bool strictly_one_side() const { return one_strictly_one_side(*this, *this); }
     /// Of either triangle; in one branch.
-    static bool one_strictly_one_side(const Sides& a, const Sides& b) {
+    BOXWOOD_BOTH static bool one_strictly_one_side(const Sides& a, const Sides& b) {
         constexpr std::uint64_t all_above_or_all_below = 1ull << 7 | 1ull << (7 << 3);
         return ((all_above_or_all_below >> a.above_and_below() |
                  all_above_or_all_below >> b.above_and_below()) &
                 1) != 0;
     }
-    bool all_on_plane() const { return bits_ == 0; }
+    BOXWOOD_BOTH bool all_on_plane() const { return bits_ == 0; }
 
     /// What was not known of corner k.
-    void decide(Corner k, int sign) {
+    BOXWOOD_BOTH void decide(Corner k, int sign) {
         bits_ &= ~(64u << k);
         bits_ |= sign > 0 ? 1u << k : sign < 0 ? 8u << k : 0;
     }
@@ -53,17 +52,17 @@ class Sides {
 class Projection {
   public:
     Projection() = default;
-    Projection(int axis, int turn) : code_(turn * (axis + 1)) {}
-    static Projection undecided() {
+    BOXWOOD_BOTH Projection(int axis, int turn) : code_(turn * (axis + 1)) {}
+    BOXWOOD_BOTH static Projection undecided() {
         Projection p;
         p.code_ = 4;
         return p;
     }
 
-    bool is_undecided() const { return code_ == 4; }
-    explicit operator bool() const { return code_ != 0 && code_ != 4; }
-    int axis() const { return (code_ < 0 ? -code_ : code_) - 1; }
-    int turn() const { return code_ < 0 ? -1 : 1; }
+    BOXWOOD_BOTH bool is_undecided() const { return code_ == 4; }
+    BOXWOOD_BOTH explicit operator bool() const { return code_ != 0 && code_ != 4; }
+    BOXWOOD_BOTH int axis() const { return (code_ < 0 ? -code_ : code_) - 1; }
+    BOXWOOD_BOTH int turn() const { return code_ < 0 ? -1 : 1; }
 
   private:
     int code_ = 0;
@@ -96,7 +95,7 @@ concept PairSigns = requires(S& s, int i, Corner c, Turned t) {
 
 /// Of turned triangles the intervals on the planes' common line: disjoint if
 /// orient3d(q1, p2, p1, q2) or orient3d(p1, p2, r1, r2) is 1.
-template <class S> Answer overlap_by_orient3d(S& s, const Turned& a, const Turned& b) {
+template <class S> BOXWOOD_BOTH Answer overlap_by_orient3d(S& s, const Turned& a, const Turned& b) {
     const int low = s.orient3d(a.q, b.p, a.p, b.q);
     if (low == 1)
         return Answer::no;
@@ -108,9 +107,10 @@ template <class S> Answer overlap_by_orient3d(S& s, const Turned& a, const Turne
 
 /// Of coplanar triangles that turn by these signs with an axis dropped: disjoint if the line of an
 /// edge of one has all of the other strictly on its outside.
-template <class S> Answer overlap_by_orient2d(S& s, int dropped, const std::array<int, 2>& turns) {
+template <class S>
+BOXWOOD_BOTH Answer overlap_by_orient2d(S& s, int dropped, const int (&turns)[2]) {
     Answer answer = Answer::yes;
-    for (const Corner t : {Corner{0}, Corner{3}})
+    for (Corner t = 0; t < 6; t += 3)
         for (Corner i = 0; i < 3; ++i) {
             const int outside = -turns[t / 3];
             bool surely = true, perhaps = true;
@@ -128,7 +128,7 @@ template <class S> Answer overlap_by_orient2d(S& s, int dropped, const std::arra
 }
 
 /// s.project by s.orient2d, beginning with the axis `first`.
-template <class S> Projection project_by_orient2d(S& s, int of, int first) {
+template <class S> BOXWOOD_BOTH Projection project_by_orient2d(S& s, int of, int first) {
     const Corner t = of == 0 ? 0 : 3;
     Projection none;
     for (int k = 0; k < 3; ++k) {
@@ -141,7 +141,7 @@ template <class S> Projection project_by_orient2d(S& s, int of, int first) {
     return none;
 }
 
-template <class Real> int largest_axis(const Vec3<Real>& v) {
+template <class Real> BOXWOOD_BOTH int largest_axis(const Vec3<Real>& v) {
     const Real x = std::abs(v.x), y = std::abs(v.y), z = std::abs(v.z);
     return x > y ? (x > z ? 0 : 2) : (y > z ? 1 : 2);
 }
@@ -202,7 +202,7 @@ template <OrientationPredicates P> class Signs {
 template <PairSigns S> class FlatPair {
   public:
     /// Of two triangles without a degenerate one, for coplanar ones only.
-    static Answer meet(S& signs) {
+    BOXWOOD_BOTH static Answer meet(S& signs) {
         const Projection of_a = signs.project(0, {}), of_b = signs.project(1, of_a);
         if (of_a && of_b && of_a.axis() == of_b.axis())
             return signs.overlap_in_plane(of_a.axis(), of_a.turn(), of_b.turn());
@@ -213,41 +213,48 @@ template <PairSigns S> class FlatPair {
     }
 
   private:
-    explicit FlatPair(S& signs) : signs_(signs) {}
+    BOXWOOD_BOTH explicit FlatPair(S& signs) : signs_(signs) {}
 
     /// The corners that count: a segment as its ends in lexicographic order.
     struct Hull {
-        std::array<Corner, 3> corners;
+        Corner corners[3];
         std::size_t size;
         Projection projection;
-        Corner operator[](std::size_t i) const { return corners[i]; }
+        BOXWOOD_BOTH Corner operator[](std::size_t i) const { return corners[i]; }
     };
 
     /// A sign; undecided is read as 0, and the answer built on it is `maybe`.
-    int known(int sign) {
+    BOXWOOD_BOTH int known(int sign) {
         unsure_ |= sign == undecided;
         return sign == undecided ? 0 : sign;
     }
-    int orient3d(Corner a, Corner b, Corner c, Corner d) {
+    BOXWOOD_BOTH int orient3d(Corner a, Corner b, Corner c, Corner d) {
         return known(signs_.orient3d(a, b, c, d));
     }
-    int orient2d(int dropped, Corner a, Corner b, Corner c) {
+    BOXWOOD_BOTH int orient2d(int dropped, Corner a, Corner b, Corner c) {
         return known(signs_.orient2d(dropped, a, b, c));
     }
 
-    bool before(Corner a, Corner b) const {
+    /// Lexicographically.
+    BOXWOOD_BOTH bool before(Corner a, Corner b) const {
         const auto p = signs_.point(a), q = signs_.point(b);
-        return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
+        for (int k = 0; k < 2; ++k)
+            if (p[k] < q[k] || q[k] < p[k])
+                return p[k] < q[k];
+        return p.z < q.z;
     }
-    bool same(Corner a, Corner b) const { return signs_.point(a) == signs_.point(b); }
+    BOXWOOD_BOTH bool same(Corner a, Corner b) const {
+        const auto p = signs_.point(a), q = signs_.point(b);
+        return p.x == q.x && p.y == q.y && p.z == q.z;
+    }
 
-    Hull hull(int of, Projection projection) {
+    BOXWOOD_BOTH Hull hull(int of, Projection projection) {
         const Corner t = of == 0 ? 0 : 3;
         unsure_ |= projection.is_undecided();
         if (projection)
             return {{t, t + 1, t + 2}, 3, projection};
         Corner low = t, high = t;
-        for (const Corner k : {t + 1, t + 2}) {
+        for (Corner k = t + 1; k < t + 3; ++k) {
             low = before(k, low) ? k : low;
             high = before(high, k) ? k : high;
         }
@@ -255,7 +262,7 @@ template <PairSigns S> class FlatPair {
     }
 
     /// a.size <= b.size.
-    bool meet(const Hull& a, const Hull& b) {
+    BOXWOOD_BOTH bool meet(const Hull& a, const Hull& b) {
         if (a.size == 3)
             return meet_in_plane(a, b);
         if (b.size == 3)
@@ -275,14 +282,14 @@ template <PairSigns S> class FlatPair {
     }
 
     static constexpr int collinear = -1;
-    int axis_to_drop(Corner a, Corner b, Corner c) {
-        for (const int axis : {0, 1, 2})
+    BOXWOOD_BOTH int axis_to_drop(Corner a, Corner b, Corner c) {
+        for (int axis = 0; axis < 3; ++axis)
             if (orient2d(axis, a, b, c) != 0)
                 return axis;
         return collinear;
     }
 
-    bool meet_in_plane(const Hull& a, const Hull& b) {
+    BOXWOOD_BOTH bool meet_in_plane(const Hull& a, const Hull& b) {
         const int axis = a.projection.axis();
         const int turn_b =
             axis == b.projection.axis() ? b.projection.turn() : orient2d(axis, b[0], b[1], b[2]);
@@ -292,7 +299,7 @@ template <PairSigns S> class FlatPair {
     }
 
     /// A segment or point against a triangle.
-    bool meet_triangle(const Hull& a, const Hull& b) {
+    BOXWOOD_BOTH bool meet_triangle(const Hull& a, const Hull& b) {
         const int first = orient3d(b[0], b[1], b[2], a[0]);
         const int last = a.size == 1 ? first : orient3d(b[0], b[1], b[2], a[1]);
         if (first == 0 && last == 0)
@@ -303,12 +310,12 @@ template <PairSigns S> class FlatPair {
         const int u = orient3d(a[0], a[1], b[0], b[1]);
         const int v = orient3d(a[0], a[1], b[1], b[2]);
         const int w = orient3d(a[0], a[1], b[2], b[0]);
-        return std::min({u, v, w}) >= 0 || std::max({u, v, w}) <= 0;
+        return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
     }
 
     /// Whether the line of an edge of triangle t has all of the other, in its plane, strictly on
     /// its outside.
-    bool parted_by_triangle(const Hull& t, const Hull& other) {
+    BOXWOOD_BOTH bool parted_by_triangle(const Hull& t, const Hull& other) {
         const int axis = t.projection.axis(), outside = -t.projection.turn();
         for (std::size_t i = 0; i < 3; ++i) {
             bool parted = true;
@@ -321,7 +328,7 @@ template <PairSigns S> class FlatPair {
     }
 
     /// The same for a segment, which has two outsides; a point parts nothing.
-    bool parted_by_segment(const Hull& segment, const Hull& other, int axis) {
+    BOXWOOD_BOTH bool parted_by_segment(const Hull& segment, const Hull& other, int axis) {
         if (segment.size == 1)
             return false;
         bool left = true, right = true;

@@ -1,12 +1,9 @@
 #pragma once
 
 #include "kernels/decision.h"
-#include "kernels/predicates/rounded.h"
-#include "kernels/triangle_triangle/detail/determinants.h"
 #include "kernels/triangle_triangle/detail/flat.h"
 
 #include <array>
-#include <bit>
 #include <cstdint>
 
 namespace boxwood::detail {
@@ -18,7 +15,7 @@ namespace boxwood::detail {
 /// 2003, "Fast and Robust Triangle-Triangle Overlap Test Using Orientation Predicates".
 template <PairSigns S> class IntervalTest {
   public:
-    static Answer meet(S& signs) {
+    BOXWOOD_BOTH static Answer meet(S& signs) {
         Sides of_b = signs.sides(0), of_a = signs.sides(1);
         if (Sides::one_strictly_one_side(of_a, of_b))
             return Answer::no;
@@ -54,36 +51,50 @@ template <PairSigns S> class IntervalTest {
 
     /// Of the sides that are neither all equal and strict nor all on the plane:
     /// one corner above -> it; else one below -> it; else (0, +, +) or (0, -, -) -> the zero.
+    BOXWOOD_BOTH static constexpr Lone lone_by_case(unsigned above, unsigned below) {
+        const unsigned on_plane = 7 & ~(above | below);
+        const bool one_above = is_one(above), one_below = is_one(below);
+        const unsigned alone = one_above ? above : one_below ? below : on_plane;
+        const bool positive = one_above || (!one_below && above == 0);
+        const std::uint8_t corner = (alone & 1) != 0 ? 0 : (alone & 2) != 0 ? 1 : 2;
+        return {corner, static_cast<std::int8_t>(positive ? 1 : -1)};
+    }
+    BOXWOOD_BOTH static constexpr bool is_one(unsigned corners) {
+        return corners == 1 || corners == 2 || corners == 4;
+    }
+
     static constexpr std::array<Lone, 64> lone_of = [] {
         std::array<Lone, 64> table{};
         for (unsigned above = 0; above < 8; ++above)
-            for (unsigned below = 0; below < 8; ++below) {
-                const unsigned on_plane = 7 & ~(above | below);
-                const bool one_above = std::has_single_bit(above);
-                const bool one_below = std::has_single_bit(below);
-                const unsigned alone = one_above ? above : one_below ? below : on_plane;
-                const bool positive = one_above || (!one_below && above == 0);
-                table[above | below << 3] = {static_cast<std::uint8_t>(std::countr_zero(alone | 4)),
-                                             static_cast<std::int8_t>(positive ? 1 : -1)};
-            }
+            for (unsigned below = 0; below < 8; ++below)
+                table[above | below << 3] = lone_by_case(above, below);
         return table;
     }();
-    static Lone lone(const Sides& s) { return lone_of[s.above_and_below()]; }
+    static constexpr std::array<std::uint8_t, 5> corner_around{0, 1, 2, 0, 1};
 
-    static constexpr std::array<std::uint8_t, 5> around{0, 1, 2, 0, 1};
+    // A device does without the tables, which it would read from memory.
+    BOXWOOD_BOTH static Lone lone(const Sides& s) {
+#if defined(__CUDA_ARCH__)
+        return lone_by_case(s.above(), s.below());
+#else
+        return lone_of[s.above_and_below()];
+#endif
+    }
+    BOXWOOD_BOTH static std::size_t around(std::size_t k) {
+#if defined(__CUDA_ARCH__)
+        return k < 3 ? k : k - 3;
+#else
+        return corner_around[k];
+#endif
+    }
 
     /// The corners of the triangle that begins at `first`, from the lone one on; the last two
     /// swapped if `sign` is -1, which turns the triangle's plane over.
-    static Turned from(Corner first, std::uint8_t corner, int sign) {
+    BOXWOOD_BOTH static Turned from(Corner first, std::uint8_t corner, int sign) {
         const std::size_t flip = sign < 0;
-        return {first + corner, first + around[corner + 1 + flip],
-                first + around[corner + 2 - flip]};
+        return {first + corner, first + around(corner + 1 + flip),
+                first + around(corner + 2 - flip)};
     }
 };
-
-/// How a pair gets the signs of predicates P: one sign at a time, or by determinants that share
-/// their normals.
-template <OrientationPredicates P> struct PairSignsOf { using type = Signs<P>; };
-template <class Real> struct PairSignsOf<Rounded<Real>> { using type = Determinants<Real>; };
 
 } // namespace boxwood::detail

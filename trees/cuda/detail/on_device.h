@@ -1,0 +1,69 @@
+#pragma once
+
+// The device's side of launch.h; for nvcc alone.
+
+#include "trees/device.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <cuda_runtime.h>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace boxwood::cuda {
+
+/// Throws what CUDA says, and of what.
+inline void require(cudaError_t status, const char* what) {
+    if (status != cudaSuccess)
+        throw DeviceError(std::string("CUDA: ") + what + ": " + cudaGetErrorString(status));
+}
+
+/// Work that is done in order.
+struct Stream {
+    cudaStream_t handle = nullptr;
+};
+
+template <class... Parameters, class... Arguments>
+void launch(Stream stream, std::size_t n_blocks, unsigned n_threads, void (*kernel)(Parameters...),
+            Arguments... arguments) {
+    if (n_blocks == 0)
+        return;
+    kernel<<<static_cast<unsigned>(n_blocks), n_threads, 0, stream.handle>>>(arguments...);
+    require(cudaGetLastError(), "a kernel does not start");
+}
+
+inline void* allocate(std::size_t bytes, Stream stream) {
+    void* memory = nullptr;
+    const cudaError_t status = cudaMallocAsync(&memory, bytes, stream.handle);
+    if (status == cudaErrorMemoryAllocation) {
+        std::size_t free = 0, total = 0;
+        cudaGetLastError(); // it is no error of a later call
+        cudaMemGetInfo(&free, &total);
+        throw DeviceOutOfMemory("an array", bytes, free);
+    }
+    require(status, "memory");
+    return memory;
+}
+inline void release(void* memory, Stream stream) { cudaFreeAsync(memory, stream.handle); }
+
+template <class T> void upload(std::span<const T> from, T* to, Stream stream) {
+    require(
+        cudaMemcpyAsync(to, from.data(), from.size_bytes(), cudaMemcpyHostToDevice, stream.handle),
+        "upload");
+}
+template <class T> void download(const T* from, std::span<T> to, Stream stream) {
+    require(
+        cudaMemcpyAsync(to.data(), from, to.size_bytes(), cudaMemcpyDeviceToHost, stream.handle),
+        "download");
+}
+
+inline void wait(Stream stream) { require(cudaStreamSynchronize(stream.handle), "a kernel"); }
+
+/// The word's four bytes must be the same.
+inline void fill_words(std::uint32_t* to, std::uint32_t word, std::size_t n, Stream stream) {
+    require(cudaMemsetAsync(to, static_cast<int>(word & 255), n * sizeof(word), stream.handle),
+            "fill");
+}
+
+} // namespace boxwood::cuda

@@ -1,0 +1,30 @@
+// What a program has that was built without nvcc.
+
+#include "trees/detail/device_tree.h"
+
+namespace boxwood {
+
+std::vector<Device> devices() { return {}; }
+std::string why_no_device() {
+    return "boxwood was built without CUDA: " BOXWOOD_NO_NVCC "; then configure and build it again";
+}
+
+namespace detail {
+namespace {
+
+[[noreturn]] void none() { throw DeviceError("no CUDA device: " + why_no_device()); }
+
+} // namespace
+
+DeviceMemory::DeviceMemory(std::size_t bytes, DevicePlace) {
+    if (bytes > 0)
+        none();
+}
+DeviceMemory::~DeviceMemory() = default;
+void DeviceMemory::write(const void*, std::size_t) {}
+void DeviceMemory::read(void*, std::size_t) const {}
+
+std::unique_ptr<DeviceTree> make_device_tree(const DeviceBvhOptions&) { none(); }
+
+} // namespace detail
+} // namespace boxwood

@@ -1,0 +1,93 @@
+#pragma once
+
+// How kernels are started and where their arrays are, from one source: by nvcc on a device, by g++
+// on the host (on_host.h). A kernel is a `__global__ void` function of plain values and pointers.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#if defined(__CUDACC__)
+#include "trees/cuda/detail/on_device.h"
+#else
+#include "trees/cuda/on_host.h"
+
+#include <algorithm>
+#endif
+
+namespace boxwood::cuda {
+
+#if !defined(__CUDACC__)
+
+/// Work that is done in order.
+struct Stream {};
+
+template <class... Parameters, class... Arguments>
+void launch(Stream, std::size_t n_blocks, unsigned n_threads, void (*kernel)(Parameters...),
+            Arguments... arguments) {
+    if (n_blocks > 0)
+        on_host::run_grid(static_cast<unsigned>(n_blocks), n_threads,
+                          [&] { kernel(arguments...); });
+}
+
+inline void* allocate(std::size_t bytes, Stream) { return on_host::allocate(bytes); }
+inline void release(void* memory, Stream) { on_host::release(memory); }
+
+template <class T> void upload(std::span<const T> from, T* to, Stream) {
+    std::ranges::copy(from, to);
+}
+template <class T> void download(const T* from, std::span<T> to, Stream) {
+    std::copy_n(from, to.size(), to.data());
+}
+
+inline void fill_words(std::uint32_t* to, std::uint32_t word, std::size_t n, Stream) {
+    std::fill_n(to, n, word);
+}
+
+/// Until all is done that was started before.
+inline void wait(Stream) {}
+
+#endif
+
+/// An array of uninitialised trivial elements in the device's memory.
+template <class T> class Array {
+  public:
+    Array() = default;
+    Array(std::size_t size, Stream stream)
+        : data_(static_cast<T*>(size > 0 ? allocate(size * sizeof(T), stream) : nullptr)),
+          size_(size), stream_(stream) {}
+    Array(Array&& other) noexcept { swap(other); }
+    Array& operator=(Array&& other) noexcept {
+        swap(other);
+        return *this;
+    }
+    ~Array() {
+        if (data_)
+            release(data_, stream_);
+    }
+    std::size_t size() const { return size_; }
+    T* data() { return data_; }
+    const T* data() const { return data_; }
+
+  private:
+    void swap(Array& other) {
+        std::swap(data_, other.data_);
+        std::swap(size_, other.size_);
+        std::swap(stream_, other.stream_);
+    }
+    T* data_ = nullptr;
+    std::size_t size_ = 0;
+    Stream stream_;
+};
+
+template <class T> void upload(std::span<const T> from, Array<T>& to, Stream stream) {
+    upload(from, to.data(), stream);
+}
+
+/// Blocks of n_threads that make at least n threads.
+constexpr std::size_t blocks_for(std::size_t n, std::size_t n_threads) {
+    return (n + n_threads - 1) / n_threads;
+}
+
+} // namespace boxwood::cuda
