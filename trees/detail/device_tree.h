@@ -31,7 +31,7 @@ class DeviceTree {
     virtual DeviceArray<Neighbour> nearest(DeviceSpan<const Vec3<float>> points, std::size_t k) = 0;
 };
 
-/// What DeviceMeshBvh is: trees/cuda/device/mesh.cu.
+/// What DeviceMeshBvh is: trees/cuda/device/mesh.cuh.
 class DeviceMesh {
   public:
     using Corners = DeviceMeshBvh::Corners;

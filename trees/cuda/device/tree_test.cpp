@@ -43,7 +43,7 @@ class MemoryOfEach : public ::testing::TestWithParam<DeviceBuilder> {};
 INSTANTIATE_TEST_SUITE_P(Device, MemoryOfEach, ::testing::ValuesIn(builders));
 
 TEST_P(MemoryOfEach, ShortOfItPairsComeInParts) {
-    const std::vector<Box> boxes = random_boxes(700, .9f, 3), others = random_boxes(300, .9f, 4);
+    const std::vector<Box> boxes = random_boxes(400, .9f, 3), others = random_boxes(300, .9f, 4);
     const DeviceBvhOptions options{.builder = GetParam(), .place = {}};
     const DeviceBvh bvh(boxes, options), other(others, options);
     Parts whole, whole_of_two;

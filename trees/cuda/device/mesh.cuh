@@ -1,3 +1,8 @@
+#pragma once
+
+// The part of tree.cu that is DeviceMeshBvh: kernels that are no templates, of which a program must
+// have but one, are compiled in one source alone.
+
 #include "kernels/ray_triangle/moller_trumbore.h"
 #include "kernels/ray_triangle/watertight.h"
 #include "trees/cuda/builds/built_tree.cuh"
