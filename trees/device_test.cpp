@@ -18,7 +18,8 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-constexpr DeviceBuilder device_builders[] = {DeviceBuilder::hilbert, DeviceBuilder::lbvh};
+constexpr DeviceBuilder device_builders[] = {DeviceBuilder::hilbert, DeviceBuilder::lbvh,
+                                             DeviceBuilder::hploc};
 
 std::vector<Pair> sorted(std::vector<Pair> pairs) {
     std::ranges::sort(pairs);
@@ -44,7 +45,9 @@ class OnADevice : public ::testing::TestWithParam<DeviceBuilder> {
 };
 INSTANTIATE_TEST_SUITE_P(Device, OnADevice, ::testing::ValuesIn(device_builders),
                          [](const auto& test) {
-                             return test.param == DeviceBuilder::hilbert ? "hilbert" : "lbvh";
+                             return test.param == DeviceBuilder::hilbert ? "hilbert"
+                                    : test.param == DeviceBuilder::lbvh  ? "lbvh"
+                                                                         : "hploc";
                          });
 
 TEST_P(OnADevice, SelfPairsAreThoseOfBruteForce) {
@@ -53,6 +56,8 @@ TEST_P(OnADevice, SelfPairsAreThoseOfBruteForce) {
         families.push_back(
             {"random " + std::to_string(n), random_boxes(n, n > 1000 ? .05f : .2f, 5)});
     for (const BoxFamily& family : families) {
+        if (GetParam() == DeviceBuilder::hploc && family.boxes.size() > 5000)
+            continue; // the model of a device is slow
         SCOPED_TRACE(family.name);
         const std::vector<Pair> wanted = boxwood::brute_force(family.boxes);
         const DeviceBvh bvh(family.boxes, options());
@@ -142,6 +147,39 @@ TEST_P(OnADevice, OverflowIsCountedAndDoneAgain) {
     DeviceArray<Pair> room(100, DevicePlace{});
     EXPECT_EQ(bvh.self_pairs_into(room.span()), wanted.size());
     EXPECT_TRUE(std::ranges::includes(wanted, sorted(room.to_host())));
+}
+
+TEST_P(OnADevice, ARebuildMayBeEnqueuedAndCheckedLater) {
+    const std::vector<Box> boxes = random_boxes(500, .2f, 3), moved = random_boxes(500, .2f, 4);
+    DeviceArray<Box> own(std::span<const Box>(boxes), DevicePlace{});
+    DeviceBvh bvh(own.span(), options());
+    const std::vector<Pair> wanted = boxwood::brute_force(moved);
+    DeviceArray<Pair> room(wanted.size(), DevicePlace{});
+    DeviceArray<std::uint64_t> count(1, DevicePlace{});
+    own.write(moved);
+    bvh.enqueue_rebuild(own.span());
+    bvh.enqueue_self_pairs(room.span(), count.span().data);
+    bvh.check();
+    EXPECT_EQ(count.to_host()[0], wanted.size());
+    EXPECT_EQ(sorted(room.to_host()), wanted);
+
+    std::vector<Box> bad = boxes;
+    own.write(bad);
+    bvh.enqueue_update(own.span());
+    bvh.check();
+    EXPECT_EQ(sorted(bvh.self_pairs()), boxwood::brute_force(boxes));
+    bad[7].min.y = std::numeric_limits<float>::quiet_NaN();
+    own.write(bad);
+    for (const bool again : {false, true}) {
+        again ? bvh.enqueue_rebuild(own.span()) : bvh.enqueue_update(own.span());
+        bvh.enqueue_self_pairs(room.span(), count.span().data);
+        EXPECT_THROW(bvh.check(), InvalidBox);
+        EXPECT_EQ(bvh.size(), 0u);
+        bvh.enqueue_self_pairs(room.span(), count.span().data);
+        EXPECT_EQ(count.to_host()[0], 0u);
+        EXPECT_THROW(bvh.enqueue_update(own.span()), std::invalid_argument);
+        bvh.rebuild(boxes);
+    }
 }
 
 TEST_P(OnADevice, ASinkMayStop) {

@@ -35,9 +35,11 @@ inline void* allocate(std::size_t bytes, Stream) { return on_host::allocate(byte
 inline void release(void* memory, Stream) { on_host::release(memory); }
 
 template <class T> void upload(std::span<const T> from, T* to, Stream) {
+    on_host::waited();
     std::ranges::copy(from, to);
 }
 template <class T> void download(const T* from, std::span<T> to, Stream) {
+    on_host::waited();
     std::copy_n(from, to.size(), to.data());
 }
 
@@ -46,7 +48,7 @@ inline void fill_words(std::uint32_t* to, std::uint32_t word, std::size_t n, Str
 }
 
 /// Until all is done that was started before.
-inline void wait(Stream) {}
+inline void wait(Stream) { on_host::waited(); }
 
 #endif
 

@@ -293,6 +293,7 @@ namespace {
 
 constexpr std::size_t line = 64; ///< before each allocation stands its size
 std::uint64_t memory = std::uint64_t{1} << 36, taken = 0;
+Uncapturable counts;
 
 } // namespace
 
@@ -307,6 +308,7 @@ void* allocate(std::size_t bytes) {
         static_cast<std::byte*>(::operator new (bytes + line, std::align_val_t{line}));
     *reinterpret_cast<std::size_t*>(block) = bytes;
     taken += bytes;
+    ++counts.allocations;
     return block + line;
 }
 void release(void* at) {
@@ -314,6 +316,9 @@ void release(void* at) {
     taken -= *reinterpret_cast<std::size_t*>(block);
     ::operator delete (block, std::align_val_t{line});
 }
+
+Uncapturable uncapturable() { return counts; }
+void waited() { ++counts.waits; }
 
 std::uint64_t meet(Meeting meeting, unsigned mask, std::uint64_t value, unsigned from) {
     return Block::running->meet(meeting, mask, value, from);

@@ -48,6 +48,14 @@ std::uint64_t free_memory();
 void* allocate(std::size_t bytes);
 void release(void* memory);
 
+/// What no graph can capture: memory that was allocated, and what the host waited for or copied.
+struct Uncapturable {
+    std::uint64_t allocations = 0, waits = 0;
+    bool operator==(const Uncapturable&) const = default;
+};
+Uncapturable uncapturable();
+void waited();
+
 /// Lets other threads go first, now and then.
 void give_way();
 

@@ -8,23 +8,25 @@ namespace {
 /// By eight bits at a time.
 template <class Key>
 void sort(const Key* keys, Key* sorted_keys, const std::uint32_t* values,
-          std::uint32_t* sorted_values, std::size_t n, int low, int high, Stream stream) {
+          std::uint32_t* sorted_values, std::size_t n, int low, int high, Spare& spare,
+          Stream stream) {
     std::copy_n(keys, n, sorted_keys);
     std::copy_n(values, n, sorted_values);
-    Array<Key> from_keys(n, stream);
-    Array<std::uint32_t> from_values(n, stream);
+    make_room(spare, n * (sizeof(Key) + sizeof(std::uint32_t)), stream);
+    Key* const from_keys = reinterpret_cast<Key*>(spare.data());
+    auto* const from_values = reinterpret_cast<std::uint32_t*>(from_keys + n);
     for (; low < high; low += 8) {
         const Key mask = (Key{1} << std::min(high - low, 8)) - 1;
-        std::copy_n(sorted_keys, n, from_keys.data());
-        std::copy_n(sorted_values, n, from_values.data());
+        std::copy_n(sorted_keys, n, from_keys);
+        std::copy_n(sorted_values, n, from_values);
         std::size_t at[257] = {};
         for (std::size_t i = 0; i < n; ++i)
-            ++at[(from_keys.data()[i] >> low & mask) + 1];
+            ++at[(from_keys[i] >> low & mask) + 1];
         std::partial_sum(at, at + 257, at);
         for (std::size_t i = 0; i < n; ++i) {
-            const std::size_t to = at[from_keys.data()[i] >> low & mask]++;
-            sorted_keys[to] = from_keys.data()[i];
-            sorted_values[to] = from_values.data()[i];
+            const std::size_t to = at[from_keys[i] >> low & mask]++;
+            sorted_keys[to] = from_keys[i];
+            sorted_values[to] = from_values[i];
         }
     }
 }
@@ -38,13 +40,13 @@ template <class Number> void sum(Number* at, std::size_t n) {
 
 void sort_by_bits(const std::uint32_t* keys, std::uint32_t* sorted_keys,
                   const std::uint32_t* values, std::uint32_t* sorted_values, std::size_t n, int low,
-                  int high, Spare&, Stream stream) {
-    sort(keys, sorted_keys, values, sorted_values, n, low, high, stream);
+                  int high, Spare& spare, Stream stream) {
+    sort(keys, sorted_keys, values, sorted_values, n, low, high, spare, stream);
 }
 void sort_by_bits(const std::uint64_t* keys, std::uint64_t* sorted_keys,
                   const std::uint32_t* values, std::uint32_t* sorted_values, std::size_t n, int low,
-                  int high, Spare&, Stream stream) {
-    sort(keys, sorted_keys, values, sorted_values, n, low, high, stream);
+                  int high, Spare& spare, Stream stream) {
+    sort(keys, sorted_keys, values, sorted_values, n, low, high, spare, stream);
 }
 
 void scan(std::uint32_t* at, std::size_t n, Spare&, Stream) { sum(at, n); }

@@ -5,10 +5,8 @@
 #include "trees/layouts/packed.h"
 #include "trees/layouts/quantised8.h"
 #include "trees/layouts/wide.h"
+#include "trees/traversals/ray_range.h"
 
-#include <algorithm>
-#include <cmath>
-#include <stdexcept>
 #include <type_traits>
 
 namespace boxwood::detail {
@@ -35,15 +33,6 @@ constexpr std::uint32_t index(std::uint32_t ref) { return ref & ~(leaf | two); }
 template <class L>
 using RayNodeOf =
     std::conditional_t<std::is_same_v<L, Quantised8Layout>, QuantisedBlock, RayNode<L::width>>;
-
-/// Refuses triangles beyond the range of the kernels. bounds: of all of them, not empty.
-inline void require_ray_range(const Box& bounds) {
-    for (int axis = 0; axis < 3; ++axis)
-        if (!(std::max(std::abs(bounds.min[axis]), std::abs(bounds.max[axis])) <
-              max_ray_coordinate))
-            throw std::invalid_argument("rays: the mesh has a coordinate that is not below 2^126 "
-                                        "(8.5e37) in size, the range of the ray kernels");
-}
 
 /// Leaves of four items and fewer are tested four at a time.
 template <class Node> inline constexpr std::size_t ray_lanes = Node::width == 4 ? 4 : 8;

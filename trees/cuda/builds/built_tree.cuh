@@ -68,6 +68,8 @@ class BuiltTree {
     const PackedView& packed() const { return packed_; }
     const RadixTreeView& radix() const { return radix_; }
     const BinaryView& hploc() const { return hploc_; }
+    /// Of hploc: find_parents.
+    const std::uint32_t* parents() const { return parents_.data(); }
     const Wide8View& wide8() const { return wide8_.view; }
     /// Of all items; packed and wide8 alone.
     const Box* bounds() const { return &state_.data()->bounds; }

@@ -2,7 +2,7 @@
 
 // The device's side of launch.h; for nvcc alone.
 
-#include "trees/device.h"
+#include "trees/device_memory.h"
 
 #include <cstddef>
 #include <cstdint>

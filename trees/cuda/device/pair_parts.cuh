@@ -1,22 +1,12 @@
 #pragma once
 
+#include "trees/cuda/queries/binary_pairs.cuh"
 #include "trees/cuda/queries/packed_pairs.cuh"
 
 #include <algorithm>
 #include <vector>
 
 namespace boxwood::cuda {
-
-/// packed_pairs for the leaves [first, end) of `a` alone.
-template <bool is_self>
-__global__ void packed_pairs_of(PackedView a, PackedView b, PairsTo to, std::uint32_t first,
-                                std::uint32_t end) {
-    __shared__ std::uint32_t stacks[pair_warps][pair_stack];
-    const unsigned warp = threadIdx.x / 32;
-    const std::uint32_t leaf = first + blockIdx.x * pair_warps + warp;
-    if (leaf < end) // all lanes of the warp or none
-        LeafPairs<is_self, Pass::fill>(a, b, to, leaf, stacks[warp]).run();
-}
 
 __global__ void subtract(std::uint64_t* from, std::uint64_t what, std::size_t n) {
     const std::size_t i = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
@@ -43,15 +33,35 @@ inline std::vector<PairPart> cut_into_parts(std::span<const std::uint64_t> at, s
     return parts;
 }
 
-/// The pairs of one part, into an array of that many. at[leaf] of its leaves is changed.
+/// The pairs of the leaves of one part, each from its place on.
 template <bool is_self>
-void fill_part(const PackedView& a, const PackedView& b, const PairPart& part, std::uint64_t* at,
-               Pair* pairs, Stream stream) {
+void fill_leaves(const PackedView& a, const PackedView& b, const PairsTo& to, const PairPart& part,
+                 Stream stream) {
+    launch(stream, blocks_for(part.end_leaf - part.first_leaf, pair_warps), pair_threads,
+           packed_pairs<is_self, Pass::fill>, a, b, to, part.first_leaf, part.end_leaf);
+}
+template <bool is_self>
+void fill_leaves(const RadixTreeView& a, const RadixTreeView& b, const PairsTo& to,
+                 const PairPart& part, Stream stream) {
+    launch(stream, blocks_for(part.end_leaf - part.first_leaf, radix_threads), radix_threads,
+           radix_pairs<is_self, Pass::fill, Walk::stack>, a, b, to, part.first_leaf, part.end_leaf);
+}
+template <bool is_self>
+void fill_leaves(const BinaryTree& a, const BinaryTree& b, const PairsTo& to, const PairPart& part,
+                 Stream stream) {
+    launch(stream, blocks_for(part.end_leaf - part.first_leaf, radix_threads), radix_threads,
+           binary_pairs<is_self, Pass::fill>, a, b, to, part.first_leaf, part.end_leaf);
+}
+
+/// The pairs of one part, into an array of that many. at[leaf] of its leaves is changed.
+template <bool is_self, class View>
+void fill_part(const View& a, const View& b, const PairPart& part, std::uint64_t* at, Pair* pairs,
+               Stream stream) {
     const std::size_t n = part.end_leaf - part.first_leaf;
-    launch(stream, blocks_for(n, pair_threads), pair_threads, subtract, at + part.first_leaf,
-           part.first_pair, n);
-    launch(stream, blocks_for(n, pair_warps), pair_threads, packed_pairs_of<is_self>, a, b,
-           PairsTo{at, pairs, 0}, part.first_leaf, part.end_leaf);
+    if (part.first_pair > 0)
+        launch(stream, blocks_for(n, pair_threads), pair_threads, subtract, at + part.first_leaf,
+               part.first_pair, n);
+    fill_leaves<is_self>(a, b, PairsTo{at, pairs, 0}, part, stream);
 }
 
 } // namespace boxwood::cuda

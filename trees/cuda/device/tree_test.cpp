@@ -3,8 +3,11 @@
 #include "trees/cuda/device/machine.h"
 #include "trees/cuda/device/machine_on_host.h"
 #include "trees/cuda/device/pair_parts.cuh"
+#include "trees/device.h"
 #include "trees/testing/box_families.h"
 #include "trees/testing/brute_force.h"
+#include "trees/testing/ray_scenes.h"
+#include "trees/testing/triangle_soup.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -33,16 +36,23 @@ struct Parts final : PairSink {
     void end() override {}
 };
 
-TEST(MemoryOfADevice, ShortOfItPairsComeInParts) {
-    const std::vector<Box> boxes = random_boxes(1500, .4f, 3), others = random_boxes(400, .2f, 4);
-    const DeviceBvh bvh(boxes), other(others);
+constexpr DeviceBuilder builders[] = {DeviceBuilder::hilbert, DeviceBuilder::lbvh,
+                                      DeviceBuilder::hploc};
+
+class MemoryOfEach : public ::testing::TestWithParam<DeviceBuilder> {};
+INSTANTIATE_TEST_SUITE_P(Device, MemoryOfEach, ::testing::ValuesIn(builders));
+
+TEST_P(MemoryOfEach, ShortOfItPairsComeInParts) {
+    const std::vector<Box> boxes = random_boxes(400, .9f, 3), others = random_boxes(300, .9f, 4);
+    const DeviceBvhOptions options{.builder = GetParam(), .place = {}};
+    const DeviceBvh bvh(boxes, options), other(others, options);
     Parts whole, whole_of_two;
     bvh.self_pairs(whole);
     bvh.pairs(other, whole_of_two);
     EXPECT_EQ(whole.chunks, 1u);
     ASSERT_EQ(sorted(whole.pairs), brute_force(boxes));
     for (const std::uint64_t share : {2, 5, 9}) {
-        const FreeMemory free((1 << 16) + 4096 + whole.pairs.size() * sizeof(Pair) / share);
+        const FreeMemory free((1 << 16) + 9 * 1024 + whole.pairs.size() * sizeof(Pair) / share);
         Parts parts, parts_of_two;
         bvh.self_pairs(parts);
         bvh.pairs(other, parts_of_two);
@@ -54,29 +64,97 @@ TEST(MemoryOfADevice, ShortOfItPairsComeInParts) {
     }
 }
 
-/// A Fault of the model would say that something was allocated for which nobody had looked.
-TEST(MemoryOfADevice, IsKnownBeforeAnythingStarts) {
-    const std::vector<Box> boxes = random_boxes(300, .3f, 3);
-    const std::vector<Pair> wanted = brute_force(boxes);
-    for (const DeviceBuilder builder : {DeviceBuilder::hilbert, DeviceBuilder::lbvh}) {
-        std::size_t refused = 0, answered = 0;
-        for (std::uint64_t bytes = 0; bytes < 250'000; bytes += 7'919) {
-            const FreeMemory free(bytes);
-            try {
-                const DeviceBvh bvh(boxes, {.builder = builder, .place = {}});
-                ASSERT_EQ(sorted(bvh.self_pairs()), wanted);
-                ASSERT_EQ(bvh.self_pairs_on_device().size(), wanted.size());
-                ++answered;
-            } catch (const DeviceOutOfMemory& error) {
-                EXPECT_GT(error.needed, error.free);
-                EXPECT_LE(error.free, bytes);
-                EXPECT_THAT(error.what(), HasSubstr("of the device's memory"));
-                ++refused;
-            }
+/// Tries all sizes of the memory. A Fault of the model would say that something was allocated for
+/// which nobody had looked.
+template <class Try> void expect_known_before(std::uint64_t up_to, const Try& attempt) {
+    std::size_t refused = 0, answered = 0;
+    for (std::uint64_t bytes = 0; bytes < up_to; bytes += up_to / 15) {
+        const FreeMemory free(bytes);
+        try {
+            attempt();
+            ++answered;
+        } catch (const DeviceOutOfMemory& error) {
+            EXPECT_GT(error.needed, error.free);
+            EXPECT_LE(error.free, bytes);
+            EXPECT_THAT(error.what(), HasSubstr("of the device's memory"));
+            ++refused;
         }
-        EXPECT_GT(refused, 10u);
-        EXPECT_GT(answered, 10u);
     }
+    EXPECT_GT(refused, 1u);
+    EXPECT_GT(answered, 1u);
+}
+
+TEST_P(MemoryOfEach, IsKnownBeforeAnythingStarts) {
+    const std::vector<Box> boxes = random_boxes(100, .3f, 3), regions = random_boxes(20, .3f, 4);
+    const std::vector<Pair> wanted = brute_force(boxes);
+    const DeviceBvhOptions options{.builder = GetParam(), .place = {}};
+    expect_known_before(150'000, [&] {
+        const DeviceBvh bvh(boxes, options);
+        ASSERT_EQ(sorted(bvh.self_pairs()), wanted);
+        ASSERT_EQ(bvh.self_pairs_on_device().size(), wanted.size());
+    });
+
+    DeviceBvh bvh(boxes, options);
+    const std::vector<std::uint32_t> in_regions = bvh.overlapping(regions).of;
+    expect_known_before(150'000, [&] { ASSERT_EQ(bvh.overlapping(regions).of, in_regions); });
+    EXPECT_EQ(bvh.size(), 100u);
+
+    std::size_t emptied = 0; // by what there was no memory for
+    const std::vector<Box> more = random_boxes(400, .1f, 5);
+    for (std::uint64_t bytes = 0; bytes < 80'000; bytes += 20'000) {
+        bvh.rebuild(boxes);
+        try {
+            const FreeMemory free(bytes);
+            bvh.update(more);
+        } catch (const DeviceOutOfMemory&) {
+            EXPECT_EQ(bvh.size(), 0u);
+            EXPECT_EQ(bvh.self_pair_count(), 0u);
+            ++emptied;
+        }
+    }
+    EXPECT_GT(emptied, 1u);
+    bvh.update(boxes);
+    EXPECT_EQ(sorted(bvh.self_pairs()), wanted);
+}
+
+TEST_P(MemoryOfEach, OfAMeshIsKnownToo) {
+    const TriangleMesh mesh = triangle_soup(60);
+    const std::vector<Ray<float>> all = test_rays(), rays(all.begin(), all.begin() + 20);
+    const DeviceMeshBvhOptions options{.builder = GetParam(), .sort_rays = true};
+    DeviceMeshBvh bvh(mesh, options);
+    const std::vector<RayHit> wanted = bvh.closest_hits(rays);
+    expect_known_before(150'000, [&] {
+        const DeviceMeshBvh made(mesh, options);
+        ASSERT_EQ(made.closest_hits(rays), wanted);
+    });
+    expect_known_before(140'000, [&] {
+        if (GetParam() != DeviceBuilder::hilbert)
+            bvh.all_hits(rays);
+        ASSERT_EQ(bvh.closest_hits(rays), wanted);
+    });
+    expect_known_before(4'000, [&] { bvh.update(mesh.vertices); });
+    EXPECT_EQ(bvh.closest_hits(rays), wanted); // an update without memory changes nothing
+}
+
+TEST_P(MemoryOfEach, NoneIsAllocatedWhereAGraphMayCapture) {
+    const std::vector<Box> boxes = random_boxes(300, .2f, 3);
+    const DeviceArray<Box> there(std::span<const Box>(boxes), DevicePlace{});
+    DeviceArray<Pair> room(100, DevicePlace{});
+    DeviceArray<std::uint64_t> count(1, DevicePlace{});
+    DeviceBvh bvh(there.span(), {.builder = GetParam(), .place = {}});
+    const on_host::Uncapturable before = on_host::uncapturable();
+    for (int frame = 0; frame < 3; ++frame) {
+        bvh.enqueue_rebuild(there.span());
+        bvh.enqueue_self_pairs(room.span(), count.span().data);
+        bvh.enqueue_update(there.span());
+    }
+    EXPECT_EQ(on_host::uncapturable(), before);
+    bvh.check();
+    EXPECT_GT(on_host::uncapturable().waits, before.waits);
+    EXPECT_EQ(count.to_host()[0], brute_force(boxes).size());
+    const std::uint64_t allocations = on_host::uncapturable().allocations;
+    bvh.rebuild(there.span());
+    EXPECT_EQ(on_host::uncapturable().allocations, allocations);
 }
 
 TEST(MemoryOfADevice, GoesBack) {

@@ -1,6 +1,7 @@
 // What a program has that was built without nvcc.
 
 #include "trees/detail/device_tree.h"
+#include "trees/device.h"
 
 namespace boxwood {
 
@@ -25,6 +26,7 @@ void DeviceMemory::write(const void*, std::size_t) {}
 void DeviceMemory::read(void*, std::size_t) const {}
 
 std::unique_ptr<DeviceTree> make_device_tree(const DeviceBvhOptions&) { none(); }
+std::unique_ptr<DeviceMesh> make_device_mesh(const DeviceMeshBvhOptions&) { none(); }
 
 } // namespace detail
 } // namespace boxwood

@@ -49,13 +49,14 @@ template <bool is_self, Pass pass> class LeafPairs {
     WarpAnswers<pass, Pair> answers_;
 };
 
-/// A warp per leaf of `a`.
+/// A warp per leaf of `a`, of those from `first` on to `end`.
 template <bool is_self, Pass pass>
-__global__ void packed_pairs(PackedView a, PackedView b, PairsTo to) {
+__global__ void packed_pairs(PackedView a, PackedView b, PairsTo to, std::uint32_t first,
+                             std::uint32_t end) {
     __shared__ std::uint32_t stacks[pair_warps][pair_stack];
     const unsigned warp = threadIdx.x / 32;
-    const std::uint32_t leaf = blockIdx.x * pair_warps + warp;
-    if (leaf < a.leaves()) // all lanes of the warp or none
+    const std::uint32_t leaf = first + blockIdx.x * pair_warps + warp;
+    if (leaf < end) // all lanes of the warp or none
         LeafPairs<is_self, pass>(a, b, to, leaf, stacks[warp]).run();
 }
 
@@ -64,7 +65,7 @@ template <bool is_self, Pass pass>
 void find_packed_pairs(const PackedView& a, const PackedView& b, const PairsTo& to, Stream stream) {
     if (a.n > 0 && b.n > 0)
         launch(stream, blocks_for(a.leaves(), pair_warps), pair_threads,
-               packed_pairs<is_self, pass>, a, b, to);
+               packed_pairs<is_self, pass>, a, b, to, 0u, a.leaves());
 }
 
 } // namespace boxwood::cuda

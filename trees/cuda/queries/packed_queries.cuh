@@ -9,9 +9,12 @@
 
 namespace boxwood::cuda {
 
+/// Fewer queries than these are cut into parts.
+constexpr std::uint32_t enough_warps = 1024;
+
 /// The highest level of which there are enough blocks for so many warps to have work.
 inline unsigned level_of_parts(const PackedView& tree, std::uint32_t n_queries,
-                               std::uint32_t n_warps = 1024) {
+                               std::uint32_t n_warps = enough_warps) {
     unsigned level = tree.depth > 0 ? tree.depth - 1 : 0;
     while (level > 1 && std::uint64_t{tree.size(level)} * n_queries < n_warps)
         --level;

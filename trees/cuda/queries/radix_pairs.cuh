@@ -45,13 +45,11 @@ __device__ void walk_radix_tree(const RadixTreeView& tree, std::uint32_t at, std
     }
 }
 
-/// A thread per leaf of `a`. Within one tree (is_self) it meets the leaves after its own: from the
-/// right child of its own node on, by ropes.
+/// One leaf of `a`. Within one tree (is_self) it meets the leaves after its own: from the right
+/// child of its own node on, by ropes.
 template <bool is_self, Pass pass, Walk walk>
-__global__ void radix_pairs(RadixTreeView a, RadixTreeView b, PairsTo to) {
-    const std::uint32_t slot = blockIdx.x * blockDim.x + threadIdx.x;
-    if (slot >= a.n)
-        return;
+__device__ void radix_pairs_of(const RadixTreeView& a, const RadixTreeView& b, const PairsTo& to,
+                               std::uint32_t slot) {
     ThreadAnswers<pass, Pair> answers(to, slot);
     const Box box = a.leaves[slot];
     if (!is_self || slot + 1 < a.n)
@@ -64,12 +62,21 @@ __global__ void radix_pairs(RadixTreeView a, RadixTreeView b, PairsTo to) {
     answers.finish();
 }
 
+/// A thread per leaf of `a`, of those from `first` on to `end`.
+template <bool is_self, Pass pass, Walk walk>
+__global__ void radix_pairs(RadixTreeView a, RadixTreeView b, PairsTo to, std::uint32_t first,
+                            std::uint32_t end) {
+    const std::uint32_t slot = first + blockIdx.x * blockDim.x + threadIdx.x;
+    if (slot < end)
+        radix_pairs_of<is_self, pass, walk>(a, b, to, slot);
+}
+
 template <bool is_self, Pass pass, Walk walk>
 void find_radix_pairs(const RadixTreeView& a, const RadixTreeView& b, const PairsTo& to,
                       Stream stream) {
     if (a.n > 0 && b.n > 0)
         launch(stream, blocks_for(a.n, radix_threads), radix_threads,
-               radix_pairs<is_self, pass, walk>, a, b, to);
+               radix_pairs<is_self, pass, walk>, a, b, to, 0u, a.n);
 }
 
 } // namespace boxwood::cuda

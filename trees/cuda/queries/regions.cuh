@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/primitives/sphere.h"
-#include "trees/cuda/queries/radix_pairs.cuh"
+#include "trees/cuda/queries/binary_pairs.cuh"
 #include "trees/cuda/queries/sorted_answers.cuh"
 #include "trees/queries/box_distance.h"
 
@@ -59,29 +59,41 @@ __device__ RegionAnswer<pass> region_answer(std::uint32_t query, std::uint32_t i
         return item;
 }
 
+/// All of a tree.
+template <class Admits, class Visit>
+__device__ void walk_tree(const RadixTreeView& tree, const Admits& admits, const Visit& visit) {
+    walk_radix_tree<Walk::stack>(tree, *tree.root, tree.n, admits, visit);
+}
+template <class Admits, class Visit>
+__device__ void walk_tree(const BinaryTree& tree, const Admits& admits, const Visit& visit) {
+    walk_binary_tree(tree, *tree.view.root, admits, visit);
+}
+BOXWOOD_BOTH inline const RadixTreeView& view_of(const RadixTreeView& tree) { return tree; }
+BOXWOOD_BOTH inline const BinaryView& view_of(const BinaryTree& tree) { return tree.view; }
+
 /// A thread per point, box or ball.
-template <Pass pass, class Region>
-__global__ void radix_regions(RadixTreeView tree, const Region* regions, std::uint32_t n,
-                              AnswersTo<RegionAnswer<pass>> to) {
+template <class Tree, Pass pass, class Region>
+__global__ void regions_of(Tree tree, const Region* regions, std::uint32_t n,
+                           AnswersTo<RegionAnswer<pass>> to) {
     const std::uint32_t query = blockIdx.x * blockDim.x + threadIdx.x;
     if (query >= n)
         return;
     ThreadAnswers<pass, RegionAnswer<pass>> answers(to, query);
     const Region region = regions[query];
-    if (tree.n > 0 && holds_any(region))
-        walk_radix_tree<Walk::stack>(
-            tree, *tree.root, tree.n, admits_of(region),
-            [&](std::uint32_t slot) { answers.add(region_answer<pass>(query, tree.items[slot])); });
+    if (view_of(tree).n > 0 && holds_any(region))
+        walk_tree(tree, admits_of(region), [&](std::uint32_t slot) {
+            answers.add(region_answer<pass>(query, view_of(tree).items[slot]));
+        });
     answers.finish();
 }
 
 /// The items whose boxes share a point with each region. sort_answers puts them into the order of
-/// the CPU.
-template <Pass pass, class Region>
-void find_in_regions(const RadixTreeView& tree, const Region* regions, std::uint32_t n,
+/// the CPU. Tree: RadixTreeView or BinaryTree.
+template <Pass pass, class Tree, class Region>
+void find_in_regions(const Tree& tree, const Region* regions, std::uint32_t n,
                      const AnswersTo<RegionAnswer<pass>>& to, Stream stream) {
-    launch(stream, blocks_for(n, radix_threads), radix_threads, radix_regions<pass, Region>, tree,
-           regions, n, to);
+    launch(stream, blocks_for(n, radix_threads), radix_threads, regions_of<Tree, pass, Region>,
+           tree, regions, n, to);
 }
 
 } // namespace boxwood::cuda

@@ -1,18 +1,11 @@
-#include "trees/device.h"
+#include "trees/device_bvh.h"
 
 #include "trees/detail/device_tree.h"
 
-#include <algorithm>
-#include <cstdio>
+#include <stdexcept>
 
 namespace boxwood {
 namespace {
-
-std::string in_gb(std::uint64_t bytes) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g GB", static_cast<double>(bytes) * 1e-9);
-    return text;
-}
 
 void require_same_kind(const DeviceBvhOptions& a, const DeviceBvhOptions& b) {
     if (a.builder != b.builder || a.place.index != b.place.index ||
@@ -22,12 +15,6 @@ void require_same_kind(const DeviceBvhOptions& a, const DeviceBvhOptions& b) {
 }
 
 } // namespace
-
-DeviceOutOfMemory::DeviceOutOfMemory(const std::string& what, std::uint64_t needed_,
-                                     std::uint64_t free_)
-    : DeviceError(what + " needs " + in_gb(needed_) + " of the device's memory, and " +
-                  in_gb(free_) + " are free"),
-      needed(needed_), free(free_) {}
 
 DeviceBvh::DeviceBvh(Boxes boxes, const DeviceBvhOptions& options)
     : options_(options), tree_(detail::make_device_tree(options)) {
@@ -56,12 +43,13 @@ void DeviceBvh::update(DeviceSpan<const Box> boxes) {
     own_ = {};
 }
 void DeviceBvh::rebuild(Boxes boxes) {
-    if (own_.size() != boxes.size())
-        own_ = {}; // not both at the same time
-    if (own_.size() == boxes.size())
-        own_.write(boxes);
-    else
+    if (own_.size() != boxes.size()) {
+        tree_->build({}); // which may be of them
+        own_ = {};        // not both at the same time
         own_ = DeviceArray<Box>(boxes, options_.place);
+    } else {
+        own_.write(boxes);
+    }
     tree_->build(own_.span());
 }
 void DeviceBvh::rebuild(DeviceSpan<const Box> boxes) {
@@ -69,13 +57,28 @@ void DeviceBvh::rebuild(DeviceSpan<const Box> boxes) {
     own_ = {};
 }
 
+void DeviceBvh::enqueue_rebuild(DeviceSpan<const Box> boxes) { tree_->enqueue_build(boxes); }
+void DeviceBvh::enqueue_update(DeviceSpan<const Box> boxes) {
+    if (boxes.size != size())
+        throw std::invalid_argument("enqueue_update of " + std::to_string(boxes.size) +
+                                    " boxes, where there are " + std::to_string(size()) +
+                                    ": rebuild first");
+    tree_->enqueue_refit(boxes);
+}
+void DeviceBvh::check() { tree_->check(); }
+
 std::uint64_t DeviceBvh::self_pair_count() const { return tree_->count_pairs(*tree_); }
 std::vector<Pair> DeviceBvh::self_pairs() const { return pairs(*this); }
 void DeviceBvh::self_pairs(PairSink& sink) const { tree_->pairs(*tree_, sink); }
 DeviceArray<Pair> DeviceBvh::self_pairs_on_device() const { return tree_->pairs(*tree_); }
 
 std::uint64_t DeviceBvh::self_pairs_into(DeviceSpan<Pair> room) const {
-    return last_pairs_ = tree_->self_pairs_into(room);
+    DeviceArray<std::uint64_t> count(1, options_.place);
+    enqueue_self_pairs(room, count.span().data);
+    return last_pairs_ = count.to_host()[0];
+}
+void DeviceBvh::enqueue_self_pairs(DeviceSpan<Pair> room, std::uint64_t* count) const {
+    tree_->enqueue_self_pairs(room, count);
 }
 DeviceArray<Pair> DeviceBvh::unordered_self_pairs() const {
     DeviceArray<Pair> found(last_pairs_ + last_pairs_ / 8, options_.place);
@@ -106,6 +109,27 @@ void DeviceBvh::pairs(const DeviceBvh& other, PairSink& sink) const {
 DeviceArray<Pair> DeviceBvh::pairs_on_device(const DeviceBvh& other) const {
     require_same_kind(options_, other.options_);
     return tree_->pairs(*other.tree_);
+}
+
+AnswersOf<std::uint32_t> DeviceBvh::overlapping(Boxes boxes) const {
+    return overlapping(DeviceArray<Box>(boxes, options_.place).span()).to_host();
+}
+DeviceAnswersOf<std::uint32_t> DeviceBvh::overlapping(DeviceSpan<const Box> boxes) const {
+    return tree_->regions(boxes);
+}
+AnswersOf<std::uint32_t> DeviceBvh::containing(std::span<const Vec3<float>> points) const {
+    return containing(DeviceArray<Vec3<float>>(points, options_.place).span()).to_host();
+}
+DeviceAnswersOf<std::uint32_t> DeviceBvh::containing(DeviceSpan<const Vec3<float>> points) const {
+    return tree_->regions(points);
+}
+std::vector<Neighbour> DeviceBvh::nearest(std::span<const Vec3<float>> points,
+                                          std::size_t k) const {
+    return nearest(DeviceArray<Vec3<float>>(points, options_.place).span(), k).to_host();
+}
+DeviceArray<Neighbour> DeviceBvh::nearest(DeviceSpan<const Vec3<float>> points,
+                                          std::size_t k) const {
+    return tree_->nearest(points, k);
 }
 
 } // namespace boxwood

@@ -1,0 +1,22 @@
+#include "trees/device_memory.h"
+
+#include <cstdio>
+
+namespace boxwood {
+namespace {
+
+std::string in_gb(std::uint64_t bytes) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g GB", static_cast<double>(bytes) * 1e-9);
+    return text;
+}
+
+} // namespace
+
+DeviceOutOfMemory::DeviceOutOfMemory(const std::string& what, std::uint64_t needed_,
+                                     std::uint64_t free_)
+    : DeviceError(what + " needs " + in_gb(needed_) + " of the device's memory, and " +
+                  in_gb(free_) + " are free"),
+      needed(needed_), free(free_) {}
+
+} // namespace boxwood

@@ -1,0 +1,133 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace boxwood {
+
+/// What CUDA could not do: what, where, and how to fix it. After a fault in a kernel the process
+/// can use no device any more.
+class DeviceError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+/// Comes before anything was started that would need the memory.
+class DeviceOutOfMemory : public DeviceError {
+  public:
+    DeviceOutOfMemory(const std::string& what, std::uint64_t needed_, std::uint64_t free_);
+    std::uint64_t needed, free; ///< bytes
+};
+
+/// Elements in a device's memory, which the host must not read.
+template <class T> struct DeviceSpan {
+    T* data = nullptr;
+    std::size_t size = 0;
+
+    DeviceSpan() = default;
+    DeviceSpan(T* data_, std::size_t size_) : data(data_), size(size_) {}
+    template <class U>
+    requires std::is_same_v<const U, T> DeviceSpan(const DeviceSpan<U>& other)
+        : data(other.data), size(other.size) {}
+};
+
+/// Which device, and the stream in whose order it works: a cudaStream_t; null is the default
+/// stream.
+struct DevicePlace {
+    int index = 0;
+    void* stream = nullptr;
+};
+
+namespace detail {
+
+/// Bytes in a device's memory, owned.
+class DeviceMemory {
+  public:
+    DeviceMemory() = default;
+    /// Throws DeviceOutOfMemory.
+    DeviceMemory(std::size_t bytes, DevicePlace place);
+    DeviceMemory(DeviceMemory&& other) noexcept { *this = std::move(other); }
+    DeviceMemory& operator=(DeviceMemory&& other) noexcept {
+        std::swap(data_, other.data_);
+        std::swap(place_, other.place_);
+        return *this;
+    }
+    ~DeviceMemory();
+
+    void* data() const { return data_; }
+    DevicePlace place() const { return place_; }
+    /// In the order of the stream; `read` waits for it.
+    void write(const void* from, std::size_t bytes);
+    void read(void* to, std::size_t bytes) const;
+
+  private:
+    void* data_ = nullptr;
+    DevicePlace place_;
+};
+
+} // namespace detail
+
+/// An array in a device's memory, owned: answers that stay there.
+template <class T> class DeviceArray {
+  public:
+    DeviceArray() = default;
+    DeviceArray(std::size_t size, DevicePlace place)
+        : memory_(size * sizeof(T), place), size_(size) {}
+    DeviceArray(std::span<const T> from, DevicePlace place) : DeviceArray(from.size(), place) {
+        write(from);
+    }
+    DeviceArray(DeviceArray&& other) noexcept
+        : memory_(std::move(other.memory_)), size_(std::exchange(other.size_, 0)) {}
+    DeviceArray& operator=(DeviceArray&& other) noexcept {
+        memory_ = std::move(other.memory_);
+        size_ = std::exchange(other.size_, 0);
+        return *this;
+    }
+
+    std::size_t size() const { return size_; }
+    /// Forgets all but the first `size` elements; the memory stays.
+    void shrink(std::size_t size) { size_ = size < size_ ? size : size_; }
+    DeviceSpan<T> span() { return {static_cast<T*>(memory_.data()), size_}; }
+    DeviceSpan<const T> span() const { return {static_cast<const T*>(memory_.data()), size_}; }
+    /// Of as many elements; they are copied when it comes back.
+    void write(std::span<const T> from) { memory_.write(from.data(), from.size_bytes()); }
+    /// Waits until all is there.
+    std::vector<T> to_host() const {
+        std::vector<T> to(size_);
+        memory_.read(to.data(), size_ * sizeof(T));
+        return to;
+    }
+
+  private:
+    detail::DeviceMemory memory_;
+    std::size_t size_ = 0;
+};
+
+/// Answers to n queries: those to query i are of[offsets[i]] up to of[offsets[i + 1]].
+template <class T> struct AnswersOf {
+    std::vector<std::uint64_t> offsets; ///< n + 1
+    std::vector<T> of;
+
+    std::span<const T> operator[](std::size_t i) const {
+        return {of.data() + offsets[i], of.data() + offsets[i + 1]};
+    }
+};
+template <class T> struct DeviceAnswersOf {
+    DeviceArray<std::uint64_t> offsets;
+    DeviceArray<T> of;
+
+    AnswersOf<T> to_host() const { return {offsets.to_host(), of.to_host()}; }
+};
+
+/// By whom a tree is made on a device.
+enum class DeviceBuilder : std::uint8_t {
+    hilbert, ///< sixteen wide along a Hilbert curve: for pairs, and for few queries
+    lbvh,    ///< by the curve's codes
+    hploc    ///< by area: the best trees of these for rays
+};
+
+} // namespace boxwood
