@@ -33,6 +33,8 @@
     X(points_and_duplicates)                                                                       \
     X(tiny_triangles)                                                                              \
     X(mixed_scale)                                                                                 \
+    X(mixed_octaves)                                                                               \
+    X(coplanar_mixed_octaves)                                                                      \
     X(decimal_scale)                                                                               \
     X(far_from_origin)                                                                             \
     X(generic_rays)                                                                                \
