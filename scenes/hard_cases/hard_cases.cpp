@@ -61,6 +61,8 @@
     X(rotated_boxes)                                                                               \
     X(generic_vertex_face)                                                                         \
     X(generic_edge_edge)                                                                           \
+    X(just_missed_vertex_face)                                                                     \
+    X(just_missed_edge_edge)                                                                       \
     X(touch_at_ends_vertex_face)                                                                   \
     X(touch_at_ends_edge_edge)                                                                     \
     X(tangential_vertex_face)                                                                      \

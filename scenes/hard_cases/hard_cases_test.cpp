@@ -304,6 +304,8 @@ TEST(HardCases, SameBitsOnEveryMachine) {
         {"generic_vertex_face", 15663117579615265513u},
         {"identical_boxes", 166524248530905804u},
         {"identical_triangles", 16527209336771045065u},
+        {"just_missed_edge_edge", 2967329897493303545u},
+        {"just_missed_vertex_face", 16208733790047712397u},
         {"kissing_obbs", 15989349627344166478u},
         {"mixed_octaves", 9208019822047256614u},
         {"mixed_scale", 1633140109871199763u},

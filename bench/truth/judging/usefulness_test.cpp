@@ -15,8 +15,7 @@ namespace {
 
 template <class Answer>
 bool keeps_promise(const Scene& scene, std::string_view task, std::vector<Answer> said,
-                   Promise promise) {
-    ContenderEntry contender;
+                   Promise promise, ContenderEntry contender = {}) {
     contender.name = "made_up";
     contender.precision = "f64";
     contender.promise = promise;
@@ -89,6 +88,24 @@ TEST(GenericInput, TimesOfTouchAreNarrow) {
         if (impact.answer == Answer::yes)
             impact.t_free = 0;
     EXPECT_FALSE(keeps_promise(scene, "vertex_face", right.list, Promise::never_miss));
+}
+
+TEST(ProvenYes, IsTrue) {
+    LinearMotion apart;
+    apart.start = apart.end = {{{.25, .25, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+    MotionCases cases;
+    cases.motions = {{apart, Known::no}};
+    Scene scene;
+    scene.cases = cases;
+    ContenderEntry contender;
+    const auto is_kept = [&](Answer answer) {
+        return keeps_promise<Impact>(scene, "vertex_face", {{answer, 0, 1, 0}}, Promise::never_miss,
+                                     contender);
+    };
+    EXPECT_TRUE(is_kept(Answer::yes));
+    contender.yes_is_proven = true;
+    EXPECT_FALSE(is_kept(Answer::yes));
+    EXPECT_TRUE(is_kept(Answer::maybe));
 }
 
 /// At t = 1/3, which is no double: below it is the one double, above it the next.
