@@ -47,6 +47,7 @@
     X(ray_grazing)                                                                                 \
     X(ray_at_small_triangle)                                                                       \
     X(ray_limits)                                                                                  \
+    X(ray_at_exact_limits)                                                                         \
     X(generic_ray_boxes)                                                                           \
     X(signed_zero_directions)                                                                      \
     X(slab_corner_ties)                                                                            \

@@ -316,6 +316,7 @@ TEST(HardCases, SameBitsOnEveryMachine) {
         {"nested_boxes", 11455204694651997210u},
         {"parallel_planes", 7792759023748694236u},
         {"points_and_duplicates", 14739447872043792707u},
+        {"ray_at_exact_limits", 13043602662155776702u},
         {"ray_at_small_triangle", 11719283786879805816u},
         {"ray_box_limits", 13342151799344829598u},
         {"ray_grazing", 1887266763017988345u},

@@ -26,7 +26,8 @@
 /// says that a yes is proven), never-false no, certified may say maybe and must enclose a distance,
 /// within the width it states, or a first touch. What exact encloses lies between neighbouring
 /// doubles; of exact kernels of rays t must be within 0.63 ulp, u and v within 2^-23, and the
-/// triangle one that is hit there.
+/// triangle one that is hit there. A tree's nearest hit is that of its kernel without a tree, bit
+/// for bit, and of several triangles at one t the lowest.
 namespace boxwood::bench {
 
 /// What the truths of cases are made from. The scene outlives them; its cases are of their kind.
