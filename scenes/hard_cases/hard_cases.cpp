@@ -58,6 +58,7 @@
     X(touching_grid)                                                                               \
     X(generic_obbs)                                                                                \
     X(kissing_obbs)                                                                                \
+    X(touching_obbs)                                                                               \
     X(thin_obbs)                                                                                   \
     X(rotated_boxes)                                                                               \
     X(generic_vertex_face)                                                                         \

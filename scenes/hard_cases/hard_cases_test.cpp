@@ -344,6 +344,7 @@ TEST(HardCases, SameBitsOnEveryMachine) {
         {"touch_at_ends_edge_edge", 17577255713270965494u},
         {"touch_at_ends_vertex_face", 4598375060173480386u},
         {"touching_grid", 3945129846426064690u},
+        {"touching_obbs", 14753094336903607072u},
         {"translated_copies", 15475234883056201220u},
         {"vertex_on_face", 17310629619823478778u},
         {"within_one_ulp", 14217011064419124121u},
