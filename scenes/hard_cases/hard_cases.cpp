@@ -65,6 +65,8 @@
     X(generic_edge_edge)                                                                           \
     X(just_missed_vertex_face)                                                                     \
     X(just_missed_edge_edge)                                                                       \
+    X(small_integers_vertex_face)                                                                  \
+    X(small_integers_edge_edge)                                                                    \
     X(touch_at_ends_vertex_face)                                                                   \
     X(touch_at_ends_edge_edge)                                                                     \
     X(tangential_vertex_face)                                                                      \
