@@ -42,6 +42,7 @@
     X(ray_through_vertex)                                                                          \
     X(ray_in_mesh)                                                                                 \
     X(ray_in_stretched_mesh)                                                                       \
+    X(ray_in_far_mesh)                                                                             \
     X(ray_through_mesh)                                                                            \
     X(ray_in_plane)                                                                                \
     X(ray_grazing)                                                                                 \

@@ -320,6 +320,7 @@ TEST(HardCases, SameBitsOnEveryMachine) {
         {"ray_at_small_triangle", 11719283786879805816u},
         {"ray_box_limits", 13342151799344829598u},
         {"ray_grazing", 1887266763017988345u},
+        {"ray_in_far_mesh", 10008816360312439538u},
         {"ray_in_mesh", 14280089815169477378u},
         {"ray_in_plane", 2275906484095796451u},
         {"ray_in_stretched_mesh", 10115283102105447385u},
