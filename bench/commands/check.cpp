@@ -83,7 +83,8 @@ void add_check(CLI::App& app, int& exit_code) {
         "multiply every coordinate by 2^SCALE; if not given, 0 and both ends of the range");
     check->add_option("--case", options->one,
                       "only the case of this number: print it, the truth and each answer");
-    check->add_flag("--quick", options->is_quick, "fewer cases, one scale: some 15 s of one core");
+    check->add_flag("--quick", options->is_quick,
+                    "fewer cases, fewest at the extreme scales: some 15 s");
     check->add_option("--ccd", options->ccd,
                       "a folder of query files for the families that read files, such as data/ccd");
     check->footer(
