@@ -58,6 +58,8 @@ struct KernelInfo {
     /// Of certified distances: hi - lo is at most this part of hi, plus 2^-1073, an infinite hi
     /// taken as the largest double. 0: not promised.
     double relative_width = 0;
+    /// Of never-miss kernels that say maybe: a yes is true.
+    bool yes_is_proven = false;
 };
 
 /// What every kernel says of itself at compile time: its name, and its promise with the rest.

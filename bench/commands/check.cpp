@@ -83,15 +83,18 @@ void add_check(CLI::App& app, int& exit_code) {
         "multiply every coordinate by 2^SCALE; if not given, 0 and both ends of the range");
     check->add_option("--case", options->one,
                       "only the case of this number: print it, the truth and each answer");
-    check->add_flag("--quick", options->is_quick, "fewer cases, one scale: some 15 s of one core");
+    check->add_flag("--quick", options->is_quick,
+                    "fewer cases, fewest at the extreme scales: some 15 s");
     check->add_option("--ccd", options->ccd,
                       "a folder of query files for the families that read files, such as data/ccd");
     check->footer(
         "A promise is what a kernel states in `boxwood list kernels`: never-leaks (rays from\n"
         "inside closed meshes hit, in trees of every layout too), never-miss (no false no),\n"
         "never-false (no false yes), certified (sure answers and bounds hold), exact (of rays t,\n"
-        "u, v and the triangle too). All hits of a ray are those of its kernel without a tree,\n"
-        "each once, by t. Each family is judged at its default k; the truth comes by construction\n"
+        "u, v and the triangle too). In trees of every layout the nearest hit of a ray is that of\n"
+        "its kernel without a tree, the lowest of several triangles; all hits are those of the\n"
+        "kernel, each once, by t. Each family is judged at its default k; the truth comes by "
+        "construction\n"
         "or from rational arithmetic.\n"
         "A broken promise is printed with its case in hex floats and the command that replays it.\n"
         "Peers and kernels without a promise are judged on the same cases, and may err.\n\n"

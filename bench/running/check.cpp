@@ -19,6 +19,9 @@ namespace {
 
 unsigned all_cores() { return std::max(1u, std::thread::hardware_concurrency()); }
 
+/// A quick check takes the ends of the range of scales with fewer cases.
+std::size_t n_of_quick_extremes(std::size_t n) { return (n + 9) / 10; }
+
 std::string address(std::string_view family, const Task& task, const std::string& contender) {
     return fmt::format("{}/{}/{}", family, task.name(), contender);
 }
@@ -89,12 +92,14 @@ std::vector<SceneSpec> check_scenes(const CheckOptions& options) {
             spec.file = options.ccd;
         const int middle = std::clamp(0, family.scale_min, family.scale_max);
         std::set<int> scales{options.scale.value_or(middle)};
-        if (!options.scale && !options.is_quick)
+        if (!options.scale)
             scales.insert({family.scale_min, family.scale_max});
         const bool has_k = !options.k || (!family.k_meaning.empty() && *options.k >= family.k_min &&
                                           *options.k <= family.k_max);
         for (const int scale : scales) {
             spec.scale = scale;
+            const bool is_extreme = !options.scale && scale != middle;
+            spec.n = is_extreme && options.is_quick ? n_of_quick_extremes(options.n) : options.n;
             if (has_k && scale >= family.scale_min && scale <= family.scale_max)
                 scenes.push_back(spec);
         }

@@ -24,7 +24,7 @@ struct CheckOptions {
     std::optional<int> k, scale;    ///< else each family's default, and three scales
     std::optional<std::size_t> one; ///< judge this case alone
     std::filesystem::path ccd;      ///< for the families that read a file or folder
-    bool is_quick = false;          ///< few cases, one scale
+    bool is_quick = false;          ///< few cases, fewer at the extreme scales
 };
 
 /// Who is judged: ours and the peers that answer a task on cases.

@@ -282,7 +282,11 @@ TEST(CheckScenes, HoldTheEndsOfEveryFamilysScale) {
     EXPECT_EQ(scenes[1].scale, 0);
     EXPECT_EQ(scenes.back().scale, family.scale_max);
     options.is_quick = true;
-    EXPECT_EQ(check_scenes(options).size(), 1u);
+    const std::vector<SceneSpec> quick = check_scenes(options);
+    ASSERT_EQ(quick.size(), 3u);
+    EXPECT_EQ(quick[1].n, options.n);
+    EXPECT_LT(quick.front().n, options.n);
+    EXPECT_EQ(quick.front().n, quick.back().n);
     options.k = 5;
     options.scale = 7;
     ASSERT_EQ(check_scenes(options).size(), 1u);

@@ -107,6 +107,7 @@ struct ContenderEntry {
     std::string params_json = "{}";
     Promise promise = Promise::none; ///< ours, of a kernel
     double relative_width = 0;       ///< KernelInfo::relative_width
+    bool yes_is_proven = false;      ///< KernelInfo::yes_is_proven
 
     bool answers_task(std::string_view task) const;
     /// Nothing if it can do the job, else why not (recorded, not hidden). Of no scene (null) it

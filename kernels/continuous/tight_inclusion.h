@@ -28,13 +28,17 @@ struct TightInclusion {
         "36 u max|x| per axis on F, homogeneous of degree 1 (inclusion.h); a yes is proven, else "
         "maybe",
         "boxes of the motion, then about 100 ns per plane; 5 to 10 as a rule, 50 for a grazing "
-        "touch; 161 false alarms on 7,279 published queries, 155 of them misses by rounding"};
+        "touch; 161 false alarms on 7,279 published queries, 155 of them misses by rounding",
+        0,
+        true};
     static constexpr KernelInfo edge_edge_info{"edge_edge",
                                                name,
                                                vertex_face_info.summary,
                                                vertex_face_info.promise,
                                                vertex_face_info.bound,
-                                               vertex_face_info.cost};
+                                               vertex_face_info.cost,
+                                               0,
+                                               true};
 
     /// Relative: times the largest distance, along an axis, between a point of the one feature and
     /// one of the other during the motion. What is nearer than that is not halved further. Smaller

@@ -33,6 +33,8 @@
     X(points_and_duplicates)                                                                       \
     X(tiny_triangles)                                                                              \
     X(mixed_scale)                                                                                 \
+    X(mixed_octaves)                                                                               \
+    X(coplanar_mixed_octaves)                                                                      \
     X(decimal_scale)                                                                               \
     X(far_from_origin)                                                                             \
     X(generic_rays)                                                                                \
@@ -40,11 +42,13 @@
     X(ray_through_vertex)                                                                          \
     X(ray_in_mesh)                                                                                 \
     X(ray_in_stretched_mesh)                                                                       \
+    X(ray_in_far_mesh)                                                                             \
     X(ray_through_mesh)                                                                            \
     X(ray_in_plane)                                                                                \
     X(ray_grazing)                                                                                 \
     X(ray_at_small_triangle)                                                                       \
     X(ray_limits)                                                                                  \
+    X(ray_at_exact_limits)                                                                         \
     X(generic_ray_boxes)                                                                           \
     X(signed_zero_directions)                                                                      \
     X(slab_corner_ties)                                                                            \
@@ -55,10 +59,15 @@
     X(touching_grid)                                                                               \
     X(generic_obbs)                                                                                \
     X(kissing_obbs)                                                                                \
+    X(touching_obbs)                                                                               \
     X(thin_obbs)                                                                                   \
     X(rotated_boxes)                                                                               \
     X(generic_vertex_face)                                                                         \
     X(generic_edge_edge)                                                                           \
+    X(just_missed_vertex_face)                                                                     \
+    X(just_missed_edge_edge)                                                                       \
+    X(small_integers_vertex_face)                                                                  \
+    X(small_integers_edge_edge)                                                                    \
     X(touch_at_ends_vertex_face)                                                                   \
     X(touch_at_ends_edge_edge)                                                                     \
     X(tangential_vertex_face)                                                                      \

@@ -162,19 +162,25 @@ LatticeMotion coplanar_edge_edge(Draws& draws, std::int64_t size) {
     return motion;
 }
 
-/// With s = 2 t - 1 from -1 to 1: three points span a plane that rolls about the x axis by 4 A s
-/// over a length of 4 Y, while the fourth meets it at height A s + d and y = Y - B s. Their
-/// determinant is 4 A B s^2 + 4 Y d times an edge along x: a double root at t = 1/2 for d = 0, none
-/// for d = 1, and two near t = 1/2 for d = -1: B |s| <= sqrt(size) / 2 <= Y / 2 as size >= 64.
+/// With s from -p at t = 0 to q at t = 1: three points span a plane that rolls about the x axis by
+/// 4 A s over a length of 4 Y, while the fourth meets it at height A s + d and y = Y - B s. Their
+/// determinant is 4 A B s^2 + 4 Y d times an edge along x, which may grow, so that there is a third
+/// root: a double root at s = 0, t = p / (p + q), for d = 0, none for d = 1, and two simple ones
+/// near it, mostly irrational, for d = -1. There (B s)^2 = B Y / A <= Y^2 / 4, as A Y >= 4 B:
+/// A >= size / 6, Y >= size / 8, B <= size / 4 and size >= 64.
 struct Rolling {
-    std::int64_t a, b, y, lift;
+    std::int64_t a, b, y, lift, p, q, growth;
     Known touch;
 };
 Rolling draw_rolling(Draws& draws, std::int64_t size) {
     Rolling roll{};
-    roll.a = draw_integer(draws, size / 2, size);
+    roll.p = draw_integer(draws, 1, 3);
+    roll.q = draw_integer(draws, 1, 3);
+    const std::int64_t farther = std::max(roll.p, roll.q);
+    roll.a = draw_integer(draws, (size + 2 * farther - 1) / (2 * farther), size / farther);
     roll.b = draw_integer(draws, size / 8, size / 4);
     roll.y = draw_integer(draws, size / 8, size / 4);
+    roll.growth = draw_coin(draws) ? 0 : draw_integer(draws, 1, size / 6);
     roll.lift = draw_integer(draws, -1, 1);
     roll.touch = roll.lift == 1 ? Known::no : Known::yes;
     return roll;
@@ -187,9 +193,10 @@ LatticeMotion tangential_vertex_face(Draws& draws, std::int64_t size) {
     const std::int64_t width = 2 * x + draw_integer(draws, 0, size);
     const auto at = [&](std::int64_t s) {
         return LatticeFour{LatticePoint{x, r.y - r.b * s, r.a * s + r.lift}, LatticePoint{},
-                           LatticePoint{width, 0, 0}, LatticePoint{0, 4 * r.y, 4 * r.a * s}};
+                           LatticePoint{width + r.growth * (s + r.p), 0, 0},
+                           LatticePoint{0, 4 * r.y, 4 * r.a * s}};
     };
-    return {at(-1), at(1), r.touch};
+    return {at(-r.p), at(r.q), r.touch};
 }
 
 /// The first edge along the x axis; the second crosses it at a quarter of its length.
@@ -201,11 +208,11 @@ LatticeMotion tangential_edge_edge(Draws& draws, std::int64_t size) {
     const std::int64_t right = draw_integer(draws, size, 2 * size);
     const auto at = [&](std::int64_t s) {
         return LatticeFour{
-            LatticePoint{left, 0, 0}, LatticePoint{right, 0, 0},
+            LatticePoint{left, 0, 0}, LatticePoint{right + r.growth * (s + r.p), 0, 0},
             LatticePoint{x - imbalance, -r.y - r.b * s, -r.a * s + r.lift},
             LatticePoint{x + 3 * imbalance, 3 * r.y - r.b * s, 3 * r.a * s + r.lift}};
     };
-    return {at(-1), at(1), r.touch};
+    return {at(-r.p), at(r.q), r.touch};
 }
 
 } // namespace

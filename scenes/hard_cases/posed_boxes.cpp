@@ -2,6 +2,7 @@
 #include "scenes/hard_cases/rounded.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace boxwood {
 namespace {
@@ -62,6 +63,57 @@ ObbPairCase kissing(Draws& draws, int) {
     return {a, b};
 }
 
+/// The corner of a box that is farthest along n, its place along axis `along` (-1: none) by choice.
+Vec farthest(const Obb<double>& box, Vec n, int along, double place) {
+    Vec p = box.centre;
+    for (int k = 0; k < 3; ++k) {
+        const Vec axis = box.axis[static_cast<std::size_t>(k)];
+        p = p + (k == along ? place : std::copysign(box.half[k], dot(n, axis))) * axis;
+    }
+    return p;
+}
+
+/// Boxes of different poses that touch, up to rounding: edge on edge, or corner on face. Then the
+/// second is moved off or inwards, by up to 2^k ulp of 1. The axes are orthonormal up to rounding
+/// or, every other time, up to as much as they are moved by.
+ObbPairCase touching(Draws& draws, int k) {
+    Obb<double> a = draw_obb(draws), b = draw_obb(draws);
+    const auto moved_by = static_cast<int>(draw_integer(draws, 0, k)) - 52;
+    if (draw_coin(draws))
+        for (Obb<double>* box : {&a, &b})
+            for (Vec& axis : box->axis)
+                axis = axis + std::ldexp(1.0, moved_by) * draw_offset(draws);
+    a.centre = draw_offset(draws);
+    Vec n, on_a, on_b;
+    if (draw_coin(draws)) {
+        const auto i = draw_integer(draws, 0, 2), j = draw_integer(draws, 0, 2);
+        n = cross(a.axis[static_cast<std::size_t>(i)], b.axis[static_cast<std::size_t>(j)]);
+        const auto on_edge = [&](const Obb<double>& box, Vec away, std::int64_t edge) {
+            const auto along = static_cast<int>(edge);
+            return farthest(box, away, along, box.half[along] * draws.uniform(-1, 1));
+        };
+        on_a = on_edge(a, n, i);
+        on_b = on_edge(b, -n, j);
+    } else {
+        const auto face = static_cast<int>(draw_integer(draws, 0, 2));
+        n = cross(a.axis[static_cast<std::size_t>((face + 1) % 3)],
+                  a.axis[static_cast<std::size_t>((face + 2) % 3)]) *
+            (draw_coin(draws) ? 1.0 : -1.0);
+        on_a = farthest(a, n, -1, 0);
+        for (int i = 0; i < 3; ++i)
+            if (i != face)
+                on_a = on_a - draws.uniform(0, 2 * a.half[i]) *
+                                  std::copysign(1.0, dot(n, a.axis[static_cast<std::size_t>(i)])) *
+                                  a.axis[static_cast<std::size_t>(i)];
+        on_b = farthest(b, -n, -1, 0);
+    }
+    const double size = length(n);
+    if (size > 0)
+        n = n * (1 / size);
+    b.centre = on_a - on_b + std::ldexp(draws.uniform(-1, 1), moved_by) * n;
+    return draw_coin(draws) ? ObbPairCase{a, b} : ObbPairCase{b, a};
+}
+
 /// Plates of half size 1, 1, 10^-k face to face, the gap +-10^-j of their thickness; every other
 /// time one is turned by (3, 4, 5) within its plane.
 ObbPairCase thin(Draws& draws, int k) {
@@ -118,6 +170,13 @@ HardCaseFamily kissing_obbs_family() {
     return rounded_family("kissing_obbs",
                           "cubes of one pose face to face, the gap a rounding error",
                           Panel::touching, obb_pairs<kissing>);
+}
+
+HardCaseFamily touching_obbs_family() {
+    return with_k(rounded_family("touching_obbs",
+                                 "boxes of two poses, edge on edge or corner on face, up to ulps",
+                                 Panel::touching, obb_pairs<touching>),
+                  "the gap is up to 2^k ulp of 1, either way", 12, 0, 40);
 }
 
 HardCaseFamily thin_obbs_family() {

@@ -1,6 +1,7 @@
 #include "scenes/hard_cases/lattice.h"
 #include "scenes/hard_cases/rounded.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -75,6 +76,64 @@ Cases rays_at_limits(const HardCaseSpec& spec, const Random& random) {
     return cases;
 }
 
+/// Sides are powers of two, so that in `Watertight` too nothing rounds: a ray along an axis, from
+/// within or from the wall that it leaves by, and a limit or both at t or one float off.
+RayCase ray_in_cuboid(Draws& draws, std::array<Triangle<float>, 12>& walls, int scale) {
+    RayCase result;
+    LatticePoint low, side, at; // in eighths
+    for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = 8 * draw_integer(draws, -8, 8);
+        side[axis] = std::int64_t{8} << draw_integer(draws, 0, 4);
+        at[axis] = low[axis] + side[axis] / 8 * draw_integer(draws, 1, 7);
+    }
+    const auto along = static_cast<int>(draw_integer(draws, 0, 2));
+    const bool is_up = draw_coin(draws);
+    const std::int64_t wall = low[along] + (is_up ? side[along] : 0);
+    if (draw_integer(draws, 0, 3) == 0)
+        at[along] = wall;
+    const auto j = static_cast<int>(draw_integer(draws, 0, 20));
+    result.ray.origin = scaled(Vec3<float>(to_scene(at, -3)), scale);
+    result.ray.direction[along] = std::ldexp(is_up ? 1.f : -1.f, j);
+    const float t = std::ldexp(static_cast<float>(std::abs(wall - at[along])), scale - 3 - j);
+    const std::int64_t limits = draw_integer(draws, 0, 3);
+    if (limits != 0)
+        result.ray.t_max = t;
+    if (limits != 1)
+        result.ray.t_min = t;
+    result.hit = Known::yes;
+    if (limits == 3) {
+        const bool is_max = t > 0 && draw_coin(draws);
+        (is_max ? result.ray.t_max : result.ray.t_min) =
+            beside(t, is_max ? Side::below : Side::above);
+        result.hit = Known::no;
+    }
+    result.count = 12;
+    for (std::size_t i = 0; i < 12; ++i) {
+        const auto axis = static_cast<int>(i / 4), x = (axis + 1) % 3, y = (axis + 2) % 3;
+        const auto corner = [&](bool right, bool up) {
+            LatticePoint p = low;
+            p[axis] += i % 4 / 2 == 0 ? 0 : side[axis];
+            p[x] += right ? side[x] : 0;
+            p[y] += up ? side[y] : 0;
+            return scaled(Vec3<float>(to_scene(p, -3)), scale);
+        };
+        walls[i] = {corner(false, false), corner(true, true), corner(i % 2 == 0, i % 2 != 0)};
+    }
+    return result;
+}
+
+Cases rays_at_exact_limits(const HardCaseSpec& spec, const Random& random) {
+    RayCases cases;
+    for (std::size_t i = 0; i < spec.n; ++i) {
+        Draws draws = random.item(i);
+        std::array<Triangle<float>, 12> walls;
+        cases.rays.push_back(ray_in_cuboid(draws, walls, spec.scale));
+        cases.rays.back().first = static_cast<std::uint32_t>(cases.triangles.size());
+        cases.triangles.insert(cases.triangles.end(), walls.begin(), walls.end());
+    }
+    return cases;
+}
+
 /// The ray enters the box at t = m 2^-j and leaves it at twice that, along one axis; along the
 /// others it stays inside. A limit stands beside either.
 RayBoxCase box_at_limit(Draws& draws, int scale) {
@@ -115,6 +174,15 @@ HardCaseFamily ray_limits_family() {
             .scale_min = -80,
             .scale_max = 100,
             .generate = rays_at_limits};
+}
+
+HardCaseFamily ray_at_exact_limits_family() {
+    return {.name = "ray_at_exact_limits",
+            .summary = "rays along an axis in a cuboid; t, which no kernel rounds, is a limit",
+            .panel = Panel::touching,
+            .scale_min = -80,
+            .scale_max = 100,
+            .generate = rays_at_exact_limits};
 }
 
 HardCaseFamily ray_box_limits_family() {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <utility>
 #include <vector>
@@ -21,10 +22,10 @@ constexpr std::size_t rays_per_mesh = 32;
 constexpr double inside = 0.25;
 
 /// Places are multiples of this, so that floats hold them at any scale.
-constexpr int grid_bits = 20;
-Vec on_grid(Vec p) {
-    const auto rounded = [](double x) {
-        return std::ldexp(std::floor(std::ldexp(x, grid_bits) + .5), -grid_bits);
+constexpr int grid_bits = 20, far_grid_bits = 12;
+Vec on_grid(Vec p, int bits = grid_bits) {
+    const auto rounded = [bits](double x) {
+        return std::ldexp(std::floor(std::ldexp(x, bits) + .5), -bits);
     };
     return {rounded(p.x), rounded(p.y), rounded(p.z)};
 }
@@ -32,6 +33,8 @@ Vec on_grid(Vec p) {
 struct Mesh {
     std::vector<Vec> vertices;
     std::vector<std::array<std::size_t, 3>> triangles;
+    Vec centre{};
+    int grid = grid_bits;
 };
 
 /// An octahedron, each triangle of which is cut in four up to two times, made rough.
@@ -81,7 +84,8 @@ Ray<float> draw_ray(const Mesh& mesh, const Exponents& by, bool is_through, Draw
     const Vec target = kind == 0   ? a
                        : kind == 1 ? on_edge + draws.uniform() * (c - on_edge)
                                    : on_edge;
-    const Vec middle = draw_coin(draws) ? on_grid(inside * draws.in_ball()) : Vec{};
+    const Vec middle =
+        mesh.centre + (draw_coin(draws) ? on_grid(inside * draws.in_ball(), mesh.grid) : Vec{});
     const Vec3<float> origin =
         stretched(is_through ? middle - 4.0 * (on_grid(target) - middle) : middle, by);
     Ray<float> ray{origin, Vec3<float>(Vec(stretched(target, by)) - Vec(origin))};
@@ -92,9 +96,21 @@ Ray<float> draw_ray(const Mesh& mesh, const Exponents& by, bool is_through, Draw
     return ray;
 }
 
+/// Moved by up to 2^k, on a grid that leaves room for it.
+void move_away(Mesh& mesh, int k, Draws& draws) {
+    mesh.grid = far_grid_bits;
+    mesh.centre = on_grid(std::ldexp(1.0, k) * draw_offset(draws), mesh.grid);
+    for (Vec& vertex : mesh.vertices)
+        vertex = mesh.centre + on_grid(vertex, mesh.grid);
+}
+
+enum class Around : std::uint8_t { origin, origin_from_outside, far_from_origin };
+
 /// Axes are stretched by powers of two: all by 2^scale, one by 2^k more, one by 2^-k, and one by
-/// something between them.
-Cases rays_in_meshes(const HardCaseSpec& spec, const Random& random, bool is_through = false) {
+/// something between them. Or, far from the origin, none.
+Cases rays_in_meshes(const HardCaseSpec& spec, const Random& random,
+                     Around around = Around::origin) {
+    const bool is_through = around == Around::origin_from_outside;
     RayCases cases;
     Mesh mesh;
     Exponents by{};
@@ -102,7 +118,9 @@ Cases rays_in_meshes(const HardCaseSpec& spec, const Random& random, bool is_thr
         Draws draws = random.item(i);
         if (i % rays_per_mesh == 0) {
             mesh = draw_mesh(draws);
-            const int k = *spec.k;
+            const int k = around == Around::far_from_origin ? 0 : *spec.k;
+            if (around == Around::far_from_origin)
+                move_away(mesh, *spec.k, draws);
             by = {k, -k, static_cast<int>(draw_integer(draws, -k, k))};
             shuffle(by, draws);
         }
@@ -141,6 +159,22 @@ HardCaseFamily ray_in_mesh_family() {
             }};
 }
 
+/// Scales: coordinates below 2^11 + 2.
+HardCaseFamily ray_in_far_mesh_family() {
+    return {.name = "ray_in_far_mesh",
+            .summary = "rays from inside closed meshes far from the origin; they must hit",
+            .panel = Panel::touching,
+            .k_meaning = "the mesh is up to 2^k of its size from the origin",
+            .k_default = 8,
+            .k_min = 0,
+            .k_max = 11,
+            .scale_min = far_grid_bits - 149,
+            .scale_max = 114,
+            .generate = [](const HardCaseSpec& spec, const Random& random) {
+                return rays_in_meshes(spec, random, Around::far_from_origin);
+            }};
+}
+
 /// Scales: coordinates below 6.5 2^123.
 HardCaseFamily ray_through_mesh_family() {
     return {.name = "ray_through_mesh",
@@ -151,7 +185,7 @@ HardCaseFamily ray_through_mesh_family() {
             .generate = [](const HardCaseSpec& spec, const Random& random) {
                 HardCaseSpec round = spec;
                 round.k = 0;
-                return rays_in_meshes(round, random, true);
+                return rays_in_meshes(round, random, Around::origin_from_outside);
             }};
 }
 

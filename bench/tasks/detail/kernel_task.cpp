@@ -46,6 +46,7 @@ ContenderEntry KernelTask::kernel_contender(std::string_view kernel) const {
     entry.is_peer = false;
     entry.promise = found->info.promise;
     entry.relative_width = found->info.relative_width;
+    entry.yes_is_proven = found->info.yes_is_proven;
     entry.summary = found->info.summary;
     entry.notes = found->how_called;
     entry.precision = found->precision;

@@ -1,12 +1,12 @@
 #include "bench/tasks/all_hits.h"
 #include "bench/truth/judging/case_text.h"
 #include "bench/truth/judging/case_truths.h"
+#include "bench/truth/judging/hits_alone.h"
 #include "bench/truth/judging/tally.h"
 #include "bench/truth/judging/truths.h"
 #include "kernels/oracle/exact_answers.h"
 #include "kernels/oracle/roots.h"
 #include "kernels/oracle/second_opinion.h"
-#include "kernels/registry.h"
 
 #include <fmt/format.h>
 
@@ -33,24 +33,6 @@ Triangles triangles_met(const RayCase& c, const std::vector<Triangle<float>>& tr
             met.push_back(k);
     }
     return met;
-}
-
-/// What the kernel says of each triangle alone, without a tree, by t and then by triangle.
-std::vector<RayHit> hits_alone(const std::string& kernel, const RayCase& c,
-                               const std::vector<Triangle<float>>& triangles) {
-    std::vector<RayHit> hits;
-    with_kernel<RayKernels>(kernel, [&]<class K>(std::type_identity<K>) {
-        const auto per_ray = K::prepare(c.ray);
-        for (std::uint32_t k = c.first; k < c.first + c.count; ++k) {
-            RayHit hit;
-            if (K::intersect(per_ray, c.ray, triangles[k], c.ray.t_max, hit)) {
-                hit.triangle = k;
-                hits.push_back(hit);
-            }
-        }
-    });
-    std::ranges::stable_sort(hits, {}, &RayHit::t);
-    return hits;
 }
 
 std::string list_text(std::span<const RayHit> hits, std::uint32_t first) {

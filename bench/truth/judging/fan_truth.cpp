@@ -1,5 +1,6 @@
 #include "bench/truth/judging/case_text.h"
 #include "bench/truth/judging/case_truths.h"
+#include "bench/truth/judging/hits_alone.h"
 #include "bench/truth/judging/moved_corners.h"
 #include "bench/truth/judging/tally.h"
 #include "bench/truth/judging/truths.h"
@@ -11,6 +12,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace boxwood::bench {
 namespace {
@@ -73,6 +75,11 @@ class FanTruth final : public CaseTruth {
                 tally.violated();
                 tally.note(i, Worth::broken_promise);
             }
+            if (contender.promise != Promise::none && !contender.layout.empty() &&
+                !is_as_alone(i, said, contender.kernel)) {
+                tally.violated();
+                tally.note(i, Worth::broken_promise);
+            }
             if (!said.hit() || std::isnan(truths[i]->t) || scene_.task == "rays_any")
                 continue;
             if (contender.promise == Promise::exact && !is_exact(i, said, truths[i]->t)) {
@@ -114,6 +121,22 @@ class FanTruth final : public CaseTruth {
     }
 
   private:
+    /// Whether a tree finds what the kernel does without one: bit for bit, of several at one t the
+    /// lowest triangle; of any hit whether there is one.
+    bool is_as_alone(std::size_t i, const RayHit& said, const std::string& kernel) {
+        const RayHit& alone = closest_alone(kernel)[i];
+        return scene_.task == "rays_any" ? said.hit() == alone.hit() : said == alone;
+    }
+    const std::vector<RayHit>& closest_alone(const std::string& kernel) {
+        const auto [at, is_new] = alone_.try_emplace(kernel);
+        if (is_new)
+            for (const RayCase& c : cases_.rays) {
+                const auto hits = hits_alone(kernel, c, cases_.triangles);
+                at->second.push_back(hits.empty() ? RayHit{} : hits.front());
+            }
+        return at->second;
+    }
+
     /// Whether the answer is right for some corners that are moved as never-leaks allows: a miss
     /// only if no triangle is surely hit, a hit no farther than those and of the triangle that is
     /// named; of any hit the triangle does not count.
@@ -162,6 +185,7 @@ class FanTruth final : public CaseTruth {
     CaseScene scene_;
     const RayCases& cases_;
     Truths<RayCase, TrueHit> truths_;
+    std::map<std::string, std::vector<RayHit>> alone_; ///< by kernel
 };
 
 } // namespace

@@ -46,8 +46,8 @@ Worth worth_of(Promise promise, Answer said, bool truth) {
 }
 
 Tally::Tally(const CaseScene& scene, const ContenderEntry& contender)
-    : promise_(contender.promise), panel_(panel_of(scene.scene)),
-      n_cases_(n_cases(scene.scene.cases)) {
+    : promise_(contender.promise), yes_is_proven_(contender.yes_is_proven),
+      panel_(panel_of(scene.scene)), n_cases_(n_cases(scene.scene.cases)) {
     const HardCaseFamily* family = find_hard_case_family(scene.scene.spec.generator);
     row_.family = family ? std::string(family->name) : "typical";
     row_.panel = to_string(panel_);
@@ -72,7 +72,8 @@ void Tally::answered(std::size_t i, Answer said, bool truth) {
     is_yes_no_ = true;
     true_yes_ += truth;
     said_yes_ += yes;
-    const Worth worth = worth_of(promise_, said, truth);
+    const bool is_false_proof = yes_is_proven_ && said == Answer::yes && !truth;
+    const Worth worth = is_false_proof ? Worth::broken_promise : worth_of(promise_, said, truth);
     note(i, worth);
     if (worth == Worth::conservative)
         vague(i);

@@ -53,6 +53,7 @@ class Tally {
     bool is_useless() const;
 
     Promise promise_;
+    bool yes_is_proven_;
     Panel panel_;
     std::size_t n_cases_;
     results::KernelRow row_;

@@ -3,6 +3,7 @@
 
 #include "bench/tasks/task.h"
 #include "bench/truth/judging/case_truths.h"
+#include "bench/truth/judging/hits_alone.h"
 #include "kernels/triangle_distance/distance_kernel.h"
 
 #include <gtest/gtest.h>
@@ -15,8 +16,7 @@ namespace {
 
 template <class Answer>
 bool keeps_promise(const Scene& scene, std::string_view task, std::vector<Answer> said,
-                   Promise promise) {
-    ContenderEntry contender;
+                   Promise promise, ContenderEntry contender = {}) {
     contender.name = "made_up";
     contender.precision = "f64";
     contender.promise = promise;
@@ -89,6 +89,50 @@ TEST(GenericInput, TimesOfTouchAreNarrow) {
         if (impact.answer == Answer::yes)
             impact.t_free = 0;
     EXPECT_FALSE(keeps_promise(scene, "vertex_face", right.list, Promise::never_miss));
+}
+
+TEST(ProvenYes, IsTrue) {
+    LinearMotion apart;
+    apart.start = apart.end = {{{.25, .25, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+    MotionCases cases;
+    cases.motions = {{apart, Known::no}};
+    Scene scene;
+    scene.cases = cases;
+    ContenderEntry contender;
+    const auto is_kept = [&](Answer answer) {
+        return keeps_promise<Impact>(scene, "vertex_face", {{answer, 0, 1, 0}}, Promise::never_miss,
+                                     contender);
+    };
+    EXPECT_TRUE(is_kept(Answer::yes));
+    contender.yes_is_proven = true;
+    EXPECT_FALSE(is_kept(Answer::yes));
+    EXPECT_TRUE(is_kept(Answer::maybe));
+}
+
+TEST(ClosestHits, AreInATreeThoseWithoutOne) {
+    RayCases cases;
+    cases.triangles = {{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {{1, 1, 1}, {1, 0, 1}, {0, 1, 1}}};
+    RayCase c;
+    c.ray = {{.5f, .5f, 0}, {0, 0, 1}}; // at the edge that they share
+    c.count = 2;
+    cases.rays = {c};
+    Scene scene;
+    scene.cases = cases;
+    const std::vector<RayHit> alone = hits_alone("watertight", c, cases.triangles);
+    ASSERT_EQ(alone.size(), 2u);
+    ContenderEntry contender;
+    contender.kernel = "watertight";
+    const auto is_kept = [&](const RayHit& said, std::string_view task = "rays_closest") {
+        return keeps_promise<RayHit>(scene, task, {said}, Promise::never_leaks, contender);
+    };
+    EXPECT_TRUE(is_kept(alone[1]));
+    contender.layout = "wide8";
+    EXPECT_TRUE(is_kept(alone[0]));
+    EXPECT_FALSE(is_kept(alone[1]));
+    EXPECT_TRUE(is_kept(alone[1], "rays_any"));
+    RayHit other = alone[0];
+    other.u = std::nextafter(other.u, 1.f);
+    EXPECT_FALSE(is_kept(other));
 }
 
 /// At t = 1/3, which is no double: below it is the one double, above it the next.
