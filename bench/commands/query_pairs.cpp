@@ -63,10 +63,10 @@ Box to_float(const Aabb<double>& box) {
 class PairFinder {
   public:
     explicit PairFinder(const PairsQuery& query) {
-        const std::optional<int> device =
-            query.device.empty()
-                ? std::nullopt
-                : std::optional(chosen_device(query.device, devices(), why_no_device()));
+        DeviceBvhOptions device_options;
+        const bool device = !query.device.empty();
+        if (device)
+            device_options.place.index = chosen_device(query.device, devices(), why_no_device());
         const BuildFunction build = chosen_builder(query.tree);
         const LayoutEntry& layout = chosen_layout(query.tree);
         executor_ = chosen_executor(query.tree);
@@ -74,7 +74,7 @@ class PairFinder {
         std::vector<Box> float_boxes(boxes_.size());
         std::transform(boxes_.begin(), boxes_.end(), float_boxes.begin(), to_float);
         if (device) {
-            on_device_.emplace(float_boxes, DeviceBvhOptions{.place = {.index = *device}});
+            on_device_.emplace(float_boxes, device_options);
             return;
         }
         Tree tree;
