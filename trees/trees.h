@@ -50,6 +50,7 @@
 #include "trees/optimizers/reinsertion.h"
 #include "trees/ordering/curve_codes.h"
 #include "trees/ordering/curve_order.h"
+#include "trees/ordering/ray_codes.h"
 #include "trees/queries/allowed_collisions.h"
 #include "trees/queries/box_distance.h"
 #include "trees/queries/count_up_to.h"

@@ -15,9 +15,7 @@ using Vec = Vec3<double>;
 using Corners = std::array<Vec, 6>;
 
 /// Integers from -4 to 4, so that there are ties, and zeros, among them.
-Vec draw_small_integers(Draws& draws) {
-    return Vec(draw_point(draws, {-4, -4, -4}, {4, 4, 4}));
-}
+Vec draw_small_integers(Draws& draws) { return Vec(draw_point(draws, {-4, -4, -4}, {4, 4, 4})); }
 
 /// Integers times 1 and two powers of two down to 2^-k, one of them for each number, each corner,
 /// or, as a whole, each triangle.
