@@ -98,6 +98,8 @@ TEST(HardCases, TruthByConstructionIsWhatTheOracleSays) {
             for (const int scale : {0, family.scale_min, family.scale_max})
                 for (const std::uint64_t seed : {1u, 2u}) {
                     const bool plain = k == family.k_default && scale == 0;
+                    if (seed > 1 && !plain)
+                        continue;
                     const HardCaseSpec spec{plain ? 400u : 50u,
                                             seed,
                                             family.k_meaning.empty() ? std::nullopt

@@ -1,6 +1,7 @@
 #include "trees/builders/hilbert.h"
 #include "trees/cuda/builds/built_tree.cuh"
 #include "trees/cuda/testing/families.h"
+#include "trees/cuda/testing/packed_layout.h"
 #include "trees/ordering/curve_order.h"
 
 #include <gmock/gmock.h>
@@ -33,10 +34,6 @@ BoxFamily bars() {
     for (std::size_t i = 0; i < 1000; ++i)
         family.boxes[i].max[static_cast<int>(i % 3)] += 2;
     return family;
-}
-
-bool same_bytes(const void* a, const void* b, std::size_t n) {
-    return n == 0 || std::memcmp(a, b, n) == 0;
 }
 
 /// By group, code and item.

@@ -12,7 +12,7 @@
 namespace boxwood::cuda {
 namespace {
 
-struct OnDevice {
+struct MadeHploc {
     std::vector<Box> boxes;
     std::vector<std::uint64_t> codes, clusters;
     std::vector<std::uint32_t> items, met;
@@ -20,7 +20,7 @@ struct OnDevice {
     std::uint32_t root = 7;
     BinaryView view;
 
-    explicit OnDevice(const std::vector<Box>& of)
+    explicit MadeHploc(const std::vector<Box>& of)
         : boxes(of), codes(of.size()), clusters(of.size()), items(of.size()), met(of.size()),
           nodes(of.empty() ? 0 : of.size() - 1) {
         const CurveOrder order = curve_order(boxes, Curve::hilbert, serial());
@@ -32,11 +32,11 @@ struct OnDevice {
 };
 
 /// Checks the boxes, and counts each slot and node once.
-struct Walked {
-    const OnDevice& made;
+struct WalkedHploc {
+    const MadeHploc& made;
     std::vector<int> slots, nodes;
 
-    explicit Walked(const OnDevice& tree)
+    explicit WalkedHploc(const MadeHploc& tree)
         : made(tree), slots(tree.boxes.size()), nodes(tree.nodes.size()) {
         if (!slots.empty())
             walk(made.root);
@@ -61,12 +61,12 @@ TEST(HplocOnDevice, HoldsEachItemOnceUnderExactBoxesAndIsTheSameEachTime) {
     for (const BoxFamily& family : device_families()) {
         SCOPED_TRACE(family.name);
         on_host::set_seed(0);
-        const OnDevice first(family.boxes);
-        Walked{first};
+        const MadeHploc first(family.boxes);
+        WalkedHploc{first};
         const auto bytes = std::as_bytes(std::span(first.nodes));
         for (std::uint64_t seed = 1; seed < seeds_for(family); ++seed) {
             on_host::set_seed(seed);
-            const OnDevice made(family.boxes);
+            const MadeHploc made(family.boxes);
             ASSERT_EQ(made.root, first.root) << "seed " << seed;
             ASSERT_TRUE(std::ranges::equal(std::as_bytes(std::span(made.nodes)), bytes))
                 << "seed " << seed;
@@ -80,7 +80,7 @@ TEST(HplocOnDevice, RefitsToNewBoxes) {
         SCOPED_TRACE(family.name);
         if (family.boxes.empty() || family.boxes.size() > 1000)
             continue;
-        OnDevice made(family.boxes);
+        MadeHploc made(family.boxes);
         const std::uint32_t n = made.view.n;
         std::vector<std::uint32_t> parents(2 * n);
         launch({}, blocks_for(n, radix_threads), radix_threads, find_parents, made.view,
@@ -89,14 +89,14 @@ TEST(HplocOnDevice, RefitsToNewBoxes) {
             on_host::set_seed(seed);
             made.boxes = random_boxes(n, .3f, static_cast<unsigned>(seed));
             refit_binary_tree(made.view, made.boxes.data(), parents.data(), made.met.data(), {});
-            Walked{made};
+            WalkedHploc{made};
             ASSERT_FALSE(HasFailure()) << "seed " << seed;
         }
     }
 }
 
 /// The sum of all inner nodes' areas.
-double cost(const OnDevice& made) {
+double cost(const MadeHploc& made) {
     double sum = 0;
     for (const BinaryNode& node : made.nodes)
         sum += node.box.half_area();
@@ -110,7 +110,7 @@ TEST(HplocOnDevice, IsAsGoodAsPlocOfTheCpu) {
     for (std::size_t i = 0; i < ploc.nodes.size(); ++i)
         if (!ploc.is_leaf(i))
             of_ploc += ploc.nodes[i].box.half_area();
-    EXPECT_LT(cost(OnDevice(boxes)), 1.05 * of_ploc);
+    EXPECT_LT(cost(MadeHploc(boxes)), 1.05 * of_ploc);
 }
 
 } // namespace

@@ -16,13 +16,7 @@
 namespace boxwood::cuda {
 namespace {
 
-using OnDevice = MadePackedLayout;
-
-bool same_bytes(const void* a, const void* b, std::size_t n) {
-    return n == 0 || std::memcmp(a, b, n) == 0;
-}
-
-void expect_same(const OnDevice& made, const PackedLayout& wanted) {
+void expect_same(const MadePackedLayout& made, const PackedLayout& wanted) {
     ASSERT_EQ(made.view.n, wanted.size());
     ASSERT_EQ(made.view.depth, wanted.depth());
     for (std::size_t l = 0; l < wanted.depth(); ++l) {
@@ -54,11 +48,6 @@ std::vector<Pair> counted_and_filled(const PackedView& a, const PackedView& b, b
     return {pairs.data(), pairs.data() + n};
 }
 
-std::vector<Pair> sorted(std::vector<Pair> pairs) {
-    std::ranges::sort(pairs);
-    return pairs;
-}
-
 TEST(PackedOnDevice, IsTheLayoutOfTheCpu) {
     const auto serial = make_executor("serial", 1);
     for (const BoxFamily& family : device_families()) {
@@ -67,7 +56,7 @@ TEST(PackedOnDevice, IsTheLayoutOfTheCpu) {
         const PackedLayout wanted = PackedLayout::of_order(family.boxes, order.span(), *serial);
         for (std::uint64_t seed = 0; seed < seeds_for(family); ++seed) {
             on_host::set_seed(seed);
-            expect_same(OnDevice(family.boxes, order.span()), wanted);
+            expect_same(MadePackedLayout(family.boxes, order.span()), wanted);
         }
     }
 }
@@ -78,7 +67,7 @@ TEST(PackedOnDevice, RefitsToNewBoxes) {
         SCOPED_TRACE(family.name);
         const auto order = HilbertBuilder{}.order(family.boxes, *serial);
         std::vector<Box> moved = random_boxes(family.boxes.size(), .3f, 11);
-        OnDevice made(family.boxes, order.span());
+        MadePackedLayout made(family.boxes, order.span());
         upload(Boxes(moved), made.boxes, {});
         fill_packed(made.view, made.boxes.data(), nullptr, made.bounds.data(), {});
         expect_same(made, PackedLayout::of_order(moved, order.span(), *serial));
@@ -92,7 +81,7 @@ TEST(PackedOnDevice, RefitsSomeItems) {
             SCOPED_TRACE(std::to_string(some) + " of " + std::to_string(n));
             std::vector<Box> boxes = random_boxes(n, .2f, 5);
             const auto order = HilbertBuilder{}.order(boxes, *serial);
-            OnDevice made(boxes, order.span());
+            MadePackedLayout made(boxes, order.span());
             Array<std::uint32_t> slots(n, {}), touched(made.blocks.size(), {});
             std::fill_n(touched.data(), touched.size(), 0u);
             launch({}, blocks_for(n, packed_threads), packed_threads, find_slots, made.view,
@@ -121,7 +110,7 @@ TEST(PackedPairsOnDevice, AreThoseOfBruteForce) {
     for (const BoxFamily& family : device_families()) {
         SCOPED_TRACE(family.name);
         const auto order = HilbertBuilder{}.order(family.boxes, *serial);
-        const OnDevice made(family.boxes, order.span());
+        const MadePackedLayout made(family.boxes, order.span());
         const std::vector<Pair> wanted = brute_force(family.boxes);
         std::vector<Pair> first;
         for (std::uint64_t seed = 0; seed < fibre_seeds; ++seed) {
@@ -139,7 +128,7 @@ TEST(PackedPairsOnDevice, OverflowIsCounted) {
     const auto serial = make_executor("serial", 1);
     const std::vector<Box> boxes = random_boxes(600, .2f, 3);
     const auto order = HilbertBuilder{}.order(boxes, *serial);
-    const OnDevice made(boxes, order.span());
+    const MadePackedLayout made(boxes, order.span());
     const std::vector<Pair> wanted = brute_force(boxes);
     for (const std::size_t room : {std::size_t{0}, wanted.size() / 2, wanted.size()}) {
         Array<Pair> pairs(room, {});
@@ -160,7 +149,7 @@ TEST(PackedPairsOnDevice, OfTwoSets) {
                                b = random_boxes(static_cast<std::size_t>(m), .05f, 2);
         const auto order_a = HilbertBuilder{}.order(a, *serial),
                    order_b = HilbertBuilder{}.order(b, *serial);
-        const OnDevice on_a(a, order_a.span()), on_b(b, order_b.span());
+        const MadePackedLayout on_a(a, order_a.span()), on_b(b, order_b.span());
         std::vector<Pair> wanted;
         for (std::uint32_t i = 0; i < a.size(); ++i)
             for (std::uint32_t j = 0; j < b.size(); ++j)

@@ -13,11 +13,9 @@
 namespace boxwood::cuda {
 namespace {
 
-using OnDevice = MadeRadixTree;
-
 /// The tree by its definition, from the top: parts a range of slots where the highest bit of codes
 /// and slots changes. Gives the box of what is below.
-Box expect_subtree(const OnDevice& made, std::uint32_t ref, std::uint32_t first,
+Box expect_subtree(const MadeRadixTree& made, std::uint32_t ref, std::uint32_t first,
                    std::uint32_t last) {
     const RadixTreeView& tree = made.view;
     if (first == last) {
@@ -54,7 +52,7 @@ TEST(RadixTreeOnDevice, IsThatOfTheDefinition) {
             for (std::uint64_t seed = 0; seed < fibre_seeds; ++seed) {
                 SCOPED_TRACE(family.name);
                 on_host::set_seed(seed);
-                const OnDevice made(family.boxes, curve);
+                const MadeRadixTree made(family.boxes, curve);
                 if (made.view.n > 0)
                     expect_subtree(made, *made.view.root, 0, made.view.n - 1);
                 ASSERT_FALSE(HasFailure());
@@ -62,7 +60,7 @@ TEST(RadixTreeOnDevice, IsThatOfTheDefinition) {
 }
 
 TEST(RadixTreeOnDevice, RefitsToNewBoxes) {
-    OnDevice made(random_boxes(1000, .1f, 4));
+    MadeRadixTree made(random_boxes(1000, .1f, 4));
     const std::vector<Box> moved = random_boxes(1000, .1f, 5);
     upload(Boxes(moved), made.boxes, {});
     make_radix_tree(made.view, made.codes.data(), made.boxes.data(), made.met.data(), {});
@@ -80,15 +78,10 @@ std::vector<Pair> counted_and_filled(const RadixTreeView& a, const RadixTreeView
     return {pairs.data(), pairs.data() + n};
 }
 
-std::vector<Pair> sorted(std::vector<Pair> pairs) {
-    std::ranges::sort(pairs);
-    return pairs;
-}
-
 TEST(RadixPairsOnDevice, AreThoseOfBruteForce) {
     for (const BoxFamily& family : device_families()) {
         SCOPED_TRACE(family.name);
-        const OnDevice made(family.boxes);
+        const MadeRadixTree made(family.boxes);
         const std::vector<Pair> wanted = brute_force(family.boxes);
         const std::vector<Pair> by_stack =
             counted_and_filled<true, Walk::stack>(made.view, made.view);
@@ -99,7 +92,7 @@ TEST(RadixPairsOnDevice, AreThoseOfBruteForce) {
 
 TEST(RadixPairsOnDevice, OverflowIsCounted) {
     const std::vector<Box> boxes = random_boxes(600, .2f, 3);
-    const OnDevice made(boxes);
+    const MadeRadixTree made(boxes);
     const std::vector<Pair> wanted = brute_force(boxes);
     for (const std::size_t room : {std::size_t{0}, wanted.size() / 2, wanted.size()})
         for (std::uint64_t seed = 0; seed < fibre_seeds; ++seed) {
@@ -120,7 +113,7 @@ TEST(RadixPairsOnDevice, OfTwoSets) {
          {std::pair{1, 1}, {17, 300}, {300, 17}, {257, 4097}, {0, 5}, {5, 0}}) {
         const std::vector<Box> a = random_boxes(static_cast<std::size_t>(n), .2f, 1),
                                b = random_boxes(static_cast<std::size_t>(m), .05f, 2);
-        const OnDevice on_a(a), on_b(b);
+        const MadeRadixTree on_a(a), on_b(b);
         std::vector<Pair> wanted;
         for (std::uint32_t i = 0; i < a.size(); ++i)
             for (std::uint32_t j = 0; j < b.size(); ++j)

@@ -12,7 +12,7 @@ namespace boxwood::cuda {
 namespace {
 
 /// All worlds in one tree in the device's memory.
-struct OnDevice {
+struct MadeWorlds {
     std::vector<std::uint32_t> first{0};
     std::vector<Box> boxes, leaves;
     std::vector<std::uint64_t> codes;
@@ -22,7 +22,7 @@ struct OnDevice {
     WorldsView worlds;
     RadixTreeView tree;
 
-    explicit OnDevice(const std::vector<std::vector<Box>>& of) {
+    explicit MadeWorlds(const std::vector<std::vector<Box>>& of) {
         for (const std::vector<Box>& world : of) {
             boxes.insert(boxes.end(), world.begin(), world.end());
             first.push_back(static_cast<std::uint32_t>(boxes.size()));
@@ -71,7 +71,7 @@ void expect_pairs(const std::vector<std::vector<Box>>& worlds, std::uint64_t see
     std::vector<Pair> first;
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
         on_host::set_seed(seed);
-        const OnDevice made(worlds);
+        const MadeWorlds made(worlds);
         auto [found, begin] = made.pairs();
         if (seed == 0)
             first = found;
@@ -111,7 +111,7 @@ TEST(WorldsOnDevice, OverflowIsCounted) {
     for (std::uint32_t w = 0; w < 20; ++w)
         worlds.push_back(random_boxes(40, .4f, w));
     const std::vector<Pair> wanted = by_brute_force(worlds);
-    const OnDevice made(worlds);
+    const MadeWorlds made(worlds);
     for (const std::size_t room : {std::size_t{0}, wanted.size() / 2, wanted.size()}) {
         Array<Pair> pairs(room, {});
         std::uint64_t n = 0;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "trees/queries/sinks.h"
 #include "trees/testing/box_families.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace boxwood::cuda {
@@ -24,6 +26,11 @@ inline std::vector<BoxFamily> device_families() {
     for (const std::size_t n : {0u, 1u, 2u, 15u, 16u, 17u, 255u, 256u, 257u, 4097u})
         all.push_back({"random " + std::to_string(n), random_boxes(n, n > 1000 ? .05f : .2f, 5)});
     return all;
+}
+
+inline std::vector<Pair> sorted(std::vector<Pair> pairs) {
+    std::ranges::sort(pairs);
+    return pairs;
 }
 
 } // namespace boxwood::cuda

@@ -2,9 +2,14 @@
 
 #include "trees/cuda/builds/packed.cuh"
 
+#include <cstring>
 #include <span>
 
 namespace boxwood::cuda {
+
+inline bool same_bytes(const void* a, const void* b, std::size_t n) {
+    return n == 0 || std::memcmp(a, b, n) == 0;
+}
 
 /// A packed layout in the device's memory, with that memory.
 struct MadePackedLayout {

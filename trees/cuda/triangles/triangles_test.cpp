@@ -19,10 +19,10 @@ namespace {
 
 using testing::TrianglePair;
 
-struct OnDevice : PairsOnDevice {
+struct Decided : PairsOnDevice {
     std::vector<Answer> answers;
 
-    explicit OnDevice(const std::vector<TrianglePair>& of)
+    explicit Decided(const std::vector<TrianglePair>& of)
         : PairsOnDevice(of), answers(of.size(), Answer::maybe) {}
     const std::vector<Answer>& decide(Accuracy accuracy) {
         const TrianglePairs pairs{side(0),        side(1),          view(),
@@ -32,23 +32,23 @@ struct OnDevice : PairsOnDevice {
     }
 };
 
-struct Family {
+struct PairFamily {
     std::string name;
     std::vector<TrianglePair> pairs;
 };
 
 /// All corners are floats; the truth is the oracle's.
-const std::vector<Family>& families() {
-    static const std::vector<Family> made = [] {
+const std::vector<PairFamily>& pair_families() {
+    static const std::vector<PairFamily> made = [] {
         testing::PairFamilies make(5, testing::Kept::as_float);
-        std::vector<Family> all{{"generic", make.generic(1000)},
-                                {"small grid", make.grid(1000, 3)},
-                                {"grid", make.grid(500, 1000)},
-                                {"denormal grid", make.grid(500, 5, -149)},
-                                {"huge grid", make.grid(500, 3, 125)},
-                                {"nearly touching", make.nearly_touching(2000)},
-                                {"wide exponents", make.magnitudes(500, -40, 40)},
-                                {"any exponents", make.magnitudes(500, -149, 126)}};
+        std::vector<PairFamily> all{{"generic", make.generic(1000)},
+                                    {"small grid", make.grid(1000, 3)},
+                                    {"grid", make.grid(500, 1000)},
+                                    {"denormal grid", make.grid(500, 5, -149)},
+                                    {"huge grid", make.grid(500, 3, 125)},
+                                    {"nearly touching", make.nearly_touching(2000)},
+                                    {"wide exponents", make.magnitudes(500, -40, 40)},
+                                    {"any exponents", make.magnitudes(500, -149, 126)}};
         for (const std::size_t n : {0u, 1u, 2u, 15u, 16u, 17u, 255u, 256u, 257u, 4097u})
             all.push_back({"generic " + std::to_string(n), make.generic(n)});
         return all;
@@ -56,16 +56,16 @@ const std::vector<Family>& families() {
     return made;
 }
 
-template <class Expect> void for_each_pair(OnDevice& made, Accuracy accuracy, Expect expect) {
+template <class Expect> void for_each_pair(Decided& made, Accuracy accuracy, Expect expect) {
     const std::vector<Answer>& answers = made.decide(accuracy);
     for (std::size_t k = 0; k < answers.size(); ++k)
         expect(made.candidates[k].a, answers[k]);
 }
 
 TEST(TrianglesOnDevice, ArePlainlyThoseOfTheCpu) {
-    for (const Family& family : families()) {
+    for (const PairFamily& family : pair_families()) {
         SCOPED_TRACE(family.name);
-        OnDevice made(family.pairs);
+        Decided made(family.pairs);
         for_each_pair(made, Accuracy::plain, [&](std::uint32_t i, Answer answer) {
             const Triangle<float> a = made.triangle(0, i), b = made.triangle(1, i);
             EXPECT_EQ(answer, GuigueDevillersF32Batch::intersect(a, b).answer)
@@ -80,11 +80,11 @@ TEST(TrianglesOnDevice, ArePlainlyThoseOfTheCpu) {
 }
 
 TEST(TrianglesOnDevice, AreNeverWrongWhereCertified) {
-    for (const Family& family : families()) {
+    for (const PairFamily& family : pair_families()) {
         SCOPED_TRACE(family.name);
         for (std::uint64_t seed = 0; seed < (family.pairs.size() > 300 ? 2 : fibre_seeds); ++seed) {
             on_host::set_seed(seed);
-            OnDevice made(family.pairs);
+            Decided made(family.pairs);
             std::uint32_t n_maybe = 0;
             for_each_pair(made, Accuracy::certified, [&](std::uint32_t i, Answer answer) {
                 n_maybe += answer == Answer::maybe;
@@ -103,11 +103,11 @@ TEST(TrianglesOnDevice, AreNeverWrongWhereCertified) {
 
 TEST(TrianglesOnDevice, AreExactlyThoseOfTheOracle) {
     std::uint32_t n_wide = 0;
-    for (const Family& family : families()) {
+    for (const PairFamily& family : pair_families()) {
         SCOPED_TRACE(family.name);
         for (std::uint64_t seed = 0; seed < (family.pairs.size() > 300 ? 2 : fibre_seeds); ++seed) {
             on_host::set_seed(seed);
-            OnDevice made(family.pairs);
+            Decided made(family.pairs);
             for_each_pair(made, Accuracy::exact, [&](std::uint32_t i, Answer answer) {
                 ASSERT_EQ(answer, family.pairs[i].touch ? Answer::yes : Answer::no)
                     << print(family.pairs[i]);
@@ -124,7 +124,7 @@ TEST(TrianglesOnDevice, AreExactlyThoseOfTheOracle) {
 /// The filters decide most; here each grid decides all that it can hold.
 TEST(TrianglesOnDevice, AreExactOnEachGrid) {
     std::size_t n_narrow = 0;
-    for (const Family& family : families()) {
+    for (const PairFamily& family : pair_families()) {
         SCOPED_TRACE(family.name);
         if (family.pairs.size() > 2000)
             continue;
@@ -152,7 +152,7 @@ TEST(TrianglesOnDevice, AreUndecidedWhereNotFinite) {
         corner[static_cast<int>(i / 2 % 3)] =
             i % 4 < 2 ? std::nan("") : std::numeric_limits<double>::infinity();
     }
-    OnDevice made(pairs);
+    Decided made(pairs);
     for (const Accuracy accuracy :
          {Accuracy::plain, Accuracy::plain_in_doubles, Accuracy::certified, Accuracy::exact})
         for_each_pair(made, accuracy, [&](std::uint32_t i, Answer answer) {
@@ -203,7 +203,7 @@ TEST(TrianglesOnDevice, OfAnIndexedMesh) {
 TEST(TriangleHitsOnDevice, AreInTheOrderOfTheCandidates) {
     testing::PairFamilies make(8, testing::Kept::as_float);
     for (const std::size_t size : {0u, 1u, 33u, 256u, 257u, 4097u}) {
-        OnDevice made(make.generic(size * testing::thinned));
+        Decided made(make.generic(size * testing::thinned));
         // More or fewer than there is room for: what was found, and the end of a list.
         for (const std::uint64_t n : {made.n, made.n + 10, made.n / 2})
             for (std::uint64_t seed = 0; seed < (size > 300 ? 1 : 2); ++seed) {
