@@ -24,6 +24,17 @@ struct Device {
     double max_clock_ghz = 0;
 };
 
+/// What a device's memory and bus give at this moment, the best of several tries: GB/s (1e9 bytes)
+/// of 64 MiB, less where less is free.
+struct DeviceRates {
+    double copy = 0;                 ///< within its memory, read and written
+    double upload = 0, download = 0; ///< from and to pinned memory of the host
+    double upload_pageable = 0, download_pageable = 0;
+    double launch_ns = 0; ///< of one kernel of many that do nearly nothing
+};
+/// Takes some ten milliseconds. Throws DeviceError.
+DeviceRates measure_rates(int index);
+
 /// Those there are, and if there are none why: no nvcc when this was compiled, no driver, a driver
 /// older than the runtime, no device, or code for other devices alone.
 std::vector<Device> devices();

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -42,6 +43,9 @@ struct DevicePlace {
     void* stream = nullptr;
 };
 
+/// Until all is done that was enqueued in the place's stream. Throws DeviceError for what failed.
+void wait_for(DevicePlace place);
+
 namespace detail {
 
 /// Bytes in a device's memory, owned.
@@ -71,6 +75,24 @@ class DeviceMemory {
 
 } // namespace detail
 
+/// Times by the device's own clock what a place's stream does.
+class DeviceTimer {
+  public:
+    explicit DeviceTimer(DevicePlace place);
+    DeviceTimer(const DeviceTimer&) = delete;
+    DeviceTimer& operator=(const DeviceTimer&) = delete;
+    ~DeviceTimer();
+
+    void start();
+    /// Of all that was enqueued since the start; waits until it is done.
+    double stop_ns();
+
+  private:
+    struct Events;
+    DevicePlace place_;
+    std::unique_ptr<Events> events_;
+};
+
 /// An array in a device's memory, owned: answers that stay there.
 template <class T> class DeviceArray {
   public:
@@ -96,9 +118,13 @@ template <class T> class DeviceArray {
     /// Of as many elements; they are copied when it comes back.
     void write(std::span<const T> from) { memory_.write(from.data(), from.size_bytes()); }
     /// Waits until all is there.
-    std::vector<T> to_host() const {
-        std::vector<T> to(size_);
+    void read(std::vector<T>& to) const {
+        to.resize(size_);
         memory_.read(to.data(), size_ * sizeof(T));
+    }
+    std::vector<T> to_host() const {
+        std::vector<T> to;
+        read(to);
         return to;
     }
 

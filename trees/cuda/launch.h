@@ -14,6 +14,9 @@
 #include "trees/cuda/on_host.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <new>
 #endif
 
 namespace boxwood::cuda {
@@ -49,6 +52,26 @@ inline void fill_words(std::uint32_t* to, std::uint32_t word, std::size_t n, Str
 
 /// Until all is done that was started before.
 inline void wait(Stream) { on_host::waited(); }
+
+inline void copy(const void* from, void* to, std::size_t bytes, Stream) {
+    std::memcpy(to, from, bytes);
+}
+/// Memory of the host that a device reaches by itself.
+inline void* allocate_pinned(std::size_t bytes) { return ::operator new(bytes); }
+inline void release_pinned(void* memory) { ::operator delete(memory); }
+
+/// A moment in a stream.
+class Event {
+  public:
+    void record(Stream) { at_ = std::chrono::steady_clock::now(); }
+    /// Waits for both.
+    double ns_since(const Event& earlier) const {
+        return std::chrono::duration<double, std::nano>(at_ - earlier.at_).count();
+    }
+
+  private:
+    std::chrono::steady_clock::time_point at_;
+};
 
 #endif
 

@@ -60,6 +60,37 @@ template <class T> void download(const T* from, std::span<T> to, Stream stream) 
 
 inline void wait(Stream stream) { require(cudaStreamSynchronize(stream.handle), "a kernel"); }
 
+inline void copy(const void* from, void* to, std::size_t bytes, Stream stream) {
+    require(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToDevice, stream.handle), "copy");
+}
+/// Memory of the host that a device reaches by itself.
+inline void* allocate_pinned(std::size_t bytes) {
+    void* memory = nullptr;
+    require(cudaMallocHost(&memory, bytes), "pinned memory");
+    return memory;
+}
+inline void release_pinned(void* memory) { cudaFreeHost(memory); }
+
+/// A moment in a stream.
+class Event {
+  public:
+    Event() { require(cudaEventCreate(&event_), "an event"); }
+    Event(const Event&) = delete;
+    Event& operator=(const Event&) = delete;
+    ~Event() { cudaEventDestroy(event_); }
+    void record(Stream stream) { require(cudaEventRecord(event_, stream.handle), "an event"); }
+    /// Waits for both.
+    double ns_since(const Event& earlier) const {
+        float ms = 0;
+        require(cudaEventSynchronize(event_), "a kernel");
+        require(cudaEventElapsedTime(&ms, earlier.event_, event_), "an event");
+        return static_cast<double>(ms) * 1e6;
+    }
+
+  private:
+    cudaEvent_t event_ = nullptr;
+};
+
 /// The word's four bytes must be the same.
 inline void fill_words(std::uint32_t* to, std::uint32_t word, std::size_t n, Stream stream) {
     require(cudaMemsetAsync(to, static_cast<int>(word & 255), n * sizeof(word), stream.handle),

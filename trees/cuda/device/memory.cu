@@ -1,6 +1,9 @@
 #include "trees/cuda/device/machine.h"
 
-namespace boxwood::detail {
+#include <memory>
+
+namespace boxwood {
+namespace detail {
 
 DeviceMemory::DeviceMemory(std::size_t bytes, DevicePlace place) : place_(place) {
     if (bytes == 0)
@@ -33,4 +36,31 @@ void DeviceMemory::read(void* to, std::size_t bytes) const {
     cuda::wait(stream);
 }
 
-} // namespace boxwood::detail
+} // namespace detail
+
+void wait_for(DevicePlace place) {
+    const cuda::Chosen chosen(place.index);
+    cuda::wait(cuda::stream_of(place));
+}
+
+struct DeviceTimer::Events {
+    cuda::Event start, stop;
+};
+
+DeviceTimer::DeviceTimer(DevicePlace place) : place_(place) {
+    const cuda::Chosen chosen(place.index);
+    events_ = std::make_unique<Events>();
+}
+DeviceTimer::~DeviceTimer() = default;
+
+void DeviceTimer::start() {
+    const cuda::Chosen chosen(place_.index);
+    events_->start.record(cuda::stream_of(place_));
+}
+double DeviceTimer::stop_ns() {
+    const cuda::Chosen chosen(place_.index);
+    events_->stop.record(cuda::stream_of(place_));
+    return events_->stop.ns_since(events_->start);
+}
+
+} // namespace boxwood

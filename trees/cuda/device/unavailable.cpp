@@ -10,12 +10,23 @@ std::string why_no_device() {
     return "boxwood was built without CUDA: " BOXWOOD_NO_NVCC "; then configure and build it again";
 }
 
-namespace detail {
 namespace {
 
 [[noreturn]] void none() { throw DeviceError("no CUDA device: " + why_no_device()); }
 
 } // namespace
+
+DeviceRates measure_rates(int) { none(); }
+
+void wait_for(DevicePlace) { none(); }
+
+struct DeviceTimer::Events {};
+DeviceTimer::DeviceTimer(DevicePlace) { none(); }
+DeviceTimer::~DeviceTimer() = default;
+void DeviceTimer::start() {}
+double DeviceTimer::stop_ns() { none(); }
+
+namespace detail {
 
 DeviceMemory::DeviceMemory(std::size_t bytes, DevicePlace) {
     if (bytes > 0)
