@@ -186,21 +186,38 @@ std::vector<unsigned> BlockReader::threads() const {
     return inputs_.overrides_threads ? all : own;
 }
 
+std::vector<std::string> BlockReader::executor_names() const {
+    Names known = names_of(executors());
+    known.insert(known.end(), {device_place, resident_place});
+    return names("executors", known);
+}
+
 std::vector<Place> BlockReader::places() const {
-    const std::vector<std::string> named = names("executors", names_of(executors()));
+    const std::vector<std::string> named = executor_names();
     std::vector<Place> all;
     for (const unsigned n : threads()) {
         if (named.empty())
             all.push_back(usual_place(n));
         for (const std::string& executor : named)
-            if (n <= entry_named(executor, executors(), "executor").max_threads)
+            if (!is_device(executor) &&
+                n <= entry_named(executor, executors(), "executor").max_threads)
                 all.push_back({executor, n});
     }
+    for (const Place& place : device_places())
+        all.push_back(place);
     if (all.empty())
         fail(fmt::format("executors = \"{}\" has one thread, threads = {} have more: add 1 to "
                          "threads, or {} to executors",
                          fmt::join(named, ", "), fmt::join(threads(), ", "), default_executor(2)),
              "executors");
+    return all;
+}
+
+std::vector<Place> BlockReader::device_places() const {
+    std::vector<Place> all;
+    for (const std::string& executor : executor_names())
+        if (is_device(executor))
+            all.push_back({executor, 1});
     return all;
 }
 

@@ -86,12 +86,15 @@ class BlockReader {
     /// A library stands for those of its contenders that answer the task; a contender named in full
     /// is there even if all it can say is "unsupported".
     std::vector<ContenderEntry> peers(std::string_view task) const;
-    /// By the keys threads and executors: where ours run, and where peers do.
+    /// By the keys threads and executors: where ours run, and where peers do, those that run on
+    /// devices alone at the places of a device.
     std::vector<Place> places() const;
     std::vector<Place> usual_places() const;
+    std::vector<Place> device_places() const;
 
   private:
     std::vector<unsigned> threads() const;
+    std::vector<std::string> executor_names() const;
 
     std::shared_ptr<const ConfigReader> reader_;
     std::shared_ptr<const Table> table_;

@@ -47,6 +47,7 @@ class CellTimer {
     void take(const benchmark::BenchmarkReporter::Run& run);
 
     std::vector<results::Sample> samples;
+    std::vector<results::Sample> device_samples; ///< parts of others, by a device's clock
     std::vector<results::FrameRow> frame_rows;
     std::vector<results::EffectRow> effects;
 
@@ -54,6 +55,7 @@ class CellTimer {
     void make(const Timing& timing);
     void finish();
     void start_sample(const Timing& timing, results::Phase phase);
+    void add_device_samples();
     void time_passes(benchmark::State& state, const Timing& timing, Frames* frames,
                      std::span<FrameTime> times);
     void add_frame_rows(const Timing& timing, std::span<const FrameTime> times, double passes);

@@ -4,6 +4,7 @@
 #include "bench/running/play.h"
 #include "bench/running/record.h"
 #include "bench/truth/truth.h"
+#include "trees/device.h"
 #include "trees/inspect/quality.h"
 
 #include <fmt/format.h>
@@ -104,6 +105,12 @@ class Preparation {
                 calibration = measure(cell, job, row.cell_id, judgement);
                 row.iterations = calibration.query_iterations;
                 calibrations_.emplace(cell.name, calibration);
+            } catch (const DeviceOutOfMemory& error) {
+                judgement = {};
+                judgement.status = Status::unsupported;
+                judgement.check.witness = error.what();
+            } catch (const DeviceError&) {
+                throw; // this process can use no device any more
             } catch (const std::exception& error) {
                 judgement = {};
                 judgement.status = Status::wrong;
@@ -140,6 +147,7 @@ class Preparation {
         } else {
             calibration.query_ns = calibrate_ns(target_ns_, [&] { contender->query(*answers); });
         }
+        contender->fetch(*answers);
         if (task.phases() != Phases::build)
             calibration.query_iterations = iterations_for(target_ns_, calibration.query_ns);
 

@@ -46,6 +46,18 @@ Total total_of(Phases phases) {
     return {results::Phase::build_and_query, "build and one query"};
 }
 
+/// Contenders on a device stand apart, and those that leave their answers there from the others.
+std::vector<std::string> classes_at(std::string_view place, std::vector<std::string> classes) {
+    if (!is_device(place))
+        return classes;
+    if (classes.empty())
+        classes = {""};
+    for (std::string& name : classes)
+        name += std::string(name.empty() ? "" : " ") +
+                (place == resident_place ? "resident" : "on a device");
+    return classes;
+}
+
 } // namespace
 
 Record::Record(const results::Env& env, std::string generator) {
@@ -91,7 +103,7 @@ results::Cell Record::cell(std::string name, const Scene& scene, std::uint32_t s
     row.scene_id = scene_id;
     row.variant_id = variant_id_of(contender);
     row.task = task.name();
-    row.classes = fmt::format("{}", fmt::join(contender.classes, ","));
+    row.classes = fmt::format("{}", fmt::join(classes_at(executor, contender.classes), ","));
     row.n_items = items_of(scene);
     row.n_queries = task.n_queries(scene);
     row.precision = contender.precision;

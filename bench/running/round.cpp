@@ -146,6 +146,7 @@ results::Results run_round(const Plan& plan, const results::Results& prepared, u
     shard.steal_ticks = steal_ticks() - steal_before;
     out.shards.push_back(shard);
     out.samples = std::move(timer.samples);
+    out.samples.insert(out.samples.end(), timer.device_samples.begin(), timer.device_samples.end());
     out.frames = std::move(timer.frame_rows);
     out.effects = std::move(timer.effects);
     return out;

@@ -5,6 +5,7 @@
 #include "bench/running/prepare.h"
 #include "bench/running/round.h"
 #include "bench/running/sweep.h"
+#include "trees/device_memory.h"
 
 #include <fmt/format.h>
 
@@ -43,6 +44,9 @@ int run_sweep_child(const ChildOptions& options) {
         report.finishing();
         results::write(options.out, results);
         return exit_success;
+    } catch (const DeviceError& error) { // a fault that the next process does not have
+        report.threw(error);
+        return exit_failed;
     } catch (const std::exception& error) {
         if (in_cell)
             report.threw(error);

@@ -3,6 +3,7 @@
 #include "bench/tasks/task.h"
 #include "kernels/suggest.h"
 #include "peers_found.h"
+#include "trees/device.h"
 
 #include <fmt/format.h>
 
@@ -17,7 +18,25 @@ BOXWOOD_PEERS_FOUND(BOXWOOD_DECLARE)
 
 namespace {
 
+/// Why no device can be used; empty if one can.
+const std::string& no_device() {
+    static const std::string why = devices().empty() ? "no CUDA device: " + why_no_device() : "";
+    return why;
+}
+
+std::optional<std::string> cannot_run_on_device(const Answering& answering, const Job& job) {
+    if (!answering.make_on_device)
+        return "has no form for a device";
+    if (job.threads != 1)
+        return fmt::format("a device counts as one thread, not {}", job.threads);
+    if (!no_device().empty())
+        return no_device();
+    return std::nullopt;
+}
+
 std::optional<std::string> cannot_run(RunsOn where, const Job& job) {
+    if (where == RunsOn::device)
+        return "runs on a device only";
     const unsigned max_threads = entry_named(job.executor, executors(), "executor").max_threads;
     if (max_threads == 1 && job.threads == 1)
         return std::nullopt;
@@ -32,15 +51,17 @@ std::optional<std::string> cannot_run(RunsOn where, const Job& job) {
 
 } // namespace
 
-bool ContenderEntry::answers_task(std::string_view task) const {
-    return std::ranges::find(answers, task, &Answering::task) != answers.end();
+const Answering* ContenderEntry::answering(std::string_view task) const {
+    const auto found = std::ranges::find(answers, task, &Answering::task);
+    return found == answers.end() ? nullptr : &*found;
 }
 
 std::optional<std::string> ContenderEntry::unsupported(const Job& job) const {
-    if (!answers_task(job.task->name())) {
+    const Answering* const answering = this->answering(job.task->name());
+    if (!answering) {
         std::vector<std::string_view> known;
-        for (const Answering& answering : answers)
-            known.push_back(answering.task);
+        for (const Answering& other : answers)
+            known.push_back(other.task);
         return fmt::format("answers {} only", fmt::join(known, ", "));
     }
     if (job.scene)
@@ -49,14 +70,15 @@ std::optional<std::string> ContenderEntry::unsupported(const Job& job) const {
     if (cannot && job.scene)
         if (auto why = cannot(job))
             return why;
-    return cannot_run(runs_on, job);
+    return is_device(job.executor) ? cannot_run_on_device(*answering, job)
+                                   : cannot_run(runs_on, job);
 }
 
 std::unique_ptr<Contender> ContenderEntry::make(const Job& job) const {
-    const auto found = std::ranges::find(answers, job.task->name(), &Answering::task);
-    if (found == answers.end())
+    const Answering* const answering = this->answering(job.task->name());
+    if (!answering)
         throw std::logic_error(fmt::format("{} does not answer {}", name, job.task->name()));
-    return found->make(job);
+    return is_device(job.executor) ? answering->make_on_device(job) : answering->make(job);
 }
 
 std::span<const Peer> peers() {

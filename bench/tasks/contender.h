@@ -2,6 +2,7 @@
 
 #include "bench/tasks/answers.h"
 #include "kernels/decision.h"
+#include "results/words.h"
 #include "scenes/scene.h"
 #include "trees/executor.h"
 #include "trees/inspect/work.h"
@@ -25,12 +26,25 @@ namespace boxwood::bench {
 class Ledger;
 class Task;
 
+/// Where a contender may run beside executors(): on a device, from host memory to host memory, or
+/// with input and answers that stay there.
+inline constexpr std::string_view device_place = "cuda", resident_place = "cuda_resident";
+inline bool is_device(std::string_view place) {
+    return place == device_place || place == resident_place;
+}
+
 /// One piece of work: a scene, what is wanted of it, and where it runs.
 struct Job {
     const Scene* scene = nullptr;
     const Task* task = nullptr;
-    std::string executor{default_executor(1)}; ///< a name of executors()
+    std::string executor{default_executor(1)}; ///< a name of executors(), or of a device's places
     unsigned threads = 1;
+};
+
+/// A part of build and query by the clock of a device.
+struct DeviceTime {
+    results::Phase phase;
+    double ns = 0;
 };
 
 /// What a structure is, for the tree table.
@@ -56,6 +70,10 @@ class Contender {
     virtual void build() = 0;
     /// Timed: answers the job into answers of its task, which are cleared. Needs a build before it.
     virtual void query(Answers& answers) = 0;
+    /// Untimed: brings the answers of the last query to the host if they stayed on a device.
+    virtual void fetch(Answers& /*answers*/) {}
+    /// Untimed, of one that runs on a device from host to host: one build and query by its parts.
+    virtual std::vector<DeviceTime> device_times(Answers& /*answers*/) { return {}; }
     /// Timed, of tasks of frames: takes the next frame; a query then answers for it. The frame
     /// lives until the next update or build; after a build they come from frame 1.
     virtual void update(const Frame& /*frame*/) {}
@@ -70,15 +88,18 @@ class Contender {
 
 /// One task that a contender answers, and what makes it for that task.
 struct Answering {
+    using Make = std::function<std::unique_ptr<Contender>(const Job&)>;
     std::string task;
-    std::function<std::unique_ptr<Contender>(const Job&)> make;
+    Make make;
+    Make make_on_device{}; ///< for the places of a device; null if it has no such form
 };
 
 /// Where a contender can run.
 enum class RunsOn : std::uint8_t {
     any_executor,
     one_thread,
-    tbb ///< or one thread
+    tbb,   ///< or one thread
+    device ///< alone
 };
 
 /// A registry row: one way to do a job.
@@ -109,7 +130,8 @@ struct ContenderEntry {
     double relative_width = 0;       ///< KernelInfo::relative_width
     bool yes_is_proven = false;      ///< KernelInfo::yes_is_proven
 
-    bool answers_task(std::string_view task) const;
+    const Answering* answering(std::string_view task) const;
+    bool answers_task(std::string_view task) const { return answering(task) != nullptr; }
     /// Nothing if it can do the job, else why not (recorded, not hidden). Of no scene (null) it
     /// says what holds for any.
     std::optional<std::string> unsupported(const Job& job) const;

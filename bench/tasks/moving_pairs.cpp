@@ -11,6 +11,7 @@
 #include "bench/truth/truth.h"
 #include "kernels/suggest.h"
 #include "scenes/moving/frames.h"
+#include "trees/device.h"
 #include "trees/dynamic/update.h"
 
 #include <fmt/format.h>
@@ -51,6 +52,43 @@ class Follower final : public Contender {
     PairsInto pairs_;
     std::uint64_t placed_ = 0, rebuilds_ = 0; ///< in all frames since the build
 };
+
+/// The boxes of a frame come from the host, and its pairs go there.
+class FollowerOnDevice final : public Contender {
+  public:
+    FollowerOnDevice(const Job& job, bool rebuilds) : scene_(*job.scene), rebuilds_(rebuilds) {}
+
+    void build() override {
+        if (bvh_)
+            bvh_->rebuild(scene_.boxes);
+        else
+            bvh_.emplace(scene_.boxes);
+    }
+    void update(const Frame& frame) override {
+        if (rebuilds_)
+            bvh_->rebuild(frame.boxes);
+        else
+            bvh_->update(frame.boxes);
+    }
+    void query(Answers& answers) override {
+        bvh_->self_pairs_on_device().read(list_of<Pair>(answers));
+    }
+
+  private:
+    const Scene& scene_;
+    bool rebuilds_;
+    std::optional<DeviceBvh> bvh_;
+};
+
+/// Of refit, and of rebuild in every frame.
+Answering::Make on_device(const BuilderChoice& policy) {
+    const auto& settings = policy.settings;
+    const bool rebuilds = policy.name == "rebuild" && settings.size() == 1 &&
+                          settings.contains("trigger") && to_text(settings.at("trigger")) == "0";
+    if (!rebuilds && (policy.name != "refit" || !settings.empty()))
+        return nullptr;
+    return [rebuilds](const Job& job) { return std::make_unique<FollowerOnDevice>(job, rebuilds); };
+}
 
 class FramesTruth final : public Truth {
   public:
@@ -125,9 +163,16 @@ ContenderEntry moving_contender(const BuilderChoice& policy) {
     entry.notes = "update: the frame's boxes and the list of those that moved; answers in the same "
                   "order for any number of threads";
     entry.params_json = settings_json(policy.settings);
-    entry.answers = {{"moving_pairs", [&update, settings = policy.settings](const Job& job) {
+    entry.cannot = [](const Job& job) -> std::optional<std::string> {
+        if (job.executor == resident_place)
+            return "has no form for a device where frames come from the host";
+        return std::nullopt;
+    };
+    entry.answers = {{"moving_pairs",
+                      [&update, settings = policy.settings](const Job& job) {
                           return std::make_unique<Follower>(job, update.make(settings));
-                      }}};
+                      },
+                      on_device(policy)}};
     return entry;
 }
 

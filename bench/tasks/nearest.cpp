@@ -1,5 +1,6 @@
 /// For each point the nearest boxes. The key k says how many.
 
+#include "bench/tasks/detail/device_contender.h"
 #include "bench/tasks/detail/point_task.h"
 
 #include <xxhash.h>
@@ -20,6 +21,23 @@ class NearestBoxes final : public PointContender {
         layout_->nearest(scene_.points, k_, executor, neighbours, work);
     }
     std::size_t k_ = neighbours_of(scene_);
+};
+
+class NearestOnDevice final : public DeviceBoxes {
+  public:
+    using DeviceBoxes::DeviceBoxes;
+
+  protected:
+    void upload_queries() override {
+        points_ = DeviceArray<Vec3<float>>(scene_.points, options_.place);
+    }
+    void query_there() override { found_ = bvh_->nearest(std::as_const(points_).span(), k_); }
+    void download(Answers& answers) override { found_.read(list_of<Neighbour>(answers)); }
+
+  private:
+    std::size_t k_ = neighbours_of(scene_);
+    DeviceArray<Vec3<float>> points_;
+    DeviceArray<Neighbour> found_;
 };
 
 class Nearest final : public PointTask {
@@ -61,8 +79,11 @@ class Nearest final : public PointTask {
         }
         return all.empty() ? std::vector{spec} : all;
     }
-    Way way(const Choice&) const override {
-        return {.traversal = "nearest", .make = maker<NearestBoxes>(), .query = Query::nearest};
+    Way way(const Choice& choice) const override {
+        Way way{.traversal = "nearest", .make = maker<NearestBoxes>(), .query = Query::nearest};
+        if (choice.builder == "lbvh") // DeviceBvh::nearest
+            way.make_on_device = on_device<NearestOnDevice>(choice);
+        return way;
     }
 };
 

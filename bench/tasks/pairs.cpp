@@ -1,5 +1,6 @@
 /// Every unordered overlapping pair of a scene's boxes.
 
+#include "bench/tasks/detail/device_contender.h"
 #include "bench/tasks/detail/pair_answers.h"
 #include "bench/tasks/detail/tree_contender.h"
 #include "bench/tasks/detail/tree_task.h"
@@ -23,6 +24,20 @@ class SelfPairs final : public TreeContender {
 
   private:
     PairsInto pairs_;
+};
+
+class SelfPairsOnDevice final : public DeviceBoxes {
+  public:
+    using DeviceBoxes::DeviceBoxes;
+
+  protected:
+    void query_there() override {
+        found_ = is_resident() ? bvh_->unordered_self_pairs() : bvh_->self_pairs_on_device();
+    }
+    void download(Answers& answers) override { found_.read(list_of<Pair>(answers)); }
+
+  private:
+    DeviceArray<Pair> found_;
 };
 
 /// A family of boxes comes with its number of pairs, and each contender is judged as a kernel.
@@ -77,8 +92,11 @@ class Pairs final : public PairAnswers<TreeTask> {
     }
 
   protected:
-    Way way(const Choice&) const override {
-        return {.traversal = "self_pairs", .make = maker<SelfPairs>(), .query = Query::self_pairs};
+    Way way(const Choice& choice) const override {
+        return {.traversal = "self_pairs",
+                .make = maker<SelfPairs>(),
+                .query = Query::self_pairs,
+                .make_on_device = on_device<SelfPairsOnDevice>(choice)};
     }
 };
 

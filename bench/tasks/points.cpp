@@ -1,5 +1,6 @@
 /// For each point every box that contains it, as pairs (point, box).
 
+#include "bench/tasks/detail/device_contender.h"
 #include "bench/tasks/detail/pair_answers.h"
 #include "bench/tasks/detail/point_task.h"
 
@@ -17,6 +18,22 @@ class Containing final : public PointContender {
     PairsInto pairs_;
 };
 
+class ContainingOnDevice final : public DeviceBoxes {
+  public:
+    using DeviceBoxes::DeviceBoxes;
+
+  protected:
+    void upload_queries() override {
+        points_ = DeviceArray<Vec3<float>>(scene_.points, options_.place);
+    }
+    void query_there() override { found_ = bvh_->containing(std::as_const(points_).span()); }
+    void download(Answers& answers) override { answers_to_pairs(found_, list_of<Pair>(answers)); }
+
+  private:
+    DeviceArray<Vec3<float>> points_;
+    DeviceAnswersOf<std::uint32_t> found_;
+};
+
 class Points final : public PairAnswers<PointTask> {
   public:
     Points() : PairAnswers(PointQuery::containing) {}
@@ -27,8 +44,11 @@ class Points final : public PairAnswers<PointTask> {
     }
 
   protected:
-    Way way(const Choice&) const override {
-        return {.traversal = "points", .make = maker<Containing>(), .query = Query::points};
+    Way way(const Choice& choice) const override {
+        return {.traversal = "points",
+                .make = maker<Containing>(),
+                .query = Query::points,
+                .make_on_device = on_device<ContainingOnDevice>(choice)};
     }
 };
 

@@ -1,6 +1,7 @@
 /// For each box or sphere every box that it meets, as pairs (region, box). The key regions names
 /// which: boxes or spheres.
 
+#include "bench/tasks/detail/device_contender.h"
 #include "bench/tasks/detail/pair_answers.h"
 #include "bench/tasks/detail/point_task.h"
 #include "kernels/suggest.h"
@@ -21,6 +22,21 @@ class Overlapping final : public PointContender {
             layout_->regions(scene_.spheres, executor, pairs_.to(answers), work);
     }
     PairsInto pairs_;
+};
+
+/// Of boxes alone.
+class OverlappingOnDevice final : public DeviceBoxes {
+  public:
+    using DeviceBoxes::DeviceBoxes;
+
+  protected:
+    void upload_queries() override { regions_ = DeviceArray<Box>(scene_.regions, options_.place); }
+    void query_there() override { found_ = bvh_->overlapping(std::as_const(regions_).span()); }
+    void download(Answers& answers) override { answers_to_pairs(found_, list_of<Pair>(answers)); }
+
+  private:
+    DeviceArray<Box> regions_;
+    DeviceAnswersOf<std::uint32_t> found_;
 };
 
 class Regions final : public PairAnswers<PointTask> {
@@ -48,8 +64,16 @@ class Regions final : public PairAnswers<PointTask> {
         }
         return all;
     }
-    Way way(const Choice&) const override {
-        return {.traversal = "regions", .make = maker<Overlapping>(), .query = Query::regions};
+    std::optional<std::string> missing_on_device(const Scene& scene) const override {
+        if (scene.spheres.empty())
+            return std::nullopt;
+        return "has no form for a device where regions are spheres";
+    }
+    Way way(const Choice& choice) const override {
+        return {.traversal = "regions",
+                .make = maker<Overlapping>(),
+                .query = Query::regions,
+                .make_on_device = on_device<OverlappingOnDevice>(choice)};
     }
 };
 

@@ -1,5 +1,6 @@
 /// Every overlapping pair between the first half of a scene's boxes and the rest.
 
+#include "bench/tasks/detail/device_contender.h"
 #include "bench/tasks/detail/halves.h"
 #include "bench/tasks/detail/pair_answers.h"
 #include "bench/tasks/detail/tree_contender.h"
@@ -46,6 +47,38 @@ class TreePairsContender final : public TreeContender {
     PairsInto pairs_;
 };
 
+/// Both trees are on the device; the second items are moved on the host.
+class TreePairsOnDevice final : public DeviceContender {
+  public:
+    TreePairsOnDevice(const Job& job, DeviceBuilder builder)
+        : DeviceContender(job), boxes_(job.scene->boxes), options_{builder, {}} {}
+
+  protected:
+    void upload() override {
+        first_ = DeviceArray<Box>(boxes_.first(split_), options_.place);
+        second_ = DeviceArray<Box>(boxes_.subspan(split_), options_.place);
+    }
+    void build_there() override {
+        bvh_.emplace(std::as_const(first_).span(), options_);
+        other_.emplace(std::as_const(second_).span(), options_);
+    }
+    void query_there() override { found_ = bvh_->pairs_on_device(*other_); }
+    void download(Answers& answers) override {
+        std::vector<Pair>& pairs = list_of<Pair>(answers);
+        found_.read(pairs);
+        for (Pair& pair : pairs)
+            pair.b += static_cast<std::uint32_t>(split_);
+    }
+
+  private:
+    Boxes boxes_;
+    DeviceBvhOptions options_;
+    std::size_t split_ = tree_pairs_split(boxes_.size());
+    DeviceArray<Box> first_, second_;
+    std::optional<DeviceBvh> bvh_, other_;
+    DeviceArray<Pair> found_;
+};
+
 class TreePairs final : public PairAnswers<TreeTask> {
   public:
     std::string_view name() const override { return "tree_pairs"; }
@@ -58,10 +91,11 @@ class TreePairs final : public PairAnswers<TreeTask> {
     }
 
   protected:
-    Way way(const Choice&) const override {
+    Way way(const Choice& choice) const override {
         return {.traversal = "tree_pairs",
                 .make = maker<TreePairsContender>(),
-                .query = Query::tree_pairs};
+                .query = Query::tree_pairs,
+                .make_on_device = on_device<TreePairsOnDevice>(choice)};
     }
 };
 

@@ -101,8 +101,11 @@ class HitTask : public RayTask {
     std::vector<Choice> variants(const BlockReader& block, const Choice& choice) const override;
     std::vector<CaseWay> ways_on_cases(Promise promise) const override;
     Way way(const Choice& choice) const override;
+    std::optional<std::string> missing_on_device(const Scene& scene) const override;
 
   private:
+    Answering::Make on_device(const Choice& choice) const;
+
     RayQuery query_;
 };
 

@@ -36,9 +36,14 @@ void add_cells(const BlockReader& block, const SceneSpec& scene,
     for (const Place& place : block.places())
         for (const ContenderEntry& entry : ours)
             add(scene, entry, place.executor, place.threads);
-    for (const Place& place : block.usual_places())
-        for (const ContenderEntry& entry : peers)
-            add(scene, entry, place.executor, place.threads);
+    const auto add_peers = [&](bool on_device, const std::vector<Place>& places) {
+        for (const Place& place : places)
+            for (const ContenderEntry& entry : peers)
+                if ((entry.runs_on == RunsOn::device) == on_device)
+                    add(scene, entry, place.executor, place.threads);
+    };
+    add_peers(false, block.usual_places());
+    add_peers(true, block.device_places());
 }
 
 std::vector<std::string_view> TreeTask::keys() const {
@@ -93,15 +98,17 @@ ContenderEntry TreeTask::contender(const Choice& choice) const {
     entry.notes = "build: boxes to tree to layout; answers in the same order for any number of "
                   "threads";
     entry.params_json = settings_json(choice.settings);
-    entry.cannot = [&layout, query = way.query](const Job&) -> std::optional<std::string> {
+    entry.cannot = [this, &layout,
+                    query = way.query](const Job& job) -> std::optional<std::string> {
         if (query && !layout.answers(*query))
             return fmt::format("the layout {} does not answer {}", layout.name, to_string(*query));
-        return std::nullopt;
+        return is_device(job.executor) ? missing_on_device(*job.scene) : std::nullopt;
     };
-    entry.answers = {{std::string(name()), [build = make_builder(choice.builder, choice.settings),
-                                            &layout, make = std::move(way.make)](const Job& job) {
-                          return make(job, build, layout);
-                      }}};
+    entry.answers = {
+        {std::string(name()),
+         [build = make_builder(choice.builder, choice.settings), &layout,
+          make = std::move(way.make)](const Job& job) { return make(job, build, layout); },
+         std::move(way.make_on_device)}};
     return entry;
 }
 

@@ -40,8 +40,13 @@ class TreeTask : public Task {
             make;
         std::optional<Query> query{}; ///< what a layout must answer for it
         std::vector<std::string> classes{};
+        Answering::Make make_on_device{}; ///< null if it has no form for a device
     };
     virtual Way way(const Choice& choice) const = 0;
+    /// Why a contender that has a form for a device cannot take this scene there.
+    virtual std::optional<std::string> missing_on_device(const Scene&) const {
+        return std::nullopt;
+    }
     /// What triangles are needed for ("aim rays at"); empty if boxes are enough.
     virtual std::string_view mesh_is_for() const { return {}; }
     /// The choices that a block makes beyond builder and layout.

@@ -63,10 +63,11 @@ DeviceRates measure_rates(int index) {
     rates.download = download(pinned);
     rates.copy = 2 * gbs([&] { cuda::copy(from.data(), to.data(), bytes, stream); });
     auto* const word = reinterpret_cast<std::uint32_t*>(to.data());
-    rates.launch_ns = cuda::least_ns(stream, [&] {
-                          for (int i = 0; i < cuda::n_launches; ++i)
-                              cuda::launch(stream, 1, 1, cuda::touch, word);
-                      }) /
+    rates.launch_ns = cuda::least_ns(stream,
+                                     [&] {
+                                         for (int i = 0; i < cuda::n_launches; ++i)
+                                             cuda::launch(stream, 1, 1, cuda::touch, word);
+                                     }) /
                       cuda::n_launches;
     return rates;
 }

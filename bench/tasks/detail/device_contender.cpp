@@ -1,0 +1,97 @@
+#include "bench/tasks/detail/device_contender.h"
+
+namespace boxwood::bench {
+
+void DeviceContender::build() {
+    if (!is_resident_ || !is_uploaded_)
+        upload();
+    if (is_resident_ && !is_uploaded_)
+        upload_queries();
+    is_uploaded_ = true;
+    build_there();
+    wait_for({});
+}
+
+void DeviceContender::query(Answers& answers) {
+    if (!is_resident_) {
+        upload_queries();
+        query_there();
+        download(answers);
+        return;
+    }
+    query_there();
+    wait_for({});
+}
+
+void DeviceContender::fetch(Answers& answers) {
+    if (is_resident_)
+        download(answers);
+}
+
+std::vector<DeviceTime> DeviceContender::device_times(Answers& answers) {
+    if (is_resident_)
+        return {};
+    using results::Phase;
+    DeviceTimer timer({});
+    std::vector<DeviceTime> times;
+    const auto time = [&](Phase phase, const auto& work) {
+        timer.start();
+        work();
+        times.push_back({phase, timer.stop_ns()});
+    };
+    time(Phase::upload, [&] {
+        upload();
+        upload_queries();
+    });
+    time(Phase::device_build, [&] { build_there(); });
+    time(Phase::device_query, [&] { query_there(); });
+    time(Phase::download, [&] { download(answers); });
+    return times;
+}
+
+std::optional<DeviceBuilder> device_builder(const Choice& choice,
+                                            std::string_view layout_of_trees) {
+    if (!choice.settings.empty())
+        return std::nullopt;
+    if (choice.builder == "hilbert" && choice.layout == "packed")
+        return DeviceBuilder::hilbert;
+    if (choice.layout != layout_of_trees)
+        return std::nullopt;
+    if (choice.builder == "lbvh")
+        return DeviceBuilder::lbvh;
+    if (choice.builder == "ploc")
+        return DeviceBuilder::hploc;
+    return std::nullopt;
+}
+
+void DeviceBoxes::upload() {
+    if (boxes_.size() != scene_.boxes.size())
+        boxes_ = DeviceArray<Box>(scene_.boxes.size(), options_.place);
+    boxes_.write(scene_.boxes);
+}
+
+void DeviceBoxes::build_there() {
+    const DeviceSpan<const Box> boxes = std::as_const(boxes_).span();
+    if (bvh_)
+        bvh_->rebuild(boxes);
+    else
+        bvh_.emplace(boxes, options_);
+}
+
+/// Bytes that a build by sixteens reads and writes: bounds 24 a box, codes 32, their sort 72, leaves
+/// 80, the levels above 5.
+std::vector<NamedCount> DeviceBoxes::more_counts() const {
+    if (options_.builder != DeviceBuilder::hilbert)
+        return {};
+    return {{"build_bytes", 213 * scene_.boxes.size()}};
+}
+
+void answers_to_pairs(const DeviceAnswersOf<std::uint32_t>& found, std::vector<Pair>& pairs) {
+    const AnswersOf<std::uint32_t> answers = found.to_host();
+    pairs.clear();
+    for (std::uint32_t query = 0; query + 1 < answers.offsets.size(); ++query)
+        for (const std::uint32_t item : answers[query])
+            pairs.push_back({query, item});
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "bench/tasks/contender.h"
+#include "bench/tasks/task.h"
+#include "trees/device.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace boxwood::bench {
+
+/// What our contenders on a device share. `cuda`: build and query begin and end in host memory.
+/// `cuda_resident`: boxes and answers stay on the device, and answers may come in any order.
+class DeviceContender : public Contender {
+  public:
+    explicit DeviceContender(const Job& job) : is_resident_(job.executor == resident_place) {}
+
+    void build() override;
+    void query(Answers& answers) override;
+    void fetch(Answers& answers) override;
+    std::vector<DeviceTime> device_times(Answers& answers) override;
+
+  protected:
+    // In this order; only what is on the device when they come back is promised.
+    virtual void upload() = 0; ///< what is built from
+    virtual void build_there() = 0;
+    virtual void upload_queries() {}
+    virtual void query_there() = 0;
+    virtual void download(Answers& answers) = 0;
+
+    bool is_resident() const { return is_resident_; }
+
+  private:
+    bool is_resident_;
+    bool is_uploaded_ = false;
+};
+
+/// By whom the device makes a tree as this builder and layout do; nothing if it has no such form.
+/// The tree of ploc is made there by H-PLOC.
+std::optional<DeviceBuilder> device_builder(const Choice& choice, std::string_view layout_of_trees);
+
+/// A tree of the scene's boxes.
+class DeviceBoxes : public DeviceContender {
+  public:
+    DeviceBoxes(const Job& job, DeviceBuilder builder)
+        : DeviceContender(job), scene_(*job.scene), options_{builder, {}} {}
+
+    std::vector<NamedCount> more_counts() const override;
+
+  protected:
+    void upload() override;
+    void build_there() override;
+
+    const Scene& scene_;
+    DeviceBvhOptions options_;
+    DeviceArray<Box> boxes_;
+    std::optional<DeviceBvh> bvh_;
+};
+
+/// Brings answers to queries to the host as pairs (query, item).
+void answers_to_pairs(const DeviceAnswersOf<std::uint32_t>& found, std::vector<Pair>& pairs);
+
+/// Makes a contender of class C on a device, if the choice has a form there.
+template <class C>
+std::function<std::unique_ptr<Contender>(const Job&)>
+on_device(const Choice& choice, std::string_view layout_of_trees = "binary") {
+    const std::optional<DeviceBuilder> builder = device_builder(choice, layout_of_trees);
+    if (!builder)
+        return nullptr;
+    return [builder = *builder](const Job& job) { return std::make_unique<C>(job, builder); };
+}
+
+} // namespace boxwood::bench
