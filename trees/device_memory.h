@@ -75,6 +75,9 @@ class DeviceMemory {
 
 } // namespace detail
 
+/// How many kernels this thread has started, those within CUB apart.
+std::uint64_t launches_so_far();
+
 /// Times by the device's own clock what a place's stream does.
 class DeviceTimer {
   public:

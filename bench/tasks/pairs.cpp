@@ -30,6 +30,14 @@ class SelfPairsOnDevice final : public DeviceBoxes {
   public:
     using DeviceBoxes::DeviceBoxes;
 
+    /// Each box is read and each pair written once.
+    std::vector<NamedCount> more_counts() const override {
+        std::vector<NamedCount> counts = DeviceBoxes::more_counts();
+        counts.push_back(
+            {"query_bytes", scene_.boxes.size() * sizeof(Box) + found_.size() * sizeof(Pair)});
+        return counts;
+    }
+
   protected:
     void query_there() override {
         found_ = is_resident() ? bvh_->unordered_self_pairs() : bvh_->self_pairs_on_device();

@@ -41,9 +41,9 @@ const results::Check& check_of(const results::Results& results, const results::C
 /// Every cell of a device that has a form is right, and answers as the same contender on the CPU.
 void expect_right(const std::string& scene, const std::string& block, std::size_t n_forms) {
     SCOPED_TRACE(block);
-    const Plan plan = plan_of("[[cells]]\nn = 120\nscene = \"" + scene +
-                              "\"\nexecutors = [\"serial\", \"cuda\", \"cuda_resident\"]\n" +
-                              block);
+    const Plan plan =
+        plan_of("[[cells]]\nn = 120\nscene = \"" + scene +
+                "\"\nexecutors = [\"serial\", \"cuda\", \"cuda_resident\"]\n" + block);
     const results::Results all = prepared(plan);
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> of_cpu; // by scene and variant
     for (const results::Cell& cell : all.cells)
@@ -54,8 +54,8 @@ void expect_right(const std::string& scene, const std::string& block, std::size_
         if (!is_device(cell.executor))
             continue;
         const results::Check& check = check_of(all, cell);
-        EXPECT_THAT(cell.classes, testing::EndsWith(cell.executor == "cuda" ? "on a device"
-                                                                            : "resident"));
+        EXPECT_THAT(cell.classes,
+                    testing::EndsWith(cell.executor == "cuda" ? "on a device" : "resident"));
         if (check.status == results::Status::unsupported) {
             EXPECT_THAT(check.witness, HasSubstr("has no form for a device")) << cell.name;
             continue;
@@ -87,7 +87,8 @@ TEST(BenchOnDevice, TasksAnswerThereAsOnTheCpu) {
     expect_right("uniform", "task = \"pairs\"\n" + trees, 6);
     expect_right("uniform", "task = \"tree_pairs\"\n" + trees, 6);
     expect_right("uniform", "task = \"points\"\nn_points = 30\n" + trees, 6);
-    expect_right("uniform", "task = \"regions\"\nn_points = 30\nregions = [\"boxes\", \"spheres\"]\n" + trees,
+    expect_right("uniform",
+                 "task = \"regions\"\nn_points = 30\nregions = [\"boxes\", \"spheres\"]\n" + trees,
                  6);
     expect_right("uniform", "task = \"nearest\"\nn_points = 30\nk = 3\n" + trees, 2);
 }
@@ -103,10 +104,11 @@ TEST(BenchOnDevice, RaysAnswerThereAsOnTheCpu) {
 
 /// The list of every frame is that of the truth, which the preparation holds it to.
 TEST(BenchOnDevice, MovingPairsFollowTheFrames) {
-    const Plan plan = plan_of("[[cells]]\nscene = \"uniform\"\nn = 200\ntask = \"moving_pairs\"\n"
-                              "effects = \"drift\"\nframes = 4\n"
-                              "updates = [\"refit\", {name = \"rebuild\", trigger = 0}, \"cached\"]\n"
-                              "executors = [\"cuda\", \"cuda_resident\"]\n");
+    const Plan plan =
+        plan_of("[[cells]]\nscene = \"uniform\"\nn = 200\ntask = \"moving_pairs\"\n"
+                "effects = \"drift\"\nframes = 4\n"
+                "updates = [\"refit\", {name = \"rebuild\", trigger = 0}, \"cached\"]\n"
+                "executors = [\"cuda\", \"cuda_resident\"]\n");
     const results::Results all = prepared(plan);
     std::map<results::Status, int> statuses;
     for (const results::Check& check : all.checks)

@@ -8,6 +8,10 @@
 #include <span>
 #include <utility>
 
+namespace boxwood::cuda {
+inline thread_local std::uint64_t n_launches = 0; ///< by this thread
+} // namespace boxwood::cuda
+
 #if defined(__CUDACC__)
 #include "trees/cuda/detail/on_device.h"
 #else
@@ -29,9 +33,10 @@ struct Stream {};
 template <class... Parameters, class... Arguments>
 void launch(Stream, std::size_t n_blocks, unsigned n_threads, void (*kernel)(Parameters...),
             Arguments... arguments) {
-    if (n_blocks > 0)
-        on_host::run_grid(static_cast<unsigned>(n_blocks), n_threads,
-                          [&] { kernel(arguments...); });
+    if (n_blocks == 0)
+        return;
+    ++n_launches;
+    on_host::run_grid(static_cast<unsigned>(n_blocks), n_threads, [&] { kernel(arguments...); });
 }
 
 inline void* allocate(std::size_t bytes, Stream) { return on_host::allocate(bytes); }

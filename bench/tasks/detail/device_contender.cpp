@@ -8,19 +8,26 @@ void DeviceContender::build() {
     if (is_resident_ && !is_uploaded_)
         upload_queries();
     is_uploaded_ = true;
+    const std::uint64_t before = launches_so_far();
     build_there();
+    build_launches_ = launches_so_far() - before;
     wait_for({});
 }
 
 void DeviceContender::query(Answers& answers) {
-    if (!is_resident_) {
+    if (!is_resident_)
         upload_queries();
-        query_there();
-        download(answers);
-        return;
-    }
+    const std::uint64_t before = launches_so_far();
     query_there();
-    wait_for({});
+    query_launches_ = launches_so_far() - before;
+    if (is_resident_)
+        wait_for({});
+    else
+        download(answers);
+}
+
+std::vector<NamedCount> DeviceContender::more_counts() const {
+    return {{"build_launches", build_launches_}, {"query_launches", query_launches_}};
 }
 
 void DeviceContender::fetch(Answers& answers) {
@@ -78,12 +85,13 @@ void DeviceBoxes::build_there() {
         bvh_.emplace(boxes, options_);
 }
 
-/// Bytes that a build by sixteens reads and writes: bounds 24 a box, codes 32, their sort 72, leaves
-/// 80, the levels above 5.
+/// Bytes that a build by sixteens reads and writes: bounds 24 a box, codes 32, their sort 72,
+/// leaves 80, the levels above 5.
 std::vector<NamedCount> DeviceBoxes::more_counts() const {
-    if (options_.builder != DeviceBuilder::hilbert)
-        return {};
-    return {{"build_bytes", 213 * scene_.boxes.size()}};
+    std::vector<NamedCount> counts = DeviceContender::more_counts();
+    if (options_.builder == DeviceBuilder::hilbert)
+        counts.push_back({"build_bytes", 213 * scene_.boxes.size()});
+    return counts;
 }
 
 void answers_to_pairs(const DeviceAnswersOf<std::uint32_t>& found, std::vector<Pair>& pairs) {

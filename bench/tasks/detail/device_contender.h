@@ -22,6 +22,7 @@ class DeviceContender : public Contender {
     void query(Answers& answers) override;
     void fetch(Answers& answers) override;
     std::vector<DeviceTime> device_times(Answers& answers) override;
+    std::vector<NamedCount> more_counts() const override;
 
   protected:
     // In this order; only what is on the device when they come back is promised.
@@ -36,6 +37,7 @@ class DeviceContender : public Contender {
   private:
     bool is_resident_;
     bool is_uploaded_ = false;
+    std::uint64_t build_launches_ = 0, query_launches_ = 0;
 };
 
 /// By whom the device makes a tree as this builder and layout do; nothing if it has no such form.

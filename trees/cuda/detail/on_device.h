@@ -29,6 +29,7 @@ void launch(Stream stream, std::size_t n_blocks, unsigned n_threads, void (*kern
             Arguments... arguments) {
     if (n_blocks == 0)
         return;
+    ++n_launches;
     kernel<<<static_cast<unsigned>(n_blocks), n_threads, 0, stream.handle>>>(arguments...);
     require(cudaGetLastError(), "a kernel does not start");
 }

@@ -12,7 +12,7 @@ namespace cuda {
 namespace {
 
 constexpr std::size_t most_bytes = std::size_t{64} << 20;
-constexpr int n_tries = 5, n_launches = 100;
+constexpr int n_tries = 5, n_kernels = 100;
 
 __global__ void touch(std::uint32_t* word) { *word = 0; }
 
@@ -65,10 +65,10 @@ DeviceRates measure_rates(int index) {
     auto* const word = reinterpret_cast<std::uint32_t*>(to.data());
     rates.launch_ns = cuda::least_ns(stream,
                                      [&] {
-                                         for (int i = 0; i < cuda::n_launches; ++i)
+                                         for (int i = 0; i < cuda::n_kernels; ++i)
                                              cuda::launch(stream, 1, 1, cuda::touch, word);
                                      }) /
-                      cuda::n_launches;
+                      cuda::n_kernels;
     return rates;
 }
 
