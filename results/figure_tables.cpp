@@ -1,13 +1,66 @@
-/// The derived tables that hold what figures show.
+/// The derived tables that hold what screens and figures show.
 
 #include "results/schema.h"
 
 namespace boxwood::results {
 
 std::vector<Table> figure_tables() {
-    constexpr std::size_t word = 64, name = 160; // bytes
+    constexpr std::size_t word = 64, name = 160, text = 1024; // bytes
     constexpr bool derived = true;
     return {
+        {"topics",
+         "what a topic of findings and the columns of its rows are called",
+         &Results::topics,
+         {
+             {"topic", &TopicRow::topic, "", "of findings"},
+             {"title", &TopicRow::title, "", "of all its rows", name},
+             {"question", &TopicRow::question, "", "heading of that column", name},
+             {"together", &TopicRow::together, "", "heading of that column", name},
+             {"alone", &TopicRow::alone, "", "heading of that column", name},
+             {"certainty", &TopicRow::certainty, "", "heading of that column", name},
+         },
+         derived},
+        {"findings",
+         "one question of the run and its answer in words",
+         &Results::findings,
+         {
+             {"place", &Finding::place, "", "its place on the screen: losses first"},
+             {"topic", &Finding::topic, "", "race (against peers), kernel or scene"},
+             {"is_headline", &Finding::is_headline, "", "1 if it stands for its question"},
+             {"is_loss", &Finding::is_loss, "", "1 if the rival is better for sure"},
+             {"scene_id", &Finding::scene_id, "", "of scenes"},
+             {"task", &Finding::task, "", "of cells", word},
+             {"threads", &Finding::threads, "", "of cells"},
+             {"class", &Finding::contender_class, "", "of compare", word},
+             {"question", &Finding::question, "", "in words", name},
+             {"together", &Finding::together, "", "build and query, against the best rival", name},
+             {"alone", &Finding::alone, "", "query alone, against the best rival", name},
+             {"certainty", &Finding::certainty, "", "interval, or why there is none", name},
+             {"ours", &Finding::ours, "", "of cells: our best, build and query"},
+             {"rival", &Finding::rival, "", "of cells: the best rival, build and query"},
+             {"ours_alone", &Finding::ours_alone, "", "of cells: our best query"},
+             {"rival_alone", &Finding::rival_alone, "", "of cells: the best rival's query"},
+         },
+         derived},
+        {"health",
+         "whether the run can be believed: one row",
+         &Results::health,
+         {
+             {"rounds", &Health::rounds, "", "of the cell with the most"},
+             {"samples", &Health::samples, "", "timed"},
+             {"disturbed", &Health::disturbed, "", "samples that lost time to others"},
+             {"floor", &Health::floor, "", "noise floor, relative"},
+             {"delta", &Health::delta, "", "with which the verdicts were made"},
+             {"is_too_noisy", &Health::is_too_noisy, "", "1 if it must be measured again"},
+             {"answers", &Health::answers, "", "cells whose answers were checked"},
+             {"wrong_ours", &Health::wrong_ours, "", "of them ours and wrong"},
+             {"wrong_peers", &Health::wrong_peers, "", "of them a peer's and wrong"},
+             {"broken_promises", &Health::broken_promises, "", "of our kernels"},
+             {"trust", &Health::trust, "", "rounds and noise, in words", text},
+             {"correctness", &Health::correctness, "", "wrong answers, in words", text},
+             {"advice", &Health::advice, "", "what to do if it is too noisy, else empty", text},
+         },
+         derived},
         {"frame_medians",
          "one frame of one cell over its rounds",
          &Results::frame_medians,

@@ -249,6 +249,37 @@ TEST_F(ResultFile, UnknownColumnsAreSkippedAndMissingOnesKeepDefaults) {
     EXPECT_EQ(back.health.size(), 14u);
 }
 
+TEST_F(ResultFile, AnOlderMinorVersionMayLackWhatCameLater) {
+    Results results = filled_example(2);
+    write(file_, results);
+    change([&](hid_t file) {
+        const Handle older(H5Tcreate(H5T_COMPOUND, sizeof(Shard)), H5Tclose, "older");
+        H5Tinsert(older, "shard_id", offsetof(Shard, shard_id), H5T_NATIVE_UINT32);
+        H5Tinsert(older, "round", offsetof(Shard, round), H5T_NATIVE_UINT32);
+        H5Tinsert(older, "env_id", offsetof(Shard, env_id), H5T_NATIVE_UINT32);
+        H5Tinsert(older, "pid", offsetof(Shard, pid), H5T_NATIVE_UINT32);
+        H5Tinsert(older, "order_seed", offsetof(Shard, order_seed), H5T_NATIVE_UINT64);
+        H5Tinsert(older, "t0_utc_ns", offsetof(Shard, t0_utc_ns), H5T_NATIVE_UINT64);
+        H5Tinsert(older, "load1", offsetof(Shard, load1), H5T_NATIVE_DOUBLE);
+        H5Tinsert(older, "steal_ticks", offsetof(Shard, steal_ticks), H5T_NATIVE_UINT64);
+        checked(H5Ldelete(file, "shards", H5P_DEFAULT), "shards");
+        const hsize_t n = 2;
+        const Handle space(H5Screate_simple(1, &n, nullptr), H5Sclose, "space");
+        const Handle dataset(
+            H5Dcreate2(file, "shards", older, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+            H5Dclose, "shards");
+        checked(H5Dwrite(dataset, older, H5S_ALL, H5S_ALL, H5P_DEFAULT, results.shards.data()),
+                "shards");
+    });
+    EXPECT_SAYS(complaint(file_), "column shards.gpu_copy_gbs is missing; ");
+    set_attribute("schema_minor", 0);
+    for (Shard& shard : results.shards)
+        shard.gpu_copy_gbs = shard.gpu_upload_gbs = shard.gpu_download_gbs =
+            shard.gpu_upload_pageable_gbs = shard.gpu_download_pageable_gbs = shard.gpu_launch_ns =
+                missing;
+    EXPECT_EQ(difference(results, read(file_)), "");
+}
+
 TEST_F(ResultFile, AMissingTableIsAnErrorThatSaysWhatToDo) {
     for (const Table& table : tables()) {
         write(file_, filled_example(1));

@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace boxwood::results {
 namespace {
 
@@ -153,6 +156,26 @@ TEST(Merge, MachinesStayApart) {
         {"sweep_toml", "rounds = 9"}, {"lscpu", "a"}, {"lscpu.2", "b"}};
     EXPECT_EQ(all.texts, texts);
     EXPECT_EQ(difference(all, merge(std::array{all, b})), "");
+}
+
+TEST(Merge, AMachineWithADeviceStaysApartFromOneWithout) {
+    Results with = part("a with a device", 0);
+    with.env[0].gpu = "H200";
+    with.shards[0].gpu_copy_gbs = 4300;
+    with.cells[0].executor = device_executor;
+    with.cells[0].name += "/cuda-1";
+    for (const bool swapped : {false, true}) {
+        const Results without = part("a", 0, 100);
+        const Results all = merge(std::array{swapped ? without : with, swapped ? with : without});
+        ASSERT_EQ(all.env.size(), 2u);
+        ASSERT_EQ(all.cells.size(), 3u); // the peer's is one
+        EXPECT_EQ(std::ranges::count_if(all.cells, is_device), 1);
+        EXPECT_EQ(all.samples.size(), 4u);
+        for (const Shard& shard : all.shards) {
+            EXPECT_EQ(all.env.at(shard.env_id).gpu.empty(), std::isnan(shard.gpu_copy_gbs));
+            EXPECT_EQ(shard.env_id, shard.shard_id);
+        }
+    }
 }
 
 TEST(Merge, AnotherVersionIsAnotherVariant) {

@@ -101,7 +101,8 @@ Handle wanted_type(Stored stored, hid_t in_file, std::string_view where) {
     return string_type(H5Tget_size(in_file));
 }
 
-Records read_records(hid_t file, const fs::path& path, const Table& table, Required required) {
+Records read_records(hid_t file, const fs::path& path, const Table& table, Required required,
+                     std::uint64_t minor) {
     Records records;
     const std::string name(table.name);
     const Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, name);
@@ -114,7 +115,7 @@ Records read_records(hid_t file, const fs::path& path, const Table& table, Requi
     for (const Column& column : table.columns) {
         const int index = H5Tget_member_index(in_file, std::string(column.name).c_str());
         const std::string where = fmt::format("{}.{}", name, column.name);
-        if (index < 0 && required == Required::all)
+        if (index < 0 && required == Required::all && column.minor <= minor)
             fail(fmt::format("column {} is missing; {}", where,
                              remedy(path, table.is_derived || column.is_derived)));
         if (index < 0)
@@ -140,14 +141,14 @@ Records read_records(hid_t file, const fs::path& path, const Table& table, Requi
 }
 
 void get_table(hid_t file, const fs::path& path, const Table& table, Required required,
-               Results& results) {
+               std::uint64_t minor, Results& results) {
     if (!has_link(file, std::string(table.name).c_str())) {
         if (!table.is_derived || required == Required::all)
             fail(
                 fmt::format("table {} is missing; {}", table.name, remedy(path, table.is_derived)));
         return;
     }
-    const Records records = read_records(file, path, table, required);
+    const Records records = read_records(file, path, table, required, minor);
     table.resize(results, records.n);
     const auto rows = table.rows(results);
     for (const auto& [column, offset, size] : records.columns) {
@@ -213,8 +214,10 @@ Results read_open(hid_t file, const fs::path& path, Required required) {
     results.created_utc = text_attribute(file, "created_utc");
     results.sweep_hash = text_attribute(file, "sweep_hash");
     results.generator = text_attribute(file, "generator");
+    const auto minor = has_attribute(file, "schema_minor") ? integer_attribute(file, "schema_minor")
+                                                           : schema_minor;
     for (const Table& table : tables())
-        get_table(file, path, table, required, results);
+        get_table(file, path, table, required, minor, results);
     require_valid_ids(results);
     require_times(results.samples);
     get_texts(file, results.texts);

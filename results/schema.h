@@ -17,7 +17,7 @@
 namespace boxwood::results {
 
 inline constexpr std::string_view format_name = "boxwood-results";
-inline constexpr std::uint32_t schema_major = 2, schema_minor = 0;
+inline constexpr std::uint32_t schema_major = 2, schema_minor = 1;
 
 /// Bytes of a column that holds an enum's word.
 inline constexpr std::size_t word_width = 32;
@@ -30,6 +30,7 @@ struct Column {
     std::string_view name, unit, summary;
     std::size_t width = 0;   ///< bytes of a text in the file; a longer one is an error, never cut
     bool is_derived = false; ///< by bench/analysis, in a table that is measured
+    std::uint32_t minor = 0; ///< since this minor version; older files lack it
     Stored stored = Stored::text;
     std::span<const std::string_view> words; ///< of an enum, else none
     std::size_t at = 0, size = 0;            ///< of the member in its row, in bytes
@@ -49,12 +50,14 @@ struct Column {
 template <class Row> struct ColumnOf : Column {
     template <class Value>
     ColumnOf(std::string_view name_, Value Row::*member, std::string_view unit_,
-             std::string_view summary_, std::size_t width_ = 0, bool is_derived_ = false) {
+             std::string_view summary_, std::size_t width_ = 0, bool is_derived_ = false,
+             std::uint32_t minor_ = 0) {
         name = name_;
         unit = unit_;
         summary = summary_;
         width = width_;
         is_derived = is_derived_;
+        minor = minor_;
         const Row row{};
         at = static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&(row.*member)) -
                                       reinterpret_cast<const std::byte*>(&row));

@@ -50,6 +50,8 @@ enum class Topic : std::uint8_t { none, race, kernel, scene };
 
 /// Of Variant::stages; any other word is the effect that the scene is played without.
 inline constexpr std::string_view required_stages = "required", all_stages = "all";
+/// Of Cell::executor on a device: from the host's boxes to the host's answers; all stays there.
+inline constexpr std::string_view device_executor = "cuda", resident_executor = "cuda_resident";
 
 template <class Enum> struct Words;
 template <> struct Words<Phase> {
