@@ -5,6 +5,7 @@
 #include "build_info.h"
 #include "cmake_cache.h"
 #include "git_commit.h"
+#include "trees/device.h"
 
 #include <CLI/Version.hpp>
 #include <fmt/format.h>
@@ -38,6 +39,8 @@ std::string hash_of(const results::Env& e) {
     const auto add = [&](const auto&... fields) { ((text += fmt::format("{}\x1f", fields)), ...); };
     add(e.host, e.cpu, e.ncpu, e.l1d_bytes, e.l2_bytes, e.l3_bytes, e.isa_max, e.isa_used);
     add(e.governor, e.thp, e.virt, e.kernel, e.mxcsr);
+    if (!e.gpu.empty())
+        add(e.gpu, e.gpu_sm, e.gpu_memory_bytes, e.gpu_driver);
     add(e.compiler, e.flags, e.build_type, e.git_commit, e.git_dirty);
     for (const auto& [name, version] : packages())
         add(name, version);
@@ -152,6 +155,14 @@ results::Env environment(bool measure_bandwidth) {
     e.build_type = BOXWOOD_BUILD_TYPE;
     e.git_commit = BOXWOOD_GIT_COMMIT;
     e.git_dirty = BOXWOOD_GIT_DIRTY;
+    if (const std::vector<Device> there = devices(); !there.empty()) {
+        const Device& device = there.front(); // which all device cells run on
+        e.gpu = device.name;
+        e.gpu_sm = device.multiprocessors;
+        e.gpu_memory_bytes = device.memory_bytes;
+        e.gpu_driver = fmt::format("{}.{}", device.driver / 1000, device.driver % 1000 / 10);
+        e.gpu_clock_ghz = device.max_clock_ghz;
+    }
     if (measure_bandwidth) {
         e.stream_triad_gbs_1 = triad_gbs(machine, 1);
         e.stream_triad_gbs_all = triad_gbs(machine, machine.cores);

@@ -54,7 +54,7 @@ std::vector<std::string> classes_at(std::string_view place, std::vector<std::str
         classes = {""};
     for (std::string& name : classes)
         name += std::string(name.empty() ? "" : " ") +
-                (place == resident_place ? "resident" : "on a device");
+                (place == resident_executor ? "resident" : "on a device");
     return classes;
 }
 

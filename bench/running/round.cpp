@@ -2,10 +2,12 @@
 
 #include "bench/running/cell_timer.h"
 #include "bench/running/usage.h"
+#include "trees/device.h"
 
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdlib>
@@ -101,6 +103,15 @@ std::size_t add_benchmarks(CellTimer& timer, const Timing& timing) {
     return samples;
 }
 
+void add_rates(results::Shard& shard, const DeviceRates& rates) {
+    shard.gpu_copy_gbs = rates.copy;
+    shard.gpu_upload_gbs = rates.upload;
+    shard.gpu_download_gbs = rates.download;
+    shard.gpu_upload_pageable_gbs = rates.upload_pageable;
+    shard.gpu_download_pageable_gbs = rates.download_pageable;
+    shard.gpu_launch_ns = rates.launch_ns;
+}
+
 } // namespace
 
 results::Results run_round(const Plan& plan, const results::Results& prepared, unsigned round,
@@ -130,6 +141,8 @@ results::Results run_round(const Plan& plan, const results::Results& prepared, u
     const std::uint64_t steal_before = steal_ticks();
 
     const std::vector<Timing> timings = timings_of(plan, prepared, round);
+    if (std::ranges::any_of(timings, [](const Timing& t) { return is_device(t.cell->executor); }))
+        add_rates(shard, measure_rates(0));
     CellTimer timer(report, timings.size(), round);
     Reporter reporter([&](const Reporter::Run& run) { timer.take(run); });
     initialize_benchmark();

@@ -28,9 +28,9 @@ class Task;
 
 /// Where a contender may run beside executors(): on a device, from host memory to host memory, or
 /// with input and answers that stay there.
-inline constexpr std::string_view device_place = "cuda", resident_place = "cuda_resident";
-inline bool is_device(std::string_view place) {
-    return place == device_place || place == resident_place;
+using results::device_executor, results::resident_executor;
+inline bool is_device(std::string_view executor) {
+    return executor == device_executor || executor == resident_executor;
 }
 
 /// One piece of work: a scene, what is wanted of it, and where it runs.

@@ -67,6 +67,11 @@ void expect_right(const std::string& scene, const std::string& block, std::size_
     EXPECT_EQ(right, n_forms);
 
     const results::Results timed = run_round(plan, all, 0, silent);
+    const results::Shard& shard = timed.shards.at(0);
+    for (const double rate :
+         {shard.gpu_copy_gbs, shard.gpu_upload_gbs, shard.gpu_download_gbs, shard.gpu_launch_ns,
+          shard.gpu_upload_pageable_gbs, shard.gpu_download_pageable_gbs})
+        EXPECT_GT(rate, 0);
     std::map<std::uint32_t, std::set<results::Phase>> phases;
     for (const results::Sample& sample : timed.samples) {
         EXPECT_EQ(sample.flags & results::wrong_answer, 0u);

@@ -16,7 +16,7 @@ namespace boxwood::bench {
 /// `cuda_resident`: boxes and answers stay on the device, and answers may come in any order.
 class DeviceContender : public Contender {
   public:
-    explicit DeviceContender(const Job& job) : is_resident_(job.executor == resident_place) {}
+    explicit DeviceContender(const Job& job) : is_resident_(job.executor == resident_executor) {}
 
     void build() override;
     void query(Answers& answers) override;
