@@ -116,7 +116,19 @@ class Sweep {
         }
         prepared_ = std::move(*found);
         take_out_crashed();
+        say_what_no_device_can();
         return true;
+    }
+
+    /// Who runs a sweep of devices where there is none shall not look for their rows.
+    void say_what_no_device_can() {
+        std::map<std::string, std::size_t> cells_by_reason;
+        for (const results::Check& check : prepared_.checks)
+            if (check.status == results::Status::unsupported &&
+                is_device(prepared_.cells.at(check.cell_id).executor))
+                ++cells_by_reason[check.witness];
+        for (const auto& [reason, cells] : cells_by_reason)
+            progress_.say(fmt::format("{} cells of a device are left out: {}", cells, reason));
     }
 
     /// False if it was interrupted.
