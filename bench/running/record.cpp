@@ -109,7 +109,7 @@ results::Cell Record::cell(std::string name, const Scene& scene, std::uint32_t s
     row.precision = contender.precision;
     row.executor = executor;
     row.threads = threads;
-    row.isa = contender.is_peer ? "" : out.env.front().isa_used;
+    row.isa = contender.is_peer || is_device(executor) ? "" : out.env.front().isa_used;
     return row;
 }
 
