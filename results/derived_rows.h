@@ -158,6 +158,36 @@ struct KernelCondition {
     double max_rel_err = missing, bound = missing;
 };
 
+/// Our best of one scene and task on a device, from the host's boxes to the host's answers, beside
+/// our best on processors: medians of the total of the task, in the same rounds.
+struct DeviceGain {
+    std::uint32_t scene_id = 0;
+    std::string task;
+    std::uint64_t n = 0;
+    double cpu_1_ns = missing, cpu_2_ns = missing, cpu_all_ns = missing;
+    std::uint32_t threads = 0; ///< of cpu_all: the most that were timed
+    double end_to_end_ns = missing;
+    double resident_ns = missing; ///< boxes and answers stay on the device
+    double device_ns = missing;   ///< of end to end what the device itself took
+    double limit_ns = missing;    ///< of end to end
+    double ratio = missing, ci_lo = missing, ci_hi = missing; ///< end to end over cpu_all
+    Verdict verdict = Verdict::none;                          ///< end to end against cpu_all
+    std::string words;
+    std::uint32_t cell_1 = no_id, cell_2 = no_id, cell_all = no_id, cell_device = no_id,
+                  cell_resident = no_id;
+};
+
+/// From which of the measured sizes of a scene on the device wins end to end against all threads.
+struct DeviceBreakEven {
+    std::uint32_t scene_id = 0; ///< of the largest size
+    std::string task;
+    std::uint64_t n_sizes = 0;
+    std::uint64_t wins_from = no_count; ///< it wins at this size and all larger ones
+    std::uint64_t loses_to = no_count;  ///< the largest size at which it loses
+    std::string words;
+    std::uint32_t cell_all = no_id, cell_device = no_id; ///< of the largest size
+};
+
 /// Which share of its calls each tier of an adaptive kernel of ours decided.
 struct Escalation {
     std::uint32_t cell_id = no_id; ///< no_id: of all families

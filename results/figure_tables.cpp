@@ -7,6 +7,7 @@ namespace boxwood::results {
 std::vector<Table> figure_tables() {
     constexpr std::size_t word = 64, name = 160, text = 1024; // bytes
     constexpr bool derived = true;
+    constexpr std::uint32_t minor_1 = 1;
     return {
         {"topics",
          "what a topic of findings and the columns of its rows are called",
@@ -25,7 +26,7 @@ std::vector<Table> figure_tables() {
          &Results::findings,
          {
              {"place", &Finding::place, "", "its place on the screen: losses first"},
-             {"topic", &Finding::topic, "", "race (against peers), kernel or scene"},
+             {"topic", &Finding::topic, "", "race (against peers), kernel, scene or device"},
              {"is_headline", &Finding::is_headline, "", "1 if it stands for its question"},
              {"is_loss", &Finding::is_loss, "", "1 if the rival is better for sure"},
              {"scene_id", &Finding::scene_id, "", "of scenes"},
@@ -184,6 +185,53 @@ std::vector<Table> figure_tables() {
              {"is_farthest", &Drift::is_farthest, "", "1 for the round that is off the most"},
          },
          derived},
+        {"device_gains",
+         "our best of one scene and task on a device beside our best on processors",
+         &Results::device_gains,
+         {
+             {"scene_id", &DeviceGain::scene_id, "", "of scenes"},
+             {"task", &DeviceGain::task, "", "of cells", word},
+             {"n", &DeviceGain::n, "", "boxes"},
+             {"cpu_1_ns", &DeviceGain::cpu_1_ns, "ns", "our best on one thread, median"},
+             {"cpu_2_ns", &DeviceGain::cpu_2_ns, "ns", "on two"},
+             {"cpu_all_ns", &DeviceGain::cpu_all_ns, "ns", "on the most"},
+             {"threads", &DeviceGain::threads, "", "of cpu_all_ns"},
+             {"end_to_end_ns", &DeviceGain::end_to_end_ns, "ns",
+              "from the host's boxes to the host's answers"},
+             {"resident_ns", &DeviceGain::resident_ns, "ns", "all stays on the device"},
+             {"device_ns", &DeviceGain::device_ns, "ns",
+              "what the device itself took of end to end"},
+             {"limit_ns", &DeviceGain::limit_ns, "ns", "least time that end to end could take"},
+             {"ratio", &DeviceGain::ratio, "", "of compare: end to end over cpu_all"},
+             {"ci_lo", &DeviceGain::ci_lo, "", "of compare"},
+             {"ci_hi", &DeviceGain::ci_hi, "", "of compare"},
+             {"verdict", &DeviceGain::verdict, "", "of compare"},
+             {"words", &DeviceGain::words, "", "of compare", word},
+             {"cell_1", &DeviceGain::cell_1, "", "of cells: of cpu_1_ns"},
+             {"cell_2", &DeviceGain::cell_2, "", "of cells"},
+             {"cell_all", &DeviceGain::cell_all, "", "of cells"},
+             {"cell_device", &DeviceGain::cell_device, "", "of cells: of end_to_end_ns"},
+             {"cell_resident", &DeviceGain::cell_resident, "", "of cells"},
+         },
+         derived,
+         minor_1},
+        {"device_break_even",
+         "from which size on the device wins end to end against all threads",
+         &Results::device_break_even,
+         {
+             {"scene_id", &DeviceBreakEven::scene_id, "", "of scenes: the largest size"},
+             {"task", &DeviceBreakEven::task, "", "of cells", word},
+             {"n_sizes", &DeviceBreakEven::n_sizes, "", "sizes measured"},
+             {"wins_from", &DeviceBreakEven::wins_from, "",
+              "it wins at this size and all larger ones; none: never"},
+             {"loses_to", &DeviceBreakEven::loses_to, "",
+              "the largest size at which it loses; none: never"},
+             {"words", &DeviceBreakEven::words, "", "both, for readers", name},
+             {"cell_all", &DeviceBreakEven::cell_all, "", "of cells: the largest size"},
+             {"cell_device", &DeviceBreakEven::cell_device, "", "of cells: the largest size"},
+         },
+         derived,
+         minor_1},
     };
 }
 

@@ -340,7 +340,7 @@ std::vector<Table> main_tables() {
              {"p_adj", &Comparison::p_adj, "", "sign test, Holm-corrected in its family"},
              {"floor", &Comparison::floor, "", "noise floor, relative"},
              {"delta", &Comparison::delta, "", "the verdict is same within this, relative"},
-             {"family", &Comparison::family, "", "peers, ours, threads or stages"},
+             {"family", &Comparison::family, "", "peers, ours, threads, stages or devices"},
              {"verdict", &Comparison::verdict, "",
               "b is faster, slower, same, cannot_tell or wrong"},
              {"reason", &Comparison::reason, "",

@@ -143,7 +143,7 @@ Records read_records(hid_t file, const fs::path& path, const Table& table, Requi
 void get_table(hid_t file, const fs::path& path, const Table& table, Required required,
                std::uint64_t minor, Results& results) {
     if (!has_link(file, std::string(table.name).c_str())) {
-        if (!table.is_derived || required == Required::all)
+        if ((!table.is_derived || required == Required::all) && table.minor <= minor)
             fail(
                 fmt::format("table {} is missing; {}", table.name, remedy(path, table.is_derived)));
         return;

@@ -51,6 +51,8 @@ struct Results {
     std::vector<QueryKernel> query_kernels;
     std::vector<WorkRow> work;
     std::vector<Drift> drift;
+    std::vector<DeviceGain> device_gains;
+    std::vector<DeviceBreakEven> device_break_even;
     /// As read: false if another program changed the file since. Then none is written with a seal
     /// that holds its rows.
     bool is_sealed = true;

@@ -92,9 +92,10 @@ class Table {
     template <class Row>
     Table(std::string_view name_, std::string_view summary_, std::vector<Row> Results::*rows,
           std::initializer_list<ColumnOf<std::type_identity_t<Row>>> columns_,
-          bool is_derived_ = false)
+          bool is_derived_ = false, std::uint32_t minor_ = 0)
         : name(name_), summary(summary_), columns(columns_.begin(), columns_.end()),
-          is_derived(is_derived_), row_size(sizeof(Row)), rows_([rows](Results& results) {
+          is_derived(is_derived_), minor(minor_), row_size(sizeof(Row)),
+          rows_([rows](Results& results) {
               std::vector<Row>& all = results.*rows;
               return Rows<std::byte>{reinterpret_cast<std::byte*>(all.data()), all.size(),
                                      sizeof(Row)};
@@ -103,7 +104,8 @@ class Table {
 
     std::string_view name, summary;
     std::vector<Column> columns;
-    bool is_derived; ///< from the others, by bench/analysis
+    bool is_derived;     ///< from the others, by bench/analysis
+    std::uint32_t minor; ///< since this minor version
     std::size_t row_size;
 
     Rows<std::byte> rows(Results& results) const { return rows_(results); }
@@ -124,11 +126,13 @@ struct Reference {
     std::string_view column, table;
 };
 inline constexpr Reference references[] = {
-    {"env_id", "env"},       {"scene_id", "scenes"},   {"variant_id", "variants"},
-    {"cell_id", "cells"},    {"shard_id", "shards"},   {"cell_a", "cells"},
-    {"cell_b", "cells"},     {"ours", "cells"},        {"rival", "cells"},
-    {"ours_alone", "cells"}, {"rival_alone", "cells"}, {"fresh_cell", "cells"},
-    {"cell_with", "cells"},  {"cell_without", "cells"}};
+    {"env_id", "env"},         {"scene_id", "scenes"},    {"variant_id", "variants"},
+    {"cell_id", "cells"},      {"shard_id", "shards"},    {"cell_a", "cells"},
+    {"cell_b", "cells"},       {"ours", "cells"},         {"rival", "cells"},
+    {"ours_alone", "cells"},   {"rival_alone", "cells"},  {"fresh_cell", "cells"},
+    {"cell_with", "cells"},    {"cell_without", "cells"}, {"cell_1", "cells"},
+    {"cell_2", "cells"},       {"cell_all", "cells"},     {"cell_device", "cells"},
+    {"cell_resident", "cells"}};
 
 /// Every table, in the order of results.h.
 const std::vector<Table>& tables();

@@ -44,9 +44,9 @@ enum class Reason : std::uint8_t {
     too_noisy
 };
 /// Which claims were corrected together; analysis/comparisons.h says how each is formed.
-enum class Family : std::uint8_t { none, peers, ours, threads, stages };
+enum class Family : std::uint8_t { none, peers, ours, threads, stages, devices };
 /// What a row of findings is about.
-enum class Topic : std::uint8_t { none, race, kernel, scene };
+enum class Topic : std::uint8_t { none, race, kernel, scene, device };
 
 /// Of Variant::stages; any other word is the effect that the scene is played without.
 inline constexpr std::string_view required_stages = "required", all_stages = "all";
@@ -73,10 +73,11 @@ template <> struct Words<Reason> {
         "", "too_few_rounds", "below_the_floor", "crosses_1", "unchecked", "too_noisy"};
 };
 template <> struct Words<Family> {
-    static constexpr std::array<std::string_view, 5> all{"", "peers", "ours", "threads", "stages"};
+    static constexpr std::array<std::string_view, 6> all{"",        "peers",  "ours",
+                                                         "threads", "stages", "devices"};
 };
 template <> struct Words<Topic> {
-    static constexpr std::array<std::string_view, 4> all{"", "race", "kernel", "scene"};
+    static constexpr std::array<std::string_view, 5> all{"", "race", "kernel", "scene", "device"};
 };
 
 /// An enum that has words.

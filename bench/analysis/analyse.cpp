@@ -1,6 +1,7 @@
 #include "bench/analysis/analyse.h"
 
 #include "bench/analysis/comparisons.h"
+#include "bench/analysis/figures/devices.h"
 #include "bench/analysis/figures/drift.h"
 #include "bench/analysis/figures/frames.h"
 #include "bench/analysis/figures/kernel_rows.h"
@@ -39,6 +40,7 @@ void analyse(results::Results& results, double delta) {
     results.work = work_of(results);
     set_off_medians(results);
     results.drift = drift_of(results);
+    set_device_gains(results, times);
     results.health = {health_of(results, floor, delta)};
     results.topics = topics();
     results.findings = findings_of(results);

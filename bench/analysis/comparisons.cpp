@@ -7,6 +7,8 @@
 #include "trees/executor.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -138,7 +140,7 @@ void against_one_thread(const Index& index, const Times& times, Judge& judge) {
     const std::string_view usual = default_executor(1);
     std::map<Contender, const Cell*> single; // of the usual executor if there is one
     for (const Cell& cell : index.results().cells)
-        if (cell.threads == 1 && !index.is_kernel(cell)) {
+        if (cell.threads == 1 && !is_device(cell) && !index.is_kernel(cell)) {
             const Cell*& kept = single[contender_of(cell)];
             if (!kept || (kept->executor != usual && cell.executor == usual))
                 kept = &cell;
@@ -173,6 +175,14 @@ void against_fewer_stages(const Index& index, const Times& times, Judge& judge) 
     claims.judge(judge, Family::stages);
 }
 
+void against_processors(const Index& index, const Times& times, Judge& judge) {
+    for (const DeviceRace& race : device_races(index, times)) {
+        for (const auto& [threads, cell] : race.processors)
+            judge.claim(*cell, *race.device, race.total);
+        judge.close(Family::devices);
+    }
+}
+
 } // namespace
 
 const Cell* reference_of(const Index& index, const Cell& judged) {
@@ -197,6 +207,52 @@ const Cell* reference_of(const Index& index, const Cell& judged) {
         }
     }
     return best == &judged ? nullptr : best;
+}
+
+double shared_median(const Times& times, const Cell& cell, const Cell& other, Phase phase) {
+    const Times::Rounds *of_cell = times.rounds(cell.cell_id, phase),
+                        *of_other = times.rounds(other.cell_id, phase);
+    return of_cell && of_other ? paired_medians(*of_cell, *of_other).first : unknown;
+}
+
+std::vector<DeviceRace> device_races(const Index& index, const Times& times) {
+    std::map<std::pair<std::uint32_t, std::string>, std::vector<const Cell*>> ours;
+    for (const Cell& cell : index.results().cells)
+        if (is_right(cell.status) && !index.is_peer(cell) && !index.is_kernel(cell) &&
+            index.stages(cell).empty())
+            ours[{cell.scene_id, cell.task}].push_back(&cell);
+    const auto is_end_to_end = [](const Cell* cell) {
+        return cell->executor == results::device_executor;
+    };
+    std::vector<DeviceRace> races;
+    for (const auto& [key, cells] : ours) {
+        if (std::ranges::none_of(cells, is_end_to_end))
+            continue;
+        DeviceRace race;
+        race.total = index.task(key.second).total;
+        const auto take = [&](const Cell*& kept, const Cell& cell, const Cell* beside) {
+            const auto ns = [&](const Cell& c) {
+                return shared_median(times, c, beside ? *beside : c, race.total);
+            };
+            if (!std::isnan(ns(cell)) && (!kept || ns(cell) < ns(*kept)))
+                kept = &cell;
+        };
+        for (const Cell* cell : cells)
+            if (is_end_to_end(cell))
+                take(race.device, *cell, nullptr);
+        if (!race.device)
+            continue;
+        for (const Cell* cell : cells)
+            if (cell->precision == race.device->precision && !is_end_to_end(cell))
+                take(is_device(*cell) ? race.resident : race.processors[cell->threads], *cell,
+                     race.device);
+        std::erase_if(race.processors, [](const auto& entry) { return !entry.second; });
+        const std::uint32_t most = race.processors.empty() ? 0 : race.processors.rbegin()->first;
+        std::erase_if(race.processors,
+                      [most](const auto& entry) { return entry.first > 2 && entry.first != most; });
+        races.push_back(std::move(race));
+    }
+    return races;
 }
 
 void set_ruling(Comparison& row, const Ruling& ruling) {
@@ -227,6 +283,7 @@ std::vector<Comparison> comparisons_of(const Results& results, const Times& time
     against_ours(index, times, judge);
     against_one_thread(index, times, judge);
     against_fewer_stages(index, times, judge);
+    against_processors(index, times, judge);
     return judge.take();
 }
 

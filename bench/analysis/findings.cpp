@@ -49,6 +49,7 @@ void mark_headlines(std::vector<Draft>& drafts, const Index& index) {
 std::string question_text(const Draft& draft) {
     switch (draft.finding.topic) {
     case Topic::race:
+    case Topic::device:
         return draft.question + draft.how + ", " + draft.where;
     case Topic::scene:
         return draft.where + draft.how;
@@ -85,6 +86,7 @@ std::vector<Finding> findings_of(const Results& results) {
     std::vector<Draft> drafts = race_findings(index, medians);
     std::ranges::move(kernel_findings(index), std::back_inserter(drafts));
     std::ranges::move(scene_findings(index, medians), std::back_inserter(drafts));
+    std::ranges::move(device_findings(index), std::back_inserter(drafts));
     sort(drafts);
     mark_headlines(drafts, index);
     std::vector<Finding> findings;
@@ -103,7 +105,9 @@ std::vector<results::TopicRow> topics() {
             {Topic::kernel, "kernels on hard cases", "kernels on hard cases", "cheapest, a call",
              "against our fastest", "errors"},
             {Topic::scene, "moving scenes, a frame", "moving scenes", "what they require",
-             "with all stages", "interval"}};
+             "with all stages", "interval"},
+            {Topic::device, "on a device, from the host's boxes to the host's answers",
+             "on a device, end to end", "against all threads", "the largest", "interval"}};
 }
 
 } // namespace boxwood::bench

@@ -8,8 +8,11 @@
 
 namespace boxwood::bench {
 
-/// What is the same for all contenders of one job: scene, task, threads.
-using JobKey = std::tuple<std::uint32_t, std::string, std::uint32_t>;
-inline JobKey job_of(const results::Cell& cell) { return {cell.scene_id, cell.task, cell.threads}; }
+/// What is the same for all contenders of one job: scene, task, threads, and on a device its
+/// executor.
+using JobKey = std::tuple<std::uint32_t, std::string, std::uint32_t, std::string>;
+inline JobKey job_of(const results::Cell& cell) {
+    return {cell.scene_id, cell.task, cell.threads, is_device(cell) ? cell.executor : ""};
+}
 
 } // namespace boxwood::bench

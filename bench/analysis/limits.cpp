@@ -1,8 +1,13 @@
 #include "bench/analysis/limits.h"
 
+#include "bench/analysis/statistics.h"
+
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace boxwood::bench {
 namespace {
@@ -11,6 +16,8 @@ using results::Cell;
 using results::missing;
 using results::Phase;
 using results::Results;
+
+constexpr double box = 24, nodes = 64, pair = 8; // bytes
 
 std::optional<double> counter(const Results& results, const Cell& cell, std::string_view name) {
     for (const results::Counter& row : results.counters)
@@ -29,12 +36,73 @@ double items_moved(const Results& results, const Cell& cell) {
     return *moved / static_cast<double>(scene->n_frames);
 }
 
+/// Of the rounds that have one.
+double median_of(const Results& results, double results::Shard::*rate) {
+    std::vector<double> values;
+    for (const results::Shard& shard : results.shards)
+        if (!std::isnan(shard.*rate))
+            values.push_back(shard.*rate);
+    return median_interval(std::move(values)).mid;
+}
+
+/// NaN where one is.
+double longest(std::initializer_list<double> times) {
+    double ns = 0;
+    for (const double time : times)
+        ns = std::isnan(time) || time > ns ? time : ns;
+    return ns;
+}
+
+double device_limit_ns(const Results& results, const Cell& cell, Phase phase) {
+    using results::Shard;
+    constexpr double lanes = 128, cycles_per_test = 8; // of a multiprocessor; of a lane
+    const results::Env& env = results.env.front();
+    const auto count = [&](std::string_view name) {
+        return counter(results, cell, name).value_or(missing);
+    };
+    const auto work = [&](std::string_view bytes, std::string_view launches) {
+        return longest({count(bytes) / median_of(results, &Shard::gpu_copy_gbs),
+                        count(launches) * median_of(results, &Shard::gpu_launch_ns)});
+    };
+    const auto with = [&](Phase first, Phase second) {
+        return device_limit_ns(results, cell, first) + device_limit_ns(results, cell, second);
+    };
+    const bool crosses = cell.executor == results::device_executor;
+    switch (phase) {
+    case Phase::upload:
+        return box * static_cast<double>(cell.n_items) /
+               median_of(results, &Shard::gpu_upload_pageable_gbs);
+    case Phase::device_build:
+        return work("build_bytes", "build_launches");
+    case Phase::device_query: {
+        const double per_ns = env.gpu_sm == results::no_count
+                                  ? missing
+                                  : static_cast<double>(env.gpu_sm) * lanes * env.gpu_clock_ghz;
+        return longest(
+            {work("query_bytes", "query_launches"), cycles_per_test * count("box_tests") / per_ns});
+    }
+    case Phase::download:
+        return pair * count("pairs") / median_of(results, &Shard::gpu_download_pageable_gbs);
+    case Phase::build:
+        return crosses ? with(Phase::upload, Phase::device_build)
+                       : device_limit_ns(results, cell, Phase::device_build);
+    case Phase::query:
+        return crosses ? with(Phase::device_query, Phase::download)
+                       : device_limit_ns(results, cell, Phase::device_query);
+    case Phase::build_and_query:
+        return with(Phase::build, Phase::query);
+    default:
+        return missing;
+    }
+}
+
 } // namespace
 
 double limit_ns(const Results& results, const Cell& cell, Phase phase) {
     if (results.env.size() != 1)
         return missing;
-    constexpr double box = 24, nodes = 64, pair = 8;
+    if (is_device(cell))
+        return device_limit_ns(results, cell, phase);
     const results::Env& env = results.env.front();
     const double n = static_cast<double>(cell.n_items);
     const double gbs = cell.threads == 1 ? env.stream_triad_gbs_1 : env.stream_triad_gbs_all;

@@ -57,5 +57,47 @@ TEST(Limits, OfAnUpdateCountTheItemsThatMoved) {
     EXPECT_TRUE(std::isnan(limit_ns(r, cell, Phase::update)));
 }
 
+TEST(Limits, OfADeviceAreItsBytesLanesLaunchesAndTheBus) {
+    results::Results r;
+    r.env.resize(1);
+    r.env[0].gpu_sm = 100;
+    r.env[0].gpu_clock_ghz = 2;                // 25,600 lane cycles in a ns
+    for (const double scale : {1., 3., 0.5}) { // the median is 1
+        results::Shard shard;
+        shard.gpu_copy_gbs = 4000 * scale;
+        shard.gpu_upload_pageable_gbs = 12 * scale;
+        shard.gpu_download_pageable_gbs = 8 * scale;
+        shard.gpu_launch_ns = 2000 * scale;
+        r.shards.push_back(shard);
+    }
+    r.shards.emplace_back(); // not measured
+    results::Cell cell;
+    cell.n_items = 1'000'000;
+    cell.executor = results::resident_executor;
+    EXPECT_TRUE(std::isnan(limit_ns(r, cell, Phase::build))); // nothing was counted
+    r.counters = {{0, "build_bytes", 200'000'000}, {0, "build_launches", 12},
+                  {0, "query_bytes", 40'000'000},  {0, "query_launches", 3},
+                  {0, "box_tests", 640'000'000},   {0, "pairs", 5'000'000}};
+    EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::build), 50'000);  // 200 MB at 4000 B/ns; 24 us launch
+    EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::query), 200'000); // 8 cycles a test
+    EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::build_and_query), 250'000);
+    EXPECT_TRUE(std::isnan(limit_ns(r, cell, Phase::update)));
+    cell.executor = results::device_executor;
+    EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::upload), 2'000'000);   // 24 MB at 12 B/ns
+    EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::download), 5'000'000); // 40 MB at 8 B/ns
+    EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::device_build), 50'000);
+    EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::build), 2'050'000);
+    EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::query), 5'200'000);
+    EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::build_and_query), 7'250'000);
+    r.counters[4].value = 1000;
+    EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::device_query), 10'000); // 40 MB
+    r.counters[2].value = 1000;
+    EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::device_query), 6000); // three launches
+    r.counters[1].value = 100;
+    EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::device_build), 200'000);
+    r.env[0].gpu_sm = results::no_count;
+    EXPECT_TRUE(std::isnan(limit_ns(r, cell, Phase::device_query)));
+}
+
 } // namespace
 } // namespace boxwood::bench

@@ -1,10 +1,13 @@
 #include "bench/analysis/screen.h"
 
+#include "bench/analysis/index.h"
+#include "bench/analysis/wording.h"
 #include "bench/io/text_table.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <sstream>
 #include <utility>
@@ -57,7 +60,39 @@ std::string table_text(const TopicRow& topic, std::span<const Finding* const> fi
     return text;
 }
 
+/// Of the first scene and task on a device the sizes: so many rows.
+std::size_t sizes_on_screen(const results::Results& results) {
+    constexpr std::size_t most = 6;
+    return results.device_break_even.empty()
+               ? 0
+               : std::min<std::size_t>(most, results.device_break_even.front().n_sizes);
+}
+
 } // namespace
+
+std::string devices_text(const results::Results& results, std::size_t max_rows) {
+    const Index index(results);
+    TextTable table({"our best", ">size", ">1 thread", ">2 threads", ">all threads", ">end to end",
+                     ">resident", ">device", ">limit", "end to end against all threads"});
+    std::string last;
+    for (const results::DeviceGain& row : results.device_gains) {
+        if (max_rows-- == 0)
+            break;
+        const std::string what = fmt::format("{}, {}", index.task(row.task).title,
+                                             spaced(index.scene(row.scene_id).name));
+        results::Comparison compared;
+        compared.verdict = row.verdict;
+        compared.ratio = row.ratio;
+        table.add({what == last ? "" : what, count_words(row.n), time_text(row.cpu_1_ns),
+                   time_text(row.cpu_2_ns),
+                   fmt::format("{} ({})", time_text(row.cpu_all_ns), row.threads),
+                   time_text(row.end_to_end_ns), time_text(row.resident_ns),
+                   time_text(row.device_ns), time_text(row.limit_ns),
+                   std::isnan(row.ratio) ? row.words : outcome_text(compared, "")});
+        last = what;
+    }
+    return table.empty() ? "" : "\n" + table.text();
+}
 
 std::string screen_text(const results::Results& results, std::size_t max_lines) {
     if (results.health.empty())
@@ -80,8 +115,9 @@ std::string screen_text(const results::Results& results, std::size_t max_lines) 
         if (!rows.findings.empty())
             topics.push_back(std::move(rows));
     }
-    // Each topic takes two lines more, and the last may say that there is more.
-    const std::size_t fixed = taken + 1 + 2 * topics.size();
+    // Each topic takes two lines more, as do the devices, and the last may say that there is more.
+    const std::size_t sizes = sizes_on_screen(results);
+    const std::size_t fixed = taken + 1 + 2 * topics.size() + (sizes > 0 ? 2 + sizes : 0);
     std::size_t left = max_lines > fixed ? max_lines - fixed : 0, shown = 0, losses = 0;
     for (std::size_t topic = 0; topic < topics.size(); ++topic) {
         std::size_t others = 0; // lines that later topics need at least
@@ -97,6 +133,8 @@ std::string screen_text(const results::Results& results, std::size_t max_lines) 
         for (std::size_t i = 0; i < n; ++i)
             losses += topics[topic].findings[i]->is_loss;
     }
+    if (sizes > 0)
+        text += devices_text(results, sizes);
     if (const std::size_t more = results.findings.size() - shown; more > 0)
         text += fmt::format(
             "and {} more ({} losses): boxwood show FILE.h5 --all\n", more,

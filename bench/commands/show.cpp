@@ -57,6 +57,10 @@ std::string machine_text(const Results& results, const results::Env& env, std::s
     text += fmt::format("  built by {} {} ({}), commit {}{}, seed {}\n", or_unknown(env.compiler),
                         env.flags, or_unknown(env.build_type), or_unknown(env.git_commit),
                         env.git_dirty ? " with changes" : "", env.seed);
+    if (!env.gpu.empty())
+        text += fmt::format("  device {}, {} multiprocessors, {}, {:.2f} GHz, driver {}\n", env.gpu,
+                            env.gpu_sm, bytes_text(env.gpu_memory_bytes), env.gpu_clock_ghz,
+                            or_unknown(env.gpu_driver));
     std::string versions;
     for (const results::Package& package : results.packages)
         if (package.env_id == env.env_id)
@@ -127,8 +131,10 @@ class Group {
         for (const auto& row : results_.scenes)
             if (row.scene_id == cell.scene_id)
                 scene = fmt::format("{}, {} items", row.name, row.n_items);
-        return fmt::format("\n{}, {}, {} thread{}\n", scene, cell.task, cell.threads,
-                           cell.threads == 1 ? "" : "s");
+        const std::string where = is_device(cell)     ? cell.executor
+                                  : cell.threads == 1 ? "1 thread"
+                                                      : fmt::format("{} threads", cell.threads);
+        return fmt::format("\n{}, {}, {}\n", scene, cell.task, where);
     }
 
     std::string times() const {
@@ -212,11 +218,20 @@ class Group {
                 fmt::format("{}{}{}", to_string(row.family),
                             row.contender_class.empty() ? "" : ", ", row.contender_class);
             table.add({"  " + labels_.at(row.cell_b),
-                       other == labels_.end() ? "itself on one thread" : other->second, family,
+                       other != labels_.end() ? other->second : elsewhere(row), family,
                        std::string(to_string(row.phase)), std::to_string(row.n_pairs),
                        interval_text(1 / row.ratio, 1 / row.ci_hi, 1 / row.ci_lo), row.words});
         }
         return table.empty() ? "" : table.text();
+    }
+
+    /// What a cell is compared with that is of another job.
+    std::string elsewhere(const Comparison& row) const {
+        if (row.family != results::Family::devices)
+            return "itself on one thread";
+        const Cell& other = index_.cell(row.cell_a);
+        return fmt::format("{}, {} thread{}", label_of(other), other.threads,
+                           other.threads == 1 ? "" : "s");
     }
 
     const Index& index_;
@@ -281,7 +296,7 @@ std::string all_text(const Results& results) {
     }
     for (const JobKey& job : order)
         text += Group(index, groups[job]).text();
-    return text + findings_text(results);
+    return text + devices_text(results) + findings_text(results);
 }
 
 std::string csv_text(const Results& results) {

@@ -27,5 +27,6 @@ void describe(Draft& draft, const Index& index, const results::Cell& cell);
 std::vector<Draft> race_findings(const Index& index, const MedianIndex& medians);
 std::vector<Draft> kernel_findings(const Index& index);
 std::vector<Draft> scene_findings(const Index& index, const MedianIndex& medians);
+std::vector<Draft> device_findings(const Index& index);
 
 } // namespace boxwood::bench
