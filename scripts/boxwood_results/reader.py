@@ -86,7 +86,8 @@ DERIVED_COLUMNS = {  # in tables that are measured
 REFERENCES = {
     "env_id": "env", "scene_id": "scenes", "variant_id": "variants", "cell_id": "cells", "shard_id": "shards",
     "cell_a": "cells", "cell_b": "cells", "ours": "cells", "rival": "cells", "ours_alone": "cells",
-    "rival_alone": "cells", "fresh_cell": "cells", "cell_with": "cells", "cell_without": "cells",
+    "rival_alone": "cells", "fresh_cell": "cells", "cell_with": "cells", "cell_without": "cells", "cell_1": "cells",
+    "cell_2": "cells", "cell_all": "cells", "cell_device": "cells", "cell_resident": "cells",
 }
 # Columns of few words, by name, and what they may hold.
 WORDS = {"phase": PHASES, "status": STATUSES, "verdict": VERDICTS, "reason": REASONS, "topic": TOPICS}
