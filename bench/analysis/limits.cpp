@@ -26,6 +26,18 @@ std::optional<double> counter(const Results& results, const Cell& cell, std::str
     return std::nullopt;
 }
 
+/// A device counts no box tests: those of the same contender on processors, who walk the same tree.
+std::optional<double> box_tests(const Results& results, const Cell& cell) {
+    if (const auto counted = counter(results, cell, "box_tests"))
+        return counted;
+    for (const Cell& other : results.cells)
+        if (other.scene_id == cell.scene_id && other.task == cell.task &&
+            other.variant_id == cell.variant_id && other.precision == cell.precision)
+            if (const auto counted = counter(results, other, "box_tests"))
+                return counted;
+    return std::nullopt;
+}
+
 /// In a frame, where that was counted, else all.
 double items_moved(const Results& results, const Cell& cell) {
     const auto moved = counter(results, cell, "items_moved");
@@ -78,8 +90,8 @@ double device_limit_ns(const Results& results, const Cell& cell, Phase phase) {
         const double per_ns = env.gpu_sm == results::no_count
                                   ? missing
                                   : static_cast<double>(env.gpu_sm) * lanes * env.gpu_clock_ghz;
-        return longest(
-            {work("query_bytes", "query_launches"), cycles_per_test * count("box_tests") / per_ns});
+        return longest({work("query_bytes", "query_launches"),
+                        cycles_per_test * box_tests(results, cell).value_or(missing) / per_ns});
     }
     case Phase::download:
         return pair * count("pairs") / median_of(results, &Shard::gpu_download_pageable_gbs);

@@ -10,8 +10,9 @@ namespace boxwood::bench {
 /// done (0.31 cycles for a box test sixteen at a time, a cycle for a pair). No such bound is known
 /// of other work: NaN. Of a sum of two phases the sum.
 /// Of a cell on a device by what it counted: the bytes at the rate of a copy there, the launches,
-/// of a query 8 cycles of a lane for a box test; and from end to end the boxes up and the pairs
-/// down through pageable memory. Rates are medians over the rounds.
+/// of a query 8 cycles of a lane for each box test that the same contender counted on processors;
+/// and from end to end the boxes up and the pairs down through pageable memory. Rates are medians
+/// over the rounds.
 double limit_ns(const results::Results& results, const results::Cell& cell, results::Phase phase);
 
 } // namespace boxwood::bench

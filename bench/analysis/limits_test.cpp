@@ -95,6 +95,15 @@ TEST(Limits, OfADeviceAreItsBytesLanesLaunchesAndTheBus) {
     EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::device_query), 6000); // three launches
     r.counters[1].value = 100;
     EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::device_build), 200'000);
+    r.counters[4].cell_id = 7;
+    EXPECT_TRUE(std::isnan(limit_ns(r, cell, Phase::device_query)));
+    results::Cell on_processors; // the same contender
+    on_processors.cell_id = 7;
+    r.cells = {cell, on_processors};
+    EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::device_query), 6000);
+    r.cells[1].task = "tree_pairs";
+    EXPECT_TRUE(std::isnan(limit_ns(r, cell, Phase::device_query)));
+    r.cells[1].task = "";
     r.env[0].gpu_sm = results::no_count;
     EXPECT_TRUE(std::isnan(limit_ns(r, cell, Phase::device_query)));
 }

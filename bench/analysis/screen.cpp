@@ -72,8 +72,12 @@ std::size_t sizes_on_screen(const results::Results& results) {
 
 std::string devices_text(const results::Results& results, std::size_t max_rows) {
     const Index index(results);
-    TextTable table({"our best", ">size", ">1 thread", ">2 threads", ">all threads", ">end to end",
-                     ">resident", ">device", ">limit", "end to end against all threads"});
+    std::uint32_t threads = 0;
+    for (const results::DeviceGain& row : results.device_gains)
+        threads = std::max(threads, row.threads);
+    TextTable table({"our best", ">size", ">1 thread", ">2 threads",
+                     fmt::format(">all {}", threads), ">end to end", ">resident", ">device",
+                     ">limit", "against all"});
     std::string last;
     for (const results::DeviceGain& row : results.device_gains) {
         if (max_rows-- == 0)
@@ -83,11 +87,9 @@ std::string devices_text(const results::Results& results, std::size_t max_rows) 
         results::Comparison compared;
         compared.verdict = row.verdict;
         compared.ratio = row.ratio;
-        table.add({what == last ? "" : what, count_words(row.n), time_text(row.cpu_1_ns),
-                   time_text(row.cpu_2_ns),
-                   fmt::format("{} ({})", time_text(row.cpu_all_ns), row.threads),
-                   time_text(row.end_to_end_ns), time_text(row.resident_ns),
-                   time_text(row.device_ns), time_text(row.limit_ns),
+        table.add({what == last ? "" : cut(what, 32), count_words(row.n), time_text(row.cpu_1_ns),
+                   time_text(row.cpu_2_ns), time_text(row.cpu_all_ns), time_text(row.end_to_end_ns),
+                   time_text(row.resident_ns), time_text(row.device_ns), time_text(row.limit_ns),
                    std::isnan(row.ratio) ? row.words : outcome_text(compared, "")});
         last = what;
     }
@@ -107,17 +109,19 @@ std::string screen_text(const results::Results& results, std::size_t max_lines) 
         std::vector<const Finding*> findings;
     };
     std::vector<Rows> topics;
+    Rows devices;
     for (const TopicRow& topic : results.topics) {
         Rows rows{&topic, {}};
         for (const Finding& finding : results.findings)
             if (finding.topic == topic.topic && finding.is_headline)
                 rows.findings.push_back(&finding);
-        if (!rows.findings.empty())
+        if (topic.topic == results::Topic::device)
+            devices = std::move(rows);
+        else if (!rows.findings.empty())
             topics.push_back(std::move(rows));
     }
-    // Each topic takes two lines more, as do the devices, and the last may say that there is more.
-    const std::size_t sizes = sizes_on_screen(results);
-    const std::size_t fixed = taken + 1 + 2 * topics.size() + (sizes > 0 ? 2 + sizes : 0);
+    // Each topic takes two lines more, and the last may say that there is more.
+    const std::size_t fixed = taken + 1 + 2 * topics.size();
     std::size_t left = max_lines > fixed ? max_lines - fixed : 0, shown = 0, losses = 0;
     for (std::size_t topic = 0; topic < topics.size(); ++topic) {
         std::size_t others = 0; // lines that later topics need at least
@@ -133,8 +137,14 @@ std::string screen_text(const results::Results& results, std::size_t max_lines) 
         for (std::size_t i = 0; i < n; ++i)
             losses += topics[topic].findings[i]->is_loss;
     }
-    if (sizes > 0)
-        text += devices_text(results, sizes);
+    if (!devices.findings.empty()) {
+        const std::size_t n = std::min<std::size_t>(devices.findings.size(), 3);
+        text += "\n" + table_text(*devices.topic, std::span(devices.findings).first(n)) +
+                devices_text(results, sizes_on_screen(results));
+        shown += n;
+        for (std::size_t i = 0; i < n; ++i)
+            losses += devices.findings[i]->is_loss;
+    }
     if (const std::size_t more = results.findings.size() - shown; more > 0)
         text += fmt::format(
             "and {} more ({} losses): boxwood show FILE.h5 --all\n", more,

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from .words import interval_text
 
-PEERS, OURS, THREADS, STAGES = "peers", "ours", "threads", "stages"  # families of /compare
+PEERS, OURS, THREADS, STAGES, DEVICES = "peers", "ours", "threads", "stages", "devices"  # families of /compare
 RACE = "race"  # the topic of /findings that is about times against rivals
 
 
@@ -108,7 +108,7 @@ def comparison_rows(comparisons):
     columns = ("job", "class", "family", "judged", "against", "phase", "rounds", "time of that / judged", "low", "high",
                "p adjusted", "verdict")
     rows = [
-        (str(c.b.job), c.contender_class, c.family, c.b.label, c.a.label if c.a.job == c.b.job else "one thread", c.phase,
+        (str(c.b.job), c.contender_class, c.family, c.b.label, c.a.label if c.a.job == c.b.job else f"{c.a.label}, {c.a.job.where}", c.phase,
          c.rounds, c.gain.mid, c.gain.lo, c.gain.hi, c.p, c.verdict_text)
         for c in comparisons
     ]

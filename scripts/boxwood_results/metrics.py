@@ -18,6 +18,7 @@ METRICS = {
     "build": Metric("time to build", "ns", "lower is better"),
     "query": Metric("time of one query", "ns", "lower is better"),
     "frame": Metric("time of one frame", "ns", "lower is better"),
+    "device_gains": Metric("time", "ns", "lower is better"),
     "n": Metric("items n", "", ""),
     "ratio": Metric("peer's time / Boxwood's time", "", "right: Boxwood is faster"),
     "thread_scaling": Metric("time on one thread / on t", "", "higher is better"),

@@ -77,7 +77,13 @@ DERIVED = {
     "query_kernels": ("cell_id", "group", "tree", "times_fastest"),
     "work": ("cell_id", "node_visits", "box_tests", "query_ns"),
     "drift": ("shard_id", "n", "disturbed", "off_median", "is_farthest"),
+    "device_gains": (
+        "scene_id", "task", "n", "cpu_1_ns", "cpu_2_ns", "cpu_all_ns", "threads", "end_to_end_ns", "resident_ns",
+        "device_ns", "limit_ns", "cell_1", "cell_2", "cell_all", "cell_device", "cell_resident",
+    ),
+    "device_break_even": ("scene_id", "task", "wins_from", "loses_to", "words", "cell_all", "cell_device"),
 }
+SINCE = {"device_gains": 1, "device_break_even": 1}  # minor versions; in older files they are empty
 DERIVED_COLUMNS = {  # in tables that are measured
     "cells.status", "samples.off_median", "trees.on_front", "kernels.is_broken", "kernels.label", "kernels.ns",
     "kernels.wrong", "kernels.wrong_per_million", "kernels.maybe_per_million",
@@ -156,6 +162,8 @@ def read_table(file, path, name, columns):
     def remedy(is_derived):
         return f"`boxwood merge {path} --out NEW.h5` derives it" if is_derived else AGAIN
 
+    if name not in file and file.attrs["schema_minor"] < SINCE.get(name, 0):
+        return np.zeros(0, dtype=[(column, object) for column in columns])
     if name not in file:
         raise BadFile(path, f"table {name} is missing; {remedy(name in DERIVED)}")
     fields = file[name].dtype.fields or {}

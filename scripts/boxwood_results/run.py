@@ -10,6 +10,7 @@ from .reader import load
 AA_TWIN, DISTURBED = 4, 1 | 2
 WHOLE_QUERY = "typical"  # a kernel row about a whole query, whose cell stays among the others
 REQUIRED, ALL_STAGES = "required", "all"  # ways to play a scene; any other is the effect left out
+DEVICES = {"cuda": "a device, end to end", "cuda_resident": "a device, resident"}  # executors
 TOTAL = "total"  # stands for the phase of a task that says what one use costs
 
 
@@ -31,6 +32,22 @@ class Task:
         return self.total == "update+query"
 
 
+@dataclass(frozen=True, order=True)
+class Where:
+    """By whom a job is done."""
+
+    device: str  # an executor of DEVICES, or empty: by threads
+    threads: int
+
+    @property
+    def column(self):
+        """As the tables have it."""
+        return self.device or self.threads
+
+    def __str__(self):
+        return DEVICES.get(self.device) or ("1 thread" if self.threads == 1 else f"{self.threads} threads")
+
+
 @dataclass(frozen=True)
 class Job:
     """What is done: contenders of one job can be compared."""
@@ -39,11 +56,10 @@ class Job:
     n: int
     seed: int
     task: str
-    threads: int
+    where: Where
 
     def __str__(self):
-        threads = "1 thread" if self.threads == 1 else f"{self.threads} threads"
-        return f"{self.scene} {self.n:,} · {self.task} · {threads}"
+        return f"{self.scene} {self.n:,} · {self.task} · {self.where}"
 
 
 @dataclass
@@ -180,7 +196,7 @@ def read_cells(source, tasks):
         scene, variant = scenes[row["scene_id"]], variants[row["variant_id"]]
         job = Job(
             scene["name"], int(row["n_items"]), int(scene["seed"]), row["task"],
-            int(row["threads"]),
+            Where(row["executor"] if row["executor"] in DEVICES else "", int(row["threads"])),
         )
         cells[row["cell_id"]] = Cell(
             int(row["cell_id"]), row["name"], job, variant["name"], variant["library"],
@@ -258,7 +274,7 @@ def read(path):
     ordered = list(cells.values())
     jobs = sorted(
         {cell.job for cell in ordered if cell.timed},
-        key=lambda job: (job.task, job.scene, job.n, job.threads, job.seed),
+        key=lambda job: (job.task, job.scene, job.n, job.where, job.seed),
     )
     missing = len([row for row in source["samples"] if not row["wall_ns"] >= 0])
     return Run(source, ordered, jobs, missing, read_comparisons(source["compare"], all_cells),

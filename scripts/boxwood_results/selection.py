@@ -6,10 +6,10 @@ MAX_LINES = 12
 
 
 def largest_jobs(jobs):
-    """Of each scene, task and thread count, the job with the most items."""
+    """Of each scene, task and number of threads or device, the job with the most items."""
     largest = {}
     for job in jobs:
-        key = (job.task, job.scene, job.seed, job.threads)
+        key = (job.task, job.scene, job.seed, job.where)
         if key not in largest or job.n > largest[key].n:
             largest[key] = job
     return list(largest.values())

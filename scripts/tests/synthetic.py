@@ -15,12 +15,15 @@ from boxwood_results.reader import fnv_1a
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = Path(os.environ.get("BOXWOOD_BUILD", ROOT / "build" / "release")) / "boxwood"
+GPU_RATES = {"gpu_copy_gbs": 4300, "gpu_upload_gbs": 52, "gpu_download_gbs": 54, "gpu_upload_pageable_gbs": 11,
+             "gpu_download_pageable_gbs": 10, "gpu_launch_ns": 1900}
 WORD, NAME, TEXT = "S64", "S160", "S1024"
 U4, U8, F8 = "u4", "u8", "f8"
 COLUMNS = {
     "env": [("env_id", U4), ("env_hash", WORD), ("host", NAME), ("cpu", NAME), ("ncpu", U4), ("l1d_bytes", U8),
             ("compiler", NAME), ("git_commit", WORD), ("stream_triad_gbs_1", F8), ("stream_triad_gbs_all", F8),
-            ("core_ghz", F8), ("seed", U8)],
+            ("core_ghz", F8), ("seed", U8), ("gpu", NAME), ("gpu_sm", U4), ("gpu_memory_bytes", U8),
+            ("gpu_clock_ghz", F8), ("gpu_driver", WORD)],
     "packages": [("env_id", U4), ("library", WORD), ("version", WORD), ("build", TEXT), ("present", U4)],
     "scenes": [("scene_id", U4), ("name", NAME), ("generator", WORD), ("n_items", U8), ("seed", U8),
                ("n_frames", U8), ("content_hash", U8), ("params_json", TEXT)],
@@ -33,7 +36,7 @@ COLUMNS = {
               ("n_items", U8), ("n_queries", U8), ("precision", WORD), ("executor", WORD), ("threads", U4),
               ("isa", WORD), ("iterations", U8)],
     "shards": [("shard_id", U4), ("round", U4), ("env_id", U4), ("pid", U4), ("order_seed", U8), ("t0_utc_ns", U8),
-               ("load1", F8), ("steal_ticks", U8)],
+               ("load1", F8), ("steal_ticks", U8), *((name, F8) for name in GPU_RATES)],
     "samples": [("cell_id", U4), ("shard_id", U4), ("round", U4), ("position", U4), ("phase", WORD), ("wall_ns", F8),
                 ("cpu_ns", F8), ("iterations", U8), ("nvcsw", U8), ("nivcsw", U8), ("minflt", U8), ("flags", U4)],
     "frames": [("cell_id", U4), ("shard_id", U4), ("round", U4), ("frame", U4), ("update_ns", F8), ("query_ns", F8),
@@ -70,6 +73,9 @@ RAY_CONTENDERS = {
     "median.wide8": ("boxwood", "median", 70, 1.9, 55),
     "embree.rtc_intersect1.default": ("embree", "", 90, 0.8, 0),
     "embree.rtc_intersect1.robust": ("embree", "", 90, 0.9, 0),
+}
+DEVICE_TIMES = {  # ns per box and ns of every use, by threads or executor
+    1: (210, 0), 2: (110, 4e3), 16: (20, 20e3), "cuda": (7, 220e3), "cuda_resident": (1.1, 40e3),
 }
 TREE_CONTENDERS = {  # the last: SAH cost / 2.5
     "binned_sah": ("boxwood", "binned_sah", 200, 0, 50),
@@ -137,11 +143,12 @@ class Maker:
         self.texts = {}
         self.rows["env"].append(dict(env_id=0, host="testhost", cpu="Test CPU & <Core> 9", ncpu=2, l1d_bytes=2**64 - 1,
                                      compiler="gcc 12.2.0", git_commit="abc", stream_triad_gbs_1=12.5,
-                                     stream_triad_gbs_all=20, core_ghz=3, seed=1))
+                                     stream_triad_gbs_all=20, core_ghz=3, seed=1, gpu="Test Device 5000", gpu_sm=132,
+                                     gpu_memory_bytes=80 << 30, gpu_clock_ghz=1.98, gpu_driver="13.0"))
         for library, version in (("embree", "3.13.5"), ("fcl", "0.7.0"), ("cgal", "5.5.1"), ("bullet", "")):
             self.rows["packages"].append(dict(library=library, version=version, present=bool(version)))
         for round_ in range(rounds):
-            self.rows["shards"].append(dict(shard_id=round_, round=round_, load1=0.3, pid=100 + round_))
+            self.rows["shards"].append(dict(shard_id=round_, round=round_, load1=0.3, pid=100 + round_, **GPU_RATES))
         self.rows["tasks"] = [dict(task=task, title=title, total=total, total_title=total.replace("+", " and "))
                               for task, (title, total) in TASKS.items()]
         self.speed = [math.exp(self.random.gauss(0, 0.03)) for _ in range(rounds)]
@@ -195,6 +202,30 @@ class Maker:
             self.rows["trees"].append(dict(cell_id=cell_id, n_nodes=2 * n - 1, depth_max=20, bytes=64 * n,
                                            sah_cost=tests * 2.5, epo=0.1))
         return cell_id
+
+    def device_cells(self, n):
+        """Our best on threads and on a device: it wins from where 16 threads take longer than its constant."""
+        scene_id = self.id_of("scenes", ("needles", n), name="needles", n_items=n, seed=1)
+        name = "hilbert.packed.self_pairs"
+        variant_id = self.id_of("variants", name, name=name, library="boxwood", library_title="Boxwood", builder="hilbert",
+                                layout="packed", traversal="self_pairs", keeps_structure=1, **self.place_of("boxwood", "hilbert"))
+        for where, (each, always) in DEVICE_TIMES.items():
+            executor, threads = (where, 1) if isinstance(where, str) else ("tbb" if where > 1 else "serial", where)
+            full = f"needles/n{n}-s1/pairs/{name}/f32/{executor}-{threads}"
+            of_device = {"cuda": "on a device", "cuda_resident": "resident"}.get(executor, "")
+            cell_id = self.id_of("cells", full, name=full, scene_id=scene_id, variant_id=variant_id, task="pairs", n_items=n,
+                                 **{"class": of_device}, precision="f32", executor=executor, threads=threads)
+            ns = each * n + always
+            phases = {"build": 0.3, "query": 0.7}
+            if executor == "cuda":
+                phases |= {"upload": 0.2, "device_build": 0.05, "device_query": 0.1, "download": 0.6}
+            for phase, share in phases.items():
+                self.samples(cell_id, phase, share * ns)
+            counts = {"pairs": 5 * n, "box_tests": 41 * n} if not of_device else {
+                "pairs": 5 * n, "build_bytes": 213 * n, "build_launches": 12, "query_bytes": 124 * n, "query_launches": 3}
+            self.rows["counters"] += [dict(cell_id=cell_id, counter=name, value=value) for name, value in counts.items()]
+            self.rows["checks"].append(dict(cell_id=cell_id, oracle="brute_force", status="exact", n_checked=n,
+                                            n_expected=10, n_got=10))
 
     def moving_cell(self, scene, n, task, contender, builder, update, query, growth=0.0, frames=20, params="", status="exact"):
         """A cell of frames: update and query take so many ns in frame 0, and the query grows."""
@@ -323,7 +354,7 @@ class Maker:
             file["text/argv"] = "boxwood sweep --config x.toml"
             for text, value in self.texts.items():
                 file["text/" + text] = value
-            file.attrs.update({"format": "boxwood-results", "schema_major": np.uint32(2), "schema_minor": np.uint32(0),
+            file.attrs.update({"format": "boxwood-results", "schema_major": np.uint32(2), "schema_minor": np.uint32(1),
                                "run_uuid": "u", "created_utc": "2025-01-01T00:00:00Z", "sweep_hash": "h",
                                "generator": "synthetic", "complete": np.uint32(1)})
         with raw.open("rb+") as file:
@@ -375,6 +406,8 @@ def full(rounds=15, wrong=True):
             for kernel, factor in (("moller_trumbore_f32", 1.0), ("watertight", 1.1)) if spec[1] else (("", 1.0),):
                 made.cell("mesh_stanford_bunny_primary", 69451, "rays_closest", contender,
                           (*spec[:3], 1000 * spec[3], spec[4]), threads, factor, queries=100000, kernel=kernel)
+    for n in (1000, 10000, 100000, 1000000):
+        made.device_cells(n)
     made.moving()
     for contender, spec in TREE_CONTENDERS.items():
         made.cell("uniform", 100000, "build", contender, spec, 1)

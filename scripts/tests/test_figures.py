@@ -39,7 +39,7 @@ def text_box(annotation, renderer):
     return Text.get_window_extent(annotation, renderer)
 
 
-@pytest.mark.parametrize("name", ["builder_tradeoff", "size_scaling", "thread_scaling", "work", "accuracy", "condition",
+@pytest.mark.parametrize("name", ["builder_tradeoff", "size_scaling", "thread_scaling", "device_gains", "work", "accuracy", "condition",
                                   "moved_share", "tree_quality_over_time"])
 def test_labels_do_not_overlap(results, name):
     for made in registry.draw(name, results).pictures:
@@ -86,7 +86,7 @@ def test_wrong_cells_are_marked_and_listed(results):
     assert not any(row[2] == "bars" and "bullet" in row[6] for row in forest.rows)
 
 
-@pytest.mark.parametrize("name", ["size_scaling", "thread_scaling", "run_health"])
+@pytest.mark.parametrize("name", ["size_scaling", "thread_scaling", "device_gains", "run_health"])
 def test_figures_without_data_are_left_out(tmp_path, script, small, name):
     done = script("plot", small, "--figure", name, "--out", tmp_path)
     assert done.returncode == 0 and f"no {name}: " in done.stderr

@@ -15,9 +15,9 @@ from boxwood_results import findings, reader, run, words
 
 def test_reads_what_was_written(full):
     results = run.read(full)
-    assert results.rounds == 15 and len(results.jobs) == 19
+    assert results.rounds == 15 and len(results.jobs) == 39
     cell = next(c for c in results.cells if c.name == "uniform/n1000-s1/pairs/binned_sah.wide8.self_pairs/f32/tbb-2")
-    assert (cell.label, cell.family, cell.ours, cell.job.threads) == ("binned_sah.wide8", "binned_sah", True, 2)
+    assert (cell.label, cell.family, cell.ours, cell.job.where.threads) == ("binned_sah.wide8", "binned_sah", True, 2)
     assert cell.status == "exact" and cell.counters["box_tests"] == 41000
     assert cell.has("build") and cell.total == "build+query"
     assert cell.median("build") < cell.median(run.TOTAL) < 1.1 * (cell.median("build") + cell.median("query"))

@@ -67,7 +67,7 @@ def draw_panel(ax, job, cells, run, rows):
     ax.set_ylabel(METRICS["query"].axis)
     for cell in shown:
         rows.append(
-            (job.task, job.scene, job.n, job.threads, cell.label, cell.library, cell.status,
+            (job.task, job.scene, job.n, job.where.column, cell.label, cell.library, cell.status,
              cell.median("build"), cell.median("query"), pays.get(id(cell)))
         )
     labels.beside_points(ax, marks, later=joints, lines=[line, stripe] if len(builds) < len(shown) else [line])

@@ -63,7 +63,7 @@ def draw(run):
             said = f"{ratio.text}   {cost_text(cost.extra_ns)} a frame"
             ax.text(1.03, y, said, transform=ax.get_yaxis_transform(), va="center", fontsize=7.5)
             ends += [ratio.lo, ratio.hi] if ratio.known else [ratio.mid]
-            rows.append((job.scene, job.n, job.threads, cost.what, cost.with_ns, cost.without_ns, ratio.mid, ratio.lo,
+            rows.append((job.scene, job.n, job.where.column, cost.what, cost.with_ns, cost.without_ns, ratio.mid, ratio.lo,
                          ratio.hi))
             y += ROW / 2
     style.log_axis(ax.xaxis, min(ends), max(ends), lambda value: f"{value:g}x", room=0.04)

@@ -64,7 +64,7 @@ def blocks(run):
         if any(sides):
             found.append(Block(finding, *sides))
     shown = set(largest_jobs(block.job for block in found))
-    return sorted((b for b in found if b.job in shown), key=lambda b: (b.job.task, b.job.threads, b.job.scene))
+    return sorted((b for b in found if b.job in shown), key=lambda b: (b.job.task, b.job.where, b.job.scene))
 
 
 def draw_marks(ax, comparisons, heights, floor):
@@ -111,7 +111,7 @@ def heading(block, column):
     return (f"{head}, {finding.contender_class}", ours) if finding.contender_class else (f"{head}   {ours}", "")
 
 
-def draw_one(run, task, threads, found, floor):
+def draw_one(run, task, where, found, floor):
     """One picture: a block of rows per scene, a column for build + query and one for the query."""
     entries, y = [], 0.0
     for block in found:
@@ -159,7 +159,7 @@ def draw_one(run, task, threads, found, floor):
             said = f"{comparison.text}  {said_of(comparison)}"
             ax.text(1.03, at, said, transform=ax.get_yaxis_transform(), va="center", fontsize=7.5)
             gain = comparison.gain
-            rows.append((task, block.finding.contender_class, block.job.scene, block.job.n, threads, comparison.b.label,
+            rows.append((task, block.finding.contender_class, block.job.scene, block.job.n, where.column, comparison.b.label,
                          peer.label, peer.library, comparison.phase, comparison.rounds, gain.mid, gain.lo, gain.hi,
                          comparison.verdict, comparison.reason))
     said = "; ".join(
@@ -168,17 +168,16 @@ def draw_one(run, task, threads, found, floor):
     figure.text(0.02 / size[0], 0.06 / size[1], footer(run), fontsize=7.5, color="#666666")
     jobs = {block.job for block in found}
     notes = wrong_notes([cell for cell in run.cells if cell.job in jobs])
-    words = "1 thread" if threads == 1 else f"{threads} threads"
-    return Picture(f"{NAME}_{task}_{threads}", figure, f"{TITLE}: {task}, {words}",
+    return Picture(f"{NAME}_{task}_{where.column}", figure, f"{TITLE}: {task}, {where}",
                    f"Peer's time over Boxwood's. {said}.", COLUMNS, rows, notes)
 
 
 def draw(run):
     groups = {}
     for block in blocks(run):
-        groups.setdefault((block.job.task, block.job.threads), []).append(block)
+        groups.setdefault((block.job.task, block.job.where), []).append(block)
     if not groups:
         raise Skip("the run is too noisy for findings" if run.health["is_too_noisy"] else
                    "no job has both a ranked variant of ours and a ranked peer")
     floor = run.noise_floor
-    return [draw_one(run, task, threads, found, floor) for (task, threads), found in groups.items()]
+    return [draw_one(run, task, where, found, floor) for (task, where), found in groups.items()]

@@ -48,18 +48,17 @@ def draw_panel(ax, job, cells, rows):
                 color=style.text_colour(cell))
         ax.text(1.025, y, f"{time_text(p50)} to {time_text(worst)}", transform=ax.get_yaxis_transform(), va="center",
                 fontsize=7)
-        rows.append((job.task, job.scene, job.n, job.threads, cell.label, cell.library, cell.status,
+        rows.append((job.task, job.scene, job.n, job.where.column, cell.label, cell.library, cell.status,
                      int(cell.frame_stats["n"]), *marks, *(float(cell.frame_stats[name]) for name in COLUMNS[-2:])))
     ax.set_ylim(len(found) - 0.4, -0.6)
     ax.set_yticks([])
     ax.spines["left"].set_visible(False)
     ax.grid(axis="y", visible=False)
     ax.set_xlabel(METRICS["frame"].axis)
-    words = "1 thread" if job.threads == 1 else f"{job.threads} threads"
-    ax.set_title(f"{job.scene} {job.n:,} · {words}", fontsize=9.5 * min(1, 50 / len(job.scene)), pad=14)
+    ax.set_title(f"{job.scene} {job.n:,} · {job.where}", fontsize=9.5 * min(1, 50 / len(job.scene)), pad=14)
 
 
-def draw_all(task, threads, jobs):
+def draw_all(task, where, jobs):
     columns = min(2, len(jobs))
     lines = [jobs[start:start + columns] for start in range(0, len(jobs), columns)]
     heights = [1.15 + ROW * max(len(cells) for _, cells, *_ in line) for line in lines]
@@ -75,8 +74,7 @@ def draw_all(task, threads, jobs):
             notes += left_out_note(left_out, f"ways to play {job}") + wrong
         top -= height
     said = "; ".join(f"{row[4]} on {row[1]} {time_text(row[8])}, worst {time_text(row[11])}" for row in rows)
-    words = "1 thread" if threads == 1 else f"{threads} threads"
-    return Picture(f"{NAME}_{task}_{threads}", figure, f"{TITLE}: {task}, {words}",
+    return Picture(f"{NAME}_{task}_{where.column}", figure, f"{TITLE}: {task}, {where}",
                    f"Median and worst frame: {said}.", COLUMNS, rows, notes)
 
 
@@ -86,7 +84,7 @@ def draw(run):
         cells = [c for c in run.of(job) if c.frames and not c.lacks_effect]
         if cells:
             shown, left_out = choose(cells)
-            groups.setdefault((job.task, job.threads), []).append((job, shown, left_out, wrong_notes(cells)))
+            groups.setdefault((job.task, job.where), []).append((job, shown, left_out, wrong_notes(cells)))
     if not groups:
         raise Skip("no scene was timed frame by frame (bench/configs/dynamic.toml does)")
-    return [draw_all(task, threads, jobs) for (task, threads), jobs in groups.items()]
+    return [draw_all(task, where, jobs) for (task, where), jobs in groups.items()]

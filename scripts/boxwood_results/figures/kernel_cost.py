@@ -45,7 +45,7 @@ def draw(run):
                 ax.barh(y, time, height=0.7, color="white" if wrong else colour, edgecolor=colour, linewidth=1.2)
                 lost = f"  {int(cell.check['missing']):,} missing, {int(cell.check['extra']):,} extra" if wrong else ""
                 ax.text(time, y, f" {ratio_text(cell.times_fastest)}x{lost}", va="center", fontsize=7.5)
-                rows.append((job.task, job.scene, job.n, job.threads, tree, cell.kernel, cell.status, time,
+                rows.append((job.task, job.scene, job.n, job.where.column, tree, cell.kernel, cell.status, time,
                              cell.times_fastest, int(cell.check["missing"]) if cell.check is not None else None,
                              int(cell.check["extra"]) if cell.check is not None else None))
             ax.set_yticks(range(len(cells)), [cell.kernel for cell in cells], fontsize=7.5)

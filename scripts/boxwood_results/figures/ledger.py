@@ -111,7 +111,7 @@ def draw_scene(ax, scene, rows):
         for place, line in enumerate(narrow_lines(narrow)):
             ax.text(0, y + BAR / 2 + 0.02 + LINE * place, line.strip(), va="top", fontsize=6.8, color="#555555")
         top += STEP + LINE * len(narrow_lines(narrow))
-        rows += [(scene.job.scene, scene.job.n, scene.job.threads, words.replace(" ", "_"), name,
+        rows += [(scene.job.scene, scene.job.n, scene.job.where.column, words.replace(" ", "_"), name,
                   int(stage["required"]), int(stage["calls"]), int(stage["items"]), float(stage["ns"]),
                   float(stage["share"]), int(stage["bytes"]))
                  for name, stage in cell.stages.items()]

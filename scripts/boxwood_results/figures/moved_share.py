@@ -18,7 +18,7 @@ COLUMNS = ("scene", "n", "threads", "contender", "library", "status", "moved_sha
 
 
 def groups_of(run):
-    """{(task, scene and effects, n, threads, seed): {contender: {share: cell}}}."""
+    """{(task, scene and effects, n, where, seed): {contender: {share: cell}}}."""
     groups = {}
     for cell in run.cells:
         if not cell.timed or cell.lacks_effect:
@@ -27,7 +27,7 @@ def groups_of(run):
         if found:
             words, share = found
             job = cell.job
-            lines = groups.setdefault((job.task, words, job.n, job.threads, job.seed), {})
+            lines = groups.setdefault((job.task, words, job.n, job.where, job.seed), {})
             lines.setdefault((cell.contender, cell.executor), {})[share] = cell
     return groups
 
@@ -43,7 +43,7 @@ def choose_lines(lines):
 
 
 def draw_panel(ax, key, lines, rows):
-    _, words, n, threads, _ = key
+    _, words, n, where, _ = key
     ends, times, shares = [], [], set()
     for line in lines:
         x = sorted(line)
@@ -53,13 +53,13 @@ def draw_panel(ax, key, lines, rows):
         for share, time in zip(x, y):
             if line[share].status == "wrong":
                 style.cross_out(ax, share, time)
-            rows.append((words, n, threads, cell.label, cell.library, line[share].status, share, time))
+            rows.append((words, n, where.column, cell.label, cell.library, line[share].status, share, time))
         ends.append((x[-1], y[-1], cell.label, style.text_colour(cell)))
         times += y
         shares.update(x)
     style.log_axis(ax.xaxis, min(shares), max(shares), lambda value: f"{100 * value:g} %", room=0.03)
     style.time_axis(ax.yaxis, min(times), max(times))
-    style.title(ax, f"{words} · {n:,} · {threads} thread{'s' * (threads > 1)}")
+    style.title(ax, f"{words} · {n:,} · {where}")
     ax.set_xlabel("share of the bodies that move")
     ax.set_ylabel(METRICS["frame"].axis)
     return ends

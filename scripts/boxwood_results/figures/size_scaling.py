@@ -22,12 +22,12 @@ COLUMNS = ("task", "scene", "threads", "phase", "variant", "library", "status", 
 FIT_COLUMNS = ("exponent", "exponent_lo", "exponent_hi", "off_line")
 
 
-def lines_of(run, task, scene, seed, threads):
+def lines_of(run, task, scene, seed, where):
     """{(contender, precision, executor): [cells by rising n]} with enough sizes."""
     lines = {}
     for cell in run.cells:
         job = cell.job
-        if (job.task, job.scene, job.seed, job.threads) == (task, scene, seed, threads) and cell.timed \
+        if (job.task, job.scene, job.seed, job.where) == (task, scene, seed, where) and cell.timed \
                 and not cell.lacks_effect:
             lines.setdefault((cell.contender, cell.precision, cell.executor), []).append(cell)
     return [sorted(line, key=lambda c: c.job.n) for line in lines.values() if len(line) >= MIN_SIZES]
@@ -92,7 +92,7 @@ def draw_panel(ax, lines, phase, known_fits, rows):
         for size, time, at in zip(x, y, line):
             if at.status == "wrong":
                 style.cross_out(ax, size, time)
-            rows.append((at.job.task, at.job.scene, at.job.threads, phase_name(at, phase), at.label, at.library, at.status, size,
+            rows.append((at.job.task, at.job.scene, at.job.where.column, phase_name(at, phase), at.label, at.library, at.status, size,
                          time, fit.mid, fit.lo, fit.hi, fit.off_line))
         ends.append((x[-1], y[-1], f"{cell.label}  {exponent_text(fit)}", style.text_colour(cell)))
     low, high = min(sizes), max(sizes)
@@ -103,15 +103,14 @@ def draw_panel(ax, lines, phase, known_fits, rows):
     style.count_axis(ax.xaxis, low, high, room=0.03)
     style.time_axis(ax.yaxis, min([*all_times, *guide]), max([*all_times, *guide]))
     job = lines[0][-1].job
-    threads = "1 thread" if job.threads == 1 else f"{job.threads} threads"
-    style.title(ax, f"{job.scene} · {job.task} · {threads} · {phase_name(lines[0][-1], phase)}")
+    style.title(ax, f"{job.scene} · {job.task} · {job.where} · {phase_name(lines[0][-1], phase)}")
     ax.set_xlabel(METRICS["n"].axis)
     ax.set_ylabel(f"time of {lines[0][-1].task.total_title} (lower is better)" if phase == TOTAL else METRICS[phase].axis)
     return ends, fits
 
 
 def draw(run):
-    groups = sorted({(job.task, job.scene, job.seed, job.threads) for job in run.jobs})
+    groups = sorted({(job.task, job.scene, job.seed, job.where) for job in run.jobs})
     by_task = {}
     for group in groups:
         lines = lines_of(run, *group)

@@ -28,7 +28,7 @@ def lines_of(run):
         job = cell.job
         lines = groups.setdefault((job.task, job.scene, job.seed, job.n), {})
         lines.setdefault((cell.contender, cell.precision, cell.executor), []).append(row)
-    return {key: [sorted(line, key=lambda row: row.b.job.threads) for line in lines.values()]
+    return {key: [sorted(line, key=lambda row: row.b.job.where.threads) for line in lines.values()]
             for key, lines in groups.items()}
 
 
@@ -48,7 +48,7 @@ def draw_panel(ax, job, lines, rows):
     ends, most, lowest, highest = [], 1, 1.0, 1.0
     for place, line in enumerate(lines):
         last = line[-1].b
-        gains = [(row.b.job.threads, row.gain) for row in line]
+        gains = [(row.b.job.where.threads, row.gain) for row in line]
         rows += [(job.task, job.scene, job.n, row.b.label, row.b.library, row.b.status, threads, gain.mid, gain.lo, gain.hi,
                   row.verdict, row.rounds) for row, (threads, gain) in zip(line, gains)]
         ax.plot([1, *(t for t, _ in gains)], [1.0, *(g.mid for _, g in gains)], **style.point_style(last, 5.5),
@@ -66,7 +66,7 @@ def draw_panel(ax, job, lines, rows):
     ends.append((most, most, "ideal", "#666666"))
     ax.set_xlim(1 - 0.04 * most, most * 1.03)
     ax.set_ylim(min(0.9, lowest * 0.95), max(highest, most) * 1.05)
-    ax.set_xticks(sorted({1, *(row.b.job.threads for line in lines for row in line)}))
+    ax.set_xticks(sorted({1, *(row.b.job.where.threads for line in lines for row in line)}))
     style.title(ax, f"{job.scene} {job.n:,} · {job.task} · {lines[0][-1].b.task.total_title}")
     ax.set_xlabel(METRICS["threads"].axis)
     ax.set_ylabel(METRICS["thread_scaling"].axis)

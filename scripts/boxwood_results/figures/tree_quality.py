@@ -35,7 +35,7 @@ def draw_panel(ax, job, cells, rows):
         if cell.status == "wrong":
             style.cross_out(ax, x, y)
         marks.append((x, y, cell.label, style.text_colour(cell)))
-        rows.append((job.scene, job.n, job.threads, cell.label, cell.library, cell.status, x, y))
+        rows.append((job.scene, job.n, job.where.column, cell.label, cell.library, cell.status, x, y))
     style.title(ax, str(job))
     ax.set_xlabel(METRICS["build"].axis)
     ax.set_ylabel(METRICS["sah_cost"].axis)

@@ -3,6 +3,7 @@
 from .. import labels, style
 from ..metrics import METRICS
 from ..picture import Picture, Skip
+from ..run import Where
 from ..selection import choose, largest_jobs, left_out_note, wrong_notes
 from ..words import ratio_text
 
@@ -24,7 +25,7 @@ MAX_SCENES = 8  # of these the pictures show; the CSV files hold all
 
 
 def ratio_rows(job, cell):
-    return [(job.scene, job.n, job.threads, cell.label, cell.library, cell.status, int(row["frame"]), float(row["query_ns"]),
+    return [(job.scene, job.n, job.where.column, cell.label, cell.library, cell.status, int(row["frame"]), float(row["query_ns"]),
              float(row["over_fresh"])) for row in cell.frames]
 
 
@@ -49,14 +50,14 @@ def draw_panel(ax, job, cells, fresh):
     style.log_axis(ax.yaxis, min(all_ratios), max(all_ratios), lambda value: f"{value:g}x")
     ax.set_xlim(0, last)
     ax.xaxis.set_major_locator(style.MaxNLocator(6, integer=True))
-    style.title(ax, f"{job.scene} {job.n:,} · {job.threads} thread{'s' * (job.threads > 1)}")
+    style.title(ax, f"{job.scene} {job.n:,} · {job.where}")
     ax.set_xlabel("frame")
     ax.set_ylabel("query over one of a fresh tree")
     return ends
 
 
 def counted_rows(job, cell):
-    return [(job.scene, job.n, job.threads, cell.label, cell.library, cell.status, int(row["frame"]),
+    return [(job.scene, job.n, job.where.column, cell.label, cell.library, cell.status, int(row["frame"]),
              float(row["box_tests_per_item"]), float(row["sah"])) for row in counted_frames(cell)]
 
 
@@ -117,7 +118,7 @@ def draw(run):
     panels = []
     for job in largest_jobs(run.jobs):
         cells = [c for c in run.of(job) if len(c.frames) >= MIN_FRAMES and not c.answers_from_cache]
-        if not any(c.stages_played for c in cells) and len(cells) >= 2 and job.threads == 1:
+        if not any(c.stages_played for c in cells) and len(cells) >= 2 and job.where == Where("", 1):
             fresh = next((c for c in cells if c.cell_id == cells[0].frame_stats["fresh_cell"]), None)
             shown, left_out = choose(cells, keep=[fresh] if fresh else (), limit=9)
             panels.append((job, shown, fresh, left_out_note(left_out, f"ways to play {job}") + wrong_notes(cells)))

@@ -5,6 +5,7 @@ import math
 from .. import labels, style
 from ..metrics import METRICS
 from ..picture import Picture, Skip
+from ..run import Where
 from ..selection import choose, largest_jobs, VERY_LONG, left_out_note, short_labels, wrong_notes
 
 NAME = "work"
@@ -61,7 +62,7 @@ def draw(run):
     for job in largest_jobs(run.jobs):
         counted = [c for c in run.of(job) if c.work is not None and not math.isnan(c.work["box_tests"])]
         counted = list({(c.contender, c.precision): c for c in reversed(counted)}.values())[::-1]  # of any executor
-        if job.threads == 1 and len(counted) >= 2 and not run.tasks[job.task].in_frames:
+        if job.where == Where("", 1) and len(counted) >= 2 and not run.tasks[job.task].in_frames:
             by_task.setdefault(job.task, []).append((job, counted))
     if not by_task:
         raise Skip("no job has two variants with work counters")
