@@ -95,7 +95,9 @@ def trust_html(run):
     """Machine and noise, and how many answers were wrong: whether the rest can be believed."""
     health, env = run.health, run.source["env"][0]
     wrong = " class=wrong" if health["wrong_ours"] or health["broken_promises"] else ""
-    return (f"<p class=lead>{escape(env['cpu'])}, {env['ncpu']} cores, host {escape(env['host'])}.<br>"
+    device = env["gpu"] if "gpu" in env.dtype.names else ""
+    machine = f"{env['cpu']}, {env['ncpu']} cores, {f'device {device}, ' if device else ''}host {env['host']}."
+    return (f"<p class=lead>{escape(machine)}<br>"
             f"{escape(health['trust'])}<br><span{wrong}>{escape(health['correctness'])}</span></p>")
 
 

@@ -2,7 +2,7 @@
 
 import synthetic
 
-from boxwood_results import registry, run, style
+from boxwood_results import page, registry, run, style
 from boxwood_results.reader import load
 
 
@@ -27,6 +27,7 @@ def test_the_figure_has_the_times_and_the_size_of_the_file(full):
     assert any(str(found["words"]) in note for note in made.notes) and "100k" in str(found["words"])
     assert {row["threads"] for row in rows if row["what"] == "all threads"} == {16}
     style.plt.close(made.figure)
+    assert "device Test Device 5000, " in page.trust_html(results)
 
 
 def test_files_of_before_there_were_devices_are_read(tmp_path, small):
