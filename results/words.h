@@ -50,8 +50,14 @@ enum class Topic : std::uint8_t { none, race, kernel, scene, device };
 
 /// Of Variant::stages; any other word is the effect that the scene is played without.
 inline constexpr std::string_view required_stages = "required", all_stages = "all";
-/// Of Cell::executor on a device: from the host's boxes to the host's answers; all stays there.
-inline constexpr std::string_view device_executor = "cuda", resident_executor = "cuda_resident";
+/// Of Cell::executor on a device: from the host's boxes to the host's answers; all stays there; so,
+/// and started by one launch.
+inline constexpr std::string_view device_executor = "cuda", resident_executor = "cuda_resident",
+                                  graph_executor = "cuda_graph";
+constexpr bool is_device(std::string_view executor) {
+    return executor == device_executor || executor == resident_executor ||
+           executor == graph_executor;
+}
 
 template <class Enum> struct Words;
 template <> struct Words<Phase> {

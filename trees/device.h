@@ -1,6 +1,7 @@
 #pragma once
 
 #include "trees/device_bvh.h"
+#include "trees/device_graph.h"
 #include "trees/device_memory.h"
 #include "trees/device_mesh_bvh.h"
 

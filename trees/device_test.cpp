@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace boxwood {
 namespace {
@@ -180,6 +181,35 @@ TEST_P(OnADevice, ARebuildMayBeEnqueuedAndCheckedLater) {
         EXPECT_THROW(bvh.enqueue_update(own.span()), std::invalid_argument);
         bvh.rebuild(boxes);
     }
+}
+
+TEST_P(OnADevice, AGraphRebuildsAndFindsPairsOfWhatIsThereThen) {
+    const DeviceStream stream;
+    std::vector<Box> boxes = random_boxes(300, .2f, 1);
+    DeviceArray<Box> there(std::span<const Box>(boxes), stream.place());
+    DeviceBvh bvh(std::as_const(there).span(), {.builder = GetParam(), .place = stream.place()});
+    DeviceArray<Pair> room(5000, stream.place());
+    DeviceArray<std::uint64_t> count(1, stream.place());
+    DeviceGraph graph(stream.place(), [&] {
+        bvh.enqueue_rebuild(std::as_const(there).span());
+        bvh.enqueue_self_pairs(room.span(), count.span().data);
+    });
+    for (const unsigned seed : {1u, 2u, 3u}) {
+        boxes = random_boxes(300, .1f * static_cast<float>(seed), seed);
+        there.write(boxes);
+        const std::uint64_t launches = launches_so_far();
+        graph.launch();
+        EXPECT_EQ(launches_so_far(), launches + 1);
+        bvh.check();
+        const std::vector<Pair> wanted = boxwood::brute_force(boxes);
+        ASSERT_LE(wanted.size(), room.size());
+        ASSERT_EQ(count.to_host(), std::vector<std::uint64_t>{wanted.size()});
+        std::vector<Pair> found = room.to_host();
+        found.resize(wanted.size());
+        EXPECT_EQ(sorted(found), wanted);
+    }
+    EXPECT_THAT([] { DeviceGraph({}, [] {}); },
+                ThrowsMessage<DeviceError>(HasSubstr("DeviceStream")));
 }
 
 TEST_P(OnADevice, ASinkMayStop) {

@@ -27,6 +27,7 @@
 #include "trees/builders/top_down.h"
 #include "trees/device.h"
 #include "trees/device_bvh.h"
+#include "trees/device_graph.h"
 #include "trees/device_memory.h"
 #include "trees/device_mesh_bvh.h"
 #include "trees/dynamic/dynamic_tree.h"

@@ -188,7 +188,7 @@ std::vector<unsigned> BlockReader::threads() const {
 
 std::vector<std::string> BlockReader::executor_names() const {
     Names known = names_of(executors());
-    known.insert(known.end(), {device_executor, resident_executor});
+    known.insert(known.end(), {device_executor, resident_executor, graph_executor});
     return names("executors", known);
 }
 

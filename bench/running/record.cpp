@@ -53,8 +53,10 @@ std::vector<std::string> classes_at(std::string_view place, std::vector<std::str
     if (classes.empty())
         classes = {""};
     for (std::string& name : classes)
-        name += std::string(name.empty() ? "" : " ") +
-                (place == resident_executor ? "resident" : "on a device");
+        name += std::string(name.empty() ? "" : " ") + (place == device_executor ? "on a device"
+                                                        : place == graph_executor
+                                                            ? "resident by a graph"
+                                                            : "resident");
     return classes;
 }
 

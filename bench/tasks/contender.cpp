@@ -27,6 +27,8 @@ const std::string& no_device() {
 std::optional<std::string> cannot_run_on_device(const Answering& answering, const Job& job) {
     if (!answering.make_on_device)
         return "has no form for a device";
+    if (job.executor == graph_executor && !answering.make_by_graph)
+        return "has no form for a device that a graph could record";
     if (job.threads != 1)
         return fmt::format("a device counts as one thread, not {}", job.threads);
     if (!no_device().empty())
@@ -78,7 +80,9 @@ std::unique_ptr<Contender> ContenderEntry::make(const Job& job) const {
     const Answering* const answering = this->answering(job.task->name());
     if (!answering)
         throw std::logic_error(fmt::format("{} does not answer {}", name, job.task->name()));
-    return is_device(job.executor) ? answering->make_on_device(job) : answering->make(job);
+    return (job.executor == graph_executor ? answering->make_by_graph
+            : is_device(job.executor)      ? answering->make_on_device
+                                           : answering->make)(job);
 }
 
 std::span<const Peer> peers() {

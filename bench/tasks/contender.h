@@ -27,11 +27,9 @@ class Ledger;
 class Task;
 
 /// Where a contender may run beside executors(): on a device, from host memory to host memory, or
-/// with input and answers that stay there.
-using results::device_executor, results::resident_executor;
-inline bool is_device(std::string_view executor) {
-    return executor == device_executor || executor == resident_executor;
-}
+/// with input and answers that stay there, launched kernel by kernel or as one CUDA graph.
+using results::device_executor, results::graph_executor, results::resident_executor;
+using results::is_device;
 
 /// One piece of work: a scene, what is wanted of it, and where it runs.
 struct Job {
@@ -92,6 +90,7 @@ struct Answering {
     std::string task;
     Make make;
     Make make_on_device{}; ///< for the places of a device; null if it has no such form
+    Make make_by_graph{};  ///< of them for graph_executor
 };
 
 /// Where a contender can run.

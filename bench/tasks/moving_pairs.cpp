@@ -164,7 +164,7 @@ ContenderEntry moving_contender(const BuilderChoice& policy) {
                   "order for any number of threads";
     entry.params_json = settings_json(policy.settings);
     entry.cannot = [](const Job& job) -> std::optional<std::string> {
-        if (job.executor == resident_executor)
+        if (is_device(job.executor) && job.executor != device_executor)
             return "has no form for a device where frames come from the host";
         return std::nullopt;
     };

@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace boxwood::bench {
 namespace {
@@ -46,6 +48,45 @@ class SelfPairsOnDevice final : public DeviceBoxes {
 
   private:
     DeviceArray<Pair> found_;
+};
+
+/// Build and query are a graph each, recorded in the first build.
+class SelfPairsByGraph final : public DeviceBoxes {
+  public:
+    using DeviceBoxes::DeviceBoxes;
+
+    std::vector<NamedCount> more_counts() const override {
+        std::vector<NamedCount> counts = DeviceBoxes::more_counts();
+        counts.push_back(
+            {"query_bytes", scene_.boxes.size() * sizeof(Box) + found_.size() * sizeof(Pair)});
+        return counts;
+    }
+
+  protected:
+    void build_there() override {
+        if (build_) {
+            build_->launch();
+            return;
+        }
+        DeviceBoxes::build_there();
+        found_ = DeviceArray<Pair>(bvh_->self_pair_count(), place());
+        count_ = DeviceArray<std::uint64_t>(1, place());
+        build_.emplace(place(), [this] { bvh_->enqueue_rebuild(std::as_const(boxes_).span()); });
+        query_.emplace(place(),
+                       [this] { bvh_->enqueue_self_pairs(found_.span(), count_.span().data); });
+    }
+    void query_there() override { query_->launch(); }
+    void download(Answers& answers) override {
+        bvh_->check();
+        if (count_.to_host().at(0) != found_.size())
+            throw std::logic_error("a graph found another number of pairs than the plain build");
+        found_.read(list_of<Pair>(answers));
+    }
+
+  private:
+    DeviceArray<Pair> found_;
+    DeviceArray<std::uint64_t> count_;
+    std::optional<DeviceGraph> build_, query_;
 };
 
 /// A family of boxes comes with its number of pairs, and each contender is judged as a kernel.
@@ -104,7 +145,8 @@ class Pairs final : public PairAnswers<TreeTask> {
         return {.traversal = "self_pairs",
                 .make = maker<SelfPairs>(),
                 .query = Query::self_pairs,
-                .make_on_device = on_device<SelfPairsOnDevice>(choice)};
+                .make_on_device = on_device<SelfPairsOnDevice>(choice),
+                .make_by_graph = on_device<SelfPairsByGraph>(choice)};
     }
 };
 

@@ -41,9 +41,9 @@ const results::Check& check_of(const results::Results& results, const results::C
 /// Every cell of a device that has a form is right, and answers as the same contender on the CPU.
 void expect_right(const std::string& scene, const std::string& block, std::size_t n_forms) {
     SCOPED_TRACE(block);
-    const Plan plan =
-        plan_of("[[cells]]\nn = 120\nscene = \"" + scene +
-                "\"\nexecutors = [\"serial\", \"cuda\", \"cuda_resident\"]\n" + block);
+    const Plan plan = plan_of(
+        "[[cells]]\nn = 120\nscene = \"" + scene +
+        "\"\nexecutors = [\"serial\", \"cuda\", \"cuda_resident\", \"cuda_graph\"]\n" + block);
     const results::Results all = prepared(plan);
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> of_cpu; // by scene and variant
     for (const results::Cell& cell : all.cells)
@@ -55,7 +55,9 @@ void expect_right(const std::string& scene, const std::string& block, std::size_
             continue;
         const results::Check& check = check_of(all, cell);
         EXPECT_THAT(cell.classes,
-                    testing::EndsWith(cell.executor == "cuda" ? "on a device" : "resident"));
+                    testing::EndsWith(cell.executor == "cuda"         ? "on a device"
+                                      : cell.executor == "cuda_graph" ? "resident by a graph"
+                                                                      : "resident"));
         if (check.status == results::Status::unsupported) {
             EXPECT_THAT(check.witness, HasSubstr("has no form for a device")) << cell.name;
             continue;
@@ -89,7 +91,7 @@ void expect_right(const std::string& scene, const std::string& block, std::size_
 TEST(BenchOnDevice, TasksAnswerThereAsOnTheCpu) {
     const std::string trees = "builders = [\"hilbert\", \"lbvh\", \"ploc\", \"median\"]\n"
                               "layouts = [\"packed\", \"binary\"]\n";
-    expect_right("uniform", "task = \"pairs\"\n" + trees, 6);
+    expect_right("uniform", "task = \"pairs\"\n" + trees, 9);
     expect_right("uniform", "task = \"tree_pairs\"\n" + trees, 6);
     expect_right("uniform", "task = \"points\"\nn_points = 30\n" + trees, 6);
     expect_right("uniform",

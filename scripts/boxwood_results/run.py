@@ -10,7 +10,8 @@ from .reader import load
 AA_TWIN, DISTURBED = 4, 1 | 2
 WHOLE_QUERY = "typical"  # a kernel row about a whole query, whose cell stays among the others
 REQUIRED, ALL_STAGES = "required", "all"  # ways to play a scene; any other is the effect left out
-DEVICES = {"cuda": "a device, end to end", "cuda_resident": "a device, resident"}  # executors
+DEVICES = {"cuda": "a device, end to end", "cuda_resident": "a device, resident",
+           "cuda_graph": "a device, by a graph"}  # executors
 TOTAL = "total"  # stands for the phase of a task that says what one use costs
 
 

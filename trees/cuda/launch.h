@@ -17,9 +17,12 @@ inline thread_local std::uint64_t n_launches = 0; ///< by this thread
 #else
 #include "trees/cuda/on_host.h"
 
+#include "trees/device_memory.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <functional>
 #include <new>
 #endif
 
@@ -76,6 +79,29 @@ class Event {
 
   private:
     std::chrono::steady_clock::time_point at_;
+};
+
+inline void* make_stream() {
+    static int stream; // any that is not null
+    return &stream;
+}
+inline void end_stream(void*) {}
+
+/// What was enqueued in a stream, to be started by one launch.
+class Graph {
+  public:
+    void record(Stream, std::function<void()> enqueue) { enqueue_ = std::move(enqueue); }
+    void launch(Stream) {
+        const on_host::Uncapturable before = on_host::uncapturable();
+        const std::uint64_t launches = n_launches;
+        enqueue_();
+        n_launches = launches + 1;
+        if (!(on_host::uncapturable() == before))
+            throw DeviceError("CUDA: a graph: what it records allocates or waits");
+    }
+
+  private:
+    std::function<void()> enqueue_;
 };
 
 #endif

@@ -11,7 +11,7 @@ void DeviceContender::build() {
     const std::uint64_t before = launches_so_far();
     build_there();
     build_launches_ = launches_so_far() - before;
-    wait_for({});
+    wait_for(place());
 }
 
 void DeviceContender::query(Answers& answers) {
@@ -21,7 +21,7 @@ void DeviceContender::query(Answers& answers) {
     query_there();
     query_launches_ = launches_so_far() - before;
     if (is_resident_)
-        wait_for({});
+        wait_for(place());
     else
         download(answers);
 }
@@ -39,7 +39,7 @@ std::vector<DeviceTime> DeviceContender::device_times(Answers& answers) {
     if (is_resident_)
         return {};
     using results::Phase;
-    DeviceTimer timer({});
+    DeviceTimer timer(place());
     std::vector<DeviceTime> times;
     const auto time = [&](Phase phase, const auto& work) {
         timer.start();

@@ -14,9 +14,13 @@ namespace boxwood::bench {
 
 /// What our contenders on a device share. `cuda`: build and query begin and end in host memory.
 /// `cuda_resident`: boxes and answers stay on the device, and answers may come in any order.
+/// `cuda_graph`: so, in a stream of its own.
 class DeviceContender : public Contender {
   public:
-    explicit DeviceContender(const Job& job) : is_resident_(job.executor == resident_executor) {}
+    explicit DeviceContender(const Job& job) : is_resident_(job.executor != device_executor) {
+        if (job.executor == graph_executor)
+            stream_.emplace();
+    }
 
     void build() override;
     void query(Answers& answers) override;
@@ -33,8 +37,10 @@ class DeviceContender : public Contender {
     virtual void download(Answers& answers) = 0;
 
     bool is_resident() const { return is_resident_; }
+    DevicePlace place() const { return stream_ ? stream_->place() : DevicePlace{}; }
 
   private:
+    std::optional<DeviceStream> stream_;
     bool is_resident_;
     bool is_uploaded_ = false;
     std::uint64_t build_launches_ = 0, query_launches_ = 0;
@@ -48,7 +54,7 @@ std::optional<DeviceBuilder> device_builder(const Choice& choice, std::string_vi
 class DeviceBoxes : public DeviceContender {
   public:
     DeviceBoxes(const Job& job, DeviceBuilder builder)
-        : DeviceContender(job), scene_(*job.scene), options_{builder, {}} {}
+        : DeviceContender(job), scene_(*job.scene), options_{builder, place()} {}
 
     std::vector<NamedCount> more_counts() const override;
 

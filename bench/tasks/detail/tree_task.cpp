@@ -108,7 +108,7 @@ ContenderEntry TreeTask::contender(const Choice& choice) const {
         {std::string(name()),
          [build = make_builder(choice.builder, choice.settings), &layout,
           make = std::move(way.make)](const Job& job) { return make(job, build, layout); },
-         std::move(way.make_on_device)}};
+         std::move(way.make_on_device), std::move(way.make_by_graph)}};
     return entry;
 }
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cuda_runtime.h>
+#include <functional>
 #include <span>
 #include <string>
 #include <utility>
@@ -90,6 +91,49 @@ class Event {
 
   private:
     cudaEvent_t event_ = nullptr;
+};
+
+inline void* make_stream() {
+    cudaStream_t made = nullptr;
+    require(cudaStreamCreateWithFlags(&made, cudaStreamNonBlocking), "a stream");
+    return made;
+}
+inline void end_stream(void* stream) { cudaStreamDestroy(static_cast<cudaStream_t>(stream)); }
+
+/// What was enqueued in a stream, to be started by one launch.
+class Graph {
+  public:
+    Graph() = default;
+    Graph(const Graph&) = delete;
+    Graph& operator=(const Graph&) = delete;
+    ~Graph() {
+        if (made_)
+            cudaGraphExecDestroy(made_);
+    }
+    void record(Stream stream, const std::function<void()>& enqueue) {
+        require(cudaStreamBeginCapture(stream.handle, cudaStreamCaptureModeThreadLocal), "a graph");
+        cudaGraph_t graph = nullptr;
+        try {
+            enqueue();
+        } catch (...) {
+            cudaStreamEndCapture(stream.handle, &graph);
+            if (graph)
+                cudaGraphDestroy(graph);
+            cudaGetLastError(); // it is no error of a later call
+            throw;
+        }
+        require(cudaStreamEndCapture(stream.handle, &graph), "a graph");
+        const cudaError_t status = cudaGraphInstantiate(&made_, graph, 0);
+        cudaGraphDestroy(graph);
+        require(status, "a graph");
+    }
+    void launch(Stream stream) {
+        ++n_launches;
+        require(cudaGraphLaunch(made_, stream.handle), "a graph");
+    }
+
+  private:
+    cudaGraphExec_t made_ = nullptr;
 };
 
 /// The word's four bytes must be the same.

@@ -157,6 +157,19 @@ TEST_P(MemoryOfEach, NoneIsAllocatedWhereAGraphMayCapture) {
     EXPECT_EQ(on_host::uncapturable().allocations, allocations);
 }
 
+TEST_P(MemoryOfEach, AGraphThatAllocatesIsRefused) {
+    const DeviceStream stream;
+    const std::vector<Box> boxes = random_boxes(30, .2f, 3);
+    const DeviceArray<Box> there(std::span<const Box>(boxes), stream.place());
+    DeviceBvh bvh(there.span(), {.builder = GetParam(), .place = stream.place()});
+    EXPECT_THROW(
+        {
+            DeviceGraph graph(stream.place(), [&] { bvh.unordered_self_pairs(); });
+            graph.launch();
+        },
+        DeviceError);
+}
+
 TEST(MemoryOfADevice, GoesBack) {
     const std::uint64_t before = on_host::free_memory();
     {
