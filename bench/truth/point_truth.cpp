@@ -154,10 +154,10 @@ class PointTruth final : public Truth {
         std::ranges::sort(got);
         for (std::size_t s = 0; s < sample_.size(); ++s) {
             const auto query = static_cast<std::uint32_t>(sample_[s]);
-            const auto range = std::ranges::equal_range(got, query, {}, &Pair::a);
             std::vector<std::uint32_t> items, missing, extra;
-            for (const Pair pair : range)
-                items.push_back(pair.b);
+            for (auto pair = std::ranges::lower_bound(got, query, {}, &Pair::a);
+                 pair != got.end() && pair->a == query; ++pair)
+                items.push_back(pair->b);
             std::ranges::set_difference(answers_[s].items, items, std::back_inserter(missing));
             std::ranges::set_difference(items, answers_[s].items, std::back_inserter(extra));
             check.n_got += items.size();

@@ -42,7 +42,8 @@ class AllHitsTruth final : public Truth {
         bool all_certain = true;
         for (std::size_t k = 0; k < sample_.size(); ++k) {
             const auto ray = static_cast<std::uint32_t>(sample_[k]);
-            const auto own = std::ranges::equal_range(got, ray, {}, &Pair::a);
+            const std::span<const Pair> own(std::ranges::lower_bound(got, ray, {}, &Pair::a),
+                                            std::ranges::upper_bound(got, ray, {}, &Pair::a));
             check.n_got += own.size();
             for (const RayTruth::Candidate& c : truths_[k]) {
                 all_certain = all_certain && c.certain;

@@ -99,8 +99,8 @@ MovingScene::MovingScene(SceneFile file, std::optional<std::size_t> n, bool can_
     for (std::size_t g = 0; g < file_.groups.size(); ++g)
         lay_effects(file_.groups[g], g, firsts[g], firsts[g + 1]);
     std::ranges::sort(with_velocity_);
-    const auto twice = std::ranges::unique(with_velocity_);
-    with_velocity_.erase(twice.begin(), twice.end());
+    with_velocity_.erase(std::unique(with_velocity_.begin(), with_velocity_.end()),
+                         with_velocity_.end());
     if (can_rewind)
         unmoved_ = std::make_unique<const Bodies>(bodies_);
     start_effects();
