@@ -7,8 +7,8 @@
 
 namespace boxwood {
 
-/// A stream of a device, owned, for what is to have a DevicePlace of its own: what is enqueued in it
-/// is done in order, beside other streams. It must outlive what has its place.
+/// A stream of a device, owned, for what is to have a DevicePlace of its own: what is enqueued in
+/// it is done in order, beside other streams. It must outlive what has its place.
 class DeviceStream {
   public:
     /// Throws DeviceError.
