@@ -144,8 +144,10 @@ ContenderEntry collide(const char* word, RTCBuildQuality quality) {
               "boxes beyond "
               "1.8e18 are dropped by Embree; a build also frees the scene before it");
     const bool refit = quality == RTC_BUILD_QUALITY_REFIT;
-    e.notes += refit ? "; a dynamic scene whose nodes are refitted in each frame"
-                     : "; a frame: the geometry committed again and the scene rebuilt";
+    e.notes +=
+        refit ? "; a dynamic scene of quality low, as a refit wants, whose nodes are fitted again "
+                "in each frame"
+              : "; a frame: the geometry committed again and the scene rebuilt";
     e.runs_on = RunsOn::tbb;
     if (!refit) {
         e.answers = answering_all_pairs<Collide>(quality);

@@ -55,14 +55,15 @@ inline void throw_if_failed(RTCDevice device, const char* what) {
             fmt::format("embree: {} failed (error {})", what, static_cast<int>(error)));
 }
 
-/// A committed scene of one geometry.
+/// A committed scene of one geometry. What a geometry wants of REFIT counts in a scene of LOW
+/// alone.
 inline SceneHandle commit(RTCDevice device, Geometry geometry, RTCBuildQuality quality,
                           RTCSceneFlags flags) {
     rtcSetGeometryBuildQuality(geometry.get(), quality);
     rtcCommitGeometry(geometry.get());
     SceneHandle scene(rtcNewScene(device));
-    rtcSetSceneBuildQuality(
-        scene.get(), quality == RTC_BUILD_QUALITY_REFIT ? RTC_BUILD_QUALITY_MEDIUM : quality);
+    rtcSetSceneBuildQuality(scene.get(),
+                            quality == RTC_BUILD_QUALITY_REFIT ? RTC_BUILD_QUALITY_LOW : quality);
     rtcSetSceneFlags(scene.get(), flags);
     rtcAttachGeometry(scene.get(), geometry.get());
     rtcCommitScene(scene.get());
@@ -85,12 +86,17 @@ inline RTCRay converted(const Ray<float>& ray) {
             0};
 }
 
-inline RayHit closest(RTCScene scene, const Ray<float>& ray) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRayHit query;
+/// With room for a hit.
+inline RTCRayHit hit_by(const Ray<float>& ray) {
+    RTCRayHit query{};
     query.ray = converted(ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    return query;
+}
+
+inline RayHit closest(RTCScene scene, RTCRayHit query) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
     rtcIntersect1(scene, &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return {};

@@ -32,7 +32,7 @@ class RayCasesContender final : public Contender {
         std::vector<RayHit>& hits = list_of<RayHit>(answers);
         hits.resize(cases_.rays.size());
         for (std::size_t i = 0; i < cases_.rays.size(); ++i)
-            hits[i] = closest(scene_of_case_[i], cases_.rays[i].ray);
+            hits[i] = closest(scene_of_case_[i], hit_by(cases_.rays[i].ray));
     }
 
   private:

@@ -4,12 +4,14 @@
 #include "bench/tasks/detail/ray_classes.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <span>
 
 namespace boxwood::bench {
 namespace {
@@ -48,7 +50,8 @@ void collect(const RTCFilterFunctionNArguments* args) {
 /// What is wanted of each ray.
 enum class Wanted { closest, any, all };
 
-/// Rays `width` at a time.
+/// Rays `width` at a time, in Embree's own form, which is made in the constructor and copied for
+/// each query: Embree writes what it finds into it.
 class Rays final : public Contender {
   public:
     Rays(const Job& job, RTCSceneFlags flags, Wanted wanted, int width)
@@ -56,6 +59,14 @@ class Rays final : public Contender {
           vertices_(scene_.mesh.vertices), device_(make_device(job.threads)),
           arena_(static_cast<int>(job.threads)) {
         vertices_.emplace_back(); // Embree reads 16 bytes at the last vertex
+        if (width_ == 8)
+            fill(packets8_);
+        else if (width_ == 16)
+            fill(packets16_);
+        else if (wanted_ == Wanted::any)
+            std::ranges::transform(scene_.rays, std::back_inserter(occluding_), converted);
+        else
+            std::ranges::transform(scene_.rays, std::back_inserter(hitting_), hit_by);
     }
 
     void build() override {
@@ -83,24 +94,52 @@ class Rays final : public Contender {
         for_chunks([&](std::size_t begin, std::size_t end) {
             const FlushDenormals flush;
             if (width_ == 8)
-                return packets<8>(begin, end, hits);
+                return cast<8>(packets8_, begin, end, hits);
             if (width_ == 16)
-                return packets<16>(begin, end, hits);
+                return cast<16>(packets16_, begin, end, hits);
             for (std::size_t i = begin; i < end; ++i)
-                hits[i] = wanted_ == Wanted::any ? occluded(scene_.rays[i])
-                                                 : closest(embree_scene_.get(), scene_.rays[i]);
+                hits[i] = wanted_ == Wanted::any ? occluded(occluding_[i])
+                                                 : closest(embree_scene_.get(), hitting_[i]);
         });
     }
 
   private:
-    /// cast(begin, end) on the threads of the job.
-    template <class Cast> void for_chunks(const Cast& cast) {
+    template <int W> using PacketOf = typename PacketTypes<W>::RayHits;
+
+    /// The last packet has fewer rays than lanes: the last ray again.
+    template <class Packet> void fill(std::vector<Packet>& packets) const {
+        const std::span<const Ray<float>> rays = scene_.rays;
+        const auto width = static_cast<std::size_t>(width_);
+        for (std::size_t first = 0; first < rays.size(); first += width) {
+            Packet& packet = packets.emplace_back();
+            for (std::size_t k = 0; k < width; ++k) {
+                const Ray<float>& ray = rays[std::min(first + k, rays.size() - 1)];
+                packet.ray.org_x[k] = ray.origin.x;
+                packet.ray.org_y[k] = ray.origin.y;
+                packet.ray.org_z[k] = ray.origin.z;
+                packet.ray.dir_x[k] = ray.direction.x;
+                packet.ray.dir_y[k] = ray.direction.y;
+                packet.ray.dir_z[k] = ray.direction.z;
+                packet.ray.tnear[k] = ray.t_min;
+                packet.ray.tfar[k] = ray.t_max;
+                packet.ray.time[k] = 0;
+                packet.ray.mask[k] = ~0u;
+                packet.ray.id[k] = packet.ray.flags[k] = 0;
+                packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+            }
+        }
+    }
+
+    /// work(begin, end) on the threads of the job: rays, in whole packets.
+    template <class Work> void for_chunks(const Work& work) {
+        constexpr std::size_t chunk = 256;
+        const std::size_t n = scene_.rays.size();
         if (threads_ == 1)
-            return cast(0, scene_.rays.size());
+            return work(0, n);
         arena_.execute([&] {
-            tbb::parallel_for(
-                tbb::blocked_range<std::size_t>(0, scene_.rays.size(), 256),
-                [&](const tbb::blocked_range<std::size_t>& r) { cast(r.begin(), r.end()); });
+            tbb::parallel_for(std::size_t{0}, (n + chunk - 1) / chunk, [&](std::size_t i) {
+                work(i * chunk, std::min(n, (i + 1) * chunk));
+            });
         });
     }
 
@@ -117,10 +156,9 @@ class Rays final : public Contender {
     }
 
     /// A hit has some triangle number; Embree does not say which triangle it was.
-    RayHit occluded(const Ray<float>& ray) const {
+    RayHit occluded(RTCRay query) const {
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
-        RTCRay query = converted(ray);
         rtcOccluded1(embree_scene_.get(), &context, &query);
         RayHit hit;
         if (query.tfar < 0) // -inf marks a hit
@@ -134,38 +172,23 @@ class Rays final : public Contender {
         for (std::size_t i = begin; i < end; ++i) {
             rtcInitIntersectContext(&collecting.context);
             collecting.ray = static_cast<std::uint32_t>(i);
-            RTCRayHit query;
-            query.ray = converted(scene_.rays[i]);
-            query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+            RTCRayHit query = hitting_[i];
             rtcIntersect1(embree_scene_.get(), &collecting.context, &query);
         }
     }
 
     template <int W>
-    void packets(std::size_t begin, std::size_t end, std::vector<RayHit>& hits) const {
+    void cast(const std::vector<PacketOf<W>>& packets, std::size_t begin, std::size_t end,
+              std::vector<RayHit>& hits) const {
         using Types = PacketTypes<W>;
         for (std::size_t first = begin; first < end; first += W) {
+            alignas(64) PacketOf<W> packet = packets[first / W];
+            const std::size_t n = std::min<std::size_t>(W, end - first);
             alignas(64) int valid[W];
-            alignas(64) typename Types::RayHits packet;
-            for (std::size_t k = 0; k < W; ++k) {
-                valid[k] = first + k < end ? -1 : 0;
-                const Ray<float>& ray = scene_.rays[std::min(first + k, end - 1)];
-                packet.ray.org_x[k] = ray.origin.x;
-                packet.ray.org_y[k] = ray.origin.y;
-                packet.ray.org_z[k] = ray.origin.z;
-                packet.ray.dir_x[k] = ray.direction.x;
-                packet.ray.dir_y[k] = ray.direction.y;
-                packet.ray.dir_z[k] = ray.direction.z;
-                packet.ray.tnear[k] = ray.t_min;
-                packet.ray.tfar[k] = ray.t_max;
-                packet.ray.time[k] = 0;
-                packet.ray.mask[k] = ~0u;
-                packet.ray.id[k] = packet.ray.flags[k] = 0;
-                packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
-            }
+            for (std::size_t k = 0; k < W; ++k)
+                valid[k] = k < n ? -1 : 0;
             RTCIntersectContext context;
             rtcInitIntersectContext(&context);
-            const std::size_t n = std::min<std::size_t>(W, end - first);
             if (wanted_ == Wanted::any) {
                 Types::occluded(valid, embree_scene_.get(), &context,
                                 reinterpret_cast<typename Types::Rays*>(&packet.ray));
@@ -191,6 +214,11 @@ class Rays final : public Contender {
     int width_;
     unsigned threads_;
     std::vector<Vec3<float>> vertices_;
+    // The rays in the form of one of these:
+    std::vector<RTCRay> occluding_;
+    std::vector<RTCRayHit> hitting_;
+    std::vector<RTCRayHit8> packets8_;
+    std::vector<RTCRayHit16> packets16_;
     Device device_;
     tbb::task_arena arena_;
     SceneHandle embree_scene_;
@@ -209,7 +237,9 @@ ContenderEntry rays(Wanted wanted, int width, bool robust) {
         fmt::format("Embree's rtc{} on triangles, {}", function,
                     robust ? "ROBUST scene (watertight)" : "default scene (not watertight)");
     e.notes = fmt::format(
-        "{}, build quality medium; rays are converted to Embree's struct in the query; denormals "
+        "{}, build quality medium; the rays in Embree's structs, made before and copied in the "
+        "query, "
+        "as Embree writes into them; denormals "
         "flushed during the query, as Embree wants; vertex and index buffers shared; a build also "
         "frees the scene before it",
         wanted == Wanted::all ? "single rays, whose intersection filter takes each hit down and "

@@ -2,14 +2,18 @@
 #include "bench/tasks/contender.h"
 #include "bench/tasks/detail/halves.h"
 #include "bench/tasks/task.h"
+#include "scenes/moving/frames.h"
 #include "trees/queries/sinks.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <memory>
 #include <random>
 
 #if defined(__SSE2__)
@@ -187,6 +191,37 @@ TEST(Peers, SayWhatTheyCannotDo) {
             EXPECT_GT(tasks_answered, 0u) << entry.name;
             EXPECT_EQ(tasks_answered, entry.answers.size()) << entry.name;
         }
+}
+
+/// One that only says so makes a new tree in each frame, and takes as long.
+TEST(Peers, ARefitCostsLessThanARebuild) {
+    const Scene scene = scene_of(random_boxes(20'000, .02f, 1));
+    Frame frame{random_boxes(20'000, .02f, 1), {}};
+    for (std::uint32_t i = 0; i < frame.boxes.size(); ++i) {
+        frame.boxes[i].max.x += .001f;
+        frame.moved.push_back(i);
+    }
+    const Job job{&scene, find_task("moving_pairs")};
+    std::map<std::string, double> least;
+    std::map<std::string, std::unique_ptr<Contender>> made;
+    for (const Peer& peer : peers())
+        for (const ContenderEntry& entry : peer.contenders)
+            if (entry.name == "embree.rtc_collide.refit" || entry.name == "embree.rtc_collide.low")
+                made[entry.name] = entry.make(job);
+    if (made.empty())
+        GTEST_SKIP() << "no Embree here";
+    for (const auto& [name, contender] : made) {
+        contender->build();
+        least[name] = std::numeric_limits<double>::infinity();
+    }
+    for (int round = 0; round < 9; ++round)
+        for (const auto& [name, contender] : made) {
+            const auto start = std::chrono::steady_clock::now();
+            contender->update(frame);
+            const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+            least[name] = std::min(least[name], took.count());
+        }
+    EXPECT_LT(least["embree.rtc_collide.refit"], .6 * least["embree.rtc_collide.low"]);
 }
 
 TEST(Tasks, AreFoundByTheirNames) {
