@@ -2,6 +2,7 @@
 #include "bench/stages/turned_box.h"
 #include "trees/cuda/device/machine.h"
 
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -15,25 +16,49 @@ __device__ inline std::uint32_t body_of(const std::uint32_t* listed, std::uint32
     return listed ? listed[at] : at;
 }
 
+/// The bodies that an effect is laid on.
+struct Chosen {
+    const std::uint32_t* listed;
+    std::uint32_t n;
+    std::uint8_t* is_at_rest; ///< those that the effect leaves alone from then on; of FallStep
+};
+struct State {
+    Vec3<double>*places, *velocities;
+};
+
+__device__ inline void take(const VelocityStep& step, const Chosen&, const State& state,
+                            std::uint32_t, std::uint32_t body) {
+    step(body, state.velocities[body]);
+}
+__device__ inline void take(const JumpStep& step, const Chosen&, const State& state, std::uint32_t,
+                            std::uint32_t body) {
+    step(body, state.places[body]);
+}
+__device__ inline void take(const FallStep& step, const Chosen& chosen, const State& state,
+                            std::uint32_t at, std::uint32_t body) {
+    if (!chosen.is_at_rest[at] && !step(state.places[body], state.velocities[body]))
+        chosen.is_at_rest[at] = 1;
+}
+__device__ inline void take(const SteerStep& step, const Chosen&, const State& state, std::uint32_t,
+                            std::uint32_t body) {
+    step(body, step.goal(body / step.flock), state.places[body], state.velocities[body]);
+}
+
 /// A thread per body that the effect is laid on.
-template <class Step>
-__global__ void step_bodies(Step step, const std::uint32_t* chosen, std::uint32_t n,
-                            Vec3<double>* changes) {
+template <class Step> __global__ void step_bodies(Step step, Chosen chosen, State state) {
     const std::uint32_t at = blockIdx.x * blockDim.x + threadIdx.x;
-    if (at >= n)
-        return;
-    const std::uint32_t body = body_of(chosen, at);
-    step(body, changes[body]);
+    if (at < chosen.n)
+        take(step, chosen, state, at, body_of(chosen.listed, at));
 }
 
 /// A thread per body with a velocity.
 __global__ void move_bodies(MoveStep step, const std::uint32_t* moving, std::uint32_t n,
-                            Vec3<double>* places, Vec3<double>* velocities) {
+                            State state) {
     const std::uint32_t at = blockIdx.x * blockDim.x + threadIdx.x;
     if (at >= n)
         return;
     const std::uint32_t body = body_of(moving, at);
-    step(places[body], velocities[body]);
+    step(state.places[body], state.velocities[body]);
 }
 
 /// A thread per body.
@@ -61,21 +86,31 @@ class BodiesThere final : public DeviceBodies {
             put<Vec3<double>>(bodies.velocity, velocities_);
         list(scene.with_velocity(), moving_);
         chosen_.clear();
-        for (std::size_t i = 0; i < scene.effects().size(); ++i)
-            if (Listed& chosen = chosen_.emplace_back();
-                !std::holds_alternative<NoStep>(*scene.step(i)))
+        for (std::size_t i = 0; i < scene.effects().size(); ++i) {
+            Listed& chosen = chosen_.emplace_back();
+            const BodyStep step = *scene.step(i);
+            if (!std::holds_alternative<NoStep>(step))
                 list(scene.effects()[i].chosen, chosen);
+            if (std::holds_alternative<FallStep>(step))
+                put<std::uint8_t>(std::vector<std::uint8_t>(chosen.n), chosen.is_at_rest);
+        }
         if (boxes_.size() != bodies.size())
             boxes_ = DeviceArray<Box>(bodies.size(), place_);
         return bytes_up_;
     }
 
     void advance(MovingScene& scene, std::size_t laid) override {
-        std::visit([&](const auto& step) { advance(step, chosen_[laid]); }, *scene.step(laid));
+        Listed& chosen = chosen_[laid];
+        std::visit(
+            [&]<class Step>(const Step& step) {
+                if constexpr (!std::is_same_v<Step, NoStep>)
+                    start(step_bodies<Step>, chosen.n, step,
+                          Chosen{chosen.data(), chosen.n, chosen.is_at_rest.span().data}, state());
+            },
+            *scene.step(laid));
     }
     void move(const MovingScene& scene) override {
-        start(move_bodies, moving_.n, scene.move_step(), moving_.data(), moving_.n,
-              places_.span().data, velocities_.span().data);
+        start(move_bodies, moving_.n, scene.move_step(), moving_.data(), moving_.n, state());
     }
     DeviceSpan<const Box> fit() override {
         const auto n = static_cast<std::uint32_t>(rest_.size());
@@ -88,17 +123,11 @@ class BodiesThere final : public DeviceBodies {
     struct Listed {
         DeviceArray<std::uint32_t> bodies;
         std::uint32_t n = 0;
+        DeviceArray<std::uint8_t> is_at_rest; ///< see Chosen
         const std::uint32_t* data() const { return bodies.span().data; }
     };
 
-    void advance(const NoStep&, const Listed&) {}
-    void advance(const VelocityStep& step, const Listed& chosen) {
-        start(step_bodies<VelocityStep>, chosen.n, step, chosen.data(), chosen.n,
-              velocities_.span().data);
-    }
-    void advance(const JumpStep& step, const Listed& chosen) {
-        start(step_bodies<JumpStep>, chosen.n, step, chosen.data(), chosen.n, places_.span().data);
-    }
+    State state() { return {places_.span().data, velocities_.span().data}; }
 
     template <class... Parameters, class... Arguments>
     void start(void (*kernel)(Parameters...), std::uint32_t n, Arguments... arguments) {

@@ -43,7 +43,7 @@ struct PlannedStage {
 std::vector<PlannedStage> plan_stages(const MovingScene& scene, Extent extent,
                                       Where where = Where::host);
 
-/// Why the scene cannot be played there, if so: "stage advance_gravity has no device form".
+/// Why the scene cannot be played there, if so: "stage advance_orbit has no device form".
 std::optional<std::string> why_not(const MovingScene& scene, Extent extent, Where where);
 
 /// The stage of this name; there must be one.

@@ -30,7 +30,9 @@ SceneFile file_of(const std::string& text, std::size_t n) {
 
 const std::string bodies = "[[bodies]]\ngenerator = \"uniform\"\n";
 const std::string steps = "effects = [\"drift\", {name = \"brownian\", share = 0.4}, "
-                          "{name = \"teleport\", share = 0.6, often = 0.3}]\n";
+                          "{name = \"teleport\", share = 0.6, often = 0.3}, "
+                          "{name = \"swarm\", share = 0.3, flock = 7}, "
+                          "{name = \"gravity\", share = 0.7, strength = 300, bounce = 0.1}]\n";
 
 /// By bits: a zero is not its negative.
 std::vector<std::array<std::uint32_t, 6>> bits_of(std::span<const Box> boxes) {
@@ -47,15 +49,16 @@ std::vector<Box> to_host(DeviceSpan<const Box> boxes) {
 }
 
 TEST(DeviceBodies, HaveTheBoxesOfTheHostFrameByFrame) {
-    for (const std::string& effects : {std::string(), std::string("effects = \"drift\"\n"),
-                                       std::string("effects = \"teleport\"\n"), steps})
-        for (const std::size_t n : {1, 15, 16, 17, 255, 256, 257, 1000}) {
+    const std::string drift = "effects = \"drift\"\n", teleport = "effects = \"teleport\"\n",
+                      gravity = "effects = {name = \"gravity\", turn = 1}\n";
+    for (const std::string& effects : {std::string(), drift, teleport, gravity, steps})
+        for (const std::size_t n : {1, 2, 15, 16, 17, 255, 256, 257, 4097}) {
             SCOPED_TRACE(effects + std::to_string(n));
             on_host::set_seed(n);
             MovingScene scene(file_of(bodies + effects, n)), clock(scene.file());
             const auto there = make_device_bodies({});
             EXPECT_GE(there->upload(clock), n * (sizeof(Box) + sizeof(Vec3<double>)));
-            for (int frame = 0; frame < 6; ++frame) {
+            for (int frame = 0; frame < (n > 300 ? 3 : 10); ++frame) {
                 ASSERT_EQ(bits_of(to_host(there->fit())), bits_of(boxes_of(scene)));
                 scene.advance();
                 clock.begin_frame(); // and nothing else: its bodies stay at the start
@@ -108,8 +111,9 @@ TEST(ScenesOnDevice, AnswerAsOnTheHost) {
         }
     }
     EXPECT_EQ(played.size(), 16u); // but for crowd, whose bodies come and go, and fly_through
-    EXPECT_THAT(resident, testing::IsSupersetOf({"popcorn", "still_life", "broadmark_brownian",
-                                                 "broadmark_brownian_assorted"}));
+    EXPECT_THAT(resident,
+                testing::IsSupersetOf({"popcorn", "still_life", "drone_swarm", "broadmark_brownian",
+                                       "broadmark_free_fall", "broadmark_gravity_assorted"}));
 }
 
 /// The rows of the ledger that have calls: stage and calls.
@@ -170,9 +174,9 @@ TEST(ScenesOnDevice, WhatHasNoFormThereIsNamed) {
     const auto why = [](const std::string& text, Where where) {
         return why_not(MovingScene(file_of(text, 50)), Extent::required, where).value_or("");
     };
-    EXPECT_EQ(why(bodies + "effects = [\"drift\", \"gravity\"]\n", Where::resident),
-              "stage advance_gravity has no device form");
-    EXPECT_EQ(why(bodies + "effects = [\"drift\", \"gravity\"]\n", Where::device), "");
+    EXPECT_EQ(why(bodies + "effects = [\"drift\", \"orbit\"]\n", Where::resident),
+              "stage advance_orbit has no device form");
+    EXPECT_EQ(why(bodies + "effects = [\"drift\", \"orbit\"]\n", Where::device), "");
     EXPECT_EQ(why(bodies + "effects = \"spawn\"\n", Where::device),
               "stage tree has no device form where bodies come and go");
     EXPECT_EQ(why(bodies + "margin = 1\n", Where::resident),
@@ -215,7 +219,7 @@ TEST(ScenesOnDevice, ASweepHasThemAsCells) {
                     testing::Pair("popcorcuda_resident", all_stages),
                     testing::Pair("rubblecuda", all_stages),
                     testing::Pair("rubblecuda_resident",
-                                  "stage advance_gravity has no device form; " + all_stages)));
+                                  "stage advance_spin has no device form; " + all_stages)));
     const results::Results round = run_round(plan, all, 0, silent);
     for (const results::Sample& sample : round.samples)
         EXPECT_EQ(sample.flags & results::wrong_answer, 0u);
@@ -238,7 +242,7 @@ TEST(ScenesOnDevice, ThePlanSaysWhatStaysThere) {
     };
     EXPECT_THAT(text("popcorn"), HasSubstr("the bodies stay there, and pairs come down"));
     EXPECT_THAT(text("rubble"), HasSubstr("boxes go up and pairs come down in each frame, as stage "
-                                          "advance_gravity has no device form"));
+                                          "advance_spin has no device form"));
     EXPECT_THROW(text("crowd"), BadInput);
 }
 

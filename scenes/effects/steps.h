@@ -4,6 +4,7 @@
 #include "kernels/primitives/aabb.h"
 #include "scenes/sampling/random.h"
 
+#include <cmath>
 #include <cstdint>
 #include <variant>
 
@@ -48,7 +49,55 @@ struct JumpStep {
     }
 };
 
-using BodyStep = std::variant<NoStep, VelocityStep, JumpStep>;
+/// Of gravity. Gives whether the body is still awake: one that came to rest is left alone.
+struct FallStep {
+    double gain; ///< of speed in a frame
+    Vec3<double> direction;
+    double friction, floor; ///< z at which slow bodies come to rest, -inf if none does
+
+    BOXWOOD_BOTH bool operator()(const Vec3<double>& place, Vec3<double>& velocity) const {
+        if (place.z <= floor) {
+            velocity.x *= 1 - friction;
+            velocity.y *= 1 - friction;
+            if (dot(velocity, velocity) < 4 * gain * gain) {
+                velocity = {};
+                return false;
+            }
+        }
+        velocity = velocity + gain * direction;
+        return true;
+    }
+};
+
+/// Of swarm.
+struct SteerStep {
+    Aabb<double> bounds;
+    Random random;
+    std::uint64_t age, flock; ///< how often goals have moved; bodies that share one
+    double fastest, radius, dt;
+
+    BOXWOOD_BOTH Vec3<double> goal(std::uint64_t flock_number) const {
+        const Vec3<double> u = random.item((age + 1) << 32 | flock_number).in_cube();
+        const Vec3<double> extent = bounds.max - bounds.min;
+        return bounds.min + Vec3<double>{u.x * extent.x, u.y * extent.y, u.z * extent.z};
+    }
+    BOXWOOD_BOTH void operator()(std::uint32_t body, const Vec3<double>& goal_of_flock,
+                                 const Vec3<double>& place, Vec3<double>& velocity) const {
+        const Vec3<double> own = radius * random.item(body).in_ball();
+        const Vec3<double> way = goal_of_flock + own - place;
+        const Vec3<double> wanted = limited(way * (1 / (dt * 8)), fastest);
+        const double max_change = 4 * fastest * dt; // full speed after a quarter second
+        velocity = velocity + limited(wanted - velocity, max_change);
+    }
+
+  private:
+    BOXWOOD_BOTH static Vec3<double> limited(Vec3<double> v, double max_length) {
+        const double size = std::sqrt(dot(v, v));
+        return size > max_length ? v * (max_length / size) : v;
+    }
+};
+
+using BodyStep = std::variant<NoStep, VelocityStep, JumpStep, FallStep, SteerStep>;
 
 /// Along its velocity; what would leave the bounds stays at the wall and turns round. Gives whether
 /// the body moved.
