@@ -22,8 +22,10 @@ struct Chosen {
     std::uint32_t n;
     std::uint8_t* is_at_rest; ///< those that the effect leaves alone from then on; of FallStep
 };
+/// Of all bodies.
 struct State {
-    Vec3<double>*places, *velocities;
+    Vec3<double>* places;
+    Vec3<double>* velocities; ///< null if no effect gives one
 };
 
 __device__ inline void take(const VelocityStep& step, const Chosen&, const State& state,

@@ -82,8 +82,10 @@ ContenderEntry stages_contender(Extent extent, std::string_view left_out) {
         entry.name += fmt::format(".without_{}", left_out);
         entry.summary += fmt::format("; the scene without {}", left_out);
     }
-    entry.notes = "build makes what frame 0 needs; update advances the scene itself, so that the "
-                  "cost of its effects is in it";
+    entry.notes =
+        "build makes what frame 0 needs; update advances the scene itself, so that the "
+        "cost of its effects is in it; on a device pairs come down in each frame, also where "
+        "bodies stay";
     entry.cannot = [extent,
                     without = std::string(left_out)](const Job& job) -> std::optional<std::string> {
         if (!without.empty() && !has_effect(*job.scene->spec.moving, without))
