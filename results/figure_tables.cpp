@@ -104,7 +104,9 @@ std::vector<Table> figure_tables() {
              {"required", &StageCost::required, "", "1 if the scene requires it"},
              {"calls", &StageCost::calls, "", "of one pass through the frames"},
              {"items", &StageCost::items, "", "handled in these calls"},
-             {"bytes", &StageCost::bytes, "B", "memory that the stage alone holds, at its most"},
+             {"bytes", &StageCost::bytes, "B",
+              "memory that the stage alone holds, at its most; of upload and download, what "
+              "crossed"},
              {"ns", &StageCost::ns, "ns", "of a frame, median"},
              {"until_ns", &StageCost::until_ns, "ns", "of a frame, with all stages before it"},
              {"share", &StageCost::share, "", "of the frame"},

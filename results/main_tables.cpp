@@ -207,7 +207,9 @@ std::vector<Table> main_tables() {
              {"calls", &EffectRow::calls, "", "of one pass through the frames"},
              {"items", &EffectRow::items, "", "handled in these calls"},
              {"total_ns", &EffectRow::total_ns, "ns", "elapsed time of these calls"},
-             {"bytes", &EffectRow::bytes, "B", "memory that the stage alone holds, at its most"},
+             {"bytes", &EffectRow::bytes, "B",
+              "memory that the stage alone holds, at its most; of upload and download, what "
+              "crossed"},
          }},
         {"counters",
          "work of one cell, from a separate counted pass",

@@ -135,7 +135,7 @@ struct EffectRow {
     std::uint32_t required = 0;
     std::uint64_t calls = 0, items = 0;
     double total_ns = missing;
-    std::uint64_t bytes = 0; ///< memory that the stage alone holds, at its most
+    std::uint64_t bytes = 0; ///< memory that the stage alone holds, at its most; or what crossed
 };
 
 struct Counter {

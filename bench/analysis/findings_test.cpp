@@ -261,6 +261,13 @@ TEST_F(Findings, AScenePlayedSaysItsFrameAndWhatEverythingWouldTake) {
     EXPECT_EQ(row.alone, "2.00x the time"); // 6 / 3
 }
 
+TEST_F(Findings, AScenePlayedOnADeviceSaysWhere) {
+    const auto cell = add("warehouse", "scene_queries", "required", 1, 1e6);
+    run.results.cells[cell].executor = results::resident_executor;
+    run.time(cell, Phase::update, 2e6);
+    EXPECT_THAT(only().question, testing::EndsWith(", cuda_resident"));
+}
+
 TEST_F(Findings, ANoisyRunSaysRepeatThisInstead) {
     const auto cell = add("uniform", "pairs", "ours.packed", 100, 300);
     add("uniform", "pairs", "fcl.tree", 100, 900);

@@ -17,8 +17,10 @@ TEST(Plan, IsPrintedAsATableAndAsJson) {
     EXPECT_THAT(plan_text(scene, Extent::all_stages, false), HasSubstr("with all stages 13 run"));
     const std::string json = plan_text(scene, Extent::required, true);
     EXPECT_THAT(json, testing::StartsWith("{\"scene\":\"warehouse\",\"bodies\":1000,"));
-    EXPECT_THAT(json, HasSubstr("{\"stage\":\"filter\",\"required\":false,\"runs\":false,"
-                                "\"why\":\"no pairs are ignored\"}"));
+    EXPECT_THAT(
+        json,
+        HasSubstr("{\"stage\":\"filter\",\"required\":false,\"runs\":false,\"on_device\":false,"
+                  "\"why\":\"no pairs are ignored\"}"));
 }
 
 TEST(Plan, PlayingSaysWhatEachStageDid) {

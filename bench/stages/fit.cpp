@@ -1,43 +1,10 @@
-#include "kernels/boxes/fit.h"
 #include "bench/stages/playing.h"
-#include "kernels/arithmetic/rounding.h"
+#include "bench/stages/turned_box.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace boxwood::bench {
 namespace {
-
-/// What stays of the fitted box of a body while nothing turns it: that of PaddedFit, whose every
-/// rounding comes in the same turn, so that `at` gives the bits of `fitted_box`.
-struct TurnedBox {
-    Vec3<double> centre, half, size; ///< Rc, |R|e, |R||c|
-
-    explicit TurnedBox(const std::array<Vec3<double>, 3>& rotation, const Aabb<float>& rest) {
-        const CentredBox<double> in(
-            {static_cast<Vec3<double>>(rest.min), static_cast<Vec3<double>>(rest.max)});
-        for (int i = 0; i < 3; ++i) {
-            const Vec3<double> row = rotation[static_cast<std::size_t>(i)];
-            centre[i] = dot(row, in.centre);
-            half[i] = dot(magnitudes(row), in.half);
-            size[i] = dot(magnitudes(row), magnitudes(in.centre));
-        }
-    }
-
-    Box at(const Vec3<double>& translation) const {
-        using Limits = std::numeric_limits<double>;
-        Aabb<double> box;
-        for (int i = 0; i < 3; ++i) {
-            const double all = size[i] + std::abs(translation[i]) + half[i];
-            const double reach = half[i] + (4 * Limits::epsilon() * all + 4 * Limits::denorm_min());
-            const bool known = all <= Limits::max();
-            box.min[i] = known ? centre[i] + translation[i] - reach : -Limits::infinity();
-            box.max[i] = known ? centre[i] + translation[i] + reach : Limits::infinity();
-        }
-        return round_outward(box);
-    }
-};
 
 /// The boxes of the bodies that have changed, in parts of 4096. What turns nothing turns no box.
 class Fit final : public SceneStage {

@@ -17,7 +17,11 @@ struct LedgerRow {
     std::uint64_t items =
         0; ///< bodies, pairs, vertices, triangles, queries: what the stage handles
     double ns = 0;
-    std::uint64_t bytes = 0; ///< memory that the stage holds now
+    /// Memory of the host that the stage holds now; of a crossing, what crossed since the start.
+    std::uint64_t bytes = 0;
+
+    /// Of what goes to a device or comes from one.
+    bool is_crossing() const { return stage == "upload" || stage == "download"; }
 };
 
 /// Every stage of the plan in its order; those that do not run stay at zero.

@@ -41,14 +41,22 @@ std::string counted(std::size_t n, std::string_view one, std::string_view many) 
 
 class Plan {
   public:
-    Plan(const MovingScene& scene, Extent extent)
-        : scene_(scene), wants_(scene), all_(extent == Extent::all_stages) {}
+    Plan(const MovingScene& scene, Extent extent, Where where)
+        : scene_(scene), wants_(scene), all_(extent == Extent::all_stages), where_(where) {}
 
     std::vector<PlannedStage> stages() {
+        if (where_ == Where::resident)
+            add_only("upload", true, "bodies, once at the start");
         changing();
         boxes_and_trees();
         meetings();
         queries();
+        for (PlannedStage& stage : stages_) {
+            stage.host_only = host_only(stage);
+            stage.on_device =
+                stage.runs && stage.host_only.empty() &&
+                (where_ == Where::resident || (where_ == Where::device && is_of_trees(stage.name)));
+        }
         return std::move(stages_);
     }
 
@@ -60,6 +68,21 @@ class Plan {
     /// One that cannot run unless it is required.
     void add_only(std::string_view name, bool required, std::string why) {
         stages_.push_back({std::string(name), "", required, required, std::move(why)});
+    }
+
+    static bool is_of_trees(std::string_view stage) {
+        constexpr std::string_view all[] = {"upload", "tree", "update", "pairs", "download"};
+        return std::ranges::find(all, stage) != std::end(all);
+    }
+    std::string host_only(const PlannedStage& stage) const {
+        const std::string none = "has no device form";
+        if (!stage.effect.empty())
+            return effect_of(stage.effect).is_step ? "" : none;
+        if (stage.name == "fit")
+            return scene_.margins().empty() ? "" : none + " where margins widen boxes";
+        if (stage.name == "tree" || stage.name == "update")
+            return scene_.changes().presence ? none + " where bodies come and go" : "";
+        return stage.name == "move" || is_of_trees(stage.name) ? "" : none;
     }
 
     void changing() {
@@ -88,14 +111,22 @@ class Plan {
         if (boxes && !scene_.margins().empty() && wants_.pairs)
             fit += "; widened by margins for pairs";
         add("fit", boxes, fit);
+        if (where_ == Where::device)
+            add_only("upload", wants_.pairs,
+                     !wants_.pairs  ? "no query needs pairs"
+                     : wants_.moves ? "all boxes of each frame that changes one"
+                                    : "boxes, once at the start: nothing moves");
         add("tree", wants_.pairs,
             wants_.pairs ? "made once at the start, to find pairs with" : "no query needs pairs");
         add("update", wants_.pairs && wants_.moves,
-            !wants_.pairs  ? "no query needs pairs"
-            : wants_.moves ? fmt::format("{}: given the bodies that have changed",
-                                         counted(scene_.effects().size(), "effect changes bodies",
-                                                 "effects change bodies"))
-                           : "nothing moves");
+            !wants_.pairs ? "no query needs pairs"
+            : wants_.moves
+                ? fmt::format("{}: {}",
+                              counted(scene_.effects().size(), "effect changes bodies",
+                                      "effects change bodies"),
+                              where_ == Where::host ? "given the bodies that have changed"
+                                                    : "made again")
+                : "nothing moves");
         const bool box_tree = !wants_.box_queries.empty();
         add_only("box_tree", box_tree,
                  box_tree ? fmt::format("{} of boxes{}", fmt::join(wants_.box_queries, ", "),
@@ -110,6 +141,9 @@ class Plan {
         if (wants_.pairs && !wants_.moves)
             why += "; found once and given again, as nothing moves";
         add("pairs", wants_.pairs, why);
+        if (where_ != Where::host)
+            add_only("download", wants_.pairs,
+                     wants_.pairs ? "pairs, when they were found" : "no query needs pairs");
         const bool filter = wants_.pairs && wants_.filters > 0;
         add("filter", filter,
             filter               ? fmt::format("pairs within {} are ignored",
@@ -151,13 +185,29 @@ class Plan {
     const MovingScene& scene_;
     Wants wants_;
     bool all_;
+    Where where_;
     std::vector<PlannedStage> stages_;
 };
 
 } // namespace
 
-std::vector<PlannedStage> plan_stages(const MovingScene& scene, Extent extent) {
-    return Plan(scene, extent).stages();
+std::vector<PlannedStage> plan_stages(const MovingScene& scene, Extent extent, Where where) {
+    return Plan(scene, extent, where).stages();
+}
+
+std::optional<std::string> why_not(const MovingScene& scene, Extent extent, Where where) {
+    if (where == Where::host)
+        return std::nullopt;
+    if (extent == Extent::all_stages)
+        return "all stages have no device form";
+    const std::vector<PlannedStage> plan = plan_stages(scene, extent, where);
+    if (!stage_of(plan, "pairs").runs)
+        return "no stage that the scene requires has a device form: it does not need pairs";
+    for (const PlannedStage& stage : plan)
+        if (stage.runs && !stage.host_only.empty() &&
+            (where == Where::resident || stage.name == "tree"))
+            return fmt::format("stage {} {}", stage.name, stage.host_only);
+    return std::nullopt;
 }
 
 const PlannedStage& stage_of(std::span<const PlannedStage> plan, std::string_view name) {

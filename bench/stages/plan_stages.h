@@ -3,6 +3,7 @@
 #include "scenes/moving/moving_scene.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,6 +17,13 @@ enum class Extent : std::uint8_t {
     all_stages ///< every stage that its queries could need, for every body in every frame
 };
 
+/// Where a scene is played.
+enum class Where : std::uint8_t {
+    host,
+    device,  ///< trees and pairs on a device: in each frame boxes go up and pairs come down
+    resident ///< all on a device: the bodies stay there, and only pairs come down
+};
+
 /// One stage of the plan of a scene.
 struct PlannedStage {
     std::string name;
@@ -23,12 +31,20 @@ struct PlannedStage {
     bool is_required = false; ///< by the scene, whatever the extent
     bool runs = false;        ///< in this extent; what does not run is not made and has no memory
     std::string why;          ///< required, or not: one clause of plain English
+    /// "has no device form where ...", or empty: it has one.
+    std::string host_only{};
+    bool on_device = false; ///< it runs there
 };
 
 /// All stages there are, in the order in which they run: one for each of `effects()`, move, fit,
 /// tree, update, box_tree, pairs, filter, transform, mesh_trees, triangle_pairs, surface, aim,
-/// rays, points, regions, nearest.
-std::vector<PlannedStage> plan_stages(const MovingScene& scene, Extent extent);
+/// rays, points, regions, nearest. On a device also upload, before the first stage there, and
+/// download, after pairs.
+std::vector<PlannedStage> plan_stages(const MovingScene& scene, Extent extent,
+                                      Where where = Where::host);
+
+/// Why the scene cannot be played there, if so: "stage advance_orbit has no device form".
+std::optional<std::string> why_not(const MovingScene& scene, Extent extent, Where where);
 
 /// The stage of this name; there must be one.
 const PlannedStage& stage_of(std::span<const PlannedStage> plan, std::string_view name);

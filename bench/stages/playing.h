@@ -1,8 +1,10 @@
 #pragma once
 
+#include "bench/stages/device_bodies.h"
 #include "bench/stages/frame_answers.h"
 #include "bench/stages/plan_stages.h"
 #include "scenes/moving/moving_scene.h"
+#include "trees/device.h"
 #include "trees/dynamic/update.h"
 #include "trees/executor.h"
 #include "trees/layouts/packed.h"
@@ -10,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,6 +20,15 @@ namespace boxwood::bench {
 
 class Surface;
 class WorldMeshes;
+
+/// What is on the device that a scene is played on.
+struct OnDevice {
+    DevicePlace place;
+    std::unique_ptr<DeviceBodies> bodies{}; ///< upload, of bodies that stay there
+    DeviceSpan<const Box> boxes{};          ///< upload, or fit
+    std::optional<DeviceBvh> tree{};        ///< tree, update
+    DeviceArray<Pair> pairs{};              ///< pairs
+};
 
 /// What the stages of one scene hand on to each other. What belongs to a stage that is not made
 /// stays empty or null.
@@ -40,6 +52,7 @@ struct Playing {
     std::vector<Ray<float>> rays{};              ///< aim
     std::vector<Vec3<float>> points{}, places{}; ///< aim: of points and of nearest
     std::vector<Box> regions{};                  ///< aim
+    std::unique_ptr<OnDevice> device{};          ///< null where none is played on
     FrameAnswers answers{};
 
     bool is_full() const { return extent == Extent::all_stages; }
@@ -92,6 +105,18 @@ std::unique_ptr<SceneStage> transform_stage();
 std::unique_ptr<SceneStage> mesh_trees_stage();
 std::unique_ptr<SceneStage> surface_stage();
 std::unique_ptr<SceneStage> aim_stage();
+
+/// The same on a device: bench/stages/device_stages.cpp. upload_bodies: once, to stay there;
+/// upload_boxes: of each frame; download: pairs.
+std::unique_ptr<SceneStage> upload_bodies_stage();
+std::unique_ptr<SceneStage> upload_boxes_stage();
+std::unique_ptr<SceneStage> advance_there_stage(std::size_t laid);
+std::unique_ptr<SceneStage> move_there_stage();
+std::unique_ptr<SceneStage> fit_there_stage();
+std::unique_ptr<SceneStage> tree_there_stage();
+std::unique_ptr<SceneStage> update_there_stage();
+std::unique_ptr<SceneStage> pairs_there_stage();
+std::unique_ptr<SceneStage> download_stage();
 
 /// The stage of a name of `scene_queries()`: bench/stages/queries/NAME.cpp.
 std::unique_ptr<SceneStage> query_stage(std::string_view name);

@@ -2,38 +2,57 @@
 
 #include "bench/stages/playing.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
+#include <stdexcept>
 
 namespace boxwood::bench {
 
-ScenePlayer::ScenePlayer(MovingScene scene, Extent extent, const Executor& executor)
+ScenePlayer::ScenePlayer(MovingScene scene, Extent extent, const Executor& executor, Where where,
+                         DevicePlace place)
     : playing_(std::make_unique<Playing>(Playing{std::move(scene), executor, extent})),
-      plan_(plan_stages(playing_->scene, extent)), ledger_(plan_) {
+      plan_(plan_stages(playing_->scene, extent, where)), ledger_(plan_) {
     const auto runs = [&](std::string_view name) { return stage_of(plan_, name).runs; };
     const MovingScene& played = playing_->scene;
+    const bool on_device = where != Where::host, resident = where == Where::resident;
+    if (const auto why = why_not(played, extent, where))
+        throw std::invalid_argument(fmt::format("scene {}: {}", played.file().name, *why));
+    if (on_device)
+        playing_->device = std::make_unique<OnDevice>(OnDevice{place});
     const bool full = extent == Extent::all_stages;
     const bool moves = full || !played.effects().empty();
 
-    for (std::size_t i = 0; i < played.effects().size(); ++i)
+    const Runs while_it_moves = moves ? Runs::from_the_start : Runs::at_the_start;
+
+    if (resident)
+        add("upload", upload_bodies_stage(), Runs::at_the_start);
+    for (std::size_t i = 0; i < played.effects().size(); ++i) {
+        const bool ends = !runs("move") && i + 1 == played.effects().size();
         add(std::ranges::find(plan_, played.effects()[i].entry->name, &PlannedStage::effect)->name,
-            advance_stage(i, !runs("move") && i + 1 == played.effects().size()), Runs::advancing);
+            resident ? advance_there_stage(i) : advance_stage(i, ends), Runs::advancing);
+    }
     if (runs("move"))
-        add("move", move_stage(), Runs::advancing);
+        add("move", resident ? move_there_stage() : move_stage(), Runs::advancing);
     if (runs("fit")) {
         const bool wide = runs("tree") && !played.margins().empty();
-        add("fit", fit_stage(runs("box_tree") || !wide, wide),
-            moves ? Runs::from_the_start : Runs::at_the_start);
+        add("fit", resident ? fit_there_stage() : fit_stage(runs("box_tree") || !wide, wide),
+            while_it_moves);
     }
+    if (on_device && !resident)
+        add("upload", upload_boxes_stage(), while_it_moves);
     if (runs("tree"))
-        add("tree", tree_stage(), Runs::at_the_start);
+        add("tree", on_device ? tree_there_stage() : tree_stage(), Runs::at_the_start);
     if (runs("update"))
-        add("update", update_stage(), Runs::advancing);
+        add("update", on_device ? update_there_stage() : update_stage(), Runs::advancing);
     if (runs("box_tree"))
-        add("box_tree", box_tree_stage(), moves ? Runs::from_the_start : Runs::at_the_start);
+        add("box_tree", box_tree_stage(), while_it_moves);
 
     if (runs("pairs"))
-        add("pairs", query_stage("pairs"), Runs::querying);
+        add("pairs", on_device ? pairs_there_stage() : query_stage("pairs"), Runs::querying);
+    if (on_device)
+        add("download", download_stage(), Runs::querying);
     if (runs("filter"))
         add("filter", filter_stage(), Runs::querying);
     if (runs("transform")) {

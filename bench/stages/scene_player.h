@@ -3,6 +3,7 @@
 #include "bench/stages/frame_answers.h"
 #include "bench/stages/ledger.h"
 #include "bench/stages/plan_stages.h"
+#include "trees/device_memory.h"
 #include "trees/executor.h"
 
 #include <memory>
@@ -19,8 +20,10 @@ struct Playing;
 /// start, query, then advance and query for each further frame; a frame may go without a query.
 class ScenePlayer {
   public:
-    /// The scene stands at frame 0, the executor outlives this.
-    ScenePlayer(MovingScene scene, Extent extent, const Executor& executor);
+    /// The scene stands at frame 0, the executor outlives this. place: of what runs on a device.
+    /// Throws std::invalid_argument if it cannot be played there: why_not.
+    ScenePlayer(MovingScene scene, Extent extent, const Executor& executor,
+                Where where = Where::host, DevicePlace place = {});
     ~ScenePlayer();
     ScenePlayer(const ScenePlayer&) = delete;
     ScenePlayer& operator=(const ScenePlayer&) = delete;

@@ -29,11 +29,19 @@ SceneFile file_of(const Job& job, std::string_view without) {
     return file;
 }
 
+Where where_of(std::string_view executor) {
+    return executor == device_executor     ? Where::device
+           : executor == resident_executor ? Where::resident
+                                           : Where::host;
+}
+
 class Played final : public Contender {
   public:
     Played(const Job& job, Extent extent, std::string_view without)
-        : executor_(make_executor(job.executor, job.threads)),
-          player_(MovingScene(file_of(job, without), {}, true), extent, *executor_) {}
+        : executor_(make_executor(
+              is_device(job.executor) ? default_executor(job.threads) : job.executor, job.threads)),
+          player_(MovingScene(file_of(job, without), {}, true), extent, *executor_,
+                  where_of(job.executor)) {}
 
     void build() override { player_.start(); }
     void update(const Frame&) override { player_.advance(); }
@@ -43,7 +51,7 @@ class Played final : public Contender {
     std::optional<StructureInfo> structure() const override {
         StructureInfo info;
         for (const LedgerRow& row : player_.ledger().rows())
-            info.bytes += row.bytes;
+            info.bytes += row.is_crossing() ? 0 : row.bytes;
         return info;
     }
     const Ledger* ledger() override { return &player_.ledger(); }
@@ -74,16 +82,22 @@ ContenderEntry stages_contender(Extent extent, std::string_view left_out) {
         entry.name += fmt::format(".without_{}", left_out);
         entry.summary += fmt::format("; the scene without {}", left_out);
     }
-    entry.notes = "build makes what frame 0 needs; update advances the scene itself, so that the "
-                  "cost of its effects is in it";
-    entry.cannot = [without = std::string(left_out)](const Job& job) -> std::optional<std::string> {
+    entry.notes =
+        "build makes what frame 0 needs; update advances the scene itself, so that the "
+        "cost of its effects is in it; on a device pairs come down in each frame, also where "
+        "bodies stay";
+    entry.cannot = [extent,
+                    without = std::string(left_out)](const Job& job) -> std::optional<std::string> {
         if (!without.empty() && !has_effect(*job.scene->spec.moving, without))
             return fmt::format("the scene has no {}", without);
+        if (is_device(job.executor))
+            return why_not(MovingScene(file_of(job, without)), extent, where_of(job.executor));
         return std::nullopt;
     };
-    entry.answers = {{"scene_queries", [extent, without = std::string(left_out)](const Job& job) {
-                          return std::make_unique<Played>(job, extent, without);
-                      }}};
+    const auto make = [extent, without = std::string(left_out)](const Job& job) {
+        return std::make_unique<Played>(job, extent, without);
+    };
+    entry.answers = {{"scene_queries", make, make}};
     return entry;
 }
 

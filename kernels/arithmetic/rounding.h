@@ -25,7 +25,7 @@ BOXWOOD_BOTH inline float round_up(double x) { return -round_down(-x); }
 /// The smallest float box that contains `box`; the empty box stays empty. As both roundings are
 /// monotone and outward, every overlap and containment between boxes (or of points that are floats)
 /// is kept; boxes less than an ulp apart may come to overlap.
-inline Aabb<float> round_outward(const Aabb<double>& box) {
+BOXWOOD_BOTH inline Aabb<float> round_outward(const Aabb<double>& box) {
     return {{round_down(box.min.x), round_down(box.min.y), round_down(box.min.z)},
             {round_up(box.max.x), round_up(box.max.y), round_up(box.max.z)}};
 }

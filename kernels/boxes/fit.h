@@ -3,7 +3,6 @@
 #include "kernels/arithmetic/float_mode.h"
 #include "kernels/boxes/box_fit_kernel.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -15,16 +14,17 @@ namespace boxwood {
 template <class Real> struct CentredBox {
     Vec3<Real> centre, half;
 
-    explicit CentredBox(const Aabb<Real>& box) {
+    BOXWOOD_BOTH explicit CentredBox(const Aabb<Real>& box) {
         for (int i = 0; i < 3; ++i) {
             const Real c = box.min[i] * Real(0.5) + box.max[i] * Real(0.5);
             centre[i] = c;
-            half[i] = std::max(box.max[i] - c, c - box.min[i]);
+            const Real above = box.max[i] - c, below = c - box.min[i];
+            half[i] = above < below ? below : above;
         }
     }
 };
 
-template <class Real> constexpr Vec3<Real> magnitudes(Vec3<Real> v) {
+template <class Real> BOXWOOD_BOTH constexpr Vec3<Real> magnitudes(Vec3<Real> v) {
     return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
 }
 

@@ -19,9 +19,12 @@ struct Brownian {
 
     void start(Moment&) const {}
     void advance(Moment& moment) const {
-        const double fastest = moment.bodies.length_of(speed, of_bounds);
+        const VelocityStep change = step(moment);
         for (const std::uint32_t i : moment.chosen)
-            moment.bodies.velocity[i] = fastest * moment.draws(i).in_ball();
+            change(i, moment.bodies.velocity[i]);
+    }
+    VelocityStep step(const Moment& moment) const {
+        return {moment.bodies.length_of(speed, of_bounds), moment.random, moment.frame};
     }
 };
 

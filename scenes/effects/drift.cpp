@@ -26,6 +26,7 @@ struct Drift {
         }
     }
     void advance(Moment&) const {}
+    BodyStep step(const Moment&) const { return NoStep{}; }
 };
 
 } // namespace

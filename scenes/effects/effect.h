@@ -1,12 +1,14 @@
 #pragma once
 
 #include "kernels/settings.h"
+#include "scenes/effects/steps.h"
 #include "scenes/moving/bodies.h"
 #include "scenes/sampling/random.h"
 
 #include <concepts>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -39,12 +41,13 @@ struct Moment {
     double dt;           ///< seconds from frame to frame
 
     /// The numbers of one body in this frame alone.
-    Draws draws(std::uint32_t body) const { return random.item(frame << 32 | body); }
+    Draws draws(std::uint32_t body) const { return draws_of(random, frame, body); }
 };
 
 /// Something that happens to bodies, frame after frame: the same bits on every machine, hence no
 /// sine and no power. Its settings are data members that `settings()` lists; whatever else it must
-/// remember it sets up in `start`.
+/// remember it sets up in `start`. `BodyStep step(const Moment&) const`, if it has that, is what
+/// its `advance` does in the frame: then a device can do it too.
 template <class E>
 concept Effect = std::default_initializable<E> && requires(E effect, Moment& moment) {
     { E::name } -> std::convertible_to<std::string_view>;
@@ -60,12 +63,15 @@ class RunningEffect {
     virtual ~RunningEffect() = default;
     virtual void start(Moment& moment) = 0;
     virtual void advance(Moment& moment) = 0;
+    /// Nothing if what it does is not a step of each body alone.
+    virtual std::optional<BodyStep> step(const Moment& moment) const = 0;
 };
 
 /// A registry row. `make` throws std::invalid_argument for an unknown or out-of-range setting.
 struct EffectEntry {
     std::string_view name, summary;
     Changes changes;
+    bool is_step; ///< of each body alone
     std::vector<SettingInfo> settings;
     std::function<std::unique_ptr<RunningEffect>(const Settings&)> make;
 };
@@ -77,15 +83,25 @@ const EffectEntry& effect_of(std::string_view name);
 /// The registry row of an Effect type. An effect NAME is the file effects/NAME.cpp, which defines
 /// `EffectEntry NAME_effect()` by this, and the name X(NAME) in effect.cpp.
 template <Effect E> EffectEntry effect_entry() {
+    constexpr bool is_step = requires(const E& effect, const Moment& moment) {
+        effect.step(moment);
+    };
     struct Running final : RunningEffect {
         explicit Running(const E& made) : effect(made) {}
         void start(Moment& moment) override { effect.start(moment); }
         void advance(Moment& moment) override { effect.advance(moment); }
+        std::optional<BodyStep> step([[maybe_unused]] const Moment& moment) const override {
+            if constexpr (is_step)
+                return effect.step(moment);
+            else
+                return std::nullopt;
+        }
         E effect;
     };
-    return {E::name, E::summary, E::changes, setting_infos<E>(), [](const Settings& values) {
-                return std::make_unique<Running>(with_settings<E>(values));
-            }};
+    return {
+        E::name, E::summary, E::changes, is_step, setting_infos<E>(), [](const Settings& values) {
+            return std::make_unique<Running>(with_settings<E>(values));
+        }};
 }
 
 /// Half the wave of a sine, without a sine: runs through 0, 1, 0, -1, 0 as its argument runs

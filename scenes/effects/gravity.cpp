@@ -31,24 +31,20 @@ struct Gravity {
 
     void advance(Moment& moment) {
         Bodies& bodies = moment.bodies;
-        const double gain = bodies.length_of(strength, of_bounds) * moment.dt;
-        const double quarters = turn * moment.dt * static_cast<double>(moment.frame);
-        const Vec3<double> direction{wave(quarters), 0, -wave(quarters + 1)};
+        const FallStep fall = step(moment);
         std::size_t still_awake = 0;
-        for (const std::uint32_t i : awake_) {
-            Vec3<double>& velocity = bodies.velocity[i];
-            if (turn == 0 && bodies.pose[i].translation.z <= bodies.bounds.min.z) {
-                velocity.x *= 1 - friction;
-                velocity.y *= 1 - friction;
-                if (dot(velocity, velocity) < 4 * gain * gain) {
-                    velocity = {};
-                    continue;
-                }
-            }
-            velocity = velocity + gain * direction;
-            awake_[still_awake++] = i;
-        }
+        for (const std::uint32_t i : awake_)
+            if (fall(bodies.pose[i].translation, bodies.velocity[i]))
+                awake_[still_awake++] = i;
         awake_.resize(still_awake);
+    }
+    FallStep step(const Moment& moment) const {
+        const double gain = moment.bodies.length_of(strength, of_bounds) * moment.dt;
+        const double quarters = turn * moment.dt * static_cast<double>(moment.frame);
+        return {gain,
+                {wave(quarters), 0, -wave(quarters + 1)},
+                friction,
+                turn == 0 ? moment.bodies.bounds.min.z : -Aabb<double>::inf};
     }
 
   private:

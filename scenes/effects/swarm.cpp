@@ -23,33 +23,27 @@ struct Swarm {
     void start(Moment&) const {}
     void advance(Moment& moment) const {
         Bodies& bodies = moment.bodies;
-        const auto age =
-            static_cast<std::uint64_t>(static_cast<double>(moment.frame) * moment.dt / period);
-        const Vec3<double> extent = bodies.bounds.max - bodies.bounds.min;
-        const double fastest = speed * bodies.side;
-        const double max_change = 4 * fastest * moment.dt; // full speed after a quarter second
+        const SteerStep steer = step(moment);
         Vec3<double> goal{};
         std::uint64_t goal_of = ~std::uint64_t{0};
         for (const std::uint32_t i : moment.chosen) {
-            const auto flock_of_i = i / static_cast<std::uint64_t>(flock);
-            if (flock_of_i != goal_of) {
-                goal_of = flock_of_i;
-                const Vec3<double> u = moment.random.item((age + 1) << 32 | flock_of_i).in_cube();
-                goal = bodies.bounds.min +
-                       Vec3<double>{u.x * extent.x, u.y * extent.y, u.z * extent.z};
+            if (i / steer.flock != goal_of) {
+                goal_of = i / steer.flock;
+                goal = steer.goal(goal_of);
             }
-            const Vec3<double> place = spread * bodies.side * moment.random.item(i).in_ball();
-            const Vec3<double> way = goal + place - bodies.pose[i].translation;
-            const Vec3<double> wanted = limited(way * (1 / (moment.dt * 8)), fastest);
-            Vec3<double>& velocity = bodies.velocity[i];
-            velocity = velocity + limited(wanted - velocity, max_change);
+            steer(i, goal, bodies.pose[i].translation, bodies.velocity[i]);
         }
     }
-
-  private:
-    static Vec3<double> limited(Vec3<double> v, double max_length) {
-        const double size = length(v);
-        return size > max_length ? v * (max_length / size) : v;
+    SteerStep step(const Moment& moment) const {
+        const double side = moment.bodies.side,
+                     time = static_cast<double>(moment.frame) * moment.dt;
+        return {moment.bodies.bounds,
+                moment.random,
+                static_cast<std::uint64_t>(time / period),
+                static_cast<std::uint64_t>(flock),
+                speed * side,
+                spread * side,
+                moment.dt};
     }
 };
 

@@ -16,17 +16,13 @@ struct Teleport {
 
     void start(Moment&) const {}
     void advance(Moment& moment) const {
-        const Aabb<double>& bounds = moment.bodies.bounds;
-        const Vec3<double> extent = bounds.max - bounds.min;
-        for (const std::uint32_t i : moment.chosen) {
-            Draws draws = moment.draws(i);
-            if (draws.uniform() >= often)
-                continue;
-            const Vec3<double> u = draws.in_cube();
-            moment.bodies.pose[i].translation =
-                bounds.min + Vec3<double>{u.x * extent.x, u.y * extent.y, u.z * extent.z};
-            moment.changed.add(i);
-        }
+        const JumpStep jump = step(moment);
+        for (const std::uint32_t i : moment.chosen)
+            if (jump(i, moment.bodies.pose[i].translation))
+                moment.changed.add(i);
+    }
+    JumpStep step(const Moment& moment) const {
+        return {often, moment.bodies.bounds, moment.random, moment.frame};
     }
 };
 

@@ -201,24 +201,6 @@ Moment MovingScene::moment_of(const Laid& laid) {
     return {bodies_, laid.chosen, changed_, laid.random, frame_, 1 / file_.frames_per_second};
 }
 
-/// Along its velocity; what would leave the bounds stays at the wall and turns round.
-void MovingScene::move_along(std::uint32_t i) {
-    Vec3<double>& velocity = bodies_.velocity[i];
-    if (velocity == Vec3<double>{})
-        return;
-    Vec3<double>& place = bodies_.pose[i].translation;
-    const Vec3<double> before = place;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double low = bodies_.bounds.min[axis], high = bodies_.bounds.max[axis];
-        const double x = place[axis] + velocity[axis] / file_.frames_per_second;
-        if ((x < low && velocity[axis] < 0) || (x > high && velocity[axis] > 0))
-            velocity[axis] *= -bodies_.bounce;
-        place[axis] = std::clamp(x, low, high);
-    }
-    if (!(place == before))
-        changed_.add(i);
-}
-
 void MovingScene::begin_frame() {
     ++frame_;
     changed_.clear();
@@ -229,9 +211,20 @@ void MovingScene::advance_effect(std::size_t i) {
     effects_[i].effect->advance(moment);
 }
 
+std::optional<BodyStep> MovingScene::step(std::size_t i) {
+    const Laid& laid = effects_[i];
+    return laid.effect->step(moment_of(laid));
+}
+
+MoveStep MovingScene::move_step() const {
+    return {bodies_.bounds, bodies_.bounce, file_.frames_per_second};
+}
+
 void MovingScene::move(std::span<const std::uint32_t> bodies) {
+    const MoveStep along = move_step();
     for (const std::uint32_t i : bodies)
-        move_along(i);
+        if (along(bodies_.pose[i].translation, bodies_.velocity[i]))
+            changed_.add(i);
 }
 
 std::span<const std::uint32_t> MovingScene::end_frame() {

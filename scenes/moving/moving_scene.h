@@ -69,6 +69,10 @@ class MovingScene {
     // of effects(), then move, then end_frame.
     void begin_frame();
     void advance_effect(std::size_t i);
+    /// What advance_effect does to each of the chosen bodies, if it is a step of each alone.
+    std::optional<BodyStep> step(std::size_t i);
+    /// What move does.
+    MoveStep move_step() const;
     /// These bodies along their velocities: with_velocity() or more.
     void move(std::span<const std::uint32_t> bodies);
     std::span<const std::uint32_t> end_frame();
@@ -83,7 +87,6 @@ class MovingScene {
     void own_meshes(std::span<const std::uint32_t> bodies);
     void start_effects();
     Moment moment_of(const Laid& laid);
-    void move_along(std::uint32_t body);
 
     SceneFile file_;
     Bodies bodies_;

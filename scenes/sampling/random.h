@@ -1,7 +1,11 @@
 #pragma once
 
+#include "kernels/arithmetic/on_both.h"
 #include "kernels/primitives/vec3.h"
 
+#if defined(__CUDACC__)
+#define R123_CUDA_DEVICE BOXWOOD_BOTH // its own word leaves out the host
+#endif
 #include <Random123/philox.h>
 
 #include <array>
@@ -16,11 +20,11 @@ namespace boxwood {
 /// Arguments of a call are evaluated in no fixed order: draw into named values or braces.
 class Draws {
   public:
-    Draws(r123::Philox4x32::key_type key, std::uint32_t stream, std::uint64_t item)
+    BOXWOOD_BOTH Draws(r123::Philox4x32::key_type key, std::uint32_t stream, std::uint64_t item)
         : key_(key), counter_{{static_cast<std::uint32_t>(item),
                                static_cast<std::uint32_t>(item >> 32), 0, stream}} {}
 
-    std::uint32_t word() {
+    BOXWOOD_BOTH std::uint32_t word() {
         if (used_ == 4) {
             block_ = r123::Philox4x32()(counter_, key_);
             ++counter_[2];
@@ -30,18 +34,18 @@ class Draws {
     }
 
     /// Uniform in [0, 1): a multiple of 2^-53.
-    double uniform() {
+    BOXWOOD_BOTH double uniform() {
         const std::uint64_t high = word();
         return static_cast<double>((high << 32 | word()) >> 11) * 0x1p-53;
     }
     double uniform(double low, double high) { return low + (high - low) * uniform(); }
 
     /// Uniform in the unit cube.
-    Vec3<double> in_cube() { return {uniform(), uniform(), uniform()}; }
+    BOXWOOD_BOTH Vec3<double> in_cube() { return {uniform(), uniform(), uniform()}; }
 
     /// Uniform in the unit ball less a pinhole at its centre (radius 2^-10), by rejection from the
     /// cube around it: about two tries a point.
-    Vec3<double> in_ball() {
+    BOXWOOD_BOTH Vec3<double> in_ball() {
         for (;;) {
             const Vec3<double> p = 2.0 * in_cube() - Vec3<double>{1, 1, 1};
             const double square = dot(p, p);
@@ -74,7 +78,7 @@ class Random {
     /// A stream by its name, so that each use of a seed names its own.
     Random(std::uint64_t seed, std::string_view stream) : Random(seed, stream_of(stream)) {}
 
-    Draws item(std::uint64_t i) const { return {key_, stream_, i}; }
+    BOXWOOD_BOTH Draws item(std::uint64_t i) const { return {key_, stream_, i}; }
 
     /// FNV-1a, 32 bits.
     static constexpr std::uint32_t stream_of(std::string_view word) {

@@ -16,7 +16,7 @@ FLAGS += ["-Xcompiler", "-Wall,-Wextra,-Wconversion,-Wshadow", "-I", str(ROOT)]
 FLAGS += ['-DBOXWOOD_CUDA_ARCHITECTURES="90-real"']
 # CUB's own kernels are its authors' business.
 OURS = re.compile(r"7boxwood")
-SOURCES = sorted(p for m in ("kernels", "trees") for p in (ROOT / m).rglob("*.cu"))
+SOURCES = sorted(p for m in ("kernels", "trees", "bench/stages") for p in (ROOT / m).rglob("*.cu"))
 
 
 def find_nvcc():

@@ -29,6 +29,8 @@ std::vector<Draft> scene_findings(const Index& index, const MedianIndex& medians
                 row.rival = other.cell_b;
             }
         describe(draft, index, cell);
+        if (is_device(cell))
+            draft.how += ", " + cell.executor;
         draft.outcome = Outcome::wins;
         draft.ratio = 1e9 / frame; // the slowest first
         drafts.push_back(std::move(draft));

@@ -1,0 +1,2 @@
+// The bodies of scenes on the host's model of a device.
+#include "bench/stages/device_bodies.cu"
