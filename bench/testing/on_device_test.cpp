@@ -97,8 +97,8 @@ TEST(BenchOnDevice, TasksAnswerThereAsOnTheCpu) {
     expect_right("uniform", "task = \"points\"\nn_points = 30\n" + trees, 6);
     expect_right("uniform",
                  "task = \"regions\"\nn_points = 30\nregions = [\"boxes\", \"spheres\"]\n" + trees,
-                 6);
-    expect_right("uniform", "task = \"nearest\"\nn_points = 30\nk = 3\n" + trees, 2);
+                 12);
+    expect_right("uniform", "task = \"nearest\"\nn_points = 30\nk = 3\n" + trees, 4);
 }
 
 TEST(BenchOnDevice, RaysAnswerThereAsOnTheCpu) {
