@@ -108,6 +108,12 @@ TEST(BenchOnDevice, RaysAnswerThereAsOnTheCpu) {
         "kernels = [\"watertight\", \"moller_trumbore_f32\", \"plucker_f32\"]\n";
     expect_right("sphere_mesh", "task = \"rays_closest\"\n" + rays, 16);
     expect_right("sphere_mesh", "task = \"rays_any\"\n" + rays, 16);
+    expect_right("sphere_mesh",
+                 "task = \"rays_all\"\nrays = \"random\"\nn_rays = 50\n"
+                 "builders = [\"hilbert\", \"lbvh\", \"ploc\"]\n"
+                 "layouts = [\"packed\", \"wide8\"]\n"
+                 "kernels = [\"watertight\", \"plucker_f32\"]\n",
+                 4);
 }
 
 TEST(BenchOnDevice, TouchingTrianglesAreThoseOfTheCpu) {

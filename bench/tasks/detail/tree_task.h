@@ -41,6 +41,7 @@ class TreeTask : public Task {
         std::optional<Query> query{}; ///< what a layout must answer for it
         std::vector<std::string> classes{};
         Answering::Make make_on_device{}; ///< null if it has no form for a device
+        std::string why_not_on_device{};  ///< if there is a reason to tell
     };
     virtual Way way(const Choice& choice) const = 0;
     /// Why a contender that has a form for a device cannot take this scene there.
