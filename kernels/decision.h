@@ -60,6 +60,8 @@ struct KernelInfo {
     double relative_width = 0;
     /// Of never-miss kernels that say maybe: a yes is true.
     bool yes_is_proven = false;
+    /// Of distances: whether it says where they are taken.
+    bool has_witnesses = true;
 };
 
 /// What every kernel says of itself at compile time: its name, and its promise with the rest.

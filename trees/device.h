@@ -4,6 +4,7 @@
 #include "trees/device_graph.h"
 #include "trees/device_memory.h"
 #include "trees/device_mesh_bvh.h"
+#include "trees/device_triangles.h"
 
 #include <cstdint>
 #include <string>

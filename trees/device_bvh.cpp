@@ -117,6 +117,12 @@ AnswersOf<std::uint32_t> DeviceBvh::overlapping(Boxes boxes) const {
 DeviceAnswersOf<std::uint32_t> DeviceBvh::overlapping(DeviceSpan<const Box> boxes) const {
     return tree_->regions(boxes);
 }
+AnswersOf<std::uint32_t> DeviceBvh::overlapping(std::span<const Sphere<float>> balls) const {
+    return overlapping(DeviceArray<Sphere<float>>(balls, options_.place).span()).to_host();
+}
+DeviceAnswersOf<std::uint32_t> DeviceBvh::overlapping(DeviceSpan<const Sphere<float>> balls) const {
+    return tree_->regions(balls);
+}
 AnswersOf<std::uint32_t> DeviceBvh::containing(std::span<const Vec3<float>> points) const {
     return containing(DeviceArray<Vec3<float>>(points, options_.place).span()).to_host();
 }

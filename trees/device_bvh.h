@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/primitives/sphere.h"
 #include "kernels/primitives/vec3.h"
 #include "trees/device_memory.h"
 #include "trees/queries/nearest.h"
@@ -75,15 +76,18 @@ class DeviceBvh {
     void pairs(const DeviceBvh& other, PairSink& sink) const;
     DeviceArray<Pair> pairs_on_device(const DeviceBvh& other) const;
 
-    /// The items that share a point with each box, or contain each point, ascending. A box with a
-    /// NaN, or min > max, and a point that is not finite have none (trees/queries/regions.h).
+    /// The items that share a point with each box or ball, or contain each point, ascending. A box
+    /// with a NaN, or min > max, and a point that is not finite have none, nor has a ball as
+    /// trees/queries/regions.h says.
     AnswersOf<std::uint32_t> overlapping(Boxes boxes) const;
     DeviceAnswersOf<std::uint32_t> overlapping(DeviceSpan<const Box> boxes) const;
+    AnswersOf<std::uint32_t> overlapping(std::span<const Sphere<float>> balls) const;
+    DeviceAnswersOf<std::uint32_t> overlapping(DeviceSpan<const Sphere<float>> balls) const;
     AnswersOf<std::uint32_t> containing(std::span<const Vec3<float>> points) const;
     DeviceAnswersOf<std::uint32_t> containing(DeviceSpan<const Vec3<float>> points) const;
 
-    /// The k items nearest to each point, k to a point as trees/queries/nearest.h has them. By lbvh
-    /// alone, else std::invalid_argument.
+    /// The k items nearest to each point, k to a point as trees/queries/nearest.h has them. Not by
+    /// hilbert: std::invalid_argument.
     std::vector<Neighbour> nearest(std::span<const Vec3<float>> points, std::size_t k) const;
     DeviceArray<Neighbour> nearest(DeviceSpan<const Vec3<float>> points, std::size_t k) const;
 

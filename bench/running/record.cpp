@@ -121,6 +121,8 @@ void Record::add(Judgement judgement, std::uint32_t cell_id, double query_ns) {
     if (judgement.kernel) {
         results::KernelRow& row = *judgement.kernel;
         row.cell_id = cell_id;
+        if (const std::string& place = out.cells.at(cell_id).executor; is_device(place))
+            row.kernel += " " + classes_at(place, {}).front();
         row.status = judgement.check.status;
         if (judgement.calls > 0)
             row.ns_per_call = query_ns / static_cast<double>(judgement.calls);

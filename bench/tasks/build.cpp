@@ -128,7 +128,9 @@ class Build final : public TreeTask {
                 .make = [](const Job& job, BuildFunction build,
                            const LayoutEntry&) -> std::unique_ptr<Contender> {
                     return std::make_unique<TreeBuild>(job, std::move(build));
-                }};
+                },
+                .why_not_on_device = "trees are not handed out there to be looked at; pairs times "
+                                     "their builds"};
     }
 };
 

@@ -128,6 +128,7 @@ struct ContenderEntry {
     Promise promise = Promise::none; ///< ours, of a kernel
     double relative_width = 0;       ///< KernelInfo::relative_width
     bool yes_is_proven = false;      ///< KernelInfo::yes_is_proven
+    bool has_witnesses = true;       ///< KernelInfo::has_witnesses
 
     const Answering* answering(std::string_view task) const;
     bool answers_task(std::string_view task) const { return answering(task) != nullptr; }

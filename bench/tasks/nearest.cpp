@@ -81,7 +81,7 @@ class Nearest final : public PointTask {
     }
     Way way(const Choice& choice) const override {
         Way way{.traversal = "nearest", .make = maker<NearestBoxes>(), .query = Query::nearest};
-        if (choice.builder == "lbvh") // DeviceBvh::nearest
+        if (choice.builder != "hilbert") // DeviceBvh::nearest
             way.make_on_device = on_device<NearestOnDevice>(choice);
         return way;
     }

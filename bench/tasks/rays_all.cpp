@@ -4,6 +4,7 @@
 #include "bench/tasks/detail/pair_answers.h"
 #include "bench/tasks/detail/ray_classes.h"
 #include "bench/tasks/detail/ray_task.h"
+#include "bench/tasks/detail/rays_on_device.h"
 #include "bench/truth/judging/case_truths.h"
 #include "bench/truth/rays_all_truth.h"
 #include "kernels/registry.h"
@@ -49,6 +50,24 @@ class AllHitsOfMesh final : public RayContender {
 
   private:
     HitPairs sink_;
+};
+
+class AllHitsOnDevice final : public RaysOnDevice {
+  public:
+    using RaysOnDevice::RaysOnDevice;
+
+  private:
+    void query_there() override { found_ = mesh_->all_hits(rays()); }
+    void download(Answers& answers) override {
+        const AnswersOf<RayHit> hits = found_.to_host();
+        std::vector<Pair>& pairs = list_of<Pair>(answers);
+        pairs.clear();
+        for (std::uint32_t ray = 0; ray + 1 < hits.offsets.size(); ++ray)
+            for (const RayHit& hit : hits[ray])
+                pairs.push_back({ray, hit.triangle});
+    }
+
+    DeviceAnswersOf<RayHit> found_;
 };
 
 /// The hits of one mesh's rays, numbered from the first of them on.
@@ -121,8 +140,17 @@ class RaysAll final : public PairAnswers<RayTask> {
             return has_cases ? of_cases(job, std::move(build), layout)
                              : of_mesh(job, std::move(build), layout);
         };
-        return {"rays_all", choice.kernel, kernel.promise,
+        Way way{"rays_all", choice.kernel, kernel.promise,
                 make,       Query::rays,   ray_class::of_ours({ray_class::batches}, choice.kernel)};
+        const std::optional<DeviceMeshBvhOptions> options = device_options(choice);
+        if (options && options->builder == DeviceBuilder::hilbert)
+            way.why_not_on_device =
+                "the builder hilbert, which has a warp for a ray, keeps one hit";
+        else if (options)
+            way.make_on_device = [options = *options](const Job& job) {
+                return std::make_unique<AllHitsOnDevice>(job, options);
+            };
+        return way;
     }
     /// Cut triangles stand in several leaves, but no hit twice.
     std::vector<CaseWay> ways_on_cases(Promise) const override {

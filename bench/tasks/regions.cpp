@@ -24,18 +24,24 @@ class Overlapping final : public PointContender {
     PairsInto pairs_;
 };
 
-/// Of boxes alone.
 class OverlappingOnDevice final : public DeviceBoxes {
   public:
     using DeviceBoxes::DeviceBoxes;
 
   protected:
-    void upload_queries() override { regions_ = DeviceArray<Box>(scene_.regions, options_.place); }
-    void query_there() override { found_ = bvh_->overlapping(std::as_const(regions_).span()); }
+    void upload_queries() override {
+        regions_ = DeviceArray<Box>(scene_.regions, options_.place);
+        spheres_ = DeviceArray<Sphere<float>>(scene_.spheres, options_.place);
+    }
+    void query_there() override {
+        found_ = scene_.spheres.empty() ? bvh_->overlapping(std::as_const(regions_).span())
+                                        : bvh_->overlapping(std::as_const(spheres_).span());
+    }
     void download(Answers& answers) override { answers_to_pairs(found_, list_of<Pair>(answers)); }
 
   private:
     DeviceArray<Box> regions_;
+    DeviceArray<Sphere<float>> spheres_;
     DeviceAnswersOf<std::uint32_t> found_;
 };
 
@@ -63,11 +69,6 @@ class Regions final : public PairAnswers<PointTask> {
             all.back().regions = kind;
         }
         return all;
-    }
-    std::optional<std::string> missing_on_device(const Scene& scene) const override {
-        if (scene.spheres.empty())
-            return std::nullopt;
-        return "has no form for a device where regions are spheres";
     }
     Way way(const Choice& choice) const override {
         return {.traversal = "regions",

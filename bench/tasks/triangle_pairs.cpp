@@ -1,7 +1,9 @@
 /// Every unordered pair of a scene's triangles that share a point: a tree over their boxes, its
 /// self-pairs, and a kernel for each candidate.
 
+#include "bench/tasks/detail/device_contender.h"
 #include "bench/tasks/detail/pair_answers.h"
+#include "bench/tasks/detail/pairs_on_device.h"
 #include "bench/tasks/detail/tree_contender.h"
 #include "bench/tasks/detail/tree_task.h"
 #include "bench/truth/pair_truth.h"
@@ -9,6 +11,7 @@
 #include "kernels/suggest.h"
 #include "trees/queries/touching_pairs.h"
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -59,6 +62,59 @@ std::unique_ptr<Contender> make_touching(const Job& job, BuildFunction build,
         made = std::make_unique<TouchingTriangles<K>>(job, std::move(build), layout);
     });
     return made;
+}
+
+class TouchingTrianglesOnDevice final : public DeviceBoxes {
+  public:
+    TouchingTrianglesOnDevice(const Job& job, DeviceBuilder builder, DeviceAccuracy accuracy)
+        : DeviceBoxes(job, builder), accuracy_(accuracy) {}
+
+    /// Of each candidate its numbers and two triangles are read.
+    std::vector<NamedCount> more_counts() const override {
+        std::vector<NamedCount> counts = DeviceBoxes::more_counts();
+        counts.push_back({"candidates", n_candidates_});
+        counts.push_back(
+            {"query_bytes", scene_.boxes.size() * sizeof(Box) +
+                                n_candidates_ * (2 * sizeof(Pair) + 2 * sizeof(Triangle<float>)) +
+                                found_.size() * sizeof(Pair)});
+        return counts;
+    }
+
+  protected:
+    void upload() override {
+        DeviceBoxes::upload();
+        vertices_ = DeviceArray<Vec3<float>>(scene_.mesh.vertices, options_.place);
+        corners_ = DeviceArray<std::array<std::uint32_t, 3>>(scene_.mesh.triangles, options_.place);
+    }
+    void query_there() override {
+        const DeviceArray<Pair> candidates =
+            is_resident() ? bvh_->unordered_self_pairs() : bvh_->self_pairs_on_device();
+        n_candidates_ = candidates.size();
+        const DeviceTriangles triangles{std::as_const(vertices_).span(),
+                                        std::as_const(corners_).span()};
+        found_ = touching_pairs(triangles, triangles, candidates.span(), accuracy_, options_.place);
+    }
+    void download(Answers& answers) override { found_.read(list_of<Pair>(answers)); }
+
+  private:
+    DeviceAccuracy accuracy_;
+    DeviceArray<Vec3<float>> vertices_;
+    DeviceArray<std::array<std::uint32_t, 3>> corners_;
+    DeviceArray<Pair> found_;
+    std::size_t n_candidates_ = 0;
+};
+
+/// Meshes are of floats, so that doubles on a device see what those of the CPU do.
+Answering::Make touching_there(const Choice& choice) {
+    const std::optional<DeviceBuilder> builder = device_builder(choice, "binary");
+    const std::optional<DeviceAccuracy> accuracy = choice.kernel == GuigueDevillersF64::name
+                                                       ? DeviceAccuracy::plain_in_doubles
+                                                       : device_accuracy(choice.kernel);
+    if (!builder || !accuracy)
+        return nullptr;
+    return [builder = *builder, accuracy = *accuracy](const Job& job) {
+        return std::make_unique<TouchingTrianglesOnDevice>(job, builder, accuracy);
+    };
 }
 
 /// What the wrong answers of the whole query come to, as a row of its kernel, too.
@@ -123,11 +179,15 @@ class TrianglePairs final : public PairAnswers<TreeTask> {
         const KernelInfo& kernel =
             entry_named(choice.kernel, triangle_kernels(), "triangle kernel");
         return {
-            "self_pairs", choice.kernel, kernel.promise,
+            "self_pairs",
+            choice.kernel,
+            kernel.promise,
             [name = choice.kernel](const Job& job, BuildFunction build, const LayoutEntry& layout) {
                 return make_touching(job, std::move(build), layout, name);
             },
-            Query::self_pairs};
+            Query::self_pairs,
+            {},
+            touching_there(choice)};
     }
 };
 

@@ -1,6 +1,7 @@
 /// Do two triangles share a point?
 
 #include "bench/tasks/detail/pair_blocks.h"
+#include "bench/tasks/detail/pairs_on_device.h"
 #include "bench/truth/judging/verdict_truth.h"
 #include "kernels/oracle/oracle.h"
 #include "kernels/oracle/registry.h"
@@ -12,13 +13,19 @@
 namespace boxwood::bench {
 namespace {
 
-template <class K> CaseKernel kernel() {
+template <class K> CaseKernel on_processor() {
     if constexpr (TriangleBatchKernel<K>)
         return block_kernel<K, Decision>(
             [](auto blocks, auto verdicts) { K::intersect(blocks, verdicts); });
     else
         return scalar_kernel<K, TwoTriangles<typename K::Real>, TrianglePairCase>(
             [](const auto& in) { return K::intersect(in.a, in.b); });
+}
+
+template <class K> CaseKernel kernel() {
+    CaseKernel made = on_processor<K>();
+    made.make_on_device = touching_on_device(K::name);
+    return made;
 }
 
 bool do_touch(const TrianglePairCase& c) {
@@ -34,7 +41,8 @@ bool do_touch(const TrianglePairCase& c) {
 } // namespace
 
 const Task& triangle_triangle_task() {
-    using Kernels = Concatenated<TriangleKernels, oracle::RationalTriangleKernels>;
+    using Kernels =
+        Concatenated<TriangleKernels, std::tuple<CertifiedF32>, oracle::RationalTriangleKernels>;
     static const KernelTaskOf<Decision, std::vector<TrianglePairCase>> task(
         "triangle_triangle", "of each case: do two triangles share a point",
         all_kernels<Kernels>([]<class K>(std::type_identity<K>) { return kernel<K>(); }),

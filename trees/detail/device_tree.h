@@ -28,6 +28,7 @@ class DeviceTree {
 
     virtual DeviceAnswersOf<std::uint32_t> regions(DeviceSpan<const Box> of) = 0;
     virtual DeviceAnswersOf<std::uint32_t> regions(DeviceSpan<const Vec3<float>> of) = 0;
+    virtual DeviceAnswersOf<std::uint32_t> regions(DeviceSpan<const Sphere<float>> of) = 0;
     virtual DeviceArray<Neighbour> nearest(DeviceSpan<const Vec3<float>> points, std::size_t k) = 0;
 };
 

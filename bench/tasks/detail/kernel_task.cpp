@@ -20,18 +20,24 @@ KernelTask::KernelTask(std::string_view name, std::string_view summary,
 }
 
 std::vector<std::string_view> KernelTask::keys() const {
-    return {"scene", "n", "k", "scale", "kernels", "peers"};
+    return {"scene", "n", "k", "scale", "kernels", "executors", "peers"};
 }
 
 void KernelTask::expand(const BlockReader& block, AddCell add) const {
     std::vector<ContenderEntry> contenders;
     for (const std::string& kernel : block.kernels(names_of(kernels()), {"all"}))
         contenders.push_back(kernel_contender(kernel));
-    for (const ContenderEntry& peer : block.peers(name()))
-        contenders.push_back(peer);
-    for (const SceneSpec& scene : case_scenes(block, *this))
-        for (const ContenderEntry& entry : contenders)
-            add(scene, entry, std::string(default_executor(1)), 1);
+    const std::vector<ContenderEntry> peers = block.peers(name());
+    const Place usual{std::string(default_executor(1)), 1};
+    const std::vector<Place> places =
+        block.has("executors") ? block.places() : std::vector<Place>{usual};
+    for (const SceneSpec& scene : case_scenes(block, *this)) {
+        for (const Place& place : places)
+            for (const ContenderEntry& entry : contenders)
+                add(scene, entry, place.executor, place.threads);
+        for (const ContenderEntry& peer : peers)
+            add(scene, peer, usual.executor, usual.threads);
+    }
 }
 
 ContenderEntry KernelTask::kernel_contender(std::string_view kernel) const {
@@ -47,6 +53,7 @@ ContenderEntry KernelTask::kernel_contender(std::string_view kernel) const {
     entry.promise = found->info.promise;
     entry.relative_width = found->info.relative_width;
     entry.yes_is_proven = found->info.yes_is_proven;
+    entry.has_witnesses = found->info.has_witnesses;
     entry.summary = found->info.summary;
     entry.notes = found->how_called;
     entry.precision = found->precision;
@@ -54,7 +61,8 @@ ContenderEntry KernelTask::kernel_contender(std::string_view kernel) const {
                                     to_string(found->info.promise));
     entry.runs_on = RunsOn::one_thread;
     entry.answers = {{std::string(name()),
-                      [make = found->make](const Job& job) { return make(job.scene->cases); }}};
+                      [make = found->make](const Job& job) { return make(job.scene->cases); },
+                      found->make_on_device}};
     return entry;
 }
 

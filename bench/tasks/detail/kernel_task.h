@@ -26,10 +26,12 @@ struct CaseKernel {
     std::string precision;       ///< f32 | f64: what the kernel reads
     std::string_view how_called; ///< for the notes
     std::function<std::unique_ptr<Contender>(const Cases&)> make;
+    Answering::Make make_on_device{}; ///< null if it has no form for a device
 };
 
 /// A task that is a family of kernels: one answer to each case of a family of hard cases, on one
-/// thread. Ours are the kernels of the registries, by name; the rational ones come last.
+/// thread or on a device. Ours are the kernels of the registries, by name; the rational ones come
+/// last.
 class KernelTask : public Task {
   public:
     using MakeTruth = std::unique_ptr<CaseTruth> (*)(const CaseScene&);

@@ -1,8 +1,8 @@
 #include "bench/tasks/detail/ray_task.h"
 
 #include "bench/io/ray_range.h"
-#include "bench/tasks/detail/device_contender.h"
 #include "bench/tasks/detail/ray_classes.h"
+#include "bench/tasks/detail/rays_on_device.h"
 #include "bench/truth/hit_truth.h"
 #include "bench/truth/judging/case_truths.h"
 #include "kernels/registry.h"
@@ -73,45 +73,18 @@ class Hits final : public RayContender {
     std::optional<SingleRays> single_; ///< of the order "single"
 };
 
-std::optional<DeviceRayKernel> device_kernel(std::string_view name) {
-    if (name == "watertight")
-        return DeviceRayKernel::watertight;
-    if (name == "moller_trumbore_f32")
-        return DeviceRayKernel::moller_trumbore_f32;
-    if (name == "moller_trumbore_f64")
-        return DeviceRayKernel::moller_trumbore_f64;
-    return std::nullopt;
-}
-
-class HitsOnDevice final : public DeviceContender {
+class HitsOnDevice final : public RaysOnDevice {
   public:
     HitsOnDevice(const Job& job, const DeviceMeshBvhOptions& options, RayQuery query)
-        : DeviceContender(job), scene_(*job.scene), options_(options), query_(query) {}
+        : RaysOnDevice(job, options), query_(query) {}
 
-  protected:
-    void upload() override {
-        vertices_ = DeviceArray<Vec3<float>>(scene_.mesh.vertices, options_.place);
-        triangles_ = DeviceArray<DeviceMeshBvh::Corners>(scene_.mesh.triangles, options_.place);
-    }
-    void build_there() override {
-        mesh_.reset();
-        mesh_.emplace(std::as_const(vertices_).span(), std::as_const(triangles_).span(), options_);
-    }
-    void upload_queries() override { rays_ = DeviceArray<Ray<float>>(scene_.rays, options_.place); }
+  private:
     void query_there() override {
-        const DeviceSpan<const Ray<float>> rays = std::as_const(rays_).span();
-        hits_ = query_ == RayQuery::closest ? mesh_->closest_hits(rays) : mesh_->any_hits(rays);
+        hits_ = query_ == RayQuery::closest ? mesh_->closest_hits(rays()) : mesh_->any_hits(rays());
     }
     void download(Answers& answers) override { hits_.read(list_of<RayHit>(answers)); }
 
-  private:
-    const Scene& scene_;
-    DeviceMeshBvhOptions options_;
     RayQuery query_;
-    DeviceArray<Vec3<float>> vertices_;
-    DeviceArray<DeviceMeshBvh::Corners> triangles_;
-    DeviceArray<Ray<float>> rays_;
-    std::optional<DeviceMeshBvh> mesh_;
     DeviceArray<RayHit> hits_;
 };
 
@@ -339,17 +312,15 @@ TreeTask::Way HitTask::way(const Choice& choice) const {
 }
 
 Answering::Make HitTask::on_device(const Choice& choice) const {
-    const std::optional<DeviceBuilder> builder = device_builder(choice, "wide8");
-    const std::optional<DeviceRayKernel> kernel = device_kernel(choice.kernel);
-    if (!builder || !kernel || choice.ray_order == "single")
+    const std::optional<DeviceMeshBvhOptions> options = device_options(choice);
+    if (!options || choice.ray_order == "single")
         return nullptr;
-    const DeviceMeshBvhOptions options{*builder, *kernel, choice.ray_order == "sorted", {}};
-    return [options, query = query_](const Job& job) {
+    return [options = *options, query = query_](const Job& job) {
         return std::make_unique<HitsOnDevice>(job, options, query);
     };
 }
 
-std::optional<std::string> HitTask::missing_on_device(const Scene& scene) const {
+std::optional<std::string> RayTask::missing_on_device(const Scene& scene) const {
     if (std::holds_alternative<RayCases>(scene.cases))
         return "has no form for a device on families of hard cases";
     return std::nullopt;

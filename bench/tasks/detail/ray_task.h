@@ -80,6 +80,7 @@ class RayTask : public TreeTask {
     std::vector<SceneSpec> with_queries(const BlockReader& block,
                                         const SceneSpec& scene) const override;
     std::vector<Choice> variants(const BlockReader& block, const Choice& choice) const override;
+    std::optional<std::string> missing_on_device(const Scene& scene) const override;
     struct CaseWay {
         const char *builder, *ray_order;
     };
@@ -101,7 +102,6 @@ class HitTask : public RayTask {
     std::vector<Choice> variants(const BlockReader& block, const Choice& choice) const override;
     std::vector<CaseWay> ways_on_cases(Promise promise) const override;
     Way way(const Choice& choice) const override;
-    std::optional<std::string> missing_on_device(const Scene& scene) const override;
 
   private:
     Answering::Make on_device(const Choice& choice) const;

@@ -98,11 +98,14 @@ ContenderEntry TreeTask::contender(const Choice& choice) const {
     entry.notes = "build: boxes to tree to layout; answers in the same order for any number of "
                   "threads";
     entry.params_json = settings_json(choice.settings);
-    entry.cannot = [this, &layout,
-                    query = way.query](const Job& job) -> std::optional<std::string> {
+    entry.cannot = [this, &layout, query = way.query, why_not = std::move(way.why_not_on_device)](
+                       const Job& job) -> std::optional<std::string> {
         if (query && !layout.answers(*query))
             return fmt::format("the layout {} does not answer {}", layout.name, to_string(*query));
-        return is_device(job.executor) ? missing_on_device(*job.scene) : std::nullopt;
+        if (!is_device(job.executor))
+            return std::nullopt;
+        return why_not.empty() ? missing_on_device(*job.scene)
+                               : "has no form for a device: " + why_not;
     };
     entry.answers = {
         {std::string(name()),

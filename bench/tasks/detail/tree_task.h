@@ -42,6 +42,7 @@ class TreeTask : public Task {
         std::vector<std::string> classes{};
         Answering::Make make_on_device{}; ///< null if it has no form for a device
         Answering::Make make_by_graph{};  ///< or for a graph
+        std::string why_not_on_device{};  ///< if there is a reason to tell
     };
     virtual Way way(const Choice& choice) const = 0;
     /// Why a contender that has a form for a device cannot take this scene there.

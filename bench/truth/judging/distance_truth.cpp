@@ -78,7 +78,7 @@ class DistanceTruth final : public CaseTruth {
             note_error(tally, decades, said, truth, contender.precision);
             tally.note(i, contender.promise == Promise::none
                               ? unpromised(tally, said, truth, contender.precision)
-                              : promised(tally, said, truth, contender.relative_width));
+                              : promised(tally, said, truth, contender));
         }
         Judgement judgement = tally.finish([&](std::size_t i) {
             return fmt::format("case {}: said {}, truth {:a}; {}; {}", i, answer_text(answers, i),
@@ -157,7 +157,7 @@ class DistanceTruth final : public CaseTruth {
     /// Squares are compared, never roots. Zero is said if and only if the two touch (or the true
     /// distance is less than every positive double).
     static Worth promised(Tally& tally, const Distance& said, const TrueDistance& truth,
-                          double relative_width) {
+                          const ContenderEntry& contender) {
         const bool encloses = said.lo >= 0 && said.lo <= said.distance &&
                               said.distance <= said.hi &&
                               oracle::compare(said.lo, truth.squared) <= 0 &&
@@ -166,11 +166,12 @@ class DistanceTruth final : public CaseTruth {
         const bool touch_is_zero = sgn(truth.squared) != 0 || said.distance == 0;
         const bool is_rounded = tally.promise() != Promise::exact || truth.nearest == 0 ||
                                 std::abs(oracle::ulps_off(said.distance, truth.squared)) <= 1;
-        const bool is_narrow = tally.promise() == Promise::exact
-                                   ? said.hi <= oracle::next_above(said.lo)
-                                   : relative_width == 0 || narrow(said, relative_width);
+        const bool is_narrow =
+            tally.promise() == Promise::exact
+                ? said.hi <= oracle::next_above(said.lo)
+                : contender.relative_width == 0 || narrow(said, contender.relative_width);
         if (encloses && zero_is_right && touch_is_zero && is_rounded && is_narrow &&
-            has_witnesses(said, truth))
+            (!contender.has_witnesses || has_witnesses(said, truth)))
             return said.distance == truth.nearest ? Worth::exact : Worth::within_bound;
         tally.violated();
         return Worth::broken_promise;

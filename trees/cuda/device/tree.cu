@@ -161,9 +161,14 @@ template <class Layout> class TreeOf final : public DeviceTree {
         return in_regions(of);
     }
 
+    DeviceAnswersOf<std::uint32_t> regions(DeviceSpan<const Sphere<float>> of) override {
+        return in_regions(of);
+    }
+
     DeviceArray<Neighbour> nearest(DeviceSpan<const Vec3<float>> points, std::size_t k) override {
-        if constexpr (!std::is_same_v<Layout, Radix>) {
-            throw std::invalid_argument("nearest, on a device: of the builders lbvh alone has it");
+        if constexpr (std::is_same_v<Layout, Packed>) {
+            throw std::invalid_argument(
+                "nearest, on a device: the builder is hilbert; lbvh and hploc answer it");
         } else {
             const Chosen chosen(in_.place.index);
             const std::uint32_t n = number_of_queries(points.size);

@@ -2,6 +2,7 @@
 
 #include "trees/detail/device_tree.h"
 #include "trees/device.h"
+#include "trees/device_triangles.h"
 
 namespace boxwood {
 
@@ -35,6 +36,20 @@ DeviceGraph::DeviceGraph(DeviceGraph&&) noexcept = default;
 DeviceGraph& DeviceGraph::operator=(DeviceGraph&&) noexcept = default;
 DeviceGraph::~DeviceGraph() = default;
 void DeviceGraph::launch() { none(); }
+
+DevicePairAnswers<Answer> triangles_touch(const DeviceTriangles&, const DeviceTriangles&,
+                                          DeviceSpan<const Pair>, DeviceAccuracy, DevicePlace) {
+    none();
+}
+DeviceArray<Pair> touching_pairs(const DeviceTriangles&, const DeviceTriangles&,
+                                 DeviceSpan<const Pair>, DeviceAccuracy, DevicePlace) {
+    none();
+}
+DevicePairAnswers<DistanceBounds> triangle_distances(const DeviceTriangles&, const DeviceTriangles&,
+                                                     DeviceSpan<const Pair>, DeviceAccuracy,
+                                                     DevicePlace) {
+    none();
+}
 
 namespace detail {
 

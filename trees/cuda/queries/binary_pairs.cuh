@@ -14,15 +14,18 @@ struct BinaryTree {
 
     BOXWOOD_BOTH const Box& leaf(std::uint32_t slot) const { return boxes[view.items[slot]]; }
 
+    /// Of a subtree that is not all.
+    __device__ std::uint32_t parent(std::uint32_t at) const {
+        return parents[RadixTreeView::is_leaf(at) ? RadixTreeView::slot(at) : view.n + at];
+    }
     /// The subtree that follows this one, left before right; nobody after the last.
     __device__ std::uint32_t next(std::uint32_t at) const {
         const std::uint32_t root = *view.root;
         while (at != root) {
-            const bool is_leaf = RadixTreeView::is_leaf(at);
-            const std::uint32_t parent = parents[is_leaf ? RadixTreeView::slot(at) : view.n + at];
-            if (view.nodes[parent].left == at)
-                return view.nodes[parent].right;
-            at = parent;
+            const std::uint32_t above = parent(at);
+            if (view.nodes[above].left == at)
+                return view.nodes[above].right;
+            at = above;
         }
         return nobody;
     }

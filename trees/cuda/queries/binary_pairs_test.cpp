@@ -1,5 +1,6 @@
 #include "trees/cuda/queries/binary_pairs.cuh"
 
+#include "trees/cuda/queries/nearest.cuh"
 #include "trees/testing/brute_force.h"
 
 #include <gtest/gtest.h>
@@ -61,6 +62,28 @@ TEST(BinaryPairsOnDevice, OfATreeDeeperThanTheStack) {
         n = 0;
         find_binary_pairs<false, Pass::capped>(others, others, {&n, nullptr, 0}, {});
         EXPECT_EQ(n, 300u * 300u) << left_every;
+    }
+}
+
+/// Where the stack is full subtrees are searched without one.
+TEST(NearestOnDevice, OfATreeDeeperThanTheStack) {
+    for (const std::uint32_t left_every : {1u, 2u, 7u, 1000u}) {
+        const Chain chain(300, left_every);
+        for (const float x : {-1.f, 150.5f, 320.f}) {
+            const Vec3<float> point{x, 2, 0};
+            std::vector<Neighbour> wanted;
+            for (std::uint32_t i = 0; i < 300; ++i)
+                wanted.push_back({i, squared_distance(point, chain.boxes[i])});
+            std::ranges::stable_sort(wanted, {}, &Neighbour::squared_distance);
+            for (const std::uint32_t k : {1u, 5u, 300u}) {
+                std::vector<Neighbour> found(k), by_little(k);
+                find_nearest(chain.tree, &point, 1, k, found.data(), {});
+                find_nearest<2>(chain.tree, &point, 1, k, by_little.data(), {});
+                const std::vector<Neighbour> first(wanted.begin(), wanted.begin() + k);
+                EXPECT_EQ(found, first) << x;
+                EXPECT_EQ(by_little, first) << x;
+            }
+        }
     }
 }
 

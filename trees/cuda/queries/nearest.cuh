@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/arithmetic/rounding.h"
-#include "trees/cuda/queries/radix_pairs.cuh"
+#include "trees/cuda/queries/regions.cuh"
 #include "trees/queries/box_distance.h"
 #include "trees/queries/nearest.h"
 
@@ -55,24 +55,56 @@ class NearestItems {
     double worst_ = Neighbour::nowhere;
 };
 
+__device__ inline Box box_of(const RadixTreeView& tree, std::uint32_t ref) { return tree.box(ref); }
+__device__ inline Box box_of(const BinaryTree& tree, std::uint32_t ref) {
+    return RadixTreeView::is_leaf(ref) ? tree.leaf(RadixTreeView::slot(ref))
+                                       : tree.view.nodes[ref].box;
+}
+
+/// Offers the leaves of a subtree, left before right, without memory: where a tree is so deep that
+/// the stack of search_tree is full.
+__device__ inline void search_subtree(const BinaryTree& tree, std::uint32_t top, Vec3<float> point,
+                                      NearestItems& best) {
+    for (std::uint32_t at = top;;) {
+        const double distance = squared_distance(point, box_of(tree, at));
+        if (RadixTreeView::is_leaf(at)) {
+            best.offer({tree.view.items[RadixTreeView::slot(at)], distance});
+        } else if (distance <= best.worst()) {
+            at = tree.view.nodes[at].left;
+            continue;
+        }
+        bool is_left = false;
+        while (at != top && !is_left) {
+            const std::uint32_t parent = tree.parent(at);
+            is_left = tree.view.nodes[parent].left == at;
+            at = is_left ? tree.view.nodes[parent].right : parent;
+        }
+        if (!is_left)
+            return;
+    }
+}
+__device__ inline void search_subtree(const RadixTreeView&, std::uint32_t, Vec3<float>,
+                                      NearestItems&) {} // never so deep
+
 /// Offers every leaf that may be near enough, the nearer child first. Distances in doubles, as the
 /// CPU has them, are rounded monotonely: no box is farther than one within it.
-__device__ inline void search_radix_tree(const RadixTreeView& tree, Vec3<float> point,
-                                         NearestItems& best) {
+template <unsigned room, class Tree>
+__device__ void search_tree(const Tree& tree, Vec3<float> point, NearestItems& best) {
     struct Waiting {
         std::uint32_t ref;
         float bound; ///< at most the squared distance
     };
-    Waiting stack[radix_depth];
+    Waiting stack[room];
     unsigned depth = 0;
-    for (std::uint32_t at = *tree.root;;) {
+    const auto& view = view_of(tree);
+    for (std::uint32_t at = *view.root;;) {
         if (RadixTreeView::is_leaf(at)) {
-            const std::uint32_t slot = RadixTreeView::slot(at);
-            best.offer({tree.items[slot], squared_distance(point, tree.leaves[slot])});
+            best.offer(
+                {view.items[RadixTreeView::slot(at)], squared_distance(point, box_of(tree, at))});
         } else {
-            std::uint32_t near = tree.nodes[at].left, far = tree.nodes[at].right;
-            double to_near = squared_distance(point, tree.box(near)),
-                   to_far = squared_distance(point, tree.box(far));
+            std::uint32_t near = view.nodes[at].left, far = view.nodes[at].right;
+            double to_near = squared_distance(point, box_of(tree, near)),
+                   to_far = squared_distance(point, box_of(tree, far));
             if (to_far < to_near) {
                 const std::uint32_t ref = near;
                 near = far;
@@ -81,8 +113,12 @@ __device__ inline void search_radix_tree(const RadixTreeView& tree, Vec3<float> 
                 to_near = to_far;
                 to_far = distance;
             }
-            if (to_far <= best.worst())
-                stack[depth++] = {far, round_down(to_far)};
+            if (to_far <= best.worst()) {
+                if (depth < room)
+                    stack[depth++] = {far, round_down(to_far)};
+                else
+                    search_subtree(tree, far, point, best);
+            }
             if (to_near <= best.worst()) {
                 at = near;
                 continue;
@@ -97,25 +133,27 @@ __device__ inline void search_radix_tree(const RadixTreeView& tree, Vec3<float> 
     }
 }
 
-/// A thread per point.
-__global__ void radix_nearest(RadixTreeView tree, const Vec3<float>* points, std::uint32_t n,
-                              std::uint32_t k, Neighbour* out) {
+/// A thread per point. Tree: RadixTreeView, whose depth is known, or BinaryTree.
+template <class Tree, unsigned room = radix_depth>
+__global__ void nearest_of(Tree tree, const Vec3<float>* points, std::uint32_t n, std::uint32_t k,
+                           Neighbour* out) {
     const std::uint32_t i = blockIdx.x * blockDim.x + threadIdx.x;
     if (i >= n)
         return;
     NearestItems best(out + std::size_t{i} * k, k);
     const Vec3<float> point = points[i];
-    if (tree.n > 0 && is_finite(point))
-        search_radix_tree(tree, point, best);
+    if (view_of(tree).n > 0 && is_finite(point))
+        search_tree<room>(tree, point, best);
     best.sort();
 }
 
 /// The k nearest items to each point, as trees/queries/nearest.h: out[k i ...] answers points[i].
-inline void find_nearest(const RadixTreeView& tree, const Vec3<float>* points, std::uint32_t n,
-                         std::uint32_t k, Neighbour* out, Stream stream) {
+template <unsigned room = radix_depth, class Tree>
+void find_nearest(const Tree& tree, const Vec3<float>* points, std::uint32_t n, std::uint32_t k,
+                  Neighbour* out, Stream stream) {
     if (k > 0)
-        launch(stream, blocks_for(n, radix_threads), radix_threads, radix_nearest, tree, points, n,
-               k, out);
+        launch(stream, blocks_for(n, radix_threads), radix_threads, nearest_of<Tree, room>, tree,
+               points, n, k, out);
 }
 
 } // namespace boxwood::cuda

@@ -1,4 +1,5 @@
 #include "trees/builder.h"
+#include "trees/cuda/builds/built_tree.cuh"
 #include "trees/cuda/queries/nearest.cuh"
 #include "trees/cuda/queries/packed_queries.cuh"
 #include "trees/cuda/queries/regions.cuh"
@@ -116,6 +117,15 @@ TEST(NearestOnDevice, AreThoseOfTheCpu) {
                              found.data(), {});
                 ASSERT_EQ(found, wanted) << "k = " << k;
             }
+            if (k != 8 || family.boxes.size() > 300)
+                continue;
+            BuiltTree made({.form = Form::hploc});
+            made.build(family.boxes.data(), family.boxes.size(), {});
+            std::vector<Neighbour> found(wanted.size());
+            find_nearest<2>(BinaryTree{made.hploc(), family.boxes.data(), made.parents()},
+                            points.data(), static_cast<std::uint32_t>(points.size()), k,
+                            found.data(), {});
+            ASSERT_EQ(found, wanted) << "by area, nearly without a stack, k = " << k;
         }
     }
 }

@@ -126,7 +126,7 @@ inline void intersect_triangles(Accuracy accuracy, const TrianglePairs& pairs, S
     }
 }
 
-/// The hits among the candidates, in their order.
+/// The hits among the candidates, those that may be hits too, in their order.
 struct Hits {
     const Answer* answers;
     Candidates candidates;
@@ -141,7 +141,7 @@ struct HitRank {
     std::uint32_t rank, total;
 
     __device__ HitRank(const Hits& hits, std::uint32_t i, std::uint32_t* warp_hits)
-        : is_hit(i < hits.candidates.size() && hits.answers[i] == Answer::yes), rank(0), total(0) {
+        : is_hit(i < hits.candidates.size() && hits.answers[i] != Answer::no), rank(0), total(0) {
         const unsigned lanes = __ballot_sync(~0u, is_hit), lane = threadIdx.x % 32;
         if (lane == 0)
             warp_hits[threadIdx.x / 32] = static_cast<std::uint32_t>(__popc(lanes));
