@@ -95,6 +95,24 @@ TEST(Warp, MeetsTheTrianglesOfTheTruth) {
     expect_right(scene, "rays_any", 6);
 }
 
+TEST(Warp, SaysWhereRaysHit) {
+    Scene scene;
+    scene.mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 5}, {1, 0, 5}, {0, 1, 5}};
+    scene.mesh.triangles = {{3, 4, 5}, {0, 1, 2}};
+    scene.rays = {{{.25f, .5f, -1}, {0, 0, 2}},          // both: the nearer
+                  {{.75f, .75f, -1}, {0, 0, 1}},         // beside
+                  {{.25f, .5f, -1}, {0, 0, 1}, 0, .5f}}; // ends before the first
+    const auto cast = [&](const ContenderEntry& entry, const Job& job) {
+        const auto contender = entry.make(job);
+        contender->build();
+        AnswerList<RayHit> answers;
+        contender->query(answers);
+        contender->fetch(answers);
+        EXPECT_EQ(answers.list, (std::vector<RayHit>{{.5f, .25f, .5f, 1}, {}, {}}));
+    };
+    EXPECT_EQ(for_each_way(scene, "rays_closest", cast), 6u);
+}
+
 std::vector<Frame> random_frames(bool with_absent) {
     std::vector<Frame> frames(4);
     for (unsigned f = 0; f < frames.size(); ++f) {
