@@ -1,10 +1,10 @@
 #include "bench/peers/answering.h"
+#include "bench/peers/comers.h"
 #include "bench/peers/embree_handles.h"
 #include "bench/peers/kernel_peers.h"
 #include "bench/peers/point_peers.h"
 #include "bench/peers/ray_peers.h"
 #include "bench/peers/tree_peers.h"
-#include "scenes/effects/effect.h"
 #include "scenes/moving/frames.h"
 
 #include <fmt/format.h>
@@ -18,17 +18,6 @@
 
 namespace boxwood::bench {
 namespace {
-
-/// Whether bodies of the scene come and go.
-bool has_comers(const Job& job) {
-    if (!job.scene->spec.moving)
-        return false;
-    for (const BodyGroup& group : job.scene->spec.moving->groups)
-        for (const EffectChoice& effect : group.effects)
-            if (effect_of(effect.name).changes.presence)
-                return true;
-    return false;
-}
 
 /// Embree leaves out what has no valid bounds: bodies that are not present have empty boxes.
 void bounds_of_box(const RTCBoundsFunctionArguments* args) {

@@ -17,6 +17,10 @@ FLAGS += ['-DBOXWOOD_CUDA_ARCHITECTURES="90-real"']
 # CUB's own kernels are its authors' business.
 OURS = re.compile(r"7boxwood")
 SOURCES = sorted(p for m in ("kernels", "trees", "bench/stages") for p in (ROOT / m).rglob("*.cu"))
+WARP = sorted((ROOT / "build" / "warp" / "lib").glob("python3*/site-packages/warp"))
+if WARP:
+    SOURCES.append(ROOT / "bench" / "peers" / "warp_tree.cu")
+    FLAGS += ["-isystem", str(WARP[0].parent), '-DBOXWOOD_WARP_LIBRARY=""']
 
 
 def find_nvcc():
