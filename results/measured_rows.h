@@ -85,7 +85,7 @@ struct Cell {
     std::string isa;
     std::uint64_t iterations = 0; ///< of the query phase, as calibrated
 };
-inline bool is_device(const Cell& cell) { return is_device(cell.executor); }
+inline bool is_device(const Cell& cell) { return is_of_device(cell.executor); }
 
 struct Shard {
     std::uint32_t shard_id = 0, round = 0, env_id = 0, pid = 0;

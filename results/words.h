@@ -54,7 +54,7 @@ inline constexpr std::string_view required_stages = "required", all_stages = "al
 /// and started by one launch.
 inline constexpr std::string_view device_executor = "cuda", resident_executor = "cuda_resident",
                                   graph_executor = "cuda_graph";
-constexpr bool is_device(std::string_view executor) {
+constexpr bool is_of_device(std::string_view executor) {
     return executor == device_executor || executor == resident_executor ||
            executor == graph_executor;
 }

@@ -60,7 +60,8 @@ Outcome outcome_of(const ContenderEntry& contender, const Job& job, double budge
 std::vector<ContenderEntry> contenders_of(const Task& task) {
     std::vector<ContenderEntry> all = task.contenders_on_cases();
     for (const ContenderEntry& contender : peers_that_answer(task.name()))
-        all.push_back(contender);
+        if (contender.runs_on != RunsOn::device)
+            all.push_back(contender);
     return all;
 }
 

@@ -29,7 +29,7 @@ class Task;
 /// Where a contender may run beside executors(): on a device, from host memory to host memory, or
 /// with input and answers that stay there, launched kernel by kernel or as one CUDA graph.
 using results::device_executor, results::graph_executor, results::resident_executor;
-using results::is_device;
+inline bool is_device(std::string_view executor) { return results::is_of_device(executor); }
 
 /// One piece of work: a scene, what is wanted of it, and where it runs.
 struct Job {

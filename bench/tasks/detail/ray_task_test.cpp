@@ -267,7 +267,7 @@ TEST(RayClasses, SingleRaysBatchesAndPacketsAndWatertightOnesByThemselves) {
     for (const char* task : {"rays_closest", "rays_all"})
         for (const ContenderEntry& peer : peers_that_answer(task))
             classes[peer.name] = peer.classes;
-    if (classes.empty())
+    if (!classes.contains("embree.rtc_intersect1"))
         GTEST_SKIP() << "libembree-dev was not found when this was compiled";
     EXPECT_EQ(classes.at("embree.rtc_intersect1"), (Classes{"single rays", "batches"}));
     EXPECT_EQ(classes.at("embree.rtc_intersect8.robust"), Classes{"watertight packets"});
@@ -284,6 +284,8 @@ TEST(RaysBatches, EmbreesPacketsAnswerRight) {
         for (const ContenderEntry& peer : peers_that_answer(name))
             for (const unsigned threads : {1u, 2u}) {
                 const Job job{&scene, &task, std::string(default_executor(threads)), threads};
+                if (peer.unsupported(job))
+                    continue;
                 const Judgement judged = truth->judge(answers_of<RayHit>(peer, job), peer);
                 EXPECT_NE(judged.status, Status::wrong)
                     << peer.name << ": " << judged.check.witness;
