@@ -31,9 +31,18 @@ DeviceBvh::~DeviceBvh() = default;
 std::size_t DeviceBvh::size() const { return tree_->size(); }
 
 void DeviceBvh::update(Boxes boxes) {
-    if (boxes.size() != size() || own_.size() != size())
+    if (boxes.size() != size())
         return rebuild(boxes);
-    own_.write(boxes);
+    if (own_.size() != size()) { // the boxes were the caller's
+        try {
+            own_ = DeviceArray<Box>(boxes, options_.place);
+        } catch (...) {
+            tree_->build({});
+            throw;
+        }
+    } else {
+        own_.write(boxes);
+    }
     tree_->refit(own_.span());
 }
 void DeviceBvh::update(DeviceSpan<const Box> boxes) {
@@ -65,7 +74,7 @@ void DeviceBvh::enqueue_update(DeviceSpan<const Box> boxes) {
                                     ": rebuild first");
     tree_->enqueue_refit(boxes);
 }
-void DeviceBvh::check() { tree_->check(); }
+bool DeviceBvh::check() { return tree_->check(); }
 
 std::uint64_t DeviceBvh::self_pair_count() const { return tree_->count_pairs(*tree_); }
 std::vector<Pair> DeviceBvh::self_pairs() const { return pairs(*this); }
@@ -81,7 +90,11 @@ void DeviceBvh::enqueue_self_pairs(DeviceSpan<Pair> room, std::uint64_t* count) 
     tree_->enqueue_self_pairs(room, count);
 }
 DeviceArray<Pair> DeviceBvh::unordered_self_pairs() const {
-    DeviceArray<Pair> found(last_pairs_ + last_pairs_ / 8, options_.place);
+    DeviceArray<Pair> found;
+    try {
+        found = DeviceArray<Pair>(last_pairs_ + last_pairs_ / 8, options_.place);
+    } catch (const DeviceOutOfMemory&) { // of pairs that may be fewer now: they are counted
+    }
     const std::size_t room = found.size();
     if (self_pairs_into(found.span()) > room) {
         found = {};

@@ -52,10 +52,11 @@ class DeviceBvh {
     /// none moves, so that a CUDA graph may capture these two and enqueue_self_pairs; a graph is
     /// good until the number of boxes changes. enqueue_update is of as many boxes as there are.
     /// Answers to bad boxes are wrong: check(), which waits, throws InvalidBox and empties the
-    /// tree.
+    /// tree. It is false where a rebuild() would make a faster tree, as crowds of boxes need finer
+    /// codes.
     void enqueue_rebuild(DeviceSpan<const Box> boxes);
     void enqueue_update(DeviceSpan<const Box> boxes);
-    void check();
+    bool check();
 
     /// Pairs of items whose boxes overlap. To the host they come in parts where the memory for all
     /// is short.
@@ -67,7 +68,8 @@ class DeviceBvh {
     std::uint64_t self_pairs_into(DeviceSpan<Pair> room) const;
     /// So, without waiting: how many there are goes to *count, on the device.
     void enqueue_self_pairs(DeviceSpan<Pair> room, std::uint64_t* count) const;
-    /// So, with room for somewhat more than the last time, and a second pass if that is too little.
+    /// So, with room for somewhat more than the last time if there is memory for it, and a second
+    /// pass if that is too little.
     DeviceArray<Pair> unordered_self_pairs() const;
 
     /// Pairs of an item here and one of the other tree, which has the same builder and place.

@@ -19,4 +19,10 @@ DeviceOutOfMemory::DeviceOutOfMemory(const std::string& what, std::uint64_t need
                   in_gb(free_) + " are free"),
       needed(needed_), free(free_) {}
 
+void detail::require_as_many(std::size_t given, std::size_t there) {
+    if (given != there)
+        throw std::invalid_argument("DeviceArray::write of " + std::to_string(given) +
+                                    " elements, where there are " + std::to_string(there));
+}
+
 } // namespace boxwood

@@ -73,6 +73,8 @@ class DeviceMemory {
     DevicePlace place_;
 };
 
+void require_as_many(std::size_t given, std::size_t there);
+
 } // namespace detail
 
 /// How many kernels this thread has started, those within CUB apart.
@@ -118,8 +120,11 @@ template <class T> class DeviceArray {
     void shrink(std::size_t size) { size_ = size < size_ ? size : size_; }
     DeviceSpan<T> span() { return {static_cast<T*>(memory_.data()), size_}; }
     DeviceSpan<const T> span() const { return {static_cast<const T*>(memory_.data()), size_}; }
-    /// Of as many elements; they are copied when it comes back.
-    void write(std::span<const T> from) { memory_.write(from.data(), from.size_bytes()); }
+    /// As many elements as there are, else std::invalid_argument; they are copied when it comes back.
+    void write(std::span<const T> from) {
+        detail::require_as_many(from.size(), size_);
+        memory_.write(from.data(), from.size_bytes());
+    }
     /// Waits until all is there.
     void read(std::vector<T>& to) const {
         to.resize(size_);

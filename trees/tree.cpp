@@ -19,10 +19,14 @@ void require_valid(const Box& box, std::size_t index) {
     throw InvalidBox(index, "min is greater than max");
 }
 
-void require_valid(Boxes boxes) {
-    if (boxes.size() > max_items)
+void require_at_most_max_items(std::size_t n_boxes) {
+    if (n_boxes > max_items)
         throw std::length_error("a tree holds at most " + std::to_string(max_items) +
-                                " boxes, not " + std::to_string(boxes.size()));
+                                " boxes, not " + std::to_string(n_boxes));
+}
+
+void require_valid(Boxes boxes) {
+    require_at_most_max_items(boxes.size());
     for (std::size_t i = 0; i < boxes.size(); ++i)
         require_valid(boxes[i], i);
 }

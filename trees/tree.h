@@ -62,6 +62,8 @@ inline constexpr std::size_t max_items = std::size_t{1} << 30;
 /// Throws InvalidBox for the first box with a NaN, an infinity or min > max, and std::length_error
 /// for more than max_items boxes.
 void require_valid(Boxes boxes);
+/// The last of these alone.
+void require_at_most_max_items(std::size_t n_boxes);
 /// The same for one box, which is said to have this index.
 void require_valid(const Box& box, std::size_t index);
 

@@ -219,7 +219,7 @@ template <class Find> void WarpTree::into_room(const Find& find) {
         count_ = DeviceArray<unsigned long long>(1, {});
     for (;;) {
         unsigned long long* const count = count_.span().data;
-        cuda::fill_words(reinterpret_cast<std::uint32_t*>(count), 0, 2, stream);
+        cuda::fill_bytes(count, 0, sizeof(*count), stream);
         find(Room{count, room_.span().data, room_.size()}, stream);
         unsigned long long n = 0;
         cuda::download(static_cast<const unsigned long long*>(count), std::span(&n, 1), stream);

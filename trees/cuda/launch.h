@@ -24,6 +24,8 @@ inline thread_local std::uint64_t n_launches = 0; ///< by this thread
 #include <cstring>
 #include <functional>
 #include <new>
+#include <string>
+#include <vector>
 #endif
 
 namespace boxwood::cuda {
@@ -39,30 +41,42 @@ void launch(Stream, std::size_t n_blocks, unsigned n_threads, void (*kernel)(Par
     if (n_blocks == 0)
         return;
     ++n_launches;
-    on_host::run_grid(static_cast<unsigned>(n_blocks), n_threads, [&] { kernel(arguments...); });
+    on_host::in_turn([=] {
+        on_host::run_grid(static_cast<unsigned>(n_blocks), n_threads,
+                          [&] { kernel(arguments...); });
+    });
 }
 
-inline void* allocate(std::size_t bytes, Stream) { return on_host::allocate(bytes); }
+/// What no graph can do again is refused while one is recorded.
+inline void require_no_recording(Stream, const char* what) {
+    if (on_host::is_recording())
+        throw DeviceError(std::string("CUDA: a graph cannot record what ") + what);
+}
+
+inline void* allocate(std::size_t bytes, Stream stream) {
+    require_no_recording(stream, "allocates");
+    return on_host::allocate(bytes);
+}
 inline void release(void* memory, Stream) { on_host::release(memory); }
 
-template <class T> void upload(std::span<const T> from, T* to, Stream) {
-    on_host::waited();
+template <class T> void upload(std::span<const T> from, T* to, Stream stream) {
+    require_no_recording(stream, "copies from the host");
     std::ranges::copy(from, to);
 }
-template <class T> void download(const T* from, std::span<T> to, Stream) {
-    on_host::waited();
+template <class T> void download(const T* from, std::span<T> to, Stream stream) {
+    require_no_recording(stream, "copies to the host");
     std::copy_n(from, to.size(), to.data());
 }
 
-inline void fill_words(std::uint32_t* to, std::uint32_t word, std::size_t n, Stream) {
-    std::fill_n(to, n, word);
+inline void fill_bytes(void* to, std::uint8_t byte, std::size_t n, Stream) {
+    on_host::in_turn([=] { std::memset(to, byte, n); });
 }
 
 /// Until all is done that was started before.
-inline void wait(Stream) { on_host::waited(); }
+inline void wait(Stream stream) { require_no_recording(stream, "waits"); }
 
 inline void copy(const void* from, void* to, std::size_t bytes, Stream) {
-    std::memcpy(to, from, bytes);
+    on_host::in_turn([=] { std::memcpy(to, from, bytes); });
 }
 /// Memory of the host that a device reaches by itself.
 inline void* allocate_pinned(std::size_t bytes) { return ::operator new(bytes); }
@@ -90,18 +104,19 @@ inline void end_stream(void*) {}
 /// What was enqueued in a stream, to be started by one launch.
 class Graph {
   public:
-    void record(Stream, std::function<void()> enqueue) { enqueue_ = std::move(enqueue); }
+    void record(Stream, const std::function<void()>& enqueue) {
+        work_ = on_host::record(enqueue);
+    }
     void launch(Stream) {
-        const on_host::Uncapturable before = on_host::uncapturable();
-        const std::uint64_t launches = n_launches;
-        enqueue_();
-        n_launches = launches + 1;
-        if (!(on_host::uncapturable() == before))
-            throw DeviceError("CUDA: a graph: what it records allocates or waits");
+        ++n_launches;
+        for (const std::function<void()>& one : work_)
+            one();
+        released_.require_untouched();
     }
 
   private:
-    std::function<void()> enqueue_;
+    std::vector<std::function<void()>> work_;
+    on_host::Released released_;
 };
 
 #endif

@@ -10,6 +10,7 @@
 #include <new>
 #include <numeric>
 #include <random>
+#include <span>
 #include <string>
 #include <ucontext.h>
 #include <utility>
@@ -292,8 +293,14 @@ void run_grid(unsigned n_blocks, unsigned n_threads, const std::function<void()>
 namespace {
 
 constexpr std::size_t line = 64; ///< before each allocation stands its size
+constexpr std::byte released{0xdd};
 std::uint64_t memory = std::uint64_t{1} << 36, taken = 0;
-Uncapturable counts;
+unsigned watchers = 0;         ///< of what is released
+std::vector<std::byte*> watched;
+std::vector<std::function<void()>>* recording = nullptr;
+
+std::size_t& size_of(std::byte* block) { return *reinterpret_cast<std::size_t*>(block); }
+void free(std::byte* block) { ::operator delete(block, std::align_val_t{line}); }
 
 } // namespace
 
@@ -306,19 +313,55 @@ void* allocate(std::size_t bytes) {
                     std::to_string(free_memory()) + " that are free");
     auto* const block =
         static_cast<std::byte*>(::operator new (bytes + line, std::align_val_t{line}));
-    *reinterpret_cast<std::size_t*>(block) = bytes;
+    size_of(block) = bytes;
     taken += bytes;
-    ++counts.allocations;
     return block + line;
 }
 void release(void* at) {
     auto* const block = static_cast<std::byte*>(at) - line;
-    taken -= *reinterpret_cast<std::size_t*>(block);
-    ::operator delete (block, std::align_val_t{line});
+    taken -= size_of(block);
+    if (watchers == 0)
+        return free(block);
+    std::fill_n(block + line, size_of(block), released);
+    watched.push_back(block);
 }
 
-Uncapturable uncapturable() { return counts; }
-void waited() { ++counts.waits; }
+Released::Released() { ++watchers; }
+Released::~Released() {
+    if (--watchers > 0)
+        return;
+    std::ranges::for_each(watched, free);
+    watched.clear();
+}
+void Released::require_untouched() const {
+    for (std::byte* block : watched)
+        if (std::ranges::any_of(std::span(block + line, size_of(block)),
+                                [](std::byte byte) { return byte != released; }))
+            throw Fault("an array of " + std::to_string(size_of(block)) +
+                        " bytes was written to after it was released");
+}
+
+void in_turn(std::function<void()> work) {
+    if (recording)
+        recording->push_back(std::move(work));
+    else
+        work();
+}
+std::vector<std::function<void()>> record(const std::function<void()>& enqueue) {
+    std::vector<std::function<void()>> work;
+    const auto* const before = std::exchange(recording, &work);
+    try {
+        enqueue();
+    } catch (...) {
+        recording = nullptr;
+        throw;
+    }
+    recording = nullptr;
+    if (before)
+        throw Fault("a graph within a graph");
+    return work;
+}
+bool is_recording() { return recording != nullptr; }
 
 std::uint64_t meet(Meeting meeting, unsigned mask, std::uint64_t value, unsigned from) {
     return Block::running->meet(meeting, mask, value, from);

@@ -3,13 +3,15 @@
 // CUDA's thread model without a GPU, so that kernels written for one can be tested by g++ and its
 // sanitizers: blocks, warps of 32 lanes, shared memory, barriers, votes, shuffles and atomics.
 // Include it through launch.h. Where it is less than a GPU: blocks run one after the other, and a
-// thread gives way to others at barriers, warp operations, atomics and fences alone, so memory that
-// needs a fence which is missing is not found (compute-sanitizer finds that, on a device).
+// thread gives way to others at barriers, warp operations, atomics and fences alone, and sees at
+// once what any other wrote. So a fence that is missing is not found here; nor by racecheck on a
+// device, which looks at shared memory alone. OnADevice.StressOfManyBuildsAndRefits may, there.
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <stdexcept>
+#include <vector>
 
 #define __global__ inline
 #define __device__
@@ -48,13 +50,22 @@ std::uint64_t free_memory();
 void* allocate(std::size_t bytes);
 void release(void* memory);
 
-/// What no graph can capture: memory that was allocated, and what the host waited for or copied.
-struct Uncapturable {
-    std::uint64_t allocations = 0, waits = 0;
-    bool operator==(const Uncapturable&) const = default;
+/// Work of a stream: done at once or, within record(), kept.
+void in_turn(std::function<void()> work);
+/// What `enqueue` does in turn, to be done later and again.
+std::vector<std::function<void()>> record(const std::function<void()>& enqueue);
+bool is_recording();
+
+/// While one lives, what is released stays as it was filled then.
+class Released {
+  public:
+    Released();
+    Released(const Released&) = delete;
+    Released& operator=(const Released&) = delete;
+    ~Released();
+    /// Throws Fault if somebody wrote to memory after it was released.
+    void require_untouched() const;
 };
-Uncapturable uncapturable();
-void waited();
 
 /// Lets other threads go first, now and then.
 void give_way();

@@ -170,5 +170,31 @@ TEST(OnHost, WhatNoKernelMayDo) {
     EXPECT_THAT(fault_of(1025, [] {}), HasSubstr("1 to 1024 threads"));
 }
 
+TEST(OnHost, WhatIsRecordedIsDoneLater) {
+    int done = 0;
+    in_turn([&] { ++done; });
+    const auto work = record([&] {
+        EXPECT_TRUE(is_recording());
+        in_turn([&] { done += 10; });
+    });
+    EXPECT_FALSE(is_recording());
+    EXPECT_EQ(done, 1);
+    work.at(0)();
+    work.at(0)();
+    EXPECT_EQ(done, 21);
+    EXPECT_THROW(record([] { throw 1; }), int);
+    EXPECT_FALSE(is_recording());
+}
+
+TEST(OnHost, WhoWritesToWhatWasReleasedIsFound) {
+    const Released released;
+    auto* const memory = static_cast<std::uint32_t*>(allocate(40));
+    memory[9] = 1;
+    release(memory);
+    released.require_untouched();
+    memory[9] = 1;
+    EXPECT_THROW(released.require_untouched(), Fault);
+}
+
 } // namespace
 } // namespace boxwood::on_host

@@ -5,15 +5,12 @@
 namespace boxwood::cuda {
 namespace {
 
-/// By eight bits at a time.
+/// By eight bits at a time; `from_keys` has room for the keys, and for the values behind them.
 template <class Key>
-void sort(const Key* keys, Key* sorted_keys, const std::uint32_t* values,
-          std::uint32_t* sorted_values, std::size_t n, int low, int high, Spare& spare,
-          Stream stream) {
+void sort_in(Key* from_keys, const Key* keys, Key* sorted_keys, const std::uint32_t* values,
+             std::uint32_t* sorted_values, std::size_t n, int low, int high) {
     std::copy_n(keys, n, sorted_keys);
     std::copy_n(values, n, sorted_values);
-    make_room(spare, n * (sizeof(Key) + sizeof(std::uint32_t)), stream);
-    Key* const from_keys = reinterpret_cast<Key*>(spare.data());
     auto* const from_values = reinterpret_cast<std::uint32_t*>(from_keys + n);
     for (; low < high; low += 8) {
         const Key mask = (Key{1} << std::min(high - low, 8)) - 1;
@@ -31,9 +28,21 @@ void sort(const Key* keys, Key* sorted_keys, const std::uint32_t* values,
     }
 }
 
+template <class Key>
+void sort(const Key* keys, Key* sorted_keys, const std::uint32_t* values,
+          std::uint32_t* sorted_values, std::size_t n, int low, int high, Spare& spare,
+          Stream stream) {
+    make_room(spare, n * (sizeof(Key) + sizeof(std::uint32_t)), stream);
+    on_host::in_turn([=, room = reinterpret_cast<Key*>(spare.data())] {
+        sort_in(room, keys, sorted_keys, values, sorted_values, n, low, high);
+    });
+}
+
 template <class Number> void sum(Number* at, std::size_t n) {
-    at[n] = 0;
-    std::exclusive_scan(at, at + n + 1, at, Number{0});
+    on_host::in_turn([=] {
+        at[n] = 0;
+        std::exclusive_scan(at, at + n + 1, at, Number{0});
+    });
 }
 
 } // namespace
@@ -54,10 +63,12 @@ void scan(std::uint64_t* at, std::size_t n, Spare&, Stream) { sum(at, n); }
 
 void select(const std::uint8_t* flags, std::size_t n, std::uint32_t* to, std::uint32_t* n_to,
             Spare&, Stream) {
-    *n_to = 0;
-    for (std::size_t i = 0; i < n; ++i)
-        if (flags[i] != 0)
-            to[(*n_to)++] = static_cast<std::uint32_t>(i);
+    on_host::in_turn([=] {
+        *n_to = 0;
+        for (std::size_t i = 0; i < n; ++i)
+            if (flags[i] != 0)
+                to[(*n_to)++] = static_cast<std::uint32_t>(i);
+    });
 }
 
 } // namespace boxwood::cuda

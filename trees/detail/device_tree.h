@@ -18,7 +18,7 @@ class DeviceTree {
     /// As DeviceBvh has them.
     virtual void enqueue_build(DeviceSpan<const Box> boxes) = 0;
     virtual void enqueue_refit(DeviceSpan<const Box> boxes) = 0;
-    virtual void check() = 0;
+    virtual bool check() = 0;
 
     /// `other` may be this tree: each pair once then. It is of the same builder and place.
     virtual std::uint64_t count_pairs(const DeviceTree& other) = 0;

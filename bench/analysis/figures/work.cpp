@@ -44,12 +44,13 @@ std::vector<QueryKernel> query_kernels_of(const Results& results) {
     std::uint32_t group = 0;
     for (auto& [tree, queries] : trees) {
         std::ranges::sort(queries, {}, &Query::ns);
-        if (std::ranges::all_of(queries, [&](const Query& query) {
-                return query.kernel == queries.front().kernel;
+        const Query& quickest = queries.front();
+        if (std::ranges::all_of(queries, [&quickest](const Query& query) {
+                return query.kernel == quickest.kernel;
             }))
             continue;
         for (const Query& query : queries)
-            all.push_back({query.cell_id, group, std::get<3>(tree), query.ns / queries.front().ns});
+            all.push_back({query.cell_id, group, std::get<3>(tree), query.ns / quickest.ns});
         ++group;
     }
     return all;

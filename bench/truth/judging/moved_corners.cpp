@@ -64,7 +64,7 @@ bool MovedCorners::allow(const RayHit& hit) const {
     if (!(u >= 0 && v >= 0 && u + v <= 1 + 2 * roundoff && hit.t >= ray_.t_min &&
           hit.t <= ray_.t_max && hit.t < std::numeric_limits<float>::infinity()))
         return false;
-    const auto& [a, b, c] = corners_;
+    const Corner &a = corners_[0], &b = corners_[1], &c = corners_[2];
     const auto is_near = [&](double goal, double Corner::*at, double error) {
         const double there = a.*at + u * (b.*at - a.*at) + v * (c.*at - a.*at);
         const double weights = roundoff * (std::abs(b.*at - a.*at) + std::abs(c.*at - a.*at));

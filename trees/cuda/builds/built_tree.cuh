@@ -36,8 +36,9 @@ struct BuildState {
 };
 
 /// A tree in the device's memory, and all that its build needs. The boxes stay the caller's. Once
-/// it was built, no memory is allocated and none moves while n is no more than it was, so that a
-/// graph may capture enqueue() and refit(), and the views stay what they are while n is the same.
+/// it was built, enqueue() and refit() allocate nothing while n is no more than it was, so that a
+/// graph may capture them; nothing that it captured moves before n grows, and the views stay what
+/// they are while n is the same.
 class BuiltTree {
   public:
     explicit BuiltTree(BuildOptions options = {}) : options_(options) {}
@@ -91,7 +92,8 @@ class BuiltTree {
         wide8_ = {};
     }
     template <int bits, class Code>
-    void sort_codes(const Box* boxes, Array<Code>& codes, Array<Code>& sorted, Stream stream);
+    void sort_codes(const Box* boxes, Array<Code>& codes, Array<Code>& sorted, Spare& spare,
+                    Stream stream);
     template <class Node> void make_wide8(const Node* nodes, const Box* boxes, Stream stream);
 
     BuildOptions options_;
@@ -99,7 +101,7 @@ class BuiltTree {
     bool is_fine_ = false; ///< of packed: by 21 bits per axis
 
     Array<BuildState> state_;
-    Spare spare_;
+    Spare spare_, fine_spare_; ///< two, as a graph may have recorded what is done with one
     Array<std::uint32_t> coarse_, sorted_coarse_, unsorted_, items_, met_;
     Array<std::uint64_t> fine_, sorted_fine_;
 
@@ -181,9 +183,8 @@ inline void BuiltTree::reserve(std::size_t n, Stream stream) {
         if (array.size() >= size)
             return;
         make_room(array, size, stream);
-        if constexpr (std::is_same_v<T, std::uint32_t>)
-            if (is_zero)
-                fill_words(array.data(), 0, size, stream);
+        if (is_zero)
+            fill_bytes(array.data(), 0, size * sizeof(T), stream);
     });
 }
 
@@ -202,7 +203,7 @@ inline void BuiltTree::set_views() {
 }
 
 template <int bits, class Code>
-void BuiltTree::sort_codes(const Box* boxes, Array<Code>& codes, Array<Code>& sorted,
+void BuiltTree::sort_codes(const Box* boxes, Array<Code>& codes, Array<Code>& sorted, Spare& spare,
                            Stream stream) {
     BuildState* const state = state_.data();
     const std::size_t blocks = blocks_for(n_, code_threads);
@@ -211,7 +212,7 @@ void BuiltTree::sort_codes(const Box* boxes, Array<Code>& codes, Array<Code>& so
     launch(stream, blocks, code_threads, curve_codes<bits, Code>, boxes, n_, options_.curve,
            &state->rule, codes.data(), unsorted_.data());
     const int top = is_packed() ? static_cast<int>(sizeof(Code) * 8) : 3 * bits;
-    sort_by_bits(codes.data(), sorted.data(), unsorted_.data(), items_.data(), n_, 0, top, spare_,
+    sort_by_bits(codes.data(), sorted.data(), unsorted_.data(), items_.data(), n_, 0, top, spare,
                  stream);
     if (is_packed())
         launch(stream, blocks, code_threads, count_crowded<Code>, sorted.data(), n_,
@@ -228,8 +229,7 @@ void BuiltTree::make_wide8(const Node* nodes, const Box* boxes, Stream stream) {
 }
 
 inline void BuiltTree::enqueue(const Box* boxes, std::size_t n, Stream stream) {
-    if (n > max_items)
-        require_valid(Boxes(boxes, n)); // says so
+    require_at_most_max_items(n);
     forget();                           // what there is not memory for
     reserve(n, stream);
     n_ = static_cast<std::uint32_t>(n);
@@ -238,9 +238,9 @@ inline void BuiltTree::enqueue(const Box* boxes, std::size_t n, Stream stream) {
         return;
     look(boxes, stream);
     if (is_packed() && !is_fine_)
-        sort_codes<10>(boxes, coarse_, sorted_coarse_, stream);
+        sort_codes<10>(boxes, coarse_, sorted_coarse_, spare_, stream);
     else
-        sort_codes<21>(boxes, fine_, sorted_fine_, stream);
+        sort_codes<21>(boxes, fine_, sorted_fine_, fine_spare_, stream);
     const std::size_t blocks = blocks_for(n, radix_threads);
     if (is_packed()) {
         fill_packed(packed_, boxes, items_.data(), &state_.data()->bounds, stream);

@@ -50,6 +50,7 @@ class HplocWarp {
                 }
                 __threadfence();
             }
+            __syncwarp(); // a vote alone lets no lane see what another one's fence let it see
             const std::uint32_t size = last - first + 1;
             const bool is_all = goes_on && size == slots;
             for (unsigned merging = __ballot_sync(~0u, goes_on && (size > to_.kept || is_all));
@@ -58,6 +59,7 @@ class HplocWarp {
                 merge(__shfl_sync(~0u, first, from), __shfl_sync(~0u, split, from),
                       __shfl_sync(~0u, last, from), __shfl_sync(~0u, is_all, from));
             }
+            __syncwarp(); // what its lanes wrote is there before one of them says so
         }
     }
 

@@ -89,7 +89,7 @@ __global__ void build_radix_tree(RadixTreeView to, const std::uint64_t* codes, c
 inline void make_radix_tree(const RadixTreeView& to, const std::uint64_t* codes, const Box* boxes,
                             std::uint32_t* met, Stream stream) {
     if (to.n > 1)
-        fill_words(met, nobody, to.n - 1, stream);
+        fill_bytes(met, 0xff, (to.n - 1) * sizeof(*met), stream);
     launch(stream, blocks_for(to.n, radix_threads), radix_threads, build_radix_tree, to, codes,
            boxes, met);
 }

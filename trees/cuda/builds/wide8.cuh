@@ -99,6 +99,7 @@ __global__ void refit_wide8(Wide8Tree to, const Box* boxes) {
                     to.met[parent] = 0;
             }
             __threadfence();
+            __syncwarp(mask); // which a shuffle is not
             if (!__shfl_sync(mask, is_last, 0, 8))
                 break;
             self = parent;

@@ -23,7 +23,15 @@ inline void require(cudaError_t status, const char* what) {
 /// Work that is done in order.
 struct Stream {
     cudaStream_t handle = nullptr;
+    int device = 0; ///< whose default stream null is
 };
+
+/// Sets the device of this thread's calls, and only if it is another: that makes a context there.
+inline cudaError_t choose_device(int index) {
+    int now = 0;
+    const cudaError_t status = cudaGetDevice(&now);
+    return status != cudaSuccess || now == index ? status : cudaSetDevice(index);
+}
 
 template <class... Parameters, class... Arguments>
 void launch(Stream stream, std::size_t n_blocks, unsigned n_threads, void (*kernel)(Parameters...),
@@ -35,9 +43,22 @@ void launch(Stream stream, std::size_t n_blocks, unsigned n_threads, void (*kern
     require(cudaGetLastError(), "a kernel does not start");
 }
 
+/// What no graph can do again is refused while one is recorded.
+inline void require_no_recording(Stream stream, const char* what) {
+    cudaStreamCaptureStatus capture{};
+    require(cudaStreamIsCapturing(stream.handle, &capture), "a stream");
+    if (capture != cudaStreamCaptureStatusNone)
+        throw DeviceError(std::string("CUDA: a graph cannot record what ") + what);
+}
+
+/// Of memory that this library gave back, up to a quarter of the device's; made when first asked for.
+cudaMemPool_t pool_of(int device);
+
 inline void* allocate(std::size_t bytes, Stream stream) {
+    require_no_recording(stream, "allocates");
     void* memory = nullptr;
-    const cudaError_t status = cudaMallocAsync(&memory, bytes, stream.handle);
+    const cudaError_t status = 
+        cudaMallocFromPoolAsync(&memory, bytes, pool_of(stream.device), stream.handle);
     if (status == cudaErrorMemoryAllocation) {
         std::size_t free = 0, total = 0;
         cudaGetLastError(); // it is no error of a later call
@@ -47,20 +68,32 @@ inline void* allocate(std::size_t bytes, Stream stream) {
     require(status, "memory");
     return memory;
 }
-inline void release(void* memory, Stream stream) { cudaFreeAsync(memory, stream.handle); }
+/// Without a word if it cannot: the process's last error was thrown before, or it ends.
+inline void release(void* memory, Stream stream) {
+    int before = 0;
+    if (cudaGetDevice(&before) != cudaSuccess || choose_device(stream.device) != cudaSuccess)
+        return;
+    cudaFreeAsync(memory, stream.handle);
+    choose_device(before);
+}
 
 template <class T> void upload(std::span<const T> from, T* to, Stream stream) {
+    require_no_recording(stream, "copies from the host");
     require(
         cudaMemcpyAsync(to, from.data(), from.size_bytes(), cudaMemcpyHostToDevice, stream.handle),
         "upload");
 }
 template <class T> void download(const T* from, std::span<T> to, Stream stream) {
+    require_no_recording(stream, "copies to the host");
     require(
         cudaMemcpyAsync(to.data(), from, to.size_bytes(), cudaMemcpyDeviceToHost, stream.handle),
         "download");
 }
 
-inline void wait(Stream stream) { require(cudaStreamSynchronize(stream.handle), "a kernel"); }
+inline void wait(Stream stream) {
+    require_no_recording(stream, "waits");
+    require(cudaStreamSynchronize(stream.handle), "a kernel");
+}
 
 inline void copy(const void* from, void* to, std::size_t bytes, Stream stream) {
     require(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToDevice, stream.handle), "copy");
@@ -136,10 +169,8 @@ class Graph {
     cudaGraphExec_t made_ = nullptr;
 };
 
-/// The word's four bytes must be the same.
-inline void fill_words(std::uint32_t* to, std::uint32_t word, std::size_t n, Stream stream) {
-    require(cudaMemsetAsync(to, static_cast<int>(word & 255), n * sizeof(word), stream.handle),
-            "fill");
+inline void fill_bytes(void* to, std::uint8_t byte, std::size_t n, Stream stream) {
+    require(cudaMemsetAsync(to, byte, n, stream.handle), "fill");
 }
 
 } // namespace boxwood::cuda

@@ -1,6 +1,8 @@
 #include "trees/cuda/device/machine.h"
 
 #include <algorithm>
+#include <map>
+#include <mutex>
 
 namespace boxwood {
 namespace {
@@ -72,31 +74,62 @@ std::string why_no_device() { return find().why_none; }
 namespace cuda {
 
 Chosen::Chosen(int index) {
-    if (cudaGetDevice(&before_) == cudaSuccess && cudaSetDevice(index) == cudaSuccess)
+    if (cudaGetDevice(&before_) == cudaSuccess && choose_device(index) == cudaSuccess)
         return;
     cudaGetLastError(); // it is no error of a later call
     const std::string why = why_no_device();
     throw DeviceError(why.empty() ? "there is no CUDA device " + std::to_string(index)
                                   : "no CUDA device: " + why);
 }
-Chosen::~Chosen() { cudaSetDevice(before_); }
+Chosen::~Chosen() { choose_device(before_); }
 
-Stream stream_of(DevicePlace place) { return {static_cast<cudaStream_t>(place.stream)}; }
+Stream stream_of(DevicePlace place) {
+    return {static_cast<cudaStream_t>(place.stream), place.index};
+}
 
-std::uint64_t free_memory() {
+namespace {
+
+cudaMemPool_t make_pool(int device) {
+    cudaMemPoolProps properties{};
+    properties.allocType = cudaMemAllocationTypePinned;
+    properties.location.type = cudaMemLocationTypeDevice;
+    properties.location.id = device;
+    cudaMemPool_t pool{};
+    require(cudaMemPoolCreate(&pool, &properties), "a pool of memory");
     std::size_t free = 0, total = 0;
     require(cudaMemGetInfo(&free, &total), "how much memory is free");
-    // What the pool holds and nobody uses can be had, too.
+    std::uint64_t kept = total / 4;
+    require(cudaMemPoolSetAttribute(pool, cudaMemPoolAttrReleaseThreshold, &kept),
+            "the pool of memory");
+    return pool;
+}
+
+} // namespace
+
+cudaMemPool_t pool_of(int device) {
+    static std::mutex mutex;
+    static std::map<int, cudaMemPool_t> pools;
+    const std::lock_guard lock(mutex);
+    const auto found = pools.find(device);
+    return found != pools.end() ? found->second
+                                : pools.emplace(device, make_pool(device)).first->second;
+}
+
+std::uint64_t free_memory(std::uint64_t enough) {
     int device = 0;
-    cudaMemPool_t pool{};
-    std::uint64_t reserved = 0, used = 0;
     require(cudaGetDevice(&device), "the current device");
-    require(cudaDeviceGetDefaultMemPool(&pool, device), "the pool of memory");
+    const cudaMemPool_t pool = pool_of(device);
+    std::uint64_t reserved = 0, used = 0;
     require(cudaMemPoolGetAttribute(pool, cudaMemPoolAttrReservedMemCurrent, &reserved),
             "the pool of memory");
     require(cudaMemPoolGetAttribute(pool, cudaMemPoolAttrUsedMemCurrent, &used),
             "the pool of memory");
-    return free + (reserved - used);
+    const std::uint64_t unused = reserved - used;
+    if (unused >= enough)
+        return unused;
+    std::size_t free = 0, total = 0;
+    require(cudaMemGetInfo(&free, &total), "how much memory is free");
+    return free + unused;
 }
 
 } // namespace cuda

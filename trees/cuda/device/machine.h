@@ -8,8 +8,8 @@
 
 namespace boxwood::cuda {
 
-/// Where the calls of this thread go, for as long as it lives. Throws DeviceError if there is no
-/// such device.
+/// Where the calls of this thread go, for as long as it lives; then to where they went before, which
+/// makes a context there if there was none. Throws DeviceError if there is no such device.
 class Chosen {
   public:
     explicit Chosen(int index);
@@ -23,11 +23,12 @@ class Chosen {
 
 Stream stream_of(DevicePlace place);
 
-/// Bytes that can be had on the chosen device.
-std::uint64_t free_memory();
+/// Bytes that can be had on the chosen device; once there are `enough`, no more are looked for,
+/// which takes the driver long.
+std::uint64_t free_memory(std::uint64_t enough = ~std::uint64_t{0});
 /// Throws DeviceOutOfMemory{needed, free} if they cannot.
 inline void require_memory(const char* what, std::uint64_t needed) {
-    const std::uint64_t free = free_memory();
+    const std::uint64_t free = free_memory(needed);
     if (needed > free)
         throw DeviceOutOfMemory(what, needed, free);
 }

@@ -20,7 +20,7 @@ Chosen::Chosen(int index) {
 Chosen::~Chosen() = default;
 
 Stream stream_of(DevicePlace) { return {}; }
-std::uint64_t free_memory() { return on_host::free_memory(); }
+std::uint64_t free_memory(std::uint64_t) { return on_host::free_memory(); }
 
 } // namespace cuda
 } // namespace boxwood

@@ -59,8 +59,7 @@ template <class Tree> class MeshOf final : public DeviceMesh {
     void build(DeviceSpan<const Vec3<float>> vertices,
                DeviceSpan<const Corners> triangles) override {
         const Chosen chosen(in_.place.index);
-        if (triangles.size > max_items)
-            require_valid(Boxes(static_cast<const Box*>(nullptr), triangles.size)); // says so
+        require_at_most_max_items(triangles.size);
         corners_ = triangles;
         n_vertices_ = vertices.size;
         if (triangles.size == 0)
@@ -146,7 +145,7 @@ template <class Tree> class MeshOf final : public DeviceMesh {
     }
     void bound(DeviceSpan<const Vec3<float>> vertices) {
         std::uint32_t* const first_bad = first_bad_.span().data;
-        fill_words(first_bad, none_bad, 1, in_.stream);
+        fill_bytes(first_bad, 0xff, sizeof(*first_bad), in_.stream);
         launch(in_.stream, blocks_for(corners_.size, radix_threads), radix_threads, bound_checked,
                mesh(vertices), std::uint64_t{n_vertices_}, boxes_.span().data, first_bad);
         const std::uint32_t bad =

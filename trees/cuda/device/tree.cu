@@ -99,10 +99,10 @@ template <class Layout> class TreeOf final : public DeviceTree {
         tree_.look(boxes_, in_.stream);
         tree_.refit(boxes_, in_.stream);
     }
-    void check() override {
+    bool check() override {
         const Chosen chosen(in_.place.index);
         try {
-            tree_.check(boxes_, in_.stream);
+            return tree_.check(boxes_, in_.stream);
         } catch (...) {
             clear();
             throw;
@@ -149,7 +149,7 @@ template <class Layout> class TreeOf final : public DeviceTree {
 
     void enqueue_self_pairs(DeviceSpan<Pair> room, std::uint64_t* count) override {
         const Chosen chosen(in_.place.index);
-        fill_words(reinterpret_cast<std::uint32_t*>(count), 0, 2, in_.stream);
+        fill_bytes(count, 0, sizeof(*count), in_.stream);
         if (size() > 0)
             find<Pass::capped>(*this, {count, room.data, room.size});
     }
@@ -195,12 +195,11 @@ template <class Layout> class TreeOf final : public DeviceTree {
             return;
         const Chosen chosen(in_.place.index);
         try {
-            if (boxes.size > room_) {
+            if (boxes.size > room_)
                 require_memory("a tree", bytes(boxes.size) - bytes(room_));
-                room_ = boxes.size;
-            }
             boxes_ = boxes.data;
             build();
+            room_ = std::max(room_, boxes.size);
         } catch (...) {
             clear();
             throw;
@@ -222,7 +221,8 @@ template <class Layout> class TreeOf final : public DeviceTree {
     std::vector<PairPart> parts_of(const Counted& count) {
         if (count.n == 0)
             return {};
-        const std::uint64_t room = std::min(max_part, free_memory() / sizeof(Pair));
+        const std::uint64_t free = free_memory(max_part * sizeof(Pair) * 2);
+        const std::uint64_t room = std::min(max_part, (free - free / 8) / sizeof(Pair));
         if (count.n <= room)
             return {{0, static_cast<std::uint32_t>(count.at.size() - 1), 0, count.n}};
         return cut_into_parts(count.at.to_host(), room);
@@ -250,8 +250,7 @@ template <class Layout> class TreeOf final : public DeviceTree {
         const std::uint32_t n = number_of_queries(of.size);
         if (size() == 0) {
             DeviceArray<std::uint64_t> none(std::size_t{n} + 1, in_.place);
-            fill_words(reinterpret_cast<std::uint32_t*>(none.span().data), 0, 2 * none.size(),
-                       in_.stream);
+            fill_bytes(none.span().data, 0, none.size() * sizeof(std::uint64_t), in_.stream);
             return {std::move(none), {}};
         }
         const View tree = view(*this);

@@ -11,8 +11,8 @@ template <unsigned size> struct Group {
     static_assert(size <= 32 ? 32 % size == 0 : size % 32 == 0);
 
     __device__ static unsigned rank() { return threadIdx.x % size; }
-    __device__ static std::uint32_t index() {
-        return (blockIdx.x * blockDim.x + threadIdx.x) / size;
+    __device__ static std::uint64_t index() {
+        return (std::uint64_t{blockIdx.x} * blockDim.x + threadIdx.x) / size;
     }
     /// What a thread of the group wrote before it, all read after it.
     __device__ static void sync() {
@@ -63,9 +63,9 @@ template <bool many, class Answer>
 __global__ void sort_each(const std::uint64_t* at, std::uint32_t parts, std::uint32_t n_queries,
                           Answer* answers) {
     constexpr unsigned size = many ? sort_threads : short_group;
-    const std::uint32_t groups = gridDim.x * (sort_threads / size);
-    for (std::uint32_t query = Group<size>::index(); query < n_queries; query += groups) {
-        const std::uint64_t* const place = at + std::size_t{query} * parts;
+    const std::uint64_t groups = std::uint64_t{gridDim.x} * (sort_threads / size);
+    for (std::uint64_t query = Group<size>::index(); query < n_queries; query += groups) {
+        const std::uint64_t* const place = at + query * parts;
         const std::uint64_t first = place[0], n = place[parts] - first;
         if ((n > max_short_answers) == many)
             sort_by_group<size>(answers + first, n, BeforeInAnswers{});

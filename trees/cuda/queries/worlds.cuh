@@ -28,7 +28,7 @@ template <unsigned group> __global__ void sort_worlds(WorldsView to) {
     __shared__ Centres centres[world_threads / group];
     const unsigned rank = Group<group>::rank();
     Centres& all = centres[threadIdx.x / group];
-    const std::uint32_t world = Group<group>::index();
+    const std::uint64_t world = Group<group>::index();
     if (world >= to.n) // all of the group or none
         return;
     const std::uint32_t first = to.first[world], n = to.first[world + 1] - first;
@@ -60,7 +60,7 @@ template <unsigned group> __global__ void sort_worlds(WorldsView to) {
     sort_by_group<group>(codes, n, [](std::uint64_t a, std::uint64_t b) { return a < b; });
     for (std::uint32_t i = rank; i < n; i += group) {
         to.items[first + i] = static_cast<std::uint32_t>(codes[i]);
-        codes[i] = std::uint64_t{world} << WorldsView::code_bits | codes[i] >> 32;
+        codes[i] = world << WorldsView::code_bits | codes[i] >> 32;
     }
 }
 
