@@ -168,16 +168,19 @@ struct DeviceGain {
     std::uint32_t threads = 0; ///< of cpu_all: the most that were timed
     double end_to_end_ns = missing;
     double resident_ns = missing; ///< boxes and answers stay on the device
+    double graph_ns = missing;    ///< so, and each phase is one launch of a CUDA graph
     double device_ns = missing;   ///< of end to end what the device itself took
     double limit_ns = missing;    ///< of end to end
-    double ratio = missing, ci_lo = missing, ci_hi = missing; ///< end to end over cpu_all
-    Verdict verdict = Verdict::none;                          ///< end to end against cpu_all
+    double ratio = missing, ci_lo = missing, ci_hi = missing; ///< end to end over cell_cpu
+    Verdict verdict = Verdict::none;                          ///< end to end against cell_cpu
     std::string words;
     std::uint32_t cell_1 = no_id, cell_2 = no_id, cell_all = no_id, cell_device = no_id,
-                  cell_resident = no_id;
+                  cell_resident = no_id, cell_graph = no_id;
+    std::uint32_t cell_cpu = no_id; ///< the fastest of cell_1, cell_2 and cell_all
 };
 
-/// From which of the measured sizes of a scene on the device wins end to end against all threads.
+/// From which of the measured sizes of a scene on the device wins end to end against the fastest of
+/// one, two and all threads.
 struct DeviceBreakEven {
     std::uint32_t scene_id = 0; ///< of the largest size
     std::string task;
@@ -185,7 +188,7 @@ struct DeviceBreakEven {
     std::uint64_t wins_from = no_count; ///< it wins at this size and all larger ones
     std::uint64_t loses_to = no_count;  ///< the largest size at which it loses
     std::string words;
-    std::uint32_t cell_all = no_id, cell_device = no_id; ///< of the largest size
+    std::uint32_t cell_cpu = no_id, cell_device = no_id; ///< of the largest size
 };
 
 /// Which share of its calls each tier of an adaptive kernel of ours decided.

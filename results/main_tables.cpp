@@ -6,7 +6,7 @@ namespace {
 // Widths in bytes: one word, a version or the like, a name, free text.
 constexpr std::size_t word = 64, name = 160, text = 1024;
 constexpr bool derived = true;
-constexpr std::uint32_t minor_1 = 1;
+constexpr std::uint32_t minor_1 = 1, minor_2 = 2;
 
 } // namespace
 
@@ -45,6 +45,7 @@ std::vector<Table> main_tables() {
              {"gpu_sm", &Env::gpu_sm, "", "its multiprocessors", 0, false, minor_1},
              {"gpu_memory_bytes", &Env::gpu_memory_bytes, "B", "its memory", 0, false, minor_1},
              {"gpu_clock_ghz", &Env::gpu_clock_ghz, "GHz", "its clock", 0, false, minor_1},
+             {"gpu_l2_bytes", &Env::gpu_l2_bytes, "B", "its cache", 0, false, minor_2},
          }},
         {"packages",
          "a library that the program was built with, or a peer that was looked for",

@@ -29,6 +29,7 @@ struct Env {
     std::string gpu, gpu_driver; ///< empty where there is no device
     std::uint64_t gpu_sm = no_count, gpu_memory_bytes = no_count;
     double gpu_clock_ghz = missing;
+    std::uint64_t gpu_l2_bytes = no_count;
 };
 
 /// A library that the program was built with, or a peer that was looked for.

@@ -17,7 +17,7 @@
 namespace boxwood::results {
 
 inline constexpr std::string_view format_name = "boxwood-results";
-inline constexpr std::uint32_t schema_major = 2, schema_minor = 1;
+inline constexpr std::uint32_t schema_major = 2, schema_minor = 2;
 
 /// Bytes of a column that holds an enum's word.
 inline constexpr std::size_t word_width = 32;
@@ -126,13 +126,13 @@ struct Reference {
     std::string_view column, table;
 };
 inline constexpr Reference references[] = {
-    {"env_id", "env"},         {"scene_id", "scenes"},    {"variant_id", "variants"},
-    {"cell_id", "cells"},      {"shard_id", "shards"},    {"cell_a", "cells"},
-    {"cell_b", "cells"},       {"ours", "cells"},         {"rival", "cells"},
-    {"ours_alone", "cells"},   {"rival_alone", "cells"},  {"fresh_cell", "cells"},
-    {"cell_with", "cells"},    {"cell_without", "cells"}, {"cell_1", "cells"},
-    {"cell_2", "cells"},       {"cell_all", "cells"},     {"cell_device", "cells"},
-    {"cell_resident", "cells"}};
+    {"env_id", "env"},          {"scene_id", "scenes"},    {"variant_id", "variants"},
+    {"cell_id", "cells"},       {"shard_id", "shards"},    {"cell_a", "cells"},
+    {"cell_b", "cells"},        {"ours", "cells"},         {"rival", "cells"},
+    {"ours_alone", "cells"},    {"rival_alone", "cells"},  {"fresh_cell", "cells"},
+    {"cell_with", "cells"},     {"cell_without", "cells"}, {"cell_1", "cells"},
+    {"cell_2", "cells"},        {"cell_all", "cells"},     {"cell_device", "cells"},
+    {"cell_resident", "cells"}, {"cell_graph", "cells"},   {"cell_cpu", "cells"}};
 
 /// Every table, in the order of results.h.
 const std::vector<Table>& tables();

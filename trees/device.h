@@ -19,7 +19,7 @@ struct Device {
     int index = 0; ///< as CUDA counts them
     std::string name, bus_id;
     unsigned multiprocessors = 0;
-    std::uint64_t memory_bytes = 0;
+    std::uint64_t memory_bytes = 0, cache_bytes = 0; ///< the cache that all of it shares
     int capability_major = 0, capability_minor = 0;
     int driver = 0, runtime = 0; ///< as CUDA has them: 13020 is 13.2
     bool ecc = false;

@@ -116,11 +116,13 @@ template <class T> class DeviceArray {
     }
 
     std::size_t size() const { return size_; }
+    std::size_t size_bytes() const { return size_ * sizeof(T); }
     /// Forgets all but the first `size` elements; the memory stays.
     void shrink(std::size_t size) { size_ = size < size_ ? size : size_; }
     DeviceSpan<T> span() { return {static_cast<T*>(memory_.data()), size_}; }
     DeviceSpan<const T> span() const { return {static_cast<const T*>(memory_.data()), size_}; }
-    /// As many elements as there are, else std::invalid_argument; they are copied when it comes back.
+    /// As many elements as there are, else std::invalid_argument; they are copied when it comes
+    /// back.
     void write(std::span<const T> from) {
         detail::require_as_many(from.size(), size_);
         memory_.write(from.data(), from.size_bytes());

@@ -214,8 +214,8 @@ TEST_P(OnADevice, AGraphRebuildsAndFindsPairsOfWhatIsThereThen) {
                 ThrowsMessage<DeviceError>(HasSubstr("DeviceStream")));
 }
 
-/// Warps hand up what others wrote: a fence that is missing shows in few of many large trees, and on
-/// a device alone.
+/// Warps hand up what others wrote: a fence that is missing shows in few of many large trees, and
+/// on a device alone.
 TEST_P(OnADevice, StressOfManyBuildsAndRefits) {
     const bool is_real = devices().front().capability_major > 0;
     const std::size_t n = is_real ? 300'000 : 1500;

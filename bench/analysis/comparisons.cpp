@@ -219,7 +219,7 @@ std::vector<DeviceRace> device_races(const Index& index, const Times& times) {
     std::map<std::pair<std::uint32_t, std::string>, std::vector<const Cell*>> ours;
     for (const Cell& cell : index.results().cells)
         if (is_right(cell.status) && !index.is_peer(cell) && !index.is_kernel(cell) &&
-            index.stages(cell).empty())
+            (index.stages(cell).empty() || index.stages(cell) == results::required_stages))
             ours[{cell.scene_id, cell.task}].push_back(&cell);
     const auto is_end_to_end = [](const Cell* cell) {
         return cell->executor == results::device_executor;
@@ -244,12 +244,16 @@ std::vector<DeviceRace> device_races(const Index& index, const Times& times) {
             continue;
         for (const Cell* cell : cells)
             if (cell->precision == race.device->precision && !is_end_to_end(cell))
-                take(is_device(*cell) ? race.resident : race.processors[cell->threads], *cell,
-                     race.device);
+                take(cell->executor == results::graph_executor ? race.graph
+                     : is_device(*cell)                        ? race.resident
+                                                               : race.processors[cell->threads],
+                     *cell, race.device);
         std::erase_if(race.processors, [](const auto& entry) { return !entry.second; });
         const std::uint32_t most = race.processors.empty() ? 0 : race.processors.rbegin()->first;
         std::erase_if(race.processors,
                       [most](const auto& entry) { return entry.first > 2 && entry.first != most; });
+        for (const auto& [threads, cell] : race.processors)
+            take(race.fastest, *cell, race.device);
         races.push_back(std::move(race));
     }
     return races;

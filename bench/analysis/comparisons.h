@@ -40,8 +40,10 @@ struct DeviceRace {
     results::Phase total = results::Phase::none;
     const results::Cell* device = nullptr;   ///< from the host's boxes to the host's answers
     const results::Cell* resident = nullptr; ///< null if there is none
+    const results::Cell* graph = nullptr;    ///< so, by a CUDA graph
     /// By threads: of 1, of 2 and of the most, as far as they were timed in rounds of the device.
     std::map<std::uint32_t, const results::Cell*> processors;
+    const results::Cell* fastest = nullptr; ///< of the processors
 };
 /// In the order of scenes and tasks. Needs Cell::status.
 std::vector<DeviceRace> device_races(const Index& index, const Times& times);

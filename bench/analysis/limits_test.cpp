@@ -61,7 +61,8 @@ TEST(Limits, OfADeviceAreItsBytesLanesLaunchesAndTheBus) {
     results::Results r;
     r.env.resize(1);
     r.env[0].gpu_sm = 100;
-    r.env[0].gpu_clock_ghz = 2;                // 25,600 lane cycles in a ns
+    r.env[0].gpu_clock_ghz = 2; // 25,600 lane cycles in a ns
+    r.env[0].gpu_l2_bytes = 0;
     for (const double scale : {1., 3., 0.5}) { // the median is 1
         results::Shard shard;
         shard.gpu_copy_gbs = 4000 * scale;
@@ -74,10 +75,14 @@ TEST(Limits, OfADeviceAreItsBytesLanesLaunchesAndTheBus) {
     results::Cell cell;
     cell.n_items = 1'000'000;
     cell.executor = results::resident_executor;
+    r.variants.resize(1);
+    r.variants[0].layout = "packed";
     EXPECT_TRUE(std::isnan(limit_ns(r, cell, Phase::build))); // nothing was counted
-    r.counters = {{0, "build_bytes", 200'000'000}, {0, "build_launches", 12},
-                  {0, "query_bytes", 40'000'000},  {0, "query_launches", 3},
-                  {0, "box_tests", 640'000'000},   {0, "pairs", 5'000'000}};
+    r.counters = {{0, "build_bytes", 200'000'000},  {0, "build_launches", 12},
+                  {0, "query_bytes", 40'000'000},   {0, "query_launches", 3},
+                  {0, "box_tests", 640'000'000},    {0, "pairs", 5'000'000},
+                  {0, "upload_bytes", 24'000'000},  {0, "query_upload_bytes", 0},
+                  {0, "download_bytes", 40'000'000}};
     EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::build), 50'000);  // 200 MB at 4000 B/ns; 24 us launch
     EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::query), 200'000); // 8 cycles a test
     EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::build_and_query), 250'000);
@@ -104,6 +109,17 @@ TEST(Limits, OfADeviceAreItsBytesLanesLaunchesAndTheBus) {
     r.cells[1].task = "tree_pairs";
     EXPECT_TRUE(std::isnan(limit_ns(r, cell, Phase::device_query)));
     r.cells[1].task = "";
+    r.variants[0].layout = "binary"; // walked in another way there
+    EXPECT_TRUE(std::isnan(limit_ns(r, cell, Phase::device_query)));
+    r.variants[0].layout = "packed";
+    r.counters[1].value = 12;
+    r.env[0].gpu_l2_bytes = 10'000'000; // kept between the passes of a build
+    EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::device_build), 25'000);
+    r.env[0].gpu_l2_bytes = 50'000'000;
+    EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::device_build), 24'000); // launches
+    r.counters[7].value = 12'000'000;                                 // rays, say
+    EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::upload), 3'000'000);
+    EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::query), 6000 + 1'000'000 + 5'000'000);
     r.env[0].gpu_sm = results::no_count;
     EXPECT_TRUE(std::isnan(limit_ns(r, cell, Phase::device_query)));
 }

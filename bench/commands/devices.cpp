@@ -39,8 +39,9 @@ std::vector<std::vector<std::string>> rows_of(const Device& device, const std::s
         std::istringstream row(line);
         for (std::string field; std::getline(row >> std::ws, field, ',');)
             fields.push_back(field);
-        if (fields.empty() || device.bus_id.empty() ||
-            !fmt::format("0000{}", device.bus_id).ends_with(fields[0].substr(fields[0].find(':'))))
+        const std::size_t colon = fields.empty() ? std::string::npos : fields[0].find(':');
+        if (colon == std::string::npos || device.bus_id.empty() ||
+            !fmt::format("0000{}", device.bus_id).ends_with(fields[0].substr(colon)))
             continue;
         fields.erase(fields.begin());
         rows.push_back(fields);

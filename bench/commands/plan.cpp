@@ -22,7 +22,8 @@ namespace boxwood::bench {
 namespace {
 
 struct PlanOptions {
-    std::string scene, device;
+    std::string scene;
+    std::optional<std::string> device;
     std::optional<std::size_t> n, play;
     std::optional<std::uint64_t> seed;
     unsigned threads = 1;
@@ -53,8 +54,8 @@ void run_plan(const PlanOptions& options) {
     const Extent extent = options.all_stages ? Extent::all_stages : Extent::required;
     DevicePlace place;
     Where where = Where::host;
-    if (!options.device.empty()) {
-        place.index = chosen_device(options.device, devices(), why_no_device());
+    if (options.device) {
+        place.index = chosen_device(*options.device, devices(), why_no_device());
         where = where_on_device(MovingScene(file));
     }
     if (!options.play)

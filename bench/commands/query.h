@@ -57,7 +57,7 @@ class BlockWriter {
 struct PairsQuery {
     std::string boxes; ///< a file of rows min_x,min_y,min_z,max_x,max_y,max_z; - for standard input
     TreeChoice tree;
-    std::string device; ///< "cuda:0"; empty: none, and the tree answers
+    std::optional<std::string> device; ///< "cuda:0"; none: the tree answers
     Format format;
     bool count = false;                     ///< only how many
     std::optional<std::uint64_t> limit;     ///< at most so many pairs, not with `count`

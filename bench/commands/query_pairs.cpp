@@ -64,9 +64,9 @@ class PairFinder {
   public:
     explicit PairFinder(const PairsQuery& query) {
         DeviceBvhOptions device_options;
-        const bool device = !query.device.empty();
+        const bool device = query.device.has_value();
         if (device)
-            device_options.place.index = chosen_device(query.device, devices(), why_no_device());
+            device_options.place.index = chosen_device(*query.device, devices(), why_no_device());
         const BuildFunction build = chosen_builder(query.tree);
         const LayoutEntry& layout = chosen_layout(query.tree);
         executor_ = chosen_executor(query.tree);
@@ -226,9 +226,12 @@ void add_query_pairs(CLI::App& query) {
         ->excludes(count);
     add_format_options(*pairs, options->format);
     add_tree_options(*pairs, options->tree, "the answers are the same for every choice");
-    pairs->add_option("--device", options->device,
-                      "a name of `boxwood list devices`: that GPU finds the pairs, with a tree of "
-                      "its own; the answers are the same");
+    CLI::Option* const device =
+        pairs->add_option("--device", options->device,
+                          "a name of `boxwood list devices`: that GPU finds the pairs, with a tree "
+                          "of its own; the answers are the same");
+    for (const char* of_the_host : {"--builder", "--layout", "--executor", "--threads"})
+        device->excludes(pairs->get_option(of_the_host));
     pairs->footer(
         "Rows: min_x,min_y,min_z,max_x,max_y,max_z, decimal or hex float, read as doubles; blank\n"
         "lines and lines with # in front are skipped. Boxes are closed (one shared point\n"

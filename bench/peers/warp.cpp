@@ -31,12 +31,13 @@ class Corners {
             uppers_.push_back(is_empty ? Vec3<float>{-far, -far, -far} : box.max);
         }
     }
-    void upload() {
+    std::uint64_t upload() {
         if (there_[0].size() != lowers_.size())
             for (DeviceArray<Vec3<float>>& array : there_)
-                array = DeviceArray<Vec3<float>>(lowers_.size(), {});
+                array = DeviceArray<Vec3<float>>(lowers_.size(), bench_place());
         there_[0].write(lowers_);
         there_[1].write(uppers_);
+        return 2 * there_[0].size_bytes();
     }
     WarpBoxes there() const { return {there_[0].span(), there_[1].span()}; }
 
@@ -72,16 +73,19 @@ class BoxQueries final : public DeviceContender {
     }
 
   protected:
-    void upload() override { items_.upload(); }
+    std::uint64_t upload() override { return items_.upload(); }
     void build_there() override { tree_.build(items_.there()); }
-    void upload_queries() override { queries_.upload(); }
+    std::uint64_t upload_queries() override { return queries_.upload(); }
     void query_there() override {
         if (asked_ == Asked::self_pairs)
             tree_.find_self_pairs(order_);
         else
             tree_.find(queries_.there(), static_cast<std::uint32_t>(first_item_));
     }
-    void download(Answers& answers) override { tree_.read_pairs(list_of<Pair>(answers)); }
+    std::uint64_t download(Answers& answers) override {
+        tree_.read_pairs(list_of<Pair>(answers));
+        return tree_.n_pairs() * sizeof(Pair);
+    }
 
   private:
     Asked asked_;
@@ -131,19 +135,24 @@ class RayQueries final : public DeviceContender {
         : DeviceContender(job), scene_(*job.scene), any_(any), mesh_(builder) {}
 
   protected:
-    void upload() override {
-        vertices_ = DeviceArray<Vec3<float>>(scene_.mesh.vertices, {});
-        triangles_ = DeviceArray<std::array<std::uint32_t, 3>>(scene_.mesh.triangles, {});
+    std::uint64_t upload() override {
+        vertices_ = DeviceArray<Vec3<float>>(scene_.mesh.vertices, place());
+        triangles_ = DeviceArray<std::array<std::uint32_t, 3>>(scene_.mesh.triangles, place());
+        return vertices_.size_bytes() + triangles_.size_bytes();
     }
     void build_there() override {
         mesh_.build(std::as_const(vertices_).span(), std::as_const(triangles_).span());
     }
-    void upload_queries() override {
-        rays_ = DeviceArray<Ray<float>>(scene_.rays, {});
-        hits_ = DeviceArray<RayHit>(scene_.rays.size(), {});
+    std::uint64_t upload_queries() override {
+        rays_ = DeviceArray<Ray<float>>(scene_.rays, place());
+        hits_ = DeviceArray<RayHit>(scene_.rays.size(), place());
+        return rays_.size_bytes();
     }
     void query_there() override { mesh_.cast(std::as_const(rays_).span(), any_, hits_.span()); }
-    void download(Answers& answers) override { hits_.read(list_of<RayHit>(answers)); }
+    std::uint64_t download(Answers& answers) override {
+        hits_.read(list_of<RayHit>(answers));
+        return hits_.size_bytes();
+    }
 
   private:
     const Scene& scene_;

@@ -1,4 +1,5 @@
 #include "bench/peers/warp_tree.h"
+#include "bench/tasks/detail/bench_place.h"
 #include "trees/cuda/device/machine.h"
 
 #define WP_ENABLE_CUDA 1
@@ -161,18 +162,19 @@ void require_room(std::size_t n) { cuda::require_memory("Warp's tree", 256 * n);
 } // namespace
 
 WarpLibrary::WarpLibrary() {
-    const cuda::Chosen chosen(0);
+    const cuda::Chosen chosen(bench_place().index);
     static const int status = BOXWOOD_WARP(wp_init)(WP_VERSION_STRING);
     if (status != 0)
         fail(BOXWOOD_WARP_LIBRARY);
 #if defined(__CUDACC__)
-    threshold_ = BOXWOOD_WARP(wp_cuda_device_get_mempool_release_threshold)(0);
-    BOXWOOD_WARP(wp_cuda_device_set_mempool_release_threshold)(0, ~std::uint64_t{0});
+    threshold_ = BOXWOOD_WARP(wp_cuda_device_get_mempool_release_threshold)(bench_place().index);
+    BOXWOOD_WARP(wp_cuda_device_set_mempool_release_threshold)
+    (bench_place().index, ~std::uint64_t{0});
 #endif
 }
 WarpLibrary::~WarpLibrary() {
 #if defined(__CUDACC__)
-    BOXWOOD_WARP(wp_cuda_device_set_mempool_release_threshold)(0, threshold_);
+    BOXWOOD_WARP(wp_cuda_device_set_mempool_release_threshold)(bench_place().index, threshold_);
 #endif
 }
 
@@ -184,7 +186,7 @@ WarpTree::~WarpTree() {
 }
 
 void WarpTree::build(const WarpBoxes& boxes) {
-    const cuda::Chosen chosen(0);
+    const cuda::Chosen chosen(bench_place().index);
     // By sah Warp can only make another tree: its rebuild makes an lbvh.
     const bool stays =
         tree_ && builder_ != WarpBuilder::sah && boxes_.lowers.data == boxes.lowers.data &&
@@ -206,17 +208,17 @@ void WarpTree::build(const WarpBoxes& boxes) {
 }
 
 void WarpTree::refit() {
-    const cuda::Chosen chosen(0);
+    const cuda::Chosen chosen(bench_place().index);
     if (tree_)
         BOXWOOD_WARP_HERE(wp_bvh_refit)(tree_);
 }
 
 /// find(room), and again if there were more pairs than room.
 template <class Find> void WarpTree::into_room(const Find& find) {
-    const cuda::Chosen chosen(0);
-    const cuda::Stream stream = cuda::stream_of({});
+    const cuda::Chosen chosen(bench_place().index);
+    const cuda::Stream stream = cuda::stream_of(bench_place());
     if (count_.size() == 0)
-        count_ = DeviceArray<unsigned long long>(1, {});
+        count_ = DeviceArray<unsigned long long>(1, bench_place());
     for (;;) {
         unsigned long long* const count = count_.span().data;
         cuda::fill_bytes(count, 0, sizeof(*count), stream);
@@ -228,7 +230,7 @@ template <class Find> void WarpTree::into_room(const Find& find) {
         if (n <= room_.size())
             return;
         room_ = {};
-        room_ = DeviceArray<Pair>(n + n / 8, {});
+        room_ = DeviceArray<Pair>(n + n / 8, bench_place());
     }
 }
 
@@ -250,8 +252,8 @@ void WarpTree::find(const WarpBoxes& boxes, std::uint32_t first_item) {
 }
 
 void WarpTree::read_pairs(std::vector<Pair>& to) const {
-    const cuda::Chosen chosen(0);
-    const cuda::Stream stream = cuda::stream_of({});
+    const cuda::Chosen chosen(bench_place().index);
+    const cuda::Stream stream = cuda::stream_of(bench_place());
     to.resize(n_pairs_);
     if (to.empty())
         return;
@@ -266,7 +268,7 @@ WarpMesh::~WarpMesh() {
 
 void WarpMesh::build(DeviceSpan<const Vec3<float>> vertices,
                      DeviceSpan<const std::array<std::uint32_t, 3>> triangles) {
-    const cuda::Chosen chosen(0);
+    const cuda::Chosen chosen(bench_place().index);
     if (mesh_)
         BOXWOOD_WARP_HERE(wp_mesh_destroy)(mesh_);
     mesh_ = 0;
@@ -287,8 +289,8 @@ void WarpMesh::build(DeviceSpan<const Vec3<float>> vertices,
 }
 
 void WarpMesh::cast(DeviceSpan<const Ray<float>> rays, bool any, DeviceSpan<RayHit> hits) const {
-    const cuda::Chosen chosen(0);
-    cuda::launch(cuda::stream_of({}), cuda::blocks_for(rays.size, n_threads), n_threads,
+    const cuda::Chosen chosen(bench_place().index);
+    cuda::launch(cuda::stream_of(bench_place()), cuda::blocks_for(rays.size, n_threads), n_threads,
                  any ? warp_rays<true> : warp_rays<false>, mesh_, rays.data,
                  static_cast<std::uint32_t>(rays.size), hits.data);
 }

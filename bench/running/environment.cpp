@@ -162,6 +162,7 @@ results::Env environment(bool measure_bandwidth) {
         e.gpu_memory_bytes = device.memory_bytes;
         e.gpu_driver = fmt::format("{}.{}", device.driver / 1000, device.driver % 1000 / 10);
         e.gpu_clock_ghz = device.max_clock_ghz;
+        e.gpu_l2_bytes = device.cache_bytes;
     }
     if (measure_bandwidth) {
         e.stream_triad_gbs_1 = triad_gbs(machine, 1);

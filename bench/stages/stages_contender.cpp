@@ -1,6 +1,7 @@
 #include "bench/stages/stages_contender.h"
 
 #include "bench/stages/scene_player.h"
+#include "bench/tasks/detail/bench_place.h"
 #include "trees/executor.h"
 
 #include "results/words.h"
@@ -41,7 +42,7 @@ class Played final : public Contender {
         : executor_(make_executor(
               is_device(job.executor) ? default_executor(job.threads) : job.executor, job.threads)),
           player_(MovingScene(file_of(job, without), {}, true), extent, *executor_,
-                  where_of(job.executor)) {}
+                  where_of(job.executor), bench_place()) {}
 
     void build() override { player_.start(); }
     void update(const Frame&) override { player_.advance(); }

@@ -2,6 +2,7 @@
 /// the update policies.
 
 #include "bench/tasks/moving_pairs.h"
+#include "bench/tasks/detail/bench_place.h"
 
 #include "bench/plan/scenes.h"
 #include "bench/tasks/detail/pair_answers.h"
@@ -62,13 +63,14 @@ class FollowerOnDevice final : public Contender {
         if (bvh_)
             bvh_->rebuild(scene_.boxes);
         else
-            bvh_.emplace(scene_.boxes);
+            bvh_.emplace(scene_.boxes, DeviceBvhOptions{.place = bench_place()});
     }
     void update(const Frame& frame) override {
         if (rebuilds_)
             bvh_->rebuild(frame.boxes);
         else
             bvh_->update(frame.boxes);
+        wait_for(bench_place()); // what is enqueued is no part of the query
     }
     void query(Answers& answers) override {
         bvh_->self_pairs_on_device().read(list_of<Pair>(answers));

@@ -28,11 +28,15 @@ class NearestOnDevice final : public DeviceBoxes {
     using DeviceBoxes::DeviceBoxes;
 
   protected:
-    void upload_queries() override {
+    std::uint64_t upload_queries() override {
         points_ = DeviceArray<Vec3<float>>(scene_.points, options_.place);
+        return points_.size_bytes();
     }
     void query_there() override { found_ = bvh_->nearest(std::as_const(points_).span(), k_); }
-    void download(Answers& answers) override { found_.read(list_of<Neighbour>(answers)); }
+    std::uint64_t download(Answers& answers) override {
+        found_.read(list_of<Neighbour>(answers));
+        return found_.size_bytes();
+    }
 
   private:
     std::size_t k_ = neighbours_of(scene_);

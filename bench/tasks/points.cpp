@@ -18,20 +18,19 @@ class Containing final : public PointContender {
     PairsInto pairs_;
 };
 
-class ContainingOnDevice final : public DeviceBoxes {
+class ContainingOnDevice final : public ItemsOfQueries {
   public:
-    using DeviceBoxes::DeviceBoxes;
+    using ItemsOfQueries::ItemsOfQueries;
 
   protected:
-    void upload_queries() override {
+    std::uint64_t upload_queries() override {
         points_ = DeviceArray<Vec3<float>>(scene_.points, options_.place);
+        return points_.size_bytes();
     }
     void query_there() override { found_ = bvh_->containing(std::as_const(points_).span()); }
-    void download(Answers& answers) override { answers_to_pairs(found_, list_of<Pair>(answers)); }
 
   private:
     DeviceArray<Vec3<float>> points_;
-    DeviceAnswersOf<std::uint32_t> found_;
 };
 
 class Points final : public PairAnswers<PointTask> {

@@ -58,16 +58,21 @@ class AllHitsOnDevice final : public RaysOnDevice {
 
   private:
     void query_there() override { found_ = mesh_->all_hits(rays()); }
-    void download(Answers& answers) override {
-        const AnswersOf<RayHit> hits = found_.to_host();
+    std::uint64_t download(Answers&) override {
+        found_.offsets.read(on_host_.offsets);
+        found_.of.read(on_host_.of);
+        return found_.offsets.size_bytes() + found_.of.size_bytes();
+    }
+    void convert(Answers& answers) override {
         std::vector<Pair>& pairs = list_of<Pair>(answers);
         pairs.clear();
-        for (std::uint32_t ray = 0; ray + 1 < hits.offsets.size(); ++ray)
-            for (const RayHit& hit : hits[ray])
+        for (std::uint32_t ray = 0; ray + 1 < on_host_.offsets.size(); ++ray)
+            for (const RayHit& hit : on_host_[ray])
                 pairs.push_back({ray, hit.triangle});
     }
 
     DeviceAnswersOf<RayHit> found_;
+    AnswersOf<RayHit> on_host_;
 };
 
 /// The hits of one mesh's rays, numbered from the first of them on.

@@ -24,25 +24,24 @@ class Overlapping final : public PointContender {
     PairsInto pairs_;
 };
 
-class OverlappingOnDevice final : public DeviceBoxes {
+class OverlappingOnDevice final : public ItemsOfQueries {
   public:
-    using DeviceBoxes::DeviceBoxes;
+    using ItemsOfQueries::ItemsOfQueries;
 
   protected:
-    void upload_queries() override {
+    std::uint64_t upload_queries() override {
         regions_ = DeviceArray<Box>(scene_.regions, options_.place);
         spheres_ = DeviceArray<Sphere<float>>(scene_.spheres, options_.place);
+        return regions_.size_bytes() + spheres_.size_bytes();
     }
     void query_there() override {
         found_ = scene_.spheres.empty() ? bvh_->overlapping(std::as_const(regions_).span())
                                         : bvh_->overlapping(std::as_const(spheres_).span());
     }
-    void download(Answers& answers) override { answers_to_pairs(found_, list_of<Pair>(answers)); }
 
   private:
     DeviceArray<Box> regions_;
     DeviceArray<Sphere<float>> spheres_;
-    DeviceAnswersOf<std::uint32_t> found_;
 };
 
 class Regions final : public PairAnswers<PointTask> {

@@ -51,22 +51,25 @@ class TreePairsContender final : public TreeContender {
 class TreePairsOnDevice final : public DeviceContender {
   public:
     TreePairsOnDevice(const Job& job, DeviceBuilder builder)
-        : DeviceContender(job), boxes_(job.scene->boxes), options_{builder, {}} {}
+        : DeviceContender(job), boxes_(job.scene->boxes), options_{builder, place()} {}
 
   protected:
-    void upload() override {
+    std::uint64_t upload() override {
         first_ = DeviceArray<Box>(boxes_.first(split_), options_.place);
         second_ = DeviceArray<Box>(boxes_.subspan(split_), options_.place);
+        return boxes_.size_bytes();
     }
     void build_there() override {
         bvh_.emplace(std::as_const(first_).span(), options_);
         other_.emplace(std::as_const(second_).span(), options_);
     }
     void query_there() override { found_ = bvh_->pairs_on_device(*other_); }
-    void download(Answers& answers) override {
-        std::vector<Pair>& pairs = list_of<Pair>(answers);
-        found_.read(pairs);
-        for (Pair& pair : pairs)
+    std::uint64_t download(Answers& answers) override {
+        found_.read(list_of<Pair>(answers));
+        return found_.size_bytes();
+    }
+    void convert(Answers& answers) override {
+        for (Pair& pair : list_of<Pair>(answers))
             pair.b += static_cast<std::uint32_t>(split_);
     }
 

@@ -81,10 +81,11 @@ class TouchingTrianglesOnDevice final : public DeviceBoxes {
     }
 
   protected:
-    void upload() override {
-        DeviceBoxes::upload();
+    std::uint64_t upload() override {
+        const std::uint64_t bytes = DeviceBoxes::upload();
         vertices_ = DeviceArray<Vec3<float>>(scene_.mesh.vertices, options_.place);
         corners_ = DeviceArray<std::array<std::uint32_t, 3>>(scene_.mesh.triangles, options_.place);
+        return bytes + vertices_.size_bytes() + corners_.size_bytes();
     }
     void query_there() override {
         const DeviceArray<Pair> candidates =
@@ -94,7 +95,10 @@ class TouchingTrianglesOnDevice final : public DeviceBoxes {
                                         std::as_const(corners_).span()};
         found_ = touching_pairs(triangles, triangles, candidates.span(), accuracy_, options_.place);
     }
-    void download(Answers& answers) override { found_.read(list_of<Pair>(answers)); }
+    std::uint64_t download(Answers& answers) override {
+        found_.read(list_of<Pair>(answers));
+        return found_.size_bytes();
+    }
 
   private:
     DeviceAccuracy accuracy_;

@@ -79,11 +79,11 @@ DERIVED = {
     "drift": ("shard_id", "n", "disturbed", "off_median", "is_farthest"),
     "device_gains": (
         "scene_id", "task", "n", "cpu_1_ns", "cpu_2_ns", "cpu_all_ns", "threads", "end_to_end_ns", "resident_ns",
-        "device_ns", "limit_ns", "cell_1", "cell_2", "cell_all", "cell_device", "cell_resident",
+        "graph_ns", "device_ns", "limit_ns", "cell_1", "cell_2", "cell_all", "cell_device", "cell_resident", "cell_graph",
     ),
-    "device_break_even": ("scene_id", "task", "wins_from", "loses_to", "words", "cell_all", "cell_device"),
+    "device_break_even": ("scene_id", "task", "wins_from", "loses_to", "words", "cell_cpu", "cell_device"),
 }
-SINCE = {"device_gains": 1, "device_break_even": 1}  # minor versions; in older files they are empty
+SINCE = {"device_gains": 2, "device_break_even": 2}  # minor versions; of older files they are taken as empty
 DERIVED_COLUMNS = {  # in tables that are measured
     "cells.status", "samples.off_median", "trees.on_front", "kernels.is_broken", "kernels.label", "kernels.ns",
     "kernels.wrong", "kernels.wrong_per_million", "kernels.maybe_per_million",
@@ -94,6 +94,7 @@ REFERENCES = {
     "cell_a": "cells", "cell_b": "cells", "ours": "cells", "rival": "cells", "ours_alone": "cells",
     "rival_alone": "cells", "fresh_cell": "cells", "cell_with": "cells", "cell_without": "cells", "cell_1": "cells",
     "cell_2": "cells", "cell_all": "cells", "cell_device": "cells", "cell_resident": "cells",
+    "cell_graph": "cells", "cell_cpu": "cells",
 }
 # Columns of few words, by name, and what they may hold.
 WORDS = {"phase": PHASES, "status": STATUSES, "verdict": VERDICTS, "reason": REASONS, "topic": TOPICS}
@@ -162,7 +163,7 @@ def read_table(file, path, name, columns):
     def remedy(is_derived):
         return f"`boxwood merge {path} --out NEW.h5` derives it" if is_derived else AGAIN
 
-    if name not in file and file.attrs["schema_minor"] < SINCE.get(name, 0):
+    if file.attrs["schema_minor"] < SINCE.get(name, 0):
         return np.zeros(0, dtype=[(column, object) for column in columns])
     if name not in file:
         raise BadFile(path, f"table {name} is missing; {remedy(name in DERIVED)}")

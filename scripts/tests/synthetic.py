@@ -23,7 +23,7 @@ COLUMNS = {
     "env": [("env_id", U4), ("env_hash", WORD), ("host", NAME), ("cpu", NAME), ("ncpu", U4), ("l1d_bytes", U8),
             ("compiler", NAME), ("git_commit", WORD), ("stream_triad_gbs_1", F8), ("stream_triad_gbs_all", F8),
             ("core_ghz", F8), ("seed", U8), ("gpu", NAME), ("gpu_sm", U4), ("gpu_memory_bytes", U8),
-            ("gpu_clock_ghz", F8), ("gpu_driver", WORD)],
+            ("gpu_clock_ghz", F8), ("gpu_driver", WORD), ("gpu_l2_bytes", U8)],
     "packages": [("env_id", U4), ("library", WORD), ("version", WORD), ("build", TEXT), ("present", U4)],
     "scenes": [("scene_id", U4), ("name", NAME), ("generator", WORD), ("n_items", U8), ("seed", U8),
                ("n_frames", U8), ("content_hash", U8), ("params_json", TEXT)],
@@ -75,7 +75,7 @@ RAY_CONTENDERS = {
     "embree.rtc_intersect1.robust": ("embree", "", 90, 0.9, 0),
 }
 DEVICE_TIMES = {  # ns per box and ns of every use, by threads or executor
-    1: (210, 0), 2: (110, 4e3), 16: (20, 20e3), "cuda": (7, 220e3), "cuda_resident": (1.1, 40e3),
+    1: (210, 0), 2: (110, 4e3), 16: (20, 20e3), "cuda": (7, 220e3), "cuda_resident": (1.1, 40e3), "cuda_graph": (1.1, 15e3),
 }
 TREE_CONTENDERS = {  # the last: SAH cost / 2.5
     "binned_sah": ("boxwood", "binned_sah", 200, 0, 50),
@@ -144,7 +144,7 @@ class Maker:
         self.rows["env"].append(dict(env_id=0, host="testhost", cpu="Test CPU & <Core> 9", ncpu=2, l1d_bytes=2**64 - 1,
                                      compiler="gcc 12.2.0", git_commit="abc", stream_triad_gbs_1=12.5,
                                      stream_triad_gbs_all=20, core_ghz=3, seed=1, gpu="Test Device 5000", gpu_sm=132,
-                                     gpu_memory_bytes=80 << 30, gpu_clock_ghz=1.98, gpu_driver="13.0"))
+                                     gpu_memory_bytes=80 << 30, gpu_clock_ghz=1.98, gpu_driver="13.0", gpu_l2_bytes=50 << 20))
         for library, version in (("embree", "3.13.5"), ("fcl", "0.7.0"), ("cgal", "5.5.1"), ("bullet", "")):
             self.rows["packages"].append(dict(library=library, version=version, present=bool(version)))
         for round_ in range(rounds):
@@ -212,7 +212,7 @@ class Maker:
         for where, (each, always) in DEVICE_TIMES.items():
             executor, threads = (where, 1) if isinstance(where, str) else ("tbb" if where > 1 else "serial", where)
             full = f"needles/n{n}-s1/pairs/{name}/f32/{executor}-{threads}"
-            of_device = {"cuda": "on a device", "cuda_resident": "resident"}.get(executor, "")
+            of_device = {"cuda": "on a device", "cuda_resident": "resident", "cuda_graph": "resident by a graph"}.get(executor, "")
             cell_id = self.id_of("cells", full, name=full, scene_id=scene_id, variant_id=variant_id, task="pairs", n_items=n,
                                  **{"class": of_device}, precision="f32", executor=executor, threads=threads)
             ns = each * n + always
@@ -223,6 +223,8 @@ class Maker:
                 self.samples(cell_id, phase, share * ns)
             counts = {"pairs": 5 * n, "box_tests": 41 * n} if not of_device else {
                 "pairs": 5 * n, "build_bytes": 213 * n, "build_launches": 12, "query_bytes": 124 * n, "query_launches": 3}
+            if executor == "cuda":
+                counts |= {"upload_bytes": 24 * n, "query_upload_bytes": 0, "download_bytes": 40 * n}
             self.rows["counters"] += [dict(cell_id=cell_id, counter=name, value=value) for name, value in counts.items()]
             self.rows["checks"].append(dict(cell_id=cell_id, oracle="brute_force", status="exact", n_checked=n,
                                             n_expected=10, n_got=10))
@@ -354,7 +356,7 @@ class Maker:
             file["text/argv"] = "boxwood sweep --config x.toml"
             for text, value in self.texts.items():
                 file["text/" + text] = value
-            file.attrs.update({"format": "boxwood-results", "schema_major": np.uint32(2), "schema_minor": np.uint32(1),
+            file.attrs.update({"format": "boxwood-results", "schema_major": np.uint32(2), "schema_minor": np.uint32(2),
                                "run_uuid": "u", "created_utc": "2025-01-01T00:00:00Z", "sweep_hash": "h",
                                "generator": "synthetic", "complete": np.uint32(1)})
         with raw.open("rb+") as file:

@@ -12,7 +12,8 @@ def test_a_device_is_a_job_of_its_own(full):
     assert of == {"needles 1,000 · pairs · 1 thread": {"serial"}, "needles 1,000 · pairs · 2 threads": {"tbb"},
                   "needles 1,000 · pairs · 16 threads": {"tbb"},
                   "needles 1,000 · pairs · a device, end to end": {"cuda"},
-                  "needles 1,000 · pairs · a device, resident": {"cuda_resident"}}
+                  "needles 1,000 · pairs · a device, resident": {"cuda_resident"},
+                  "needles 1,000 · pairs · a device, by a graph": {"cuda_graph"}}
 
 
 def test_the_figure_has_the_times_and_the_size_of_the_file(full):
@@ -21,6 +22,7 @@ def test_the_figure_has_the_times_and_the_size_of_the_file(full):
     rows = [dict(zip(made.columns, row)) for row in made.rows]
     at_least = {row["what"]: row["time_ns"] for row in rows if row["n"] == 1000000}
     assert at_least["resident"] < at_least["end to end"] < at_least["all threads"] < at_least["2 threads"] < at_least["1 thread"]
+    assert at_least["resident, by a graph"] < at_least["resident"]
     assert at_least["the device alone"] < at_least["end to end"]
     found, = load(full)["device_break_even"]
     assert {(row["wins_from"], row["loses_to"]) for row in rows} == {(int(found["wins_from"]), int(found["loses_to"]))} == {(100000, 10000)}

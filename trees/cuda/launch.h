@@ -104,9 +104,7 @@ inline void end_stream(void*) {}
 /// What was enqueued in a stream, to be started by one launch.
 class Graph {
   public:
-    void record(Stream, const std::function<void()>& enqueue) {
-        work_ = on_host::record(enqueue);
-    }
+    void record(Stream, const std::function<void()>& enqueue) { work_ = on_host::record(enqueue); }
     void launch(Stream) {
         ++n_launches;
         for (const std::function<void()>& one : work_)

@@ -295,12 +295,12 @@ namespace {
 constexpr std::size_t line = 64; ///< before each allocation stands its size
 constexpr std::byte released{0xdd};
 std::uint64_t memory = std::uint64_t{1} << 36, taken = 0;
-unsigned watchers = 0;         ///< of what is released
+unsigned watchers = 0; ///< of what is released
 std::vector<std::byte*> watched;
 std::vector<std::function<void()>>* recording = nullptr;
 
 std::size_t& size_of(std::byte* block) { return *reinterpret_cast<std::size_t*>(block); }
-void free(std::byte* block) { ::operator delete(block, std::align_val_t{line}); }
+void free(std::byte* block) { ::operator delete (block, std::align_val_t{line}); }
 
 } // namespace
 

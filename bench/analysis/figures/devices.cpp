@@ -37,6 +37,12 @@ DeviceGain gain_of(const DeviceRace& race, const Results& results, const Times& 
         row.cell_resident = race.resident->cell_id;
         row.resident_ns = shared_median(times, *race.resident, device, race.total);
     }
+    if (race.graph) {
+        row.cell_graph = race.graph->cell_id;
+        row.graph_ns = shared_median(times, *race.graph, device, race.total);
+    }
+    if (race.fastest)
+        row.cell_cpu = race.fastest->cell_id;
     for (const auto& [threads, cell] : race.processors) {
         const double ns = shared_median(times, *cell, device, race.total);
         if (threads <= 2) {
@@ -51,7 +57,7 @@ DeviceGain gain_of(const DeviceRace& race, const Results& results, const Times& 
         if (median.cell_id == row.cell_device && median.phase == race.total)
             row.limit_ns = median.limit_ns;
     for (const results::Comparison& other : results.compare)
-        if (other.family == results::Family::devices && other.cell_a == row.cell_all &&
+        if (other.family == results::Family::devices && other.cell_a == row.cell_cpu &&
             other.cell_b == row.cell_device) {
             row.ratio = other.ratio;
             row.ci_lo = other.ci_lo;
@@ -65,15 +71,16 @@ DeviceGain gain_of(const DeviceRace& race, const Results& results, const Times& 
 std::string break_even_words(const DeviceBreakEven& row, std::uint64_t smallest,
                              std::uint64_t largest, std::string_view items) {
     const bool wins = row.wins_from != results::no_count, loses = row.loses_to != results::no_count;
+    const std::string measured =
+        smallest == largest ? count_words(largest)
+                            : fmt::format("{} to {}", count_words(smallest), count_words(largest));
+    const std::string lost = loses ? fmt::format(", loses at {}", count_words(row.loses_to)) : "";
     if (wins && row.wins_from == smallest)
-        return fmt::format("wins at every size, from {} {} on", count_words(smallest), items);
+        return fmt::format("wins at all {} {}", measured, items);
     if (wins)
-        return fmt::format("wins from {} {} on, {}", count_words(row.wins_from), items,
-                           loses ? "loses up to " + count_words(row.loses_to) : "unsure below");
-    if (!loses)
-        return fmt::format("neither wins nor loses for sure, up to {} {}", count_words(largest),
-                           items);
-    return fmt::format("never wins for good, loses up to {} {}", count_words(row.loses_to), items);
+        return fmt::format("wins at {} {} and above{}", count_words(row.wins_from), items,
+                           loses ? lost : ", unsure below");
+    return fmt::format("{} at {} {}{}", loses ? "no lasting win" : "unsure", measured, items, lost);
 }
 
 /// Of one scene and task, by size.
@@ -84,7 +91,7 @@ DeviceBreakEven break_even_of(const std::map<std::uint64_t, DeviceGain>& gains,
     row.scene_id = last.scene_id;
     row.task = last.task;
     row.n_sizes = gains.size();
-    row.cell_all = last.cell_all;
+    row.cell_cpu = last.cell_cpu;
     row.cell_device = last.cell_device;
     for (const auto& [n, gain] : gains) {
         if (gain.verdict == Verdict::slower)
@@ -117,7 +124,7 @@ void set_device_gains(Results& results, const Times& times) {
         std::map<std::uint64_t, DeviceGain> raced;
         for (const auto& [n, gain] : gains) {
             results.device_gains.push_back(gain);
-            if (gain.cell_all != results::no_id)
+            if (gain.cell_cpu != results::no_id)
                 raced[n] = gain;
         }
         if (raced.empty())

@@ -210,7 +210,7 @@ TEST_F(DeviceGains, WinFromTheSizeAfterWhichTheyDoNotLose) {
     EXPECT_EQ(row.n_sizes, 4u);
     EXPECT_EQ(row.wins_from, 100'000u);
     EXPECT_EQ(row.loses_to, 10'000u);
-    EXPECT_EQ(row.words, "wins from 100k boxes on, loses up to 10k");
+    EXPECT_EQ(row.words, "wins at 100k boxes and above, loses at 10k");
     EXPECT_EQ(run.results.scenes[row.scene_id].n_items, 1'000'000u);
     const results::Finding& finding = run.results.findings.back();
     EXPECT_EQ(finding.topic, results::Topic::device);
@@ -221,9 +221,9 @@ TEST_F(DeviceGains, WinFromTheSizeAfterWhichTheyDoNotLose) {
     EXPECT_EQ(finding.alone, "wins 2.00x over 2 threads");
     EXPECT_EQ(finding.certainty, "2.00 to 2.00");
     const std::string screen = screen_text(run.results);
-    EXPECT_THAT(screen, HasSubstr("wins from 100k boxes on, loses up to 10k"));
+    EXPECT_THAT(screen, HasSubstr("wins at 100k boxes and above, loses at 10k"));
     EXPECT_THAT(screen, testing::ContainsRegex("\n +100k +- +100 ns +100 ns +80.0 ns +- "
-                                               "+16.0 ns +- +wins 1.25x"));
+                                               "+- +16.0 ns +- +wins 1.25x"));
     EXPECT_LE(std::ranges::count(screen, '\n'), 21);
     EXPECT_THAT(devices_text(run.results, 1), HasSubstr("LOSES 0.200x"));
 }
@@ -243,12 +243,12 @@ TEST_F(DeviceGains, SayAsWellThatTheyAlwaysOrNeverWin) {
         }
         return only().words;
     };
-    EXPECT_EQ(words({0.9, 0.5}), "wins at every size, from 1k boxes on");
-    EXPECT_EQ(words({4, 2, 1.5}), "never wins for good, loses up to 100k boxes");
-    EXPECT_EQ(words({0.5, 0.5, 1.5, 0}), "never wins for good, loses up to 100k boxes");
-    EXPECT_EQ(words({0, 0.5}), "wins from 10k boxes on, unsure below");
-    EXPECT_EQ(words({0, 0}), "neither wins nor loses for sure, up to 10k boxes");
-    EXPECT_EQ(words({0.5, 4, 0.5}), "wins from 100k boxes on, loses up to 10k");
+    EXPECT_EQ(words({0.9, 0.5}), "wins at all 1k to 10k boxes");
+    EXPECT_EQ(words({4, 2, 1.5}), "no lasting win at 1k to 100k boxes, loses at 100k");
+    EXPECT_EQ(words({0.5, 0.5, 1.5, 0}), "no lasting win at 1k to 1M boxes, loses at 100k");
+    EXPECT_EQ(words({0, 0.5}), "wins at 10k boxes and above, unsure below");
+    EXPECT_EQ(words({0, 0}), "unsure at 1k to 10k boxes");
+    EXPECT_EQ(words({0.5, 4, 0.5}), "wins at 100k boxes and above, loses at 10k");
 }
 
 TEST_F(DeviceGains, WithoutOneNothingIsSaid) {
@@ -259,8 +259,7 @@ TEST_F(DeviceGains, WithoutOneNothingIsSaid) {
     run.results.cells[add_device(20, "lbvh", 10)].scene_id = 0;
     run.results.scenes[0].n_triangles = 5;
     analyse(run.results);
-    EXPECT_EQ(run.results.device_break_even.at(0).words,
-              "wins at every size, from 20 triangles on");
+    EXPECT_EQ(run.results.device_break_even.at(0).words, "wins at all 20 triangles");
     for (Cell& cell : run.results.cells)
         if (!is_device(cell))
             cell.scene_id = 1;

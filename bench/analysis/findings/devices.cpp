@@ -14,12 +14,12 @@ std::vector<Draft> device_findings(const Index& index) {
         Draft draft;
         draft.finding.topic = results::Topic::device;
         draft.finding.ours = row.cell_device;
-        draft.finding.rival = row.cell_all;
+        draft.finding.rival = row.cell_cpu;
         draft.finding.together = row.words;
         for (const results::Comparison& other : index.results().compare)
-            if (other.family == results::Family::devices && other.cell_a == row.cell_all &&
+            if (other.family == results::Family::devices && other.cell_a == row.cell_cpu &&
                 other.cell_b == row.cell_device) {
-                const std::uint32_t threads = index.cell(row.cell_all).threads;
+                const std::uint32_t threads = index.cell(row.cell_cpu).threads;
                 draft.finding.alone = outcome_text(
                     other, fmt::format("{} thread{}", threads, threads == 1 ? "" : "s"));
                 draft.finding.certainty = certainty_text(other, 1 / other.ci_hi, 1 / other.ci_lo);

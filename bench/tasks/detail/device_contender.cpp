@@ -4,7 +4,7 @@ namespace boxwood::bench {
 
 void DeviceContender::build() {
     if (!is_resident_ || !is_uploaded_)
-        upload();
+        upload_bytes_ = upload();
     if (is_resident_ && !is_uploaded_)
         upload_queries();
     is_uploaded_ = true;
@@ -16,23 +16,30 @@ void DeviceContender::build() {
 
 void DeviceContender::query(Answers& answers) {
     if (!is_resident_)
-        upload_queries();
+        query_upload_bytes_ = upload_queries();
     const std::uint64_t before = launches_so_far();
     query_there();
     query_launches_ = launches_so_far() - before;
     if (is_resident_)
         wait_for(place());
     else
-        download(answers);
+        download_bytes_ = download(answers);
 }
 
 std::vector<NamedCount> DeviceContender::more_counts() const {
-    return {{"build_launches", build_launches_}, {"query_launches", query_launches_}};
+    std::vector<NamedCount> counts{{"build_launches", build_launches_},
+                                   {"query_launches", query_launches_}};
+    if (!is_resident_)
+        counts.insert(counts.end(), {{"upload_bytes", upload_bytes_},
+                                     {"query_upload_bytes", query_upload_bytes_},
+                                     {"download_bytes", download_bytes_}});
+    return counts;
 }
 
 void DeviceContender::fetch(Answers& answers) {
     if (is_resident_)
         download(answers);
+    convert(answers);
 }
 
 std::vector<DeviceTime> DeviceContender::device_times(Answers& answers) {
@@ -71,10 +78,11 @@ std::optional<DeviceBuilder> device_builder(const Choice& choice,
     return std::nullopt;
 }
 
-void DeviceBoxes::upload() {
+std::uint64_t DeviceBoxes::upload() {
     if (boxes_.size() != scene_.boxes.size())
         boxes_ = DeviceArray<Box>(scene_.boxes.size(), options_.place);
     boxes_.write(scene_.boxes);
+    return boxes_.size_bytes();
 }
 
 void DeviceBoxes::build_there() {
@@ -94,11 +102,16 @@ std::vector<NamedCount> DeviceBoxes::more_counts() const {
     return counts;
 }
 
-void answers_to_pairs(const DeviceAnswersOf<std::uint32_t>& found, std::vector<Pair>& pairs) {
-    const AnswersOf<std::uint32_t> answers = found.to_host();
+std::uint64_t ItemsOfQueries::download(Answers&) {
+    found_.offsets.read(on_host_.offsets);
+    found_.of.read(on_host_.of);
+    return found_.offsets.size_bytes() + found_.of.size_bytes();
+}
+void ItemsOfQueries::convert(Answers& answers) {
+    std::vector<Pair>& pairs = list_of<Pair>(answers);
     pairs.clear();
-    for (std::uint32_t query = 0; query + 1 < answers.offsets.size(); ++query)
-        for (const std::uint32_t item : answers[query])
+    for (std::uint32_t query = 0; query + 1 < on_host_.offsets.size(); ++query)
+        for (const std::uint32_t item : on_host_[query])
             pairs.push_back({query, item});
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bench/tasks/contender.h"
+#include "bench/tasks/detail/bench_place.h"
 #include "bench/tasks/task.h"
 #include "trees/device.h"
 
@@ -19,7 +20,7 @@ class DeviceContender : public Contender {
   public:
     explicit DeviceContender(const Job& job) : is_resident_(job.executor != device_executor) {
         if (job.executor == graph_executor)
-            stream_.emplace();
+            stream_.emplace(bench_place().index);
     }
 
     void build() override;
@@ -29,21 +30,25 @@ class DeviceContender : public Contender {
     std::vector<NamedCount> more_counts() const override;
 
   protected:
-    // In this order; only what is on the device when they come back is promised.
-    virtual void upload() = 0; ///< what is built from
+    // In this order; only what is on the device when they come back is promised. What crosses gives
+    // its bytes.
+    virtual std::uint64_t upload() = 0; ///< what is built from
     virtual void build_there() = 0;
-    virtual void upload_queries() {}
+    virtual std::uint64_t upload_queries() { return 0; }
     virtual void query_there() = 0;
-    virtual void download(Answers& answers) = 0;
+    virtual std::uint64_t download(Answers& answers) = 0;
+    /// What the host has into the form that answers are judged in, untimed.
+    virtual void convert(Answers&) {}
 
     bool is_resident() const { return is_resident_; }
-    DevicePlace place() const { return stream_ ? stream_->place() : DevicePlace{}; }
+    DevicePlace place() const { return stream_ ? stream_->place() : bench_place(); }
 
   private:
     std::optional<DeviceStream> stream_;
     bool is_resident_;
     bool is_uploaded_ = false;
     std::uint64_t build_launches_ = 0, query_launches_ = 0;
+    std::uint64_t upload_bytes_ = 0, query_upload_bytes_ = 0, download_bytes_ = 0;
 };
 
 /// By whom the device makes a tree as this builder and layout do; nothing if it has no such form.
@@ -59,7 +64,7 @@ class DeviceBoxes : public DeviceContender {
     std::vector<NamedCount> more_counts() const override;
 
   protected:
-    void upload() override;
+    std::uint64_t upload() override;
     void build_there() override;
 
     const Scene& scene_;
@@ -68,8 +73,20 @@ class DeviceBoxes : public DeviceContender {
     std::optional<DeviceBvh> bvh_;
 };
 
-/// Brings answers to queries to the host as pairs (query, item).
-void answers_to_pairs(const DeviceAnswersOf<std::uint32_t>& found, std::vector<Pair>& pairs);
+/// Answers that come to the host as they are, and are pairs (query, item) then.
+class ItemsOfQueries : public DeviceBoxes {
+  public:
+    using DeviceBoxes::DeviceBoxes;
+
+  protected:
+    std::uint64_t download(Answers& answers) override;
+    void convert(Answers& answers) override;
+
+    DeviceAnswersOf<std::uint32_t> found_;
+
+  private:
+    AnswersOf<std::uint32_t> on_host_;
+};
 
 /// Makes a contender of class C on a device, if the choice has a form there.
 template <class C>

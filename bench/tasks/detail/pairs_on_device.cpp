@@ -34,13 +34,13 @@ class PairsOnDevice : public DeviceContender {
     }
 
   protected:
-    void upload() override {}
+    std::uint64_t upload() override { return 0; }
     void build_there() override {}
-    void upload_queries() override {
-        const DevicePlace place;
-        on_a_ = DeviceArray<Vec3<float>>(a_, place);
-        on_b_ = DeviceArray<Vec3<float>>(b_, place);
-        on_pairs_ = DeviceArray<Pair>(pairs_, place);
+    std::uint64_t upload_queries() override {
+        on_a_ = DeviceArray<Vec3<float>>(a_, place());
+        on_b_ = DeviceArray<Vec3<float>>(b_, place());
+        on_pairs_ = DeviceArray<Pair>(pairs_, place());
+        return on_a_.size_bytes() + on_b_.size_bytes() + on_pairs_.size_bytes();
     }
     DeviceTriangles a() const { return {on_a_.span()}; }
     DeviceTriangles b() const { return {on_b_.span()}; }
@@ -72,9 +72,12 @@ class TouchingOnDevice final : public PairsOnDevice {
     }
 
   private:
-    void query_there() override { found_ = triangles_touch(a(), b(), pairs(), accuracy_); }
-    void download(Answers& answers) override {
+    void query_there() override { found_ = triangles_touch(a(), b(), pairs(), accuracy_, place()); }
+    std::uint64_t download(Answers&) override {
         found_.of.read(answers_);
+        return found_.of.size_bytes();
+    }
+    void convert(Answers& answers) override {
         std::vector<Decision>& out = list_of<Decision>(answers);
         out.clear();
         for (const Answer answer : answers_)
@@ -92,9 +95,14 @@ class DistancesOnDevice final : public PairsOnDevice {
     }
 
   private:
-    void query_there() override { found_ = triangle_distances(a(), b(), pairs(), accuracy_); }
-    void download(Answers& answers) override {
+    void query_there() override {
+        found_ = triangle_distances(a(), b(), pairs(), accuracy_, place());
+    }
+    std::uint64_t download(Answers&) override {
         found_.of.read(bounds_);
+        return found_.of.size_bytes();
+    }
+    void convert(Answers& answers) override {
         std::vector<Distance>& out = list_of<Distance>(answers);
         out.clear();
         for (const DistanceBounds& bounds : bounds_)

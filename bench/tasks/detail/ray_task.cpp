@@ -82,7 +82,10 @@ class HitsOnDevice final : public RaysOnDevice {
     void query_there() override {
         hits_ = query_ == RayQuery::closest ? mesh_->closest_hits(rays()) : mesh_->any_hits(rays());
     }
-    void download(Answers& answers) override { hits_.read(list_of<RayHit>(answers)); }
+    std::uint64_t download(Answers& answers) override {
+        hits_.read(list_of<RayHit>(answers));
+        return hits_.size_bytes();
+    }
 
     RayQuery query_;
     DeviceArray<RayHit> hits_;

@@ -20,12 +20,13 @@ std::optional<DeviceMeshBvhOptions> device_options(const Choice& choice) {
     const std::optional<DeviceRayKernel> kernel = device_kernel(choice.kernel);
     if (!builder || !kernel)
         return std::nullopt;
-    return DeviceMeshBvhOptions{*builder, *kernel, choice.ray_order == "sorted", {}};
+    return DeviceMeshBvhOptions{*builder, *kernel, choice.ray_order == "sorted", bench_place()};
 }
 
-void RaysOnDevice::upload() {
+std::uint64_t RaysOnDevice::upload() {
     vertices_ = DeviceArray<Vec3<float>>(scene_.mesh.vertices, options_.place);
     triangles_ = DeviceArray<DeviceMeshBvh::Corners>(scene_.mesh.triangles, options_.place);
+    return vertices_.size_bytes() + triangles_.size_bytes();
 }
 
 void RaysOnDevice::build_there() {

@@ -16,9 +16,12 @@ class RaysOnDevice : public DeviceContender {
         : DeviceContender(job), scene_(*job.scene), options_(options) {}
 
   protected:
-    void upload() override;
+    std::uint64_t upload() override;
     void build_there() override;
-    void upload_queries() override { rays_ = DeviceArray<Ray<float>>(scene_.rays, options_.place); }
+    std::uint64_t upload_queries() override {
+        rays_ = DeviceArray<Ray<float>>(scene_.rays, options_.place);
+        return rays_.size_bytes();
+    }
     DeviceSpan<const Ray<float>> rays() const { return rays_.span(); }
 
     const Scene& scene_;

@@ -12,7 +12,8 @@ TITLE = "From which size a device wins"
 HOW_TO_READ = (
     "Lower is better; both axes are logarithmic. End to end is from the host's boxes to the host's answers; resident, all "
     "stays on the device; the device alone is what its own clock says of end to end. The dotted line is the least "
-    "that the machine could take end to end. The upright line is the size from which on the device wins against all threads."
+    "that this algorithm could take there end to end. The upright line is the smallest measured size from which on the "
+    "device wins against the fastest of one, two and all threads."
 )
 COLUMNS = ("task", "scene", "n", "what", "threads", "contender", "time_ns", "wins_from", "loses_to")
 
@@ -35,6 +36,7 @@ LINES = (
     Line("end_to_end_ns", "cell_device", "end to end", {"color": DEVICE, "marker": "D", "linestyle": "-"}),
     Line("device_ns", "cell_device", "the device alone", {"color": DEVICE, "marker": "v", "linestyle": "--"}),
     Line("resident_ns", "cell_resident", "resident", {"color": DEVICE, "marker": "P", "linestyle": "-"}),
+    Line("graph_ns", "cell_graph", "resident, by a graph", {"color": DEVICE, "marker": "X", "linestyle": "-."}),
     Line("limit_ns", "cell_device", "limit, end to end", {"color": "#666666", "marker": "", "linestyle": ":"}),
 )
 
@@ -80,7 +82,7 @@ def draw_panel(ax, run, key, rows, breaks, names, out):
     style.time_axis(ax.yaxis, min(times), max(times))
     if wins_from is not None:
         ax.axvline(wins_from, color=DEVICE, linewidth=1, alpha=0.6, zorder=1)
-        ax.text(wins_from, 1, f" wins from {count_text(wins_from)} on ", transform=ax.get_xaxis_transform(), va="top",
+        ax.text(wins_from, 1, f" wins at {count_text(wins_from)} and above ", transform=ax.get_xaxis_transform(), va="top",
                 ha="right" if wins_from > min(sizes) else "left", fontsize=7.5, color=style.readable(DEVICE))
     style.title(ax, f"{scene} · {task} · {run.tasks[task].total_title}")
     ax.set_xlabel(METRICS["n"].axis)

@@ -230,7 +230,7 @@ void BuiltTree::make_wide8(const Node* nodes, const Box* boxes, Stream stream) {
 
 inline void BuiltTree::enqueue(const Box* boxes, std::size_t n, Stream stream) {
     require_at_most_max_items(n);
-    forget();                           // what there is not memory for
+    forget(); // what there is not memory for
     reserve(n, stream);
     n_ = static_cast<std::uint32_t>(n);
     set_views();

@@ -51,13 +51,14 @@ inline void require_no_recording(Stream stream, const char* what) {
         throw DeviceError(std::string("CUDA: a graph cannot record what ") + what);
 }
 
-/// Of memory that this library gave back, up to a quarter of the device's; made when first asked for.
+/// Of memory that this library gave back, up to a quarter of the device's; made when first asked
+/// for.
 cudaMemPool_t pool_of(int device);
 
 inline void* allocate(std::size_t bytes, Stream stream) {
     require_no_recording(stream, "allocates");
     void* memory = nullptr;
-    const cudaError_t status = 
+    const cudaError_t status =
         cudaMallocFromPoolAsync(&memory, bytes, pool_of(stream.device), stream.handle);
     if (status == cudaErrorMemoryAllocation) {
         std::size_t free = 0, total = 0;

@@ -29,6 +29,7 @@ Device device_at(int index) {
     device.bus_id = bus_id;
     device.multiprocessors = static_cast<unsigned>(properties.multiProcessorCount);
     device.memory_bytes = properties.totalGlobalMem;
+    device.cache_bytes = static_cast<std::uint64_t>(properties.l2CacheSize);
     device.capability_major = properties.major;
     device.capability_minor = properties.minor;
     device.ecc = properties.ECCEnabled != 0;

@@ -8,8 +8,8 @@
 
 namespace boxwood::cuda {
 
-/// Where the calls of this thread go, for as long as it lives; then to where they went before, which
-/// makes a context there if there was none. Throws DeviceError if there is no such device.
+/// Where the calls of this thread go, for as long as it lives; then to where they went before,
+/// which makes a context there if there was none. Throws DeviceError if there is no such device.
 class Chosen {
   public:
     explicit Chosen(int index);
