@@ -5,6 +5,7 @@
 #include "trees/device_memory.h"
 #include "trees/device_mesh_bvh.h"
 #include "trees/device_triangles.h"
+#include "trees/device_worlds.h"
 
 #include <cstdint>
 #include <string>

@@ -11,9 +11,13 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace boxwood {
+
+// So that a simulation's own boxes on a device, min and then max, are taken as they are.
+static_assert(sizeof(Box) == 6 * sizeof(float) && std::is_standard_layout_v<Box>);
 
 struct DeviceBvhOptions {
     DeviceBuilder builder = DeviceBuilder::hilbert;

@@ -31,6 +31,7 @@
 #include "trees/device_memory.h"
 #include "trees/device_mesh_bvh.h"
 #include "trees/device_triangles.h"
+#include "trees/device_worlds.h"
 #include "trees/dynamic/dynamic_tree.h"
 #include "trees/dynamic/order_degradation.h"
 #include "trees/dynamic/ray_refit.h"

@@ -2,6 +2,7 @@
 
 #include "trees/device_bvh.h"
 #include "trees/device_mesh_bvh.h"
+#include "trees/device_worlds.h"
 
 namespace boxwood::detail {
 
@@ -47,8 +48,20 @@ class DeviceMesh {
     virtual DeviceAnswersOf<RayHit> all(DeviceSpan<const Ray<float>> rays) = 0;
 };
 
+/// What DeviceWorlds is: trees/cuda/device/many_worlds.cuh.
+class DeviceWorldsTree {
+  public:
+    virtual ~DeviceWorldsTree() = default;
+    virtual std::size_t size() const = 0;
+    /// After an exception it is empty.
+    virtual void build(DeviceSpan<const Box> boxes) = 0;
+    virtual DeviceAnswersOf<Pair> pairs() = 0;
+};
+
 /// Throw DeviceError if there is no such device.
 std::unique_ptr<DeviceTree> make_device_tree(const DeviceBvhOptions& options);
 std::unique_ptr<DeviceMesh> make_device_mesh(const DeviceMeshBvhOptions& options);
+std::unique_ptr<DeviceWorldsTree> make_device_worlds(std::span<const std::uint32_t> first,
+                                                     const DevicePlace& place);
 
 } // namespace boxwood::detail

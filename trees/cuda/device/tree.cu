@@ -1,5 +1,6 @@
 #include "trees/cuda/builds/built_tree.cuh"
 #include "trees/cuda/device/counted.cuh"
+#include "trees/cuda/device/many_worlds.cuh"
 #include "trees/cuda/device/mesh.cuh"
 #include "trees/cuda/device/pair_parts.cuh"
 #include "trees/cuda/queries/nearest.cuh"

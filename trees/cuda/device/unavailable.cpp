@@ -63,6 +63,10 @@ void DeviceMemory::read(void*, std::size_t) const {}
 
 std::unique_ptr<DeviceTree> make_device_tree(const DeviceBvhOptions&) { none(); }
 std::unique_ptr<DeviceMesh> make_device_mesh(const DeviceMeshBvhOptions&) { none(); }
+std::unique_ptr<DeviceWorldsTree> make_device_worlds(std::span<const std::uint32_t>,
+                                                     const DevicePlace&) {
+    none();
+}
 
 } // namespace detail
 } // namespace boxwood
