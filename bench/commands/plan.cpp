@@ -78,7 +78,8 @@ Where where_on_device(const MovingScene& scene) {
     for (const Where where : {Where::resident, Where::device})
         if (!why_not(scene, Extent::required, where))
             return where;
-    throw BadInput(fmt::format("scene {}: {}", scene.file().name,
+    throw BadInput(fmt::format("scene {}: {}; without --device it is played on the host",
+                               scene.file().name,
                                *why_not(scene, Extent::required, Where::device)));
 }
 
