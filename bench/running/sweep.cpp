@@ -128,7 +128,9 @@ class Sweep {
                 is_device(prepared_.cells.at(check.cell_id).executor))
                 ++cells_by_reason[check.witness];
         for (const auto& [reason, cells] : cells_by_reason)
-            progress_.say(fmt::format("{} cells of a device are left out: {}", cells, reason));
+            progress_.say(fmt::format("{} of a device left out: {}",
+                                      cells == 1 ? "a cell" : fmt::format("{} cells", cells),
+                                      reason));
     }
 
     /// False if it was interrupted.
@@ -273,6 +275,10 @@ class Sweep {
         shards_.remove();
         progress_.say("");
         fmt::print("{}{}", screen_text(merged_), paths_text(options_.out));
+        if (merged_.samples.empty()) {
+            progress_.say("nothing was timed, as no cell can run here");
+            return exit_failed;
+        }
         return is_promise_broken(merged_) ? exit_failed : exit_success;
     }
 

@@ -170,6 +170,14 @@ TEST_F(SweepTest, TellsNothingOfTreesThatWereNotMade) {
     EXPECT_EQ(with_tree, of_doubles); // packed took the order alone
 }
 
+TEST_F(SweepTest, ThatCouldTimeNothingFails) {
+    write_config("n = 100\nbuilders = \"median\"\nexecutors = \"cuda_graph\"\nthreads = 2\n", 1);
+    EXPECT_EQ(sweep(), 1); // a device counts as one thread
+    EXPECT_THAT(text_of(log()), HasSubstr("nothing was timed"));
+    EXPECT_THAT(text_of(log()), HasSubstr("a cell of a device left out: "));
+    EXPECT_EQ(results::read(out()).checks.at(0).status, results::Status::unsupported);
+}
+
 TEST_F(SweepTest, MeasuresChecksAndCleansUp) {
     ASSERT_EQ(sweep(), 0) << text_of(log());
     const results::Results r = results::read(out());
