@@ -223,7 +223,7 @@ TEST_F(DeviceGains, WinFromTheSizeAfterWhichTheyDoNotLose) {
     const std::string screen = screen_text(run.results);
     EXPECT_THAT(screen, HasSubstr("wins at 100k boxes and above, loses at 10k"));
     EXPECT_THAT(screen, testing::ContainsRegex("\n +100k +- +100 ns +100 ns +80.0 ns +- "
-                                               "+- +16.0 ns +- +wins 1.25x"));
+                                               "+16.0 ns +- +wins 1.25x"));
     EXPECT_LE(std::ranges::count(screen, '\n'), 21);
     EXPECT_THAT(devices_text(run.results, 1), HasSubstr("LOSES 0.200x"));
 }
