@@ -1,6 +1,8 @@
 #include "bench/running/sweep.h"
 
+#include "bench/commands/against.h"
 #include "bench/commands/command.h"
+#include "bench/commands/compare.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -78,6 +80,8 @@ void add_sweep(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<SweepOptions>();
     auto shard = std::make_shared<std::string>();
     auto is_dry_run = std::make_shared<bool>(false);
+    auto against = std::make_shared<std::filesystem::path>();
+    auto fail_if = std::make_shared<std::string>();
     CLI::App* sweep = app.add_subcommand(
         "sweep", "time and check the cells of a sweep file; goes on where it was interrupted");
     add_plan_options(*sweep, options->config, options->overrides);
@@ -86,12 +90,27 @@ void add_sweep(CLI::App& app, int& exit_code) {
         ->add_option("--rounds", options->overrides.rounds,
                      "how often each cell is timed; more rounds extend an earlier sweep")
         ->check(CLI::Range(1, 10'000));
-    sweep->add_option("--shard", *shard,
-                      "I/N: only the rounds with number mod N = I (boxwood merge joins the files)");
-    sweep->add_flag("--dry-run", *is_dry_run, "list the cells and guess the time; measure nothing");
+    CLI::Option* const of_shards =
+        sweep->add_option("--shard", *shard,
+                          "I/N: only the rounds with number mod N = I (boxwood merge joins the "
+                          "files)");
+    CLI::Option* const dry_run = sweep->add_flag(
+        "--dry-run", *is_dry_run, "list the cells and guess the time; measure nothing");
+    CLI::Option* const other =
+        sweep
+            ->add_option("--against", *against,
+                         "another boxwood program, such as that of the commit before: the rounds "
+                         "of both take turns, its results go to OUT.base.h5, and both are compared")
+            ->excludes(of_shards)
+            ->excludes(dry_run);
+    sweep
+        ->add_option("--fail-if", *fail_if,
+                     "of --against: what counts as a regression, as boxwood compare has it")
+        ->needs(other);
     sweep->footer("Example: boxwood sweep --config bench/configs/quick.toml --out quick.h5\n"
-                  "Exit codes: 0 fine, 1 one of our answers is wrong or a contender crashed, 2 bad "
-                  "input, 130 interrupted.");
+                  "Exit codes: 0 fine, 1 one of our answers is wrong, a contender crashed or "
+                  "nothing could be timed, 2 bad input, 130 interrupted; with --against those of "
+                  "boxwood compare.");
     sweep->callback([=, &exit_code] {
         if (!shard->empty())
             parse_shard(*shard, *options);
@@ -100,7 +119,14 @@ void add_sweep(CLI::App& app, int& exit_code) {
             return list_cells(*options);
         if (options->out.empty())
             throw BadInput("sweep: say where the results go: --out FILE.h5");
-        exit_code = run_sweep(*options);
+        if (against->empty()) {
+            exit_code = run_sweep(*options);
+            return;
+        }
+        FileOptions compared;
+        if (!fail_if->empty())
+            compared.fail_if = fail_threshold(*fail_if);
+        exit_code = run_against(*against, *options, compared);
     });
     add_child(app, exit_code);
 }

@@ -178,6 +178,35 @@ TEST_F(SweepTest, ThatCouldTimeNothingFails) {
     EXPECT_EQ(results::read(out()).checks.at(0).status, results::Status::unsupported);
 }
 
+TEST_F(SweepTest, AgainstAnotherProgramTakesTurns) {
+    const fs::path base = folder / "out.base.h5";
+    const std::vector<std::string> against{"--against", program()};
+    const pid_t pid = start(against);
+    ASSERT_TRUE(wait_until([&] { return fs::exists(base); })) << text_of(log());
+    kill(pid, SIGINT);
+    EXPECT_EQ(wait_for(pid), 130) << text_of(log());
+    EXPECT_EQ(sweep(against), 3) << text_of(log()); // three rounds cannot tell
+    EXPECT_THAT(text_of(log()), HasSubstr("head     " + out().string()));
+    std::map<std::uint64_t, char> by_time;
+    for (const auto& [file, who] : {std::pair{base, 'b'}, {out(), 'h'}})
+        for (const results::Shard& shard : results::read(file).shards)
+            by_time[shard.t0_utc_ns] = who;
+    std::string order;
+    for (const auto& [time, who] : by_time)
+        order += who;
+    ASSERT_EQ(order.size(), 6u);
+    for (std::size_t round = 0; round < 3; ++round) // of both before the next
+        EXPECT_NE(order[2 * round], order[2 * round + 1]) << order;
+    EXPECT_EQ(std::ranges::count(order, 'b'), 3);
+    EXPECT_FALSE(fs::exists(folder / "out.log"));
+
+    fs::remove(base);
+    EXPECT_EQ(sweep({"--against", "/bin/false"}), 2);
+    EXPECT_THAT(text_of(log()), HasSubstr("/bin/false"));
+    EXPECT_EQ(sweep({"--against", folder}), 2);
+    EXPECT_THAT(text_of(log()), HasSubstr("is no program"));
+}
+
 TEST_F(SweepTest, MeasuresChecksAndCleansUp) {
     ASSERT_EQ(sweep(), 0) << text_of(log());
     const results::Results r = results::read(out());
