@@ -5,6 +5,7 @@
 #include "bench/analysis/kernel_costs.h"
 #include "bench/analysis/promises.h"
 #include "bench/analysis/screen.h"
+#include "bench/analysis/status.h"
 #include "bench/analysis/wording.h"
 #include "bench/commands/command.h"
 #include "bench/io/json.h"
@@ -330,10 +331,61 @@ std::string json_text(const Results& results) {
     return text + "}\n";
 }
 
+std::string google_benchmark_text(const Results& results) {
+    struct Benchmark {
+        const Cell* cell;
+        std::vector<const results::Sample*> samples;
+    };
+    std::map<std::uint32_t, const Cell*> cells;
+    for (const Cell& cell : results.cells)
+        cells[cell.cell_id] = &cell;
+    std::map<std::pair<std::uint32_t, Phase>, Benchmark> benchmarks;
+    for (const results::Sample& sample : results.samples) {
+        if ((sample.flags & results::aa_twin) != 0)
+            continue;
+        Benchmark& benchmark = benchmarks[{sample.cell_id, sample.phase}];
+        benchmark.cell = cells.at(sample.cell_id);
+        benchmark.samples.push_back(&sample);
+    }
+    const results::Env env = results.env.empty() ? results::Env{} : results.env.front();
+    std::string text = fmt::format(
+        "{{\"context\": {{\"executable\": \"boxwood\", \"host_name\": {}, \"num_cpus\": {}, "
+        "\"mhz_per_cpu\": {}, \"caches\": [], \"library_build_type\": \"release\", "
+        "\"commit\": {}}},\n\"benchmarks\": [",
+        json_string(env.host), env.ncpu,
+        std::isnan(env.core_ghz) ? 0 : std::lround(1000 * env.core_ghz),
+        json_string(env.git_commit));
+    std::size_t family = 0;
+    const char* separator = "\n";
+    for (const auto& [key, benchmark] : benchmarks) {
+        const std::string name =
+            json_string(fmt::format("{}/{}", benchmark.cell->name, to_string(key.second)));
+        const bool is_wrong = !is_right(benchmark.cell->status);
+        for (std::size_t i = 0; i < benchmark.samples.size(); ++i) {
+            const results::Sample& sample = *benchmark.samples[i];
+            text += fmt::format(
+                "{}{{\"name\": {}, \"run_name\": {}, \"family_index\": {}, "
+                "\"per_family_instance_index\": 0, \"run_type\": \"iteration\", "
+                "\"repetitions\": {}, \"repetition_index\": {}, \"threads\": {}, {}"
+                "\"iterations\": {}, \"real_time\": {}, \"cpu_time\": {}, \"time_unit\": "
+                "\"ns\"}}",
+                separator, name, name, family, benchmark.samples.size(), i, benchmark.cell->threads,
+                is_wrong ? fmt::format("\"error_occurred\": true, \"error_message\": {}, ",
+                                       json_string(std::string(to_string(benchmark.cell->status))))
+                         : std::string(),
+                sample.iterations, json_number(sample.wall_ns),
+                json_number(std::isnan(sample.cpu_ns) ? sample.wall_ns : sample.cpu_ns));
+            separator = ",\n";
+        }
+        ++family;
+    }
+    return text + "\n]}\n";
+}
+
 void add_show(CLI::App& app, int&) {
     struct Options {
         std::string file;
-        bool all = false, csv = false, json = false;
+        bool all = false, csv = false, json = false, google_benchmark = false;
     };
     auto options = std::make_shared<Options>();
     CLI::App* show = app.add_subcommand("show", "what a result file says: one screen of findings");
@@ -342,9 +394,15 @@ void add_show(CLI::App& app, int&) {
                                       "every cell with its times and checks, every comparison");
     CLI::Option* csv =
         show->add_flag("--csv", options->csv, "the times of every cell as CSV")->excludes(all);
-    show->add_flag("--json", options->json, "cells and every derived table as JSON")
+    CLI::Option* json =
+        show->add_flag("--json", options->json, "cells and every derived table as JSON")
+            ->excludes(all)
+            ->excludes(csv);
+    show->add_flag("--google-benchmark", options->google_benchmark,
+                   "the samples as google-benchmark's JSON, for its compare.py")
         ->excludes(all)
-        ->excludes(csv);
+        ->excludes(csv)
+        ->excludes(json);
     show->footer("Example: boxwood show quick.h5");
     show->callback([options] {
         const Results results = read_results(options->file);
@@ -352,6 +410,8 @@ void add_show(CLI::App& app, int&) {
             std::cout << csv_text(results);
         else if (options->json)
             std::cout << json_text(results);
+        else if (options->google_benchmark)
+            std::cout << google_benchmark_text(results);
         else if (options->all)
             std::cout << all_text(results);
         else

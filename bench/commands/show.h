@@ -17,4 +17,8 @@ std::string csv_text(const results::Results& results);
 /// The derived tables, and the cells that they refer to, as one JSON object of lists.
 std::string json_text(const results::Results& results);
 
+/// The samples as google-benchmark's JSON, which its compare.py reads: a benchmark CELL/PHASE with
+/// a repetition per round; what was answered wrong is an error there.
+std::string google_benchmark_text(const results::Results& results);
+
 } // namespace boxwood::bench

@@ -114,6 +114,15 @@ TEST(Show, JsonAndCsvHoldEveryCell) {
     EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 3); // timed ones
 }
 
+TEST(Show, GoogleBenchmarkGetsARepetitionPerRound) {
+    const std::string text = google_benchmark_text(four_cells());
+    EXPECT_THAT(text, HasSubstr("\"repetitions\": 9, \"repetition_index\": 8, \"threads\": 1"));
+    EXPECT_THAT(text, HasSubstr("\"error_occurred\": true, \"error_message\": \"wrong\""));
+    EXPECT_THAT(text, HasSubstr("\"real_time\": 1008, "));
+    EXPECT_THAT(text, Not(HasSubstr("nan")));
+    EXPECT_THAT(google_benchmark_text({}), HasSubstr("\"benchmarks\": [\n]}"));
+}
+
 TEST(Show, AnEmptyFileIsFine) { EXPECT_THAT(all_text({}), HasSubstr("0 cells, 0 samples")); }
 
 TEST(TextTable, AlignsAndEscapes) {
