@@ -98,7 +98,10 @@ std::vector<Table> main_tables() {
              {"layout", &Variant::layout, "", "ours alone", word},
              {"traversal", &Variant::traversal, "", "ours alone", word},
              {"kernel", &Variant::kernel, "", "triangle or ray kernel", word},
-             {"predicates", &Variant::predicates, "", "rounded, filtered or exact", word},
+             {"predicates", &Variant::predicates, "",
+              "the promise that its kernel is judged by, if it gives one: exact, certified, "
+              "never-miss ...",
+              word},
              {"is_peer", &Variant::is_peer, "", "1 for another library, or brute force"},
              {"is_reference", &Variant::is_reference, "",
               "1 if our other builders are held against its builder"},

@@ -152,6 +152,8 @@ std::uint32_t Record::variant_id_of(const ContenderEntry& contender) {
     row.layout = contender.layout;
     row.traversal = contender.traversal;
     row.kernel = contender.kernel;
+    if (contender.promise != Promise::none)
+        row.predicates = to_string(contender.promise);
     row.is_peer = contender.is_peer;
     row.is_reference = contender.is_reference;
     row.place = static_cast<std::uint32_t>(is_ours ? contender.place : peer->place);

@@ -260,6 +260,7 @@ TEST_F(RoundTest, KernelsAreJudgedAndHaveAQueryAlone) {
     EXPECT_EQ(check_of(r, "triangle_triangle")->status, results::Status::exact);
     EXPECT_EQ(r.cells[0].n_items, 20u);
     EXPECT_EQ(r.cells[0].n_queries, 20u);
+    EXPECT_EQ(r.variants.at(r.cells[0].variant_id).predicates, "exact");
 
     const results::Results round = run_round(plan, r, 0, report());
     std::multiset<std::string> phases;
