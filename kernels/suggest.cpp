@@ -43,8 +43,12 @@ std::string unknown_name(std::string_view what, std::string_view word,
     if (const std::string near = suggest(word, candidates); !near.empty())
         return text + "did you mean '" + near + "'?";
     text += "known are: ";
-    for (std::size_t i = 0; i < candidates.size(); ++i)
+    constexpr std::size_t most = 40;
+    const std::size_t shown = candidates.size() > most + 1 ? most : candidates.size();
+    for (std::size_t i = 0; i < shown; ++i)
         text += (i == 0 ? "" : ", ") + std::string(candidates[i]);
+    if (shown < candidates.size())
+        text += " and " + std::to_string(candidates.size() - shown) + " more";
     return text;
 }
 

@@ -13,7 +13,8 @@ namespace boxwood {
 /// (two edits at least).
 std::string suggest(std::string_view word, std::span<const std::string_view> candidates);
 
-/// "unknown scene 'unifrom'; did you mean 'uniform'?", or the list of all names if none is near.
+/// "unknown scene 'unifrom'; did you mean 'uniform'?", or the list of all names, or of 40 of them,
+/// if none is near.
 std::string unknown_name(std::string_view what, std::string_view word,
                          std::span<const std::string_view> candidates);
 

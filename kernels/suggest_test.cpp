@@ -27,6 +27,9 @@ TEST(Suggest, MessagesNameTheWordOrTheList) {
     EXPECT_EQ(unknown_name("scene", "bras", words), "unknown scene 'bras'; did you mean 'bars'?");
     EXPECT_EQ(unknown_name("scene", "robot", words),
               "unknown scene 'robot'; known are: uniform, clusters, bars, sphere_mesh");
+    const std::vector<std::string_view> many(90, "a");
+    const std::string text = unknown_name("peer", "robots", many);
+    EXPECT_EQ(text.substr(text.size() - 16), "a, a and 50 more");
 }
 
 } // namespace

@@ -94,13 +94,17 @@ inline RTCRayHit hit_by(const Ray<float>& ray) {
     return query;
 }
 
+inline RayHit hit_of(const RTCRayHit& query) {
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return {};
+    return {query.ray.tfar, query.hit.u, query.hit.v, query.hit.primID};
+}
+
 inline RayHit closest(RTCScene scene, RTCRayHit query) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     rtcIntersect1(scene, &context, &query);
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
-        return {};
-    return {query.ray.tfar, query.hit.u, query.hit.v, query.hit.primID};
+    return hit_of(query);
 }
 
 } // namespace boxwood::bench

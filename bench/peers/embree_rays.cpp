@@ -9,6 +9,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <iterator>
 #include <span>
@@ -50,13 +51,23 @@ void collect(const RTCFilterFunctionNArguments* args) {
 /// What is wanted of each ray.
 enum class Wanted { closest, any, all };
 
+constexpr int stream = 0; ///< a width: as many as there are in a chunk
+constexpr std::size_t chunk = 256;
+
+struct Setting {
+    Wanted wanted = Wanted::closest;
+    int width = 1;
+    bool robust = false, coherent = false;
+    RTCBuildQuality quality = RTC_BUILD_QUALITY_MEDIUM;
+};
+
 /// Rays `width` at a time, in Embree's own form, which is made in the constructor and copied for
 /// each query: Embree writes what it finds into it.
 class Rays final : public Contender {
   public:
-    Rays(const Job& job, RTCSceneFlags flags, Wanted wanted, int width)
-        : scene_(*job.scene), flags_(flags), wanted_(wanted), width_(width), threads_(job.threads),
-          vertices_(scene_.mesh.vertices), device_(make_device(job.threads)),
+    Rays(const Job& job, const Setting& setting)
+        : scene_(*job.scene), setting_(setting), wanted_(setting.wanted), width_(setting.width),
+          threads_(job.threads), vertices_(scene_.mesh.vertices), device_(make_device(job.threads)),
           arena_(static_cast<int>(job.threads)) {
         vertices_.emplace_back(); // Embree reads 16 bytes at the last vertex
         if (width_ == 8)
@@ -81,8 +92,8 @@ class Rays final : public Contender {
                                        scene_.mesh.triangles.size());
             if (wanted_ == Wanted::all)
                 rtcSetGeometryIntersectFilterFunction(geometry.get(), collect);
-            embree_scene_ =
-                commit(device_.get(), std::move(geometry), RTC_BUILD_QUALITY_MEDIUM, flags_);
+            embree_scene_ = commit(device_.get(), std::move(geometry), setting_.quality,
+                                   setting_.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
         });
     }
 
@@ -97,6 +108,9 @@ class Rays final : public Contender {
                 return cast<8>(packets8_, begin, end, hits);
             if (width_ == 16)
                 return cast<16>(packets16_, begin, end, hits);
+            if (width_ == stream)
+                return wanted_ == Wanted::any ? occluded_stream(begin, end, hits)
+                                              : closest_stream(begin, end, hits);
             for (std::size_t i = begin; i < end; ++i)
                 hits[i] = wanted_ == Wanted::any ? occluded(occluding_[i])
                                                  : closest(embree_scene_.get(), hitting_[i]);
@@ -132,10 +146,14 @@ class Rays final : public Contender {
 
     /// work(begin, end) on the threads of the job: rays, in whole packets.
     template <class Work> void for_chunks(const Work& work) {
-        constexpr std::size_t chunk = 256;
         const std::size_t n = scene_.rays.size();
-        if (threads_ == 1)
+        if (threads_ == 1 && width_ != stream)
             return work(0, n);
+        if (threads_ == 1) {
+            for (std::size_t begin = 0; begin < n; begin += chunk)
+                work(begin, std::min(n, begin + chunk));
+            return;
+        }
         arena_.execute([&] {
             tbb::parallel_for(std::size_t{0}, (n + chunk - 1) / chunk, [&](std::size_t i) {
                 work(i * chunk, std::min(n, (i + 1) * chunk));
@@ -157,13 +175,44 @@ class Rays final : public Contender {
 
     /// A hit has some triangle number; Embree does not say which triangle it was.
     RayHit occluded(RTCRay query) const {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        rtcOccluded1(embree_scene_.get(), &context, &query);
+        RTCIntersectContext with = context();
+        rtcOccluded1(embree_scene_.get(), &with, &query);
+        return occlusion_of(query);
+    }
+    static RayHit occlusion_of(const RTCRay& query) {
         RayHit hit;
         if (query.tfar < 0) // -inf marks a hit
             hit.triangle = 0;
         return hit;
+    }
+
+    RTCIntersectContext context() const {
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        context.flags = setting_.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                          : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+        return context;
+    }
+
+    void closest_stream(std::size_t begin, std::size_t end, std::vector<RayHit>& hits) const {
+        std::array<RTCRayHit, chunk> queries;
+        std::copy(hitting_.begin() + static_cast<std::ptrdiff_t>(begin),
+                  hitting_.begin() + static_cast<std::ptrdiff_t>(end), queries.begin());
+        RTCIntersectContext with = context();
+        rtcIntersect1M(embree_scene_.get(), &with, queries.data(),
+                       static_cast<unsigned>(end - begin), sizeof(RTCRayHit));
+        for (std::size_t i = begin; i < end; ++i)
+            hits[i] = hit_of(queries[i - begin]);
+    }
+    void occluded_stream(std::size_t begin, std::size_t end, std::vector<RayHit>& hits) const {
+        std::array<RTCRay, chunk> queries;
+        std::copy(occluding_.begin() + static_cast<std::ptrdiff_t>(begin),
+                  occluding_.begin() + static_cast<std::ptrdiff_t>(end), queries.begin());
+        RTCIntersectContext with = context();
+        rtcOccluded1M(embree_scene_.get(), &with, queries.data(),
+                      static_cast<unsigned>(end - begin), sizeof(RTCRay));
+        for (std::size_t i = begin; i < end; ++i)
+            hits[i] = occlusion_of(queries[i - begin]);
     }
 
     void all(std::size_t begin, std::size_t end, std::vector<Pair>& out) const {
@@ -187,10 +236,9 @@ class Rays final : public Contender {
             alignas(64) int valid[W];
             for (std::size_t k = 0; k < W; ++k)
                 valid[k] = k < n ? -1 : 0;
-            RTCIntersectContext context;
-            rtcInitIntersectContext(&context);
+            RTCIntersectContext with = context();
             if (wanted_ == Wanted::any) {
-                Types::occluded(valid, embree_scene_.get(), &context,
+                Types::occluded(valid, embree_scene_.get(), &with,
                                 reinterpret_cast<typename Types::Rays*>(&packet.ray));
                 for (std::size_t k = 0; k < n; ++k) {
                     hits[first + k] = {};
@@ -199,7 +247,7 @@ class Rays final : public Contender {
                 }
                 continue;
             }
-            Types::intersect(valid, embree_scene_.get(), &context, &packet);
+            Types::intersect(valid, embree_scene_.get(), &with, &packet);
             for (std::size_t k = 0; k < n; ++k)
                 hits[first + k] = packet.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID
                                       ? RayHit{}
@@ -209,7 +257,7 @@ class Rays final : public Contender {
     }
 
     const Scene& scene_;
-    RTCSceneFlags flags_;
+    Setting setting_;
     Wanted wanted_;
     int width_;
     unsigned threads_;
@@ -225,27 +273,43 @@ class Rays final : public Contender {
     tbb::enumerable_thread_specific<std::vector<Pair>> parts_; ///< of rays_all
 };
 
-ContenderEntry rays(Wanted wanted, int width, bool robust) {
-    const std::string function =
-        fmt::format("{}{}", wanted == Wanted::any ? "Occluded" : "Intersect", width);
+std::string_view quality_name(RTCBuildQuality quality) {
+    return quality == RTC_BUILD_QUALITY_LOW    ? "low"
+           : quality == RTC_BUILD_QUALITY_HIGH ? "high"
+                                               : "medium";
+}
+
+std::string calls_of(const Setting& s) {
+    if (s.wanted == Wanted::all)
+        return "single rays, whose intersection filter takes each hit down and refuses it";
+    if (s.width == 1)
+        return "single rays";
+    if (s.width == stream)
+        return fmt::format("streams of {} rays", chunk);
+    return fmt::format("packets of {} rays", s.width);
+}
+
+ContenderEntry rays(const Setting& s) {
+    const std::string width = s.width == stream ? "1M" : std::to_string(s.width);
+    const bool is_medium = s.quality == RTC_BUILD_QUALITY_MEDIUM;
     ContenderEntry e;
-    e.name = fmt::format("embree.rtc_{}{}{}{}", wanted == Wanted::any ? "occluded" : "intersect",
-                         width, wanted == Wanted::all ? ".filter" : "", robust ? ".robust" : "");
+    e.name = fmt::format(
+        "embree.rtc_{}{}{}{}{}{}", s.wanted == Wanted::any ? "occluded" : "intersect",
+        s.width == stream ? "1m" : width, s.wanted == Wanted::all ? ".filter" : "",
+        s.robust ? ".robust" : "", is_medium ? "" : fmt::format(".{}", quality_name(s.quality)),
+        s.coherent ? ".coherent" : "");
     e.library = "embree";
     e.precision = "f32";
     e.summary =
-        fmt::format("Embree's rtc{} on triangles, {}", function,
-                    robust ? "ROBUST scene (watertight)" : "default scene (not watertight)");
+        fmt::format("Embree's rtc{}{} on triangles, {}, build quality {}",
+                    s.wanted == Wanted::any ? "Occluded" : "Intersect", width,
+                    s.robust ? "ROBUST scene (watertight)" : "default scene (not watertight)",
+                    quality_name(s.quality));
     e.notes = fmt::format(
-        "{}, build quality medium; the rays in Embree's structs, made before and copied in the "
-        "query, "
-        "as Embree writes into them; denormals "
-        "flushed during the query, as Embree wants; vertex and index buffers shared; a build also "
-        "frees the scene before it",
-        wanted == Wanted::all ? "single rays, whose intersection filter takes each hit down and "
-                                "refuses it"
-        : width == 1          ? "single rays"
-                              : "packets of rays in the order given, context flag INCOHERENT");
+        "{}, in the order given, context flag {}; the rays in Embree's structs, made before and "
+        "copied in the query, as Embree writes into them; denormals flushed during the query, as "
+        "Embree wants; vertex and index buffers shared; a build also frees the scene before it",
+        calls_of(s), s.coherent ? "COHERENT" : "INCOHERENT");
     e.runs_on = RunsOn::tbb;
     e.cannot = [](const Job& job) -> std::optional<std::string> {
         if (std::holds_alternative<RayCases>(job.scene->cases))
@@ -253,16 +317,15 @@ ContenderEntry rays(Wanted wanted, int width, bool robust) {
         return std::nullopt;
     };
     e.classes = {ray_class::batches};
-    if (wanted != Wanted::all)
-        e.classes = width == 1 ? std::vector{ray_class::single, ray_class::batches}
-                               : std::vector{ray_class::packets};
-    if (robust)
+    if (s.wanted != Wanted::all)
+        e.classes = s.width == 1 ? std::vector{ray_class::single, ray_class::batches}
+                                 : std::vector{ray_class::packets};
+    if (s.robust)
         e.classes = ray_class::watertight(std::move(e.classes));
-    e.answers = {answering<Rays>(wanted == Wanted::closest ? "rays_closest"
-                                 : wanted == Wanted::any   ? "rays_any"
-                                                           : "rays_all",
-                                 robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE, wanted,
-                                 width)};
+    e.answers = {answering<Rays>(s.wanted == Wanted::closest ? "rays_closest"
+                                 : s.wanted == Wanted::any   ? "rays_any"
+                                                             : "rays_all",
+                                 s)};
     return e;
 }
 
@@ -270,12 +333,15 @@ ContenderEntry rays(Wanted wanted, int width, bool robust) {
 
 std::vector<ContenderEntry> embree_rays() {
     std::vector<ContenderEntry> all;
-    for (const Wanted wanted : {Wanted::closest, Wanted::any})
-        for (const int width : {1, 8, 16})
-            for (const bool robust : {false, true})
-                all.push_back(rays(wanted, width, robust));
-    for (const bool robust : {false, true})
-        all.push_back(rays(Wanted::all, 1, robust));
+    for (const Wanted wanted : {Wanted::closest, Wanted::any, Wanted::all})
+        for (const RTCBuildQuality quality :
+             {RTC_BUILD_QUALITY_MEDIUM, RTC_BUILD_QUALITY_HIGH, RTC_BUILD_QUALITY_LOW})
+            for (const bool coherent : {false, true})
+                for (const int width : {1, 8, 16, stream})
+                    for (const bool robust : {false, true})
+                        // What a single ray is told of coherence Embree does not look at.
+                        if (width == 1 ? !coherent : wanted != Wanted::all)
+                            all.push_back(rays({wanted, width, robust, coherent, quality}));
     return all;
 }
 

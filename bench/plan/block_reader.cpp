@@ -36,6 +36,23 @@ Names peer_names() {
     return names;
 }
 
+/// Those names of a value that may be contenders of libraries that were not found: nobody knows.
+std::vector<std::string> of_absent_peers(const toml::node* value) {
+    std::vector<std::string> all;
+    const auto take = [&](const toml::node& node) {
+        const std::string name = node.value_or(std::string());
+        for (const std::string_view library : absent_peers())
+            if (name.starts_with(std::string(library) + "."))
+                all.push_back(name);
+    };
+    if (value && value->is_array())
+        for (const toml::node& node : *value->as_array())
+            take(node);
+    else if (value)
+        take(*value);
+    return all;
+}
+
 Place usual_place(unsigned threads) { return {std::string(default_executor(threads)), threads}; }
 
 } // namespace
@@ -163,7 +180,10 @@ std::vector<std::string> BlockReader::kernels(const Names& known,
 }
 
 std::vector<ContenderEntry> BlockReader::peers(std::string_view task) const {
-    const std::vector<std::string> named = names("peers", peer_names());
+    Names known = peer_names();
+    const std::vector<std::string> absent = of_absent_peers(table_->toml.get("peers"));
+    known.insert(known.end(), absent.begin(), absent.end());
+    const std::vector<std::string> named = names("peers", known);
     const auto is_named = [&](std::string_view name) {
         return std::ranges::find(named, name) != named.end();
     };

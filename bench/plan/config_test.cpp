@@ -101,6 +101,19 @@ TEST(Config, SaysWhereAMisspeltWordStandsAndSuggests) {
     EXPECT_THAT(complaint(block + "peers = \"brute_forc\"\n"), HasSubstr("'brute_force'"));
 }
 
+TEST(Config, ContendersOfALibraryThatIsNotHereAreNoError) {
+    for (const std::string_view library : absent_peers()) {
+        const std::string name = std::string(library) + ".some_setting";
+        EXPECT_EQ(complaint(block + "builders = \"median\"\npeers = [\"" + name +
+                            "\", \"brute_force\"]\n"),
+                  "no error");
+        EXPECT_EQ(complaint(block + "builders = \"median\"\npeers = \"" + name + "\"\n"),
+                  "no error");
+    }
+    EXPECT_THAT(complaint(block + "builders = \"median\"\npeers = \"brute_force.a\"\n"),
+                HasSubstr("brute_force.a"));
+}
+
 TEST(Config, RefusesNumbersOutOfRangeAndOfTheWrongKind) {
     EXPECT_THAT(complaint(block + "builders = \"median\"\nrounds = 0\n"), HasSubstr("rounds = 0"));
     EXPECT_THAT(complaint("rounds = 0\n" + block), HasSubstr("x.toml:1: rounds = 0"));
