@@ -2,7 +2,7 @@
 
 #include "bench/commands/devices.h"
 #include "bench/commands/list.h"
-#include "bench/commands/query.h"
+#include "bench/commands/queries/query.h"
 #include "bench/io/bad_input.h"
 
 #include <gmock/gmock.h>

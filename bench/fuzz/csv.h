@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/commands/query.h"
+#include "bench/commands/queries/query.h"
 #include "bench/fuzz/scratch_file.h"
 #include "bench/io/bad_input.h"
 

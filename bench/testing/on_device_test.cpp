@@ -1,6 +1,6 @@
 /// What the bench does with contenders on a device, on the host's model of one.
 
-#include "bench/commands/query.h"
+#include "bench/commands/queries/query.h"
 #include "bench/plan/plan.h"
 #include "bench/running/prepare.h"
 #include "bench/running/round.h"

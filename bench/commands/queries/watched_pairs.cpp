@@ -1,4 +1,4 @@
-#include "bench/commands/watched_pairs.h"
+#include "bench/commands/queries/watched_pairs.h"
 
 #include "bench/running/interrupt.h"
 

@@ -1,5 +1,5 @@
 #include "bench/commands/command.h"
-#include "bench/commands/query.h"
+#include "bench/commands/queries/query.h"
 #include "bench/io/ccd_file.h"
 #include "bench/io/csv.h"
 #include "kernels/registry.h"

@@ -1,7 +1,7 @@
 /// `boxwood query triangles`: pairs of triangles by any kernel.
 
 #include "bench/commands/command.h"
-#include "bench/commands/query.h"
+#include "bench/commands/queries/query.h"
 #include "bench/io/csv.h"
 #include "bench/io/json.h"
 #include "bench/io/say.h"

@@ -1,5 +1,5 @@
 #include "bench/commands/command.h"
-#include "bench/commands/query.h"
+#include "bench/commands/queries/query.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

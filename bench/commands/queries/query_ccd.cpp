@@ -1,7 +1,7 @@
 /// `boxwood query ccd`: continuous collision of vertex-face or edge-edge pairs in linear motion.
 
 #include "bench/commands/command.h"
-#include "bench/commands/query.h"
+#include "bench/commands/queries/query.h"
 #include "bench/io/ccd_file.h"
 #include "bench/io/csv.h"
 #include "kernels/oracle/rational.h"

@@ -8,8 +8,8 @@
 
 #include "bench/commands/command.h"
 #include "bench/commands/devices.h"
-#include "bench/commands/query.h"
-#include "bench/commands/watched_pairs.h"
+#include "bench/commands/queries/query.h"
+#include "bench/commands/queries/watched_pairs.h"
 #include "bench/io/available_memory.h"
 #include "bench/io/csv.h"
 #include "bench/io/say.h"

@@ -1,8 +1,8 @@
 /// Answers of any size, and whatever floating-point mode the program is started in.
 
 #include "bench/commands/program.h"
-#include "bench/commands/query.h"
-#include "bench/commands/watched_pairs.h"
+#include "bench/commands/queries/query.h"
+#include "bench/commands/queries/watched_pairs.h"
 #include "bench/io/bad_input.h"
 #include "bench/running/interrupt.h"
 #include "kernels/arithmetic/float_mode.h"

@@ -1,4 +1,4 @@
-#include "bench/commands/query.h"
+#include "bench/commands/queries/query.h"
 
 #include "bench/commands/command.h"
 #include "kernels/registry.h"

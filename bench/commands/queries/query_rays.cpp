@@ -1,7 +1,7 @@
 /// `boxwood query rays`: rays against the triangles of the user's mesh.
 
 #include "bench/commands/command.h"
-#include "bench/commands/query.h"
+#include "bench/commands/queries/query.h"
 #include "bench/io/csv.h"
 #include "bench/io/ray_range.h"
 #include "kernels/arithmetic/rounding.h"
