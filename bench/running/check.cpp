@@ -17,6 +17,18 @@
 namespace boxwood::bench {
 namespace {
 
+/// True as well where a scene's boxes are made of its cases.
+bool is_bad_box(const Scene& scene, std::size_t index) {
+    if (scene.boxes.empty())
+        return true;
+    try {
+        require_valid(scene.boxes[std::min(index, scene.boxes.size() - 1)], index);
+        return false;
+    } catch (const InvalidBox&) {
+        return true;
+    }
+}
+
 unsigned all_cores() { return std::max(1u, std::thread::hardware_concurrency()); }
 
 /// A quick check takes the ends of the range of scales with fewer cases.
@@ -203,7 +215,8 @@ Judgement CheckRun::judged(const Job& job, Truth& truth, const ContenderEntry& c
                             cases->answer_text(*answers, 0),
                             cases->truth_text(0, contender.precision), to_string(judgement.status));
     } catch (const InvalidBox& error) { // the promised answer to a box that is none
-        fail(Status::unsupported, error.what());
+        fail(is_bad_box(*job.scene, error.index) ? Status::unsupported : Status::wrong,
+             error.what());
     } catch (const std::exception& error) {
         fail(Status::wrong, error.what());
     }

@@ -160,6 +160,20 @@ TEST(Check, AThrowBreaksAPromise) {
     EXPECT_THAT(promises_text(thrown), HasSubstr("oh"));
 }
 
+TEST(Check, WhoRefusesGoodBoxesBreaksAPromise) {
+    SceneSpec spec;
+    spec.generator = "nested_boxes";
+    spec.n = 20;
+    const Scene scene = make_scene(spec);
+    const results::Results refused =
+        checked(scene, "pairs", made_up(Promise::exact, [](const Scene& of, Answers&) {
+                    Box bad = of.boxes[3];
+                    bad.min.x = bad.max.x + 1;
+                    require_valid(bad, 3);
+                }));
+    EXPECT_EQ(broken_promises(refused), 1u);
+}
+
 TEST(Check, BoxFamiliesAreHeldAgainstTheirKnownNumberOfPairs) {
     SceneSpec spec;
     spec.generator = "nested_boxes";

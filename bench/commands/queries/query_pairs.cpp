@@ -136,8 +136,9 @@ std::vector<Pair> list_pairs(const PairFinder& finder, const PairsQuery& query, 
     if (!complete && enough == most && limit != most)
         throw BadInput(fmt::format("more than {} pairs overlap, and to list them takes more than "
                                    "the {:.1f} GB of memory that are available; --count counts "
-                                   "them, --limit N prints N of them",
-                                   most, static_cast<double>(memory) * 1e-9));
+                                   "them, {} prints some of them",
+                                   most, static_cast<double>(memory) * 1e-9,
+                                   limit ? "a smaller --limit" : "--limit N"));
     std::vector<Pair> pairs;
     pairs.reserve(std::min(count, enough));
     const auto found = [&] { return fmt::format("{} pairs", pairs.capacity()); };

@@ -23,7 +23,6 @@ namespace {
 
 constexpr CsvFormat ray_format{"ox,oy,oz,dx,dy,dz[,tmax]", 6, 7};
 constexpr std::array ray_columns{"ox", "oy", "oz", "dx", "dy", "dz"};
-constexpr double max_coordinate = double{max_ray_coordinate};
 
 /// Rays are rounded to floats, to nearest, but for tmax: the kernels' own numbers.
 std::vector<Ray<float>> read_rays(const std::string& path) {
@@ -31,7 +30,7 @@ std::vector<Ray<float>> read_rays(const std::string& path) {
     std::vector<Ray<float>> rays;
     read_csv(read_text(path), source, ray_format, [&](std::span<const double> v, std::size_t line) {
         for (std::size_t i = 0; i < 6; ++i)
-            if (!(std::abs(v[i]) < max_coordinate))
+            if (!(std::abs(static_cast<float>(v[i])) < max_ray_coordinate))
                 throw_bad_row(source, line,
                               fmt::format("{} is {}; a ray needs finite numbers below 2^126 "
                                           "(8.5e37) in size",

@@ -5,6 +5,7 @@
 #include "bench/io/csv.h"
 #include "bench/io/json.h"
 #include "bench/io/say.h"
+#include "bench/tasks/detail/pairs_on_device.h"
 #include "kernels/oracle/registry.h"
 #include "kernels/registry.h"
 #include "kernels/suggest.h"
@@ -22,8 +23,10 @@ namespace boxwood::bench {
 namespace {
 
 template <class... Tuples> using Joined = decltype(std::tuple_cat(std::declval<Tuples>()...));
-using TouchKernels = Joined<TriangleKernels, oracle::RationalTriangleKernels>;
-using AllDistanceKernels = Joined<DistanceKernels, oracle::RationalTriangleDistanceKernels>;
+using TouchKernels =
+    Joined<TriangleKernels, std::tuple<CertifiedF32>, oracle::RationalTriangleKernels>;
+using AllDistanceKernels = Joined<DistanceKernels, std::tuple<CertifiedDistanceF32>,
+                                  oracle::RationalTriangleDistanceKernels>;
 
 constexpr CsvFormat triangle_pair_format{"ax,ay,az,bx,by,bz,cx,cy,cz of A, then the same of B", 18,
                                          18};

@@ -2,7 +2,7 @@
 
 #include "bench/truth/judging/case_truths.h"
 
-#include "bench/tasks/task.h"
+#include "bench/testing/judged.h"
 #include "bench/truth/judging/distance_truth.h"
 #include "bench/truth/judging/tally.h"
 #include "kernels/continuous/continuous_kernel.h"
@@ -23,21 +23,6 @@ using testing::HasSubstr;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-ContenderEntry named(Promise promise, const std::string& precision = "f64") {
-    ContenderEntry contender;
-    contender.name = "made_up";
-    contender.promise = promise;
-    contender.precision = precision;
-    return contender;
-}
-
-/// By the row that a result file has of it.
-bool is_broken(const Judgement& judgement) {
-    results::KernelRow row = judgement.kernel.value();
-    row.status = judgement.status;
-    return breaks_promise(row);
-}
-
 /// The unit right triangle at height z.
 Triangle<double> at(double z) { return {{0, 0, z}, {1, 0, z}, {0, 1, z}}; }
 
@@ -51,16 +36,6 @@ Scene pairs_of_triangles(std::vector<TrianglePairCase> cases) {
     return scene;
 }
 
-Judgement judged(const Scene& scene, std::string_view task, const Answers& answers,
-                 const ContenderEntry& contender) {
-    return find_task(task)->make_truth(scene, 2)->judge(answers, contender);
-}
-
-template <class T> AnswerList<T> answers_of(std::vector<T> list) {
-    AnswerList<T> answers;
-    answers.list = std::move(list);
-    return answers;
-}
 AnswerList<Decision> verdicts(std::vector<Decision> list) { return answers_of(std::move(list)); }
 
 AnswerList<Distance> distances(const std::vector<std::array<double, 3>>& list) {
@@ -345,37 +320,6 @@ TEST(CaseTruth, AClosedMeshMustNotLeak) {
     EXPECT_FALSE(is_broken(alone));
     EXPECT_FALSE(is_broken(judge(2, {}, Promise::none)));
     EXPECT_TRUE(is_broken(judge(2, {}, Promise::exact)));
-}
-
-TEST(CaseTruth, ATimeOfTouchMustNotBeCalledFree) {
-    // A vertex falls onto a triangle that lies still: touch at t = 1/2.
-    Scene scene;
-    MotionCases cases;
-    LinearMotion motion;
-    motion.start = {{{.25, .25, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
-    motion.end = motion.start;
-    motion.end[0].z = -1;
-    cases.motions = {{motion, Known::yes}};
-    scene.cases = cases;
-    const auto judge = [&](Impact impact, Promise promise) {
-        return judged(scene, "vertex_face", answers_of<Impact>({impact}), named(promise));
-    };
-    EXPECT_EQ(judge({Answer::yes, .5, .5, 0}, Promise::exact).status, Status::exact);
-    EXPECT_FALSE(is_broken(judge({Answer::yes, .5, std::nextafter(.5, 1), 0}, Promise::exact)));
-    EXPECT_TRUE(is_broken(judge({Answer::yes, .25, .75, 0}, Promise::exact)));
-    EXPECT_FALSE(is_broken(judge({Answer::yes, .25, .75, 0}, Promise::certified)));
-    EXPECT_FALSE(is_broken(judge({Answer::maybe, .25, .75, 0}, Promise::never_miss)));
-    EXPECT_TRUE(is_broken(judge({Answer::no, 1, 1, 0}, Promise::never_miss)));
-    const Judgement late = judge({Answer::yes, .625, .75, 0}, Promise::never_miss);
-    EXPECT_TRUE(is_broken(late));
-    EXPECT_EQ(late.kernel->bound_violations, 1u);
-    EXPECT_TRUE(is_broken(judge({Answer::yes, .25, .375, 0}, Promise::certified)));
-    const double before = std::nextafter(.5, 0), after = std::nextafter(.5, 1);
-    EXPECT_FALSE(is_broken(judge({Answer::yes, before, .5, 0}, Promise::exact)));
-    EXPECT_TRUE(is_broken(judge({Answer::yes, after, after, 0}, Promise::exact)));
-    EXPECT_TRUE(is_broken(judge({Answer::yes, before, before, 0}, Promise::exact)));
-    EXPECT_EQ(judge({Answer::yes, .625, .625, 0}, Promise::none).status, Status::exact);
-    EXPECT_EQ(judge({Answer::yes, .625, .625, 0}, Promise::none).kernel->max_rel_err, .125);
 }
 
 TEST(CaseTruth, NothingIsJudgedWhereOraclesDiffer) {

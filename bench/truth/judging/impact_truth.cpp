@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace boxwood::bench {
 namespace {
@@ -49,9 +50,10 @@ class ImpactTruth final : public CaseTruth {
             const Impact& said = list_of<Impact>(answers)[i];
             tally.called(said.tier);
             tally.answered(i, said.answer, truths[i]->touch);
-            if (!truths[i]->touch)
-                continue;
-            judge_time(tally, i, said, truths[i]->first);
+            if (truths[i]->touch)
+                judge_time(tally, i, said, truths[i]->first);
+            else if (tally.promise() != Promise::none && !is_miss(said))
+                broken(tally, i);
         }
         return tally.finish([&](std::size_t i) {
             return fmt::format("case {}: said {}, truth {}; {}; {}", i, answer_text(answers, i),
@@ -89,11 +91,20 @@ class ImpactTruth final : public CaseTruth {
             return;
         const bool too_wide =
             tally.promise() == Promise::exact && !(said.t_hit <= oracle::next_above(said.t_free));
-        if (!(said.t_free <= first.t_free) ||
-            (said.answer == Answer::yes && !(said.t_hit >= first.t_hit)) || too_wide) {
-            tally.violated();
-            tally.note(i, Worth::broken_promise);
-        }
+        if (!(said.t_free >= 0 && said.t_free <= first.t_free) ||
+            (said.answer == Answer::yes && !(said.t_hit >= first.t_hit)) || too_wide)
+            broken(tally, i);
+    }
+    static void broken(Tally& tally, std::size_t i) {
+        tally.violated();
+        tally.note(i, Worth::broken_promise);
+    }
+    /// Of two that never touch a no says so for all times, and what is not sure begins at none
+    /// before 0.
+    static bool is_miss(const Impact& said) {
+        return said.answer == Answer::no
+                   ? said.t_free == 1 && said.t_hit == std::numeric_limits<double>::infinity()
+                   : said.t_free >= 0;
     }
 
     CaseScene scene_;
