@@ -18,7 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-struct WorldsOnADevice : testing::Test {
+struct WorldsOnADevice : ::testing::Test {
     std::vector<Box> boxes;
     std::vector<std::uint32_t> first{0};
 
