@@ -97,8 +97,8 @@ void against_peers(const Index& index, const Times& times, Judge& judge) {
         for (const std::string& name : split_classes(ours.classes))
             for (const Phase phase : phases_of(times, ours)) {
                 for (const Cell* peer : peers_of[{job_of(ours), name}])
-                    if ((phase != Phase::build && phase != Phase::query) ||
-                        index.keeps_structure(ours) == index.keeps_structure(*peer))
+                    if (phase == Phase::build_and_query || phase == Phase::update_and_query ||
+                        index.divide_alike(ours, *peer))
                         judge.claim(*peer, ours, phase, name);
                 judge.close(Family::peers);
             }

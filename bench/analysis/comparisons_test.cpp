@@ -189,6 +189,24 @@ TEST(ComparePeers, WhereOneSideKeepsNoStructureOnlyTheSumIsCompared) {
     EXPECT_EQ(rows[0].verdict, Verdict::faster);
 }
 
+TEST(ComparePeers, NeitherAreThePartsOfAFrame) {
+    for (const auto field :
+         {&results::Variant::keeps_structure, &results::Variant::answers_from_cache}) {
+        Maker maker(9);
+        const auto ours = maker.cell("ours", false), other = maker.cell("other", true);
+        for (const auto cell : {ours, other}) {
+            maker.time(cell, Phase::update, steady(200));
+            maker.time(cell, Phase::query, steady(1000));
+        }
+        EXPECT_EQ(against_peers(maker.results).size(), 3u);
+        std::uint32_t& value = maker.results.variants[other].*field;
+        value = !value;
+        const auto rows = against_peers(maker.results);
+        ASSERT_EQ(rows.size(), 1u);
+        EXPECT_EQ(rows[0].phase, Phase::update_and_query);
+    }
+}
+
 TEST(CompareFamilies, OursThreadsAndStages) {
     RunForTest run;
     const auto hilbert = run.cell("uniform", 1000, "pairs", "hilbert.packed"),

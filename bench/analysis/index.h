@@ -40,8 +40,12 @@ class Index {
         return *found->second;
     }
     bool is_peer(const results::Cell& cell) const { return variant(cell).is_peer != 0; }
-    bool keeps_structure(const results::Cell& cell) const {
-        return variant(cell).keeps_structure != 0;
+    /// Whether two contenders do the same work in the same phase: not where one keeps no structure,
+    /// or has its answers before it is queried, and the other does not.
+    bool divide_alike(const results::Cell& a, const results::Cell& b) const {
+        const results::Variant &of_a = variant(a), &of_b = variant(b);
+        return of_a.keeps_structure == of_b.keeps_structure &&
+               of_a.answers_from_cache == of_b.answers_from_cache;
     }
     /// Of a way to play a moving scene, else empty.
     const std::string& stages(const results::Cell& cell) const { return variant(cell).stages; }

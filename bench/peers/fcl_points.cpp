@@ -1,4 +1,5 @@
 #include "bench/peers/answering.h"
+#include "bench/peers/fcl_bounds.h"
 #include "bench/peers/point_peers.h"
 
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
@@ -11,27 +12,10 @@ namespace {
 using Object = fcl::CollisionObject<double>;
 using Manager = fcl::DynamicAABBTreeCollisionManager<double>;
 
-/// A geometry that is nothing but its bounds.
-class Bounds final : public fcl::CollisionGeometry<double> {
-  public:
-    explicit Bounds(const Aabb<float>& box) {
-        for (int axis = 0; axis < 3; ++axis) {
-            aabb_local.min_[axis] = static_cast<double>(box.min[axis]);
-            aabb_local.max_[axis] = static_cast<double>(box.max[axis]);
-        }
-        computeLocalAABB();
-    }
-    void computeLocalAABB() override {
-        aabb_center = aabb_local.center();
-        aabb_radius = (aabb_local.max_ - aabb_center).norm();
-    }
-};
-
 std::vector<std::unique_ptr<Object>> objects_of(const std::vector<Aabb<float>>& boxes) {
     std::vector<std::unique_ptr<Object>> objects;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
-        objects.push_back(std::make_unique<Object>(std::make_shared<Bounds>(boxes[i])));
-        objects.back()->setUserData(reinterpret_cast<void*>(static_cast<std::uintptr_t>(i)));
+        objects.push_back(fcl_object(std::make_shared<FclBounds<double>>(boxes[i]), i));
     }
     return objects;
 }
@@ -83,8 +67,7 @@ class QueryManager final : public Contender {
     /// The item of the two: the other is the query itself.
     static std::uint32_t item(const Query& q, const Object* a, const Object* b) {
         const Object* own = q.self.queries_[q.number].get();
-        return static_cast<std::uint32_t>(
-            reinterpret_cast<std::uintptr_t>((a == own ? b : a)->getUserData()));
+        return item_of(a == own ? b : a);
     }
     static bool append(Object* a, Object* b, void* data) {
         const Query& q = *static_cast<const Query*>(data);

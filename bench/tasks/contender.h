@@ -114,6 +114,7 @@ struct ContenderEntry {
     std::size_t place = 0;     ///< ours: of the builder, policy or way to play in its registry
     bool is_plain = true;      ///< ours: by default settings, with no optimizer
     bool answers_from_cache = false; ///< its query tells nothing of its structure
+    bool misses_touching = false;    ///< pairs may be missing that do no more than touch
     std::vector<Answering> answers;
     /// Contenders of one job are compared within a class, those of several classes in each. Most
     /// tasks have one, and need not name it; tasks/detail/ray_task.h has those of rays.

@@ -157,6 +157,8 @@ ContenderEntry moving_contender(const BuilderChoice& policy) {
     entry.builder = name_with_settings(policy.name, policy.settings);
     entry.place = static_cast<std::size_t>(&update - updates().data());
     entry.answers_from_cache = update.answers_from_cache;
+    if (update.may_cache_pairs)
+        entry.classes = {cached_pairs_class};
     entry.is_plain = policy.settings.empty();
     entry.layout = "packed";
     entry.traversal = "self_pairs";

@@ -5,6 +5,10 @@
 
 namespace boxwood::bench {
 
+/// The class of contenders that may answer a frame with the pairs of earlier ones, corrected. All
+/// others find the pairs of each frame again, and are never compared with these.
+inline const std::string cached_pairs_class = "cached pairs";
+
 /// The contender "<policy>[_<setting><value>...].packed.self_pairs" of moving_pairs. Throws
 /// std::invalid_argument, with a suggestion, for an unknown name.
 ContenderEntry moving_contender(const BuilderChoice& policy);

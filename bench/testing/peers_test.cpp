@@ -111,6 +111,25 @@ std::vector<Pair> expected_pairs(const std::vector<Box>& boxes, bool of_two_halv
     return pairs;
 }
 
+/// Whether boxes of the scene are flat, or touch without sharing more than a face.
+bool has_touching(const std::vector<Box>& boxes) {
+    const auto flat = [](const Box& a, const Box& b) {
+        bool apart = false, touch = false;
+        for (int axis = 0; axis < 3; ++axis) {
+            const float low = std::max(a.min[axis], b.min[axis]),
+                        high = std::min(a.max[axis], b.max[axis]);
+            apart |= low > high;
+            touch |= low == high;
+        }
+        return touch && !apart;
+    };
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        for (std::size_t j = i; j < boxes.size(); ++j)
+            if (flat(boxes[i], boxes[j]))
+                return true;
+    return false;
+}
+
 /// Calls f(entry, job) for each contender and each way it can run.
 template <class F> void for_each_way(const Scene& scene, const Task& task, F f) {
     for (const Peer& peer : peers())
@@ -130,8 +149,11 @@ TEST_P(PeersOnBoxes, AgreeWithTwoLoops) {
         const Scene scene = scene_of(named.boxes);
         const Task& task = *find_task(GetParam());
         const std::vector<Pair> expected = expected_pairs(scene.boxes, task.name() == "tree_pairs");
+        const bool touching = has_touching(scene.boxes);
         int ways = 0;
         for_each_way(scene, task, [&](const ContenderEntry& entry, const Job& job) {
+            if (touching && entry.misses_touching)
+                return;
             SCOPED_TRACE(entry.name + " on " + named.name + ", " + job.executor + " " +
                          std::to_string(job.threads));
             ++ways;

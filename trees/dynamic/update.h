@@ -73,6 +73,7 @@ struct UpdateEntry {
     std::vector<SettingInfo> settings;
     std::function<std::unique_ptr<Updater>(const Settings&)> make;
     bool answers_from_cache = false; ///< with pairs found before, whatever became of the tree
+    bool may_cache_pairs = false;    ///< it may answer so in some frames
 };
 
 std::span<const UpdateEntry> updates();

@@ -202,6 +202,10 @@ struct Auto {
 
 } // namespace
 
-UpdateEntry auto_update() { return update_entry<Auto>(); }
+UpdateEntry auto_update() {
+    UpdateEntry entry = update_entry<Auto>();
+    entry.may_cache_pairs = true;
+    return entry;
+}
 
 } // namespace boxwood

@@ -70,7 +70,7 @@ struct Cached {
 
 UpdateEntry cached_update() {
     UpdateEntry entry = update_entry<Cached>();
-    entry.answers_from_cache = true;
+    entry.answers_from_cache = entry.may_cache_pairs = true;
     return entry;
 }
 

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "kernels/primitives/aabb.h"
+
+#include <fcl/geometry/collision_geometry.h>
+#include <fcl/narrowphase/collision_object.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace boxwood::bench {
+
+/// A geometry that is nothing but its bounds. FCL's own Box would be placed by centre and size, and
+/// its bounds would come back rounded: other boxes than ours, other pairs at a touch.
+template <class S> class FclBounds final : public fcl::CollisionGeometry<S> {
+  public:
+    explicit FclBounds(const Aabb<float>& box) { take(box); }
+    void take(const Aabb<float>& box) {
+        for (int axis = 0; axis < 3; ++axis) {
+            this->aabb_local.min_[axis] = static_cast<S>(box.min[axis]);
+            this->aabb_local.max_[axis] = static_cast<S>(box.max[axis]);
+        }
+        computeLocalAABB();
+    }
+    void computeLocalAABB() override {
+        this->aabb_center = this->aabb_local.center();
+        this->aabb_radius = (this->aabb_local.max_ - this->aabb_center).norm();
+    }
+};
+
+/// An object of these bounds that stands for item i.
+template <class S>
+std::unique_ptr<fcl::CollisionObject<S>> fcl_object(std::shared_ptr<FclBounds<S>> bounds,
+                                                    std::size_t i) {
+    auto object = std::make_unique<fcl::CollisionObject<S>>(std::move(bounds));
+    object->setUserData(reinterpret_cast<void*>(static_cast<std::uintptr_t>(i)));
+    return object;
+}
+
+template <class S> std::uint32_t item_of(const fcl::CollisionObject<S>* object) {
+    return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(object->getUserData()));
+}
+
+} // namespace boxwood::bench
