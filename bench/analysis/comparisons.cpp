@@ -85,6 +85,20 @@ std::vector<Phase> phases_of(const Times& times, const Cell& cell) {
     return phases;
 }
 
+/// Of builders alone: whether the one that takes less time pays for it by a dearer tree, so that a
+/// ratio of times would tell half. Else they are compared at equal cost, or one is better in both.
+bool trades_off(const Index& index, const Times& times, const Cell& a, const Cell& b, Phase phase) {
+    constexpr double equal = 1.01;
+    const double of_a = index.tree_cost(a), of_b = index.tree_cost(b);
+    if (phase != Phase::build || std::isnan(of_a) || std::isnan(of_b) ||
+        index.task(b.task).total != Phase::build)
+        return false;
+    const std::vector<double> logs = times.log_ratios(a.cell_id, b.cell_id, phase);
+    if (logs.empty())
+        return false;
+    return paired_ratio(logs).ratio < 1 ? of_b > equal * of_a : of_a > equal * of_b;
+}
+
 void against_peers(const Index& index, const Times& times, Judge& judge) {
     std::map<std::pair<JobKey, std::string>, std::vector<const Cell*>> peers_of; // and class
     for (const Cell& cell : index.results().cells)
@@ -97,8 +111,9 @@ void against_peers(const Index& index, const Times& times, Judge& judge) {
         for (const std::string& name : split_classes(ours.classes))
             for (const Phase phase : phases_of(times, ours)) {
                 for (const Cell* peer : peers_of[{job_of(ours), name}])
-                    if (phase == Phase::build_and_query || phase == Phase::update_and_query ||
-                        index.divide_alike(ours, *peer))
+                    if ((phase == Phase::build_and_query || phase == Phase::update_and_query ||
+                         index.divide_alike(ours, *peer)) &&
+                        !trades_off(index, times, *peer, ours, phase))
                         judge.claim(*peer, ours, phase, name);
                 judge.close(Family::peers);
             }
@@ -108,9 +123,10 @@ void against_peers(const Index& index, const Times& times, Judge& judge) {
 /// Claims that come one by one, put together by a key and the phase.
 template <class Key> class Grouped {
   public:
-    void add(const Key& key, const Times& times, const Cell& a, const Cell& b) {
+    void add(const Key& key, const Index& index, const Times& times, const Cell& a, const Cell& b) {
         for (const Phase phase : phases_of(times, b))
-            claims_[{key, phase}].emplace_back(&a, &b);
+            if (!trades_off(index, times, a, b, phase))
+                claims_[{key, phase}].emplace_back(&a, &b);
     }
     void judge(Judge& judge, Family family) const {
         for (const auto& [key, pairs] : claims_) {
@@ -128,14 +144,15 @@ void against_ours(const Index& index, const Times& times, Judge& judge) {
     Grouped<JobKey> claims;
     for (const Cell& cell : index.results().cells)
         if (const Cell* reference = reference_of(index, cell))
-            claims.add(job_of(cell), times, *reference, cell);
+            claims.add(job_of(cell), index, times, *reference, cell);
     claims.judge(judge, Family::ours);
 }
 
 void against_one_thread(const Index& index, const Times& times, Judge& judge) {
-    using Contender = std::tuple<std::uint32_t, std::string, std::uint32_t, std::string>;
+    using Contender =
+        std::tuple<std::uint32_t, std::string, std::uint32_t, std::string, std::string>;
     const auto contender_of = [](const Cell& cell) {
-        return Contender{cell.scene_id, cell.task, cell.variant_id, cell.precision};
+        return Contender{cell.scene_id, cell.task, cell.variant_id, cell.precision, cell.classes};
     };
     const std::string_view usual = default_executor(1);
     std::map<Contender, const Cell*> single; // of the usual executor if there is one
@@ -149,7 +166,7 @@ void against_one_thread(const Index& index, const Times& times, Judge& judge) {
     for (const Cell& cell : index.results().cells)
         if (cell.threads > 1)
             if (const auto one = single.find(contender_of(cell)); one != single.end())
-                claims.add(job_of(cell), times, *one->second, cell);
+                claims.add(job_of(cell), index, times, *one->second, cell);
     claims.judge(judge, Family::threads);
 }
 
@@ -168,9 +185,9 @@ void against_fewer_stages(const Index& index, const Times& times, Judge& judge) 
             continue;
         const Cell& base = *required.at(scene_of(cell));
         if (index.stages(cell) == results::all_stages)
-            claims.add(scene_of(cell), times, base, cell);
+            claims.add(scene_of(cell), index, times, base, cell);
         else if (&base != &cell)
-            claims.add(scene_of(cell), times, cell, base);
+            claims.add(scene_of(cell), index, times, cell, base);
     }
     claims.judge(judge, Family::stages);
 }

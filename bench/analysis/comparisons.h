@@ -24,6 +24,8 @@ namespace boxwood::bench {
 /// - devices: our best on a device from end to end against our best of 1, of 2 and of the most
 ///   threads (see device_races), by the total of the task; together are those of one scene and
 ///   task.
+/// Builders alone are compared unless the faster one's tree has a higher surface-area cost, by more
+/// than 1 %: what a trade-off is worth, the front in /trees shows.
 /// A wrong answer gets the verdict wrong and no ratio; what was not checked, cannot_tell.
 /// Needs Cell::status.
 std::vector<results::Comparison> comparisons_of(const results::Results& results, const Times& times,

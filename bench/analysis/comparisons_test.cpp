@@ -207,6 +207,30 @@ TEST(ComparePeers, NeitherAreThePartsOfAFrame) {
     }
 }
 
+TEST(ComparePeers, BuildersAloneOnlyWhereTheFasterOnesTreeIsAsGood) {
+    // Ours takes half of the peer's time; by the cost of its tree over that of the peer's.
+    for (const auto& [cost, is_compared] :
+         {std::pair{0.8, true}, {1.0, true}, {1.009, true}, {1.05, false}})
+        for (const char* task : {"build", "pairs"}) {
+            RunForTest run;
+            const auto ours = run.cell("uniform", 1000, task, "lbvh.tree"),
+                       peer = run.cell("uniform", 1000, task, "embree.rtc_build_bvh.high");
+            run.time(ours, Phase::build, 100);
+            run.time(peer, Phase::build, 200);
+            for (const auto cell : {ours, peer}) {
+                results::TreeRow tree;
+                tree.cell_id = cell;
+                tree.sah_cost = cell == ours ? 50 * cost : 50;
+                run.results.trees.push_back(tree);
+            }
+            EXPECT_EQ(against_peers(run.results).size(),
+                      is_compared || task == std::string("pairs") ? 1u : 0u)
+                << task << " " << cost;
+            run.results.trees.clear();
+            EXPECT_EQ(against_peers(run.results).size(), 1u);
+        }
+}
+
 TEST(CompareFamilies, OursThreadsAndStages) {
     RunForTest run;
     const auto hilbert = run.cell("uniform", 1000, "pairs", "hilbert.packed"),

@@ -9,6 +9,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace boxwood::bench {
 
@@ -26,6 +27,9 @@ class Index {
             tasks_[task.task] = &task;
         for (const results::KernelRow& row : results.kernels)
             kernels_.insert(row.cell_id);
+        for (const results::TreeRow& tree : results.trees)
+            if (const auto found = cells_.find(tree.cell_id); found != cells_.end())
+                tree_costs_[builder_of(*found->second)] = tree.sah_cost;
     }
     const results::Results& results() const { return results_; }
     const results::Cell& cell(std::uint32_t id) const { return *cells_.at(id); }
@@ -49,16 +53,29 @@ class Index {
     }
     /// Of a way to play a moving scene, else empty.
     const std::string& stages(const results::Cell& cell) const { return variant(cell).stages; }
+    /// The surface-area cost of the tree that a cell's builder makes of its scene; NaN if unknown.
+    double tree_cost(const results::Cell& cell) const {
+        const auto found = tree_costs_.find(builder_of(cell));
+        return found == tree_costs_.end() ? results::missing : found->second;
+    }
     /// A kernel on hard cases.
     bool is_kernel(const results::Cell& cell) const { return kernels_.contains(cell.cell_id); }
 
   private:
+    /// Whose tree is measured once a scene: ours by builder, peers' by contender.
+    using Builder = std::pair<std::uint32_t, std::string>;
+    Builder builder_of(const results::Cell& cell) const {
+        const results::Variant& own = variant(cell);
+        return {cell.scene_id, own.is_peer ? own.name : own.builder};
+    }
+
     const results::Results& results_;
     std::map<std::uint32_t, const results::SceneRow*> scenes_;
     std::map<std::uint32_t, const results::Variant*> variants_;
     std::map<std::uint32_t, const results::Cell*> cells_;
     std::map<std::string, const results::TaskRow*> tasks_;
     std::set<std::uint32_t> kernels_;
+    std::map<Builder, double> tree_costs_;
 };
 
 } // namespace boxwood::bench

@@ -5,6 +5,7 @@
 #include "bench/io/json.h"
 #include "bench/running/environment.h"
 #include "bench/tasks/contender.h"
+#include "bench/tasks/instruction_sets.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

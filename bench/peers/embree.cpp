@@ -31,7 +31,7 @@ class Collide final : public Contender {
         : scene_(*job.scene), boxes_(scene_.boxes), quality_(quality),
           split_(sides == Sides::two_halves ? tree_pairs_split(boxes_.size()) : 0),
           between_halves_(sides == Sides::two_halves), threads_(job.threads),
-          device_(make_device(job.threads)), arena_(static_cast<int>(job.threads)) {}
+          device_(make_device(job)), arena_(static_cast<int>(job.threads)) {}
 
     void build() override {
         boxes_ = scene_.boxes;
@@ -121,7 +121,8 @@ ContenderEntry entry(std::string name, std::string summary, std::string notes) {
     return e;
 }
 
-ContenderEntry collide(const char* word, RTCBuildQuality quality) {
+ContenderEntry collide(RTCBuildQuality quality) {
+    const char* const word = word_of(quality);
     ContenderEntry e =
         entry(fmt::format("rtc_collide.{}", word),
               fmt::format("Embree's rtcCollide on user geometry, build quality {}", word),
@@ -159,10 +160,14 @@ Peer embree_peer() {
     peer.title = "Embree";
     peer.summary = "Intel Embree: ray tracing kernels, and collision of user geometry";
     peer.version = RTC_VERSION_STRING;
+#if defined(BOXWOOD_EMBREE_4)
+    peer.build = "of the prefix BOXWOOD_EMBREE: SIMD chosen at run time, TBB";
+#else
     peer.build = "the distribution's package: SSE2 to AVX-512 chosen at run time, TBB";
-    peer.contenders = {
-        collide("low", RTC_BUILD_QUALITY_LOW), collide("medium", RTC_BUILD_QUALITY_MEDIUM),
-        collide("high", RTC_BUILD_QUALITY_HIGH), collide("refit", RTC_BUILD_QUALITY_REFIT)};
+#endif
+    for (const RTCBuildQuality quality : build_qualities)
+        peer.contenders.push_back(collide(quality));
+    peer.contenders.push_back(collide(RTC_BUILD_QUALITY_REFIT));
     for (ContenderEntry& e : embree_rays())
         peer.contenders.push_back(std::move(e));
     for (ContenderEntry& e : embree_trees())

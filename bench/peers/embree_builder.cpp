@@ -56,7 +56,7 @@ Box box_of(const RTCBuildPrimitive& p) {
 class BuildBvh final : public Contender {
   public:
     BuildBvh(const Job& job, RTCBuildQuality quality)
-        : n_(job.scene->boxes.size()), quality_(quality), device_(make_device(job.threads)),
+        : n_(job.scene->boxes.size()), quality_(quality), device_(make_device(job)),
           arena_(static_cast<int>(job.threads)), bvh_(rtcNewBVH(device_.get())) {
         const auto item = [&](std::size_t i) { return static_cast<unsigned>(i); };
         for (std::size_t i = 0; i < n_; ++i) {
@@ -139,11 +139,11 @@ class BuildBvh final : public Contender {
     Tree tree_;
 };
 
-ContenderEntry entry(const char* word, RTCBuildQuality quality) {
+ContenderEntry build_bvh(RTCBuildQuality quality) {
     ContenderEntry e;
-    e.name = fmt::format("embree.rtc_build_bvh.{}", word);
+    e.name = fmt::format("embree.rtc_build_bvh.{}", word_of(quality));
     e.library = "embree";
-    e.summary = fmt::format("Embree's rtcBuildBVH, build quality {}", word);
+    e.summary = fmt::format("Embree's rtcBuildBVH, build quality {}", word_of(quality));
     e.notes = "two children a node, one box a leaf; nodes from the thread's own allocator as in "
               "the tutorial; a build overwrites its primitives, so each begins with a copy";
     if (quality == RTC_BUILD_QUALITY_HIGH)
@@ -157,8 +157,10 @@ ContenderEntry entry(const char* word, RTCBuildQuality quality) {
 } // namespace
 
 std::vector<ContenderEntry> embree_trees() {
-    return {entry("low", RTC_BUILD_QUALITY_LOW), entry("medium", RTC_BUILD_QUALITY_MEDIUM),
-            entry("high", RTC_BUILD_QUALITY_HIGH)};
+    std::vector<ContenderEntry> all;
+    for (const RTCBuildQuality quality : build_qualities)
+        all.push_back(build_bvh(quality));
+    return all;
 }
 
 } // namespace boxwood::bench

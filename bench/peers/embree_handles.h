@@ -1,12 +1,21 @@
 #pragma once
 
+#include "bench/tasks/contender.h"
 #include "kernels/primitives/ray.h"
 
+#if defined(BOXWOOD_EMBREE_4)
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 #include <fmt/format.h>
 
+#include <array>
+#include <cstddef>
 #include <memory>
+#include <span>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -14,7 +23,8 @@
 #include <xmmintrin.h>
 #endif
 
-/// Embree's handles with owners, for the files of its peer.
+/// Embree's handles with owners, and what its versions 3 and 4 call differently, for the files of
+/// its peer.
 namespace boxwood::bench {
 
 /// Embree wants its callers to flush denormals; the thread's own setting comes back at the end.
@@ -39,12 +49,31 @@ using Device = Owned<RTCDevice, rtcReleaseDevice>;
 using SceneHandle = Owned<RTCScene, rtcReleaseScene>;
 using Geometry = Owned<RTCGeometry, rtcReleaseGeometry>;
 
-/// While a device with so many threads lives, all of TBB in this process is held to them.
-inline Device make_device(unsigned threads) {
-    Device device(rtcNewDevice(fmt::format("threads={},set_affinity=0", threads).c_str()));
+constexpr std::array build_qualities{RTC_BUILD_QUALITY_LOW, RTC_BUILD_QUALITY_MEDIUM,
+                                     RTC_BUILD_QUALITY_HIGH};
+inline const char* word_of(RTCBuildQuality quality) {
+    switch (quality) {
+    case RTC_BUILD_QUALITY_LOW:
+        return "low";
+    case RTC_BUILD_QUALITY_MEDIUM:
+        return "medium";
+    case RTC_BUILD_QUALITY_HIGH:
+        return "high";
+    case RTC_BUILD_QUALITY_REFIT:
+        return "refit";
+    }
+    throw std::logic_error("embree: no such build quality");
+}
+
+/// For the threads and the instruction set of a job. While it lives, all of TBB in this process is
+/// held to so many threads.
+inline Device make_device(const Job& job) {
+    std::string settings = fmt::format("threads={},set_affinity=0", job.threads);
+    if (!job.isa.empty())
+        settings += ",isa=" + (job.isa == "baseline" ? "sse4.2" : job.isa);
+    Device device(rtcNewDevice(settings.c_str()));
     if (!device)
-        throw std::runtime_error(fmt::format("embree: no device with {} threads (error {})",
-                                             threads,
+        throw std::runtime_error(fmt::format("embree: no device with {} (error {})", settings,
                                              static_cast<int>(rtcGetDeviceError(nullptr))));
     return device;
 }
@@ -71,6 +100,7 @@ inline SceneHandle commit(RTCDevice device, Geometry geometry, RTCBuildQuality q
     return scene;
 }
 
+/// In Embree's form, which has no room for a hit.
 inline RTCRay converted(const Ray<float>& ray) {
     return {ray.origin.x,
             ray.origin.y,
@@ -86,25 +116,92 @@ inline RTCRay converted(const Ray<float>& ray) {
             0};
 }
 
-/// With room for a hit.
-inline RTCRayHit hit_by(const Ray<float>& ray) {
-    RTCRayHit query{};
-    query.ray = converted(ray);
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    return query;
-}
-
-inline RayHit hit_of(const RTCRayHit& query) {
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+inline RayHit hit_in(const RTCRayHit& answered) {
+    if (answered.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return {};
-    return {query.ray.tfar, query.hit.u, query.hit.v, query.hit.primID};
+    return {answered.ray.tfar, answered.hit.u, answered.hit.v, answered.hit.primID};
+}
+/// A hit has some triangle number; Embree does not say which triangle it was.
+inline RayHit any_hit_by(float tfar) {
+    RayHit hit;
+    if (tfar < 0) // -inf marks a hit
+        hit.triangle = 0;
+    return hit;
 }
 
-inline RayHit closest(RTCScene scene, RTCRayHit query) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(scene, &context, &query);
-    return hit_of(query);
-}
+#if defined(BOXWOOD_EMBREE_4)
+using QueryContext = RTCRayQueryContext;
+#else
+using QueryContext = RTCIntersectContext;
+#endif
+
+/// Rays at one scene, 1, 8 or 16 in a call, or a stream. The flag and the context, which has to
+/// live as long, hold for all of them.
+class Tracing {
+  public:
+    Tracing(RTCScene scene, bool is_coherent, QueryContext& context) : scene_(scene) {
+#if defined(BOXWOOD_EMBREE_4)
+        rtcInitRayQueryContext(&context);
+        rtcInitIntersectArguments(&closest_);
+        rtcInitOccludedArguments(&any_);
+        closest_.context = any_.context = &context;
+        if (is_coherent)
+            closest_.flags = any_.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+#else
+        rtcInitIntersectContext(&context);
+        if (is_coherent)
+            context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+        context_ = &context;
+#endif
+    }
+
+    void intersect(RTCRayHit& ray) { closest(rtcIntersect1, ray); }
+    void intersect(const int* valid, RTCRayHit8& rays) { closest(rtcIntersect8, rays, valid); }
+    void intersect(const int* valid, RTCRayHit16& rays) { closest(rtcIntersect16, rays, valid); }
+    void occluded(RTCRay& ray) { any(rtcOccluded1, ray); }
+    void occluded(const int* valid, RTCRay8& rays) { any(rtcOccluded8, rays, valid); }
+    void occluded(const int* valid, RTCRay16& rays) { any(rtcOccluded16, rays, valid); }
+#if !defined(BOXWOOD_EMBREE_4)
+    void intersect(std::span<RTCRayHit> rays) {
+        rtcIntersect1M(scene_, context_, rays.data(), static_cast<unsigned>(rays.size()),
+                       sizeof(RTCRayHit));
+    }
+    void occluded(std::span<RTCRay> rays) {
+        rtcOccluded1M(scene_, context_, rays.data(), static_cast<unsigned>(rays.size()),
+                      sizeof(RTCRay));
+    }
+    void intersect(const RTCRayHitNp& rays, std::size_t n) {
+        rtcIntersectNp(scene_, context_, &rays, static_cast<unsigned>(n));
+    }
+    void occluded(const RTCRayNp& rays, std::size_t n) {
+        rtcOccludedNp(scene_, context_, &rays, static_cast<unsigned>(n));
+    }
+#endif
+
+  private:
+#if defined(BOXWOOD_EMBREE_4)
+    template <class Function, class Rays, class... Valid>
+    void closest(Function function, Rays& rays, Valid... valid) {
+        function(valid..., scene_, &rays, &closest_);
+    }
+    template <class Function, class Rays, class... Valid>
+    void any(Function function, Rays& rays, Valid... valid) {
+        function(valid..., scene_, &rays, &any_);
+    }
+    RTCIntersectArguments closest_;
+    RTCOccludedArguments any_;
+#else
+    template <class Function, class Rays, class... Valid>
+    void closest(Function function, Rays& rays, Valid... valid) {
+        function(valid..., scene_, context_, &rays);
+    }
+    template <class Function, class Rays, class... Valid>
+    void any(Function function, Rays& rays, Valid... valid) {
+        closest(function, rays, valid...);
+    }
+    QueryContext* context_;
+#endif
+    RTCScene scene_;
+};
 
 } // namespace boxwood::bench

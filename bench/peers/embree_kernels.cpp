@@ -13,7 +13,7 @@ namespace {
 class RayCasesContender final : public Contender {
   public:
     RayCasesContender(const Job& job, RTCSceneFlags flags)
-        : cases_(std::get<RayCases>(job.scene->cases)), device_(make_device(1)) {
+        : cases_(std::get<RayCases>(job.scene->cases)), device_(make_device(job)) {
         std::map<std::pair<std::uint32_t, std::uint32_t>, RTCScene> made;
         for (const RayCase& c : cases_.rays) {
             RTCScene& scene = made[{c.first, c.count}];
@@ -31,8 +31,14 @@ class RayCasesContender final : public Contender {
         const FlushDenormals flush;
         std::vector<RayHit>& hits = list_of<RayHit>(answers);
         hits.resize(cases_.rays.size());
-        for (std::size_t i = 0; i < cases_.rays.size(); ++i)
-            hits[i] = closest(scene_of_case_[i], hit_by(cases_.rays[i].ray));
+        QueryContext context;
+        for (std::size_t i = 0; i < cases_.rays.size(); ++i) {
+            RTCRayHit query{};
+            query.ray = converted(cases_.rays[i].ray);
+            query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+            Tracing(scene_of_case_[i], false, context).intersect(query);
+            hits[i] = hit_in(query);
+        }
     }
 
   private:

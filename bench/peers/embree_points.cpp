@@ -19,9 +19,9 @@ void bounds_of_item(const RTCBoundsFunctionArguments* args) {
 /// rtcPointQuery around points: all within a radius, or the nearest with a radius that shrinks.
 class EmbreePoints final : public Contender {
   public:
-    EmbreePoints(const Job& job, PointQuery query)
-        : scene_(*job.scene), query_(query), k_(neighbours_of(scene_)), threads_(job.threads),
-          vertices_(scene_.mesh.vertices), device_(make_device(job.threads)),
+    EmbreePoints(const Job& job, PointQuery query, RTCBuildQuality quality)
+        : scene_(*job.scene), query_(query), quality_(quality), k_(neighbours_of(scene_)),
+          threads_(job.threads), vertices_(scene_.mesh.vertices), device_(make_device(job)),
           arena_(static_cast<int>(job.threads)) {
         vertices_.emplace_back(); // Embree reads 16 bytes at the last vertex
     }
@@ -30,7 +30,7 @@ class EmbreePoints final : public Contender {
         arena_.execute([&] {
             embree_scene_ =
                 commit(device_.get(), query_ == PointQuery::surface_point ? mesh() : items(),
-                       RTC_BUILD_QUALITY_HIGH, RTC_SCENE_FLAG_NONE);
+                       quality_, RTC_SCENE_FLAG_NONE);
         });
     }
 
@@ -172,6 +172,7 @@ class EmbreePoints final : public Contender {
 
     const Scene& scene_;
     PointQuery query_;
+    RTCBuildQuality quality_;
     std::size_t k_;
     unsigned threads_;
     std::vector<Vec3<float>> vertices_;
@@ -181,30 +182,40 @@ class EmbreePoints final : public Contender {
     tbb::enumerable_thread_specific<std::vector<Pair>> parts_;
 };
 
-} // namespace
-
-std::vector<ContenderEntry> embree_points() {
+ContenderEntry point_query(RTCBuildQuality quality) {
     ContenderEntry e;
     e.name = "embree.rtc_point_query";
+    if (quality != RTC_BUILD_QUALITY_HIGH)
+        e.name += fmt::format(".{}", word_of(quality));
     e.library = "embree";
     e.summary = "Embree's rtcPointQuery, a callback per item or triangle within the radius";
-    e.notes = "build quality high (the fastest to query); points: radius 0; balls: the ball's "
-              "radius, tested in doubles by the callback; nearest and closest_points: a radius "
-              "that the callback shrinks; distances to triangles by our kernel in floats, as "
-              "Embree brings none; no regions that are boxes; with several threads pairs go to "
-              "one list per thread that are joined at the end";
+    e.notes = fmt::format(
+        "build quality {}; points: radius 0; balls: the ball's radius, tested in doubles by the "
+        "callback; nearest and closest_points: a radius that the callback shrinks; distances to "
+        "triangles by our kernel in floats, as Embree brings none; no regions that are boxes; with "
+        "several threads pairs go to one list per thread that are joined at the end",
+        word_of(quality));
     e.precision = "f32";
     e.runs_on = RunsOn::tbb;
-    e.answers = {answering<EmbreePoints>("points", PointQuery::containing),
-                 answering<EmbreePoints>("regions", PointQuery::overlapping),
-                 answering<EmbreePoints>("nearest", PointQuery::nearest),
-                 answering<EmbreePoints>("closest_points", PointQuery::surface_point)};
+    e.answers = {answering<EmbreePoints>("points", PointQuery::containing, quality),
+                 answering<EmbreePoints>("regions", PointQuery::overlapping, quality),
+                 answering<EmbreePoints>("nearest", PointQuery::nearest, quality),
+                 answering<EmbreePoints>("closest_points", PointQuery::surface_point, quality)};
     e.cannot = [](const Job& job) -> std::optional<std::string> {
         if (!job.scene->regions.empty())
             return "takes balls as regions, not boxes";
         return std::nullopt;
     };
-    return {e};
+    return e;
+}
+
+} // namespace
+
+std::vector<ContenderEntry> embree_points() {
+    std::vector<ContenderEntry> all;
+    for (const RTCBuildQuality quality : build_qualities)
+        all.push_back(point_query(quality));
+    return all;
 }
 
 } // namespace boxwood::bench

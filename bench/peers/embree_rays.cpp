@@ -1,40 +1,22 @@
-#include "bench/peers/answering.h"
-#include "bench/peers/embree_handles.h"
+/// Rays one at a time, and every hit; what all of Embree's contenders of rays have in common.
+
+#include "bench/peers/embree_rays.h"
 #include "bench/peers/ray_peers.h"
 #include "bench/tasks/detail/ray_classes.h"
+#include "scenes/sampling/rays.h"
 
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
 #include <iterator>
-#include <span>
+#include <type_traits>
 
 namespace boxwood::bench {
 namespace {
 
-template <int W> struct PacketTypes;
-template <> struct PacketTypes<8> {
-    using Rays = RTCRay8;
-    using RayHits = RTCRayHit8;
-    static constexpr auto intersect = rtcIntersect8;
-    static constexpr auto occluded = rtcOccluded8;
-};
-template <> struct PacketTypes<16> {
-    using Rays = RTCRay16;
-    using RayHits = RTCRayHit16;
-    static constexpr auto intersect = rtcIntersect16;
-    static constexpr auto occluded = rtcOccluded16;
-};
-
-/// A context whose filter collects what the ray meets; the context is the first member, so that the
-/// filter can find the rest.
+/// The context is the first member, so that the filter can find the rest.
 struct Collecting {
-    RTCIntersectContext context;
+    QueryContext context;
     std::uint32_t ray;
     std::vector<Pair>* out;
 };
@@ -48,303 +30,172 @@ void collect(const RTCFilterFunctionNArguments* args) {
     args->valid[0] = 0;
 }
 
-/// What is wanted of each ray.
-enum class Wanted { closest, any, all };
+/// A triangle that the build has cut is met once in each part. Returns the new size.
+std::size_t drop_repeated(std::vector<Pair>& pairs, std::size_t begin) {
+    const auto own = std::span(pairs).subspan(begin);
+    std::ranges::sort(own);
+    pairs.resize(pairs.size() - std::ranges::unique(own).size());
+    return pairs.size();
+}
 
-constexpr int stream = 0; ///< a width: as many as there are in a chunk
-constexpr std::size_t chunk = 256;
-
-struct Setting {
-    Wanted wanted = Wanted::closest;
-    int width = 1;
-    bool robust = false, coherent = false;
-    RTCBuildQuality quality = RTC_BUILD_QUALITY_MEDIUM;
-};
-
-/// Rays `width` at a time, in Embree's own form, which is made in the constructor and copied for
-/// each query: Embree writes what it finds into it.
-class Rays final : public Contender {
+class SingleRays final : public EmbreeRays {
   public:
-    Rays(const Job& job, const Setting& setting)
-        : scene_(*job.scene), setting_(setting), wanted_(setting.wanted), width_(setting.width),
-          threads_(job.threads), vertices_(scene_.mesh.vertices), device_(make_device(job.threads)),
-          arena_(static_cast<int>(job.threads)) {
-        vertices_.emplace_back(); // Embree reads 16 bytes at the last vertex
-        if (width_ == 8)
-            fill(packets8_);
-        else if (width_ == 16)
-            fill(packets16_);
-        else if (wanted_ == Wanted::any)
-            std::ranges::transform(scene_.rays, std::back_inserter(occluding_), converted);
-        else
-            std::ranges::transform(scene_.rays, std::back_inserter(hitting_), hit_by);
-    }
-
-    void build() override {
-        arena_.execute([&] {
-            Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-            rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                       vertices_.data(), 0, sizeof(Vec3<float>),
-                                       vertices_.size() - 1);
-            rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                       scene_.mesh.triangles.data(), 0,
-                                       sizeof(scene_.mesh.triangles[0]),
-                                       scene_.mesh.triangles.size());
-            if (wanted_ == Wanted::all)
-                rtcSetGeometryIntersectFilterFunction(geometry.get(), collect);
-            embree_scene_ = commit(device_.get(), std::move(geometry), setting_.quality,
-                                   setting_.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
-        });
+    SingleRays(const Job& job, const RaySettings& settings) : EmbreeRays(job, settings) {
+        std::ranges::transform(scene_.rays, std::back_inserter(rays_), converted);
     }
 
     void query(Answers& answers) override {
-        if (wanted_ == Wanted::all)
+        if (settings_.wanted == Wanted::all)
             return find_all(list_of<Pair>(answers));
         std::vector<RayHit>& hits = list_of<RayHit>(answers);
-        hits.resize(scene_.rays.size());
-        for_chunks([&](std::size_t begin, std::size_t end) {
-            const FlushDenormals flush;
-            if (width_ == 8)
-                return cast<8>(packets8_, begin, end, hits);
-            if (width_ == 16)
-                return cast<16>(packets16_, begin, end, hits);
-            if (width_ == stream)
-                return wanted_ == Wanted::any ? occluded_stream(begin, end, hits)
-                                              : closest_stream(begin, end, hits);
-            for (std::size_t i = begin; i < end; ++i)
-                hits[i] = wanted_ == Wanted::any ? occluded(occluding_[i])
-                                                 : closest(embree_scene_.get(), hitting_[i]);
+        hits.resize(rays_.size());
+        for_chunks(rays_.size(), chunk, [&](std::size_t begin, std::size_t end) {
+            QueryContext context;
+            Tracing tracing(embree_scene(), false, context);
+            if (settings_.wanted == Wanted::any)
+                for (std::size_t i = begin; i < end; ++i) {
+                    RTCRay ray = rays_[i];
+                    tracing.occluded(ray);
+                    hits[i] = any_hit_by(ray.tfar);
+                }
+            else
+                trace(tracing, begin, end, [&](std::size_t i, const RTCRayHit& answered) {
+                    hits[i] = hit_in(answered);
+                });
         });
     }
 
   private:
-    template <int W> using PacketOf = typename PacketTypes<W>::RayHits;
-
-    /// The last packet has fewer rays than lanes: the last ray again.
-    template <class Packet> void fill(std::vector<Packet>& packets) const {
-        const std::span<const Ray<float>> rays = scene_.rays;
-        const auto width = static_cast<std::size_t>(width_);
-        for (std::size_t first = 0; first < rays.size(); first += width) {
-            Packet& packet = packets.emplace_back();
-            for (std::size_t k = 0; k < width; ++k) {
-                const Ray<float>& ray = rays[std::min(first + k, rays.size() - 1)];
-                packet.ray.org_x[k] = ray.origin.x;
-                packet.ray.org_y[k] = ray.origin.y;
-                packet.ray.org_z[k] = ray.origin.z;
-                packet.ray.dir_x[k] = ray.direction.x;
-                packet.ray.dir_y[k] = ray.direction.y;
-                packet.ray.dir_z[k] = ray.direction.z;
-                packet.ray.tnear[k] = ray.t_min;
-                packet.ray.tfar[k] = ray.t_max;
-                packet.ray.time[k] = 0;
-                packet.ray.mask[k] = ~0u;
-                packet.ray.id[k] = packet.ray.flags[k] = 0;
-                packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
-            }
+    /// Calls answered(i, what Embree wrote) for ray after ray.
+    template <class Answered>
+    void trace(Tracing& tracing, std::size_t begin, std::size_t end, const Answered& answered) {
+        RTCRayHit query{};
+        for (std::size_t i = begin; i < end; ++i) {
+            query.ray = rays_[i];
+            query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+            tracing.intersect(query);
+            answered(i, query);
         }
-    }
-
-    /// work(begin, end) on the threads of the job: rays, in whole packets.
-    template <class Work> void for_chunks(const Work& work) {
-        const std::size_t n = scene_.rays.size();
-        if (threads_ == 1 && width_ != stream)
-            return work(0, n);
-        if (threads_ == 1) {
-            for (std::size_t begin = 0; begin < n; begin += chunk)
-                work(begin, std::min(n, begin + chunk));
-            return;
-        }
-        arena_.execute([&] {
-            tbb::parallel_for(std::size_t{0}, (n + chunk - 1) / chunk, [&](std::size_t i) {
-                work(i * chunk, std::min(n, (i + 1) * chunk));
-            });
-        });
     }
 
     void find_all(std::vector<Pair>& pairs) {
         pairs.clear();
         for (std::vector<Pair>& part : parts_)
             part.clear();
-        for_chunks([&](std::size_t begin, std::size_t end) {
-            const FlushDenormals flush;
-            all(begin, end, threads_ == 1 ? pairs : parts_.local());
+        for_chunks(rays_.size(), chunk, [&](std::size_t begin, std::size_t end) {
+            Collecting collecting{};
+            collecting.out = threads_ == 1 ? &pairs : &parts_.local();
+            Tracing tracing(embree_scene(), false, collecting.context);
+            collecting.ray = static_cast<std::uint32_t>(begin);
+            auto own = collecting.out->size();
+            trace(tracing, begin, end, [&](std::size_t, const RTCRayHit&) {
+                if (settings_.quality == RTC_BUILD_QUALITY_HIGH)
+                    own = drop_repeated(*collecting.out, own);
+                ++collecting.ray;
+            });
         });
         for (const std::vector<Pair>& part : parts_)
             pairs.insert(pairs.end(), part.begin(), part.end());
     }
 
-    /// A hit has some triangle number; Embree does not say which triangle it was.
-    RayHit occluded(RTCRay query) const {
-        RTCIntersectContext with = context();
-        rtcOccluded1(embree_scene_.get(), &with, &query);
-        return occlusion_of(query);
-    }
-    static RayHit occlusion_of(const RTCRay& query) {
-        RayHit hit;
-        if (query.tfar < 0) // -inf marks a hit
-            hit.triangle = 0;
-        return hit;
-    }
-
-    RTCIntersectContext context() const {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = setting_.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
-                                          : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-        return context;
-    }
-
-    void closest_stream(std::size_t begin, std::size_t end, std::vector<RayHit>& hits) const {
-        std::array<RTCRayHit, chunk> queries;
-        std::copy(hitting_.begin() + static_cast<std::ptrdiff_t>(begin),
-                  hitting_.begin() + static_cast<std::ptrdiff_t>(end), queries.begin());
-        RTCIntersectContext with = context();
-        rtcIntersect1M(embree_scene_.get(), &with, queries.data(),
-                       static_cast<unsigned>(end - begin), sizeof(RTCRayHit));
-        for (std::size_t i = begin; i < end; ++i)
-            hits[i] = hit_of(queries[i - begin]);
-    }
-    void occluded_stream(std::size_t begin, std::size_t end, std::vector<RayHit>& hits) const {
-        std::array<RTCRay, chunk> queries;
-        std::copy(occluding_.begin() + static_cast<std::ptrdiff_t>(begin),
-                  occluding_.begin() + static_cast<std::ptrdiff_t>(end), queries.begin());
-        RTCIntersectContext with = context();
-        rtcOccluded1M(embree_scene_.get(), &with, queries.data(),
-                      static_cast<unsigned>(end - begin), sizeof(RTCRay));
-        for (std::size_t i = begin; i < end; ++i)
-            hits[i] = occlusion_of(queries[i - begin]);
-    }
-
-    void all(std::size_t begin, std::size_t end, std::vector<Pair>& out) const {
-        Collecting collecting{};
-        collecting.out = &out;
-        for (std::size_t i = begin; i < end; ++i) {
-            rtcInitIntersectContext(&collecting.context);
-            collecting.ray = static_cast<std::uint32_t>(i);
-            RTCRayHit query = hitting_[i];
-            rtcIntersect1(embree_scene_.get(), &collecting.context, &query);
-        }
-    }
-
-    template <int W>
-    void cast(const std::vector<PacketOf<W>>& packets, std::size_t begin, std::size_t end,
-              std::vector<RayHit>& hits) const {
-        using Types = PacketTypes<W>;
-        for (std::size_t first = begin; first < end; first += W) {
-            alignas(64) PacketOf<W> packet = packets[first / W];
-            const std::size_t n = std::min<std::size_t>(W, end - first);
-            alignas(64) int valid[W];
-            for (std::size_t k = 0; k < W; ++k)
-                valid[k] = k < n ? -1 : 0;
-            RTCIntersectContext with = context();
-            if (wanted_ == Wanted::any) {
-                Types::occluded(valid, embree_scene_.get(), &with,
-                                reinterpret_cast<typename Types::Rays*>(&packet.ray));
-                for (std::size_t k = 0; k < n; ++k) {
-                    hits[first + k] = {};
-                    if (packet.ray.tfar[k] < 0)
-                        hits[first + k].triangle = 0;
-                }
-                continue;
-            }
-            Types::intersect(valid, embree_scene_.get(), &with, &packet);
-            for (std::size_t k = 0; k < n; ++k)
-                hits[first + k] = packet.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID
-                                      ? RayHit{}
-                                      : RayHit{packet.ray.tfar[k], packet.hit.u[k], packet.hit.v[k],
-                                               packet.hit.primID[k]};
-        }
-    }
-
-    const Scene& scene_;
-    Setting setting_;
-    Wanted wanted_;
-    int width_;
-    unsigned threads_;
-    std::vector<Vec3<float>> vertices_;
-    // The rays in the form of one of these:
-    std::vector<RTCRay> occluding_;
-    std::vector<RTCRayHit> hitting_;
-    std::vector<RTCRayHit8> packets8_;
-    std::vector<RTCRayHit16> packets16_;
-    Device device_;
-    tbb::task_arena arena_;
-    SceneHandle embree_scene_;
+    std::vector<RTCRay> rays_;
     tbb::enumerable_thread_specific<std::vector<Pair>> parts_; ///< of rays_all
 };
 
-std::string_view quality_name(RTCBuildQuality quality) {
-    return quality == RTC_BUILD_QUALITY_LOW    ? "low"
-           : quality == RTC_BUILD_QUALITY_HIGH ? "high"
-                                               : "medium";
-}
-
-std::string calls_of(const Setting& s) {
-    if (s.wanted == Wanted::all)
-        return "single rays, whose intersection filter takes each hit down and refuses it";
-    if (s.width == 1)
-        return "single rays";
-    if (s.width == stream)
-        return fmt::format("streams of {} rays", chunk);
-    return fmt::format("packets of {} rays", s.width);
-}
-
-ContenderEntry rays(const Setting& s) {
-    const std::string width = s.width == stream ? "1M" : std::to_string(s.width);
-    const bool is_medium = s.quality == RTC_BUILD_QUALITY_MEDIUM;
-    ContenderEntry e;
-    e.name = fmt::format(
-        "embree.rtc_{}{}{}{}{}{}", s.wanted == Wanted::any ? "occluded" : "intersect",
-        s.width == stream ? "1m" : width, s.wanted == Wanted::all ? ".filter" : "",
-        s.robust ? ".robust" : "", is_medium ? "" : fmt::format(".{}", quality_name(s.quality)),
-        s.coherent ? ".coherent" : "");
-    e.library = "embree";
-    e.precision = "f32";
-    e.summary =
-        fmt::format("Embree's rtc{}{} on triangles, {}, build quality {}",
-                    s.wanted == Wanted::any ? "Occluded" : "Intersect", width,
-                    s.robust ? "ROBUST scene (watertight)" : "default scene (not watertight)",
-                    quality_name(s.quality));
-    e.notes = fmt::format(
-        "{}, in the order given, context flag {}; the rays in Embree's structs, made before and "
-        "copied in the query, as Embree writes into them; denormals flushed during the query, as "
-        "Embree wants; vertex and index buffers shared; a build also frees the scene before it",
-        calls_of(s), s.coherent ? "COHERENT" : "INCOHERENT");
-    e.runs_on = RunsOn::tbb;
-    e.cannot = [](const Job& job) -> std::optional<std::string> {
-        if (std::holds_alternative<RayCases>(job.scene->cases))
-            return "answers about the rays of a scene, not about cases";
-        return std::nullopt;
-    };
-    e.classes = {ray_class::batches};
-    if (s.wanted != Wanted::all)
-        e.classes = s.width == 1 ? std::vector{ray_class::single, ray_class::batches}
-                                 : std::vector{ray_class::packets};
-    if (s.robust)
-        e.classes = ray_class::watertight(std::move(e.classes));
-    e.answers = {answering<Rays>(s.wanted == Wanted::closest ? "rays_closest"
-                                 : s.wanted == Wanted::any   ? "rays_any"
-                                                             : "rays_all",
-                                 s)};
-    return e;
+void append_single_rays(std::vector<ContenderEntry>& all, Wanted wanted, const char* task) {
+    RayForm form{"1", "1", "single rays", {ray_class::single, ray_class::batches}};
+    if (wanted == Wanted::all)
+        form = {"1",
+                "1.filter",
+                "single rays, whose intersection filter takes each hit down and refuses it",
+                {ray_class::batches}};
+    for (const RTCBuildQuality quality : build_qualities)
+        for (const bool is_robust : {false, true}) {
+            const RaySettings settings{
+                .wanted = wanted, .quality = quality, .is_robust = is_robust};
+            ContenderEntry e = ray_entry(form, settings);
+            if (wanted == Wanted::all && quality == RTC_BUILD_QUALITY_HIGH)
+                e.notes += "; cut triangles are met several times: each ray's are sorted, and "
+                           "those that repeat dropped";
+            e.answers = {answering<SingleRays>(task, settings)};
+            all.push_back(std::move(e));
+        }
 }
 
 } // namespace
 
+EmbreeRays::EmbreeRays(const Job& job, const RaySettings& settings)
+    : scene_(*job.scene), settings_(settings), threads_(job.threads),
+      vertices_(scene_.mesh.vertices), device_(make_device(job)),
+      arena_(static_cast<int>(job.threads)) {
+    vertices_.emplace_back(); // Embree reads 16 bytes at the last vertex
+}
+
+void EmbreeRays::build() {
+    arena_.execute([&] {
+        Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+        rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                   vertices_.data(), 0, sizeof(Vec3<float>), vertices_.size() - 1);
+        rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                   scene_.mesh.triangles.data(), 0,
+                                   sizeof(scene_.mesh.triangles[0]), scene_.mesh.triangles.size());
+        if (settings_.wanted == Wanted::all)
+            rtcSetGeometryIntersectFilterFunction(geometry.get(), collect);
+        embree_scene_ = commit(device_.get(), std::move(geometry), settings_.quality,
+                               settings_.is_robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+    });
+}
+
+std::vector<std::uint32_t> EmbreeRays::lanes(std::size_t width) const {
+    const std::size_t n = scene_.rays.size();
+    return settings_.in_tiles ? lanes_in_tiles(n, picture_width(scene_.spec.rays, n), width)
+                              : lanes_in_order(n, width);
+}
+
+ContenderEntry ray_entry(const RayForm& form, const RaySettings& settings) {
+    const bool any = settings.wanted == Wanted::any;
+    ContenderEntry e;
+    e.name = fmt::format("embree.rtc_{}{}", any ? "occluded" : "intersect", form.word);
+    if (settings.is_robust)
+        e.name += ".robust";
+    if (settings.quality != RTC_BUILD_QUALITY_MEDIUM)
+        e.name += fmt::format(".{}", word_of(settings.quality));
+    if (settings.is_coherent)
+        e.name += ".coherent";
+    if (settings.in_tiles)
+        e.name += ".tiles";
+    e.library = "embree";
+    e.precision = "f32";
+    e.summary = fmt::format(
+        "Embree's rtc{}{} on triangles, {}", any ? "Occluded" : "Intersect", form.function,
+        settings.is_robust ? "ROBUST scene (watertight)" : "default scene (not watertight)");
+    e.notes = fmt::format(
+        "{}, {}context flag {}, build quality {}; the rays in Embree's structs, made before and "
+        "copied in the query, as Embree writes into them; what it wrote is read into the answers; "
+        "denormals flushed during the query, as Embree wants; vertex and index buffers shared; a "
+        "build also frees the scene before it",
+        form.notes,
+        settings.in_tiles ? "filled by tiles of the picture, answers put back in the query, " : "",
+        settings.is_coherent ? "COHERENT" : "INCOHERENT", word_of(settings.quality));
+    e.runs_on = RunsOn::tbb;
+    e.classes = settings.is_robust ? ray_class::watertight(form.classes) : form.classes;
+    e.cannot = [in_tiles = settings.in_tiles](const Job& job) -> std::optional<std::string> {
+        if (std::holds_alternative<RayCases>(job.scene->cases))
+            return "answers about the rays of a scene, not about cases";
+        if (in_tiles && picture_width(job.scene->spec.rays, job.scene->rays.size()) == 0)
+            return "fills its lanes by tiles of a picture, which these rays are not";
+        return std::nullopt;
+    };
+    return e;
+}
+
 std::vector<ContenderEntry> embree_rays() {
     std::vector<ContenderEntry> all;
-    for (const Wanted wanted : {Wanted::closest, Wanted::any, Wanted::all})
-        for (const RTCBuildQuality quality :
-             {RTC_BUILD_QUALITY_MEDIUM, RTC_BUILD_QUALITY_HIGH, RTC_BUILD_QUALITY_LOW})
-            for (const bool coherent : {false, true})
-                for (const int width : {1, 8, 16, stream})
-                    for (const bool robust : {false, true})
-                        // What a single ray is told of coherence Embree does not look at; in a
-                        // scene of HIGH, which splits triangles, a filter meets some twice.
-                        if (width == 1 ? !coherent && !(wanted == Wanted::all &&
-                                                        quality == RTC_BUILD_QUALITY_HIGH)
-                                       : wanted != Wanted::all)
-                            all.push_back(rays({wanted, width, robust, coherent, quality}));
+    append_single_rays(all, Wanted::closest, "rays_closest");
+    append_single_rays(all, Wanted::any, "rays_any");
+    append_single_rays(all, Wanted::all, "rays_all");
+    append_embree_packets(all);
+    append_embree_streams(all);
     return all;
 }
 

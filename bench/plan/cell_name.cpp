@@ -39,8 +39,11 @@ std::string format_cell_name(const CellName& name) {
     require(is_dotted_words(name.contender), "contender", name.contender);
     require(is_word(name.precision), "precision", name.precision);
     require(is_word(name.executor), "executor", name.executor);
-    return fmt::format("{}/n{}-s{}/{}/{}/{}/{}-{}", name.scene, name.n_items, name.seed, name.task,
-                       name.contender, name.precision, name.executor, name.threads);
+    if (!name.isa.empty())
+        require(is_word(name.isa), "instruction set", name.isa);
+    return fmt::format("{}/n{}-s{}/{}/{}/{}/{}-{}{}{}", name.scene, name.n_items, name.seed,
+                       name.task, name.contender, name.precision, name.executor, name.threads,
+                       name.isa.empty() ? "" : "/", name.isa);
 }
 
 } // namespace boxwood::bench

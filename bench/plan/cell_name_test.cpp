@@ -13,6 +13,9 @@ const CellName example{"triangle_soup", 100000, 1, "pairs", "binned_sah_bins16.w
 TEST(CellName, FormatsAsDocumented) {
     EXPECT_EQ(format_cell_name(example),
               "triangle_soup/n100000-s1/pairs/binned_sah_bins16.wide8.self_pairs/f32/tbb-2");
+    CellName held = example;
+    held.isa = "avx2";
+    EXPECT_EQ(format_cell_name(held), format_cell_name(example) + "/avx2");
 }
 
 TEST(CellName, RefusesWhatIsNotMadeOfWords) {

@@ -3,6 +3,7 @@
 #include "bench/io/bad_input.h"
 #include "bench/plan/block_table.h"
 #include "bench/plan/config_reader.h"
+#include "bench/tasks/instruction_sets.h"
 
 #include <fmt/format.h>
 
@@ -13,8 +14,10 @@
 namespace boxwood::bench {
 namespace {
 
+constexpr std::string_view native = "native"; ///< as an instruction set: the processor's best
+
 /// Of every [[cells]] block.
-const Names common_keys{"task", "rounds"};
+const Names common_keys{"task", "rounds", "isa"};
 
 bool takes(const Task& task, std::string_view key) {
     return std::ranges::count(task.keys(), key) > 0;
@@ -98,6 +101,12 @@ Block read_block(const std::shared_ptr<const ConfigReader>& reader,
         reader->fail(table.source(), "[[cells]] needs a scene, such as scene = \"uniform\"");
     if (const toml::node* rounds = table.get("rounds"))
         block.rounds = static_cast<unsigned>(reader->whole(*rounds, "rounds", 1, 10'000));
+    if (table.get("isa")) {
+        Names known(instruction_sets().begin(), instruction_sets().end());
+        known.emplace_back(native);
+        block.instruction_sets = block.reader.names("isa", known);
+        std::ranges::replace(block.instruction_sets, std::string(native), std::string());
+    }
     return block;
 }
 

@@ -26,7 +26,9 @@ class Expansion {
         for (const Task* task : block.tasks)
             task->expand(block.reader, [&](const SceneSpec& scene, const ContenderEntry& contender,
                                            const std::string& executor, unsigned threads) {
-                add_cell(block, {"", scene, task, contender, executor, threads, block.rounds});
+                for (const std::string& isa : block.instruction_sets)
+                    add_cell(block,
+                             {"", scene, task, contender, executor, threads, block.rounds, isa});
             });
     }
 
@@ -34,9 +36,9 @@ class Expansion {
     /// Equal cells collapse; two cells of one name that are not equal are an error.
     void add_cell(const Block& block, PlannedCell cell) {
         const SceneSpec& spec = cell.scene;
-        cell.name = format_cell_name({scene_name(spec), spec.n, spec.seed,
-                                      std::string(cell.task->name()), cell.contender.name,
-                                      cell.contender.precision, cell.executor, cell.threads});
+        cell.name = format_cell_name(
+            {scene_name(spec), spec.n, spec.seed, std::string(cell.task->name()),
+             cell.contender.name, cell.contender.precision, cell.executor, cell.threads, cell.isa});
         const auto [seen, is_new] = index_of_.try_emplace(cell.name, cells_.size());
         if (is_new) {
             cells_.push_back(std::move(cell));

@@ -28,6 +28,7 @@ struct PlannedCell {
     std::string executor;
     unsigned threads = 1;
     std::optional<unsigned> rounds; ///< only in the first so many of the sweep's
+    std::string isa{};              ///< Job::isa
 
     bool is_in(unsigned round) const { return !rounds || round < *rounds; }
 };

@@ -54,6 +54,16 @@ TEST(Plan, IsTheCrossProduct) {
         names_of(plan).contains("uniform/n20-s1/pairs/binned_sah.wide8.self_pairs/f32/tbb-2"));
 }
 
+TEST(Plan, CellsMayBeHeldToInstructionSets) {
+    const std::size_t usual = plan_of(config).cells.size();
+    const Plan plan = plan_of(config + "isa = [\"baseline\", \"native\"]\n");
+    EXPECT_EQ(plan.cells.size(), 2 * usual);
+    for (const PlannedCell& cell : plan.cells)
+        EXPECT_EQ(cell.name.ends_with("/baseline"), cell.isa == "baseline") << cell.name;
+    EXPECT_NE(plan.sweep_hash, plan_of(config).sweep_hash);
+    EXPECT_THROW(plan_of(config + "isa = \"avx3\"\n"), BadInput);
+}
+
 TEST(Plan, EqualCellsCollapse) {
     const std::string block = config.substr(config.find("[[cells]]"));
     EXPECT_EQ(names_of(plan_of(config + block)), names_of(plan_of(config)));

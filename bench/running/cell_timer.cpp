@@ -191,11 +191,13 @@ void CellTimer::make(const Timing& timing) {
     const PlannedCell& cell = *timing.cell;
     std::fegetenv(&floating_point_mode_);
     const Scene& scene = scene_of(cell.scene);
-    contender_ = cell.contender.make(Job{&scene, cell.task, cell.executor, cell.threads});
+    instruction_set_.emplace(cell.isa);
+    contender_ = cell.contender.make(Job{&scene, cell.task, cell.executor, cell.threads, cell.isa});
 }
 
 void CellTimer::finish() {
     contender_.reset();
+    instruction_set_.reset();
     std::fesetenv(&floating_point_mode_);
     ++done_;
 }

@@ -4,6 +4,7 @@
 #include "bench/plan/plan.h"
 #include "bench/running/calibration.h"
 #include "bench/running/play.h"
+#include "bench/tasks/instruction_sets.h"
 #include "results/results.h"
 
 #include <benchmark/benchmark.h>
@@ -12,6 +13,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -68,6 +70,7 @@ class CellTimer {
     unsigned round_;
     std::map<std::string, Scene> scenes_;
     std::map<std::string, Frames> frames_;
+    std::optional<InstructionSetLimit> instruction_set_; ///< of the contender
     std::unique_ptr<Contender> contender_;
     std::unique_ptr<Answers> answers_;
     std::fenv_t floating_point_mode_{};

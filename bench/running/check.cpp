@@ -166,10 +166,10 @@ void CheckRun::judge_task(const Scene& scene, std::uint32_t scene_id, const Task
         const std::string name =
             format_cell_name({scene.name, scene.spec.n, scene.spec.seed, std::string(task.name()),
                               contender.name, contender.precision, executor, 1});
-        const results::Cell cell =
-            record_.cell(name, scene, scene_id, task, contender, executor, 1);
+        const Job job{&scene, &task, executor, 1};
+        const results::Cell cell = record_.cell(name, job, scene_id, contender);
         double query_ns = 0;
-        Judgement judgement = judged({&scene, &task, executor, 1}, *truth, contender, query_ns);
+        Judgement judgement = judged(job, *truth, contender, query_ns);
         if (!judgement.kernel) // could not answer
             judgement.kernel.emplace();
         results::KernelRow& row = *judgement.kernel;

@@ -2,6 +2,7 @@
 
 #include "bench/running/machine.h"
 #include "bench/tasks/contender.h"
+#include "bench/tasks/instruction_sets.h"
 #include "build_info.h"
 #include "cmake_cache.h"
 #include "git_commit.h"
@@ -25,14 +26,6 @@ namespace {
 
 std::string highway_version() { return fmt::format("{}.{}.{}", HWY_MAJOR, HWY_MINOR, HWY_PATCH); }
 
-/// Names of the targets in a mask, best (lowest bit) first.
-std::vector<std::string> target_names(std::int64_t targets) {
-    std::vector<std::string> names;
-    for (; targets != 0; targets &= targets - 1)
-        names.emplace_back(hwy::TargetName(targets & -targets));
-    return names;
-}
-
 std::string hash_of(const results::Env& e) {
     // A separator that no field holds keeps ("ab", "c") and ("a", "bc") apart.
     std::string text;
@@ -48,10 +41,6 @@ std::string hash_of(const results::Env& e) {
 }
 
 } // namespace
-
-std::vector<std::string> isas_supported() { return target_names(hwy::SupportedTargets()); }
-
-std::string isa_used() { return target_names(hwy::SupportedTargets() & HWY_TARGETS).at(0); }
 
 std::string cmake_cache_text() { return cmake_cache; }
 

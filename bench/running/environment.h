@@ -14,11 +14,6 @@ namespace boxwood::bench {
 /// 0.3 s) only if wanted.
 results::Env environment(bool measure_bandwidth);
 
-/// The instruction set that Highway picks on this machine ("AVX3_ZEN4", ...): the best of those
-/// that our code was compiled for. `isas_supported` are all that the processor offers, best first.
-std::string isa_used();
-std::vector<std::string> isas_supported();
-
 /// What was given to the compiler, and the raw output of lscpu (empty where it is missing).
 std::string cmake_cache_text();
 std::string lscpu_text();

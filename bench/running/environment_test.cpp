@@ -1,6 +1,7 @@
 #include "bench/running/environment.h"
 
 #include "bench/running/machine.h"
+#include "bench/tasks/instruction_sets.h"
 
 #include <gtest/gtest.h>
 

@@ -3,6 +3,7 @@
 #include "bench/running/calibration.h"
 #include "bench/running/play.h"
 #include "bench/running/record.h"
+#include "bench/tasks/instruction_sets.h"
 #include "bench/truth/truth.h"
 #include "trees/device.h"
 #include "trees/inspect/quality.h"
@@ -92,9 +93,8 @@ class Preparation {
     }
 
     void prepare_cell(const PlannedCell& cell, std::uint32_t scene_id) {
-        results::Cell row = record_.cell(cell.name, scene_, scene_id, *cell.task, cell.contender,
-                                         cell.executor, cell.threads);
-        const Job job{&scene_, cell.task, cell.executor, cell.threads};
+        const Job job{&scene_, cell.task, cell.executor, cell.threads, cell.isa};
+        results::Cell row = record_.cell(cell.name, job, scene_id, cell.contender);
         Judgement judgement;
         Calibration calibration;
         if (const std::optional<std::string> why = cell.contender.unsupported(job)) {
@@ -128,6 +128,7 @@ class Preparation {
         const Task& task = *cell.task;
         Truth& truth = truth_of(task);
         const KeepFloatingPointMode keep;
+        const InstructionSetLimit limit(cell.isa);
         const std::unique_ptr<Contender> contender = cell.contender.make(job);
         const std::unique_ptr<Answers> answers = task.make_answers();
         Calibration calibration;

@@ -46,18 +46,26 @@ Total total_of(Phases phases) {
     return {results::Phase::build_and_query, "build and one query"};
 }
 
+std::vector<std::string> all_with(std::vector<std::string> classes, const std::string& suffix) {
+    if (classes.empty())
+        classes = {""};
+    for (std::string& name : classes)
+        name += (name.empty() ? "" : " ") + suffix;
+    return classes;
+}
+
+/// Contenders that are held to an instruction set stand apart.
+std::vector<std::string> classes_on(const std::string& isa, std::vector<std::string> classes) {
+    return isa.empty() ? classes : all_with(std::move(classes), "on " + isa);
+}
+
 /// Contenders on a device stand apart, and those that leave their answers there from the others.
 std::vector<std::string> classes_at(std::string_view place, std::vector<std::string> classes) {
     if (!is_device(place))
         return classes;
-    if (classes.empty())
-        classes = {""};
-    for (std::string& name : classes)
-        name += std::string(name.empty() ? "" : " ") + (place == device_executor ? "on a device"
-                                                        : place == graph_executor
-                                                            ? "resident by a graph"
-                                                            : "resident");
-    return classes;
+    return all_with(std::move(classes), place == device_executor  ? "on a device"
+                                        : place == graph_executor ? "resident by a graph"
+                                                                  : "resident");
 }
 
 } // namespace
@@ -94,9 +102,9 @@ std::uint32_t Record::add_scene(const Scene& scene, std::string tasks) {
     return row.scene_id;
 }
 
-results::Cell Record::cell(std::string name, const Scene& scene, std::uint32_t scene_id,
-                           const Task& task, const ContenderEntry& contender,
-                           const std::string& executor, unsigned threads) {
+results::Cell Record::cell(std::string name, const Job& job, std::uint32_t scene_id,
+                           const ContenderEntry& contender) {
+    const Task& task = *job.task;
     if (std::ranges::find(out.tasks, task.name(), &results::TaskRow::task) == out.tasks.end())
         out.tasks.push_back(task_row(task));
     results::Cell row;
@@ -105,13 +113,17 @@ results::Cell Record::cell(std::string name, const Scene& scene, std::uint32_t s
     row.scene_id = scene_id;
     row.variant_id = variant_id_of(contender);
     row.task = task.name();
-    row.classes = fmt::format("{}", fmt::join(classes_at(executor, contender.classes), ","));
-    row.n_items = items_of(scene);
-    row.n_queries = task.n_queries(scene);
+    row.classes = fmt::format(
+        "{}", fmt::join(classes_on(job.isa, classes_at(job.executor, contender.classes)), ","));
+    row.n_items = items_of(*job.scene);
+    row.n_queries = task.n_queries(*job.scene);
     row.precision = contender.precision;
-    row.executor = executor;
-    row.threads = threads;
-    row.isa = contender.is_peer || is_device(executor) ? "" : out.env.front().isa_used;
+    row.executor = job.executor;
+    row.threads = job.threads;
+    if (!job.isa.empty())
+        row.isa = job.isa;
+    else if (!contender.is_peer && !is_device(job.executor))
+        row.isa = out.env.front().isa_used;
     return row;
 }
 

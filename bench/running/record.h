@@ -19,9 +19,8 @@ class Record {
     /// Of a scene on which these tasks are done (comma-separated); gives its scene_id.
     std::uint32_t add_scene(const Scene& scene, std::string tasks);
     /// The row of a cell that is about to be added. Adds the contender's variant if it is new.
-    results::Cell cell(std::string name, const Scene& scene, std::uint32_t scene_id,
-                       const Task& task, const ContenderEntry& contender,
-                       const std::string& executor, unsigned threads);
+    results::Cell cell(std::string name, const Job& job, std::uint32_t scene_id,
+                       const ContenderEntry& contender);
 
     /// Check, kernel row and condition rows of a cell, whose query took so long.
     void add(Judgement judgement, std::uint32_t cell_id, double query_ns);

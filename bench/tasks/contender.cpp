@@ -1,5 +1,6 @@
 #include "bench/tasks/contender.h"
 
+#include "bench/tasks/instruction_sets.h"
 #include "bench/tasks/task.h"
 #include "kernels/suggest.h"
 #include "peers_found.h"
@@ -72,6 +73,8 @@ std::optional<std::string> ContenderEntry::unsupported(const Job& job) const {
     if (cannot && job.scene)
         if (auto why = cannot(job))
             return why;
+    if (auto why = missing_instruction_set(job.isa))
+        return why;
     return is_device(job.executor) ? cannot_run_on_device(*answering, job)
                                    : cannot_run(runs_on, job);
 }

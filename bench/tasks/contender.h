@@ -37,6 +37,7 @@ struct Job {
     const Task* task = nullptr;
     std::string executor{default_executor(1)}; ///< a name of executors(), or of a device's places
     unsigned threads = 1;
+    std::string isa{}; ///< of instruction_sets(), which it is held to; empty: to none
 };
 
 /// A part of build and query by the clock of a device.

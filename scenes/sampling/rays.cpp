@@ -97,7 +97,7 @@ std::vector<Ray<float>> primary(const Target& target) {
     const Vec eye = target.centre + 2.5 * target.radius * backward;
     const Vec right = normalized(cross({0, 1, 0}, backward));
     const Vec up = cross(backward, right);
-    const auto side = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(target.n))));
+    const std::size_t side = picture_width("primary", target.n);
     const double step = 2 * 0.44 / static_cast<double>(side);
     std::vector<Ray<float>> rays;
     rays.reserve(target.n);
@@ -174,6 +174,12 @@ std::span<const RayKindEntry> ray_kinds() {
     static constexpr RayKindEntry entries[] = {BOXWOOD_RAY_KINDS(BOXWOOD_ROW)};
 #undef BOXWOOD_ROW
     return entries;
+}
+
+std::size_t picture_width(std::string_view kind, std::size_t n) {
+    return kind == "primary"
+               ? static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(n))))
+               : 0;
 }
 
 void check_ray_kind(std::string_view kind) { entry_named(kind, ray_kinds(), "kind of rays"); }

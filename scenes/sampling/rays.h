@@ -3,6 +3,7 @@
 #include "kernels/primitives/ray.h"
 #include "kernels/primitives/triangle.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -18,5 +19,9 @@ void check_ray_kind(std::string_view kind);
 /// std::runtime_error for a mesh so large that a ray would overflow.
 std::vector<Ray<float>> make_rays(std::string_view kind, const TriangleMesh& mesh, std::size_t n,
                                   std::uint64_t seed);
+
+/// Pixels in a row of the picture that n rays of a kind are, whose last row may be in part; 0 if
+/// they are no picture.
+std::size_t picture_width(std::string_view kind, std::size_t n);
 
 } // namespace boxwood

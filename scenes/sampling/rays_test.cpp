@@ -56,6 +56,13 @@ TEST(Rays, PrimaryRaysSeeTheMeshRowByRow) {
     EXPECT_GT(length(scene.rays[31].direction - scene.rays[32].direction), 0.5f);
 }
 
+TEST(Rays, PrimaryRaysAloneAreAPicture) {
+    for (const RayKindEntry& kind : ray_kinds())
+        EXPECT_EQ(picture_width(kind.name, 1000), kind.name == "primary" ? 32u : 0u);
+    EXPECT_EQ(picture_width("primary", 1024), 32u);
+    EXPECT_EQ(picture_width("primary", 1025), 33u);
+}
+
 TEST(Rays, RandomRaysStartOutsideAndOftenHit) {
     const Scene scene = sphere("random");
     const double hits = share_of_hits(scene);

@@ -3,8 +3,9 @@
 #include <string>
 #include <vector>
 
-/// The classes of contenders of rays. A peer takes single rays or packets. Ours answers a batch in
-/// one call: it stands against packets, and against single rays for what a batch gains over them.
+/// The classes of contenders of rays. A peer takes single rays, or packets and streams. Ours
+/// answers a batch in one call: it stands against packets, and against single rays for what a batch
+/// gains over them.
 namespace boxwood::bench::ray_class {
 
 inline const std::string single = "single rays", batches = "batches", packets = "packets";

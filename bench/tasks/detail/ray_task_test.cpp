@@ -272,12 +272,19 @@ TEST(RayClasses, SingleRaysBatchesAndPacketsAndWatertightOnesByThemselves) {
     EXPECT_EQ(classes.at("embree.rtc_intersect1"), (Classes{"single rays", "batches"}));
     EXPECT_EQ(classes.at("embree.rtc_intersect8.robust"), Classes{"watertight packets"});
     EXPECT_EQ(classes.at("embree.rtc_intersect1.filter"), Classes{"batches"});
+    EXPECT_EQ(classes.at("embree.rtc_intersect16.robust.high.coherent.tiles"),
+              Classes{"watertight packets"});
 }
 
-TEST(RaysBatches, EmbreesPacketsAnswerRight) {
+/// A peer of tiles answers primary rays alone.
+class PeersOnRaysOfAKind : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Kinds, PeersOnRaysOfAKind, ::testing::Values("random", "primary"),
+                         [](const auto& p) { return std::string(p.param); });
+
+TEST_P(PeersOnRaysOfAKind, AnswerRight) {
     for (const char* name : {"rays_closest", "rays_any"}) {
         const Task& task = *find_task(name);
-        SceneSpec spec = small_spec("sphere_mesh", "random");
+        SceneSpec spec = small_spec("sphere_mesh", GetParam());
         spec.n_rays = 1003; // packets that are not full
         const Scene scene = make_scene(spec);
         const auto truth = task.make_truth(scene, 1);
