@@ -13,6 +13,10 @@
     X(needles)                                                                                     \
     X(cubes)                                                                                       \
     X(assorted)                                                                                    \
+    X(log_normal)                                                                                  \
+    X(cloud_in_room)                                                                               \
+    X(layer)                                                                                       \
+    X(lattice)                                                                                     \
     X(sphere_mesh)                                                                                 \
     X(triangle_soup)                                                                               \
     X(sliver_mesh)                                                                                 \

@@ -31,9 +31,13 @@ TEST(Scene, SameBitsOnEveryMachine) {
         {"cloth_occlusion", 4386118211743573888u},
         {"cloth_primary", 10245832156969344731u},
         {"cloth_random", 4740478883943402530u},
+        {"cloud_in_room", 4470928977717376900u},
         {"clusters", 974975761312145907u},
         {"cubes", 18373738689142504811u},
         {"four_link", 2495750321447697732u},
+        {"lattice", 1088174019089689796u},
+        {"layer", 7018368754981359716u},
+        {"log_normal", 119137152364335574u},
         {"needles", 16002729800118459568u},
         {"planks", 5660410375597526544u},
         {"sliver_mesh", 5353869513049790800u},
@@ -107,7 +111,8 @@ TEST(Scene, ItemsDoNotDependOnHowManyFollow) {
     const auto centre = [](const Aabb<float>& box) {
         return 0.5 * (static_cast<Vec3<double>>(box.min) + static_cast<Vec3<double>>(box.max));
     };
-    for (const char* generator : {"uniform", "clusters", "bars", "planks", "needles"}) {
+    for (const char* generator :
+         {"uniform", "clusters", "bars", "planks", "needles", "cloud_in_room", "layer"}) {
         const Scene few = make_scene({.generator = generator, .n = 100});
         const Scene many = make_scene({.generator = generator, .n = 5000});
         for (std::size_t i = 0; i < 100; ++i)

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -168,33 +169,93 @@ void grouped_codes(Boxes boxes, Curve curve, const CurveGrid& grid, GroupOfBox g
             codes[i] |= group(boxes[i]) << 30;
 }
 
-/// Sorts by group and by 10 bits per axis. False if many items are in the same cells.
-bool coarse_sort(Boxes boxes, Curve curve, const CurveGrid& grid, GroupOfBox group, Sorted how,
-                 const Executor& executor, PutRecords put) {
+/// Sorts by group and by 10 bits per axis. Returns how many items are in the same cell as eight
+/// others or more.
+std::size_t coarse_sort(Boxes boxes, Curve curve, const CurveGrid& grid, GroupOfBox group,
+                        Sorted how, const Executor& executor, PutRecords put) {
     const auto codes = [&](std::size_t first, std::span<std::uint32_t> to) {
         grouped_codes(boxes.subspan(first, to.size()), curve, grid, group, to.data());
     };
-    return bucket_sort(boxes.size(), group ? 32 : 30, codes, how, executor, put) <=
-           few(boxes.size());
+    return bucket_sort(boxes.size(), group ? 32 : 30, codes, how, executor, put);
 }
 
 CurveGrid coarse_grid(Boxes boxes, const Executor& executor, const Box* centres) {
     return curve_grid(centres ? *centres : bounds_of_centres(boxes, executor), 10);
 }
 
+/// Slots of items that are in one cell of a coarse grid.
+struct Crowd {
+    static constexpr std::size_t fewest = 33; ///< two blocks of sixteen need no order among them
+    std::size_t first, count;
+};
+
+class Crowds {
+  public:
+    /// Those among sorted records, which stand from slot `first` on.
+    void find(std::size_t first, std::span<const std::uint64_t> records) {
+        for (std::size_t i = 0, end = 0; i < records.size(); i = end) {
+            for (end = i + 1; end < records.size() && (records[i] ^ records[end]) >> 32 == 0;)
+                ++end;
+            if (end - i >= Crowd::fewest) {
+                const std::scoped_lock lock(mutex_);
+                all_.push_back({first + i, end - i});
+            }
+        }
+    }
+    /// The largest first.
+    std::span<const Crowd> sorted() {
+        std::ranges::sort(all_, std::greater<>(),
+                          [](const Crowd& crowd) { return std::pair(crowd.count, crowd.first); });
+        return all_;
+    }
+
+  private:
+    std::mutex mutex_;
+    std::vector<Crowd> all_;
+};
+
+Buffer<std::uint32_t> order_by(Boxes boxes, Curve curve, GroupOfBox group, Sorted how,
+                               const Executor& executor, const Box* centres);
+
+/// Puts the items in these slots in order by a grid around their own centres.
+void order_crowd(Boxes boxes, Curve curve, Sorted how, std::span<std::uint32_t> slots,
+                 const Executor& executor) {
+    const std::vector<std::uint32_t> items(slots.begin(), slots.end());
+    Buffer<Box> own(items.size());
+    for_parts(items.size(), executor, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            own[i] = boxes[items[i]];
+    });
+    const Buffer<std::uint32_t> order =
+        order_by(own.span(), curve, nullptr, how, executor, nullptr);
+    std::ranges::transform(order, slots.begin(), [&](std::uint32_t i) { return items[i]; });
+}
+
+/// By a grid of 2^10 cells along each axis; the items of a cell that holds many by a grid in that
+/// cell, and so on. Each time the grid is a thousandth as wide: floats have room for 28 grids.
 Buffer<std::uint32_t> order_by(Boxes boxes, Curve curve, GroupOfBox group, Sorted how,
                                const Executor& executor, const Box* centres) {
     Buffer<std::uint32_t> order(boxes.size());
-    const auto put = [&](std::size_t first, std::span<const std::uint64_t> records) {
+    Crowds crowds;
+    const auto put = [&](std::size_t first, std::span<const std::uint64_t> records,
+                         std::size_t alike) {
         std::ranges::transform(records, order.data() + first, item_of);
+        if (alike >= Crowd::fewest)
+            crowds.find(first, records);
     };
     const CurveGrid grid = coarse_grid(boxes, executor, centres);
-    if (!coarse_sort(boxes, curve, grid, group, how, executor, put)) {
-        order = curve_order(boxes, curve, executor).order;
-        if (group)
-            std::ranges::stable_sort(order, std::less<>(),
-                                     [&](std::uint32_t item) { return group(boxes[item]); });
-    }
+    coarse_sort(boxes, curve, grid, group, how, executor, put);
+    if (grid.scale == 0)
+        return order; // all centres are the same
+    constexpr std::size_t large = 1 << 15;
+    std::span<const Crowd> rest = crowds.sorted();
+    const auto order_one = [&](const Crowd& crowd, const Executor& with) {
+        if (crowd.count < boxes.size())
+            order_crowd(boxes, curve, how, order.span().subspan(crowd.first, crowd.count), with);
+    };
+    for (; !rest.empty() && rest.front().count > large; rest = rest.subspan(1))
+        order_one(rest.front(), executor);
+    executor.for_each(rest.size(), [&](std::size_t i) { order_one(rest[i], serial()); });
     return order;
 }
 
@@ -203,10 +264,11 @@ Buffer<std::uint32_t> order_by(Boxes boxes, Curve curve, GroupOfBox group, Sorte
 MergeableOrder mergeable_curve_order(Boxes boxes, Curve curve, GroupOfBox group,
                                      const Executor& executor, const Box* centres) {
     MergeableOrder kept{coarse_grid(boxes, executor, centres), group, Records(boxes.size())};
-    const auto put = [&](std::size_t first, std::span<const std::uint64_t> records) {
+    const auto put = [&](std::size_t first, std::span<const std::uint64_t> records, std::size_t) {
         std::ranges::copy(records, kept.records.data() + first);
     };
-    if (!coarse_sort(boxes, curve, kept.grid, group, Sorted::exactly, executor, put))
+    if (coarse_sort(boxes, curve, kept.grid, group, Sorted::exactly, executor, put) >
+        few(boxes.size()))
         kept.records = {};
     return kept;
 }

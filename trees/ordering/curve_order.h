@@ -36,8 +36,8 @@ MergeableOrder mergeable_curve_order(Boxes boxes, Curve curve, GroupOfBox group,
 void curve_records(Boxes boxes, Curve curve, const CurveGrid& grid, GroupOfBox group,
                    std::uint64_t* records);
 
-/// The order alone, for half the time: by 10 bits per axis where these tell nearly all items apart,
-/// else by all 21.
+/// The order alone, for half the time: by 10 bits per axis; where many items are in one cell, by 10
+/// bits per axis within the bounds of their centres, and so on.
 Buffer<std::uint32_t> coarse_curve_order(Boxes boxes, Curve curve, const Executor& executor);
 
 /// The same for what cuts the order into blocks of sixteen: fewer items than that may be out of

@@ -137,7 +137,7 @@ std::size_t bucket_sort(std::size_t n, int bits, CodesOfItems codes_of, Sorted h
         Buffer<std::uint64_t> sorted(n);
         const std::size_t in_long =
             sort_part(records.data(), sorted.data(), static_cast<std::uint32_t>(n), 0, bits, how);
-        put(0, sorted.span());
+        put(0, sorted.span(), in_long);
         return in_long;
     }
     const int shift = bits - cell_bits;
@@ -178,11 +178,12 @@ std::size_t bucket_sort(std::size_t n, int bits, CodesOfItems codes_of, Sorted h
         for (std::size_t p = range.begin; p < range.end; ++p) {
             const std::size_t first = parts.first[p], count = parts.first[p + 1] - first;
             const std::size_t wide = parts.first_cell[p + 1] - parts.first_cell[p];
-            in_long_here +=
+            const std::size_t in_long_of_part =
                 sort_part(records.data() + first, sorted.data(), static_cast<std::uint32_t>(count),
                           std::uint64_t{parts.first_cell[p]} << shift,
                           shift + static_cast<int>(std::bit_width(wide - 1)), how);
-            put(first, sorted.span().first(count));
+            put(first, sorted.span().first(count), in_long_of_part);
+            in_long_here += in_long_of_part;
         }
         in_long += in_long_here;
     });

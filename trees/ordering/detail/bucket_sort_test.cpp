@@ -52,7 +52,7 @@ std::vector<std::uint64_t> sorted(const std::vector<std::uint32_t>& codes, int b
             std::copy_n(codes.begin() + static_cast<std::ptrdiff_t>(first), to.size(), to.begin());
         },
         how, executor,
-        [&](std::size_t first, std::span<const std::uint64_t> records) {
+        [&](std::size_t first, std::span<const std::uint64_t> records, std::size_t) {
             std::ranges::copy(records, found.begin() + static_cast<std::ptrdiff_t>(first));
         });
     return found;
