@@ -22,11 +22,11 @@ void analyse(results::Results& results, double delta) {
     set_statuses(results);
     set_broken_promises(results);
     const Times times(results);
-    const std::optional<double> floor = noise_floor(results);
+    const NoiseFloors floors(results, times);
     results.medians = medians_of(results, times);
     results.compare = comparisons_of(results, times, delta);
     results.size_scaling = size_scaling_of(results, times);
-    results.break_even = trade_offs_of(results, floor.value_or(0));
+    results.break_even = trade_offs_of(results, floors.highest().value_or(0));
     set_tree_fronts(results);
     set_kernel_rows(results);
     results.kernel_costs = kernel_costs_of(results);
@@ -41,7 +41,7 @@ void analyse(results::Results& results, double delta) {
     set_off_medians(results);
     results.drift = drift_of(results);
     set_device_gains(results, times);
-    results.health = {health_of(results, floor, delta)};
+    results.health = {health_of(results, floors, delta)};
     results.topics = topics();
     results.findings = findings_of(results);
 }

@@ -40,8 +40,7 @@ FileRow wrong_row(const std::string& name, Comparison row, Status before) {
 }
 
 struct Timed {
-    std::uint32_t cell_id;
-    JobKey job;
+    const results::Cell* cell;
     std::uint64_t content;
     Status status;
     const Times::Phases* phases;
@@ -56,9 +55,8 @@ ByName timed_by_name(const Results& results, const Times& times, bool of_peers,
         if (const auto found = times.by_cell().find(cell.cell_id);
             found != times.by_cell().end() && index.is_peer(cell) == of_peers &&
             (of_peers || !options.wanted || options.wanted(cell.name)))
-            timed.emplace(cell.name,
-                          Timed{cell.cell_id, job_of(cell), index.scene(cell.scene_id).content_hash,
-                                cell.status, &found->second});
+            timed.emplace(cell.name, Timed{&cell, index.scene(cell.scene_id).content_hash,
+                                           cell.status, &found->second});
     return timed;
 }
 
@@ -69,15 +67,17 @@ bool is_sum(Phase phase) {
 /// The cells of one side, ours or the peers', of both files.
 class Sides {
   public:
-    Sides(const Results& head, ByName in_base, ByName in_head)
-        : head_(head), in_base_(std::move(in_base)), in_head_(std::move(in_head)) {}
+    Sides(const Results& head, ByName in_base, ByName in_head, const NoiseFloors& base_floors,
+          const NoiseFloors& head_floors)
+        : head_(head), in_base_(std::move(in_base)), in_head_(std::move(in_head)),
+          base_floors_(base_floors), head_floors_(head_floors) {}
 
-    /// Adds to what was found; the rows are decided as one family.
-    void compare(const FileOptions& options, std::optional<double> floor) {
+    /// Adds to what was found; the rows of one job and phase are decided together.
+    void compare(const FileOptions& options) {
         for (const auto& [name, a] : in_base_)
             compare_cell(name, a);
-        for (const auto& [job, family] : families_) {
-            const auto rulings = decide(family.logs, options.delta, floor.value_or(0));
+        for (const auto& [group, family] : families_) {
+            const auto rulings = decide(family.claims, options.delta);
             for (std::size_t i = 0; i < rulings.size(); ++i)
                 set_ruling(rows[family.rows[i]].comparison, rulings[i]);
             max_family = std::max(max_family, rulings.size());
@@ -87,6 +87,24 @@ class Sides {
     std::vector<FileRow> rows;
     std::vector<Lost> lost;
     std::size_t max_family = 0; ///< claims
+    /// All rows of as many rounds as most have, together: of each round the mean of their logs.
+    std::vector<double> mean_logs() const {
+        std::map<std::size_t, std::size_t> lengths;
+        for (const auto& [group, family] : families_)
+            for (const Claim& claim : family.claims)
+                ++lengths[claim.log_ratios.size()];
+        const auto usual = std::ranges::max_element(
+            lengths, {}, [](const auto& entry) { return std::pair(entry.second, entry.first); });
+        if (usual == lengths.end())
+            return {};
+        std::vector<double> means(usual->first);
+        for (const auto& [group, family] : families_)
+            for (const Claim& claim : family.claims)
+                for (std::size_t i = 0; claim.log_ratios.size() == means.size() && i < means.size();
+                     ++i)
+                    means[i] += claim.log_ratios[i] / static_cast<double>(usual->second);
+        return means;
+    }
     /// Those that the base has not, once compared.
     const ByName& only_head() const { return in_head_; }
 
@@ -98,8 +116,8 @@ class Sides {
             // Because it throws or crashes: not merely left out.
             for (const auto& cell : head_.cells)
                 if (cell.name == name && cell.status == Status::wrong)
-                    rows.push_back(
-                        wrong_row(name, row_of(a.cell_id, cell.cell_id, Phase::query), a.status));
+                    rows.push_back(wrong_row(
+                        name, row_of(a.cell->cell_id, cell.cell_id, Phase::query), a.status));
             return;
         }
         const Timed b = match->second;
@@ -117,7 +135,7 @@ class Sides {
 
     void compare_phase(const std::string& name, const Timed& a, const Timed& b, Phase phase,
                        const Times::Rounds& rounds) {
-        Comparison row = row_of(a.cell_id, b.cell_id, phase);
+        Comparison row = row_of(a.cell->cell_id, b.cell->cell_id, phase);
         if (a.status == Status::wrong || b.status == Status::wrong) {
             rows.push_back(
                 wrong_row(name, row, b.status == Status::wrong ? a.status : Status::wrong));
@@ -130,25 +148,30 @@ class Sides {
         }
         std::vector<double> ratios = log_ratios(rounds, other->second);
         row.n_pairs = ratios.size();
-        Family& family = families_[{a.job, phase}];
+        const std::optional<double> floor =
+            std::max(base_floors_.of(*a.cell, phase), head_floors_.of(*b.cell, phase));
+        row.floor = floor.value_or(results::missing);
+        Family& family = families_[{job_of(*a.cell), phase}];
         family.rows.push_back(rows.size());
         FileRow& added = rows.emplace_back(FileRow{name, row});
         std::tie(added.base_ns, added.head_ns) = paired_medians(rounds, other->second);
         added.max_ratio = paired_ratio(ratios).ci_hi;
-        family.logs.push_back(std::move(ratios));
+        family.claims.push_back({std::move(ratios), floor.value_or(0)});
     }
 
     const Results& head_;
     ByName in_base_, in_head_;
+    const NoiseFloors &base_floors_, &head_floors_;
     struct Family {
         std::vector<std::size_t> rows;
-        std::vector<std::vector<double>> logs;
+        std::vector<Claim> claims;
     };
     std::map<std::pair<JobKey, Phase>, Family> families_;
 };
 
-Gate gate_of(const FileRow& row, const FileOptions& options, bool times_count, double floor) {
+Gate gate_of(const FileRow& row, const FileOptions& options, bool times_count) {
     const Comparison& c = row.comparison;
+    const double floor = std::isnan(c.floor) ? 0 : c.floor;
     if (c.verdict == Verdict::wrong)
         return row.is_newly_wrong ? Gate::fails : Gate::passes;
     if (!times_count)
@@ -189,14 +212,13 @@ FileComparison compare_files(const Results& base, const Results& head, const Fil
     const std::set<std::string> machines = common(machines_of(base), machines_of(head));
     result.is_same_machine = !machines.empty();
     result.is_same_cpu = !common(cpus_of(base), cpus_of(head)).empty();
-    const auto floors = {noise_floor(base), noise_floor(head)};
-    result.floor = std::max(floors); // an absent one is less than any
-
     const Times base_times(base, machines), head_times(head, machines);
+    const NoiseFloors base_floors(base, base_times), head_floors(head, head_times);
+    result.floor = std::max(base_floors.highest(), head_floors.highest()); // none is less than any
     const auto sides_of = [&](bool of_peers) {
         Sides sides(head, timed_by_name(base, base_times, of_peers, options),
-                    timed_by_name(head, head_times, of_peers, options));
-        sides.compare(options, result.floor);
+                    timed_by_name(head, head_times, of_peers, options), base_floors, head_floors);
+        sides.compare(options);
         return sides;
     };
     result.peers = sides_of(true).rows;
@@ -205,6 +227,7 @@ FileComparison compare_files(const Results& base, const Results& head, const Fil
         std::max(result.peers_ratio, 1 / result.peers_ratio) > 1 + options.limit(); // not for NaN
     Sides ours = sides_of(false);
     result.max_family = ours.max_family;
+    result.together = paired_ratio(ours.mean_logs());
     for (const auto& [name, timed] : ours.only_head())
         result.only_head.push_back(name);
     result.rows = std::move(ours.rows);
@@ -214,7 +237,7 @@ FileComparison compare_files(const Results& base, const Results& head, const Fil
     const bool is_timed = result.max_family > 0;
     result.gate = result.lost.empty() && is_timed ? Gate::passes : Gate::open;
     for (FileRow& row : result.rows) {
-        row.gate = gate_of(row, options, times_count, result.floor.value_or(0));
+        row.gate = gate_of(row, options, times_count);
         result.gate = std::max(result.gate, row.gate);
     }
     for (FileRow& row : result.peers)

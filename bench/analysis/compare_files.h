@@ -37,7 +37,8 @@ struct FileComparison {
     std::vector<Lost> lost;             ///< of ours
     std::vector<std::string> only_head; ///< cells of ours
     std::size_t max_family = 0;         ///< rows that were decided together, at the most
-    std::optional<double> floor;        ///< the larger one of the two files
+    PairedRatio together;               ///< of all rows of ours: the geometric mean
+    std::optional<double> floor;        ///< the highest of the twins in the two files
     double peers_ratio = unknown;       ///< the middle one of the peers' timings, head over base
     bool peers_moved = false; ///< by more than the limit: the times say nothing of the code
     bool is_same_cpu = false, is_same_machine = false;
@@ -52,7 +53,7 @@ struct FileOptions {
 };
 /// Cells are matched by name, rounds by number: within a machine state that both files have, else
 /// in order of time on one processor. Rows of one job (scene, task, threads) and phase are decided
-/// together, as within a file. Needs Cell::status in both.
+/// together, so that one slip among many jobs is found. Needs Cell::status in both.
 /// A row fails if it is newly wrong, or its verdict is slower and the interval that decided lies
 /// above 1 + fail_if (1 without it); it passes if max_ratio is at most 1 + limit and the noise
 /// floor is no higher (or the verdict is faster). All fail if one does; all pass if every row does,

@@ -29,9 +29,9 @@ using results::Verdict;
 class Judge {
   public:
     Judge(const Results& results, const Times& times, double delta)
-        : times_(times), delta_(delta), floor_(noise_floor(results)) {}
+        : times_(times), delta_(delta), floors_(results, times) {}
 
-    /// b against a in one phase, to be decided with the others of the open family.
+    /// b against a in one phase, to be decided with the others of its task and the open family.
     void claim(const Cell& a, const Cell& b, Phase phase, const std::string& name = "") {
         std::vector<double> logs = times_.log_ratios(a.cell_id, b.cell_id, phase);
         if (logs.empty())
@@ -43,7 +43,8 @@ class Judge {
         row.contender_class = name;
         row.n_pairs = logs.size();
         row.delta = delta_;
-        row.floor = floor_.value_or(results::missing);
+        const std::optional<double> floor = floors_.of(a, b, phase);
+        row.floor = floor.value_or(results::missing);
         if (a.status == Status::wrong || b.status == Status::wrong) {
             row.verdict = Verdict::wrong;
             row.words = verdict_text(row);
@@ -51,30 +52,35 @@ class Judge {
             set_ruling(row, {paired_ratio(logs), results::missing, Verdict::cannot_tell,
                              Reason::unchecked});
         } else {
-            open_.push_back(rows_.size());
-            logs_.push_back(std::move(logs));
+            Open& open = open_[b.task];
+            open.rows.push_back(rows_.size());
+            open.claims.push_back({std::move(logs), floor.value_or(0)});
         }
         rows_.push_back(row);
     }
     void close(Family family) {
-        const auto rulings = decide(logs_, delta_, floor_.value_or(0));
-        for (std::size_t i = 0; i < open_.size(); ++i)
-            set_ruling(rows_[open_[i]], rulings[i]);
+        for (const auto& [task, open] : open_) {
+            const auto rulings = decide(open.claims, delta_);
+            for (std::size_t i = 0; i < rulings.size(); ++i)
+                set_ruling(rows_[open.rows[i]], rulings[i]);
+        }
         for (; closed_ < rows_.size(); ++closed_)
             rows_[closed_].family = family;
         open_.clear();
-        logs_.clear();
     }
     std::vector<Comparison> take() { return std::move(rows_); }
 
   private:
     const Times& times_;
     double delta_;
-    std::optional<double> floor_;
+    NoiseFloors floors_;
     std::vector<Comparison> rows_;
     std::size_t closed_ = 0;
-    std::vector<std::size_t> open_; ///< rows of the open family that are to be decided
-    std::vector<std::vector<double>> logs_;
+    struct Open {
+        std::vector<std::size_t> rows; ///< that are to be decided
+        std::vector<Claim> claims;
+    };
+    std::map<std::string, Open> open_; ///< of the open family, by task
 };
 
 std::vector<Phase> phases_of(const Times& times, const Cell& cell) {
@@ -115,9 +121,9 @@ void against_peers(const Index& index, const Times& times, Judge& judge) {
                          index.divide_alike(ours, *peer)) &&
                         !trades_off(index, times, *peer, ours, phase))
                         judge.claim(*peer, ours, phase, name);
-                judge.close(Family::peers);
             }
     }
+    judge.close(Family::peers);
 }
 
 /// Claims that come one by one, put together by a key and the phase.
@@ -129,11 +135,10 @@ template <class Key> class Grouped {
                 claims_[{key, phase}].emplace_back(&a, &b);
     }
     void judge(Judge& judge, Family family) const {
-        for (const auto& [key, pairs] : claims_) {
+        for (const auto& [key, pairs] : claims_)
             for (const auto& [a, b] : pairs)
                 judge.claim(*a, *b, key.second);
-            judge.close(family);
-        }
+        judge.close(family);
     }
 
   private:
@@ -193,11 +198,10 @@ void against_fewer_stages(const Index& index, const Times& times, Judge& judge) 
 }
 
 void against_processors(const Index& index, const Times& times, Judge& judge) {
-    for (const DeviceRace& race : device_races(index, times)) {
+    for (const DeviceRace& race : device_races(index, times))
         for (const auto& [threads, cell] : race.processors)
             judge.claim(*cell, *race.device, race.total);
-        judge.close(Family::devices);
-    }
+    judge.close(Family::devices);
 }
 
 } // namespace

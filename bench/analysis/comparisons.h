@@ -12,18 +12,15 @@
 namespace boxwood::bench {
 
 /// Every comparison within one file, cell b against cell a, for each phase that both have and for
-/// the sums with the query. Claims of one line are decided together:
-/// - peers: each cell of ours against the peers of its class in its job (see job.h); together are
-///   those about one cell of ours in one phase and class. Where one side alone
-///   keeps a structure, the query of the other holds all the work: only the sum is compared.
-/// - ours: each cell of ours against the reference of its job (see reference_of); together are
-///   those of one job and phase.
-/// - threads: several threads against one, of each contender; together as for ours.
+/// the sums with the query. The claims of one line about one task are decided together:
+/// - peers: each cell of ours against the peers of its class in its job (see job.h). Where one side
+///   alone keeps a structure, the query of the other holds all the work: only the sum is compared.
+/// - ours: each cell of ours against the reference of its job (see reference_of).
+/// - threads: several threads against one, of each contender.
 /// - stages: all stages against only the required ones, and a scene with an effect against the same
-///   without it; together are those of one scene, number of threads and phase.
+///   without it.
 /// - devices: our best on a device from end to end against our best of 1, of 2 and of the most
-///   threads (see device_races), by the total of the task; together are those of one scene and
-///   task.
+///   threads (see device_races), by the total of the task.
 /// Builders alone are compared unless the faster one's tree has a higher surface-area cost, by more
 /// than 1 %: what a trade-off is worth, the front in /trees shows.
 /// A wrong answer gets the verdict wrong and no ratio; what was not checked, cannot_tell.

@@ -46,15 +46,21 @@ std::uint64_t max_rounds(const Results& results) {
     return highest;
 }
 
-std::string trust_text(const Health& health) {
+/// lowest: of the noise floors.
+std::string trust_text(const Health& health, double lowest) {
     if (health.samples == 0)
         return "";
     std::string text = fmt::format("{} round{}, {:.1f} % of the samples disturbed; ", health.rounds,
                                    health.rounds == 1 ? "" : "s",
                                    100 * static_cast<double>(health.disturbed) /
                                        static_cast<double>(health.samples));
-    text += std::isnan(health.floor) ? "noise floor not known"
-                                     : fmt::format("noise floor {:.1f} %", 100 * health.floor);
+    if (std::isnan(health.floor))
+        text += "noise floor not known";
+    else if (lowest < health.floor)
+        text += fmt::format("noise floor {:.1f} to {:.1f} % by threads and length", 100 * lowest,
+                            100 * health.floor);
+    else
+        text += fmt::format("noise floor {:.1f} %", 100 * health.floor);
     if (health.is_too_noisy)
         return text + ": too noisy";
     if (health.rounds < min_pairs_verdict)
@@ -83,7 +89,7 @@ std::string correctness_text(const Results& results, const Health& health,
 
 } // namespace
 
-Health health_of(const Results& results, std::optional<double> floor, double delta) {
+Health health_of(const Results& results, const NoiseFloors& floors, double delta) {
     Health health;
     health.rounds = max_rounds(results);
     health.samples = results.samples.size();
@@ -91,12 +97,13 @@ Health health_of(const Results& results, std::optional<double> floor, double del
         std::ranges::count_if(results.samples, [](const results::Sample& sample) {
             return (sample.flags & (results::disturbed_steal | results::disturbed_switches)) != 0;
         }));
-    health.floor = floor.value_or(results::missing);
+    health.floor = floors.highest().value_or(results::missing);
     health.delta = delta;
-    health.is_too_noisy = floor && *floor > max_floor;
+    const double lowest = floors.lowest().value_or(0);
+    health.is_too_noisy = lowest > max_floor;
     const std::string first_wrong = count_answers(results, health);
     health.broken_promises = broken_promises(results);
-    health.trust = trust_text(health);
+    health.trust = trust_text(health, lowest);
     health.correctness = correctness_text(results, health, first_wrong);
     if (health.is_too_noisy)
         health.advice = fmt::format("REPEAT THIS: the same work timed twice differed by more than "

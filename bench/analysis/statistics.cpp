@@ -52,20 +52,23 @@ double sign_test(std::span<const double> log_ratios) {
     return std::min(1.0, p);
 }
 
-Holm holm(std::span<const double> p) {
-    std::vector<std::size_t> order(p.size());
+Corrected corrected(std::span<const double> p) {
+    const std::size_t n = p.size();
+    std::vector<std::size_t> order(n);
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, {}, [&](std::size_t i) { return p[i]; });
-    Holm result{std::vector<double>(p.size()), std::vector<double>(p.size())};
-    double running = 0, level = 0;
-    for (std::size_t place = 0; place < order.size(); ++place) {
-        const auto claims_left = static_cast<double>(p.size() - place);
-        if (running <= family_error) // all before it passed
-            level = family_error / claims_left;
-        running = std::max(running, std::min(1.0, claims_left * p[order[place]]));
-        result.p_adj[order[place]] = running;
-        result.level[order[place]] = level;
+    Corrected result{std::vector<double>(n)};
+    double running = 1;
+    std::size_t claimed = 0;
+    for (std::size_t place = n; place > 0; --place) {
+        const double ahead = static_cast<double>(place) / static_cast<double>(n);
+        running = std::min(running, p[order[place - 1]] / ahead);
+        result.p_adj[order[place - 1]] = running;
+        if (running <= family_error)
+            claimed = std::max(claimed, place);
     }
+    result.level = family_error * static_cast<double>(std::max<std::size_t>(claimed, 1)) /
+                   static_cast<double>(std::max<std::size_t>(n, 1));
     return result;
 }
 
@@ -118,13 +121,13 @@ Ruling decide_one(std::span<const double> logs, double p_adj, double level, doub
         claim.reason = reason;
         return claim;
     };
-    if (floor > max_floor)
-        return open(Reason::too_noisy);
+    const Reason within_the_floor =
+        floor > max_floor ? Reason::too_noisy : Reason::below_the_floor;
     if (logs.size() < min_pairs_verdict)
         return open(Reason::too_few_rounds);
     if (is_within(claim.ratio.ci_lo, delta) && is_within(claim.ratio.ci_hi, delta)) {
         if (floor > delta)
-            return open(Reason::below_the_floor);
+            return open(within_the_floor);
         claim.verdict = Verdict::same;
         return claim;
     }
@@ -134,23 +137,22 @@ Ruling decide_one(std::span<const double> logs, double p_adj, double level, doub
     if (claim.ratio.ci_lo <= 1 && claim.ratio.ci_hi >= 1)
         return open(Reason::crosses_1);
     if (is_within(claim.ratio.ratio, floor))
-        return open(Reason::below_the_floor);
+        return open(within_the_floor);
     claim.verdict = claim.ratio.ci_hi < 1 ? Verdict::faster : Verdict::slower;
     return claim;
 }
 
 } // namespace
 
-std::vector<Ruling> decide(std::span<const std::vector<double>> family, double delta,
-                           double floor) {
+std::vector<Ruling> decide(std::span<const Claim> family, double delta) {
     std::vector<double> p;
-    for (const std::vector<double>& logs : family)
-        p.push_back(sign_test(logs));
-    const Holm corrected = holm(p);
+    for (const Claim& claim : family)
+        p.push_back(sign_test(claim.log_ratios));
+    const Corrected together = corrected(p);
     std::vector<Ruling> rulings;
     for (std::size_t i = 0; i < family.size(); ++i)
-        rulings.push_back(
-            decide_one(family[i], corrected.p_adj[i], corrected.level[i], delta, floor));
+        rulings.push_back(decide_one(family[i].log_ratios, together.p_adj[i], together.level, delta,
+                                     family[i].floor));
     return rulings;
 }
 

@@ -13,8 +13,8 @@ namespace boxwood::bench {
 
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double default_delta = 0.05;        ///< "same" means within +-5 %
-inline constexpr double max_floor = 0.2;             ///< noisier runs have nothing to say
-inline constexpr double family_error = 0.05;         ///< of a family of claims, after Holm
+inline constexpr double max_floor = 0.2;             ///< of noisier runs the advice is to repeat them
+inline constexpr double family_error = 0.05;         ///< of the claims of a family
 inline constexpr std::size_t min_pairs_interval = 6; ///< fewer give no 95 % interval
 inline constexpr std::size_t min_pairs_verdict = 9;  ///< fewer give no verdict
 
@@ -34,14 +34,18 @@ std::optional<Ranks> median_ranks(std::size_t n, double error = 0.05);
 /// Two-sided exact p of "the median of the log-ratios is 0"; zeros count for neither side.
 double sign_test(std::span<const double> log_ratios);
 
-/// Holm's step-down procedure, in the order given: the adjusted p of each claim, and the level at
-/// which it was tested (for those after the first that fails, the level of that one).
-struct Holm {
-    std::vector<double> p_adj, level;
+/// Benjamini and Hochberg's procedure: of what is claimed, at most a share of `family_error` is
+/// false in the mean, however many claims a family has. In the order given: the adjusted p of each
+/// claim; and the level of all intervals, so that those of what is claimed miss as seldom.
+/// Sources: Benjamini and Hochberg 1995, "Controlling the False Discovery Rate"; Benjamini and
+/// Yekutieli 2005, "False Discovery Rate-Adjusted Multiple Confidence Intervals".
+struct Corrected {
+    std::vector<double> p_adj;
+    double level = 0;
 };
-Holm holm(std::span<const double> p);
+Corrected corrected(std::span<const double> p);
 
-/// The fewest rounds in which a family of this size can reach any verdict.
+/// The fewest rounds in which one claim of a family of this size can stand alone.
 std::size_t rounds_needed(std::size_t family_size);
 
 /// The median of values with its exact interval; NaN for none, the interval if n is too small.
@@ -74,8 +78,11 @@ struct Ruling {
 /// The claims of one family, each the log-ratios of b against a by paired round, decided together.
 /// "same": the 95 % interval lies within a factor 1 + delta and the noise floor is no wider.
 /// "faster", "slower": the interval at the claim's level within the family excludes 1, and the
-/// ratio is beyond the noise floor. Else "cannot_tell", as for fewer than 9 pairs, and for every
-/// claim where the floor is above max_floor.
-std::vector<Ruling> decide(std::span<const std::vector<double>> family, double delta, double floor);
+/// ratio is beyond the claim's noise floor. Else "cannot_tell", as for fewer than 9 pairs.
+struct Claim {
+    std::vector<double> log_ratios;
+    double floor = 0; ///< the A/A noise of its class
+};
+std::vector<Ruling> decide(std::span<const Claim> family, double delta);
 
 } // namespace boxwood::bench

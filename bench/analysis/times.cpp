@@ -109,19 +109,45 @@ std::vector<double> Times::log_ratios(std::uint32_t a, std::uint32_t b, Phase ph
     return left && right ? bench::log_ratios(*left, *right) : std::vector<double>{};
 }
 
-std::optional<double> noise_floor(const Results& results) {
-    const auto machines = machines_of(results);
-    const ByCell times = times_of(results, machines, false);
-    std::optional<double> floor;
-    for (const auto& [cell, phases] : times_of(results, machines, true))
+NoiseFloors::NoiseFloors(const Results& results, const Times& times) : times_(times) {
+    std::map<std::uint32_t, const results::Cell*> cells;
+    for (const results::Cell& cell : results.cells)
+        cells[cell.cell_id] = &cell;
+    for (const auto& [id, phases] : times_of(results, machines_of(results), true))
         for (const auto& [phase, twin] : phases) {
-            const auto first = times.find(cell);
-            if (first == times.end() || !first->second.contains(phase))
+            const Rounds* const first = times.rounds(id, phase);
+            if (!first || !cells.contains(id))
                 continue;
-            const PairedRatio ratio = paired_ratio(log_ratios(first->second.at(phase), twin));
-            if (!std::isnan(ratio.ci_lo))
-                floor = std::max({floor.value_or(0), ratio.ci_hi - 1, 1 / ratio.ci_lo - 1});
+            const PairedRatio ratio = paired_ratio(log_ratios(*first, twin));
+            if (std::isnan(ratio.ci_lo))
+                continue;
+            double& floor = floors_[likeness(*cells.at(id), phase)];
+            floor = std::max({floor, ratio.ci_hi - 1, 1 / ratio.ci_lo - 1});
         }
+}
+
+NoiseFloors::Likeness NoiseFloors::likeness(const results::Cell& cell, Phase phase) const {
+    constexpr double brief_ns = 1e6;
+    const Rounds* const rounds = times_.rounds(cell.cell_id, phase);
+    return {cell.threads > 1, rounds && paired_medians(*rounds, *rounds).first < brief_ns};
+}
+
+std::optional<double> NoiseFloors::of(const results::Cell& cell, Phase phase) const {
+    const auto found = floors_.find(likeness(cell, phase));
+    return found == floors_.end() ? highest() : std::optional(found->second);
+}
+
+std::optional<double> NoiseFloors::highest() const {
+    std::optional<double> floor;
+    for (const auto& [likeness, of_these] : floors_)
+        floor = std::max(floor, std::optional(of_these));
+    return floor;
+}
+
+std::optional<double> NoiseFloors::lowest() const {
+    std::optional<double> floor;
+    for (const auto& [likeness, of_these] : floors_)
+        floor = std::min(floor.value_or(of_these), of_these);
     return floor;
 }
 

@@ -3,6 +3,8 @@
 #include "bench/analysis/statistics.h"
 #include "results/results.h"
 
+#include <algorithm>
+#include <compare>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -44,9 +46,34 @@ std::pair<double, double> paired_medians(const Times::Rounds& a, const Times::Ro
 
 std::set<std::string> machines_of(const results::Results& results);
 
-/// The A/A noise floor as a relative difference: the farthest end of the intervals of cells that
-/// were timed twice. Nothing without such cells, or with fewer than 6 rounds.
-std::optional<double> noise_floor(const results::Results& results);
+/// The A/A noise floors, as relative differences: the farthest end of the intervals of phases that
+/// were timed twice, by what is alike in noise: one thread or several, below a millisecond or not.
+class NoiseFloors {
+  public:
+    /// Nothing from twins with fewer than 6 rounds.
+    NoiseFloors(const results::Results& results, const Times& times);
+
+    /// Of what is like this phase of this cell; the highest of all where no twin is. Nothing
+    /// without twins.
+    std::optional<double> of(const results::Cell& cell, results::Phase phase) const;
+    /// For a comparison of two.
+    std::optional<double> of(const results::Cell& a, const results::Cell& b,
+                             results::Phase phase) const {
+        return std::max(of(a, phase), of(b, phase)); // an absent one is less than any
+    }
+    std::optional<double> highest() const;
+    std::optional<double> lowest() const;
+
+  private:
+    struct Likeness {
+        bool has_threads, is_short;
+        auto operator<=>(const Likeness&) const = default;
+    };
+    Likeness likeness(const results::Cell& cell, results::Phase phase) const;
+
+    const Times& times_;
+    std::map<Likeness, double> floors_;
+};
 
 /// Ordered by cell, then phase; the limits from limits.h.
 std::vector<results::Median> medians_of(const results::Results& results, const Times& times);

@@ -51,12 +51,30 @@ std::string comma_list(const std::vector<std::string>& parts) {
     return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+/// "; together 1.002x (0.998 to 1.005), worst 1.31x: rays_closest/..., query".
+std::string summary_text(const FileComparison& comparison) {
+    std::string text;
+    if (!std::isnan(comparison.together.ratio))
+        text += "; together " + interval_text(comparison.together.ratio, comparison.together.ci_lo,
+                                              comparison.together.ci_hi);
+    const FileRow* worst = nullptr;
+    for (const FileRow& row : comparison.rows)
+        if (!std::isnan(row.comparison.ratio) &&
+            (!worst || row.comparison.ratio > worst->comparison.ratio))
+            worst = &row;
+    if (worst)
+        text += fmt::format(", worst {}x: {}, {}", ratio_text(worst->comparison.ratio), worst->name,
+                            to_string(worst->comparison.phase));
+    return text + "\n";
+}
+
 /// "REGRESSION: 2 of 120 timings are slower by more than 5 %", with the exit code it stands for.
 std::string verdict_line(const FileComparison& comparison, const FileOptions& options) {
     const Counts counts(comparison);
     const std::string by = fmt::format(" by more than {:g} %", 100 * options.limit());
     if (comparison.gate == Gate::passes)
-        return fmt::format("FINE: none of {} timings is slower{}\n", counts.timings, by);
+        return fmt::format("FINE: none of {} timings is slower{}", counts.timings, by) +
+               summary_text(comparison);
     std::vector<std::string> parts;
     if (comparison.gate == Gate::fails) {
         if (counts.slower > 0)
@@ -65,7 +83,7 @@ std::string verdict_line(const FileComparison& comparison, const FileOptions& op
         if (const std::size_t n = counts.newly_wrong.size(); n > 0)
             parts.push_back(
                 fmt::format("the answers of {} cell{} newly wrong", n, n > 1 ? "s" : ""));
-        return "REGRESSION: " + comma_list(parts) + "\n";
+        return "REGRESSION: " + comma_list(parts) + summary_text(comparison);
     }
     if (!comparison.is_same_cpu)
         parts.push_back("the processors differ");
@@ -86,7 +104,7 @@ std::string verdict_line(const FileComparison& comparison, const FileOptions& op
                                     comparison.lost.size()));
     if (counts.timings == 0)
         parts.push_back("no timing of ours with right answers is in both files");
-    return "CAN'T TELL: " + comma_list(parts) + "\n";
+    return "CAN'T TELL: " + comma_list(parts) + summary_text(comparison);
 }
 
 std::string_view gate_word(Gate gate) {
@@ -114,8 +132,10 @@ std::string notes_text(const FileComparison& comparison) {
         text += fmt::format("peers' timings: {}, the middle one takes {} of its time in the base\n",
                             comparison.peers.size(), ratio_text(comparison.peers_ratio));
     if (comparison.floor)
-        text += fmt::format("A/A noise floor +-{:.1f} %: no difference below it is claimed\n",
-                            100 * *comparison.floor);
+        text +=
+            fmt::format("A/A noise floor up to +-{:.1f} %: no difference below that of its class "
+                        "is claimed\n",
+                        100 * *comparison.floor);
     if (!comparison.is_same_machine)
         text +=
             "two machine states (machine, build or commit): rounds are paired in order of time\n";
@@ -124,8 +144,8 @@ std::string notes_text(const FileComparison& comparison) {
             return row.gate == Gate::open && row.comparison.n_pairs > 0 &&
                    row.comparison.n_pairs < needed;
         }))
-        text += fmt::format("more rounds are needed: a verdict on {} comparisons of one job at "
-                            "once takes at least {} rounds in both files\n",
+        text += fmt::format("more rounds are needed: for one verdict among {} comparisons of one "
+                            "job it takes at least {} rounds in both files\n",
                             comparison.max_family, needed);
     return text;
 }
@@ -234,11 +254,14 @@ std::string comparison_json(const Results& base, const Results& head,
     for (const std::string& name : comparison.only_head)
         only_head.push_back(json_string(name));
     return fmt::format(
-        "{{\"gate\": \"{}\", \"sealed\": {{\"base\": {}, \"head\": {}}}, \"same_cpu\": {}, "
+        "{{\"gate\": \"{}\", \"together\": {{\"ratio\": {}, \"ci_lo\": {}, \"ci_hi\": {}}}, "
+        "\"sealed\": {{\"base\": {}, \"head\": {}}}, \"same_cpu\": {}, "
         "\"same_machine\": {}, \"peers_moved\": {}, \"peers_ratio\": {}, \"floor\": {}, \"lost\": "
         "[{}], \"only_head\": [{}], \"rows\": {}, \"peers\": {}}}\n",
-        gate_word(comparison.gate), base.is_sealed, head.is_sealed, comparison.is_same_cpu,
-        comparison.is_same_machine, comparison.peers_moved, json_number(comparison.peers_ratio),
+        gate_word(comparison.gate), json_number(comparison.together.ratio),
+        json_number(comparison.together.ci_lo), json_number(comparison.together.ci_hi),
+        base.is_sealed, head.is_sealed, comparison.is_same_cpu, comparison.is_same_machine,
+        comparison.peers_moved, json_number(comparison.peers_ratio),
         json_number(comparison.floor.value_or(unknown)), comma_list(lost), comma_list(only_head),
         rows_json(comparison.rows), rows_json(comparison.peers));
 }

@@ -135,7 +135,7 @@ TEST(CompareCommand, OnAnotherProcessorTimesSayNothing) {
     auto head = timed(150);
     head.env[0].cpu = "another";
     EXPECT_EQ(exit_of(timed(100), head), exit_cannot_tell);
-    EXPECT_THAT(text_of(timed(100), head), StartsWith("CAN'T TELL: the processors differ\n"));
+    EXPECT_THAT(text_of(timed(100), head), StartsWith("CAN'T TELL: the processors differ; "));
     head.checks[0].status = results::Status::wrong;
     analyse(head);
     EXPECT_EQ(exit_of(timed(100), head), exit_failed);
@@ -151,7 +151,7 @@ TEST(CompareCommand, WhatTheHeadLacksIsListedAndCannotBeTold) {
     analyse(base);
     EXPECT_EQ(exit_of(base, timed(100)), exit_cannot_tell);
     EXPECT_THAT(text_of(base, timed(100)),
-                StartsWith("CAN'T TELL: 1 of the base's timings or answers have no counterpart\n"));
+                StartsWith("CAN'T TELL: 1 of the base's timings or answers have no counterpart; "));
     EXPECT_THAT(text_of(base, timed(100)), HasSubstr("\nlost: soup/gone: not timed in the head\n"));
     EXPECT_EQ(exit_of(timed(100), base), exit_success);
 
@@ -261,12 +261,15 @@ TEST(CompareCommand, SaysWhatItSaw) {
     const std::string slower = text_of(timed(100), timed(110));
     EXPECT_THAT(slower, HasSubstr("0123456789ab"));
     EXPECT_THAT(slower, HasSubstr("soup/ours  query       9  100 ns  110 ns       1.10"));
-    EXPECT_THAT(slower, StartsWith("REGRESSION: 1 of 1 timings slower\n"));
+    EXPECT_THAT(
+        slower,
+        StartsWith("REGRESSION: 1 of 1 timings slower; together 1.10x (1.10 to 1.10), worst "
+                   "1.10x: soup/ours, query\n"));
     EXPECT_THAT(text_of(timed(100), timed(101)),
-                StartsWith("FINE: none of 1 timings is slower by more than 5 %\n"));
+                StartsWith("FINE: none of 1 timings is slower by more than 5 %; together 1.01x"));
     EXPECT_THAT(slower, Not(HasSubstr("more rounds")));
     const std::string few = text_of(timed(100, 3), timed(110, 3));
-    EXPECT_THAT(few, StartsWith("CAN'T TELL: 1 of 1 timings may be slower by more than 5 %\n"));
+    EXPECT_THAT(few, StartsWith("CAN'T TELL: 1 of 1 timings may be slower by more than 5 %; "));
     EXPECT_THAT(few, HasSubstr("can't tell (too few rounds)"));
     EXPECT_THAT(few, HasSubstr("at least 9 rounds"));
     EXPECT_THAT(text_of(timed(100), timed(110), {.markdown = true}),

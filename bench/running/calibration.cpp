@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 #include <tuple>
+#include <vector>
 
 namespace boxwood::bench {
 namespace {
@@ -53,31 +55,42 @@ Calibrations calibrations_of(std::string_view text) {
     return calibrations;
 }
 
-std::string choose_aa(const results::Results& prepared, const Calibrations& calibrations) {
+std::set<std::string> choose_twins(const results::Results& prepared,
+                                   const Calibrations& calibrations) {
     std::map<std::uint32_t, bool> wrong, peer;
     for (const results::Check& check : prepared.checks)
         wrong[check.cell_id] |= check.status == results::Status::wrong;
     for (const results::Variant& variant : prepared.variants)
         peer[variant.variant_id] = variant.is_peer != 0;
 
-    // Least first: ours before peers, right before wrong, long enough before too short.
-    using Rank = std::tuple<bool, bool, bool, double, std::string>;
-    std::string chosen;
-    Rank best;
+    double all_ns = 0;
+    using Kind = std::tuple<bool, bool, bool>;          // a peer's, several threads, brief
+    using Cost = std::tuple<bool, double, std::string>; // wrong, ns, name
+    std::map<Kind, Cost> least;
     for (const results::Cell& cell : prepared.cells) {
         const auto found = calibrations.find(cell.name);
         if (found == calibrations.end())
             continue;
         const Calibration& c = found->second;
-        const bool is_short = c.query_ns < 1e6;
-        Rank rank{peer[cell.variant_id], wrong[cell.cell_id], is_short,
-                  is_short ? -c.query_ns : round_ns(c), cell.name};
-        if (chosen.empty() || rank < best) {
-            best = std::move(rank);
-            chosen = cell.name;
-        }
+        all_ns += round_ns(c);
+        const bool is_peer = peer[cell.variant_id];
+        const Kind kind =
+            is_peer ? Kind{true, false, false}
+                    : Kind{false, cell.threads > 1, std::max(c.build_ns, c.query_ns) < 1e6};
+        const Cost cost{wrong[cell.cell_id], round_ns(c), cell.name};
+        const auto [entry, is_new] = least.try_emplace(kind, cost);
+        if (!is_new)
+            entry->second = std::min(entry->second, cost);
     }
-    return chosen;
+    std::vector<Cost> twins;
+    for (const auto& [kind, cost] : least)
+        twins.push_back(cost);
+    std::ranges::sort(twins);
+    std::set<std::string> names;
+    for (const auto& [is_wrong, ns, name] : twins)
+        if (names.empty() || (!is_wrong && ns < all_ns / 10))
+            names.insert(name);
+    return names;
 }
 
 } // namespace boxwood::bench

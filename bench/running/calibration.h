@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -30,8 +31,10 @@ double round_ns(const Calibration& calibration);
 std::string to_text(const Calibrations& calibrations);
 Calibrations calibrations_of(std::string_view text);
 
-/// The A/A cell: of ours that are right, the cheapest whose query takes 1 ms or more, else the one
-/// with the longest query; any cell if none is ours. Empty if there is nothing to time.
-std::string choose_aa(const results::Results& prepared, const Calibrations& calibrations);
+/// The A/A cells, which each round times twice: of each kind (ours on one thread or on several,
+/// with a query below a millisecond or not; peers) the right one that takes the least time, if it
+/// takes more than a tenth of the time of the round only where there is no other twin.
+std::set<std::string> choose_twins(const results::Results& prepared,
+                                   const Calibrations& calibrations);
 
 } // namespace boxwood::bench

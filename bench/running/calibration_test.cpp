@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 #include <stdexcept>
+#include <string>
 
 namespace boxwood::bench {
 namespace {
@@ -50,24 +52,33 @@ struct Cells {
         prepared.checks.push_back(check);
         calibrations[cell.name] = {1, 1, 1, query_ns};
     }
-    std::string aa() const { return choose_aa(prepared, calibrations); }
+    std::set<std::string> twins() const { return choose_twins(prepared, calibrations); }
 };
 
-TEST(ChooseAa, TakesTheCheapestOfOursThatIsLongEnough) {
+TEST(Twins, AreTheCheapestOfEachKind) {
     Cells cells;
-    EXPECT_EQ(cells.aa(), "");
+    using Names = std::set<std::string>;
+    EXPECT_EQ(cells.twins(), Names{});
     cells.add(true, 2e6, results::Status::exact);
-    EXPECT_EQ(cells.aa(), "c0"); // nothing of ours
-    cells.add(false, 1e4, results::Status::exact);
+    EXPECT_EQ(cells.twins(), Names{"c0"}); // though it is all of the round
+    for (int i = 0; i < 40; ++i)
+        cells.add(true, 3e6, results::Status::exact);
+    cells.add(false, 1e4, results::Status::exact); // c41
     cells.add(false, 1e5, results::Status::exact);
-    EXPECT_EQ(cells.aa(), "c2"); // all of ours are short: the longest
     cells.add(false, 9e6, results::Status::exact);
-    cells.add(false, 3e6, results::Status::exact);
-    EXPECT_EQ(cells.aa(), "c4"); // the cheapest from 1 ms on
+    cells.add(false, 3e6, results::Status::exact); // c44
+    EXPECT_EQ(cells.twins(), (Names{"c0", "c41", "c44"}));
+    cells.add(false, 5e6, results::Status::exact);
+    cells.prepared.cells.back().threads = 2;
+    EXPECT_EQ(cells.twins(), (Names{"c0", "c41", "c44", "c45"}));
     cells.add(false, 2e6, results::Status::wrong);
-    EXPECT_EQ(cells.aa(), "c4");
-    cells.calibrations.erase("c4"); // not timed
-    EXPECT_EQ(cells.aa(), "c3");
+    EXPECT_EQ(cells.twins(), (Names{"c0", "c41", "c44", "c45"}));
+    cells.calibrations.erase("c44"); // not timed
+    EXPECT_EQ(cells.twins(), (Names{"c0", "c41", "c43", "c45"}));
+    cells.add(false, 1e9, results::Status::exact); // of its kind alone, but too dear
+    cells.prepared.cells.back().threads = 4;
+    cells.calibrations["c45"].query_ns = 2e9;
+    EXPECT_EQ(cells.twins(), (Names{"c0", "c41", "c43"}));
 }
 
 } // namespace

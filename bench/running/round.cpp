@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <functional>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -46,7 +47,7 @@ std::vector<Timing> timings_of(const Plan& plan, const results::Results& prepare
         check_of.emplace(check.cell_id, &check);
 
     std::vector<Timing> timings;
-    const std::string aa = choose_aa(prepared, calibrations);
+    const std::set<std::string> twins = choose_twins(prepared, calibrations);
     for (const PlannedCell& cell : plan.cells) {
         const auto found = calibrations.find(cell.name);
         if (found == calibrations.end() || !cell.is_in(round))
@@ -54,7 +55,7 @@ std::vector<Timing> timings_of(const Plan& plan, const results::Results& prepare
         const std::uint32_t id = id_of.at(cell.name);
         const results::Check& check = *check_of.at(id);
         timings.push_back({&cell, found->second, id, check.result_hash, check.n_got, false});
-        if (cell.name == aa) {
+        if (twins.contains(cell.name)) {
             timings.push_back(timings.back());
             timings.back().is_twin = true;
         }
