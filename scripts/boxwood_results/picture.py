@@ -2,6 +2,7 @@
 
 import csv
 import io
+import re
 from dataclasses import dataclass, field
 
 from matplotlib import pyplot as plt
@@ -80,3 +81,20 @@ def svgs_of_panels(picture):
         svgs.append(out.getvalue())
     plt.close(picture.figure)
     return svgs
+
+
+STAMP = "Source"  # a text of PNG that PNG itself knows
+
+
+def save_png(picture, path, stamp):
+    """The picture with a text that says which run it shows."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    picture.figure.savefig(path, bbox_inches="tight", pad_inches=0.08, metadata={STAMP: stamp, "Software": None})
+    plt.close(picture.figure)
+    return path
+
+
+def stamp_of(path):
+    """Which run a PNG shows; empty if it does not say."""
+    found = re.search(rb"tEXt" + STAMP.encode() + rb"\0([\x20-\x7e]*)", path.read_bytes())
+    return found[1][:36].decode() if found else ""
