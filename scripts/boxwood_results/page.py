@@ -3,7 +3,7 @@
 import base64
 from html import escape
 
-from . import registry
+from . import history, registry
 from .findings import comparison_rows
 from .inline_svg import InlineSvgs
 from .picture import cell_text, svgs_of_panels
@@ -90,14 +90,13 @@ def source_text(run):
     return f"{cell_text(run.source.attrs.get('created_utc'))[:10]}, {machines}, {run.rounds} rounds"
 
 
-def figure_html(picture, name, run, svgs):
+def figure_html(picture, command, run, svgs):
     panels = []
     for svg in svgs_of_panels(picture):
         drawn, width = svgs.add(svg)
         panels.append(f'<div class=panel style="{width}">{drawn}</div>')
     notes = "".join(f"<p class=note>{escape(note)}</p>" for note in dict.fromkeys(picture.notes))
     numbers = folded(f"The {len(picture.rows):,} numbers in this figure", table(picture.columns, picture.rows))
-    command = f"scripts/plot {run.name} --figure {name}"
     return (f'<h3 id="figure-{picture.name}">{escape(picture.title)}</h3><figure><div class=panels role=img '
             f'aria-label="{escape(picture.alt)}">{"".join(panels)}</div><figcaption>{escape(source_text(run))}. '
             f"<code>{escape(command)}</code></figcaption></figure>{notes}{numbers}")
@@ -112,7 +111,7 @@ def figure_sections(run, svgs):
             lacking.append((drawn.title, drawn.skipped))
             continue
         body = [f"<p class=note>{escape(drawn.how_to_read)}</p>"]
-        body += [figure_html(picture, name, run, svgs) for picture in drawn.pictures]
+        body += [figure_html(picture, f"scripts/plot {run.name} --figure {name}", run, svgs) for picture in drawn.pictures]
         sections.append(section(name, drawn.title, "".join(body)))
     return sections, lacking
 
@@ -255,12 +254,19 @@ def contents_html(sections):
     return f"<nav><details><summary>Contents</summary><ul>{links}</ul></details></nav>"
 
 
-def report(run):
-    """The whole page as text."""
+def history_html(runs, run, svgs):
+    command = f"scripts/report {' '.join(run.name for run in runs)}"
+    pictures = "".join(figure_html(picture, command, run, svgs) for picture in history.pictures(runs))
+    return f"<p class=note>{escape(history.HOW_TO_READ)}</p>{pictures}" if pictures else ""
+
+
+def report(run, runs=()):
+    """The whole page as text; runs: all that its history is about, itself among them."""
     svgs = InlineSvgs()
     figures, lacking = figure_sections(run, svgs)
     sections = [part for part in (
         section("findings", "Main findings", findings_section_html(run)), *figures,
+        section("history", history.TITLE, history_html(runs, run, svgs)),
         section("scenes", "Scenes that move", scenes_html(run)),
         section("kernels", "Kernels on hard cases", kernels_html(run)),
         section("right", "Is it right", checks_html(run)),

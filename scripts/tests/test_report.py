@@ -182,6 +182,25 @@ def test_bad_usage(script, arguments):
     assert done.returncode == 2 and "usage:" in done.stderr
 
 
+def test_history_is_per_machine_and_in_the_order_of_time(tmp_path, script):
+    files = []
+    for number, (host, date, commit) in enumerate((("one", "2025-03-01", "ccc"), ("one", "2025-01-01", "aaa"), ("two", "2025-02-01", "bbb"),
+                                                   ("one", "2025-02-01", "abc"))):
+        made = synthetic.small(9, twin=True)
+        made.rows["env"][0].update(host=host, git_commit=commit)
+        files.append(made.write(tmp_path / f"{number}.h5", attrs={"created_utc": f"{date}T00:00:00Z"}))
+    out = tmp_path / "r.html"
+    assert script("report", *files, "--out", out).returncode == 0
+    page = out.read_text()
+    history = page.split("<h2 id=history>")[1].split("</section>")[0]
+    text = " ".join(Page("<h2>" + history).text)
+    assert "one, Test CPU" in text and "two, Test CPU" not in text  # of machine two there is one file
+    assert text.index("aaa") < text.index("abc") < text.index("ccc") and "bbb" not in text
+    assert page.startswith("<!DOCTYPE html>") and "<h1>Boxwood: 0.h5</h1>" in page  # the newest
+    alone = tmp_path / "alone.html"
+    assert script("report", files[0], "--out", alone).returncode == 0 and "id=history" not in alone.read_text()
+
+
 def test_scenes_are_shown_without_running_anything(tmp_path, script):
     made = synthetic.small()
     made.moving(1000)
