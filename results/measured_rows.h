@@ -52,6 +52,7 @@ struct SceneRow {
     std::string effects, queries; ///< comma-separated words
     std::uint64_t content_hash = 0;
     std::string params_json;
+    std::string source, licence; ///< who made it, and SPDX; empty where nobody said
 };
 
 /// One thing that was wanted of scenes.

@@ -162,6 +162,16 @@ def kernels_html(run):
 STRIP = "strip_"  # texts that hold frames of a scene side by side, as SVG
 
 
+def scenes_table_html(run):
+    """What was measured on, frozen by its content."""
+    def of(row, name):
+        return row[name] if name in row.dtype.names else ""
+
+    rows = [(row["name"], of(row, "human_name"), int(row["n_items"]), str(row["seed"]), f"{int(row['content_hash']):016x}",
+             of(row, "source"), of(row, "licence")) for row in run.source["scenes"]]
+    return folded(f"All {len(rows):,} scenes", table(("scene", "in words", "items", "seed", "content (XXH3)", "source", "licence"), rows))
+
+
 def scenes_html(run):
     """Frames of moving scenes. A picture from a file cannot run scripts as an image."""
     parts = []
@@ -267,7 +277,7 @@ def report(run, runs=()):
     sections = [part for part in (
         section("findings", "Main findings", findings_section_html(run)), *figures,
         section("history", history.TITLE, history_html(runs, run, svgs)),
-        section("scenes", "Scenes that move", scenes_html(run)),
+        section("scenes", "Scenes", scenes_html(run) + scenes_table_html(run)),
         section("kernels", "Kernels on hard cases", kernels_html(run)),
         section("right", "Is it right", checks_html(run)),
         section("unsupported", "Unsupported and absent", unsupported_html(run)),

@@ -1,5 +1,8 @@
-"""What README.md shows of measured runs: one list of tables and pictures, each with the sweep that it stands on."""
+"""What README.md shows of measured runs: one list of tables and pictures, each with the sweep that it stands on. A sweep is
+a track, which is quoted by name and version: its scenes are frozen by their content in tracks.csv."""
 
+import csv
+import hashlib
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -100,14 +103,47 @@ ALL = (
 BY_NAME = {one.name: one for one in ALL}
 
 
+def scenes_of(run):
+    """A hash of the scenes of a file: names, sizes, seeds and content."""
+    lines = sorted(f"{row['name']} {row['n_items']} {row['seed']} {int(row['content_hash']):016x}" for row in run.source["scenes"])
+    return hashlib.sha256("\n".join(lines).encode()).hexdigest()[:16]
+
+
+def tracks(root):
+    """{sweep: (version, hash of its scenes)}, as they were frozen."""
+    path = root / "results" / "published" / "tracks.csv"
+    if not path.exists():
+        return {}
+    with path.open(encoding="utf-8", newline="") as file:
+        return {row["track"]: (int(row["version"]), row["scenes"]) for row in csv.DictReader(file)}
+
+
+def freeze(root):
+    """Raises the version of each track whose scenes are others than they were; gives the names."""
+    known, raised = tracks(root), []
+    for sweep in sorted({one.sweep for one in ALL}):
+        file = root / "results" / "published" / f"{sweep}.h5"
+        if file.exists():
+            version, frozen = known.get(sweep, (0, ""))
+            scenes = scenes_of(read(file))
+            if scenes != frozen:
+                known[sweep] = (version + 1, scenes)
+                raised.append(f"{sweep}-{version + 1}")
+    with (root / "results" / "published" / "tracks.csv").open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(("track", "version", "scenes"))
+        writer.writerows((sweep, *entry) for sweep, entry in sorted(known.items()))
+    return raised
+
+
 def command_of(one):
     return f"scripts/reproduce {one.name}"
 
 
-def source_of(one, run):
-    """One sentence: which run it was, and how to make it again."""
+def source_of(one, run, version):
+    """Which run it was, of which track, how right it was, and how to make it again."""
     env = run.source["env"][0]
-    return (f"*Run {cell_text(run.source.attrs['run_uuid'])[:8]} of {cell_text(run.source.attrs['created_utc'])[:10]}: "
+    return (f"*Track {one.sweep}-{version}, {run.health['correctness'].split(' (')[0].rstrip('.')}. Run {cell_text(run.source.attrs['run_uuid'])[:8]} of {cell_text(run.source.attrs['created_utc'])[:10]}: "
             f"[`{one.config}`]({one.config}), {run.rounds} rounds, {env['cpu']}, {env['ncpu']} cores, commit "
             f"{env['git_commit'][:8]}, noise floor {ratio_text(100 * run.noise_floor)} %; "
             f"[`{one.sweep}.h5`](results/published/{one.sweep}.h5). Again: `{command_of(one)}`.*")
@@ -126,8 +162,9 @@ def block(one, root):
     rows = one.table(run)
     if len(rows) == 1:
         raise BadFile(one.file(root), f"it holds nothing for the table '{one.name}' of README.md; is it too noisy?")
+    version, _ = tracks(root).get(one.sweep, (0, ""))
     shown = f"![{one.title}](scripts/pictures/{one.picture[2]})\n\n" if one.picture else ""
-    return f"**{one.title}**\n\n{shown}{markdown(rows)}\n\n{source_of(one, run)}\n"
+    return f"**{one.title}**\n\n{shown}{markdown(rows)}\n\n{source_of(one, run, version)}\n"
 
 
 def rewritten(text, root):
@@ -164,6 +201,9 @@ def problems(root):
             found.append(f"{file}: {file.stat().st_size:,} bytes; at most {MAX_BYTES:,}")
         if any(row["git_dirty"] for row in run.source["env"]):
             found.append(f"{file}: measured with changes that are in no commit")
+        version, frozen = tracks(root).get(sweep, (0, ""))
+        if scenes_of(run) != frozen:
+            found.append(f"{file}: its scenes are not those of track {sweep}-{version}; scripts/published --freeze raises the version")
         if run.health["is_too_noisy"]:
             found.append(f"{file}: too noisy to be published")
         if run.source.texts.get("sweep_toml", "") != (root / "bench" / "configs" / f"{sweep}.toml").read_text():

@@ -51,6 +51,7 @@ def test_tables_and_pictures_come_from_the_files(root):
     file_of(root, "pairs", synthetic.full())
     file_of(root, "effects", synthetic.full())
     file_of(root, "accuracy", synthetic.full())
+    assert published.freeze(root) == ["accuracy-1", "effects-1", "pairs-1"] and published.freeze(root) == []
     written = published.write(root)
     assert {path.name for path in written} == {"README.md", "pairs.png", "accuracy_triangles.png"}
     assert published.problems(root) == []
@@ -58,7 +59,7 @@ def test_tables_and_pictures_come_from_the_files(root):
     results = published.read(root / "results" / "published" / "pairs.h5")
     of_pairs = next(c for c in results.comparisons if c.family == "peers" and c.a.library == "embree" and c.b.job.task == "pairs"
                     and c.text in text)
-    assert of_pairs and "Run u of 2025-01-01" in text and "commit abcdef01, noise floor" in text
+    assert of_pairs and re.search(r"\*Track pairs-1, \d+ answers checked: 1 of ours wrong. Run u of 2025-01-01", text) and "commit abcdef01, noise floor" in text
     assert "| warehouse | 10,000 |" in text and "guigue_devillers_exact" in text and "not published yet" in text
 
     (root / "README.md").write_text(text.replace(of_pairs.text, "99.9x (99.8 to 99.9)"))
@@ -76,6 +77,7 @@ def test_what_does_not_fit_together_is_said(root, env, toml, problem):
     file_of(root, "effects", synthetic.full())
     made = synthetic.full()
     file = file_of(root, "pairs", made, toml)
+    published.freeze(root)
     published.write(root)
     with h5py.File(file, "a") as tables:
         rows = tables["env"][:]
@@ -85,6 +87,19 @@ def test_what_does_not_fit_together_is_said(root, env, toml, problem):
             rows[column] = value
         tables["env"][:] = rows
     assert any(problem in line for line in published.problems(root))
+
+
+def test_a_track_whose_scenes_change_has_another_version(root):
+    file = file_of(root, "effects", synthetic.full())
+    published.freeze(root)
+    published.write(root)
+    assert published.problems(root) == []
+    with h5py.File(file, "a") as tables:
+        rows = tables["scenes"][:]
+        rows["content_hash"][0] += 1
+        tables["scenes"][:] = rows
+    assert any("not those of track effects-1" in line for line in published.problems(root))
+    assert published.freeze(root) == ["effects-2"]
 
 
 def test_a_stray_file_is_said(root):

@@ -85,7 +85,7 @@ def draw(run):
             draw_panel(ax, panel, found, measured)
             rows += [(task, panel, r.name, r.library, r.promise, r.ns, r.n, r.wrong, r.per_million, r.maybe,
                       r.error) for r in found]
-        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {task}",
+        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {run.tasks[task].title}",
                                 f"Time per call against wrong answers of {len(rows)} kernels of {task}.", COLUMNS, rows))
     if not pictures:
         raise Skip("no kernel was run on hard cases (bench/configs/accuracy.toml and boxwood check do)")

@@ -95,7 +95,7 @@ def draw(run):
             left_out = draw_panel(ax, job, cells, run, rows)
             notes += left_out_note(left_out, f"variants of {job}") + wrong_notes(cells)
         pictures.append(
-            Picture(f"{NAME}_{task}", figure, f"{TITLE}: {task}",
+            Picture(f"{NAME}_{task}", figure, f"{TITLE}: {run.tasks[task].title}",
                     f"Time to build against time of a query of {len(rows)} variants of {task}.", COLUMNS, rows, notes)
         )
     return pictures

@@ -58,7 +58,7 @@ def draw(run):
         ax.set_xlabel("log10 of the condition number L/d")
         ax.set_ylabel("worst relative error")
         labels.at_line_ends(ax, ends)
-        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {task}",
+        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {run.tasks[task].title}",
                                 f"Worst relative error of {len(lines)} kernels of {task} by decade of the condition number.", COLUMNS, rows))
     if not pictures:
         raise Skip("no distance kernel was judged over more than one decade of condition numbers")

@@ -158,7 +158,7 @@ def draw_one(run, task, contender_class, where, found):
         ax.set_title(title, fontsize=10, weight="bold")
     jobs = {block.job for block in found}
     notes = [footer(run), *wrong_notes([cell for cell in run.cells if cell.job in jobs])]
-    words = ", ".join(filter(None, (task, contender_class, str(where))))
+    words = ", ".join(filter(None, (known.title, contender_class, str(where))))
     name = "_".join([NAME, task, str(where.column), *re.findall(r"\w+", contender_class)])
     return Picture(name, figure, f"{TITLE}: {words}",
                    f"Time of the peers over the time of Boxwood for {words}, in {len(rows)} comparisons.", COLUMNS, rows, notes)

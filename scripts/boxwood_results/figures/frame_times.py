@@ -59,7 +59,7 @@ def draw_panel(ax, job, cells, rows):
     ax.set_title(f"{job.scene} {job.n:,} · {job.where}", fontsize=9.5 * min(1, 50 / len(job.scene)), pad=14)
 
 
-def draw_all(task, where, jobs):
+def draw_all(run, task, where, jobs):
     columns = min(2, len(jobs))
     lines = [jobs[start:start + columns] for start in range(0, len(jobs), columns)]
     heights = [1.15 + ROW * max(len(cells) for _, cells, *_ in line) for line in lines]
@@ -74,7 +74,7 @@ def draw_all(task, where, jobs):
             draw_panel(ax, job, cells, rows)
             notes += left_out_note(left_out, f"ways to play {job}") + wrong
         top -= height
-    return Picture(f"{NAME}_{task}_{where.column}", figure, f"{TITLE}: {task}, {where}",
+    return Picture(f"{NAME}_{task}_{where.column}", figure, f"{TITLE}: {run.tasks[task].title}, {where}",
                    f"Median and worst frame of {len(rows)} ways to play scenes of {task}.", COLUMNS, rows, notes)
 
 
@@ -87,4 +87,4 @@ def draw(run):
             groups.setdefault((job.task, job.where), []).append((job, shown, left_out, wrong_notes(cells)))
     if not groups:
         raise Skip(f"no scene of {MIN_FRAMES} or more frames was timed (bench/configs/dynamic.toml does)")
-    return [draw_all(task, where, jobs) for (task, where), jobs in groups.items()]
+    return [draw_all(run, task, where, jobs) for (task, where), jobs in groups.items()]

@@ -65,7 +65,7 @@ def draw_bar(ax, cell, y, limit):
         ax.barh(y, ns, left=left, height=BAR, color=colour, edgecolor="white", linewidth=0.8)
         if labels.text_size(ax.figure, name)[0] + 8 < ns * pixels:
             ax.text(left + ns / 2, y, name, ha="center", va="center", fontsize=labels.SIZE,
-                    color="white" if is_dark(colour) else style.INK)
+                    color="white" if is_dark(colour) else style.INK, path_effects=() if is_dark(colour) else labels.HALO)
         else:
             narrow.append((name, ns))
         left = float(cell.stages[name]["until_ns"])

@@ -80,7 +80,7 @@ def draw(run):
         for side in ax.spines.values():
             side.set_visible(False)
         pictures.append(Picture(
-            f"{NAME}_{task}", figure, f"{TITLE}: {task}",
+            f"{NAME}_{task}", figure, f"{TITLE}: {run.tasks[task].title}",
             f"Wrong answers per million, {len(families)} families of hard cases by {len(columns)} kernels of {task}.",
             COLUMNS, rows))
     if not pictures:

@@ -128,7 +128,7 @@ def draw(run):
             labels.at_line_ends(ax, ends)
         cells = [cell for lines, _ in all_panels for line in lines for cell in line]
         pictures.append(
-            Picture(f"{NAME}_{task}", figure, f"{TITLE}: {task}",
+            Picture(f"{NAME}_{task}", figure, f"{TITLE}: {run.tasks[task].title}",
                     f"Time against n of {task} on log axes, with fitted exponents of n.", COLUMNS, rows,
                     sorted(set(wrong_notes(cells))))
         )

@@ -90,6 +90,6 @@ def draw(run):
         for ax, (job, lines) in zip(axes, panels):
             labels.at_line_ends(ax, draw_panel(ax, job, lines, rows))
             notes += wrong_notes([cell for cell in run.cells if cell.job.scene == job.scene and cell.job.task == task])
-        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {task}", f"Time on one thread over the time on several threads, for {task}.",
+        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {run.tasks[task].title}", f"Time on one thread over the time on several threads, for {task}.",
                                 COLUMNS, rows, notes))
     return pictures

@@ -83,6 +83,6 @@ def draw(run):
         figure, axes = style.panels(len(panels), **style.pair_of_panels(crowded))
         for ax, panel in zip(axes, panels):
             scatter(ax, *panel)
-        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {task}", f"Counted work against time of {len(rows)} variants of {task}.",
+        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {run.tasks[task].title}", f"Counted work against time of {len(rows)} variants of {task}.",
                                 COLUMNS, rows, notes))
     return pictures
