@@ -14,8 +14,9 @@ foreach(library highway tbb eigen hdf5 google-benchmark assimp xxhash fmt cli11 
         set(debian_${library} lib${library}-dev)
     endif()
     if(BOXWOOD_DPKG_QUERY)
-        execute_process(COMMAND ${BOXWOOD_DPKG_QUERY} --show --showformat=\${Version} ${debian_${library}}
+        execute_process(COMMAND ${BOXWOOD_DPKG_QUERY} --show "--showformat=\${Version} " ${debian_${library}}
             OUTPUT_VARIABLE revision ERROR_QUIET)
+        string(REGEX MATCH "^[^ ]+" revision "${revision}") # of the first of several architectures
         if(revision)
             string(APPEND revisions "{\"${library}\", \"${revision}\"},")
         endif()

@@ -204,6 +204,8 @@ def problems(root):
         version, frozen = tracks(root).get(sweep, (0, ""))
         if scenes_of(run) != frozen:
             found.append(f"{file}: its scenes are not those of track {sweep}-{version}; scripts/published --freeze raises the version")
+        if run.noise_floor != run.noise_floor:
+            found.append(f"{file}: too few rounds for a noise floor")
         if run.health["is_too_noisy"]:
             found.append(f"{file}: too noisy to be published")
         if run.source.texts.get("sweep_toml", "") != (root / "bench" / "configs" / f"{sweep}.toml").read_text():
