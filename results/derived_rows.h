@@ -16,7 +16,7 @@ struct Median {
     std::uint64_t n = 0;
     double median_ns = missing, mad_ns = missing, min_ns = missing, p95_ns = missing,
            p99_ns = missing;
-    double limit_ns = missing;    ///< the least time that the machine could take; NaN if not known
+    double limit_ns = missing; ///< a lower bound for any algorithm on the machine; NaN if not known
     double times_limit = missing; ///< the median over that
 };
 

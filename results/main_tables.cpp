@@ -6,7 +6,7 @@ namespace {
 // Widths in bytes: one word, a version or the like, a name, free text.
 constexpr std::size_t word = 64, name = 160, text = 1024;
 constexpr bool derived = true;
-constexpr std::uint32_t minor_1 = 1, minor_2 = 2;
+constexpr std::uint32_t minor_1 = 1, minor_2 = 2, minor_3 = 3;
 
 } // namespace
 
@@ -46,6 +46,12 @@ std::vector<Table> main_tables() {
              {"gpu_memory_bytes", &Env::gpu_memory_bytes, "B", "its memory", 0, false, minor_1},
              {"gpu_clock_ghz", &Env::gpu_clock_ghz, "GHz", "its clock", 0, false, minor_1},
              {"gpu_l2_bytes", &Env::gpu_l2_bytes, "B", "its cache", 0, false, minor_2},
+             {"memory_bytes", &Env::memory_bytes, "B", "main memory", 0, false, minor_3},
+             {"quota", &Env::quota, "", "processors' time that a container may use", 0, false,
+              minor_3},
+             {"boost", &Env::boost, "", "1 if the clock may rise above its base", 0, false,
+              minor_3},
+             {"smt", &Env::smt, "", "1 if two hardware threads share a core", 0, false, minor_3},
          }},
         {"packages",
          "a library that the program was built with, or a peer that was looked for",
@@ -54,8 +60,10 @@ std::vector<Table> main_tables() {
              {"env_id", &Package::env_id, "", "of env"},
              {"library", &Package::library, "", "package name", word},
              {"version", &Package::version, "", "empty if absent", word},
-             {"revision", &Package::revision, "", "commit, where it is known", word},
-             {"build", &Package::build, "", "instruction sets, precision, threads, as known", text},
+             {"revision", &Package::revision, "", "of its Debian package, where one is installed",
+              word},
+             {"build", &Package::build, "", "instruction sets, precision, threads, flags, as known",
+              text},
              {"present", &Package::present, "", "0 if it was not found"},
          }},
         {"scenes",
@@ -75,6 +83,9 @@ std::vector<Table> main_tables() {
              {"queries", &SceneRow::queries, "", "comma-separated names", name},
              {"content_hash", &SceneRow::content_hash, "", "XXH3 of the scene's content"},
              {"params_json", &SceneRow::params_json, "", "generator parameters", text},
+             {"source", &SceneRow::source, "", "who made it, or the file", text, false, minor_3},
+             {"licence", &SceneRow::licence, "", "SPDX; empty where nobody said", word, false,
+              minor_3},
          }},
         {"tasks",
          "one thing that was wanted of scenes",
@@ -174,6 +185,8 @@ std::vector<Table> main_tables() {
              {"round", &Sample::round, "", "number of the round"},
              {"position", &Sample::position, "", "place in the shuffled order of the round"},
              {"phase", &Sample::phase, "", "what was timed"},
+             {"t_ns", &Sample::t_ns, "ns", "start of its timing, since 1970 UTC", 0, false,
+              minor_3},
              {"wall_ns", &Sample::wall_ns, "ns", "elapsed time of one iteration"},
              {"cpu_ns", &Sample::cpu_ns, "ns", "processor time of one iteration, all threads"},
              {"iterations", &Sample::iterations, "", "iterations timed together"},
@@ -329,7 +342,7 @@ std::vector<Table> main_tables() {
              {"min_ns", &Median::min_ns, "ns", "least"},
              {"p95_ns", &Median::p95_ns, "ns", "95th percentile"},
              {"p99_ns", &Median::p99_ns, "ns", "99th percentile"},
-             {"limit_ns", &Median::limit_ns, "ns", "least time that the machine could take"},
+             {"limit_ns", &Median::limit_ns, "ns", "lower bound of any algorithm on the machine"},
              {"times_limit", &Median::times_limit, "", "the median over limit_ns"},
          },
          derived},

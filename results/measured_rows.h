@@ -30,13 +30,16 @@ struct Env {
     std::uint64_t gpu_sm = no_count, gpu_memory_bytes = no_count;
     double gpu_clock_ghz = missing;
     std::uint64_t gpu_l2_bytes = no_count;
+    std::uint64_t memory_bytes = no_count;
+    double quota = missing;                   ///< processors whose time a container may use
+    std::uint32_t boost = no_id, smt = no_id; ///< 0 or 1
 };
 
 /// A library that the program was built with, or a peer that was looked for.
 struct Package {
     std::uint32_t env_id = 0;
     std::string library, version, revision;
-    std::string build; ///< what is known of how it was compiled: SIMD, precision, threads
+    std::string build; ///< what is known of how it was compiled: SIMD, precision, threads, flags
     std::uint32_t present = 1;
 };
 
@@ -49,6 +52,7 @@ struct SceneRow {
     std::string effects, queries; ///< comma-separated words
     std::uint64_t content_hash = 0;
     std::string params_json;
+    std::string source, licence; ///< who made it, and SPDX; empty where nobody said
 };
 
 /// One thing that was wanted of scenes.
@@ -111,6 +115,7 @@ enum SampleFlag : std::uint32_t {
 struct Sample {
     std::uint32_t cell_id = 0, shard_id = 0, round = 0, position = 0;
     Phase phase = Phase::none;
+    std::uint64_t t_ns = no_count; ///< start of its timing, since 1970 UTC
     double wall_ns = missing, cpu_ns = missing;
     std::uint64_t iterations = 0, nvcsw = 0, nivcsw = 0, minflt = 0;
     std::uint32_t flags = 0;

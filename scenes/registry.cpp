@@ -23,7 +23,8 @@
     X(cloth)                                                                                       \
     X(four_link)                                                                                   \
     X(chain)                                                                                       \
-    X(mesh)
+    X(mesh)                                                                                        \
+    X(boxes)
 
 namespace boxwood {
 
@@ -36,10 +37,6 @@ std::span<const SceneEntry> scene_generators() {
     static const SceneEntry entries[] = {BOXWOOD_SCENES(BOXWOOD_ROW)};
 #undef BOXWOOD_ROW
     return entries;
-}
-
-const SceneEntry& file_generator() {
-    return *std::ranges::find(scene_generators(), true, &SceneEntry::reads_file);
 }
 
 const SceneEntry& scene_generator(std::string_view name) {

@@ -134,7 +134,8 @@ const SceneEntry& checked(const SceneSpec& spec) {
     const SceneEntry& entry = scene_generator(spec.generator);
     if (entry.reads_file && spec.file.empty())
         throw std::invalid_argument(
-            fmt::format("scene {}: no file is given; name an OBJ, PLY or STL file", entry.name));
+            fmt::format("scene {}: no file is given; name {}", entry.name,
+                        entry.has_mesh ? "an OBJ, PLY or STL file" : "a CSV file of boxes"));
     if (!entry.reads_file && !spec.file.empty())
         throw std::invalid_argument(
             fmt::format("scene {} reads no file, but {} is given", entry.name, spec.file.string()));

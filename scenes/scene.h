@@ -28,7 +28,7 @@ struct SceneSpec {
     double overlaps = 10;         ///< wanted mean number of boxes that overlap a box (box scenes)
     std::string rays{};           ///< a name of `ray_kinds()`, or empty for no rays (mesh scenes)
     std::size_t n_rays = 0;       ///< number of rays
-    std::filesystem::path file{}; ///< mesh file (`mesh` alone), or a family's cases
+    std::filesystem::path file{}; ///< of `mesh` and `boxes`, or a family's cases
     std::size_t n_points = 0;     ///< number of points or regions
     std::string regions{};        ///< a name of `region_kinds()`, or empty for no regions
     /// A scene that moves, instead of a generator's: its n and seed are those of the spec, and
@@ -81,8 +81,6 @@ struct SceneEntry {
 };
 
 std::span<const SceneEntry> scene_generators();
-/// The one that reads a file.
-const SceneEntry& file_generator();
 
 /// A kind of rays aimed at a mesh scene.
 struct RayKindEntry {

@@ -7,7 +7,7 @@
 
 namespace boxwood::bench {
 
-inline constexpr std::size_t min_sizes = 3; ///< fewer give no exponent
+inline constexpr std::size_t min_sizes = 4; ///< fewer give no exponent
 
 /// Time as a power of n. The exponent is the least-squares slope of log time over log n, fitted
 /// round by round, then the median over the rounds that have every size; `off_line` the farthest

@@ -121,8 +121,7 @@ Ruling decide_one(std::span<const double> logs, double p_adj, double level, doub
         claim.reason = reason;
         return claim;
     };
-    const Reason within_the_floor =
-        floor > max_floor ? Reason::too_noisy : Reason::below_the_floor;
+    const Reason within_the_floor = floor > max_floor ? Reason::too_noisy : Reason::below_the_floor;
     if (logs.size() < min_pairs_verdict)
         return open(Reason::too_few_rounds);
     if (is_within(claim.ratio.ci_lo, delta) && is_within(claim.ratio.ci_hi, delta)) {

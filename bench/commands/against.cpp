@@ -52,8 +52,8 @@ std::vector<std::string> arguments_of(const Side& side, const SweepOptions& opti
         words.insert(words.end(), {"--threads", fmt::format("{}", fmt::join(o.threads, ","))});
     if (!o.only.empty())
         words.insert(words.end(), {"--only", o.only});
-    if (!o.mesh.empty())
-        words.insert(words.end(), {"--mesh", o.mesh.string()});
+    for (const std::string& word : o.own_files())
+        words.push_back(word);
     if (o.seed)
         words.insert(words.end(), {"--seed", std::to_string(*o.seed)});
     return words;

@@ -21,9 +21,16 @@ void add_plan_options(CLI::App& command, std::filesystem::path& config, Override
         .add_option("--config", config,
                     "what to measure: a sweep file such as bench/configs/quick.toml")
         ->required();
-    command.add_option("--mesh", overrides.mesh,
-                       "a mesh of your own (OBJ, PLY, STL, ...) for the blocks with scene = "
-                       "\"mesh\"; without it they are left out");
+    command
+        .add_option("--mesh", overrides.meshes,
+                    "a mesh of your own (OBJ, PLY, STL, ...) for the blocks with scene = \"mesh\"; "
+                    "without it they are left out; may be given more than once")
+        ->allow_extra_args(false);
+    command
+        .add_option("--boxes", overrides.boxes,
+                    "boxes of your own (CSV, min_x,min_y,min_z,max_x,max_y,max_z a line) for the "
+                    "blocks with scene = \"boxes\"; may be given more than once")
+        ->allow_extra_args(false);
     command
         .add_option("--threads", overrides.threads,
                     "numbers of threads, such as 1,2, instead of those of the sweep file")

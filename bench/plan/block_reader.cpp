@@ -72,13 +72,13 @@ Names BlockReader::keys() const {
 
 bool BlockReader::has(std::string_view key) const { return table_->toml.get(key) != nullptr; }
 
-bool BlockReader::takes_mesh() const {
-    const auto is_mesh = [](const toml::node& node) {
-        return node.value_or(std::string()) == file_generator().name;
+bool BlockReader::takes(std::string_view generator) const {
+    const auto is_meant = [generator](const toml::node& node) {
+        return node.value_or(std::string()) == generator;
     };
     const toml::node* scene = table_->toml.get("scene");
     const toml::array* all = scene ? scene->as_array() : nullptr;
-    return all ? std::ranges::any_of(*all, is_mesh) : scene && is_mesh(*scene);
+    return all ? std::ranges::any_of(*all, is_meant) : scene && is_meant(*scene);
 }
 
 void BlockReader::fail(const std::string& message, std::string_view key) const {

@@ -23,13 +23,19 @@ struct BuilderChoice {
     Settings settings;
 };
 
+/// A file of the user's: of which generator, and how many items it holds.
+struct OwnScene {
+    std::string generator;
+    std::filesystem::path file;
+    std::size_t items = 0;
+};
+
 /// What holds for all blocks of a sweep.
 struct SweepInputs {
     std::uint64_t seed = 1;
     std::vector<unsigned> threads;  ///< of blocks that name none
     bool overrides_threads = false; ///< also of those that do
-    std::filesystem::path mesh;     ///< the file of the scene `mesh`, or none
-    std::size_t mesh_items = 0;     ///< its triangles
+    std::vector<OwnScene> own;      ///< of the user's files
 };
 
 /// Where a contender of a block runs.
@@ -54,8 +60,8 @@ class BlockReader {
     /// The keys that the block has, in the order of the alphabet.
     Names keys() const;
     bool has(std::string_view key) const;
-    /// Whether its scene is the mesh file of the sweep.
-    bool takes_mesh() const;
+    /// Whether its scene is a file of the user's, for that generator.
+    bool takes(std::string_view generator) const;
     /// At the line of the key, or of the block.
     [[noreturn]] void fail(const std::string& message, std::string_view key = {}) const;
 

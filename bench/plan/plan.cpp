@@ -63,16 +63,41 @@ class Expansion {
     std::map<std::string, std::size_t, std::less<>> index_of_;
 };
 
-/// The number of triangles of a mesh file, so that cell names can say it.
-std::size_t mesh_size(const std::filesystem::path& file) {
+struct OwnOption {
+    std::string_view option, generator;
+    std::vector<std::filesystem::path> Overrides::*files;
+};
+constexpr OwnOption own_options[] = {{"--mesh", "mesh", &Overrides::meshes},
+                                     {"--boxes", "boxes", &Overrides::boxes}};
+
+/// The number of items of a file, so that cell names can say it.
+std::size_t size_of(const OwnOption& own, const std::filesystem::path& file) {
     SceneSpec spec;
-    spec.generator = file_generator().name;
+    spec.generator = own.generator;
     spec.file = file;
     try {
         return make_scene(spec).boxes.size();
     } catch (const std::exception& error) {
-        throw BadInput(fmt::format("--mesh: {}", error.what()));
+        throw BadInput(fmt::format("{}: {}", own.option, error.what()));
     }
+}
+
+/// Adds the user's files to the inputs; gives a hash of their content, 0 if there are none.
+std::uint64_t add_own_files(const Config& config, const std::string& config_file,
+                            const Overrides& overrides, SweepInputs& inputs) {
+    std::string content;
+    for (const OwnOption& own : own_options)
+        for (const std::filesystem::path& file : overrides.*own.files) {
+            if (std::ranges::none_of(config.blocks, [&own](const Block& block) {
+                    return block.reader.takes(own.generator);
+                }))
+                throw BadInput(fmt::format("{}: {} has no [[cells]] block with scene = \"{}\" "
+                                           "that would use it",
+                                           own.option, config_file, own.generator));
+            inputs.own.push_back({std::string(own.generator), file, size_of(own, file)});
+            content += read_text(file.string());
+        }
+    return content.empty() ? 0 : XXH3_64bits(content.data(), content.size());
 }
 
 void keep_only(const std::string& pattern, std::vector<PlannedCell>& cells) {
@@ -81,6 +106,14 @@ void keep_only(const std::string& pattern, std::vector<PlannedCell>& cells) {
 }
 
 } // namespace
+
+std::vector<std::string> Overrides::own_files() const {
+    std::vector<std::string> words;
+    for (const OwnOption& own : own_options)
+        for (const std::filesystem::path& file : this->*own.files)
+            words.insert(words.end(), {std::string(own.option), file.string()});
+    return words;
+}
 
 Plan make_plan(const std::string& config_text, const std::string& config_file,
                const Overrides& overrides) {
@@ -92,19 +125,11 @@ Plan make_plan(const std::string& config_text, const std::string& config_file,
     plan.delta = config.delta;
     plan.seed = overrides.seed.value_or(config.seed);
 
-    SweepInputs inputs{plan.seed, overrides.threads.empty() ? config.threads : overrides.threads,
-                       !overrides.threads.empty(), overrides.mesh, 0};
-    std::uint64_t mesh_hash = 0;
-    if (!overrides.mesh.empty()) {
-        if (std::ranges::none_of(config.blocks,
-                                 [](const Block& block) { return block.reader.takes_mesh(); }))
-            throw BadInput(fmt::format("--mesh: {} has no [[cells]] block with scene = \"mesh\" "
-                                       "that would use it",
-                                       config_file));
-        inputs.mesh_items = mesh_size(overrides.mesh);
-        const std::string bytes = read_text(overrides.mesh.string());
-        mesh_hash = XXH3_64bits(bytes.data(), bytes.size());
-    }
+    SweepInputs inputs{plan.seed,
+                       overrides.threads.empty() ? config.threads : overrides.threads,
+                       !overrides.threads.empty(),
+                       {}};
+    const std::uint64_t files_hash = add_own_files(config, config_file, overrides, inputs);
     Expansion expansion(plan.cells);
     for (Block& block : config.blocks) {
         block.reader.set_inputs(inputs);
@@ -121,12 +146,12 @@ Plan make_plan(const std::string& config_text, const std::string& config_file,
     if (plan.cells.empty())
         throw BadInput(overrides.only.empty()
                            ? fmt::format("{}: no cell to measure; blocks of scene \"mesh\" need "
-                                         "--mesh FILE",
+                                         "--mesh FILE, of \"boxes\" --boxes FILE",
                                          config_file)
                            : fmt::format("--only \"{}\" leaves no cell of {}; --dry-run without "
                                          "it lists all",
                                          overrides.only, config_file));
-    plan.sweep_hash = sweep_hash_of(plan, mesh_hash);
+    plan.sweep_hash = sweep_hash_of(plan, files_hash);
     return plan;
 }
 
@@ -142,9 +167,9 @@ std::string scene_file_text(const SceneSpec& spec) {
 
 } // namespace
 
-std::string sweep_hash_of(const Plan& plan, std::uint64_t mesh_hash) {
+std::string sweep_hash_of(const Plan& plan, std::uint64_t files_hash) {
     std::string canonical =
-        fmt::format("min_time_ms {} seed {} mesh {:x}\n", plan.min_time_ms, plan.seed, mesh_hash);
+        fmt::format("min_time_ms {} seed {} mesh {:x}\n", plan.min_time_ms, plan.seed, files_hash);
     std::vector<std::string> lines;
     for (const PlannedCell& cell : plan.cells)
         lines.push_back(fmt::format(

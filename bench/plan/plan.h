@@ -15,8 +15,11 @@ struct Overrides {
     std::optional<unsigned> rounds;
     std::vector<unsigned> threads; ///< replaces the threads of every block, if any
     std::optional<std::uint64_t> seed;
-    std::string only;           ///< regular expression searched for in cell names
-    std::filesystem::path mesh; ///< the file of `mesh` blocks; without it they are left out
+    std::string only; ///< regular expression searched for in cell names
+    std::vector<std::filesystem::path> meshes, boxes; ///< the user's own, for blocks of such scenes
+
+    /// As the command line says it: {"--mesh", FILE, ...}.
+    std::vector<std::string> own_files() const;
 };
 
 /// One thing to time: a contender that does a task on a scene.
@@ -44,13 +47,13 @@ struct Plan {
     std::string config_text; ///< the sweep file as read
 };
 
-/// Throws BadInput for what parse_config refuses, a bad --only, a bad mesh file, two different
-/// cells of one name, and a plan without cells.
+/// Throws BadInput for what parse_config refuses, a bad --only, a bad file of the user's, two
+/// different cells of one name, and a plan without cells.
 Plan make_plan(const std::string& config_text, const std::string& config_file,
                const Overrides& overrides);
 
-/// XXH3 of what is measured: the cells, how long, and the content of the mesh file (0: none).
-std::string sweep_hash_of(const Plan& plan, std::uint64_t mesh_hash);
+/// XXH3 of what is measured: the cells, how long, and the content of the files (0: none).
+std::string sweep_hash_of(const Plan& plan, std::uint64_t files_hash);
 
 /// The order of a round's timings: a permutation of [0, count) that depends on seed and round
 /// alone.

@@ -154,7 +154,7 @@ TEST(Plan, MeshBlocksNeedAMesh) {
     EXPECT_EQ(names_of(plan_of(config + mesh)), names_of(plan_of(config)));
     EXPECT_THROW(plan_of(mesh), BadInput);
     Overrides overrides;
-    overrides.mesh = "there/is/no/such.obj";
+    overrides.meshes = {"there/is/no/such.obj"};
     EXPECT_THROW(plan_of(config + mesh, overrides), BadInput);
     EXPECT_THROW(plan_of(config, overrides), BadInput); // nothing would use it
 }
@@ -162,7 +162,7 @@ TEST(Plan, MeshBlocksNeedAMesh) {
 TEST(Plan, MeshCellsAreNamedBySizeAndHashedByContent) {
     const auto file = std::filesystem::temp_directory_path() / "boxwood_plan_test.obj";
     Overrides overrides;
-    overrides.mesh = file;
+    overrides.meshes = {file};
     const std::string mesh = "[[cells]]\nscene = \"mesh\"\ntask = \"pairs\"\n"
                              "builders = \"median\"\n";
     const auto plan_with = [&](const char* last) {
@@ -177,6 +177,32 @@ TEST(Plan, MeshCellsAreNamedBySizeAndHashedByContent) {
     EXPECT_NE(two.sweep_hash, three.sweep_hash);
     EXPECT_EQ(names_of(two), names_of(moved));
     EXPECT_NE(two.sweep_hash, moved.sweep_hash); // other bytes
+}
+
+TEST(Plan, FilesOfTheUsersAreAsManyScenes) {
+    const auto folder = std::filesystem::temp_directory_path();
+    const auto first = folder / "boxwood_first.csv", second = folder / "boxwood_second.csv";
+    std::ofstream(first) << "# two\n0,0,0,1,1,1\n 1, 1,1 ,2,2,2\r\n";
+    std::ofstream(second) << "0,0,0,1,1,1e2\n";
+    const std::string boxes = "[[cells]]\nscene = \"boxes\"\ntask = \"pairs\"\n"
+                              "builders = \"median\"\n";
+    Overrides overrides;
+    overrides.boxes = {first, second};
+    const Plan plan = plan_of(boxes, overrides);
+    ASSERT_EQ(plan.cells.size(), 2u);
+    EXPECT_THAT(plan.cells[0].name, StartsWith("boxes_boxwood_first/n2-s1/pairs/"));
+    EXPECT_THAT(plan.cells[1].name, StartsWith("boxes_boxwood_second/n1-s1/pairs/"));
+    EXPECT_EQ(overrides.own_files(),
+              (std::vector<std::string>{"--boxes", first.string(), "--boxes", second.string()}));
+    EXPECT_EQ(make_scene(plan.cells[0].scene).boxes[1].max[2], 2);
+    for (const char* bad : {"1,2,3,4,5\n", "1,2,3,4,5,6,7\n", "1,1,1,0,2,2\n", "1,1,nan,2,2,2\n",
+                            "1,1,1,2,2,x\n", "1,1,1,2,2,1e40\n", "# none\n", ""}) {
+        std::ofstream(second) << bad;
+        EXPECT_THROW(plan_of(boxes, overrides), BadInput) << bad;
+    }
+    std::filesystem::remove(second);
+    EXPECT_THROW(plan_of(boxes, overrides), BadInput);
+    std::filesystem::remove(first);
 }
 
 TEST(Plan, RefusesAPatternThatIsNoneOrLeavesNothing) {

@@ -1,7 +1,33 @@
 # Makes build_info.h (versions, flags, CMake cache) when configuring and git_commit.h at every build;
 # both are read by environment.cpp alone.
 find_package(Eigen3 QUIET) # FCL's; nothing of ours uses it
+# The Debian package of each library of environment.cpp, and what the options of each peer are.
+set(debian_highway libhwy-dev)
+set(debian_google-benchmark libbenchmark-dev)
+set(debian_eigen libeigen3-dev)
+set(debian_bullet libbullet-dev)
+set(revisions "")
+find_program(BOXWOOD_DPKG_QUERY dpkg-query)
+mark_as_advanced(BOXWOOD_DPKG_QUERY)
+foreach(library highway tbb eigen hdf5 google-benchmark assimp xxhash fmt cli11 tomlplusplus fcl embree cgal bullet)
+    if(NOT debian_${library})
+        set(debian_${library} lib${library}-dev)
+    endif()
+    if(BOXWOOD_DPKG_QUERY)
+        execute_process(COMMAND ${BOXWOOD_DPKG_QUERY} --show "--showformat=\${Version} " ${debian_${library}}
+            OUTPUT_VARIABLE revision ERROR_QUIET)
+        string(REGEX MATCH "^[^ ]+" revision "${revision}") # of the first of several architectures
+        if(revision)
+            string(APPEND revisions "{\"${library}\", \"${revision}\"},")
+        endif()
+    endif()
+endforeach()
 string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
+set(peer_flags "")
+foreach(peer IN LISTS peers_found)
+    set(options "$<FILTER:$<TARGET_PROPERTY:boxwood_peer_${peer},COMPILE_OPTIONS>,EXCLUDE,^-W>")
+    string(APPEND peer_flags "{\"${peer}\", \"${CMAKE_CXX_FLAGS_${build_type}} $<JOIN:${options}, >\"},")
+endforeach()
 file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/build_info.h CONTENT
 "// Made by bench/running/build_info.cmake.
 #define BOXWOOD_VERSION \"${PROJECT_VERSION}\"
@@ -12,6 +38,8 @@ file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/build_info.h CONTENT
 #define BOXWOOD_GBENCH_VERSION \"${benchmark_VERSION}\"
 #define BOXWOOD_ASSIMP_VERSION \"${assimp_VERSION}\"
 #define BOXWOOD_XXHASH_VERSION \"${XXHASH_VERSION}\"
+#define BOXWOOD_PACKAGE_REVISIONS ${revisions}
+#define BOXWOOD_PEER_FLAGS ${peer_flags}
 #define BOXWOOD_EIGEN_VERSION \"${Eigen3_VERSION}\"
 " CONDITION $<COMPILE_LANGUAGE:CXX>) # nvcc has flags of its own
 

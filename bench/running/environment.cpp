@@ -16,6 +16,7 @@
 #include <xxhash.h>
 
 #include <cstdio>
+#include <map>
 #include <memory>
 #if defined(__SSE__)
 #include <xmmintrin.h>
@@ -31,7 +32,7 @@ std::string hash_of(const results::Env& e) {
     std::string text;
     const auto add = [&](const auto&... fields) { ((text += fmt::format("{}\x1f", fields)), ...); };
     add(e.host, e.cpu, e.ncpu, e.l1d_bytes, e.l2_bytes, e.l3_bytes, e.isa_max, e.isa_used);
-    add(e.governor, e.thp, e.virt, e.kernel, e.mxcsr);
+    add(e.governor, e.thp, e.virt, e.kernel, e.mxcsr, e.memory_bytes, e.quota, e.boost, e.smt);
     if (!e.gpu.empty())
         add(e.gpu, e.gpu_sm, e.gpu_memory_bytes, e.gpu_driver);
     add(e.compiler, e.flags, e.build_type, e.git_commit, e.git_dirty);
@@ -96,6 +97,12 @@ std::vector<std::pair<std::string, std::string>> packages() {
 }
 
 std::vector<results::Package> package_rows() {
+    static const std::map<std::string_view, std::string_view> revisions{BOXWOOD_PACKAGE_REVISIONS};
+    static const std::map<std::string_view, std::string_view> flags{BOXWOOD_PEER_FLAGS};
+    const auto of = [](const auto& texts, const std::string& name) {
+        const auto found = texts.find(name);
+        return found == texts.end() ? std::string{} : std::string(found->second);
+    };
     std::vector<results::Package> rows;
     for (auto& [name, version] : packages()) {
         results::Package row;
@@ -104,7 +111,10 @@ std::vector<results::Package> package_rows() {
         row.version = row.present ? version : "";
         for (const Peer& peer : peers())
             if (peer.name == name)
-                row.build = peer.build;
+                row.build =
+                    fmt::format("{}; what is compiled here: {}", peer.build, of(flags, name));
+        if (row.present)
+            row.revision = of(revisions, name);
         rows.push_back(row);
     }
     return rows;
@@ -134,6 +144,10 @@ results::Env environment(bool measure_bandwidth) {
     e.l3_bytes = machine.l3_bytes.value_or(results::no_count);
     e.isa_max = isas_supported().at(0);
     e.isa_used = isa_used();
+    e.memory_bytes = machine.memory_bytes ? machine.memory_bytes : results::no_count;
+    e.quota = machine.quota.value_or(results::missing);
+    e.boost = machine.boost ? *machine.boost : results::no_id;
+    e.smt = machine.smt ? *machine.smt : results::no_id;
     e.governor = machine.governor;
     e.thp = machine.thp;
     e.virt = machine.virt;

@@ -23,6 +23,12 @@ TEST(Environment, SaysWhatItCan) {
     for (const results::Package& package : package_rows())
         EXPECT_EQ(package.present != 0, !package.version.empty()) << package.library;
     EXPECT_EQ(std::ranges::count(package_rows(), "hdf5", &results::Package::library), 1);
+    // Where a Debian package is installed its revision begins with the version, and says it once.
+    for (const results::Package& package : package_rows())
+        if (package.library == "fmt" && !package.revision.empty()) {
+            EXPECT_EQ(package.revision.find(package.version), 0u) << package.revision;
+            EXPECT_EQ(package.revision.find(package.version, 1), std::string::npos);
+        }
 }
 
 TEST(Environment, BandwidthIsPlausibleAndNoPartOfTheHash) {

@@ -96,6 +96,16 @@ std::uint32_t Record::add_scene(const Scene& scene, std::string tasks) {
     row.queries = std::move(tasks);
     if (scene.spec.moving)
         row.queries += ',' + query_names(*scene.spec.moving);
+    const SceneSpec& spec = scene.spec;
+    if (spec.moving) {
+        row.source = spec.moving->source;
+        row.licence = spec.moving->licence;
+    } else if (!spec.file.empty()) {
+        row.source = spec.file.filename().string(); // the user's own
+    } else {
+        row.source = "Boxwood";
+        row.licence = "Apache-2.0";
+    }
     row.content_hash = scene.content_hash;
     row.params_json = scene.params_json;
     out.scenes.push_back(row);

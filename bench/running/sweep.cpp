@@ -229,8 +229,8 @@ class Sweep {
                              {"--threads", fmt::format("{}", fmt::join(o.threads, ","))});
         if (!o.only.empty())
             arguments.insert(arguments.end(), {"--only", o.only});
-        if (!o.mesh.empty())
-            arguments.insert(arguments.end(), {"--mesh", o.mesh.string()});
+        for (const std::string& word : o.own_files())
+            arguments.push_back(word);
         return arguments;
     }
 

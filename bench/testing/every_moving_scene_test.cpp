@@ -29,7 +29,7 @@ std::vector<std::shared_ptr<const SceneFile>> every_moving_scene(std::size_t n) 
         all.push_back(std::make_shared<const SceneFile>(std::move(file)));
     };
     for (const SceneEntry& entry : scene_generators())
-        if (!entry.has_mesh)
+        if (!entry.has_mesh && !entry.reads_file)
             for (const std::vector<EffectChoice>& effects : kinds)
                 add(effect_scene({.generator = std::string(entry.name), .n = n, .seed = 7},
                                  effects));

@@ -23,9 +23,15 @@
 namespace boxwood::bench {
 namespace {
 
-/// A closed mesh as a file, for the scene that reads one.
-std::filesystem::path octahedron_file() {
-    const auto path = std::filesystem::path(testing::TempDir()) / "every_way_octahedron.obj";
+/// A closed mesh and three boxes as files, for the scenes that read them.
+std::filesystem::path file_for(std::string_view generator) {
+    const auto folder = std::filesystem::path(testing::TempDir());
+    if (generator == "boxes") {
+        const auto path = folder / "every_way_boxes.csv";
+        std::ofstream(path) << "0,0,0,1,1,1\n1,1,1,2,2,2\n3,3,3,4,4,4\n";
+        return path;
+    }
+    const auto path = folder / "every_way_octahedron.obj";
     std::ofstream(path)
         << "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n"
            "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n";
@@ -71,7 +77,7 @@ std::vector<Scene> every_scene(std::size_t n) {
     for (const SceneEntry& entry : scene_generators()) {
         SceneSpec spec{.generator = std::string(entry.name), .n = n};
         if (entry.reads_file)
-            spec.file = octahedron_file();
+            spec.file = file_for(entry.name);
         try {
             all.push_back(make_scene(spec));
         } catch (const std::invalid_argument&) {

@@ -24,6 +24,8 @@ std::string value_atom(const SettingValue& value) {
 
 SceneFile effect_scene(const SceneSpec& spec, std::span<const EffectChoice> effects) {
     SceneFile file;
+    file.source = "Boxwood";
+    file.licence = "Apache-2.0";
     file.name = scene_name(
         {.generator = spec.generator, .n = spec.n, .seed = spec.seed, .overlaps = spec.overlaps});
     const auto entry = std::ranges::find(scene_generators(), spec.generator, &SceneEntry::name);

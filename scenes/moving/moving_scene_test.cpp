@@ -70,6 +70,8 @@ TEST(MovingScene, ListsEveryBodyWhoseBoxIsAnother) {
         SCOPED_TRACE(scene.name);
         MovingScene played(load_scene(std::string(scene.name)), 300);
         EXPECT_FALSE(played.file().summary.empty());
+        EXPECT_FALSE(played.file().source.empty());
+        EXPECT_EQ(played.file().licence, "Apache-2.0");
         std::vector<Aabb<float>> before = boxes_of(played.bodies());
         for (int frame = 0; frame < 30; ++frame) {
             const auto changed = played.advance();

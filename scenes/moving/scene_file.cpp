@@ -130,13 +130,17 @@ BodyGroup read_group(const TomlReader& reader, const toml::table& table) {
 SceneFile parse_scene_file(std::string_view text, const std::string& file) {
     const TomlReader reader(file);
     const toml::table root = reader.parse(text);
-    reader.require_known_keys(
-        root, "a scene file",
-        {"summary", "n", "seed", "frames", "frames_per_second", "view", "queries", "bodies"});
+    reader.require_known_keys(root, "a scene file",
+                              {"summary", "source", "licence", "n", "seed", "frames",
+                               "frames_per_second", "view", "queries", "bodies"});
     SceneFile scene;
     scene.name = std::filesystem::path(file).stem().string();
     if (const toml::node* summary = root.get("summary"))
         scene.summary = reader.text(*summary, "summary");
+    if (const toml::node* source = root.get("source"))
+        scene.source = reader.text(*source, "source");
+    if (const toml::node* licence = root.get("licence"))
+        scene.licence = reader.text(*licence, "licence");
     if (const toml::node* n = root.get("n"))
         scene.n = reader.whole(*n, "n", 1, max_bodies);
     if (const toml::node* seed = root.get("seed"))

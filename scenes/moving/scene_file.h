@@ -41,6 +41,8 @@ struct SceneFile {
     std::string name;    ///< of the file, without .toml
     std::string title;   ///< for people, without the number of bodies; empty: as the name
     std::string summary; ///< one line
+    std::string source;  ///< who made it, or after what; empty: not said
+    std::string licence; ///< SPDX; empty: not said
     std::size_t n = 1000;
     std::uint64_t seed = 1;
     std::size_t frames = 100;

@@ -8,13 +8,16 @@ from pathlib import Path
 from .reader import BadFile
 
 
-def parser(description, example):
+def parser(description, example, several=False):
     made = argparse.ArgumentParser(
         description=description,
         epilog=f"Example: {example}\n\nExit codes: 0 done; 2 bad usage or a file that cannot be read or written.",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    made.add_argument("file", type=Path, metavar="FILE.h5", help="a result file of scripts/sweep")
+    if several:
+        made.add_argument("files", type=Path, nargs="+", metavar="FILE.h5", help="result files of scripts/sweep")
+    else:
+        made.add_argument("file", type=Path, metavar="FILE.h5", help="a result file of scripts/sweep")
     return made
 
 

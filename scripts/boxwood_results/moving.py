@@ -4,7 +4,7 @@ import json
 from dataclasses import dataclass, field
 
 from .findings import Ratio
-from .run import ALL_STAGES, REQUIRED, TOTAL
+from .run import ALL_STAGES, REQUIRED
 from .selection import largest_jobs
 
 SCREEN_NS = 1e9 / 60
@@ -75,7 +75,3 @@ def moved_share(cell):
         for effect in effects
     )
     return f"{groups[0].get('generator', '?')}, {words}", shares.pop()
-
-
-def frame_ns(cell):
-    return cell.median(TOTAL)

@@ -3,31 +3,44 @@
 import base64
 from html import escape
 
-from . import registry
+from . import history, registry
 from .findings import comparison_rows
-from .picture import as_inline_svg, cell_text
+from .inline_svg import InlineSvgs
+from .picture import cell_text, svgs_of_panels
 from .selection import wrong_text
 from .words import time_text
 
 STYLE = """
-body { font: 15px/1.5 system-ui, "DejaVu Sans", sans-serif; color: #222; background: #fff;
-       max-width: 90rem; margin: 2rem auto; padding: 0 1.2rem; }
+:root { --paper: #fff; --ink: #222; --soft: #555; --line: #e4e4e4; --link: #0058a3; --bad: #b00000; color-scheme: light dark; }
+@media screen and (prefers-color-scheme: dark) {
+  :root { --paper: #171717; --ink: #e6e6e6; --soft: #a8a8a8; --line: #3a3a3a; --link: #7cb8ff; --bad: #ff7b72; }
+  img, svg image { filter: invert(1) hue-rotate(180deg); } }
+body { font: 15px/1.5 system-ui, "DejaVu Sans", sans-serif; color: var(--ink); background: var(--paper);
+       max-width: 90rem; margin: 1.2rem auto; padding: 0 1rem; overflow-wrap: anywhere; }
 p, ul { max-width: 60rem; }
-h1 { font-size: 1.7rem; margin-bottom: .2rem; } h2 { font-size: 1.25rem; margin-top: 2.4rem; }
-h3 { font-size: 1.05rem; margin: 1.6rem 0 .3rem; }
-.lead { color: #555; margin-top: 0; }
-figure { margin: .6rem 0 1.2rem; } figure svg, figure img { max-width: 100%; height: auto; }
-figcaption, .note { color: #555; font-size: .88rem; }
-table { border-collapse: collapse; font-size: .82rem; font-variant-numeric: tabular-nums; }
-th, td { text-align: left; padding: .18rem .7rem .18rem 0; border-bottom: 1px solid #e4e4e4; vertical-align: top; }
-td.number { text-align: right; }
-.scroll { overflow-x: auto; margin-bottom: 1.1rem; }
+h1 { font-size: 1.5rem; margin: 0; } h2 { font-size: 1.25rem; margin-top: 2.2rem; }
+h3 { font-size: 1.05rem; margin: 1.6rem 0 .3rem; } a { color: var(--link); }
+.lead { color: var(--soft); margin: .2rem 0; }
+nav ul { columns: 15rem; padding-left: 1.2rem; margin: .3rem 0; }
+figure { margin: .6rem 0 1.2rem; } img { max-width: 100%; height: auto; }
+figcaption, .note { color: var(--soft); font-size: .88rem; }
+.panels { display: flex; flex-wrap: wrap; gap: .8rem 1.4rem; align-items: flex-start; }
+.panel { flex: 0 1 calc(.92 * var(--w)); max-width: 100%; overflow-x: auto; }
+.panel svg { display: block; width: 100%; min-width: calc(.7 * var(--w)); height: auto; fill: var(--ink);
+             font-family: "DejaVu Sans", Verdana, sans-serif; }
+.panel .halo text { paint-order: stroke; stroke: var(--paper); stroke-width: 2.4px; stroke-linejoin: round; }
+table { border-collapse: collapse; font-size: .82rem; font-variant-numeric: tabular-nums; overflow-wrap: normal; }
+th, td { text-align: left; padding: .18rem .7rem .18rem 0; border-bottom: 1px solid var(--line); vertical-align: top; }
+td.number { text-align: right; } td:first-child { min-width: 9rem; } h3::first-letter { text-transform: uppercase; }
+.scroll { overflow-x: auto; margin-bottom: 1.1rem; } pre { overflow-x: auto; }
 details .scroll { max-height: 30rem; overflow-y: auto; }
-summary { cursor: pointer; font-size: .88rem; color: #0058a3; }
-.wrong { color: #b00000; font-weight: 600; }
+summary { cursor: pointer; font-size: .88rem; color: var(--link); }
+.wrong { color: var(--bad); font-weight: 600; }
+@media (max-width: 40rem) { .panels { flex-direction: column; } .panel { flex: none; width: 100%; } }
 @media print { body { max-width: none; margin: 0; } figure, tr { break-inside: avoid; }
                .scroll, details .scroll { max-height: none; overflow: visible; } }
 """
+MAX_ROWS = 150  # of a table: the rest is in the file
 MISSING = (2**32 - 1, 2**64 - 1)
 
 
@@ -43,41 +56,64 @@ def shown(value):
 
 
 def table(columns, rows):
+    """The first rows, and how many more the file has."""
     lines = ["<div class=scroll><table><thead><tr>"]
     lines += [f"<th scope=col>{escape(str(column))}</th>" for column in columns]
     lines.append("</tr></thead><tbody>")
-    for row in rows:
+    for row in rows[:MAX_ROWS]:
         lines.append("<tr>")
         for value in row:
             text, number = shown(value)
             kind = " class=number" if number else " class=wrong" if text == "wrong" else ""
             lines.append(f"<td{kind}>{escape(text)}</td>")
         lines.append("</tr>")
-    return "".join([*lines, "</tbody></table></div>"])
+    lines.append("</tbody></table></div>")
+    if len(rows) > MAX_ROWS:
+        lines.append(f"<p class=note>The first {MAX_ROWS} of {len(rows):,} rows; <code>boxwood show --csv</code> and the CSV "
+                     "files of <code>scripts/plot</code> have all.</p>")
+    return "".join(lines)
 
 
 def folded(summary, body):
     return f"<details><summary>{escape(summary)}</summary>{body}</details>"
 
 
-def figure_html(picture):
-    svg = as_inline_svg(picture).replace("<svg", f'<svg role="img" aria-label="{escape(picture.alt)}"', 1)
+def section(name, title, body):
+    """(name, title, HTML) of a part of the page; None if it holds nothing."""
+    return (name, title, f"<section><h2 id={name}>{escape(title)}</h2>{body}</section>") if body else None
+
+
+def source_text(run):
+    """Where and when what a figure shows was measured."""
+    env = run.source["env"]
+    machines = ", ".join(dict.fromkeys(f"{row['cpu']} ({row['ncpu']} cores)" for row in env))
+    return f"{cell_text(run.source.attrs.get('created_utc'))[:10]}, {machines}, {run.rounds} rounds"
+
+
+def figure_html(picture, command, run, svgs):
+    panels = []
+    for svg in svgs_of_panels(picture):
+        drawn, width = svgs.add(svg)
+        panels.append(f'<div class=panel style="{width}">{drawn}</div>')
     notes = "".join(f"<p class=note>{escape(note)}</p>" for note in dict.fromkeys(picture.notes))
     numbers = folded(f"The {len(picture.rows):,} numbers in this figure", table(picture.columns, picture.rows))
-    return f"<h3>{escape(picture.title)}</h3><figure>{svg}</figure>{notes}{numbers}"
+    return (f'<h3 id="figure-{picture.name}">{escape(picture.title)}</h3><figure><div class=panels role=img '
+            f'aria-label="{escape(picture.alt)}">{"".join(panels)}</div><figcaption>{escape(source_text(run))}. '
+            f"<code>{escape(command)}</code></figcaption></figure>{notes}{numbers}")
 
 
-def figures_html(run):
-    parts = []
+def figure_sections(run, svgs):
+    """A section for each figure whose data the run holds, and what the others lack."""
+    sections, lacking = [], []
     for name in registry.FIGURES:
         drawn = registry.draw(name, run)
-        parts.append(f"<h2>{escape(drawn.title)}</h2>")
         if drawn.skipped:
-            parts.append(f"<p class=note>No figure: {escape(drawn.skipped)}.</p>")
+            lacking.append((drawn.title, drawn.skipped))
             continue
-        parts.append(f"<p class=note>{escape(drawn.how_to_read)}</p>")
-        parts += [figure_html(picture) for picture in drawn.pictures]
-    return "".join(parts)
+        body = [f"<p class=note>{escape(drawn.how_to_read)}</p>"]
+        body += [figure_html(picture, f"scripts/plot {run.name} --figure {name}", run, svgs) for picture in drawn.pictures]
+        sections.append(section(name, drawn.title, "".join(body)))
+    return sections, lacking
 
 
 def findings_html(run, headlines):
@@ -87,6 +123,7 @@ def findings_html(run, headlines):
         rows = [(f.question, f.together, f.alone, f.certainty)
                 for f in run.findings if f.topic == topic["topic"] and f.is_headline == headlines]
         if rows:
+            parts.append(f"<h3>{escape(topic['title'])}</h3>" if headlines else "")
             parts.append(table([topic[name] for name in ("question", "together", "alone", "certainty")], rows))
     return "".join(parts)
 
@@ -119,10 +156,20 @@ def kernels_html(run):
          "BROKEN" if p.row["is_broken"] else "", p.row["witness"])
         for p in run.kernels
     ]
-    return "<h2>Kernels on hard cases</h2>" + folded(f"All {len(rows):,} kernels on hard cases", table(columns, rows))
+    return folded(f"All {len(rows):,} kernels on hard cases", table(columns, rows))
 
 
 STRIP = "strip_"  # texts that hold frames of a scene side by side, as SVG
+
+
+def scenes_table_html(run):
+    """What was measured on, frozen by its content."""
+    def of(row, name):
+        return row[name] if name in row.dtype.names else ""
+
+    rows = [(row["name"], of(row, "human_name"), int(row["n_items"]), str(row["seed"]), f"{int(row['content_hash']):016x}",
+             of(row, "source"), of(row, "licence")) for row in run.source["scenes"]]
+    return folded(f"All {len(rows):,} scenes", table(("scene", "in words", "items", "seed", "content (XXH3)", "source", "licence"), rows))
 
 
 def scenes_html(run):
@@ -134,7 +181,7 @@ def scenes_html(run):
             data = base64.b64encode(svg.encode()).decode()
             parts.append(f"<h3>{escape(scene)}</h3><figure><img alt=\"Frames of the moving scene {escape(scene)}, side by "
                          f"side, drawn with few bodies\" src=\"data:image/svg+xml;base64,{data}\"></figure>")
-    return f"<h2>Scenes that move</h2>{''.join(parts)}" if parts else ""
+    return "".join(parts)
 
 
 def cells_html(run):
@@ -199,9 +246,45 @@ def as_plain(value):
     return value.item() if hasattr(value, "item") else value
 
 
-def report(run):
-    """The whole page as text."""
+def lacking_html(lacking):
+    return table(("figure", "what this run lacks for it"), lacking) if lacking else ""
+
+
+def findings_section_html(run):
     columns, rows = comparison_rows(run.comparisons)
+    return "".join([
+        "<p class=note>Losses first. Our best against the best rival of the same run: above 1 Boxwood is the faster.</p>",
+        main_findings_html(run),
+        folded(f"All {len(rows):,} comparisons, ours against ourselves and threads too", table(columns, rows)) if rows else "",
+    ])
+
+
+def contents_html(sections):
+    links = "".join(f'<li><a href="#{name}">{escape(title)}</a></li>' for name, title, _ in sections)
+    return f"<nav><details><summary>Contents</summary><ul>{links}</ul></details></nav>"
+
+
+def history_html(runs, run, svgs):
+    command = f"scripts/report {' '.join(run.name for run in runs)}"
+    pictures = "".join(figure_html(picture, command, run, svgs) for picture in history.pictures(runs))
+    return f"<p class=note>{escape(history.HOW_TO_READ)}</p>{pictures}" if pictures else ""
+
+
+def report(run, runs=()):
+    """The whole page as text; runs: all that its history is about, itself among them."""
+    svgs = InlineSvgs()
+    figures, lacking = figure_sections(run, svgs)
+    sections = [part for part in (
+        section("findings", "Main findings", findings_section_html(run)), *figures,
+        section("history", history.TITLE, history_html(runs, run, svgs)),
+        section("scenes", "Scenes", scenes_html(run) + scenes_table_html(run)),
+        section("kernels", "Kernels on hard cases", kernels_html(run)),
+        section("right", "Is it right", checks_html(run)),
+        section("unsupported", "Unsupported and absent", unsupported_html(run)),
+        section("timings", "All timings", cells_html(run)),
+        section("lacking", "Figures of what was not measured", lacking_html(lacking)),
+        section("machine", "Machine", machine_html(run)),
+    ) if part]
     missing = (f"<p class=note>{run.missing_samples} samples hold no time and are left out.</p>"
                if run.missing_samples else "")
     changed = f"<p class=wrong>Warning: {escape(run.changed)}.</p>" if run.changed else ""
@@ -209,19 +292,11 @@ def report(run):
         [
             "<!DOCTYPE html><html lang=en><head><meta charset=utf-8>",
             '<meta name=viewport content="width=device-width, initial-scale=1">',
-            f"<title>Boxwood: {escape(run.name)}</title><style>{STYLE}</style></head><body>",
+            f"<title>Boxwood: {escape(run.name)}</title><style>{STYLE}{svgs.css()}</style></head><body>",
             f"<h1>Boxwood: {escape(run.name)}</h1>",
-            f"<p class=note>{escape(cell_text(run.source.attrs.get('created_utc')))}</p>{changed}{trust_html(run)}{missing}",
-            "<h2>Main findings</h2><p class=note>Losses first. Our best against the best rival of the same run: above 1 "
-            "Boxwood is the faster.</p>", main_findings_html(run),
-            folded(f"All {len(rows):,} comparisons, ours against ours and threads too", table(columns, rows)),
-            figures_html(run),
-            scenes_html(run),
-            kernels_html(run),
-            "<h2>Is it right</h2>", checks_html(run),
-            "<h2>Unsupported and absent</h2>", unsupported_html(run),
-            "<h2>All timings</h2>", cells_html(run),
-            "<h2>Machine</h2>", machine_html(run),
+            f"<p class=lead>{escape(cell_text(run.source.attrs.get('created_utc')))}</p>{changed}{trust_html(run)}{missing}",
+            contents_html(sections),
+            *(html for _, _, html in sections),
             "</body></html>\n",
         ]
     )

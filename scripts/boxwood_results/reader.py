@@ -15,7 +15,7 @@ NO_ID = 2**32 - 1
 # The columns that the figures stand on; other columns and tables are skipped.
 MEASURED = {
     "env": ("env_id", "host", "cpu", "ncpu"),
-    "scenes": ("scene_id", "name", "n_items", "seed"),
+    "scenes": ("scene_id", "name", "n_items", "seed", "content_hash"),
     "tasks": ("task", "title", "total", "total_title"),
     "variants": ("variant_id", "name", "library", "builder", "traversal", "kernel", "is_peer", "place",
                  "is_plain", "answers_from_cache", "keeps_structure", "stages", "notes", "library_title"),

@@ -139,6 +139,11 @@ class Cell:
         row = self.medians.get(self.total if phase == TOTAL else phase)
         return math.nan if row is None else float(row["median_ns"])
 
+    def spread(self, phase):
+        """From the least of its rounds to the 95th percentile; None without times."""
+        row = self.medians.get(phase)
+        return None if row is None else (float(row["min_ns"]), float(row["p95_ns"]))
+
 
 @dataclass
 class Run:

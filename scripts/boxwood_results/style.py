@@ -97,6 +97,15 @@ def point_style(cell, size=6):
     }
 
 
+def whiskers(ax, cell, x, y, over_x=None, over_y=None):
+    """How far the rounds of a point lie apart, where its phases are given."""
+    thin = {"color": look(cell)[0], "linewidth": 0.8, "alpha": 0.6, "zorder": 2, "scalex": False, "scaley": False}
+    for phase, ends in ((over_x, lambda span: (span, (y, y))), (over_y, lambda span: ((x, x), span))):
+        span = cell.spread(phase) if phase else None
+        if span:
+            ax.plot(*ends(span), **thin)
+
+
 def cross_out(ax, x, y):
     """Marks a point whose answers were wrong."""
     ax.plot([x], [y], marker="x", markersize=11, color="#C00000", markeredgewidth=1.5, zorder=6)

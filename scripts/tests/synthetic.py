@@ -395,7 +395,7 @@ def full(rounds=15, wrong=True):
     """A sweep as the default one: sizes, threads, pairs and rays; one wrong peer, one unsupported cell."""
     made = Maker(rounds)
     for scene, hard in (("uniform", 1.0), ("clusters", 1.4), ("bars", 2.2)):
-        for n in (1000, 10000, 100000) if scene == "uniform" else (100000,):
+        for n in (1000, 3000, 10000, 100000) if scene == "uniform" else (100000,):
             for threads in (1, 2):
                 for contender, spec in PAIR_CONTENDERS.items():
                     if threads == 2 and spec[0] in ("fcl", "bullet", "cgal"):

@@ -43,6 +43,7 @@ def mesh(tmp_path):
         (("sweep", "--config", "{config}", "--mesh", "{config}"), "the mesh file '{config}' is empty"),
         (("sweep", "--quick", "--mesh", SCRIPTS / "setup"), "is not a mesh file: its name ends in none of"),
         (("sweep", "--quick", "--mesh", SCRIPTS.parent / "CMakeLists.txt"), "is not a mesh file"),
+        (("sweep", "--quick", "--boxes", "nix.csv"), "no readable file 'nix.csv' (--boxes)"),
         (("sweep", "--config", "{config}", "--out", "/proc/nix/a.h5"), "the folder '/proc/nix' cannot be made"),
         (("sweep", "--config", "{config}", "--out", "/proc/a.h5"), "the folder '/proc' cannot be written to"),
         (("sweep", "--config={config}", "--out={config}/a.h5"), "cannot be made"),

@@ -25,6 +25,7 @@ ALLOWED = {
     ("figures/ledger.py", "height_of"): "inches that bars and their text take",
     ("figures/ledger.py", "draw"): "inches of the panels",
     ("figures/effect_cost.py", "draw"): "inches of the rows",
+    ("figures/forest.py", "draw_one"): "inches of the rows",
     ("figures/frame_times.py", "draw_all"): "inches of the panels",
 }
 

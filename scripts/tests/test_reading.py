@@ -15,7 +15,7 @@ from boxwood_results import findings, reader, run, words
 
 def test_reads_what_was_written(full):
     results = run.read(full)
-    assert results.rounds == 15 and len(results.jobs) == 43
+    assert results.rounds == 15 and len(results.jobs) == 45
     cell = next(c for c in results.cells if c.name == "uniform/n1000-s1/pairs/binned_sah.wide8.self_pairs/f32/tbb-2")
     assert (cell.label, cell.family, cell.ours, cell.job.where.threads) == ("binned_sah.wide8", "binned_sah", True, 2)
     assert cell.status == "exact" and cell.counters["box_tests"] == 41000

@@ -1,6 +1,7 @@
 """The report is one offline page that survives odd files."""
 
 import base64
+import re
 from html.parser import HTMLParser
 
 import pytest
@@ -53,8 +54,8 @@ def page(full, script, tmp_path_factory):
 def test_it_begins_with_trust_and_findings(page, full):
     # test_one_verdict.py holds these two against the program's screen.
     results = run.read(full)
-    first, rest = page.split("<h2>Main findings</h2>")
-    assert trust_html(results) in first and main_findings_html(results) in rest.split("<h2>")[0]
+    first, rest = page.split("<h2 id=findings>Main findings</h2>")
+    assert trust_html(results) in first and main_findings_html(results) in rest.split("<h2 ")[0]
 
 
 def test_it_needs_nothing_from_outside(page):
@@ -68,13 +69,36 @@ def test_it_needs_nothing_from_outside(page):
         assert not any(name.startswith("on") for name in attrs), tag
 
 
-def test_every_picture_has_words_and_numbers(page):
+def test_every_picture_has_words_numbers_date_machine_and_command(page):
     parsed = Page(page)
-    pictures = parsed.named("svg")
+    pictures = [attrs for attrs in parsed.named("div") if attrs.get("class") == "panels"]
     assert len(pictures) >= 8
-    assert all(svg.get("role") == "img" and len(svg.get("aria-label", "")) > 40 for svg in pictures)
-    assert page.count("numbers in this figure") == len(pictures)
+    assert all(one.get("role") == "img" and 40 < len(one["aria-label"]) < 250 for one in pictures)
+    assert all(one["aria-label"].endswith(".") and ". " not in one["aria-label"] for one in pictures), "one sentence"
+    assert page.count("numbers in this figure") == len(pictures) == page.count("<figcaption>2025-01-01, Test CPU &amp; ")
+    assert len(re.findall("<code>scripts/plot full.h5 --figure [a-z_]+</code>", page)) == len(pictures)
     assert len(parsed.ids) == len(set(parsed.ids)), "an id stands twice"
+
+
+def test_its_text_is_text_and_its_colours_follow_the_reader(page):
+    parsed = Page(page)
+    assert len(parsed.named("text")) > 500 and len(page) < 1_000_000
+    style = page.split("</style>")[0]
+    assert not re.findall(r"(?:fill|stroke)[:=] ?\"?#[0-9a-f]{6}", page)
+    used = set(re.findall(r"var\((--[a-z0-9]+)\)", page))
+    _, light, dark = style.split(":root{")
+    for name in used:
+        if re.fullmatch("--c[0-9a-f]{6}", name):
+            assert f"{name}:#{name[3:]}" in light and f"{name}:#" in dark, name
+
+
+def test_contents_lead_to_sections_and_none_is_empty(page):
+    parsed = Page(page)
+    links = [attrs["href"][1:] for attrs in parsed.named("a")]
+    sections = re.findall(r"<section><h2 id=(\w+)>[^<]*</h2>(.*?)</section>", page, re.S)
+    assert links == [name for name, _ in sections] and len(links) > 10
+    for name, body in sections:
+        assert len(" ".join(Page(body).text)) > 40, name
 
 
 def test_references_within_pictures_resolve(page):
@@ -88,7 +112,8 @@ def test_it_says_what_was_found(page):
     text = " ".join(Page(page).text)
     assert "Test CPU & <Core> 9" in text  # escaped, so that it comes back whole
     assert "noise floor" in text and "quiet enough" in text
-    assert "LOSES" in text and text.index("LOSES") < text.index(" wins ")
+    findings = text.split("Losses first", 1)[1]
+    assert "LOSES" in findings and findings.index("LOSES") < findings.index(" wins ")
     assert "cheapest, a call" in text and "what they require" in text
     assert "2 missing, 0 extra (pair 3,8)" in text
     assert "FCL's manager runs on one thread" in text
@@ -109,7 +134,7 @@ def test_one_round_gives_a_page_that_says_so(small, script, tmp_path):
     out = tmp_path / "r.html"
     assert script("report", small, "--out", out).returncode == 0
     text = " ".join(Page(out.read_text()).text)
-    assert "1 round, " in text and "too few rounds" in text and "No figure: no scene was timed with 3" in text
+    assert "1 round, " in text and "too few rounds" in text and "no scene was timed with 4" in text
 
 
 def test_a_noisy_run_says_repeat_this_instead_of_findings(tmp_path, script):
@@ -155,6 +180,25 @@ def test_help_has_an_example(script, command):
 def test_bad_usage(script, arguments):
     done = script(*arguments)
     assert done.returncode == 2 and "usage:" in done.stderr
+
+
+def test_history_is_per_machine_and_in_the_order_of_time(tmp_path, script):
+    files = []
+    for number, (host, date, commit) in enumerate((("one", "2025-03-01", "ccc"), ("one", "2025-01-01", "aaa"), ("two", "2025-02-01", "bbb"),
+                                                   ("one", "2025-02-01", "abc"))):
+        made = synthetic.small(9, twin=True)
+        made.rows["env"][0].update(host=host, git_commit=commit)
+        files.append(made.write(tmp_path / f"{number}.h5", attrs={"created_utc": f"{date}T00:00:00Z"}))
+    out = tmp_path / "r.html"
+    assert script("report", *files, "--out", out).returncode == 0
+    page = out.read_text()
+    history = page.split("<h2 id=history>")[1].split("</section>")[0]
+    text = " ".join(Page("<h2>" + history).text)
+    assert "one, Test CPU" in text and "two, Test CPU" not in text  # of machine two there is one file
+    assert text.index("aaa") < text.index("abc") < text.index("ccc") and "bbb" not in text
+    assert page.startswith("<!DOCTYPE html>") and "<h1>Boxwood: 0.h5</h1>" in page  # the newest
+    alone = tmp_path / "alone.html"
+    assert script("report", files[0], "--out", alone).returncode == 0 and "id=history" not in alone.read_text()
 
 
 def test_scenes_are_shown_without_running_anything(tmp_path, script):

@@ -6,14 +6,13 @@ from .. import labels, style
 from ..metrics import METRICS
 from ..picture import Picture, Skip
 from ..selection import choose, largest_jobs, VERY_LONG, left_out_note, short_labels, wrong_notes
-from ..words import time_text
 
 NAME = "builder_tradeoff"
 TITLE = "What a build buys"
 HOW_TO_READ = (
-    "Lower left is better. The line joins the variants that none beats in both; the number on a "
-    "piece is how many queries it takes until the slower build has paid for itself (no number: the "
-    "first query does, or the noise hides it). A contender "
+    "Lower left is better; thin lines reach from the least time of the rounds to their 95th percentile. Lines join "
+    "variants that none beats in both, where the noise does not decide; the number on one is how many queries it takes until "
+    "the slower build has paid for itself (no number: the first query does). A contender "
     "without a build of its own stands at the left edge: its query holds all the work. What the long names "
     "of ours have in common stands in the title."
 )
@@ -45,21 +44,25 @@ def draw_panel(ax, job, cells, run, rows):
         ax.axvline(edge, color=style.FAINT, linewidth=5, alpha=0.35, zorder=0)
         ax.text(edge, 0.02, "no build", transform=ax.get_xaxis_transform(), fontsize=7, rotation=90, ha="center",
                 va="bottom", color="#666666")
-    line, stripe = [at(cell) for cell in best], [(edge, low) for low in ax.get_ylim()]
-    ax.plot(*zip(*line), color=style.FAINT, linewidth=1.2, zorder=1)
+    stripe = [(edge, low) for low in ax.get_ylim()]
     marks = []
     names, shared = short_labels(shown)
     for cell in shown:
         x, y = at(cell)
         ax.plot([x], [y], **{**style.point_style(cell, 7), "linestyle": ""}, zorder=5)
+        style.whiskers(ax, cell, x, y, "build" if cell.keeps_structure else None, "query")
         if cell.status == "wrong":
             style.cross_out(ax, x, y)
         marks.append((x, y, names[id(cell)], style.text_colour(cell)))
     pays = {id(cell): queries for cell, queries in steps if queries == queries}
-    joints = []
+    joints, lines = [], [stripe] if len(builds) < len(shown) else []
     for cheap, dear in zip(best, best[1:]):
-        (x0, y0), (x1, y1) = at(cheap), at(dear)
-        count = math.ceil(pays.get(id(dear), 0))
+        if id(dear) not in pays:  # the noise hides which is better
+            continue
+        lines.append([at(cheap), at(dear)])
+        ax.plot(*zip(*lines[-1]), color=style.FAINT, linewidth=1.2, zorder=1)
+        (x0, y0), (x1, y1) = lines[-1]
+        count = math.ceil(pays[id(dear)])
         if count > 1:
             joints.append((math.sqrt(x0 * x1), math.sqrt(y0 * y1), f"{count:,} queries", "#555555"))
     style.title(ax, f"{job} · ours: {shared}" if shared else str(job))
@@ -70,7 +73,7 @@ def draw_panel(ax, job, cells, run, rows):
             (job.task, job.scene, job.n, job.where.column, cell.label, cell.library, cell.status,
              cell.median("build"), cell.median("query"), pays.get(id(cell)))
         )
-    labels.beside_points(ax, marks, later=joints, lines=[line, stripe] if len(builds) < len(shown) else [line])
+    labels.beside_points(ax, marks, later=joints, lines=lines)
     return left_out
 
 
@@ -91,16 +94,8 @@ def draw(run):
         for ax, (job, cells) in zip(axes, jobs):
             left_out = draw_panel(ax, job, cells, run, rows)
             notes += left_out_note(left_out, f"variants of {job}") + wrong_notes(cells)
-        alt = "; ".join(
-            f"{job}: no variant beats "
-            + ", ".join(
-                f"{cell.label} (build {time_text(cell.median('build'))}, query {time_text(cell.median('query'))})"
-                for cell, _ in front(cells, run)
-            )
-            for job, cells in jobs
-        )
         pictures.append(
-            Picture(f"{NAME}_{task}", figure, f"{TITLE}: {task}",
-                    f"Build time against query time. {alt}.", COLUMNS, rows, notes)
+            Picture(f"{NAME}_{task}", figure, f"{TITLE}: {run.tasks[task].title}",
+                    f"Time to build against time of a query of {len(rows)} variants of {task}.", COLUMNS, rows, notes)
         )
     return pictures

@@ -12,7 +12,7 @@ TITLE = "From which size a device wins"
 HOW_TO_READ = (
     "Lower is better; both axes are logarithmic. End to end is from the host's boxes to the host's answers; resident, all "
     "stays on the device; the device alone is what its own clock says of end to end. The dotted line is the least "
-    "that this algorithm could take there end to end. The upright line is the smallest measured size from which on the "
+    "that any algorithm could take there end to end. The upright line is the smallest measured size from which on the "
     "device wins against the fastest of one, two and all threads."
 )
 COLUMNS = ("task", "scene", "n", "what", "threads", "contender", "time_ns", "wins_from", "loses_to")
@@ -114,7 +114,7 @@ def draw(run):
             labels.at_line_ends(ax, draw_panel(ax, run, key, of_panel, breaks, names, rows))
             said.append(f"{key[1]}: on a device, end to end, {found['words']}" if found is not None
                         else f"{key[1]}: no processor was timed beside the device")
-        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {task}",
-                                f"Time against n on a device and on processors. {'; '.join(said)}.", COLUMNS, rows,
+        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {run.tasks[task].title}",
+                                f"Time against n on a device and on processors for {task}: {len(rows)} times.", COLUMNS, rows,
                                 [f"{text}." for text in said]))
     return pictures

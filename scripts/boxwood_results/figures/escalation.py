@@ -3,7 +3,6 @@
 from .. import style
 from ..kernels import by_kernel_family
 from ..picture import Picture, Skip
-from ..reader import NO_ID
 
 NAME = "escalation"
 TITLE = "Escalations of the adaptive kernels"
@@ -50,8 +49,7 @@ def draw(run):
         handles = [style.plt.Rectangle((0, 0), 1, 1, color=colour) for colour in COLOURS]
         figure.legend(handles, ["tier 0", "tier 1", "tier 2", "tier 3"], loc="lower left", fontsize=6.5, frameon=False,
                       ncols=2, handlelength=1, columnspacing=0.8, borderaxespad=0.1)
-        said = "; ".join(f"{kernel}: tier 0 decided {100 * shares[kernel, NO_ID][0]:.4g} % of all calls" for kernel in adaptive)
-        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {task}", f"{said}.",
+        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {run.tasks[task].title}", f"Which share of the calls each tier of {len(adaptive)} adaptive kernels of {task} decided.",
                                 COLUMNS, rows))
     if not pictures:
         raise Skip("no adaptive kernel went beyond its first tier")

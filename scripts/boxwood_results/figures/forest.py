@@ -1,6 +1,7 @@
 """Every peer's time over ours, with intervals, and the band in which nothing is claimed."""
 
 import math
+import re
 from dataclasses import dataclass
 
 from .. import style
@@ -9,19 +10,19 @@ from ..metrics import METRICS
 from ..picture import Picture, Skip
 from ..run import TOTAL
 from ..selection import largest_jobs, wrong_notes
-from ..words import ratio_text
 
 NAME = "forest"
 TITLE = "Against the peers"
 HOW_TO_READ = (
-    "Each mark is a peer's time divided by the time of our best variant, paired within rounds: right of "
-    "the line Boxwood is faster, left of it the peer. Bars are the intervals that decided. The "
-    "shaded band is the A/A noise floor, within which nothing is claimed; marks without a verdict are pale."
+    "Each mark is the time of a library, by its fastest variant, divided by the time of our best variant, paired within "
+    "rounds: right of the line Boxwood is faster, left of it the peer. Bars are the intervals that decided. The shaded band "
+    "is the A/A noise floor, within which nothing is claimed; marks without a verdict are pale. The table names the variants."
 )
 COLUMNS = ("task", "class", "scene", "n", "threads", "ours", "peer", "peer_library", "phase", "rounds",
            "ratio", "ratio_lo", "ratio_hi", "verdict", "reason")
 TALL = 8  # inches from which the axis stands at the top, too
-ROW, GAP, OURS = 0.23, 0.34, 0.17  # inches; the last: a line for our variant below a long heading
+ROW, GAP = 0.23, 0.36  # inches
+NAMES, PANEL, TEXTS, TOP, BOTTOM = 0.95, 2.5, 2.35, 0.35, 0.6
 
 
 @dataclass
@@ -40,13 +41,23 @@ class Block:
     def job(self):
         return self.cell.job
 
-    @property
-    def peers(self):
-        rows = {**self.alone, **self.together}
-        return [row.a for row in sorted(rows.values(), key=lambda row: -row.gain.mid)]
+    def fastest(self, column):
+        """{library: its comparison}, each by its fastest variant, in the order of the registry."""
+        rows = (self.alone if column else self.together).values()
+        best = {}
+        for row in sorted(rows, key=lambda row: row.gain.mid):
+            best.setdefault(row.a.library, row)
+        return dict(sorted(best.items(), key=lambda item: item[1].a.place))
 
-    def against(self, peer, column):
-        return (self.alone if column else self.together).get(peer.cell_id)
+    @property
+    def libraries(self):
+        """{library: one of its cells} of both columns."""
+        rows = sorted([*self.together.values(), *self.alone.values()], key=lambda row: row.a.place)
+        return {row.a.library: row.a for row in rows}
+
+    def ours(self, column):
+        finding = self.finding
+        return (finding.ours_alone or finding.ours) if column else self.cell
 
 
 def blocks(run):
@@ -100,84 +111,64 @@ def ratio_axis(ax, comparisons):
     ax.spines["left"].set_visible(False)
 
 
-def heading(block, column):
-    """(heading, a line below it) of a block; rays have long ones."""
-    finding = block.finding
-    if column:
-        alone = finding.ours_alone
-        ours = f"ours: {alone.label}" if alone and alone is not finding.ours else ""
-        return ("", ours) if finding.contender_class else (ours, "")
-    head, ours = f"{block.job.scene} {block.job.n:,}", f"ours: {block.cell.label}"
-    return (f"{head}, {finding.contender_class}", ours) if finding.contender_class else (f"{head}   {ours}", "")
-
-
-def draw_one(run, task, where, found, floor):
-    """One picture: a block of rows per scene, a column for build + query and one for the query."""
+def draw_column(ax, found, column, floor, rows):
+    """One measure of all blocks: a row per library."""
     entries, y = [], 0.0
     for block in found:
         y -= GAP
-        entries.append((y, block, None))
-        y -= OURS if block.finding.contender_class else 0
-        for peer in block.peers:
+        ours = block.ours(column)
+        ax.text(-NAMES / PANEL, y, f"{block.job.scene} {block.job.n:,}   ours: {ours.label}", fontsize=8, weight="bold",
+                transform=ax.get_yaxis_transform(), va="center", bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5})
+        known = block.fastest(column)
+        for library, peer in block.libraries.items():
             y -= ROW
-            entries.append((y, block, peer))
-    height = -y + 0.12
-    names, panel, texts, top, bottom = 2.5, 2.9, 2.35, 0.35, 0.8
+            comparison = known.get(library)
+            entries.append((y, comparison))
+            ax.text(-0.03, y, peer.library_title, transform=ax.get_yaxis_transform(), ha="right", va="center", fontsize=8,
+                    color=style.text_colour(peer))
+            said = f"{comparison.text}  {said_of(comparison)}" if comparison else (
+                "no build" if peer.keeps_structure else "the peer has no build")
+            ax.text(1.03, y, said, transform=ax.get_yaxis_transform(), va="center", fontsize=7.5,
+                    color=style.INK if comparison else "#777777")
+            if comparison:
+                gain = comparison.gain
+                rows.append((block.job.task, block.finding.contender_class, block.job.scene, block.job.n, block.job.where.column,
+                             comparison.b.label, comparison.a.label, library, comparison.phase, comparison.rounds, gain.mid,
+                             gain.lo, gain.hi, comparison.verdict, comparison.reason))
+    comparisons = [comparison for _, comparison in entries]
+    draw_marks(ax, comparisons, [height for height, _ in entries], floor)
+    ratio_axis(ax, comparisons)
+    ax.set_ylim(y - 0.12, 0)
+    ax.set_yticks([])
+
+
+def draw_one(run, task, contender_class, where, found):
+    """One picture: a block of rows per scene, a panel for build + query and one for the query."""
+    height = sum(GAP + ROW * len(block.libraries) for block in found) + 0.12
     known = run.tasks[task]
-    phases = (TOTAL,) if known.in_frames else (TOTAL, "query")
-    size = (names + len(phases) * (panel + texts), height + top + bottom)
+    titles = [known.total_title] if known.in_frames else [known.total_title, "query alone"]
+    wide = NAMES + PANEL + TEXTS
+    size = (wide * len(titles), height + TOP + BOTTOM)
     figure = style.plt.figure(figsize=size)
     rows = []
-    for column, phase in enumerate(phases):
-        left = names + column * (panel + texts)
-        ax = figure.add_axes((left / size[0], bottom / size[1], panel / size[0], height / size[1]))
-        comparisons = [block.against(peer, column) if peer else None for _, block, peer in entries]
-        draw_marks(ax, comparisons, [entry[0] for entry in entries], floor)
-        ratio_axis(ax, comparisons)
+    for column, title in enumerate(titles):
+        ax = figure.add_axes(((column * wide + NAMES) / size[0], BOTTOM / size[1], PANEL / size[0], height / size[1]))
+        draw_column(ax, found, column, run.noise_floor, rows)
         ax.tick_params(axis="x", labeltop=height > TALL)
-        ax.set_ylim(y - 0.12, 0)
-        ax.set_yticks([])
-        ax.set_title(known.total_title if phase == TOTAL else "query alone", fontsize=10,
-                     weight="bold")
-        for (at, block, peer), comparison in zip(entries, comparisons):
-            if peer is None:
-                head, ours = heading(block, column)
-                for text, down, size_of in ((head, 0, 8.5), (ours, OURS, 7.5)):
-                    if text:
-                        ax.text(0.02 if column else -names / panel, at - down, text, weight="bold" if down == 0 else None,
-                                transform=ax.get_yaxis_transform(), va="center", fontsize=size_of,
-                                bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5})
-                continue
-            if column == 0:
-                ax.text(-0.03, at, peer.label, transform=ax.get_yaxis_transform(), ha="right", va="center",
-                        fontsize=8, color=style.text_colour(peer))
-            if comparison is None:
-                said = "the peer has no build" if not peer.keeps_structure else "no build"
-                ax.text(1.03, at, said, transform=ax.get_yaxis_transform(), va="center", fontsize=7.5,
-                        color="#777777")
-                continue
-            said = f"{comparison.text}  {said_of(comparison)}"
-            ax.text(1.03, at, said, transform=ax.get_yaxis_transform(), va="center", fontsize=7.5)
-            gain = comparison.gain
-            rows.append((task, block.finding.contender_class, block.job.scene, block.job.n, where.column, comparison.b.label,
-                         peer.label, peer.library, comparison.phase, comparison.rounds, gain.mid, gain.lo, gain.hi,
-                         comparison.verdict, comparison.reason))
-    said = "; ".join(
-        f"{row[2]}, {row[6]}, {row[8]}: {ratio_text(row[10])}x {row[13].replace('_', ' ')}" for row in rows
-    )
-    figure.text(0.02 / size[0], 0.06 / size[1], footer(run), fontsize=7.5, color="#666666")
+        ax.set_title(title, fontsize=10, weight="bold")
     jobs = {block.job for block in found}
-    notes = wrong_notes([cell for cell in run.cells if cell.job in jobs])
-    return Picture(f"{NAME}_{task}_{where.column}", figure, f"{TITLE}: {task}, {where}",
-                   f"Peer's time over Boxwood's. {said}.", COLUMNS, rows, notes)
+    notes = [footer(run), *wrong_notes([cell for cell in run.cells if cell.job in jobs])]
+    words = ", ".join(filter(None, (known.title, contender_class, str(where))))
+    name = "_".join([NAME, task, str(where.column), *re.findall(r"\w+", contender_class)])
+    return Picture(name, figure, f"{TITLE}: {words}",
+                   f"Time of the peers over the time of Boxwood for {words}, in {len(rows)} comparisons.", COLUMNS, rows, notes)
 
 
 def draw(run):
     groups = {}
     for block in blocks(run):
-        groups.setdefault((block.job.task, block.job.where), []).append(block)
+        groups.setdefault((block.job.task, block.finding.contender_class, block.job.where), []).append(block)
     if not groups:
         raise Skip("the run is too noisy for findings" if run.health["is_too_noisy"] else
                    "no job has both a ranked variant of ours and a ranked peer")
-    floor = run.noise_floor
-    return [draw_one(run, task, where, found, floor) for (task, where), found in groups.items()]
+    return [draw_one(run, *group, found) for group, found in groups.items()]

@@ -14,6 +14,7 @@ HOW_TO_READ = (
     "and 99th percentile, the ring is the worst frame. A frame is one update and one query, and counts by its "
     "median over the rounds. Dashed: 1 ms and 16.6 ms, a frame of a screen at 60 Hz."
 )
+MIN_FRAMES = 20  # fewer have no 95th percentile
 COLUMNS = ("task", "scene", "n", "threads", "contender", "library", "status", "frames", "p50_ns", "p95_ns", "p99_ns",
            "worst_ns", "over_1_ms", "over_16_6_ms")
 LIMITS = ((1e6, "1 ms"), (SCREEN_NS, "16.6 ms"))
@@ -58,7 +59,7 @@ def draw_panel(ax, job, cells, rows):
     ax.set_title(f"{job.scene} {job.n:,} · {job.where}", fontsize=9.5 * min(1, 50 / len(job.scene)), pad=14)
 
 
-def draw_all(task, where, jobs):
+def draw_all(run, task, where, jobs):
     columns = min(2, len(jobs))
     lines = [jobs[start:start + columns] for start in range(0, len(jobs), columns)]
     heights = [1.15 + ROW * max(len(cells) for _, cells, *_ in line) for line in lines]
@@ -73,18 +74,17 @@ def draw_all(task, where, jobs):
             draw_panel(ax, job, cells, rows)
             notes += left_out_note(left_out, f"ways to play {job}") + wrong
         top -= height
-    said = "; ".join(f"{row[4]} on {row[1]} {time_text(row[8])}, worst {time_text(row[11])}" for row in rows)
-    return Picture(f"{NAME}_{task}_{where.column}", figure, f"{TITLE}: {task}, {where}",
-                   f"Median and worst frame: {said}.", COLUMNS, rows, notes)
+    return Picture(f"{NAME}_{task}_{where.column}", figure, f"{TITLE}: {run.tasks[task].title}, {where}",
+                   f"Median and worst frame of {len(rows)} ways to play scenes of {task}.", COLUMNS, rows, notes)
 
 
 def draw(run):
     groups = {}
     for job in largest_jobs(run.jobs):
-        cells = [c for c in run.of(job) if c.frames and not c.lacks_effect]
+        cells = [c for c in run.of(job) if len(c.frames) >= MIN_FRAMES and not c.lacks_effect]
         if cells:
             shown, left_out = choose(cells)
             groups.setdefault((job.task, job.where), []).append((job, shown, left_out, wrong_notes(cells)))
     if not groups:
-        raise Skip("no scene was timed frame by frame (bench/configs/dynamic.toml does)")
-    return [draw_all(task, where, jobs) for (task, where), jobs in groups.items()]
+        raise Skip(f"no scene of {MIN_FRAMES} or more frames was timed (bench/configs/dynamic.toml does)")
+    return [draw_all(run, task, where, jobs) for (task, where), jobs in groups.items()]

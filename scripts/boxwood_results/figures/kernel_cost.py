@@ -58,6 +58,5 @@ def draw(run):
             ax.set_xlabel(METRICS["query"].axis, fontsize=8)
             box = ax.get_position()
             ax.set_position([box.x0 + 0.28 * box.width, box.y0, 0.72 * box.width, box.height])
-        said = "; ".join(f"{row[5]} on {row[1]}: {ratio_text(row[8])} times the fastest" for row in rows)
-        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {task}", f"{said}.", COLUMNS, rows))
+        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {run.tasks[task].title}", f"Time of whole queries of {task} with {len(rows)} kernels under the same trees.", COLUMNS, rows))
     return pictures

@@ -1,12 +1,12 @@
 """The effects ledger: where a frame's time goes, stage by stage, beside the same with all stages."""
 
 from .. import labels, style
-from ..moving import frame_ns, played_scenes
+from ..moving import played_scenes
 from ..picture import Picture, Skip
 from ..words import time_text, time_tick
 
 NAME = "ledger"
-TITLE = "Only what the scene requires"
+TITLE = "Only what the scene requires, against ourselves"
 HOW_TO_READ = (
     "Shorter is better. Each pair of bars is one scene: the stages that it requires, and the same answers with all "
     "stages. A piece is the time of one stage in a mean frame; pieces too narrow for their name stand below "
@@ -65,7 +65,7 @@ def draw_bar(ax, cell, y, limit):
         ax.barh(y, ns, left=left, height=BAR, color=colour, edgecolor="white", linewidth=0.8)
         if labels.text_size(ax.figure, name)[0] + 8 < ns * pixels:
             ax.text(left + ns / 2, y, name, ha="center", va="center", fontsize=labels.SIZE,
-                    color="white" if is_dark(colour) else style.INK)
+                    color="white" if is_dark(colour) else style.INK, path_effects=() if is_dark(colour) else labels.HALO)
         else:
             narrow.append((name, ns))
         left = float(cell.stages[name]["until_ns"])
@@ -140,9 +140,4 @@ def draw(run):
                               (height - HEAD - FOOT) / sum(heights)))
         draw_scene(ax, scene, rows)
         top -= height
-    said = "; ".join(
-        f"{s.job}: {time_text(frame_ns(s.required))} a frame for what is required"
-        + (f", all stages {s.all_stages_cost.ratio.text} as long" if s.all_stages_cost else "")
-        for s in scenes
-    )
-    return [Picture(NAME, figure, TITLE, f"Time of a frame by stage. {said}.", COLUMNS, rows)]
+    return [Picture(NAME, figure, TITLE, f"Time of a frame by stage in {len(scenes)} scenes, with what is required and with all stages.", COLUMNS, rows)]

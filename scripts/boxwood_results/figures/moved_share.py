@@ -6,7 +6,6 @@ from ..moving import moved_share
 from ..picture import Picture, Skip
 from ..run import TOTAL
 from ..selection import MAX_LINES, wrong_notes
-from ..words import time_text
 
 NAME = "moved_share"
 TITLE = "How time grows with the share that moves"
@@ -14,6 +13,7 @@ HOW_TO_READ = (
     "Lower is better; both axes are logarithmic. Each line is one way to play the same scene while a smaller or larger "
     "share of its bodies moves. A line that falls to the left does less where less moves; a flat one pays for all."
 )
+MIN_SHARES = 3
 COLUMNS = ("scene", "n", "threads", "contender", "library", "status", "moved_share", "frame_ns")
 
 
@@ -68,15 +68,14 @@ def draw_panel(ax, key, lines, rows):
 def draw(run):
     panels = []
     for key, lines in sorted(groups_of(run).items()):
-        lines = [line for line in lines.values() if len(line) >= 2]
+        lines = [line for line in lines.values() if len(line) >= MIN_SHARES]
         if lines:
             panels.append((key, choose_lines(lines)))
     if not panels:
-        raise Skip("no scene was played with two shares of its bodies moving")
+        raise Skip(f"no scene was played with {MIN_SHARES} or more shares of its bodies moving")
     figure, axes = style.panels(len(panels), width=4.1, labels_right=2.1)
     rows, notes = [], []
     for ax, (key, lines) in zip(axes, panels):
         labels.at_line_ends(ax, draw_panel(ax, key, lines, rows))
         notes += wrong_notes([cell for line in lines for cell in line.values()])
-    said = "; ".join(f"{row[3]} on {row[0]}, {100 * row[6]:g} % moving: {time_text(row[7])}" for row in rows)
-    return [Picture(NAME, figure, TITLE, f"Time of a frame by the share that moves: {said}.", COLUMNS, rows, notes)]
+    return [Picture(NAME, figure, TITLE, f"Time of a frame by the share of the bodies that moves, in {len(panels)} scenes.", COLUMNS, rows, notes)]

@@ -79,11 +79,9 @@ def draw(run):
         ax.grid(False)
         for side in ax.spines.values():
             side.set_visible(False)
-        clean = [name for ours_, _, name in columns
-                 if ours_ and all(not p.wrong for p in points if p.kernel == name and p.ours)]
         pictures.append(Picture(
-            f"{NAME}_{task}", figure, f"{TITLE}: {task}",
-            f"{len(families)} families of hard cases by {len(columns)} kernels. Never wrong: {', '.join(clean) or 'none'}.",
+            f"{NAME}_{task}", figure, f"{TITLE}: {run.tasks[task].title}",
+            f"Wrong answers per million, {len(families)} families of hard cases by {len(columns)} kernels of {task}.",
             COLUMNS, rows))
     if not pictures:
         raise Skip("no kernel was run on hard cases (bench/configs/accuracy.toml and boxwood check do)")

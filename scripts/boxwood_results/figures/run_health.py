@@ -67,8 +67,9 @@ def draw(run):
     bar.outline.set_visible(False)
 
     worst = next(row for row in run.source["drift"] if row["is_farthest"])
-    alt = (
-        f"Heat map of {len(shards)} rounds by {len(columns)} positions. The round furthest off is "
+    alt = f"How far each query sample is off its cell's median, {len(shards)} rounds by {len(columns)} positions."
+    note = (
+        f"The round furthest off is "
         f"{round_of[int(worst['shard_id'])]}, by {100 * worst['off_median']:+.1f} % at its median; {len(dots)} of {len(rows)} samples were disturbed."
     )
-    return [Picture(NAME, figure, TITLE, alt, COLUMNS, rows, [alt.split(". ", 1)[1]])]
+    return [Picture(NAME, figure, TITLE, alt, COLUMNS, rows, [note])]

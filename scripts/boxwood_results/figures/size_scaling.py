@@ -16,7 +16,7 @@ HOW_TO_READ = (
     "is the fitted exponent, with its interval over the rounds where there are enough rounds. The dotted "
     "guide grows as n log n. The column off_line says how far the farthest time is from the fit."
 )
-MIN_SIZES = 3
+MIN_SIZES = 4
 COLUMNS = ("task", "scene", "threads", "phase", "variant", "library", "status", "n", "median_ns", "exponent",
            "exponent_lo", "exponent_hi", "off_line")
 FIT_COLUMNS = ("exponent", "exponent_lo", "exponent_hi", "off_line")
@@ -80,10 +80,8 @@ def phases_of(task):
 
 def draw_panel(ax, lines, phase, known_fits, rows):
     ends, all_times, sizes = [], [], set()
-    fits = []
     for line in lines:
         fit = known_fits.get((line[-1].cell_id, phase_name(line[-1], phase)), Fit())
-        fits.append((line[-1], fit))
         x, y = [cell.job.n for cell in line], [cell.median(phase) for cell in line]
         sizes.update(x)
         all_times += y
@@ -106,7 +104,7 @@ def draw_panel(ax, lines, phase, known_fits, rows):
     style.title(ax, f"{job.scene} · {job.task} · {job.where} · {phase_name(lines[0][-1], phase)}")
     ax.set_xlabel(METRICS["n"].axis)
     ax.set_ylabel(f"time of {lines[0][-1].task.total_title} (lower is better)" if phase == TOTAL else METRICS[phase].axis)
-    return ends, fits
+    return ends
 
 
 def draw(run):
@@ -124,15 +122,14 @@ def draw(run):
     pictures = []
     for task, all_panels in by_task.items():
         figure, axes = style.panels(len(all_panels), width=4.1, labels_right=2.75)
-        rows, said = [], []
+        rows = []
         for ax, (lines, phase) in zip(axes, all_panels):
-            ends, fits = draw_panel(ax, lines, phase, fits_of(run), rows)
+            ends = draw_panel(ax, lines, phase, fits_of(run), rows)
             labels.at_line_ends(ax, ends)
-            said += [f"{cell.label} {phase_name(cell, phase)} on {cell.job.scene} {exponent_text(fit)}" for cell, fit in fits]
         cells = [cell for lines, _ in all_panels for line in lines for cell in line]
         pictures.append(
-            Picture(f"{NAME}_{task}", figure, f"{TITLE}: {task}",
-                    f"Time against n on log axes, fitted: {'; '.join(said)}.", COLUMNS, rows,
+            Picture(f"{NAME}_{task}", figure, f"{TITLE}: {run.tasks[task].title}",
+                    f"Time against n of {task} on log axes, with fitted exponents of n.", COLUMNS, rows,
                     sorted(set(wrong_notes(cells))))
         )
     return pictures

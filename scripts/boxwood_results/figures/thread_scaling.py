@@ -90,7 +90,6 @@ def draw(run):
         for ax, (job, lines) in zip(axes, panels):
             labels.at_line_ends(ax, draw_panel(ax, job, lines, rows))
             notes += wrong_notes([cell for cell in run.cells if cell.job.scene == job.scene and cell.job.task == task])
-        said = "; ".join(f"{row[3]} on {row[1]} with {row[6]} threads {ratio_text(row[7])}x" for row in rows)
-        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {task}", f"Gain by threads: {said}.",
+        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {run.tasks[task].title}", f"Time on one thread over the time on several threads, for {task}.",
                                 COLUMNS, rows, notes))
     return pictures

@@ -6,13 +6,12 @@ from .. import labels, style
 from ..metrics import METRICS
 from ..picture import Picture, Skip
 from ..selection import largest_jobs, wrong_notes
-from ..words import time_text
 
 NAME = "tree_quality"
 TITLE = "How good a tree a build time buys"
 HOW_TO_READ = (
     "Lower left is better: less time to build a binary tree, and a tree that costs less to traverse by the "
-    "surface-area model. The line joins the builders that none beats in both. A "
+    "surface-area model. Thin lines reach from the least time of the rounds to their 95th percentile. The line joins the builders that none beats in both. A "
     "builder that splits items makes more leaves than items."
 )
 COLUMNS = ("scene", "n", "threads", "builder", "library", "status", "build_ns", "sah_cost")
@@ -32,6 +31,7 @@ def draw_panel(ax, job, cells, rows):
     for cell in cells:
         x, y = cell.median("build"), sah(cell)
         ax.plot([x], [y], **{**style.point_style(cell, 7), "linestyle": ""}, zorder=5)
+        style.whiskers(ax, cell, x, y, "build")
         if cell.status == "wrong":
             style.cross_out(ax, x, y)
         marks.append((x, y, cell.label, style.text_colour(cell)))
@@ -40,7 +40,6 @@ def draw_panel(ax, job, cells, rows):
     ax.set_xlabel(METRICS["build"].axis)
     ax.set_ylabel(METRICS["sah_cost"].axis)
     labels.beside_points(ax, marks, lines=[[(c.median("build"), sah(c)) for c in best]])
-    return best
 
 
 def draw(run):
@@ -52,11 +51,9 @@ def draw(run):
     if not jobs:
         raise Skip("no two builders were timed alone (the task build)")
     figure, axes = style.panels(len(jobs), width=5.4, height=3.9)
-    rows, notes, said = [], [], []
+    rows, notes = [], []
     for ax, (job, cells) in zip(axes, jobs):
-        best = draw_panel(ax, job, cells, rows)
+        draw_panel(ax, job, cells, rows)
         notes += wrong_notes(cells)
-        said.append(f"{job}: none beats " + ", ".join(
-            f"{c.label} ({time_text(c.median('build'))}, cost {sah(c):.3g})" for c in best))
-    return [Picture(NAME, figure, TITLE, f"Build time against surface-area cost. {'; '.join(said)}.", COLUMNS, rows,
+    return [Picture(NAME, figure, TITLE, f"Time to build against surface-area cost of {len(rows)} trees.", COLUMNS, rows,
                     notes)]

@@ -16,6 +16,7 @@ HOW_TO_READ = (
     "one slanted line spend the same time per box test. Counts come from a separate pass and carry no noise. "
     "What the long names of ours have in common stands in the title."
 )
+MIN_PLACES = 4  # fewer show no relation
 COLUMNS = ("task", "scene", "n", "variant", "status", "sah_cost", "node_visits_each", "box_tests_each",
            "query_ns_each")
 
@@ -62,10 +63,10 @@ def draw(run):
     for job in largest_jobs(run.jobs):
         counted = [c for c in run.of(job) if c.work is not None and not math.isnan(c.work["box_tests"])]
         counted = list({(c.contender, c.precision): c for c in reversed(counted)}.values())[::-1]  # of any executor
-        if job.where == Where("", 1) and len(counted) >= 2 and not run.tasks[job.task].in_frames:
+        if job.where == Where("", 1) and len({measures(cell) for cell in counted}) >= MIN_PLACES and not run.tasks[job.task].in_frames:
             by_task.setdefault(job.task, []).append((job, counted))
     if not by_task:
-        raise Skip("no job has two variants with work counters")
+        raise Skip(f"no job has {MIN_PLACES} variants that differ in their work")
     pictures = []
     for task, jobs in by_task.items():
         rows, notes, panels = [], [], []
@@ -82,7 +83,6 @@ def draw(run):
         figure, axes = style.panels(len(panels), **style.pair_of_panels(crowded))
         for ax, panel in zip(axes, panels):
             scatter(ax, *panel)
-        said = "; ".join(f"{row[3]} on {row[1]}: {row[7]:.3g} box tests and {row[8]:.3g} ns each" for row in rows)
-        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {task}", f"Work against time. {said}.",
+        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {run.tasks[task].title}", f"Counted work against time of {len(rows)} variants of {task}.",
                                 COLUMNS, rows, notes))
     return pictures

@@ -1,0 +1,129 @@
+"""Every measured number of README.md leads to a file of results/published/, by a command that exists."""
+
+import re
+import shutil
+import subprocess
+
+import h5py
+import pytest
+import synthetic
+from conftest import SCRIPTS
+
+from boxwood_results import published
+
+ROOT = SCRIPTS.parent
+README = (ROOT / "README.md").read_text()
+
+
+def test_readme_says_what_the_files_say():
+    assert published.problems(ROOT) == []
+
+
+def test_each_table_has_its_markers_and_its_sweep():
+    assert re.findall(r"<!-- published: (\w+) -->", README) and sorted(re.findall(r"<!-- published: (\w+) -->", README)) == \
+        sorted(published.BY_NAME)
+    for one in published.ALL:
+        assert (ROOT / one.config).exists()
+    # What is measured stands between markers: elsewhere README has no ratio and no time of a run.
+    rest = published.MARKED.sub("", README)
+    assert not re.findall(r"\b\d+(?:\.\d+)? times as|\b\d+(?:\.\d+)?x\b|\d (?:ms|us|ns)\b", rest)
+
+
+def file_of(root, sweep, made, toml=None, **env):
+    made.rows["env"][0].update(git_commit="abcdef012345", **env)
+    made.texts["sweep_toml"] = (root / "bench" / "configs" / f"{sweep}.toml").read_text() if toml is None else toml
+    return made.write(root / "results" / "published" / f"{sweep}.h5")
+
+
+@pytest.fixture
+def root(tmp_path):
+    """A repository of which README is all that was published."""
+    shutil.copytree(ROOT / "bench" / "configs", tmp_path / "bench" / "configs")
+    (tmp_path / "results" / "published").mkdir(parents=True)
+    text = README
+    for one in published.ALL:
+        text = re.sub(rf"(<!-- published: {one.name} -->\n).*?(<!-- /published)", r"\1\2", text, flags=re.S)
+    (tmp_path / "README.md").write_text(text)
+    return tmp_path
+
+
+def test_tables_and_pictures_come_from_the_files(root):
+    file_of(root, "pairs", synthetic.full())
+    file_of(root, "effects", synthetic.full())
+    file_of(root, "accuracy", synthetic.full())
+    assert published.freeze(root) == ["accuracy-1", "effects-1", "pairs-1"] and published.freeze(root) == []
+    written = published.write(root)
+    assert {path.name for path in written} == {"README.md", "pairs.png", "accuracy_triangles.png"}
+    assert published.problems(root) == []
+    text = (root / "README.md").read_text()
+    results = published.read(root / "results" / "published" / "pairs.h5")
+    of_pairs = next(c for c in results.comparisons if c.family == "peers" and c.a.library == "embree" and c.b.job.task == "pairs"
+                    and c.text in text)
+    assert of_pairs and re.search(r"\*Track pairs-1, \d+ answers checked: 1 of ours wrong. Run u of 2025-01-01", text) and "commit abcdef01, noise floor" in text
+    assert "| warehouse | 10,000 |" in text and "guigue_devillers_exact" in text and "not published yet" in text
+
+    (root / "README.md").write_text(text.replace(of_pairs.text, "99.9x (99.8 to 99.9)"))
+    assert any("a table differs" in line for line in published.problems(root))
+    published.write(root)
+    (root / "scripts" / "pictures" / "pairs.png").unlink()
+    assert any("not drawn from" in line for line in published.problems(root))
+
+
+@pytest.mark.parametrize(
+    "env, toml, problem",
+    [({"host": "another"}, None, "more than one machine"), ({"git_commit": "b"}, None, "more than one commit"),
+     ({"git_dirty": 1}, None, "in no commit"), ({}, "rounds = 3", "is not bench/configs")])
+def test_what_does_not_fit_together_is_said(root, env, toml, problem):
+    file_of(root, "effects", synthetic.full())
+    made = synthetic.full()
+    file = file_of(root, "pairs", made, toml)
+    published.freeze(root)
+    published.write(root)
+    with h5py.File(file, "a") as tables:
+        rows = tables["env"][:]
+        for column, value in env.items():
+            if column not in rows.dtype.names:
+                return pytest.skip(f"the synthetic file has no column {column}")
+            rows[column] = value
+        tables["env"][:] = rows
+    assert any(problem in line for line in published.problems(root))
+
+
+def test_a_track_whose_scenes_change_has_another_version(root):
+    file = file_of(root, "effects", synthetic.full())
+    published.freeze(root)
+    published.write(root)
+    assert published.problems(root) == []
+    with h5py.File(file, "a") as tables:
+        rows = tables["scenes"][:]
+        rows["content_hash"][0] += 1
+        tables["scenes"][:] = rows
+    assert any("not those of track effects-1" in line for line in published.problems(root))
+    assert published.freeze(root) == ["effects-2"]
+
+
+def test_a_stray_file_is_said(root):
+    (root / "results" / "published" / "other.h5").write_bytes(b"")
+    published.write(root)
+    assert any("no table of README.md stands on it" in line for line in published.problems(root))
+
+
+def test_commands(root):
+    assert subprocess.run([SCRIPTS / "published", "--check"], timeout=100).returncode == 0
+    bad = subprocess.run([SCRIPTS / "reproduce", "nix"], capture_output=True, text=True, timeout=60)
+    assert bad.returncode == 2 and "invalid choice" in bad.stderr
+    said = subprocess.run([SCRIPTS / "reproduce", "--help"], capture_output=True, text=True, timeout=60).stdout
+    assert all(f"{one.name} " in said and one.config in said for one in published.ALL)
+
+
+def minutes(text):
+    hours, whole, seconds = (int(part) if part else 0 for part in re.search(r"about (?:(\d+) h )?(?:(\d+) min ?)?(?:(\d+) s)?", text).groups())
+    return 60 * hours + whole + seconds / 60
+
+
+@pytest.mark.parametrize("config, words, said", [("quick", "about five minutes the first time, then one", 1),
+                                                 ("default", "it takes about half an hour", 30)])
+def test_times_in_readme_agree_with_the_dry_run(config, words, said, tmp_path):
+    guess = synthetic.answer("sweep", "--config", ROOT / "bench" / "configs" / f"{config}.toml", "--out", tmp_path / "x.h5",
+                             "--dry-run").stderr
+    assert words in README and 0.5 * said < minutes(guess) < 1.6 * said
