@@ -67,8 +67,9 @@ struct BuilderEntry {
 
 std::span<const BuilderEntry> builders();
 
-/// The builder by its registered name, or nullptr.
-const BuilderEntry* find_builder(std::string_view name);
+/// The builder by its registered name. Throws std::invalid_argument for an unknown one, with a
+/// suggestion.
+const BuilderEntry& find_builder(std::string_view name);
 
 /// An optimizer improves a finished tree: same items, a valid canonical tree, the same on every
 /// executor. Settings as a builder's.

@@ -151,8 +151,9 @@ struct LayoutEntry {
 
 std::span<const LayoutEntry> layouts();
 
-/// The layout by its registered name, or nullptr.
-const LayoutEntry* find_layout(std::string_view name);
+/// The layout by its registered name. Throws std::invalid_argument for an unknown one, with a
+/// suggestion.
+const LayoutEntry& find_layout(std::string_view name);
 inline const LayoutEntry& layout_entry_of(LayoutName name) {
     return layouts()[static_cast<std::size_t>(name)];
 }
