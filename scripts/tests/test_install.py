@@ -1,5 +1,6 @@
 """What is installed is enough for programs elsewhere: trees/examples/ is built against it, and README.md quotes it."""
 
+import fcntl
 import json
 import os
 import re
@@ -27,7 +28,9 @@ def installed(tmp_path_factory):
     if not re.search(r"^BOXWOOD_SANITIZE:STRING=$", cache.read_text(), re.M):
         pytest.skip("what is installed has no sanitizers")
     prefix = tmp_path_factory.mktemp("installed")
-    run("cmake", "--install", BUILD, "--prefix", prefix)
+    with open(BUILD / "install/one_at_a_time", "w") as lock:  # of the workers of pytest-xdist
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        run("cmake", "--install", BUILD, "--prefix", prefix)
     return prefix
 
 
