@@ -26,6 +26,7 @@
 #include "kernels/triangle_triangle/sat.h"
 #include "kernels/triangle_triangle/sat_certified.h"
 
+#include <cstdint>
 #include <span>
 #include <string_view>
 #include <tuple>
@@ -54,12 +55,25 @@ using ObbKernels =
 /// Rows vertex_face and edge_edge each.
 using ContinuousKernels = std::tuple<CubicF64, TightInclusion>;
 
+/// The ray kernels by name, in the order of RayKernels.
+enum class RayKernelName : std::uint8_t {
+    moller_trumbore_f32,
+    baldwin_weber_f32,
+    plucker_f32,
+    watertight,
+    moller_trumbore_f64,
+    exact
+};
+
 /// Every kernel of every family: what `boxwood list kernels` prints.
 std::span<const KernelInfo> kernels();
 
 /// The rows of ray_triangle and of triangle_triangle: a name for `--kernel` each.
 std::span<const KernelInfo> ray_kernels();
 std::span<const KernelInfo> triangle_kernels();
+inline std::string_view to_string(RayKernelName kernel) {
+    return ray_kernels()[static_cast<std::size_t>(kernel)].name;
+}
 
 /// Calls f(std::type_identity<K>{}) for the kernel K of `Kernels` (RayKernels, TriangleKernels)
 /// whose name is `name`. False if there is none.

@@ -38,8 +38,14 @@ concept MeshBuilder = Builder<B> &&
     { builder.build_of_mesh(mesh, executor) } -> std::same_as<Tree>;
 };
 
-/// A builder with its settings, and with the optimizer after it if one is named.
+/// A builder with its settings, and with the optimizer after it if one is named: a Builder of any
+/// type, BinnedSahBuilder{.bins = 16} or your own, is taken for one.
 struct BuildFunction {
+    BuildFunction() = default;
+    template <class B>
+    requires(!std::same_as<B, BuildFunction>) && Builder<B> BuildFunction(
+                                                     B builder); // NOLINT: implicit by design
+
     std::function<Tree(Boxes, const Executor&)> build;
     /// The items as the leaves of the tree would have them, without the tree; empty if the builder
     /// needs the tree for it. Throws as `build` does.
@@ -61,8 +67,9 @@ struct BuilderEntry {
 
 std::span<const BuilderEntry> builders();
 
-/// The builder by its registered name, or nullptr.
-const BuilderEntry* find_builder(std::string_view name);
+/// The builder by its registered name. Throws std::invalid_argument for an unknown one, with a
+/// suggestion.
+const BuilderEntry& find_builder(std::string_view name);
 
 /// An optimizer improves a finished tree: same items, a valid canonical tree, the same on every
 /// executor. Settings as a builder's.
@@ -84,25 +91,25 @@ std::span<const OptimizerEntry> optimizers();
 /// it. Throws std::invalid_argument for an unknown name or setting, with a suggestion.
 BuildFunction make_builder(std::string_view name, const Settings& settings = {});
 
+template <class B>
+requires(!std::same_as<B, BuildFunction>) && Builder<B> BuildFunction::BuildFunction(B builder)
+    : build([builder](Boxes boxes, const Executor& executor) {
+          return builder.build(boxes, executor);
+      }) {
+    if constexpr (OrderBuilder<B>)
+        order = [builder](Boxes boxes, const Executor& executor) {
+            return builder.order(boxes, executor);
+        };
+    if constexpr (MeshBuilder<B>)
+        build_of_mesh = [builder](const TriangleMesh& mesh, const Executor& executor) {
+            return builder.build_of_mesh(mesh, executor);
+        };
+}
+
 /// The registry row of a Builder type.
 template <Builder B> BuilderEntry builder_entry() {
-    return {B::name, B::summary, setting_infos<B>(), [](const Settings& values) {
-                const B builder = with_settings<B>(values);
-                BuildFunction made;
-                made.build = [builder](Boxes boxes, const Executor& executor) {
-                    return builder.build(boxes, executor);
-                };
-                if constexpr (OrderBuilder<B>)
-                    made.order = [builder](Boxes boxes, const Executor& executor) {
-                        return builder.order(boxes, executor);
-                    };
-                if constexpr (MeshBuilder<B>)
-                    made.build_of_mesh = [builder](const TriangleMesh& mesh,
-                                                   const Executor& executor) {
-                        return builder.build_of_mesh(mesh, executor);
-                    };
-                return made;
-            }};
+    return {B::name, B::summary, setting_infos<B>(),
+            [](const Settings& values) -> BuildFunction { return with_settings<B>(values); }};
 }
 
 /// The registry row of an Optimizer type.

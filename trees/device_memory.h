@@ -1,5 +1,7 @@
 #pragma once
 
+#include "trees/queries/answers.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -143,15 +145,7 @@ template <class T> class DeviceArray {
     std::size_t size_ = 0;
 };
 
-/// Answers to n queries: those to query i are of[offsets[i]] up to of[offsets[i + 1]].
-template <class T> struct AnswersOf {
-    std::vector<std::uint64_t> offsets; ///< n + 1
-    std::vector<T> of;
-
-    std::span<const T> operator[](std::size_t i) const {
-        return {of.data() + offsets[i], of.data() + offsets[i + 1]};
-    }
-};
+/// AnswersOf in a device's memory.
 template <class T> struct DeviceAnswersOf {
     DeviceArray<std::uint64_t> offsets;
     DeviceArray<T> of;

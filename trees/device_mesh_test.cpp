@@ -41,7 +41,7 @@ struct Wanted {
 
     Wanted(const TriangleMesh& mesh, const std::vector<Ray<float>>& of, const char* kernel)
         : closest(of.size()) {
-        const auto layout = find_layout("binary")->make(
+        const auto layout = find_layout("binary").make(
             make_builder("median")(triangle_boxes(mesh), serial()), serial());
         const TriangleBlocks triangles = layout->triangles(mesh);
         layout->rays(of, RayQuery::closest, kernel, triangles, serial(), closest);

@@ -26,7 +26,7 @@ std::vector<Pair> pairs_of(const AnswersOf<std::uint32_t>& found) {
 }
 
 std::unique_ptr<AnyLayout> on_cpu(Boxes boxes) {
-    return find_layout("binary")->make(make_builder("median")(boxes, serial()), serial());
+    return find_layout("binary").make(make_builder("median")(boxes, serial()), serial());
 }
 
 /// Of at most so many boxes.

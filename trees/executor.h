@@ -40,7 +40,8 @@ struct ExecutorEntry {
 
 std::span<const ExecutorEntry> executors();
 
-/// The executor to take for so many threads where none is named: serial, else tbb.
+/// The executor to take for so many threads where none is named: serial, else tbb, or openmp where
+/// Boxwood was built without TBB.
 std::string_view default_executor(unsigned threads);
 
 /// The executor by its registered name. Throws std::invalid_argument for an unknown one, and for

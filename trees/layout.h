@@ -4,6 +4,7 @@
 #include "trees/builder.h"
 #include "trees/executor.h"
 #include "trees/inspect/work.h"
+#include "trees/layouts/layouts.h"
 #include "trees/queries/nearest.h"
 #include "trees/queries/rays.h"
 #include "trees/queries/sinks.h"
@@ -150,8 +151,12 @@ struct LayoutEntry {
 
 std::span<const LayoutEntry> layouts();
 
-/// The layout by its registered name, or nullptr.
-const LayoutEntry* find_layout(std::string_view name);
+/// The layout by its registered name. Throws std::invalid_argument for an unknown one, with a
+/// suggestion.
+const LayoutEntry& find_layout(std::string_view name);
+inline const LayoutEntry& layout_entry_of(LayoutName name) {
+    return layouts()[static_cast<std::size_t>(name)];
+}
 
 /// The layout of the boxes by this builder: by its order alone if both sides know how; else by its
 /// tree, which is kept in `tree` (else that is left empty).

@@ -20,8 +20,20 @@
     X(median)                                                                                      \
     X(hilbert) X(binned_sah) X(sweep_sah) X(spatial_sah) X(bonsai) X(incremental) X(lbvh) X(ploc)
 #define BOXWOOD_OPTIMIZERS(X) X(reinsertion)
-#define BOXWOOD_EXECUTORS(X) X(serial) X(openmp) X(tbb)
+#define BOXWOOD_EXECUTORS(X) X(serial) BOXWOOD_OPENMP(X) BOXWOOD_TBB(X)
 #define BOXWOOD_UPDATES(X) X(refit) X(reinsert) X(refine) X(rebuild) X(merge) X(cached) X(auto)
+
+// Defined by trees/CMakeLists.txt where the package was found.
+#ifdef BOXWOOD_HAS_OPENMP
+#define BOXWOOD_OPENMP(X) X(openmp)
+#else
+#define BOXWOOD_OPENMP(X)
+#endif
+#ifdef BOXWOOD_HAS_TBB
+#define BOXWOOD_TBB(X) X(tbb)
+#else
+#define BOXWOOD_TBB(X)
+#endif
 
 namespace boxwood {
 
@@ -40,15 +52,6 @@ BOXWOOD_LAYOUTS(X)
 #define X(name) ExecutorEntry name##_executor();
 BOXWOOD_EXECUTORS(X)
 #undef X
-
-namespace {
-
-template <class Entry> const Entry* find(std::span<const Entry> entries, std::string_view name) {
-    const auto it = std::ranges::find(entries, name, &Entry::name);
-    return it == entries.end() ? nullptr : &*it;
-}
-
-} // namespace
 
 std::span<const BuilderEntry> builders() {
 #define X(name) name##_builder(),
@@ -108,7 +111,7 @@ std::string_view to_string(Query query) {
 
 BuildFunction make_builder(std::string_view name, const Settings& settings) {
     const std::size_t plus = name.find('+');
-    const BuilderEntry& builder = entry_named(name.substr(0, plus), builders(), "builder");
+    const BuilderEntry& builder = find_builder(name.substr(0, plus));
     if (plus == std::string_view::npos)
         return builder.make(settings);
     const OptimizerEntry& optimizer = entry_named(name.substr(plus + 1), optimizers(), "optimizer");
@@ -148,9 +151,15 @@ std::unique_ptr<AnyLayout> make_layout(const LayoutEntry& layout, const BuildFun
     return layout.make(tree, executor);
 }
 
-const BuilderEntry* find_builder(std::string_view name) { return find(builders(), name); }
-const UpdateEntry* find_update(std::string_view name) { return find(updates(), name); }
-const LayoutEntry* find_layout(std::string_view name) { return find(layouts(), name); }
+const BuilderEntry& find_builder(std::string_view name) {
+    return entry_named(name, builders(), "builder");
+}
+const UpdateEntry& find_update(std::string_view name) {
+    return entry_named(name, updates(), "update policy");
+}
+const LayoutEntry& find_layout(std::string_view name) {
+    return entry_named(name, layouts(), "layout");
+}
 
 std::unique_ptr<Executor> make_executor(std::string_view name, unsigned threads) {
     const ExecutorEntry& entry = entry_named(name, executors(), "executor");
@@ -158,11 +167,15 @@ std::unique_ptr<Executor> make_executor(std::string_view name, unsigned threads)
         throw std::invalid_argument("an executor needs at least one thread");
     if (threads > entry.max_threads)
         throw std::invalid_argument("the executor '" + std::string(name) + "' cannot have " +
-                                    std::to_string(threads) + " threads; choose " +
-                                    std::string(default_executor(threads)));
+                                    std::to_string(threads) + " threads; " +
+                                    (executors().size() > 1
+                                         ? "choose " + std::string(default_executor(threads))
+                                         : "Boxwood was built without OpenMP and TBB"));
     return entry.make(threads);
 }
 
-std::string_view default_executor(unsigned threads) { return threads == 1 ? "serial" : "tbb"; }
+std::string_view default_executor(unsigned threads) {
+    return threads == 1 ? "serial" : executors().back().name;
+}
 
 } // namespace boxwood

@@ -38,6 +38,8 @@ template <class Real> struct TreeOf {
     static std::size_t left(std::size_t i) { return i + 1; }
     std::size_t right(std::size_t i) const { return i + 2 * std::size_t{nodes[i + 1].count}; }
     std::uint32_t item(std::size_t leaf) const { return order[nodes[leaf].first]; }
+    const Aabb<Real>& bounds(std::size_t i) const { return nodes[i].box; }
+    std::size_t items_below(std::size_t i) const { return nodes[i].count; }
 };
 
 /// What every builder makes and every layout starts from.

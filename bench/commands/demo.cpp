@@ -127,7 +127,7 @@ Traversal confirmed_traversal(const Tree& tree) {
     Traversal traversal(tree);
     std::vector<Pair> found;
     AppendPairs sink(found);
-    find_layout("binary")->make(tree, serial())->self_pairs(serial(), sink);
+    find_layout("binary").make(tree, serial())->self_pairs(serial(), sink);
     std::sort(found.begin(), found.end());
     if (found != traversal.pairs)
         throw std::logic_error("demo four-link: the traversal shown finds " +
@@ -141,7 +141,7 @@ std::vector<Pair> reported_pairs(const Tree& tree, const AllowedCollisions& allo
     std::vector<Pair> found;
     AppendPairs append(found);
     auto sink = without_allowed(allowed, append);
-    find_layout("binary")->make(tree, serial())->self_pairs(serial(), sink);
+    find_layout("binary").make(tree, serial())->self_pairs(serial(), sink);
     std::sort(found.begin(), found.end());
     return found;
 }
@@ -179,8 +179,8 @@ std::string large_case() {
     spec.overlaps = 1;
     const Scene scene = make_scene(spec);
     CountPairs sink;
-    const Tree tree = find_builder("median")->make({})(scene.boxes, serial());
-    const Work work = find_layout("binary")->make(tree, serial())->self_pairs_counted(sink);
+    const Tree tree = find_builder("median").make({})(scene.boxes, serial());
+    const Work work = find_layout("binary").make(tree, serial())->self_pairs_counted(sink);
     return fmt::format(
         "   With many boxes the saving grows: for {} random boxes with {} overlapping\n"
         "   pairs the same traversal makes {} box tests, brute force {}: {:.0f} times more.\n",
@@ -209,7 +209,7 @@ std::string four_link_demo() {
         "   Twice the links, four times the tests.\n\n",
         n, n - 1, all_pairs);
 
-    Tree tree = find_builder("median")->make({})(straight, serial());
+    Tree tree = find_builder("median").make({})(straight, serial());
     text +=
         "3. The tree, built by median split\n"
         "   Sort the links by their centres along the axis of largest spread (x), cut the row in\n"

@@ -53,14 +53,14 @@ TEST(FourLinkDemo, TheTraversalShownCountsWhatTheLibraryCounts) {
     for (const auto& angles : {four_link_straight, four_link_bent, four_link_folded}) {
         // The tree is built straight and refitted in the demo; its shape is the same by hand here.
         const auto straight = four_link_boxes(four_link_straight);
-        Tree tree = find_builder("median")->make({})(straight, serial());
+        Tree tree = find_builder("median").make({})(straight, serial());
         const auto boxes = four_link_boxes(angles);
         for (std::size_t i = tree.nodes.size(); i-- > 0;)
             tree.nodes[i].box = tree.is_leaf(i) ? boxes[tree.item(i)]
                                                 : merge(tree.nodes[Tree::left(i)].box,
                                                         tree.nodes[tree.right(i)].box);
         CountPairs sink;
-        const Work work = find_layout("binary")->make(tree, serial())->self_pairs_counted(sink);
+        const Work work = find_layout("binary").make(tree, serial())->self_pairs_counted(sink);
         const std::string text = step(at);
         const std::regex line("\n +test [0-9]+: ");
         EXPECT_EQ(std::distance(std::sregex_iterator(text.begin(), text.end(), line), {}),

@@ -335,7 +335,7 @@ TEST_F(RoundTest, Round0CountsTheFramesOfMovingScenes) {
     for (std::uint32_t cell = 0; cell < policies.size(); ++cell) {
         const SceneSpec& spec = plan.cells[cell].scene;
         Frames frames(spec.moving);
-        const std::unique_ptr<Updater> updater = find_update(policies[cell])->make({});
+        const std::unique_ptr<Updater> updater = find_update(policies[cell]).make({});
         updater->start(make_scene(spec).boxes, serial());
         for (std::uint32_t f = 0; const Frame* const frame = frames.next(); ++f) {
             updater->update(frame->boxes, frame->moved, serial());

@@ -87,7 +87,7 @@ void BodySurface::make(const Bodies& bodies, const Executor& executor) {
         }
     });
     Tree tree;
-    layout_ = make_layout(*find_layout(moves_ ? "packed" : "wide8"),
+    layout_ = make_layout(find_layout(moves_ ? "packed" : "wide8"),
                           make_builder(moves_ ? "hilbert" : "binned_sah"), boxes, executor, tree);
     blocks_ = layout_->triangles(mesh_, executor);
 }

@@ -9,7 +9,7 @@ class MakeTree final : public SceneStage {
   public:
     std::size_t start(Playing& playing) override {
         if (!playing.tree)
-            playing.tree = find_update(policy(playing))->make({});
+            playing.tree = find_update(policy(playing)).make({});
         playing.tree->start(playing.pair_boxes(), playing.executor);
         return playing.tree->size();
     }

@@ -131,7 +131,7 @@ class MovingPairs final : public PairAnswers<Task> {
         const std::vector<BuilderChoice> policies =
             block.choices("updates", "an update", names_of(updates()),
                           [](const std::string& policy, const Settings& settings) {
-                              find_update(policy)->make(settings);
+                              find_update(policy).make(settings);
                           });
         if (policies.empty() && !block.has("peers"))
             block.fail("[[cells]] needs updates, peers, or both");

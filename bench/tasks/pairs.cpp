@@ -5,6 +5,7 @@
 #include "bench/tasks/detail/tree_contender.h"
 #include "bench/tasks/detail/tree_task.h"
 #include "bench/truth/pair_truth.h"
+#include "trees/bvh.h"
 
 #include <fmt/format.h>
 
@@ -25,6 +26,31 @@ class SelfPairs final : public TreeContender {
     }
 
   private:
+    PairsInto pairs_;
+};
+
+class SelfPairsByFrontDoor final : public Contender {
+  public:
+    SelfPairsByFrontDoor(const Job& job, BuildFunction build, const LayoutEntry& layout)
+        : boxes_(job.scene->boxes),
+          options_(front_door_options<BvhOptions>(job, std::move(build), layout)) {}
+
+    void build() override {
+        bvh_.reset();
+        bvh_.emplace(boxes_, options_);
+    }
+    void query(Answers& answers) override { bvh_->self_pairs(pairs_.to(answers)); }
+    std::optional<Work> counted_query(Answers& answers) override {
+        return bvh_->layout().self_pairs_counted(pairs_.to(answers));
+    }
+    std::optional<StructureInfo> structure() const override {
+        return StructureInfo{.bytes = bvh_->bytes()};
+    }
+
+  private:
+    Boxes boxes_;
+    BvhOptions options_;
+    std::optional<Bvh> bvh_;
     PairsInto pairs_;
 };
 
@@ -130,6 +156,11 @@ class KnownPairsTruth final : public Truth {
 class Pairs final : public PairAnswers<TreeTask> {
   public:
     std::string_view name() const override { return "pairs"; }
+    std::vector<std::string_view> keys() const override {
+        std::vector<std::string_view> all = TreeTask::keys();
+        all.push_back("front_door");
+        return all;
+    }
     std::string title() const override { return "overlapping pairs"; }
     std::string_view summary() const override {
         return "every unordered overlapping pair of the scene's boxes";
@@ -158,7 +189,8 @@ class Pairs final : public PairAnswers<TreeTask> {
                 .make = maker<SelfPairs>(),
                 .query = Query::self_pairs,
                 .make_on_device = on_device<SelfPairsOnDevice>(choice),
-                .make_by_graph = on_device<SelfPairsByGraph>(choice)};
+                .make_by_graph = on_device<SelfPairsByGraph>(choice),
+                .make_by_front_door = maker<SelfPairsByFrontDoor>()};
     }
 };
 

@@ -41,6 +41,7 @@ struct Choice {
     std::string layout = "wide8";
     std::string kernel = "watertight"; ///< where the task takes one
     std::string ray_order = "given";   ///< or "sorted", "single"; of rays_closest and rays_any
+    bool by_front_door = false;        ///< Bvh or MeshBvh (trees/bvh.h) around the same parts
 };
 
 /// Takes the cells that a task wants of a block.

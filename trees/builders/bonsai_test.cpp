@@ -12,7 +12,7 @@ namespace boxwood {
 namespace {
 
 Tree bonsai(const std::vector<Box>& boxes, int group, double prune) {
-    return find_builder("bonsai")->make({{"group", group}, {"prune", prune}})(boxes, serial());
+    return find_builder("bonsai").make({{"group", group}, {"prune", prune}})(boxes, serial());
 }
 
 double cost(const Tree& tree, const std::vector<Box>& boxes) {
@@ -50,7 +50,7 @@ TEST(BonsaiBuilder, HalvesItemsThatTheCurveCannotTellApart) {
 
 TEST(BonsaiBuilder, CostsLittleMoreThanBinnedSah) {
     const std::vector<Box> boxes = random_boxes(20000, .02f, 13);
-    const double binned = cost(find_builder("binned_sah")->make({})(boxes, serial()), boxes);
+    const double binned = cost(find_builder("binned_sah").make({})(boxes, serial()), boxes);
     EXPECT_LT(cost(bonsai(boxes, 256, 1), boxes), 1.02 * binned);
     EXPECT_LT(cost(bonsai(boxes, 16, 1), boxes), 1.06 * binned);
 }

@@ -77,7 +77,7 @@ TEST(TopDown, MakesValidTreesBySplitsOfOnesOwn) {
 TEST(MedianBuilder, HasTheLeastDepth) {
     for (const std::size_t n : {1u, 2u, 3u, 1000u, 1024u, 1025u}) {
         const std::vector<Box> boxes = random_boxes(n, .1f, 5);
-        const Tree tree = find_builder("median")->make({})(boxes, serial());
+        const Tree tree = find_builder("median").make({})(boxes, serial());
         EXPECT_EQ(quality(tree, boxes).depth_max, std::bit_width(n - 1)) << n;
     }
 }
@@ -86,10 +86,9 @@ TEST(BinnedSahBuilder, CostsNoMoreThanMedianOnBoxesOfManySizes) {
     std::vector<Box> boxes = random_boxes(4000, .01f, 6);
     for (std::size_t i = 0; i < boxes.size(); i += 20)
         boxes[i].max = boxes[i].min + Vec3<float>{.5f, .3f, .4f};
-    const double median =
-        quality(find_builder("median")->make({})(boxes, serial()), boxes).sah_cost;
+    const double median = quality(find_builder("median").make({})(boxes, serial()), boxes).sah_cost;
     const double sah =
-        quality(find_builder("binned_sah")->make({})(boxes, serial()), boxes).sah_cost;
+        quality(find_builder("binned_sah").make({})(boxes, serial()), boxes).sah_cost;
     EXPECT_LT(sah, .8 * median);
 }
 
@@ -132,7 +131,7 @@ TEST(BinnedSahBuilder, DepthIsBoundedOnGeometricSpacing) {
         const float x = std::exp2(static_cast<float>(i % 230 - 125)) * (1 + static_cast<float>(i));
         boxes.push_back({{x, 0, 0}, {x, 0, 0}});
     }
-    const Tree tree = find_builder("binned_sah")->make({{"bins", 2}})(boxes, serial());
+    const Tree tree = find_builder("binned_sah").make({{"bins", 2}})(boxes, serial());
     EXPECT_FALSE(validate(tree, boxes));
     const std::uint64_t depth = quality(tree, boxes).depth_max;
     EXPECT_LE(depth, 3u * std::bit_width(boxes.size()) + 33);

@@ -75,7 +75,7 @@ TEST(Churn, TheDynamicTreeStaysRightGoodAndSmall) {
         ASSERT_EQ(validate(canonical, present).value_or(""), "") << change;
         std::vector<Pair> pairs;
         AppendPairs sink(pairs);
-        find_layout("binary")->make(canonical, serial())->self_pairs(serial(), sink);
+        find_layout("binary").make(canonical, serial())->self_pairs(serial(), sink);
         std::ranges::sort(pairs);
         ASSERT_EQ(pairs, brute_force(present)) << change;
         const double sah = quality(canonical, present, {.epo_visits = 0}).sah_cost;

@@ -64,16 +64,19 @@ void DynamicTree::remove(std::uint32_t item) {
     detach(item);
 }
 
-void DynamicTree::move(std::uint32_t item, Box box) {
+void DynamicTree::move(std::uint32_t item, Box box, Work* work) {
     const Slot s = require(item);
     require_valid(item, box);
+    std::uint64_t nodes = 0;
     if (box_at(parent_of(parent_of(s))).contains(box)) {
         box_at(s) = box;
-        repair(s);
+        nodes = repair(s);
     } else {
-        detach(item);
-        attach(item, box);
+        nodes = detach(item);
+        nodes += attach(item, box);
     }
+    if (work)
+        work->node_visits += nodes;
 }
 
 void DynamicTree::enlarge(std::uint32_t item, Box box) {
@@ -132,7 +135,7 @@ std::uint32_t DynamicTree::take_fork() {
 /// growth of b, and the size of `box` itself. Goes to the child with the lower bound and stops when
 /// the best place seen is under both. Equal bounds are common, as both children may hold the box:
 /// then the nearer centre decides, and at last the lesser height.
-DynamicTree::Slot DynamicTree::find_sibling(const Box& box) const {
+DynamicTree::Slot DynamicTree::find_sibling(const Box& box, std::uint64_t& nodes) const {
     const double own = measure(box);
     double merged = measure(merge(box_at(root), box));
     double best_cost = std::numeric_limits<double>::infinity();
@@ -140,7 +143,7 @@ DynamicTree::Slot DynamicTree::find_sibling(const Box& box) const {
     Slot best = root;
     if (height_at(root) <= max_imbalance)
         best_cost = merged;
-    for (Slot s = root; !is_leaf(s);) {
+    for (Slot s = root; !is_leaf(s); ++nodes) {
         grown += merged - measure(box_at(s));
         const Slot child = 2 * link_at(s);
         for (const Slot side : {0u, 1u})
@@ -169,34 +172,35 @@ DynamicTree::Slot DynamicTree::find_sibling(const Box& box) const {
     return best;
 }
 
-void DynamicTree::attach(std::uint32_t item, const Box& box) {
+std::uint64_t DynamicTree::attach(std::uint32_t item, const Box& box) {
     if (size_ == 0) {
         put(root, box, leaf_bit | item, 0);
         size_ = 1;
-        return;
+        return 1;
     }
     const std::uint32_t f = take_fork();
     ++size_;
     const auto [x, y, z] = half_extents(merge(box_at(root), box));
     pad_ = 0x1p-30 * (x + y + z);
-    const Slot s = find_sibling(box);
+    std::uint64_t nodes = 0;
+    const Slot s = find_sibling(box, nodes);
     put(2 * f, box_at(s), link_at(s), height_at(s));
     put(2 * f + 1, box, leaf_bit | item, 0);
     node_pairs_[f].parent = s;
     link_at(s) = f;
-    repair(2 * f + 1);
+    return nodes + repair(2 * f + 1);
 }
 
-void DynamicTree::detach(std::uint32_t item) {
+std::uint64_t DynamicTree::detach(std::uint32_t item) {
     const Slot s = std::exchange(slot_of_[item], none);
     if (--size_ == 0)
-        return;
+        return 1;
     const Slot sibling = s ^ 1;
     const std::uint32_t f = s / 2;
     const Slot parent = node_pairs_[f].parent;
     put(parent, box_at(sibling), link_at(sibling), height_at(sibling));
     node_pairs_[f].parent = std::exchange(free_, f);
-    repair(parent);
+    return repair(parent);
 }
 
 /// Swaps a child of s (down) with a child of its sibling (up) if that makes the sibling smaller, or
@@ -260,8 +264,9 @@ void DynamicTree::refit_upward(Slot s) {
 /// After a change at s: bounds, heights and rotations of the nodes above it. A rotation looks at
 /// children and grandchildren, so that after two nodes in a row without change nothing above
 /// differs.
-void DynamicTree::repair(Slot s) {
-    for (int quiet = 0; s != root && quiet < 2;) {
+std::uint64_t DynamicTree::repair(Slot s) {
+    std::uint64_t nodes = 0;
+    for (int quiet = 0; s != root && quiet < 2; ++nodes) {
         s = parent_of(s);
         const Box old_box = box_at(s);
         const std::uint8_t old_height = height_at(s);
@@ -269,6 +274,7 @@ void DynamicTree::repair(Slot s) {
         const bool changed = !(box_at(s) == old_box) || height_at(s) != old_height;
         quiet = rotate(s, old_height) || changed ? 0 : quiet + 1;
     }
+    return nodes;
 }
 
 Buffer<std::uint32_t> DynamicTree::order() const {

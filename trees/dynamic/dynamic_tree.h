@@ -1,9 +1,12 @@
 #pragma once
 
+#include "trees/inspect/work.h"
 #include "trees/tree.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 namespace boxwood {
@@ -17,6 +20,9 @@ namespace boxwood {
 /// et al. 2012 (rotations). The bound on the height is that of a relaxed AVL tree.
 class DynamicTree {
   public:
+    using Real = float;
+    static constexpr std::string_view name = "dynamic";
+
     /// Makes room for n items, so that insertions of items 0 .. n - 1 need no memory.
     void reserve(std::size_t n);
 
@@ -28,8 +34,9 @@ class DynamicTree {
     void remove(std::uint32_t item);
 
     /// Gives the item a new box: in its place while the bounds of its grandparent hold that, else
-    /// by insertion again. Throws as `insert` and `remove` do.
-    void move(std::uint32_t item, Box box);
+    /// by insertion again. The nodes looked at are added to `work`, if given. Throws as `insert`
+    /// and `remove` do.
+    void move(std::uint32_t item, Box box, Work* work = nullptr);
 
     /// Gives the item a box that holds its old one; the shape stays, bounds above grow. Cheaper
     /// than `move`. Throws as it, and std::invalid_argument for a box that does not hold the old
@@ -56,6 +63,21 @@ class DynamicTree {
         return node_pairs_.capacity() * sizeof(NodePair) +
                slot_of_.capacity() * sizeof(std::uint32_t);
     }
+
+    // Its nodes, for traversals: as those of TreeOf, numbered by where they are, the root being 0.
+
+    bool is_leaf(std::uint32_t node) const { return (link_at(node) & leaf_bit) != 0; }
+    std::uint32_t left(std::uint32_t node) const { return 2 * link_at(node); }
+    std::uint32_t right(std::uint32_t node) const { return 2 * link_at(node) + 1; }
+    std::uint32_t item(std::uint32_t leaf) const { return link_at(leaf) ^ leaf_bit; }
+    const Box& bounds(std::uint32_t node) const { return box_at(node); }
+    const Box& bounds() const { return box_at(root); }
+    /// About so many, as if it were balanced: 1 of a leaf alone.
+    std::size_t items_below(std::uint32_t node) const {
+        return std::size_t{1} << std::min<int>(height_at(node), 30);
+    }
+    /// Nodes on the longest path from the root to a leaf.
+    std::size_t depth() const { return empty() ? 0 : height() + 1; }
 
     /// The items in the order of the leaves. O(n).
     Buffer<std::uint32_t> order() const;
@@ -92,7 +114,6 @@ class DynamicTree {
     std::uint8_t& height_at(Slot s) { return node_pairs_[s / 2].height[s % 2]; }
     std::uint8_t height_at(Slot s) const { return node_pairs_[s / 2].height[s % 2]; }
     Slot parent_of(Slot s) const { return s == root ? root : node_pairs_[s / 2].parent; }
-    bool is_leaf(Slot s) const { return (link_at(s) & leaf_bit) != 0; }
 
     /// An eighth of the surface area, xy + yz + zx for half-extents x, y, z, plus pad (x + y + z),
     /// lest boxes on one line all look the same.
@@ -101,10 +122,11 @@ class DynamicTree {
     Slot require(std::uint32_t item) const;
     std::uint32_t take_fork();
     void put(Slot s, const Box& box, std::uint32_t link, std::uint8_t height);
-    void attach(std::uint32_t item, const Box& box);
-    void detach(std::uint32_t item);
-    Slot find_sibling(const Box& box) const;
-    void repair(Slot s);
+    // Those that say so return how many nodes they looked at.
+    std::uint64_t attach(std::uint32_t item, const Box& box);
+    std::uint64_t detach(std::uint32_t item);
+    Slot find_sibling(const Box& box, std::uint64_t& nodes) const;
+    std::uint64_t repair(Slot s);
     void refit_upward(Slot s);
     bool rotate(Slot s, int old_height);
 

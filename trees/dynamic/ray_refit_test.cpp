@@ -55,7 +55,7 @@ void expect_followed(std::string_view layout, std::string_view builder) {
         SCOPED_TRACE(std::string(layout) + ", " + std::to_string(n) + " triangles");
         TriangleMesh mesh = triangle_soup(n);
         Tree tree;
-        const auto made = make_layout(*find_layout(layout), make_builder(std::string(builder)),
+        const auto made = make_layout(find_layout(layout), make_builder(std::string(builder)),
                                       boxes_of(mesh), serial(), tree);
         TriangleBlocks blocks = made->triangles(mesh);
         RayRefit refit;
@@ -101,7 +101,7 @@ TEST(RayRefit, MakesTheTreeOfTheSameOrderAgain) {
         const auto rebuilt = [&] {
             const std::vector<Box> boxes = boxes_of(mesh);
             return find_layout("packed")
-                ->make_of_order(boxes, order.span(), serial())
+                .make_of_order(boxes, order.span(), serial())
                 ->triangles(mesh);
         };
         TriangleBlocks blocks = rebuilt();
@@ -132,8 +132,8 @@ TEST(RayRefit, SurfaceIsThatOfAllBoxesButTheRoots) {
         mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
     }
     Tree tree;
-    const auto made = make_layout(*find_layout("wide16"), make_builder("binned_sah"),
-                                  boxes_of(mesh), serial(), tree);
+    const auto made = make_layout(find_layout("wide16"), make_builder("binned_sah"), boxes_of(mesh),
+                                  serial(), tree);
     EXPECT_DOUBLE_EQ(RayRefit::surface(made->triangles(mesh)),
                      2. * (2 * 1 + 1 * 3 + 3 * 2) / (100 * 1 + 1 * 3 + 3 * 100));
     EXPECT_EQ(RayRefit::surface({}), 0);

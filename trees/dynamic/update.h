@@ -78,7 +78,8 @@ struct UpdateEntry {
 
 std::span<const UpdateEntry> updates();
 
-/// The policy by its registered name, or nullptr.
-const UpdateEntry* find_update(std::string_view name);
+/// The policy by its registered name. Throws std::invalid_argument for an unknown one, with a
+/// suggestion.
+const UpdateEntry& find_update(std::string_view name);
 
 } // namespace boxwood

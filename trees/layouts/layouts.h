@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 /// The one list of layouts, by the traversals that serve them: X(name, type). The registry, the
 /// declarations of all queries and the traversals themselves follow from it.
@@ -29,10 +30,22 @@
 #define BOXWOOD_TRAVERSED_LAYOUTS(X) BOXWOOD_BINARY_LAYOUTS(X) BOXWOOD_LANE_LAYOUTS(X)
 #define BOXWOOD_LAYOUTS(X) BOXWOOD_TRAVERSED_LAYOUTS(X) BOXWOOD_OWN_LAYOUTS(X)
 
+/// What the queries of boxes search: these layouts, and DynamicTree as it stands.
+#define BOXWOOD_BINARY_TREES(X) BOXWOOD_BINARY_LAYOUTS(X) X(dynamic, DynamicTree)
+#define BOXWOOD_SEARCHED_TREES(X) BOXWOOD_TRAVERSED_LAYOUTS(X) X(dynamic, DynamicTree)
+
 namespace boxwood {
+
+/// The layouts by name, in the order of layouts() (trees/layout.h).
+enum class LayoutName : std::uint8_t {
+#define X(name, ...) name,
+    BOXWOOD_LAYOUTS(X)
+#undef X
+};
 
 template <class Real> class BinaryLayoutOf;
 template <class Real, std::size_t W> class WideLayout;
+class DynamicTree;
 class PackedLayout;
 class Quantised8Layout;
 

@@ -98,7 +98,7 @@ TEST_P(EachBuilder, WideLayoutsHoldEachItemOnceWithinItsBounds) {
 
 TEST(WideLayouts, AreTheSameOnEveryExecutor) {
     const std::vector<Box> boxes = random_boxes(30000, .05f, 4);
-    const Tree tree = find_builder("binned_sah")->make({})(boxes, serial());
+    const Tree tree = find_builder("binned_sah").make({})(boxes, serial());
     for_each_wide([&]<class L>() {
         SCOPED_TRACE(L::name);
         const L expected(tree, serial());
@@ -240,7 +240,7 @@ TEST(LayoutsOfDoubles, RefuseBadBoxesByIndexAndOtherCounts) {
     std::vector<Box> floats;
     for (const Aabb<double>& box : boxes)
         floats.push_back(round_outward(box));
-    const Tree tree = find_builder("median")->make({})(floats, serial());
+    const Tree tree = find_builder("median").make({})(floats, serial());
     boxes[7].max.y = std::nan("");
     for (const LayoutEntry& entry : layouts())
         if (entry.make_of_doubles) {

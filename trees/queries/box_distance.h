@@ -10,10 +10,10 @@ namespace boxwood {
 
 /// The square of the distance from a point to a closed box, 0 inside; all finite. The differences
 /// are rounded once, to double, so that the result is off by less than 5 * 2^-53 of itself; it is
-/// exact where the coordinates are multiples of 2^-k below 2^(25-k). It neither over- nor
+/// exact where the coordinates are multiples of 2^-k below 2^(25-k). Of floats it neither over- nor
 /// underflows.
-template <class Real>
-BOXWOOD_BOTH double squared_distance(Vec3<float> point, const Aabb<Real>& box) {
+template <class Real, class PointReal = float>
+BOXWOOD_BOTH double squared_distance(Vec3<PointReal> point, const Aabb<Real>& box) {
     double sum = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const double p = static_cast<double>(point[axis]);

@@ -44,7 +44,7 @@ struct SurfacePoint {
     void closest_points(const L& layout, std::span<const Vec3<float>> points,                      \
                         const TriangleMesh& mesh, const Executor& executor,                        \
                         std::span<SurfacePoint> out, Work* work = nullptr);
-BOXWOOD_TRAVERSED_LAYOUTS(X)
+BOXWOOD_SEARCHED_TREES(X)
 #undef X
 
 } // namespace boxwood

@@ -16,7 +16,7 @@ namespace boxwood {
 #define X(name, L)                                                                                 \
     void points(const L& layout, std::span<const Vec3<float>> points, const Executor& executor,    \
                 PairSink& sink, Work* work = nullptr);
-BOXWOOD_TRAVERSED_LAYOUTS(X)
+BOXWOOD_SEARCHED_TREES(X)
 #undef X
 
 } // namespace boxwood

@@ -20,7 +20,7 @@ namespace boxwood {
                  PairSink& sink, Work* work = nullptr);                                            \
     void regions(const L& layout, std::span<const Sphere<float>> regions,                          \
                  const Executor& executor, PairSink& sink, Work* work = nullptr);
-BOXWOOD_TRAVERSED_LAYOUTS(X)
+BOXWOOD_SEARCHED_TREES(X)
 #undef X
 
 } // namespace boxwood

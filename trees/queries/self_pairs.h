@@ -13,7 +13,7 @@ namespace boxwood {
 /// `work`, if given, is added to, and the executor must be serial().
 #define X(name, L)                                                                                 \
     void self_pairs(const L& tree, const Executor& executor, PairSink& sink, Work* work = nullptr);
-BOXWOOD_TRAVERSED_LAYOUTS(X)
+BOXWOOD_SEARCHED_TREES(X)
 #undef X
 
 /// The same on one thread, with the work counted.

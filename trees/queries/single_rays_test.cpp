@@ -165,9 +165,8 @@ TEST(SingleRays, TraverseTreesThatAreTooDeepForTheirStack) {
         const TriangleBlocks triangles = layout->triangles(mesh);
         expect_answers(SingleRays(*layout, "watertight", triangles), rays, expected);
     }
-    EXPECT_EQ(
-        find_layout("wide8")->make(tree, serial())->single_ray_functions("watertight").closest,
-        nullptr);
+    EXPECT_EQ(find_layout("wide8").make(tree, serial())->single_ray_functions("watertight").closest,
+              nullptr);
 }
 
 TEST(SingleRays, HaveFunctionsOfTheirOwnForTheKernelsOfTheBench) {

@@ -126,7 +126,7 @@ TEST(SortedRays, StayAsTheyCameFromOnePointInside) {
 
 TEST(SortedRays, RefuseWrongArguments) {
     const TriangleMesh mesh = triangle_soup(10);
-    const auto layout = layout_of(*find_layout("wide8"), mesh);
+    const auto layout = layout_of(find_layout("wide8"), mesh);
     const TriangleBlocks triangles = layout->triangles(mesh);
     const std::vector<Ray<float>> rays(3, Ray<float>{{0, 0, 0}, {1, 0, 0}});
     std::vector<RayHit> hits(3), few(2);

@@ -13,7 +13,7 @@ namespace boxwood {
 #define X(name, L)                                                                                 \
     void tree_pairs(const L& a, const L& b, const Executor& executor, PairSink& sink,              \
                     Work* work = nullptr);
-BOXWOOD_TRAVERSED_LAYOUTS(X)
+BOXWOOD_SEARCHED_TREES(X)
 #undef X
 
 /// The same on one thread, with the work counted.

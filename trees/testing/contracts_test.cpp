@@ -80,5 +80,32 @@ TEST(Registries, NamesAreUniqueAndExplained) {
     check(updates());
 }
 
+TEST(Registries, UnknownNamesThrowWithASuggestion) {
+    const auto complaint = [](auto find, std::string_view name) -> std::string {
+        try {
+            find(name);
+        } catch (const std::invalid_argument& error) {
+            return error.what();
+        }
+        return "nothing was thrown";
+    };
+    EXPECT_EQ(complaint(find_update, "autoo"),
+              "unknown update policy 'autoo'; did you mean 'auto'?");
+    EXPECT_EQ(complaint(find_builder, "hilbret"),
+              "unknown builder 'hilbret'; did you mean 'hilbert'?");
+    EXPECT_EQ(complaint(find_layout, "wide9"), "unknown layout 'wide9'; did you mean 'wide4'?");
+    EXPECT_EQ(complaint([](std::string_view name) { make_builder(name); }, "ploc+reinsertio"),
+              "unknown optimizer 'reinsertio'; did you mean 'reinsertion'?");
+    EXPECT_EQ(complaint([](std::string_view name) { make_executor(name, 2); }, "tbbb"),
+              "unknown executor 'tbbb'; did you mean 'tbb'?");
+    const Wide8Layout none(Tree(), serial());
+    EXPECT_EQ(complaint(
+                  [&](std::string_view kernel) {
+                      rays(none, {}, RayQuery::any, kernel, {}, serial(), {});
+                  },
+                  "watertigth"),
+              "unknown ray kernel 'watertigth'; did you mean 'watertight'?");
+}
+
 } // namespace
 } // namespace boxwood

@@ -12,7 +12,7 @@ namespace boxwood {
 /// in any file is found by `scripts/test --only NAME`.
 class EachBuilder : public testing::TestWithParam<std::string> {
   protected:
-    const BuilderEntry& builder_ = *find_builder(GetParam());
+    const BuilderEntry& builder_ = find_builder(GetParam());
 
     Tree build(Boxes boxes, const Executor& executor = serial()) const {
         return builder_.make({})(boxes, executor);

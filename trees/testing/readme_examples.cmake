@@ -1,4 +1,5 @@
-# The C++ examples of two READMEs, cut out of them so that the tests build and run what they show.
+# C++ examples of two READMEs, cut out of them so that the tests build and run what they show. (The first of README.md
+# is trees/examples/pairs.cpp, which scripts/tests/test_install.py builds as a user does.)
 
 # readme_example(FILE FIRST_LINE [README]): the cpp block of README.md, or of that one, that begins
 # so, written to FILE.
@@ -21,12 +22,6 @@ endfunction()
 set(folder ${CMAKE_CURRENT_BINARY_DIR}/readme)
 readme_example(${folder}/halving.cpp "#include \"trees/builder.h\"")
 target_sources(boxwood_trees_test PRIVATE ${folder}/halving.cpp)
-
-readme_example(${folder}/program.cpp "#include \"trees/trees.h\"")
-add_executable(boxwood_readme_program ${folder}/program.cpp)
-target_link_libraries(boxwood_readme_program PRIVATE boxwood_trees)
-add_test(NAME Readme.TheProgramPrintsThePairs COMMAND boxwood_readme_program)
-set_tests_properties(Readme.TheProgramPrintsThePairs PROPERTIES PASS_REGULAR_EXPRESSION "^0,1\n$")
 
 readme_example(${folder}/device.cpp "#include \"trees/device.h\"" trees/cuda/README.md)
 add_executable(boxwood_device_program ${folder}/device.cpp)

@@ -14,7 +14,7 @@ namespace {
 TEST(TreesHeader, IsAllThatAUserIncludes) {
     const std::vector<Box> boxes{{{0, 0, 0}, {2, 2, 2}}, {{1, 1, 1}, {3, 3, 3}}};
     const auto layout =
-        find_layout("wide8")->make(SweepSahBuilder{}.build(boxes, serial()), serial());
+        find_layout("wide8").make(SweepSahBuilder{}.build(boxes, serial()), serial());
     CountPairs pairs;
     layout->self_pairs(serial(), pairs);
     EXPECT_EQ(pairs.count(), 1u);

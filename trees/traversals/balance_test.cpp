@@ -62,7 +62,7 @@ TEST(Balance, NoChunkOfOneTreeHasMostOfTheWork) {
     const std::vector<Box> same(6000, Box{{0, 0, 0}, {1, 1, 1}});
     for (const std::vector<Box>& boxes : {giant_cluster(5), same})
         for (const std::string_view builder : {"median", "binned_sah"}) {
-            const Tree tree = find_builder(builder)->make({})(boxes, serial());
+            const Tree tree = find_builder(builder).make({})(boxes, serial());
             for (const LayoutEntry& entry : traversed_layouts(Query::self_pairs)) {
                 SCOPED_TRACE(std::string(builder) + "." + std::string(entry.name));
                 ChunkSizes chunks;
@@ -78,7 +78,7 @@ TEST(Balance, NoChunkOfTwoTreesHasMostOfTheWork) {
                            many(5000, same[0]);
     for (const std::string_view builder : {"median", "binned_sah"}) {
         const auto tree_of = [&](const std::vector<Box>& boxes) {
-            return find_builder(builder)->make({})(boxes, serial());
+            return find_builder(builder).make({})(boxes, serial());
         };
         const Tree tree_a = tree_of(a), tree_b = tree_of(b), tree_same = tree_of(same),
                    tree_few = tree_of(few), tree_many = tree_of(many);
@@ -106,7 +106,7 @@ TEST(Balance, NoChunkOfQueriesHasMostOfTheWork) {
         balls.push_back({region.min, .1f});
     for (const LayoutEntry& entry : layouts_answering({Query::regions})) {
         SCOPED_TRACE(entry.name);
-        const auto layout = entry.make(find_builder("median")->make({})(items, serial()), serial());
+        const auto layout = entry.make(find_builder("median").make({})(items, serial()), serial());
         ChunkSizes chunks;
         layout->regions(regions, serial(), chunks);
         EXPECT_LT(chunks.heaviest(), .125);

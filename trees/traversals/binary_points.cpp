@@ -1,4 +1,4 @@
-#include "trees/layouts/binary.h"
+#include "trees/traversals/binary_tree.h"
 #include "trees/traversals/nearest_traversal.h"
 #include "trees/traversals/region_traversal.h"
 
@@ -8,21 +8,21 @@ namespace {
 /// Opens every node that the region takes, the left child first; hands over the leaves' items.
 template <bool Counted, class L, class Takes>
 void collect(const L& layout, const Takes& takes, RegionTraversal& traversal) {
-    const auto& tree = layout.tree();
+    const auto& tree = tree_of(layout);
     std::uint32_t* const stack = traversal.stack();
     stack[0] = 0;
     for (std::size_t top = 1; top != 0;) {
         const std::uint32_t node = stack[--top];
         traversal.count<Counted>(1, top);
-        if (!takes(tree.nodes[node].box))
+        if (!takes(tree.bounds(node)))
             continue;
         if (tree.is_leaf(node)) {
             *traversal.items_to() = tree.item(node);
             traversal.found(1);
             continue;
         }
-        stack[top++] = static_cast<std::uint32_t>(tree.right(node));
-        stack[top++] = static_cast<std::uint32_t>(tree.left(node));
+        stack[top++] = right_of(tree, node);
+        stack[top++] = left_of(tree, node);
     }
 }
 
@@ -66,7 +66,7 @@ void answer(const L& layout, const RegionQueries& queries, RegionTraversal& trav
 /// All nodes that may be near enough, the nearer child first.
 template <bool Counted, class L, class Best>
 void search(const L& layout, Vec3<float> point, Best& best, NearestTraversal& traversal) {
-    const auto& tree = layout.tree();
+    const auto& tree = tree_of(layout);
     const DistanceScale scaled(point, layout.bounds());
     float bound = std::numeric_limits<float>::infinity();
     std::uint64_t* const stack = traversal.stack();
@@ -78,7 +78,7 @@ void search(const L& layout, Vec3<float> point, Best& best, NearestTraversal& tr
         const std::uint32_t node = NearestTraversal::ref(next);
         if (tree.is_leaf(node)) {
             if constexpr (std::is_same_v<Best, NearestItems>) {
-                best.offer({tree.item(node), squared_distance(point, tree.nodes[node].box)});
+                best.offer({tree.item(node), squared_distance(point, tree.bounds(node))});
             } else {
                 traversal.count_triangles<Counted>(1);
                 best.offer(tree.item(node));
@@ -86,13 +86,13 @@ void search(const L& layout, Vec3<float> point, Best& best, NearestTraversal& tr
             bound = scaled.above(best.worst());
             continue;
         }
-        const auto child = [&](std::size_t i) {
-            return NearestTraversal::waiting(
-                scaled.below(squared_distance(point, tree.nodes[i].box)),
-                static_cast<std::uint32_t>(i));
+        const auto child = [&](std::uint32_t i) {
+            return NearestTraversal::waiting(scaled.below(squared_distance(point, tree.bounds(i))),
+                                             i);
         };
         traversal.count<Counted>(2, top + 2);
-        const auto [near, far] = std::minmax({child(tree.right(node)), child(Tree::left(node))});
+        const auto [near, far] =
+            std::minmax({child(right_of(tree, node)), child(left_of(tree, node))});
         stack[top++] = far;
         stack[top++] = near;
     }
@@ -116,7 +116,7 @@ void search(const L& layout, Vec3<float> point, Best& best, NearestTraversal& tr
         traversal.counted() ? search<true>(layout, point, best, traversal)                         \
                             : search<false>(layout, point, best, traversal);                       \
     }
-BOXWOOD_BINARY_LAYOUTS(X)
+BOXWOOD_BINARY_TREES(X)
 #undef X
 
 } // namespace boxwood::detail

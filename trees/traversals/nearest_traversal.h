@@ -133,7 +133,7 @@ void run_nearest(std::size_t n, std::size_t stack_room, const Executor& executor
                           NearestTraversal& traversal);                                            \
     void traverse_closest_point(const L& layout, Vec3<float> point, NearestSurface& best,          \
                                 NearestTraversal& traversal);
-BOXWOOD_TRAVERSED_LAYOUTS(X)
+BOXWOOD_SEARCHED_TREES(X)
 #undef X
 
 } // namespace boxwood::detail

@@ -85,14 +85,14 @@ TEST_P(EachBuilder, TreePairsAgreeWithBruteForceOnEveryFamilyLayoutAndExecutor) 
 
 TEST(SelfPairs, AgreeOnEveryInstructionSet) {
     const std::vector<Box> boxes = random_boxes(6000, .1f, 12);
-    const Tree tree = find_builder("binned_sah")->make({})(boxes, serial());
+    const Tree tree = find_builder("binned_sah").make({})(boxes, serial());
     const std::vector<Pair> expected = brute_force(boxes);
     std::vector<Pair> expected_halves;
     for (const Pair p : expected)
         if (p.a < 3000 && p.b >= 3000)
             expected_halves.push_back({p.a, p.b - 3000});
-    const Tree half_a = find_builder("median")->make({})({boxes.data(), 3000}, serial());
-    const Tree half_b = find_builder("binned_sah")->make({})({boxes.data() + 3000, 3000}, serial());
+    const Tree half_a = find_builder("median").make({})({boxes.data(), 3000}, serial());
+    const Tree half_b = find_builder("binned_sah").make({})({boxes.data() + 3000, 3000}, serial());
     on_every_target([&] {
         for (const LayoutEntry& entry : layouts_answering({Query::self_pairs, Query::tree_pairs})) {
             SCOPED_TRACE(entry.name);
@@ -111,12 +111,12 @@ TEST(SelfPairs, AgreeOnEveryInstructionSet) {
 
 TEST(TreePairs, RefuseTwoLayouts) {
     const std::vector<Box> boxes = random_boxes(10, .1f, 1);
-    const Tree tree = find_builder("median")->make({})(boxes, serial());
+    const Tree tree = find_builder("median").make({})(boxes, serial());
     std::vector<Pair> pairs;
     AppendPairs sink(pairs);
     EXPECT_THROW(find_layout("binary")
-                     ->make(tree, serial())
-                     ->tree_pairs(*find_layout("wide8")->make(tree, serial()), serial(), sink),
+                     .make(tree, serial())
+                     ->tree_pairs(*find_layout("wide8").make(tree, serial()), serial(), sink),
                  std::invalid_argument);
 }
 
@@ -185,13 +185,11 @@ TEST_P(EachBuilder, RefusesBadBoxesByIndex) {
 }
 
 TEST(Builders, SettingsAreChecked) {
-    const BuilderEntry* builder = find_builder("binned_sah");
-    ASSERT_NE(builder, nullptr);
-    EXPECT_THROW(builder->make({{"bin", 8}}), std::invalid_argument);
-    EXPECT_THROW(builder->make({{"bins", 1}}), std::invalid_argument);
+    const BuilderEntry& builder = find_builder("binned_sah");
+    EXPECT_THROW(builder.make({{"bin", 8}}), std::invalid_argument);
+    EXPECT_THROW(builder.make({{"bins", 1}}), std::invalid_argument);
     const std::vector<Box> boxes = random_boxes(100, .1f, 1);
-    EXPECT_EQ(builder->make({{"bins", 4}})(boxes, serial()).size(), 100u);
-    EXPECT_EQ(find_builder("nosuch"), nullptr);
+    EXPECT_EQ(builder.make({{"bins", 4}})(boxes, serial()).size(), 100u);
 }
 
 TEST(Executors, RethrowAndCountEveryIndexOnce) {

@@ -1,3 +1,4 @@
+#include "trees/dynamic/dynamic_tree.h"
 #include "trees/layouts/binary.h"
 #include "trees/layouts/packed.h"
 #include "trees/layouts/quantised8.h"
@@ -85,7 +86,7 @@ namespace boxwood {
                         std::span<SurfacePoint> out, Work* work) {                                 \
         detail::find_closest(layout, points, mesh, executor, out, work);                           \
     }
-BOXWOOD_TRAVERSED_LAYOUTS(X)
+BOXWOOD_SEARCHED_TREES(X)
 #undef X
 
 } // namespace boxwood

@@ -2,6 +2,7 @@
 
 #include "kernels/ray_triangle/triangle_block.h"
 #include "kernels/registry.h"
+#include "kernels/suggest.h"
 #include "trees/queries/rays.h"
 #include "trees/queries/single_rays.h"
 
@@ -152,8 +153,8 @@ template <class F> void for_ray_chunks(RayJob job, const Executor& executor, con
     if (job.mode != RayMode::all && job.hits.size() != job.rays.size())
         throw std::invalid_argument("rays: one hit per ray is wanted");
     if (!with_kernel<RayKernels>(job.kernel, [](auto) {}))
-        throw std::invalid_argument("unknown ray kernel '" + std::string(job.kernel) +
-                                    "'; `boxwood list kernels` names them");
+        throw std::invalid_argument(
+            unknown_name("ray kernel", job.kernel, names_of(ray_kernels())));
     constexpr std::size_t chunk = 512;
     const std::size_t chunks = (job.rays.size() + chunk - 1) / chunk;
     std::atomic<bool> stop = false;

@@ -161,7 +161,7 @@ template <class L> std::size_t stack_room(const L& layout) {
 #define X(name, L)                                                                                 \
     void traverse_regions(const L& layout, const RegionQueries& queries,                           \
                           RegionTraversal& traversal, std::size_t first, std::size_t last);
-BOXWOOD_TRAVERSED_LAYOUTS(X)
+BOXWOOD_SEARCHED_TREES(X)
 #undef X
 
 } // namespace boxwood::detail

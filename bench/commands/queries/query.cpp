@@ -34,10 +34,6 @@ void add_tree_options(CLI::App& app, TreeChoice& choice, const std::string& effe
 }
 
 BuildFunction chosen_builder(const TreeChoice& choice) {
-    const std::string_view name =
-        std::string_view(choice.builder).substr(0, choice.builder.find('+'));
-    if (!find_builder(name))
-        throw BadInput(unknown_name("builder", name, names_of(builders())));
     try {
         return make_builder(choice.builder);
     } catch (const std::invalid_argument& error) {
@@ -46,10 +42,11 @@ BuildFunction chosen_builder(const TreeChoice& choice) {
 }
 
 const LayoutEntry& chosen_layout(const TreeChoice& choice) {
-    const LayoutEntry* entry = find_layout(choice.layout);
-    if (!entry)
-        throw BadInput(unknown_name("layout", choice.layout, names_of(layouts())));
-    return *entry;
+    try {
+        return find_layout(choice.layout);
+    } catch (const std::invalid_argument& error) {
+        throw BadInput(error.what());
+    }
 }
 
 std::unique_ptr<Executor> chosen_executor(const TreeChoice& choice) {

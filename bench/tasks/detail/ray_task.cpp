@@ -7,6 +7,7 @@
 #include "bench/truth/judging/case_truths.h"
 #include "kernels/registry.h"
 #include "kernels/suggest.h"
+#include "trees/mesh_bvh.h"
 #include "trees/queries/single_rays.h"
 #include "trees/queries/sorted_rays.h"
 
@@ -71,6 +72,59 @@ class Hits final : public RayContender {
     RayQuery query_;
     std::string_view order_;
     std::optional<SingleRays> single_; ///< of the order "single"
+};
+
+class HitsByFrontDoor final : public Contender {
+  public:
+    HitsByFrontDoor(const Job& job, BuildFunction build, const LayoutEntry& layout,
+                    std::string_view kernel, RayQuery query, bool one_by_one)
+        : scene_(*job.scene),
+          options_(front_door_options<MeshBvhOptions>(job, std::move(build), layout)),
+          query_(query), one_by_one_(one_by_one) {
+        const auto row = std::ranges::find(ray_kernels(), kernel, &KernelInfo::name);
+        options_.kernel = static_cast<RayKernelName>(row - ray_kernels().begin());
+    }
+
+    void build() override {
+        mesh_.reset();
+        mesh_.emplace(scene_.mesh, options_);
+    }
+    void query(Answers& answers) override {
+        std::vector<RayHit>& hits = list_of<RayHit>(answers);
+        hits.resize(scene_.rays.size());
+        if (one_by_one_)
+            each(hits);
+        else if (query_ == RayQuery::closest)
+            mesh_->closest_hits(scene_.rays, hits);
+        else
+            mesh_->any_hits(scene_.rays, hits);
+    }
+    std::optional<StructureInfo> structure() const override {
+        return StructureInfo{.bytes = mesh_->bytes()};
+    }
+
+  private:
+    /// In the chunks of Hits::one_by_one.
+    void each(std::vector<RayHit>& hits) const {
+        constexpr std::size_t chunk = 256;
+        options_.executor->for_each((hits.size() + chunk - 1) / chunk, [&](std::size_t c) {
+            const std::size_t end = std::min(hits.size(), (c + 1) * chunk);
+            for (std::size_t i = c * chunk; i < end; ++i)
+                if (query_ == RayQuery::closest) {
+                    hits[i] = mesh_->closest_hit(scene_.rays[i]).value_or(RayHit{});
+                } else {
+                    hits[i] = {};
+                    if (mesh_->any_hit(scene_.rays[i]))
+                        hits[i].triangle = 0;
+                }
+        });
+    }
+
+    const Scene& scene_;
+    MeshBvhOptions options_;
+    RayQuery query_;
+    bool one_by_one_;
+    std::optional<MeshBvh> mesh_;
 };
 
 class HitsOnDevice final : public RaysOnDevice {
@@ -255,7 +309,7 @@ std::vector<Choice> RayTask::variants(const BlockReader& block, const Choice& ch
 
 std::vector<std::string_view> HitTask::keys() const {
     std::vector<std::string_view> all = RayTask::keys();
-    all.push_back("ray_order");
+    all.insert(all.end(), {"ray_order", "front_door"});
     return all;
 }
 
@@ -305,13 +359,17 @@ TreeTask::Way HitTask::way(const Choice& choice) const {
             return std::make_unique<HitsOfCases>(job, build, layout, kernel, query, order);
         return std::make_unique<Hits>(job, std::move(build), layout, kernel, query, order);
     };
+    TreeTask::Way::Make by_front_door; // which traces rays one by one or as given
+    if (order.name != "sorted")
+        by_front_door = maker<HitsByFrontDoor>(choice.kernel, query_, order.name == "single");
     return {.traversal = order.traversal,
             .kernel = choice.kernel,
             .promise = kernel.promise,
             .make = make,
             .query = Query::rays,
             .classes = ray_class::of_ours(order.classes, choice.kernel),
-            .make_on_device = on_device(choice)};
+            .make_on_device = on_device(choice),
+            .make_by_front_door = by_front_door};
 }
 
 Answering::Make HitTask::on_device(const Choice& choice) const {

@@ -35,6 +35,16 @@ class TreeContender : public Contender {
     std::unique_ptr<AnyLayout> layout_;
 };
 
+/// The same settings at the front door.
+template <class Options>
+Options front_door_options(const Job& job, BuildFunction build, const LayoutEntry& layout) {
+    Options options;
+    options.builder = std::move(build);
+    options.layout = static_cast<LayoutName>(&layout - layouts().data());
+    options.executor = make_executor(job.executor, job.threads);
+    return options;
+}
+
 /// Appends pairs to one vector after another; the sink keeps its memory between queries.
 class PairsInto {
   public:

@@ -56,13 +56,20 @@ void TreeTask::expand(const BlockReader& block, AddCell add) const {
         for (const SceneSpec& spec : with_queries(block, scene))
             scenes.push_back(spec);
     std::vector<ContenderEntry> ours;
+    const bool by_front_door = !block.names("front_door", {"bvh"}).empty();
     const std::vector<std::string> layout_names =
         block.names("layouts", names_of(layouts()), {"wide8"});
     for (const BuilderChoice& builder : block.builders())
         for (const std::string& layout : layout_names)
             for (const Choice& choice :
-                 variants(block, {builder.name, builder.settings, layout, "", ""}))
+                 variants(block, {builder.name, builder.settings, layout, "", ""})) {
                 ours.push_back(contender(choice));
+                if (by_front_door && way(choice).make_by_front_door) {
+                    Choice by_door = choice;
+                    by_door.by_front_door = true;
+                    ours.push_back(contender(by_door));
+                }
+            }
     const std::vector<ContenderEntry> peers = block.peers(name());
     block.places(); // refuses bad ones even if nothing runs there
     if (ours.empty() && !block.has("peers"))
@@ -84,7 +91,7 @@ ContenderEntry TreeTask::contender(const Choice& choice) const {
     entry.precision = layout.precision;
     entry.builder = name_with_settings(choice.builder, choice.settings);
     entry.place = static_cast<std::size_t>(&builder - builders().data());
-    entry.is_plain = entry.builder == builder.name;
+    entry.is_plain = entry.builder == builder.name && !choice.by_front_door;
     entry.is_reference = builder.is_reference && entry.is_plain;
     entry.layout = choice.layout;
     entry.traversal = way.traversal;
@@ -94,9 +101,17 @@ ContenderEntry TreeTask::contender(const Choice& choice) const {
     entry.name = fmt::format("{}.{}.{}", entry.builder, entry.layout, entry.traversal);
     if (!entry.kernel.empty())
         entry.name += "." + entry.kernel;
+    if (choice.by_front_door) {
+        entry.name = "bvh." + entry.name;
+        way.make = std::move(way.make_by_front_door);
+        way.make_on_device = way.make_by_graph = nullptr;
+        way.why_not_on_device = "trees/bvh.h is for the host";
+    }
     entry.summary = fmt::format("{}; {}", builder.summary, layout.summary);
     entry.notes = "build: boxes to tree to layout; answers in the same order for any number of "
                   "threads";
+    if (choice.by_front_door)
+        entry.notes += "; by the front door (trees/bvh.h) around the same parts";
     entry.params_json = settings_json(choice.settings);
     entry.cannot = [this, &layout, query = way.query, why_not = std::move(way.why_not_on_device)](
                        const Job& job) -> std::optional<std::string> {

@@ -36,13 +36,15 @@ class TreeTask : public Task {
         std::string_view traversal;
         std::string kernel{};
         Promise promise = Promise::none;
-        std::function<std::unique_ptr<Contender>(const Job&, BuildFunction, const LayoutEntry&)>
-            make;
+        using Make = std::function<std::unique_ptr<Contender>(const Job&, BuildFunction,
+                                                              const LayoutEntry&)>;
+        Make make;
         std::optional<Query> query{}; ///< what a layout must answer for it
         std::vector<std::string> classes{};
         Answering::Make make_on_device{}; ///< null if it has no form for a device
         Answering::Make make_by_graph{};  ///< or for a graph
         std::string why_not_on_device{};  ///< if there is a reason to tell
+        Make make_by_front_door{}; ///< by Bvh or MeshBvh, where the task has the key front_door
     };
     virtual Way way(const Choice& choice) const = 0;
     /// Why a contender that has a form for a device cannot take this scene there.

@@ -76,7 +76,7 @@ TEST(PackedRegionsOnDevice, AreThoseOfTheCpu) {
     for (const BoxFamily& family : device_families()) {
         SCOPED_TRACE(family.name);
         const auto layout =
-            find_layout("binary")->make(make_builder("median")(family.boxes, serial()), serial());
+            find_layout("binary").make(make_builder("median")(family.boxes, serial()), serial());
         const QueriesOfRegions all = queries_for(family.boxes);
         const QueriesOfRegions q{some(all.points), some(all.boxes), some(all.balls)};
         std::vector<Pair> in_points, in_boxes, in_balls;
@@ -133,7 +133,7 @@ TEST(PackedRaysOnDevice, AreThoseOfTheCpu) {
         for (std::size_t slot = 0; slot < boxes.size(); ++slot)
             triangles.push_back(mesh.triangle(made.view.items[slot]));
         const auto layout =
-            find_layout("binary")->make(make_builder("median")(boxes, serial()), serial());
+            find_layout("binary").make(make_builder("median")(boxes, serial()), serial());
         expect_closest<Watertight>(made, *layout, mesh, triangles, rays);
         expect_closest<MollerTrumbore<double>>(made, *layout, mesh, triangles, rays);
     }

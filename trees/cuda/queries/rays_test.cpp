@@ -181,7 +181,7 @@ TEST(RaysOnDevice, AreThoseOfTheCpuForEveryKernelAndTree) {
          {sphere(40), triangle_soup(3000), triangle_soup(17), triangle_soup(1), TriangleMesh{}}) {
         const OnDevice made(mesh);
         EXPECT_EQ(made.boxes, triangle_boxes(mesh));
-        const auto layout = find_layout("binary")->make(
+        const auto layout = find_layout("binary").make(
             make_builder("median")(triangle_boxes(mesh), serial()), serial());
         const TriangleBlocks triangles = layout->triangles(mesh);
         const auto order = ray_order(rays, triangles.bounds, serial());
@@ -216,7 +216,7 @@ TEST(RaysOnDevice, OfEqualHitsThatOfTheLowestTriangleWins) {
     std::ranges::rotate(mesh.triangles, mesh.triangles.begin() + 13);
     const std::vector<Ray<float>> rays = test_rays();
     const OnDevice made(mesh);
-    const auto layout = find_layout("binary")->make(
+    const auto layout = find_layout("binary").make(
         make_builder("median")(triangle_boxes(mesh), serial()), serial());
     Wanted wanted;
     wanted.closest.resize(rays.size());

@@ -19,7 +19,7 @@ namespace boxwood::cuda {
 namespace {
 
 std::unique_ptr<AnyLayout> on_cpu(Boxes boxes) {
-    return find_layout("binary")->make(make_builder("median")(boxes, serial()), serial());
+    return find_layout("binary").make(make_builder("median")(boxes, serial()), serial());
 }
 
 /// The items of each region, at[i] to at[i + 1], in the order in which they were found.

@@ -24,7 +24,7 @@ struct Caching {
     std::vector<std::uint32_t> all;
 
     explicit Caching(std::vector<Box> start, const char* policy = "cached", Settings settings = {})
-        : boxes(std::move(start)), updater(find_update(policy)->make(settings)), all(boxes.size()) {
+        : boxes(std::move(start)), updater(find_update(policy).make(settings)), all(boxes.size()) {
         std::iota(all.begin(), all.end(), 0u);
         updater->start(boxes, serial());
     }

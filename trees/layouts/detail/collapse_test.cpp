@@ -55,7 +55,7 @@ TEST(Collapse, HasTheLeastAreaOfAll) {
     for (const char* builder : {"median", "binned_sah"})
         for (unsigned seed = 0; seed < 20; ++seed) {
             const auto boxes = scattered(2 + seed, seed);
-            const Tree tree = find_builder(builder)->make({})(boxes, serial());
+            const Tree tree = find_builder(builder).make({})(boxes, serial());
             double area = 0;
             for (const CollapsedBlock& block : collapse<width>(tree, serial()).blocks)
                 area += tree.nodes[block.node].box.half_area();
@@ -66,7 +66,7 @@ TEST(Collapse, HasTheLeastAreaOfAll) {
 
 TEST(Collapse, FillsTheBlocksOfIdenticalBoxes) {
     const std::vector<Box> boxes(4096, Box{{1, 1, 1}, {1, 1, 1}});
-    const Tree tree = find_builder("binned_sah")->make({})(boxes, serial());
+    const Tree tree = find_builder("binned_sah").make({})(boxes, serial());
     const Collapsed collapsed = collapse<8>(tree, serial());
     EXPECT_EQ(collapsed.blocks.size(), 512u + 64 + 8 + 1);
     EXPECT_EQ(collapsed.depth, 4u);
@@ -75,7 +75,7 @@ TEST(Collapse, FillsTheBlocksOfIdenticalBoxes) {
 TEST(Collapse, NeedsFewerBlocksOfTreesCountedInBlocks) {
     const auto boxes = scattered(20000, 1);
     const auto blocks = [&](const Settings& settings) {
-        const Tree tree = find_builder("binned_sah")->make(settings)(boxes, serial());
+        const Tree tree = find_builder("binned_sah").make(settings)(boxes, serial());
         return collapse<8>(tree, serial()).blocks.size();
     };
     EXPECT_LT(blocks({{"leaf_size", 8}, {"agglomerate_below", 8}}), blocks({}) * 9 / 10);

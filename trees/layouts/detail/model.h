@@ -68,21 +68,22 @@ template <class L> std::vector<Query> answered_queries() {
     return answered;
 }
 
-/// Puts a layout behind AnyLayout, with the queries that are overloaded for it. The layout of a
-/// split tree refuses what it would answer wrongly: all but rays and closest points.
-template <Layout L> class LayoutModel final : public AnyLayout {
+/// Puts a layout, or what else answers such queries, behind AnyLayout, with the queries that are
+/// overloaded for it. The layout of a split tree refuses what it would answer wrongly: all but rays
+/// and closest points. Held: L, or a reference to one that is kept elsewhere.
+template <class L, class Held = L> class LayoutModel final : public AnyLayout {
   public:
-    explicit LayoutModel(L layout, bool is_split = false)
-        : layout_(std::move(layout)), is_split_(is_split) {}
+    explicit LayoutModel(Held layout, bool is_split = false)
+        : held_(std::move(layout)), is_split_(is_split) {}
 
-    std::size_t bytes() const override { return layout_.bytes(); }
+    std::size_t bytes() const override { return layout().bytes(); }
     bool answers(Query query) const override { return answers_query<L>(query); }
 
     void self_pairs(const Executor& executor, PairSink& sink, Work* work) const override {
         require(Query::self_pairs);
         if constexpr (answers_query<L>(Query::self_pairs)) {
             using boxwood::self_pairs;
-            self_pairs(layout_, executor, sink, work);
+            self_pairs(layout(), executor, sink, work);
         }
     }
     void tree_pairs(const AnyLayout& other, const Executor& executor, PairSink& sink,
@@ -90,13 +91,13 @@ template <Layout L> class LayoutModel final : public AnyLayout {
         require(Query::tree_pairs);
         if constexpr (answers_query<L>(Query::tree_pairs)) {
             using boxwood::tree_pairs;
-            tree_pairs(layout_, same(other), executor, sink, work);
+            tree_pairs(layout(), same(other), executor, sink, work);
         }
     }
     TriangleBlocks triangles(const TriangleMesh& mesh, const Executor& executor) const override {
         require(Query::rays);
         if constexpr (answers_query<L>(Query::rays))
-            return triangles_of(layout_, mesh, executor);
+            return triangles_of(layout(), mesh, executor);
         else
             return {};
     }
@@ -106,14 +107,14 @@ template <Layout L> class LayoutModel final : public AnyLayout {
         require(Query::rays);
         if constexpr (answers_query<L>(Query::rays)) {
             using boxwood::rays;
-            rays(layout_, batch, query, kernel, triangles, executor, hits, work);
+            rays(layout(), batch, query, kernel, triangles, executor, hits, work);
         }
     }
     SingleRayFunctions single_ray_functions(std::string_view kernel) const override {
         require(Query::rays);
         using boxwood::single_ray_functions;
         if constexpr (requires(const L& l) { single_ray_functions(l, kernel); })
-            return single_ray_functions(layout_, kernel);
+            return single_ray_functions(layout(), kernel);
         else
             return {};
     }
@@ -123,7 +124,7 @@ template <Layout L> class LayoutModel final : public AnyLayout {
         require(Query::rays);
         if constexpr (answers_query<L>(Query::rays)) {
             using boxwood::rays_all;
-            rays_all(layout_, batch, kernel, triangles, executor, sink);
+            rays_all(layout(), batch, kernel, triangles, executor, sink);
         }
     }
     void points(std::span<const Vec3<float>> at, const Executor& executor, PairSink& sink,
@@ -131,7 +132,7 @@ template <Layout L> class LayoutModel final : public AnyLayout {
         require(Query::points);
         if constexpr (answers_query<L>(Query::points)) {
             using boxwood::points;
-            points(layout_, at, executor, sink, work);
+            points(layout(), at, executor, sink, work);
         }
     }
     void regions(std::span<const Box> boxes, const Executor& executor, PairSink& sink,
@@ -147,7 +148,7 @@ template <Layout L> class LayoutModel final : public AnyLayout {
         require(Query::nearest);
         if constexpr (answers_query<L>(Query::nearest)) {
             using boxwood::nearest;
-            nearest(layout_, at, k, executor, out, work);
+            nearest(layout(), at, k, executor, out, work);
         }
     }
     void closest_points(std::span<const Vec3<float>> at, const TriangleMesh& mesh,
@@ -156,7 +157,7 @@ template <Layout L> class LayoutModel final : public AnyLayout {
         require(Query::closest_points);
         if constexpr (answers_query<L>(Query::closest_points)) {
             using boxwood::closest_points;
-            closest_points(layout_, at, mesh, executor, out, work);
+            closest_points(layout(), at, mesh, executor, out, work);
         }
     }
 
@@ -167,7 +168,7 @@ template <Layout L> class LayoutModel final : public AnyLayout {
         require(Query::regions);
         if constexpr (answers_query<L>(Query::regions)) {
             using boxwood::regions;
-            regions(layout_, of, executor, sink, work);
+            regions(layout(), of, executor, sink, work);
         }
     }
 
@@ -179,16 +180,17 @@ template <Layout L> class LayoutModel final : public AnyLayout {
             throw std::invalid_argument("a split tree is for rays and closest points alone; build "
                                         "one of the boxes for other queries");
     }
+    const L& layout() const { return held_; }
     const L& same(const AnyLayout& other) const {
         const auto* model = dynamic_cast<const LayoutModel*>(&other);
         if (!model)
             throw std::invalid_argument("tree_pairs wants two trees of the layout '" +
                                         std::string(L::name) + "'");
         model->require(Query::tree_pairs);
-        return model->layout_;
+        return model->layout();
     }
 
-    L layout_;
+    Held held_;
     bool is_split_;
 };
 

@@ -1,0 +1,87 @@
+"""What is installed is enough for programs elsewhere: trees/examples/ is built against it, and README.md quotes it."""
+
+import fcntl
+import json
+import os
+import re
+import subprocess
+
+import pytest
+from test_boxwood import PROGRAM, ROOT
+
+BUILD = PROGRAM.parent
+EXAMPLES = ROOT / "trees/examples"
+
+
+def run(*command, **options):
+    done = subprocess.run([*map(str, command)], capture_output=True, text=True, timeout=500, **options)
+    assert done.returncode == 0, f"{command}\n{done.stdout}\n{done.stderr}"
+    return done.stdout
+
+
+@pytest.fixture(scope="session")
+def installed(tmp_path_factory):
+    """Where Boxwood is installed."""
+    cache = BUILD / "CMakeCache.txt"
+    if not cache.exists() or not (BUILD / "install/cmake_install.cmake").exists():
+        pytest.skip(f"{BUILD} is not built")
+    if not re.search(r"^BOXWOOD_SANITIZE:STRING=$", cache.read_text(), re.M):
+        pytest.skip("what is installed has no sanitizers")
+    prefix = tmp_path_factory.mktemp("installed")
+    with open(BUILD / "install/one_at_a_time", "w") as lock:  # of the workers of pytest-xdist
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        run("cmake", "--install", BUILD, "--prefix", prefix)
+    return prefix
+
+
+def test_examples_run(installed, tmp_path):
+    run("cmake", "-S", EXAMPLES, "-B", tmp_path, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={installed}",
+        "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Wpedantic -Werror")  # fmt: skip
+    run("cmake", "--build", tmp_path)
+    tested = run("ctest", "--test-dir", tmp_path, "--output-on-failure")
+    assert f"100% tests passed, 0 tests failed out of {len(list(EXAMPLES.glob('*.cpp')))}" in tested
+
+
+def test_pkg_config_finds_it(installed, tmp_path):
+    (folder,) = installed.glob("lib*/**/pkgconfig")
+    environment = {**os.environ, "PKG_CONFIG_PATH": str(folder)}
+    flags = run("pkg-config", "--cflags", "--libs", "boxwood", env=environment).split()
+    program = tmp_path / "pairs"
+    run("g++", "-std=c++20", EXAMPLES / "pairs.cpp", "-o", program, *flags)
+    assert run(program) == "0,1\n"
+
+
+def test_every_header_that_is_included_is_installed(installed):
+    headers = installed / "include/boxwood"
+    files = list(headers.rglob("*.h"))
+    assert len(files) > 100
+    missing = {
+        f"{file.relative_to(headers)} includes {name}"
+        for file in files
+        for name in re.findall(r'^#include "([^"]+)"', file.read_text(), re.M)
+        if not (headers / name).exists()
+    }
+    assert not missing
+    assert not [file for file in files if {"testing", "oracle", "cuda"} & set(file.parts)]
+
+
+def test_as_a_part_of_another_project(tmp_path):
+    """add_subdirectory, which FetchContent calls: no bench, no tests, and nobody gets our flags."""
+    (tmp_path / "main.cpp").write_text("int main() {}\n")
+    (tmp_path / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.25)\nproject(other LANGUAGES CXX)\nset(CMAKE_EXPORT_COMPILE_COMMANDS ON)\n"
+        f"add_subdirectory({ROOT} boxwood)\nadd_executable(other main.cpp)\n"
+        "target_link_libraries(other PRIVATE boxwood::boxwood boxwood::trees boxwood::kernels)\n"
+    )
+    run("cmake", "-S", tmp_path, "-B", tmp_path / "build", "-G", "Ninja", "-DBOXWOOD_CUDA=OFF")
+    cache = (tmp_path / "build/CMakeCache.txt").read_text()
+    for part in ("BENCH", "TESTS"):
+        assert re.search(rf"^BOXWOOD_BUILD_{part}:BOOL=OFF$", cache, re.M)
+    commands = {entry["file"]: entry["command"] for entry in json.loads((tmp_path / "build/compile_commands.json").read_text())}
+    own = commands[str(tmp_path / "main.cpp")]
+    assert "-std=" in own and not re.search(r"-W\w|-f(?!PI)", own)
+    assert "-ffp-contract=off" in commands[str(ROOT / "trees/bvh.cpp")]
+
+
+def test_readme_quotes_the_first_example():
+    assert f"```cpp\n{(EXAMPLES / 'pairs.cpp').read_text()}```" in (ROOT / "README.md").read_text()
