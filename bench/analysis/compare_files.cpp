@@ -2,6 +2,7 @@
 #include "bench/analysis/comparisons.h"
 #include "bench/analysis/index.h"
 #include "bench/analysis/job.h"
+#include "bench/analysis/status.h"
 #include "bench/analysis/wording.h"
 
 #include <algorithm>

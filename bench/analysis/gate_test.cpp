@@ -1,0 +1,73 @@
+#include "bench/analysis/compare_files.h"
+#include "bench/analysis/status.h"
+#include "bench/testing/maker.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace boxwood::bench {
+namespace {
+
+using results::Results;
+
+/// Eight cells of ours, the first with a twin that is 2 % off, and three peers; 9 rounds.
+Results recorded() {
+    Maker maker(9);
+    for (int i = 0; i < 8; ++i)
+        maker.time(maker.cell("ours" + std::to_string(i), false), results::Phase::query,
+                   steady(100 + i));
+    maker.time(0, results::Phase::query, steady(102), results::aa_twin);
+    for (int i = 0; i < 3; ++i)
+        maker.time(maker.cell("peer" + std::to_string(i), true), results::Phase::query,
+                   steady(300 + i));
+    set_statuses(maker.results);
+    return maker.results;
+}
+
+/// The same run with the times of cells [first, last) multiplied.
+Results slowed(double factor, std::uint32_t first, std::uint32_t last) {
+    Results edited = recorded();
+    for (auto& sample : edited.samples)
+        if (first <= sample.cell_id && sample.cell_id < last)
+            sample.wall_ns *= factor;
+    return edited;
+}
+
+std::ptrdiff_t rows_with(const FileComparison& comparison, Gate gate) {
+    return std::ranges::count(comparison.rows, gate, &FileRow::gate);
+}
+
+TEST(Gate, AnIdenticalFilePasses) {
+    const FileComparison same = compare_files(recorded(), recorded());
+    EXPECT_NEAR(same.floor.value(), 0.02, 1e-9);
+    EXPECT_EQ(same.gate, Gate::passes);
+    EXPECT_EQ(rows_with(same, Gate::passes), 8);
+}
+
+TEST(Gate, EveryCellOfOursThreeTimesSlowerFails) {
+    const FileComparison slower = compare_files(recorded(), slowed(3, 0, 8));
+    EXPECT_EQ(slower.gate, Gate::fails);
+    EXPECT_EQ(rows_with(slower, Gate::fails), 8);
+}
+
+TEST(Gate, OneCellSlowerByEightPercentIsFound) {
+    for (std::uint32_t cell = 0; cell < 8; ++cell) {
+        const FileComparison slower = compare_files(recorded(), slowed(1.08, cell, cell + 1));
+        EXPECT_EQ(slower.gate, Gate::fails) << cell;
+        EXPECT_EQ(slower.rows[cell].gate, Gate::fails) << cell;
+        EXPECT_EQ(rows_with(slower, Gate::fails), 1) << cell;
+    }
+}
+
+TEST(Gate, AShiftOfEveryCellIsTheMachine) {
+    for (const double factor : {1.1, 1 / 1.1}) {
+        const FileComparison shifted = compare_files(recorded(), slowed(factor, 0, 11));
+        EXPECT_TRUE(shifted.peers_moved);
+        EXPECT_EQ(shifted.gate, Gate::open);
+        EXPECT_EQ(rows_with(shifted, Gate::open), 8);
+    }
+}
+
+} // namespace
+} // namespace boxwood::bench
