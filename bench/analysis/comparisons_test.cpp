@@ -390,16 +390,35 @@ TEST(CompareMachines, RoundsOfTwoMachinesDoNotMix) {
     EXPECT_EQ(rows[0].ci_hi, 0.5);
 }
 
-TEST(NoiseFloor, AboveTwentyPerCentNothingIsClaimed) {
+TEST(NoiseFloor, AboveTwentyPerCentOnlyWhatIsBeyondItIsClaimed) {
+    for (const auto& [ns, verdict] :
+         {std::pair{120., Verdict::cannot_tell}, {1000., Verdict::faster}}) {
+        Maker maker(9);
+        const auto ours = maker.cell("ours", false), peer = maker.cell("peer", true);
+        maker.time(ours, Phase::query, steady(100));
+        maker.time(peer, Phase::query, steady(ns));
+        maker.time(ours, Phase::query, steady(121), results::aa_twin);
+        const Comparison row = against_peers(maker.results)[0];
+        EXPECT_EQ(row.verdict, verdict);
+        EXPECT_EQ(row.words, verdict == Verdict::faster ? "faster" : "can't tell (too noisy)");
+    }
+}
+
+TEST(NoiseFloor, IsThatOfTheKind) {
     Maker maker(9);
-    const auto ours = maker.cell("ours", false), peer = maker.cell("peer", true);
-    maker.time(ours, Phase::query, steady(100));
-    maker.time(peer, Phase::query, steady(1000));
-    maker.time(ours, Phase::query, steady(121), results::aa_twin);
-    const Comparison row = against_peers(maker.results)[0];
-    EXPECT_EQ(row.verdict, Verdict::cannot_tell);
-    EXPECT_EQ(row.reason, Reason::too_noisy);
-    EXPECT_EQ(row.words, "can't tell (too noisy)");
+    const auto brief = maker.cell("brief", false), brief_peer = maker.cell("brief_peer", true),
+               lengthy = maker.cell("lengthy", false),
+               lengthy_peer = maker.cell("lengthy_peer", true);
+    maker.time(brief, Phase::query, steady(1e3));
+    maker.time(brief_peer, Phase::query, steady(1.1e3));
+    maker.time(lengthy, Phase::query, steady(1e7));
+    maker.time(lengthy_peer, Phase::query, steady(1.1e7));
+    maker.time(brief, Phase::query, steady(1.15e3), results::aa_twin);
+    maker.time(lengthy, Phase::query, steady(1.01e7), results::aa_twin);
+    const auto rows = against_peers(maker.results);
+    EXPECT_EQ(row_of(rows, brief_peer, brief, Phase::query).verdict, Verdict::cannot_tell);
+    EXPECT_EQ(row_of(rows, lengthy_peer, lengthy, Phase::query).verdict, Verdict::faster);
+    EXPECT_NEAR(row_of(rows, lengthy_peer, lengthy, Phase::query).floor, 0.01, 1e-6);
 }
 
 } // namespace

@@ -282,9 +282,6 @@ TEST_F(Findings, ANoisyRunSaysRepeatThisInstead) {
     EXPECT_THAT(text, HasSubstr("REPEAT THIS"));
     EXPECT_THAT(text, Not(HasSubstr("FCL")));
     EXPECT_TRUE(run.results.findings.empty());
-    // Though three times as much is beyond that noise.
-    ASSERT_EQ(run.results.compare.size(), 1u);
-    EXPECT_EQ(run.results.compare[0].verdict, results::Verdict::faster);
 }
 
 TEST_F(Findings, OneScreenHoldsAHundredQuestions) {

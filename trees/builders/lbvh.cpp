@@ -189,7 +189,13 @@ Tree LbvhBuilder::build(Boxes boxes, const Executor& executor) const {
 }
 
 Buffer<std::uint32_t> LbvhBuilder::order(Boxes boxes, const Executor& executor) const {
-    return coarse_curve_order(boxes, curve, executor);
+    const MergeableOrder coarse = mergeable_curve_order(boxes, curve, nullptr, executor);
+    if (coarse.records.empty())
+        return curve_order(boxes, curve, executor).order;
+    Buffer<std::uint32_t> order(boxes.size());
+    std::ranges::transform(coarse.records, order.begin(),
+                           [](std::uint64_t record) { return static_cast<std::uint32_t>(record); });
+    return order;
 }
 
 BuilderEntry lbvh_builder() { return builder_entry<LbvhBuilder>(); }
