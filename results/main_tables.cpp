@@ -164,6 +164,8 @@ std::vector<Table> main_tables() {
              {"t0_utc_ns", &Shard::t0_utc_ns, "ns", "start, since 1970 UTC"},
              {"load1", &Shard::load1, "", "load average of one minute at the start"},
              {"steal_ticks", &Shard::steal_ticks, "ticks", "taken by the hypervisor in the round"},
+             {"padding_bytes", &Shard::padding_bytes, "B",
+              "added to its environment, which moves the stack", 0, false, minor_3},
              {"gpu_copy_gbs", &Shard::gpu_copy_gbs, "GB/s", "within the device's memory", 0, false,
               minor_1},
              {"gpu_upload_gbs", &Shard::gpu_upload_gbs, "GB/s", "from pinned memory", 0, false,

@@ -18,7 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-std::vector<MeshBvhOptions> some_options() {
+std::vector<MeshBvhOptions> some_mesh_options() {
     return {{},
             {.builder = SpatialSahBuilder{}, .layout = LayoutName::wide16, .threads = 2},
             {.builder = HilbertBuilder{},
@@ -75,7 +75,7 @@ void expect_answers(const MeshBvh& bvh, const TriangleMesh& mesh) {
 
 TEST(MeshBvh, AnswersRaysAsBruteForceWithAnyOptions) {
     for (const TriangleMesh& mesh : {sphere(8), triangle_soup(300), TriangleMesh{}})
-        for (const MeshBvhOptions& options : some_options()) {
+        for (const MeshBvhOptions& options : some_mesh_options()) {
             SCOPED_TRACE(static_cast<int>(options.layout));
             expect_answers(MeshBvh(mesh, options), mesh);
             expect_answers(MeshBvh(mesh.vertices, mesh.triangles, options), mesh);
@@ -111,7 +111,7 @@ TEST(MeshBvh, FindsTheClosestPoint) {
 }
 
 TEST(MeshBvh, FollowsAMeshThatMovesAndMovesItself) {
-    for (const MeshBvhOptions& options : some_options()) {
+    for (const MeshBvhOptions& options : some_mesh_options()) {
         TriangleMesh mesh = sphere(6);
         MeshBvh bvh(mesh, options);
         for (Vec3<float>& v : mesh.vertices)
@@ -133,7 +133,7 @@ TEST(MeshBvh, RefusesBadMeshesAndStaysAsItWas) {
                 ThrowsMessage<std::invalid_argument>(HasSubstr("triangle 7")));
     EXPECT_THROW(MeshBvh(good, {.builder = BuildFunction{}}), std::invalid_argument);
     EXPECT_THROW(MeshBvh(good, {.threads = 0}), std::invalid_argument);
-    for (const MeshBvhOptions& options : some_options()) {
+    for (const MeshBvhOptions& options : some_mesh_options()) {
         MeshBvh bvh(good, options);
         for (const float not_good :
              {std::numeric_limits<float>::quiet_NaN(), RayHit::nowhere, -max_ray_coordinate}) {

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <limits>
 #include <memory>
+#include <string_view>
 
 namespace boxwood::bench {
 namespace {
@@ -56,6 +57,18 @@ void parse_shard(const std::string& text, SweepOptions& options) {
         throw BadInput(fmt::format("--shard \"{}\": write I/N with 0 <= I < N, such as 0/2", text));
 }
 
+/// "90s", "10min", "2h" -> seconds.
+double duration_s(const std::string& text) {
+    double value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, value);
+    const std::string_view unit(rest, static_cast<std::size_t>(end - rest));
+    const double unit_s = unit == "s" ? 1 : unit == "min" ? 60 : unit == "h" ? 3600 : 0;
+    if (error != std::errc{} || unit_s == 0 || !(value > 0 && value <= 1e6))
+        throw BadInput(fmt::format("--budget \"{}\": write a time such as 90s, 10min or 2h", text));
+    return value * unit_s;
+}
+
 /// The arguments of this process, blanks between them.
 std::string own_command_line() {
     std::ifstream file("/proc/self/cmdline", std::ios::binary);
@@ -86,6 +99,7 @@ void add_child(CLI::App& app, int& exit_code) {
 void add_sweep(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<SweepOptions>();
     auto shard = std::make_shared<std::string>();
+    auto budget = std::make_shared<std::string>();
     auto is_dry_run = std::make_shared<bool>(false);
     auto against = std::make_shared<std::filesystem::path>();
     auto fail_if = std::make_shared<std::string>();
@@ -101,6 +115,10 @@ void add_sweep(CLI::App& app, int& exit_code) {
         sweep->add_option("--shard", *shard,
                           "I/N: only the rounds with number mod N = I (boxwood merge joins the "
                           "files)");
+    CLI::Option* const timed = sweep->add_option(
+        "--budget", *budget,
+        "time for the rounds, such as 90s, 10min or 2h: more rounds than planned while "
+        "comparisons with peers are open, fewer (9 at least) where there is no more time");
     CLI::Option* const dry_run = sweep->add_flag(
         "--dry-run", *is_dry_run, "list the cells and guess the time; measure nothing");
     CLI::Option* const other =
@@ -109,6 +127,7 @@ void add_sweep(CLI::App& app, int& exit_code) {
                          "another boxwood program, such as that of the commit before: the rounds "
                          "of both take turns, its results go to OUT.base.h5, and both are compared")
             ->excludes(of_shards)
+            ->excludes(timed)
             ->excludes(dry_run);
     sweep
         ->add_option("--fail-if", *fail_if,
@@ -121,6 +140,8 @@ void add_sweep(CLI::App& app, int& exit_code) {
     sweep->callback([=, &exit_code] {
         if (!shard->empty())
             parse_shard(*shard, *options);
+        if (!budget->empty())
+            options->budget_s = duration_s(*budget);
         options->command_line = own_command_line();
         if (*is_dry_run)
             return list_cells(*options);

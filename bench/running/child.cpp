@@ -11,6 +11,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <sstream>
 #include <system_error>
@@ -18,19 +19,23 @@
 namespace boxwood::bench {
 namespace {
 
+constexpr const char* padding_variable = "BOXWOOD_PADDING";
+
 /// libgomp's threads spin for milliseconds after a region unless set not to; google-benchmark
 /// reads BENCHMARK_* variables as if they were options.
-std::vector<std::string> child_environment(unsigned max_threads) {
+std::vector<std::string> child_environment(unsigned max_threads, std::size_t padding) {
     std::vector<std::string> variables;
     for (char** variable = environ; *variable; ++variable) {
         const std::string_view text = *variable;
         if (!text.starts_with("OMP_") && !text.starts_with("GOMP_") &&
-            !text.starts_with("BENCHMARK_"))
+            !text.starts_with("BENCHMARK_") && !text.starts_with("GLIBC_TUNABLES="))
             variables.emplace_back(text);
     }
     variables.push_back("OMP_WAIT_POLICY=passive");
     variables.push_back("OMP_DYNAMIC=false");
     variables.push_back(fmt::format("OMP_NUM_THREADS={}", max_threads));
+    variables.push_back("GLIBC_TUNABLES=glibc.malloc.hugetlb=1");
+    variables.push_back(fmt::format("{}={}", padding_variable, std::string(padding, 'x')));
     return variables;
 }
 
@@ -117,13 +122,13 @@ bool listen(int pipe, Interrupt& interrupt, Conversation& conversation) {
 
 } // namespace
 
-ChildEnd run_child(std::vector<std::string> arguments, unsigned max_threads, Interrupt& interrupt,
-                   const Report& report) {
+ChildEnd run_child(std::vector<std::string> arguments, unsigned max_threads, std::size_t padding,
+                   Interrupt& interrupt, const Report& report) {
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0)
         throw std::system_error(errno, std::generic_category(), "pipe");
     arguments.insert(arguments.end(), {"--report-fd", std::to_string(ends[1])});
-    std::vector<std::string> variables = child_environment(max_threads);
+    std::vector<std::string> variables = child_environment(max_threads, padding);
     const std::vector<char*> argument_pointers = pointers_to(arguments);
     const std::vector<char*> variable_pointers = pointers_to(variables);
 
@@ -157,6 +162,11 @@ ChildEnd run_child(std::vector<std::string> arguments, unsigned max_threads, Int
         end.cause = fmt::format("exit code {}", WEXITSTATUS(status));
     }
     return end;
+}
+
+std::size_t own_padding() {
+    const char* const padding = std::getenv(padding_variable);
+    return padding ? std::strlen(padding) : 0;
 }
 
 void ChildReport::at(std::size_t done, std::size_t total, const std::string& cell) {

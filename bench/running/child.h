@@ -3,6 +3,7 @@
 #include "bench/io/progress.h"
 #include "bench/running/interrupt.h"
 
+#include <cstddef>
 #include <exception>
 #include <string>
 #include <vector>
@@ -23,13 +24,17 @@ struct ChildEnd {
 };
 
 /// Runs this executable again with other arguments and waits for its end. The child's environment
-/// is fit for timing (idle OpenMP threads sleep; no google-benchmark settings from outside). It
-/// does not see Ctrl-C, and dies with its parent.
+/// is fit for timing (idle OpenMP threads sleep; no google-benchmark settings from outside; malloc
+/// asks for huge pages, for peers as for us), and larger by `padding` bytes, which moves the stack:
+/// where memory lies is a matter of chance, too. It does not see Ctrl-C, and dies with its parent.
 /// `--report-fd N` is added to the arguments: where a ChildReport writes. `report` gets what it
 /// says; between two cells the parent sleeps, so as to take no time from what is measured. Throws
 /// std::system_error if no process can be started.
-ChildEnd run_child(std::vector<std::string> arguments, unsigned max_threads, Interrupt& interrupt,
-                   const Report& report);
+ChildEnd run_child(std::vector<std::string> arguments, unsigned max_threads, std::size_t padding,
+                   Interrupt& interrupt, const Report& report);
+
+/// Of this process.
+std::size_t own_padding();
 
 /// The child's side.
 class ChildReport {

@@ -37,7 +37,7 @@ ChildRun run(const std::string& fate) {
     result.end = run_child(
         {"victim", "--gtest_filter=Child.DISABLED_Victim", "--gtest_also_run_disabled_tests",
          "--gtest_catch_exceptions=0", "--gtest_brief=1", "--fate", fate},
-        2, interrupt, [&](std::size_t done, std::size_t total, const std::string& cell) {
+        2, 48, interrupt, [&](std::size_t done, std::size_t total, const std::string& cell) {
             result.reported.push_back(std::to_string(done) + "/" + std::to_string(total) + " " +
                                       cell);
             if (fate == "waits")
@@ -72,6 +72,10 @@ TEST(Child, DISABLED_Victim) {
         pause();
     const char* policy = std::getenv("OMP_WAIT_POLICY");
     const char* threads = std::getenv("OMP_NUM_THREADS");
+    const char* malloc_settings = std::getenv("GLIBC_TUNABLES");
+    if (own_padding() != 48 || !malloc_settings ||
+        std::string(malloc_settings) != "glibc.malloc.hugetlb=1")
+        std::_Exit(8);
     if (!policy || std::string(policy) != "passive" || !threads || std::string(threads) != "2" ||
         std::getenv("BENCHMARK_FILTER"))
         std::_Exit(9);

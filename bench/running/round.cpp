@@ -1,6 +1,7 @@
 #include "bench/running/round.h"
 
 #include "bench/running/cell_timer.h"
+#include "bench/running/child.h"
 #include "bench/running/usage.h"
 #include "trees/device.h"
 
@@ -134,6 +135,7 @@ results::Results run_round(const Plan& plan, const results::Results& prepared, u
     shard.env_id = prepared.env.at(0).env_id;
     shard.pid = static_cast<std::uint32_t>(getpid());
     shard.order_seed = order_seed_of(plan.seed, round);
+    shard.padding_bytes = own_padding();
     shard.t0_utc_ns = static_cast<std::uint64_t>(
         duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count());
     double load = 0;

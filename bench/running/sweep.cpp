@@ -3,6 +3,7 @@
 #include "bench/analysis/analyse.h"
 #include "bench/analysis/promises.h"
 #include "bench/analysis/screen.h"
+#include "bench/analysis/statistics.h"
 #include "bench/io/bad_input.h"
 #include "bench/io/csv.h"
 #include "bench/io/read_results.h"
@@ -31,6 +32,8 @@ namespace fs = std::filesystem;
 /// What a cell takes in a round beside its timed loops and their warm-up: contender, answers, hash.
 constexpr double set_up_ns = 1e6;
 
+constexpr std::size_t max_padding = 4096; ///< a page: beyond it all comes again
+
 double cell_s(const Calibration& calibration) { return (round_ns(calibration) + set_up_ns) * 1e-9; }
 
 /// Before anything was measured: a microsecond per item, ray, point and region for each phase.
@@ -55,7 +58,7 @@ class Sweep {
         shards_.open(); // before OUT is read: no other sweep may write it meanwhile
         read_earlier_output();
         write_sweep_file();
-        if (!get_prepared() || !run_rounds())
+        if (!get_prepared() || !run_rounds() || !run_more_rounds())
             return stop();
         return finish();
     }
@@ -105,7 +108,7 @@ class Sweep {
                 arguments.insert(arguments.end(), {"--skip", cell});
             Eta eta(static_cast<double>(plan_.cells.size()));
             const ChildEnd end =
-                run_child_process("preparing", arguments, eta, [](const auto&) { return 1.0; });
+                run_child_process("preparing", arguments, 0, eta, [](const auto&) { return 1.0; });
             if (end.kind == ChildEnd::Kind::interrupted)
                 return false;
             note_crash(end, "the preparation");
@@ -142,7 +145,7 @@ class Sweep {
         for (unsigned round = options_.shard; round < plan_.rounds; round += options_.shards)
             if (!done.contains(round))
                 wanted.push_back(round);
-        if (!done.empty())
+        if (!done.empty() && rounds_run_ == 0)
             progress_.say(fmt::format("{} rounds are there from an earlier start; {} to go",
                                       done.size(), wanted.size()));
 
@@ -154,13 +157,19 @@ class Sweep {
                          static_cast<double>(std::ranges::count_if(
                              wanted, [&](unsigned round) { return cell.is_in(round); }));
         Eta eta(all_s);
-        start_ = std::chrono::steady_clock::now();
+        if (rounds_run_ == 0)
+            start_ = std::chrono::steady_clock::now();
         for (auto round = wanted.begin(); round != wanted.end();) {
+            if (*round >= min_pairs_verdict * options_.shards && !has_time_for_a_round()) {
+                plan_.rounds = *round;
+                return true;
+            }
             std::vector<std::string> arguments = child_arguments(shards_.round_file(*round));
             arguments.insert(arguments.end(), {"--round", std::to_string(*round), "--prepared",
                                                shards_.prepared_file().string()});
             const ChildEnd end = run_child_process(
-                fmt::format("round {}/{}", *round + 1, plan_.rounds), arguments, eta,
+                fmt::format("round {}/{}", *round + 1, plan_.rounds), arguments,
+                order_seed_of(plan_.seed, *round) % max_padding, eta,
                 [&](const std::string& cell) { return cell_s(calibrations[cell]); });
             if (end.kind == ChildEnd::Kind::interrupted)
                 return false;
@@ -168,6 +177,7 @@ class Sweep {
             take_out_crashed();
             if (!fs::exists(shards_.round_file(*round)))
                 continue;
+            ++rounds_run_;
             if (!progress_.is_terminal())
                 progress_.say(fmt::format("round {}/{} done, {} left", *round + 1, plan_.rounds,
                                           duration_text(eta.left_s(elapsed_s()))));
@@ -176,8 +186,36 @@ class Sweep {
         return true;
     }
 
+    bool has_time_for_a_round() const {
+        return options_.budget_s == 0 ||
+               elapsed_s() * (1 + 1. / std::max(1u, rounds_run_)) <= options_.budget_s;
+    }
+
+    /// Of those planned or more, while there is time and a comparison with a peer is open. False if
+    /// it was interrupted.
+    bool run_more_rounds() {
+        while (options_.budget_s > 0 && write_output()) {
+            const auto open = std::ranges::count_if(merged_.compare, [](const auto& row) {
+                return row.family == results::Family::peers &&
+                       row.verdict == results::Verdict::cannot_tell &&
+                       row.reason != results::Reason::unchecked;
+            });
+            if (open == 0 || !has_time_for_a_round()) {
+                progress_.say(open == 0 ? "every comparison with a peer has its verdict"
+                                        : fmt::format("the budget is spent; {} of {} comparisons "
+                                                      "are open",
+                                                      open, merged_.compare.size()));
+                return true;
+            }
+            plan_.rounds += options_.shards;
+            if (!run_rounds())
+                return false;
+        }
+        return true;
+    }
+
     ChildEnd run_child_process(const std::string& stage, const std::vector<std::string>& arguments,
-                               Eta& eta, const Cost& cost) {
+                               std::size_t padding, Eta& eta, const Cost& cost) {
         double at_work = 0; // expected cost of the cell that runs now
         const Report report = [&](std::size_t, std::size_t, const std::string& cell) {
             eta.done(at_work);
@@ -185,7 +223,7 @@ class Sweep {
             progress_.show({stage, eta.fraction(), eta.left_s(elapsed_s()), cell});
         };
         progress_.show({stage, eta.fraction(), -1, ""});
-        ChildEnd end = run_child(arguments, max_threads(), interrupt_, report);
+        ChildEnd end = run_child(arguments, max_threads(), padding, interrupt_, report);
         eta.done(at_work);
         if (end.kind == ChildEnd::Kind::failed)
             throw BadInput(fmt::format("{}; what is finished is kept in {}: mend this and start "
@@ -295,6 +333,7 @@ class Sweep {
     Interrupt interrupt_;
     Progress progress_{stderr};
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    unsigned rounds_run_ = 0;
     std::optional<results::Results> earlier_; ///< what OUT held before
     results::Results prepared_, merged_;
     std::map<std::string, unsigned> crashes_;    ///< how often, by cell

@@ -13,6 +13,9 @@ struct SweepOptions {
     std::filesystem::path config, out;
     Overrides overrides;
     unsigned shard = 0, shards = 1; ///< only the rounds with round % shards == shard
+    /// If above 0, the time for all rounds: no more than 9 rounds where there is no more time, and
+    /// more than planned while comparisons with peers are open.
+    double budget_s = 0;
     std::string command_line;       ///< recorded
 };
 

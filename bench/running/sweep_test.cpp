@@ -262,6 +262,28 @@ TEST_F(SweepTest, MoreRoundsExtendAndShardsShareThem) {
     EXPECT_EQ(pids(results::read(out())), all);
 }
 
+TEST_F(SweepTest, ABudgetAddsRoundsAndTakesThemAway) {
+    write_config("n = 100\nbuilders = \"median\"\npeers = \"brute_force\"\n", 1);
+    ASSERT_EQ(sweep({"--budget", "2s"}), 0) << text_of(log());
+    EXPECT_GT(pids(results::read(out())).size(), 3u); // three leave comparisons open
+    EXPECT_THAT(text_of(log()), testing::AnyOf(HasSubstr("has its verdict"),
+                                               HasSubstr("the budget is spent; ")));
+    fs::remove(out());
+    ASSERT_EQ(sweep({"--rounds", "12", "--budget", "0.001s"}), 0) << text_of(log());
+    EXPECT_EQ(pids(results::read(out())).size(), 9u);
+    for (const char* bad : {"10", "-1s", "0min", "1day"})
+        EXPECT_EQ(sweep({"--budget", bad}), 2) << bad;
+}
+
+TEST_F(SweepTest, PaddingIsDrawnByRound) {
+    ASSERT_EQ(sweep(), 0) << text_of(log());
+    std::set<std::uint64_t> paddings;
+    for (const results::Shard& shard : results::read(out()).shards)
+        paddings.insert(shard.padding_bytes);
+    EXPECT_EQ(paddings.size(), 3u);
+    EXPECT_LT(*paddings.rbegin(), 4096u);
+}
+
 TEST_F(SweepTest, TwoDoNotWriteOneFile) {
     const pid_t first = start();
     const fs::path lock = out().string() + ".shards/lock";
