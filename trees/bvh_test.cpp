@@ -47,7 +47,7 @@ std::vector<Neighbour> brute_nearest(std::span<const Aabb<Real>> boxes, Point po
     return all;
 }
 
-std::vector<Pair> sorted(std::vector<Pair> pairs) {
+std::vector<Pair> ascending(std::vector<Pair> pairs) {
     std::ranges::sort(pairs);
     return pairs;
 }
@@ -68,7 +68,7 @@ Items in_boxes(Boxes boxes, Vec3<float> p) {
 
 void expect_all_answers(const BoxQueries& bvh, Boxes boxes) {
     const std::vector<Pair> pairs = brute_force(boxes);
-    EXPECT_EQ(sorted(bvh.self_pairs()), pairs);
+    EXPECT_EQ(ascending(bvh.self_pairs()), pairs);
     EXPECT_EQ(bvh.self_pair_count(), pairs.size());
 
     const QueriesOfRegions q = queries_for(boxes);
@@ -127,10 +127,10 @@ TEST(Bvh, PairsOfTwoTrees) {
                 wanted.push_back({i, j});
     for (const BvhOptions& options : some_options()) {
         const Bvh first(a, options), second(b, options);
-        EXPECT_EQ(sorted(first.pairs(second)), wanted);
+        EXPECT_EQ(ascending(first.pairs(second)), wanted);
         EXPECT_EQ(first.pair_count(second), wanted.size());
     }
-    EXPECT_EQ(sorted(DynamicBvh(a).pairs(DynamicBvh(b))), wanted);
+    EXPECT_EQ(ascending(DynamicBvh(a).pairs(DynamicBvh(b))), wanted);
     EXPECT_THAT([&] { Bvh(a).pairs(DynamicBvh(b)); },
                 ThrowsMessage<std::invalid_argument>(HasSubstr("two trees of the layout")));
 }
@@ -279,7 +279,7 @@ void expect_exact_answers(const BvhF64& bvh, const Boxes64& boxes) {
         for (std::uint32_t b = a + 1; b < boxes.size(); ++b)
             if (overlaps(boxes[a], boxes[b]))
                 pairs.push_back({a, b});
-    EXPECT_EQ(sorted(bvh.self_pairs()), pairs);
+    EXPECT_EQ(ascending(bvh.self_pairs()), pairs);
     EXPECT_EQ(bvh.self_pair_count(), pairs.size());
     for (std::size_t i = 0; i < boxes.size(); i += 3) {
         Aabb<double> box = boxes[i];
@@ -344,7 +344,7 @@ TEST(BvhF64, PairsOfTwoTreesAndBadInput) {
         for (std::uint32_t j = 0; j < b.size(); ++j)
             if (overlaps(a[i], b[j]))
                 wanted.push_back({i, j});
-    EXPECT_EQ(sorted(BvhF64(a).pairs(BvhF64(b))), wanted);
+    EXPECT_EQ(ascending(BvhF64(a).pairs(BvhF64(b))), wanted);
     EXPECT_EQ(BvhF64(a).pair_count(BvhF64(b)), wanted.size());
 
     constexpr double nan = std::numeric_limits<double>::quiet_NaN(),

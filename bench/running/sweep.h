@@ -16,7 +16,7 @@ struct SweepOptions {
     /// If above 0, the time for all rounds: no more than 9 rounds where there is no more time, and
     /// more than planned while comparisons with peers are open.
     double budget_s = 0;
-    std::string command_line;       ///< recorded
+    std::string command_line; ///< recorded
 };
 
 /// Prints the cells of a sweep and how long it may take.

@@ -266,8 +266,8 @@ TEST_F(SweepTest, ABudgetAddsRoundsAndTakesThemAway) {
     write_config("n = 100\nbuilders = \"median\"\npeers = \"brute_force\"\n", 1);
     ASSERT_EQ(sweep({"--budget", "2s"}), 0) << text_of(log());
     EXPECT_GT(pids(results::read(out())).size(), 3u); // three leave comparisons open
-    EXPECT_THAT(text_of(log()), testing::AnyOf(HasSubstr("has its verdict"),
-                                               HasSubstr("the budget is spent; ")));
+    EXPECT_THAT(text_of(log()),
+                testing::AnyOf(HasSubstr("has its verdict"), HasSubstr("the budget is spent; ")));
     fs::remove(out());
     ASSERT_EQ(sweep({"--rounds", "12", "--budget", "0.001s"}), 0) << text_of(log());
     EXPECT_EQ(pids(results::read(out())).size(), 9u);
