@@ -97,7 +97,7 @@ struct Shard {
     std::uint64_t order_seed = 0, t0_utc_ns = 0;
     double load1 = missing;
     std::uint64_t steal_ticks = 0;
-    std::uint64_t padding_bytes = 0;
+    std::uint64_t padding_bytes = no_count;
     double gpu_copy_gbs = missing; ///< this and the next before the round; NaN without a device
     double gpu_upload_gbs = missing, gpu_download_gbs = missing;
     double gpu_upload_pageable_gbs = missing, gpu_download_pageable_gbs = missing;
