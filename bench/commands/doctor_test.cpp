@@ -147,7 +147,7 @@ TEST(Devices, DoctorReadsClocksAndOtherUsers) {
 TEST(Devices, ListAndQuerySayWhyThereIsNone) {
     const std::string text = list_text("devices", false);
     if (!devices().empty())
-        GTEST_SKIP() << text;
+        GTEST_SKIP() << "there is a device here, and this is about having none:\n" << text;
     EXPECT_THAT(why_no_device(), Not(::testing::IsEmpty()));
     EXPECT_THAT(text, HasSubstr("none: "));
     EXPECT_THAT(list_text("", false), HasSubstr("`boxwood list devices` says why"));

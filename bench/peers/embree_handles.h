@@ -84,6 +84,20 @@ inline void throw_if_failed(RTCDevice device, const char* what) {
             fmt::format("embree: {} failed (error {})", what, static_cast<int>(error)));
 }
 
+/// The triangles of a mesh, shared with it; one vertex more than the mesh has follows, as Embree
+/// reads 16 bytes at the last one.
+inline Geometry triangle_geometry(RTCDevice device, std::span<const Vec3<float>> vertices_and_one,
+                                  const TriangleMesh& mesh) {
+    Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
+    rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                               vertices_and_one.data(), 0, sizeof(Vec3<float>),
+                               vertices_and_one.size() - 1);
+    rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                               mesh.triangles.data(), 0, sizeof(mesh.triangles[0]),
+                               mesh.triangles.size());
+    return geometry;
+}
+
 /// A committed scene of one geometry. What a geometry wants of REFIT counts in a scene of LOW
 /// alone.
 inline SceneHandle commit(RTCDevice device, Geometry geometry, RTCBuildQuality quality,

@@ -28,9 +28,11 @@ class EmbreePoints final : public Contender {
 
     void build() override {
         arena_.execute([&] {
-            embree_scene_ =
-                commit(device_.get(), query_ == PointQuery::surface_point ? mesh() : items(),
-                       quality_, RTC_SCENE_FLAG_NONE);
+            embree_scene_ = commit(device_.get(),
+                                   query_ == PointQuery::surface_point
+                                       ? triangle_geometry(device_.get(), vertices_, scene_.mesh)
+                                       : items(),
+                                   quality_, RTC_SCENE_FLAG_NONE);
         });
     }
 
@@ -77,16 +79,6 @@ class EmbreePoints final : public Contender {
         rtcSetGeometryBoundsFunction(geometry.get(), bounds_of_item, nullptr);
         return geometry;
     }
-    Geometry mesh() const {
-        Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-        rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                   vertices_.data(), 0, sizeof(Vec3<float>), vertices_.size() - 1);
-        rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                   scene_.mesh.triangles.data(), 0,
-                                   sizeof(scene_.mesh.triangles[0]), scene_.mesh.triangles.size());
-        return geometry;
-    }
-
     struct Current {
         const EmbreePoints* self;
         std::uint32_t query;

@@ -133,12 +133,7 @@ EmbreeRays::EmbreeRays(const Job& job, const RaySettings& settings)
 
 void EmbreeRays::build() {
     arena_.execute([&] {
-        Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-        rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                   vertices_.data(), 0, sizeof(Vec3<float>), vertices_.size() - 1);
-        rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                   scene_.mesh.triangles.data(), 0,
-                                   sizeof(scene_.mesh.triangles[0]), scene_.mesh.triangles.size());
+        Geometry geometry = triangle_geometry(device_.get(), vertices_, scene_.mesh);
         if (settings_.wanted == Wanted::all)
             rtcSetGeometryIntersectFilterFunction(geometry.get(), collect);
         embree_scene_ = commit(device_.get(), std::move(geometry), settings_.quality,

@@ -29,7 +29,7 @@ struct CloudInRoom {
     static Scene generate(const SceneSpec& spec) {
         constexpr std::uint64_t n_pairs = 4096;
         constexpr double inside = 1 - share_outside;
-        const Random sampled(spec.seed, "cloud_in_room.sample"), random(spec.seed, name);
+        const Random sampled(spec.seed, "cloud_in_room.sample");
         std::vector<PlacementPair> sample; // the pairs of the cloud: all others are too far apart
         for (std::uint64_t k = 0; k < n_pairs; ++k) {
             Draws draws = sampled.item(k);
@@ -39,13 +39,10 @@ struct CloudInRoom {
         const double probability = overlap_probability(spec) / (inside * inside);
         const double scale = scale_of(sample, probability < 0.5 ? probability : 0.5);
         Scene scene;
-        scene.boxes.reserve(spec.n);
-        for (std::size_t i = 0; i < spec.n; ++i) {
-            Draws draws = random.item(i);
+        scene.boxes = draw_boxes(spec, name, scale, [](std::size_t, Draws& draws) {
             const bool is_outside = draws.uniform() < share_outside;
-            const Placement placement = place(is_outside, draws);
-            scene.boxes.push_back(draw_box(placement, scale, draws));
-        }
+            return place(is_outside, draws);
+        });
         scene.params_json =
             fmt::format(R"({{"overlaps":{},"scale":{},"cloud_side":{},"outside":{}}})",
                         spec.overlaps, scale, cloud_side, share_outside);

@@ -82,14 +82,10 @@ struct Clusters {
     static Scene generate(const SceneSpec& spec) {
         const std::vector<Cluster> clusters = make_clusters(spec.seed);
         const double scale = clusters_scale(spec, clusters);
-        const Random random(spec.seed, name);
         Scene scene;
-        scene.boxes.reserve(spec.n);
-        for (std::size_t i = 0; i < spec.n; ++i) {
-            Draws draws = random.item(i);
-            const Placement placement = place(clusters, cluster_of(i), draws);
-            scene.boxes.push_back(draw_box(placement, scale, draws));
-        }
+        scene.boxes = draw_boxes(spec, name, scale, [&](std::size_t i, Draws& draws) {
+            return place(clusters, cluster_of(i), draws);
+        });
         scene.params_json =
             fmt::format(R"({{"overlaps":{},"scale":{},"clusters":{},"background":{}}})",
                         spec.overlaps, scale, n_clusters, background);

@@ -22,7 +22,7 @@ struct Layer {
 
     static Scene generate(const SceneSpec& spec) {
         constexpr std::uint64_t n_pairs = 8192;
-        const Random sampled(spec.seed, "layer.sample"), random(spec.seed, name);
+        const Random sampled(spec.seed, "layer.sample");
         std::vector<PlacementPair> sample;
         for (std::uint64_t k = 0; k < n_pairs; ++k) {
             Draws draws = sampled.item(k);
@@ -31,12 +31,8 @@ struct Layer {
         }
         const double scale = scale_of(sample, overlap_probability(spec));
         Scene scene;
-        scene.boxes.reserve(spec.n);
-        for (std::size_t i = 0; i < spec.n; ++i) {
-            Draws draws = random.item(i);
-            const Placement placement = place(draws);
-            scene.boxes.push_back(draw_box(placement, scale, draws));
-        }
+        scene.boxes =
+            draw_boxes(spec, name, scale, [&](std::size_t, Draws& draws) { return place(draws); });
         scene.params_json = fmt::format(R"({{"overlaps":{},"scale":{},"thickness":{}}})",
                                         spec.overlaps, scale, thickness);
         return scene;

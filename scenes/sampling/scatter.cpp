@@ -84,6 +84,19 @@ Aabb<float> draw_box(const Placement& placement, double scale, Draws& draws) {
     return box;
 }
 
+std::vector<Aabb<float>> draw_boxes(const SceneSpec& spec, std::string_view name, double scale,
+                                    const std::function<Placement(std::size_t i, Draws&)>& place) {
+    const Random random(spec.seed, name);
+    std::vector<Aabb<float>> boxes;
+    boxes.reserve(spec.n);
+    for (std::size_t i = 0; i < spec.n; ++i) {
+        Draws draws = random.item(i);
+        const Placement placement = place(i, draws);
+        boxes.push_back(draw_box(placement, scale, draws));
+    }
+    return boxes;
+}
+
 namespace {
 
 /// The factor at which as many overlap as spec.overlaps says.
@@ -123,14 +136,9 @@ struct CentredTriangle {
 
 Scene scattered_boxes(const SceneSpec& spec, std::string_view name, const HalfSize& half_size) {
     const double scale = scattered_scale(spec, name, half_size);
-    const Random random(spec.seed, name);
     Scene scene;
-    scene.boxes.reserve(spec.n);
-    for (std::size_t i = 0; i < spec.n; ++i) {
-        Draws draws = random.item(i);
-        const Placement placement = scattered(half_size, draws);
-        scene.boxes.push_back(draw_box(placement, scale, draws));
-    }
+    scene.boxes = draw_boxes(
+        spec, name, scale, [&](std::size_t, Draws& draws) { return scattered(half_size, draws); });
     scene.params_json = scattered_params(spec, scale);
     return scene;
 }

@@ -38,6 +38,11 @@ double overlap_probability(const SceneSpec& spec);
 /// Draws the box of a placement: its centre, then its corners, rounded to float. Valid always.
 Aabb<float> draw_box(const Placement& placement, double scale, Draws& draws);
 
+/// spec.n boxes, each at the placement that is drawn for it. `name` is the stream of random
+/// numbers.
+std::vector<Aabb<float>> draw_boxes(const SceneSpec& spec, std::string_view name, double scale,
+                                    const std::function<Placement(std::size_t i, Draws&)>& place);
+
 /// The half size of a box before scaling, drawn.
 using HalfSize = std::function<Vec3<double>(Draws&)>;
 

@@ -159,6 +159,33 @@ TEST(CurveOrder, IsTheSameOnEveryExecutorAndInstructionSet) {
         }
 }
 
+TEST(CurveOrder, NeighboursInACrowdAreNeighboursInTheOrder) {
+    // A cloud that is one cell of the room, which holds another that is one cell of that.
+    std::vector<Box> boxes = random_boxes(6000, .001f, 9);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const float scale = i % 100 == 0 ? 1
+                            : i % 2      ? 1e-3f
+                                         : 1e-5f; // one in a hundred is anywhere
+        boxes[i] = {scale * boxes[i].min, scale * boxes[i].max};
+    }
+    const auto mean_step = [&](std::span<const std::uint32_t> order, float scale) {
+        double sum = 0, n = 0;
+        const Box* last = nullptr;
+        for (const std::uint32_t item : order)
+            if ((item % 100 != 0) && (item % 2 ? 1e-3f : 1e-5f) == scale) {
+                if (last)
+                    sum += static_cast<double>(length(boxes[item].min - last->min) / scale), ++n;
+                last = &boxes[item];
+            }
+        return sum / n;
+    };
+    const auto coarse = coarse_curve_order(boxes, Curve::hilbert, serial());
+    const auto in_blocks = block_curve_order(boxes, Curve::hilbert, nullptr, serial());
+    for (const float scale : {1e-3f, 1e-5f}) // in any order a step is two thirds of the cloud
+        for (const auto& order : {coarse.span(), in_blocks.span()})
+            EXPECT_LT(mean_step(order, scale), 0.15) << scale;
+}
+
 TEST(CurveOrder, NamesTheFirstBadBox) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float inf = std::numeric_limits<float>::infinity();
