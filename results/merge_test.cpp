@@ -141,6 +141,18 @@ TEST(Merge, RoundsAddUpWhateverTheIds) {
     }
 }
 
+TEST(Merge, TimesOfTwoProcessorModelsAreNeverPooled) {
+    Results a = part("a", 0), b = part("b", 1);
+    a.env[0].cpu = "one";
+    b.env[0].cpu = "other";
+    const std::vector<std::string> names{"a.h5", "b.h5"};
+    EXPECT_EQ(merge_error(std::array{a, b}, names),
+              "cannot merge: b.h5 was measured on 'other', those before it on 'one'; times of two "
+              "processor models are never pooled: keep a file for each");
+    b.env[0].cpu = "one"; // two machines of one model
+    EXPECT_EQ(merge_error(std::array{a, b}, names), "");
+}
+
 TEST(Merge, MachinesStayApart) {
     Results b = part("b", 0);
     b.sweep_hash = "other";

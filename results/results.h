@@ -76,8 +76,8 @@ Results read(const std::filesystem::path& file, Required required = Required::al
 /// Joins results of one or several machines: equal scenes, variants, cells and machine states (by
 /// content key) become one row, and ids are remapped. Shards that stand in several parts are kept
 /// once; what is derived is left out. Throws std::runtime_error, naming the parts by `names`, if
-/// one cell name stands for different scene contents, or one shard has different samples in two
-/// parts.
+/// one cell name stands for different scene contents, one shard has different samples in two parts,
+/// or they were measured on two processor models, whose times are never pooled.
 Results merge(std::span<const Results> parts, std::span<const std::string> names = {});
 
 } // namespace boxwood::results

@@ -234,7 +234,7 @@ FileComparison compare_files(const Results& base, const Results& head, const Fil
     result.rows = std::move(ours.rows);
     result.lost = std::move(ours.lost);
 
-    const bool times_count = result.is_same_cpu && !result.peers_moved;
+    const bool times_count = (result.is_same_cpu || options.any_processor) && !result.peers_moved;
     const bool is_timed = result.max_family > 0;
     result.gate = result.lost.empty() && is_timed ? Gate::passes : Gate::open;
     for (FileRow& row : result.rows) {

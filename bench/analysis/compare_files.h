@@ -48,17 +48,18 @@ struct FileOptions {
     double delta = default_delta;                          ///< "same" is within this
     std::optional<double> fail_if{};                       ///< slower by more than this fails
     std::function<bool(const std::string& cell)> wanted{}; ///< else all; of the peers always all
+    bool any_processor = false; ///< else times of two processor models are no evidence
     /// How much slower a timing may be.
     double limit() const { return fail_if.value_or(delta); }
 };
 /// Cells are matched by name, rounds by number: within a machine state that both files have, else
-/// in order of time on one processor. Rows of one job (scene, task, threads) and phase are decided
+/// in order of time. Rows of one job (scene, task, threads) and phase are decided
 /// together, so that one slip among many jobs is found. Needs Cell::status in both.
 /// A row fails if it is newly wrong, or its verdict is slower and the interval that decided lies
 /// above 1 + fail_if (1 without it); it passes if max_ratio is at most 1 + limit and the noise
 /// floor is no higher (or the verdict is faster). All fail if one does; all pass if every row does,
-/// one is timed and nothing is lost. On another processor, or where the peers moved, times neither
-/// fail nor pass.
+/// one is timed and nothing is lost. Where the peers moved, or on another processor unless
+/// any_processor, times neither fail nor pass.
 FileComparison compare_files(const results::Results& base, const results::Results& head,
                              const FileOptions& options = {});
 

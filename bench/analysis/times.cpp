@@ -18,7 +18,7 @@ using ByCell = std::map<std::uint32_t, Times::Phases>;
 ByCell times_of(const Results& results, const std::set<std::string>& machines, bool twins) {
     std::map<std::uint32_t, std::string> machine_of;
     for (const auto& env : results.env)
-        machine_of[env.env_id] = machines.contains(env.env_hash) ? env.env_hash : env.cpu;
+        machine_of[env.env_id] = machines.contains(env.env_hash) ? env.env_hash : "";
     std::map<std::uint32_t, const results::Shard*> shard_of;
     for (const auto& shard : results.shards)
         shard_of[shard.shard_id] = &shard;

@@ -20,14 +20,13 @@ namespace boxwood::bench {
 /// and query where a cell has both phases.
 class Times {
   public:
-    /// Machine or processor, and round number; in a merged file a machine may have a number several
-    /// times.
+    /// Machine state and round number; in a merged file a machine may have a number several times.
     using RoundKey = std::pair<std::string, std::uint32_t>;
     using Rounds = std::map<RoundKey, std::vector<double>>; ///< wall_ns in order of time
     using Phases = std::map<results::Phase, Rounds>;
 
     explicit Times(const results::Results& results);
-    /// Machine states outside `machines` are taken as one for each processor model.
+    /// Machine states outside `machines` are taken as one.
     Times(const results::Results& results, const std::set<std::string>& machines);
 
     const std::map<std::uint32_t, Phases>& by_cell() const { return cells_; }

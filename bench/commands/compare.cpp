@@ -85,8 +85,9 @@ std::string verdict_line(const FileComparison& comparison, const FileOptions& op
                 fmt::format("the answers of {} cell{} newly wrong", n, n > 1 ? "s" : ""));
         return "REGRESSION: " + comma_list(parts) + summary_text(comparison);
     }
-    if (!comparison.is_same_cpu)
-        parts.push_back("the processors differ");
+    if (!comparison.is_same_cpu && !options.any_processor)
+        parts.push_back("the processors differ, and so do times for that alone "
+                        "(--any-processor compares all the same)");
     else if (comparison.peers_moved)
         parts.push_back(fmt::format("the machine changed and not our code alone, as the peers take "
                                     "{} of their time",
@@ -205,8 +206,11 @@ int exit_code_of(Gate gate) {
 std::string comparison_text(const Results& base, const Results& head,
                             const FileComparison& comparison, const FileOptions& options,
                             const FileView& view) {
-    std::string text = verdict_line(comparison, options) + file_text("base", base) +
-                       file_text("head", head) + notes_text(comparison);
+    std::string text =
+        verdict_line(comparison, options) + file_text("base", base) + file_text("head", head);
+    if (!comparison.is_same_cpu && !options.any_processor && comparison.gate == Gate::open)
+        return text;
+    text += notes_text(comparison);
     for (const Lost& lost : comparison.lost)
         text += fmt::format("lost: {}: {} in the head\n", lost.cell, lost.why);
     const std::string table = table_text(comparison.rows, view);
@@ -269,7 +273,7 @@ std::string comparison_json(const Results& base, const Results& head,
 void add_compare(CLI::App& app, int& exit_code) {
     struct Options {
         std::string base, head, fail_if, delta = "5%", only;
-        bool all = false, markdown = false, json = false;
+        bool all = false, markdown = false, json = false, any_processor = false;
     };
     auto options = std::make_shared<Options>();
     CLI::App* compare = app.add_subcommand(
@@ -284,6 +288,8 @@ void add_compare(CLI::App& app, int& exit_code) {
     compare->add_option("--only", options->only, "cells whose name has a match of this regex");
     compare->add_flag("--all", options->all,
                       "every row, and the peers', which no gate looks at; else what changed");
+    compare->add_flag("--any-processor", options->any_processor,
+                      "compare the times of two processor models, too: else can't tell");
     CLI::Option* markdown =
         compare->add_flag("--markdown", options->markdown, "the table in Markdown");
     compare->add_flag("--json", options->json, "all of it as JSON")->excludes(markdown);
@@ -294,6 +300,7 @@ void add_compare(CLI::App& app, int& exit_code) {
     compare->callback([options, &exit_code] {
         FileOptions chosen;
         chosen.delta = percent_of(options->delta);
+        chosen.any_processor = options->any_processor;
         if (!options->fail_if.empty())
             chosen.fail_if = fail_threshold(options->fail_if);
         if (!options->only.empty())

@@ -39,7 +39,8 @@ void merge_files(const std::vector<std::string>& files, const std::string& out) 
 void add_merge(CLI::App& app, int&) {
     auto files = std::make_shared<std::vector<std::string>>();
     auto out = std::make_shared<std::string>();
-    CLI::App* merge = app.add_subcommand("merge", "join result files, also from several machines");
+    CLI::App* merge = app.add_subcommand(
+        "merge", "join result files, also from several machines of one processor model");
     merge->add_option("files", *files, "result files (HDF5)")->required();
     merge->add_option("--out", *out, "the file to write; none of the inputs")->required();
     merge->footer("Example: boxwood merge monday.h5 tuesday.h5 --out both.h5\n"
