@@ -277,6 +277,7 @@ TEST_F(ResultFile, AnOlderMinorVersionMayLackWhatCameLater) {
     results.device_gains.clear();
     for (Shard& shard : results.shards) {
         shard.padding_bytes = no_count;
+        shard.other_cores = missing;
         shard.gpu_copy_gbs = shard.gpu_upload_gbs = shard.gpu_download_gbs =
             shard.gpu_upload_pageable_gbs = shard.gpu_download_pageable_gbs = shard.gpu_launch_ns =
                 missing;
@@ -354,7 +355,10 @@ TEST_F(ResultFile, AWordThatIsNoneIsAnErrorThatNamesIt) {
 }
 
 TEST_F(ResultFile, WhoChangesItBreaksTheSeal) {
-    write(file_, filled_example());
+    Results example = filled_example();
+    for (Env& env : example.env)
+        env.cpu = "one";
+    write(file_, example);
     EXPECT_TRUE(read(file_).is_sealed);
     set_attribute("schema_minor", 0); // nothing is different but that it was written to
     EXPECT_FALSE(read(file_).is_sealed);

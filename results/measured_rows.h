@@ -92,12 +92,16 @@ struct Cell {
 };
 inline bool is_device(const Cell& cell) { return is_of_device(cell.executor); }
 
+/// Of Shard::other_cores: above it the machine is not quiet.
+inline constexpr double quiet_cores = .3;
+
 struct Shard {
     std::uint32_t shard_id = 0, round = 0, env_id = 0, pid = 0;
     std::uint64_t order_seed = 0, t0_utc_ns = 0;
     double load1 = missing;
     std::uint64_t steal_ticks = 0;
     std::uint64_t padding_bytes = no_count;
+    double other_cores = missing;
     double gpu_copy_gbs = missing; ///< this and the next before the round; NaN without a device
     double gpu_upload_gbs = missing, gpu_download_gbs = missing;
     double gpu_upload_pageable_gbs = missing, gpu_download_pageable_gbs = missing;

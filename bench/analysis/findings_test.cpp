@@ -231,6 +231,10 @@ TEST_F(Findings, CountWhatWasAnsweredAndWhatWasDisturbed) {
     EXPECT_DOUBLE_EQ(health.delta, 0.07);
     EXPECT_DOUBLE_EQ(delta_of(std::vector<results::Results>{{}, run.results}), 0.07);
     EXPECT_THAT(screen(), HasSubstr("9 rounds, 8.3 % of the samples disturbed"));
+    EXPECT_THAT(screen(), Not(HasSubstr("beside other programs")));
+    run.results.shards.at(0).other_cores = 1;
+    analyse(run.results);
+    EXPECT_THAT(screen(), HasSubstr("9 rounds (1 began beside other programs), 8.3 %"));
 }
 
 TEST_F(Findings, AWrongAnswerOfATwinIsOne) {

@@ -46,14 +46,15 @@ std::uint64_t max_rounds(const Results& results) {
     return highest;
 }
 
-/// lowest: of the noise floors.
-std::string trust_text(const Health& health, double lowest) {
+/// lowest: of the noise floors; busy: rounds that began while others worked.
+std::string trust_text(const Health& health, double lowest, std::ptrdiff_t busy) {
     if (health.samples == 0)
         return "";
-    std::string text = fmt::format("{} round{}, {:.1f} % of the samples disturbed; ", health.rounds,
-                                   health.rounds == 1 ? "" : "s",
-                                   100 * static_cast<double>(health.disturbed) /
-                                       static_cast<double>(health.samples));
+    std::string text = fmt::format(
+        "{} round{}{}, {:.1f} % of the samples disturbed; ", health.rounds,
+        health.rounds == 1 ? "" : "s",
+        busy > 0 ? fmt::format(" ({} began beside other programs)", busy) : "",
+        100 * static_cast<double>(health.disturbed) / static_cast<double>(health.samples));
     if (std::isnan(health.floor))
         text += "noise floor not known";
     else if (lowest < health.floor)
@@ -103,7 +104,10 @@ Health health_of(const Results& results, const NoiseFloors& floors, double delta
     health.is_too_noisy = lowest > max_floor;
     const std::string first_wrong = count_answers(results, health);
     health.broken_promises = broken_promises(results);
-    health.trust = trust_text(health, lowest);
+    health.trust =
+        trust_text(health, lowest, std::ranges::count_if(results.shards, [](const auto& shard) {
+                       return shard.other_cores > results::quiet_cores;
+                   }));
     health.correctness = correctness_text(results, health, first_wrong);
     if (health.is_too_noisy)
         health.advice = fmt::format("REPEAT THIS: the same work timed twice differed by more than "

@@ -58,14 +58,16 @@ void parse_shard(const std::string& text, SweepOptions& options) {
 }
 
 /// "90s", "10min", "2h" -> seconds.
-double duration_s(const std::string& text) {
+double duration_s(const std::string& option, const std::string& text, bool may_be_0) {
     double value = 0;
     const char* const end = text.data() + text.size();
     const auto [rest, error] = std::from_chars(text.data(), end, value);
     const std::string_view unit(rest, static_cast<std::size_t>(end - rest));
     const double unit_s = unit == "s" ? 1 : unit == "min" ? 60 : unit == "h" ? 3600 : 0;
-    if (error != std::errc{} || unit_s == 0 || !(value > 0 && value <= 1e6))
-        throw BadInput(fmt::format("--budget \"{}\": write a time such as 90s, 10min or 2h", text));
+    if (error != std::errc{} || unit_s == 0 ||
+        !((value > 0 || (may_be_0 && value == 0)) && value <= 1e6))
+        throw BadInput(
+            fmt::format("{} \"{}\": write a time such as 90s, 10min or 2h", option, text));
     return value * unit_s;
 }
 
@@ -89,6 +91,7 @@ void add_child(CLI::App& app, int& exit_code) {
     child->add_option("--prepared", options->prepared, "what the preparation wrote");
     child->add_flag("--prepare", options->is_preparation, "prepare instead of timing a round");
     child->add_option("--round", options->round, "the round's number, from 0");
+    child->add_option("--other-cores", options->other_cores, "processors at work for others");
     child->add_option("--skip", options->skip, "cells that the preparation leaves out")->take_all();
     child->add_option("--report-fd", options->report_fd, "where to report")->required();
     child->callback([options, &exit_code] { exit_code = run_sweep_child(*options); });
@@ -100,6 +103,7 @@ void add_sweep(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<SweepOptions>();
     auto shard = std::make_shared<std::string>();
     auto budget = std::make_shared<std::string>();
+    auto wait = std::make_shared<std::string>("60s");
     auto is_dry_run = std::make_shared<bool>(false);
     auto against = std::make_shared<std::filesystem::path>();
     auto fail_if = std::make_shared<std::string>();
@@ -119,6 +123,11 @@ void add_sweep(CLI::App& app, int& exit_code) {
         "--budget", *budget,
         "time for the rounds, such as 90s, 10min or 2h: more rounds than planned while "
         "comparisons with peers are open, fewer (9 at least) where there is no more time");
+    sweep
+        ->add_option("--wait", *wait,
+                     "how long rounds wait in all for other programs to end, and no longer than "
+                     "they take; 0s: not at all")
+        ->capture_default_str();
     CLI::Option* const dry_run = sweep->add_flag(
         "--dry-run", *is_dry_run, "list the cells and guess the time; measure nothing");
     CLI::Option* const other =
@@ -141,7 +150,8 @@ void add_sweep(CLI::App& app, int& exit_code) {
         if (!shard->empty())
             parse_shard(*shard, *options);
         if (!budget->empty())
-            options->budget_s = duration_s(*budget);
+            options->budget_s = duration_s("--budget", *budget, false);
+        options->wait_s = duration_s("--wait", *wait, true);
         options->command_line = own_command_line();
         if (*is_dry_run)
             return list_cells(*options);

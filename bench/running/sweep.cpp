@@ -12,6 +12,7 @@
 #include "bench/running/child.h"
 #include "bench/running/environment.h"
 #include "bench/running/prepare.h"
+#include "bench/running/quiet.h"
 #include "bench/running/shards.h"
 #include "bench/truth/crash.h"
 
@@ -157,6 +158,8 @@ class Sweep {
                          static_cast<double>(std::ranges::count_if(
                              wanted, [&](unsigned round) { return cell.is_in(round); }));
         Eta eta(all_s);
+        if (!quiet_wait_)
+            quiet_wait_.emplace(std::min(options_.wait_s, all_s));
         if (rounds_run_ == 0)
             start_ = std::chrono::steady_clock::now();
         for (auto round = wanted.begin(); round != wanted.end();) {
@@ -164,9 +167,11 @@ class Sweep {
                 plan_.rounds = *round;
                 return true;
             }
+            const double other_cores = wait_until_quiet(eta.fraction());
             std::vector<std::string> arguments = child_arguments(shards_.round_file(*round));
             arguments.insert(arguments.end(), {"--round", std::to_string(*round), "--prepared",
-                                               shards_.prepared_file().string()});
+                                               shards_.prepared_file().string(), "--other-cores",
+                                               fmt::format("{:.2f}", other_cores)});
             const ChildEnd end = run_child_process(
                 fmt::format("round {}/{}", *round + 1, plan_.rounds), arguments,
                 order_seed_of(plan_.seed, *round) % max_padding, eta,
@@ -184,6 +189,21 @@ class Sweep {
             ++round;
         }
         return true;
+    }
+
+    /// Gives how many processors work for others. What comes of an interrupt shows in the round.
+    double wait_until_quiet(double fraction) {
+        const bool may_wait = quiet_wait_->may_wait();
+        const double cores = quiet_wait_->wait([&](double busy) {
+            progress_.show({fmt::format("waiting for a quiet machine ({:.1f} cores busy)", busy),
+                            fraction, -1, ""});
+            return !interrupt_.requested();
+        });
+        if (may_wait && cores > results::quiet_cores && !quiet_wait_->may_wait())
+            progress_.say(fmt::format("other programs take {:.1f} processors, and rounds wait no "
+                                      "longer: times will be noisy",
+                                      cores));
+        return cores;
     }
 
     bool has_time_for_a_round() const {
@@ -334,6 +354,7 @@ class Sweep {
     Progress progress_{stderr};
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     unsigned rounds_run_ = 0;
+    std::optional<QuietWait> quiet_wait_;
     std::optional<results::Results> earlier_; ///< what OUT held before
     results::Results prepared_, merged_;
     std::map<std::string, unsigned> crashes_;    ///< how often, by cell

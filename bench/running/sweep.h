@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bench/plan/plan.h"
+#include "results/results.h"
 
 #include <filesystem>
 #include <set>
@@ -16,6 +17,8 @@ struct SweepOptions {
     /// If above 0, the time for all rounds: no more than 9 rounds where there is no more time, and
     /// more than planned while comparisons with peers are open.
     double budget_s = 0;
+    /// How long rounds wait in all for a quiet machine; and no longer than they take.
+    double wait_s = 60;
     std::string command_line; ///< recorded
 };
 
@@ -34,7 +37,8 @@ struct ChildOptions {
     std::string sweep_hash; ///< that of the parent's plan
     bool is_preparation = false;
     unsigned round = 0;
-    std::set<std::string> skip; ///< cells that the preparation leaves out
+    double other_cores = results::missing; ///< processors at work for others before the round
+    std::set<std::string> skip;            ///< cells that the preparation leaves out
     int report_fd = -1;
 };
 

@@ -26,7 +26,9 @@ results::Results work(const ChildOptions& options, const Report& report) {
     const results::Results prepared = results::read(options.prepared);
     if (environment(false).env_hash != prepared.env.at(0).env_hash)
         throw BadInput("the machine or the build changed while the sweep ran");
-    return run_round(plan, prepared, options.round, report);
+    results::Results results = run_round(plan, prepared, options.round, report);
+    results.shards.at(0).other_cores = options.other_cores;
+    return results;
 }
 
 } // namespace
