@@ -4,7 +4,7 @@
 #include "bench/analysis/kernel_costs.h"
 #include "bench/analysis/promises.h"
 #include "bench/commands/command.h"
-#include "bench/running/environment.h"
+#include "bench/machine/environment.h"
 #include "bench/truth/judging/case_truths.h"
 
 #include <CLI/CLI.hpp>

@@ -3,7 +3,7 @@
 #include "bench/commands/command.h"
 #include "bench/commands/devices.h"
 #include "bench/io/json.h"
-#include "bench/running/environment.h"
+#include "bench/machine/environment.h"
 #include "bench/tasks/contender.h"
 #include "bench/tasks/instruction_sets.h"
 

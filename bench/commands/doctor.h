@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/running/machine.h"
+#include "bench/machine/machine.h"
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 
 #include "bench/commands/command.h"
 #include "bench/io/say.h"
-#include "bench/running/environment.h"
+#include "bench/machine/environment.h"
 #include "bench/tasks/instruction_sets.h"
 #include "kernels/suggest.h"
 

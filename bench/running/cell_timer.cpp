@@ -1,7 +1,7 @@
 #include "bench/running/cell_timer.h"
 
+#include "bench/machine/usage.h"
 #include "bench/running/prepare.h"
-#include "bench/running/usage.h"
 #include "bench/stages/ledger.h"
 
 #include <algorithm>

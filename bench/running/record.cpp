@@ -1,6 +1,6 @@
 #include "bench/running/record.h"
 
-#include "bench/running/environment.h"
+#include "bench/machine/environment.h"
 #include "scenes/human_name.h"
 #include "scenes/moving/frames.h"
 

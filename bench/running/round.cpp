@@ -1,8 +1,8 @@
 #include "bench/running/round.h"
 
+#include "bench/machine/usage.h"
 #include "bench/running/cell_timer.h"
 #include "bench/running/child.h"
-#include "bench/running/usage.h"
 #include "trees/device.h"
 
 #include <benchmark/benchmark.h>

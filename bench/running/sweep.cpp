@@ -8,11 +8,11 @@
 #include "bench/io/csv.h"
 #include "bench/io/read_results.h"
 #include "bench/io/say.h"
+#include "bench/machine/environment.h"
+#include "bench/machine/quiet.h"
 #include "bench/running/calibration.h"
 #include "bench/running/child.h"
-#include "bench/running/environment.h"
 #include "bench/running/prepare.h"
-#include "bench/running/quiet.h"
 #include "bench/running/shards.h"
 #include "bench/truth/crash.h"
 

@@ -1,7 +1,7 @@
 #include "bench/io/bad_input.h"
 #include "bench/io/csv.h"
+#include "bench/machine/environment.h"
 #include "bench/running/child.h"
-#include "bench/running/environment.h"
 #include "bench/running/prepare.h"
 #include "bench/running/round.h"
 #include "bench/running/sweep.h"

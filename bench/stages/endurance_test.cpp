@@ -1,4 +1,4 @@
-#include "bench/running/environment.h"
+#include "bench/machine/environment.h"
 #include "bench/stages/scene_player.h"
 
 #include <gtest/gtest.h>

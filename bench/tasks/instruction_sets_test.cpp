@@ -1,7 +1,7 @@
 #include "bench/tasks/instruction_sets.h"
 
+#include "bench/machine/environment.h"
 #include "bench/plan/plan.h"
-#include "bench/running/environment.h"
 #include "bench/running/record.h"
 #include "bench/tasks/task.h"
 

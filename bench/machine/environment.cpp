@@ -1,6 +1,6 @@
-#include "bench/running/environment.h"
+#include "bench/machine/environment.h"
 
-#include "bench/running/machine.h"
+#include "bench/machine/machine.h"
 #include "bench/tasks/contender.h"
 #include "bench/tasks/instruction_sets.h"
 #include "build_info.h"

@@ -18,13 +18,13 @@ std::optional<CpuTicks> cpu_ticks_of(std::string_view proc_stat);
 /// How many processors work while this thread sleeps for `watched`; NaN where that is not known.
 double busy_cores(std::chrono::milliseconds watched);
 
-/// Waits until no more than results::quiet_cores work, as `watch` has it, but no longer than `limit_s` in
-/// all its calls.
+/// Waits until no more than results::quiet_cores work, as `watch` has it, but no longer than
+/// `limit_s` in all its calls.
 class QuietWait {
   public:
-    explicit QuietWait(double limit_s, std::function<double()> watch = [] {
-        return busy_cores(std::chrono::milliseconds(100));
-    });
+    explicit QuietWait(
+        double limit_s,
+        std::function<double()> watch = [] { return busy_cores(std::chrono::milliseconds(100)); });
 
     /// Gives what `watch` said last. `busy` is called before each pause of a second, and ends the
     /// waiting if it gives false.

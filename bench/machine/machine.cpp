@@ -1,4 +1,4 @@
-#include "bench/running/machine.h"
+#include "bench/machine/machine.h"
 
 #include "trees/buffer.h"
 

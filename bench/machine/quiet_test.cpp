@@ -1,4 +1,4 @@
-#include "bench/running/quiet.h"
+#include "bench/machine/quiet.h"
 
 #include "results/results.h"
 
