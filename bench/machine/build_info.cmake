@@ -29,7 +29,7 @@ foreach(peer IN LISTS peers_found)
     string(APPEND peer_flags "{\"${peer}\", \"${CMAKE_CXX_FLAGS_${build_type}} $<JOIN:${options}, >\"},")
 endforeach()
 file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/build_info.h CONTENT
-"// Made by bench/running/build_info.cmake.
+"// Made by bench/machine/build_info.cmake.
 #define BOXWOOD_VERSION \"${PROJECT_VERSION}\"
 #define BOXWOOD_BUILD_TYPE \"${CMAKE_BUILD_TYPE}\"
 #define BOXWOOD_SANITIZERS \"${BOXWOOD_SANITIZE}\"
@@ -52,13 +52,13 @@ foreach(name IN LISTS cache_names)
     endif()
 endforeach()
 file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/cmake_cache.h @ONLY CONTENT
-"// Made by bench/running/build_info.cmake.
+"// Made by bench/machine/build_info.cmake.
 inline constexpr char cmake_cache[] = R\"cache(@cache_text@)cache\";
 ")
 
 add_custom_target(boxwood_git_commit
     COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DIR}
             -DOUTPUT=${CMAKE_CURRENT_BINARY_DIR}/git_commit.h
-            -P ${CMAKE_CURRENT_SOURCE_DIR}/running/git_commit.cmake
+            -P ${CMAKE_CURRENT_SOURCE_DIR}/machine/git_commit.cmake
     BYPRODUCTS ${CMAKE_CURRENT_BINARY_DIR}/git_commit.h
     COMMENT "Reading the git commit")

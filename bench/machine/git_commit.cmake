@@ -18,7 +18,7 @@ if(GIT)
     endif()
 endif()
 file(CONFIGURE OUTPUT ${OUTPUT} CONTENT
-"// Made by bench/running/git_commit.cmake.
+"// Made by bench/machine/git_commit.cmake.
 #define BOXWOOD_GIT_COMMIT \"${commit}\"
 #define BOXWOOD_GIT_DIRTY ${dirty}
 ")
