@@ -21,7 +21,8 @@ enum class Phase : std::uint8_t {
     device_query,
     download,
     build_and_query,
-    update_and_query
+    update_and_query,
+    cold_build_and_query
 };
 /// The answer of a cell, the worst of its checks and rounds.
 enum class Status : std::uint8_t {
@@ -61,10 +62,10 @@ constexpr bool is_of_device(std::string_view executor) {
 
 template <class Enum> struct Words;
 template <> struct Words<Phase> {
-    static constexpr std::array<std::string_view, 11> all{
+    static constexpr std::array<std::string_view, 12> all{
         "",         "build",       "cold_build",   "update",
         "query",    "upload",      "device_build", "device_query",
-        "download", "build+query", "update+query"};
+        "download", "build+query", "update+query", "cold_build+query"};
 };
 template <> struct Words<Status> {
     static constexpr std::array<std::string_view, 6> all{

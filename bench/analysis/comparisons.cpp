@@ -118,7 +118,7 @@ void against_peers(const Index& index, const Times& times, Judge& judge) {
             for (const Phase phase : phases_of(times, ours)) {
                 for (const Cell* peer : peers_of[{job_of(ours), name}])
                     if ((phase == Phase::build_and_query || phase == Phase::update_and_query ||
-                         index.divide_alike(ours, *peer)) &&
+                         phase == Phase::cold_build_and_query || index.divide_alike(ours, *peer)) &&
                         !trades_off(index, times, *peer, ours, phase))
                         judge.claim(*peer, ours, phase, name);
             }

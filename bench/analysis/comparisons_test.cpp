@@ -419,6 +419,12 @@ TEST(NoiseFloor, IsThatOfTheKind) {
     EXPECT_EQ(row_of(rows, brief_peer, brief, Phase::query).verdict, Verdict::cannot_tell);
     EXPECT_EQ(row_of(rows, lengthy_peer, lengthy, Phase::query).verdict, Verdict::faster);
     EXPECT_NEAR(row_of(rows, lengthy_peer, lengthy, Phase::query).floor, 0.01, 1e-6);
+    maker.time(brief, Phase::cold_build, steady(1e3));
+    maker.time(lengthy, Phase::cold_build, steady(1e7));
+    maker.time(brief, Phase::cold_build, steady(1.5e3), results::aa_twin);
+    EXPECT_NEAR(*floor_of(maker.results), 0.15, 1e-9); // what is not cold knows nothing of it
+    const NoiseFloors floors(maker.results, Times(maker.results));
+    EXPECT_NEAR(*floors.of(maker.results.cells[lengthy], Phase::cold_build), 0.5, 1e-9);
 }
 
 } // namespace

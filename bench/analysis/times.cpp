@@ -129,25 +129,31 @@ NoiseFloors::NoiseFloors(const Results& results, const Times& times) : times_(ti
 NoiseFloors::Likeness NoiseFloors::likeness(const results::Cell& cell, Phase phase) const {
     constexpr double brief_ns = 1e6;
     const Rounds* const rounds = times_.rounds(cell.cell_id, phase);
-    return {cell.threads > 1, rounds && paired_medians(*rounds, *rounds).first < brief_ns};
+    return {cell.threads > 1, rounds && paired_medians(*rounds, *rounds).first < brief_ns,
+            phase == Phase::cold_build || phase == Phase::cold_build_and_query};
 }
 
 std::optional<double> NoiseFloors::of(const results::Cell& cell, Phase phase) const {
-    const auto found = floors_.find(likeness(cell, phase));
-    return found == floors_.end() ? highest() : std::optional(found->second);
+    const Likeness alike = likeness(cell, phase);
+    const auto found = floors_.find(alike);
+    return found != floors_.end()           ? std::optional(found->second)
+           : alike.is_cold && highest(true) ? highest(true)
+                                            : highest();
 }
 
-std::optional<double> NoiseFloors::highest() const {
+std::optional<double> NoiseFloors::highest(bool cold) const {
     std::optional<double> floor;
     for (const auto& [likeness, of_these] : floors_)
-        floor = std::max(floor, std::optional(of_these));
+        if (likeness.is_cold == cold)
+            floor = std::max(floor, std::optional(of_these));
     return floor;
 }
 
 std::optional<double> NoiseFloors::lowest() const {
     std::optional<double> floor;
     for (const auto& [likeness, of_these] : floors_)
-        floor = std::min(floor.value_or(of_these), of_these);
+        if (!likeness.is_cold)
+            floor = std::min(floor.value_or(of_these), of_these);
     return floor;
 }
 

@@ -46,13 +46,14 @@ std::pair<double, double> paired_medians(const Times::Rounds& a, const Times::Ro
 std::set<std::string> machines_of(const results::Results& results);
 
 /// The A/A noise floors, as relative differences: the farthest end of the intervals of phases that
-/// were timed twice, by what is alike in noise: one thread or several, below a millisecond or not.
+/// were timed twice, by what is alike in noise: one thread or several, below a millisecond or not,
+/// cold or not.
 class NoiseFloors {
   public:
     /// Nothing from twins with fewer than 6 rounds.
     NoiseFloors(const results::Results& results, const Times& times);
 
-    /// Of what is like this phase of this cell; the highest of all where no twin is. Nothing
+    /// Of what is like this phase of this cell; the highest where no twin is. Nothing
     /// without twins.
     std::optional<double> of(const results::Cell& cell, results::Phase phase) const;
     /// For a comparison of two.
@@ -60,12 +61,13 @@ class NoiseFloors {
                              results::Phase phase) const {
         return std::max(of(a, phase), of(b, phase)); // an absent one is less than any
     }
-    std::optional<double> highest() const;
-    std::optional<double> lowest() const;
+    /// Of phases that are cold or not.
+    std::optional<double> highest(bool cold = false) const;
+    std::optional<double> lowest() const; ///< of those that are not
 
   private:
     struct Likeness {
-        bool has_threads, is_short;
+        bool has_threads, is_short, is_cold;
         auto operator<=>(const Likeness&) const = default;
     };
     Likeness likeness(const results::Cell& cell, results::Phase phase) const;

@@ -91,6 +91,7 @@ void add_child(CLI::App& app, int& exit_code) {
     child->add_option("--prepared", options->prepared, "what the preparation wrote");
     child->add_flag("--prepare", options->is_preparation, "prepare instead of timing a round");
     child->add_option("--round", options->round, "the round's number, from 0");
+    child->add_option("--cold", options->cold, "the cell whose first build is timed");
     child->add_option("--other-cores", options->other_cores, "processors at work for others");
     child->add_option("--skip", options->skip, "cells that the preparation leaves out")->take_all();
     child->add_option("--report-fd", options->report_fd, "where to report")->required();

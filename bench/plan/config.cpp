@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view native = "native"; ///< as an instruction set: the processor's best
 
 /// Of every [[cells]] block.
-const Names common_keys{"task", "rounds", "isa"};
+const Names common_keys{"task", "rounds", "isa", "cold_build"};
 
 bool takes(const Task& task, std::string_view key) {
     return std::ranges::count(task.keys(), key) > 0;
@@ -101,6 +101,11 @@ Block read_block(const std::shared_ptr<const ConfigReader>& reader,
         reader->fail(table.source(), "[[cells]] needs a scene, such as scene = \"uniform\"");
     if (const toml::node* rounds = table.get("rounds"))
         block.rounds = static_cast<unsigned>(reader->whole(*rounds, "rounds", 1, 10'000));
+    if (const toml::node* cold = table.get("cold_build")) {
+        if (!cold->is_boolean())
+            reader->fail(cold->source(), "cold_build must be true or false");
+        block.cold_build = cold->value_or(false);
+    }
     if (table.get("isa")) {
         Names known(instruction_sets().begin(), instruction_sets().end());
         known.emplace_back(native);

@@ -16,6 +16,7 @@ struct Block {
     BlockReader reader;
     std::vector<const Task*> tasks;
     std::optional<unsigned> rounds; ///< fewer than those of the sweep: the first ones
+    bool cold_build = false;        ///< in a process of its own, too
     std::vector<std::string> instruction_sets{""}; ///< that each cell is held to; "": to none
 };
 

@@ -28,7 +28,9 @@ class Expansion {
                                            const std::string& executor, unsigned threads) {
                 for (const std::string& isa : block.instruction_sets)
                     add_cell(block,
-                             {"", scene, task, contender, executor, threads, block.rounds, isa});
+                             {"", scene, task, contender, executor, threads, block.rounds, isa,
+                              block.cold_build && task->phases() == Phases::build_and_query &&
+                                  !is_device(executor)});
             });
     }
 
@@ -44,6 +46,7 @@ class Expansion {
             cells_.push_back(std::move(cell));
             return;
         }
+        cells_[seen->second].cold_build |= cell.cold_build;
         if (auto& rounds = cells_[seen->second].rounds; rounds && block.rounds)
             rounds = std::max(*rounds, *block.rounds);
         else
@@ -173,11 +176,12 @@ std::string sweep_hash_of(const Plan& plan, std::uint64_t files_hash) {
     std::vector<std::string> lines;
     for (const PlannedCell& cell : plan.cells)
         lines.push_back(fmt::format(
-            "{} overlaps {} n_rays {}{}{}{}\n", cell.name, cell.scene.overlaps, cell.scene.n_rays,
+            "{} overlaps {} n_rays {}{}{}{}{}\n", cell.name, cell.scene.overlaps, cell.scene.n_rays,
             cell.scene.n_points == 0 ? std::string()
                                      : fmt::format(" n_points {}", cell.scene.n_points),
             scene_file_text(cell.scene),
-            cell.rounds ? fmt::format(" rounds {}", *cell.rounds) : std::string()));
+            cell.rounds ? fmt::format(" rounds {}", *cell.rounds) : std::string(),
+            cell.cold_build ? " cold_build" : ""));
     std::ranges::sort(lines); // the order of blocks does not matter
     for (const std::string& line : lines)
         canonical += line;

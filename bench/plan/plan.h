@@ -32,6 +32,7 @@ struct PlannedCell {
     unsigned threads = 1;
     std::optional<unsigned> rounds; ///< only in the first so many of the sweep's
     std::string isa{};              ///< Job::isa
+    bool cold_build = false;        ///< whether a first build in a fresh process is timed, too
 
     bool is_in(unsigned round) const { return !rounds || round < *rounds; }
 };

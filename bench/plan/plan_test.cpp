@@ -64,6 +64,19 @@ TEST(Plan, CellsMayBeHeldToInstructionSets) {
     EXPECT_THROW(plan_of(config + "isa = \"avx3\"\n"), BadInput);
 }
 
+TEST(Plan, CellsMayBeTimedColdToo) {
+    EXPECT_THROW(plan_of(config + "cold_build = 1\n"), BadInput);
+    const Plan usual = plan_of(config), plan = plan_of(config + "cold_build = true\n");
+    ASSERT_EQ(plan.cells.size(), usual.cells.size());
+    for (std::size_t i = 0; i < plan.cells.size(); ++i) {
+        EXPECT_EQ(plan.cells[i].name, usual.cells[i].name);
+        EXPECT_TRUE(plan.cells[i].cold_build && !usual.cells[i].cold_build);
+    }
+    EXPECT_NE(plan.sweep_hash, usual.sweep_hash);
+    const std::string block = config.substr(config.find("[[cells]]"));
+    EXPECT_EQ(plan_of(config + block + "cold_build = true\n").sweep_hash, plan.sweep_hash);
+}
+
 TEST(Plan, EqualCellsCollapse) {
     const std::string block = config.substr(config.find("[[cells]]"));
     EXPECT_EQ(names_of(plan_of(config + block)), names_of(plan_of(config)));

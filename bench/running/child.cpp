@@ -120,6 +120,20 @@ bool listen(int pipe, Interrupt& interrupt, Conversation& conversation) {
     _exit(127);
 }
 
+int wait_for(pid_t child) {
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    return status;
+}
+
+/// Empty for an exit with 0.
+std::string cause_of(int status) {
+    if (WIFSIGNALED(status))
+        return fmt::format("signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
+    return WEXITSTATUS(status) == 0 ? "" : fmt::format("exit code {}", WEXITSTATUS(status));
+}
+
 } // namespace
 
 ChildEnd run_child(std::vector<std::string> arguments, unsigned max_threads, std::size_t padding,
@@ -149,19 +163,46 @@ ChildEnd run_child(std::vector<std::string> arguments, unsigned max_threads, std
     if (!finished)
         kill(child, SIGKILL);
     close(ends[0]);
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
+    const int status = wait_for(child);
+    const std::string cause = cause_of(status);
     if (!finished || interrupt.requested()) {
         end.kind = ChildEnd::Kind::interrupted;
-    } else if (WIFSIGNALED(status)) {
+    } else if (WIFSIGNALED(status) || (!cause.empty() && end.kind == ChildEnd::Kind::done)) {
         end.kind = ChildEnd::Kind::crashed;
-        end.cause = fmt::format("signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
-    } else if (WEXITSTATUS(status) != 0 && end.kind == ChildEnd::Kind::done) {
-        end.kind = ChildEnd::Kind::crashed;
-        end.cause = fmt::format("exit code {}", WEXITSTATUS(status));
+        end.cause = cause;
     }
     return end;
+}
+
+std::string output_of(std::vector<std::string> arguments) {
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0)
+        throw std::system_error(errno, std::generic_category(), "pipe");
+    const std::vector<char*> pointers = pointers_to(arguments);
+    sigset_t mask;
+    pthread_sigmask(SIG_SETMASK, nullptr, &mask);
+    const pid_t parent = getpid();
+    const pid_t child = fork();
+    if (child < 0)
+        throw std::system_error(errno, std::generic_category(), "fork");
+    if (child == 0) {
+        dup2(ends[1], STDOUT_FILENO);
+        become_child(parent, mask, pointers.data(), environ);
+    }
+    close(ends[1]);
+    std::string output;
+    std::array<char, 4096> bytes;
+    for (ssize_t got; (got = read(ends[0], bytes.data(), bytes.size())) != 0;) {
+        if (got < 0 && errno != EINTR)
+            break;
+        output.append(bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+    }
+    close(ends[0]);
+    const std::string cause = cause_of(wait_for(child));
+    if (!cause.empty())
+        throw std::runtime_error(
+            fmt::format("a process of its own ended by {}: {}", cause, output));
+    return output;
 }
 
 std::size_t own_padding() {

@@ -36,6 +36,11 @@ ChildEnd run_child(std::vector<std::string> arguments, unsigned max_threads, std
 /// Of this process.
 std::size_t own_padding();
 
+/// Runs this executable again with other arguments in this environment, and gives what it writes to
+/// stdout. It dies with this process. Throws std::runtime_error unless it exits with 0, and
+/// std::system_error if no process can be started.
+std::string output_of(std::vector<std::string> arguments);
+
 /// The child's side.
 class ChildReport {
   public:

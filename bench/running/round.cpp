@@ -105,6 +105,31 @@ std::size_t add_benchmarks(CellTimer& timer, const Timing& timing) {
     return samples;
 }
 
+void add_cold(std::vector<results::Sample>& samples, const Timing& timing, unsigned round,
+              const Report& report, const std::function<ColdTimes(const std::string&)>& cold) {
+    report(0, 1, timing.cell->name);
+    const Usage before;
+    const ColdTimes times = cold(timing.cell->name);
+    for (const auto& [phase, ns] :
+         {std::pair{results::Phase::cold_build, times.build_ns},
+          std::pair{results::Phase::cold_build_and_query, times.build_and_query_ns}}) {
+        results::Sample& sample = samples.emplace_back();
+        sample.cell_id = timing.cell_id;
+        sample.round = round;
+        sample.position = static_cast<std::uint32_t>(samples.size() - 1);
+        sample.phase = phase;
+        sample.iterations = 1;
+        add_usage(sample, before, Usage{});
+        sample.wall_ns = ns;
+        sample.nvcsw = sample.nivcsw = sample.minflt = 0; // they are another process's
+        sample.flags &= results::disturbed_steal;
+        if (timing.is_twin)
+            sample.flags |= results::aa_twin;
+        if (times.hash != timing.checked_hash)
+            sample.flags |= results::wrong_answer;
+    }
+}
+
 void add_rates(results::Shard& shard, const DeviceRates& rates) {
     shard.gpu_copy_gbs = rates.copy;
     shard.gpu_upload_gbs = rates.upload;
@@ -117,7 +142,8 @@ void add_rates(results::Shard& shard, const DeviceRates& rates) {
 } // namespace
 
 results::Results run_round(const Plan& plan, const results::Results& prepared, unsigned round,
-                           const Report& report) {
+                           const Report& report,
+                           const std::function<ColdTimes(const std::string& cell)>& cold) {
     using namespace std::chrono;
     results::Results out;
     out.run_uuid = prepared.run_uuid;
@@ -146,12 +172,17 @@ results::Results run_round(const Plan& plan, const results::Results& prepared, u
     const std::vector<Timing> timings = timings_of(plan, prepared, round);
     if (std::ranges::any_of(timings, [](const Timing& t) { return is_device(t.cell->executor); }))
         add_rates(shard, measure_rates(0));
+    const std::vector<std::size_t> order = shuffled_order(timings.size(), shard.order_seed);
+    if (cold)
+        for (const std::size_t i : order)
+            if (timings[i].cell->cold_build)
+                add_cold(out.samples, timings[i], round, report, cold);
     CellTimer timer(report, timings.size(), round);
     Reporter reporter([&](const Reporter::Run& run) { timer.take(run); });
     initialize_benchmark();
     benchmark::ClearRegisteredBenchmarks();
     std::size_t expected = 0;
-    for (const std::size_t i : shuffled_order(timings.size(), shard.order_seed))
+    for (const std::size_t i : order)
         expected += add_benchmarks(timer, timings[i]);
     if (!timings.empty())
         benchmark::RunSpecifiedBenchmarks(&reporter);
@@ -161,8 +192,8 @@ results::Results run_round(const Plan& plan, const results::Results& prepared, u
         throw std::runtime_error("google-benchmark did not run every cell of the round");
     shard.steal_ticks = steal_ticks() - steal_before;
     out.shards.push_back(shard);
-    out.samples = std::move(timer.samples);
-    out.samples.insert(out.samples.end(), timer.device_samples.begin(), timer.device_samples.end());
+    for (const std::vector<results::Sample>& samples : {timer.samples, timer.device_samples})
+        out.samples.insert(out.samples.end(), samples.begin(), samples.end());
     out.frames = std::move(timer.frame_rows);
     out.effects = std::move(timer.effects);
     return out;

@@ -38,7 +38,8 @@ struct ChildOptions {
     bool is_preparation = false;
     unsigned round = 0;
     double other_cores = results::missing; ///< processors at work for others before the round
-    std::set<std::string> skip;            ///< cells that the preparation leaves out
+    std::string cold;           ///< the one cell whose first build is timed, nothing else
+    std::set<std::string> skip; ///< cells that the preparation leaves out
     int report_fd = -1;
 };
 

@@ -2,6 +2,7 @@
 #include "bench/io/csv.h"
 #include "bench/machine/environment.h"
 #include "bench/running/child.h"
+#include "bench/running/cold.h"
 #include "bench/running/prepare.h"
 #include "bench/running/round.h"
 #include "bench/running/sweep.h"
@@ -9,12 +10,27 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace boxwood::bench {
 namespace {
 
+Plan plan_of(const ChildOptions& options) {
+    return make_plan(read_text(options.config.string()), options.config.string(),
+                     options.overrides);
+}
+
+int time_first_build(const ChildOptions& options) {
+    const Plan plan = plan_of(options);
+    const auto cell = std::ranges::find(plan.cells, options.cold, &PlannedCell::name);
+    if (cell == plan.cells.end())
+        throw BadInput(fmt::format("--cold: there is no cell {}", options.cold));
+    fmt::print("{}", to_text(time_cold(*cell)));
+    return exit_success;
+}
+
 results::Results work(const ChildOptions& options, const Report& report) {
-    const Plan plan =
-        make_plan(read_text(options.config.string()), options.config.string(), options.overrides);
+    const Plan plan = plan_of(options);
     if (plan.sweep_hash != options.sweep_hash)
         throw BadInput("what is to be measured changed while the sweep ran: was the mesh file "
                        "edited, or boxwood built again?");
@@ -26,7 +42,7 @@ results::Results work(const ChildOptions& options, const Report& report) {
     const results::Results prepared = results::read(options.prepared);
     if (environment(false).env_hash != prepared.env.at(0).env_hash)
         throw BadInput("the machine or the build changed while the sweep ran");
-    results::Results results = run_round(plan, prepared, options.round, report);
+    results::Results results = run_round(plan, prepared, options.round, report, run_cold_process);
     results.shards.at(0).other_cores = options.other_cores;
     return results;
 }
@@ -34,6 +50,8 @@ results::Results work(const ChildOptions& options, const Report& report) {
 } // namespace
 
 int run_sweep_child(const ChildOptions& options) {
+    if (!options.cold.empty())
+        return time_first_build(options);
     ChildReport report(options.report_fd);
     bool in_cell = false;
     try {

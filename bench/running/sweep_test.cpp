@@ -284,6 +284,27 @@ TEST_F(SweepTest, PaddingIsDrawnByRound) {
     EXPECT_LT(*paddings.rbegin(), 4096u);
 }
 
+TEST_F(SweepTest, ColdBuildsAreThoseOfFreshProcesses) {
+    using results::Phase;
+    write_config("n = 3000\nbuilders = \"median\"\npeers = \"brute_force\"\ncold_build = true\n",
+                 2);
+    ASSERT_EQ(sweep(), 0) << text_of(log());
+    const results::Results got = results::read(out());
+    std::map<Phase, std::vector<double>> ns;
+    for (const results::Sample& sample : got.samples)
+        if (sample.cell_id == 0) {
+            ns[sample.phase].push_back(sample.wall_ns);
+            EXPECT_EQ(sample.flags & results::wrong_answer, 0u);
+        }
+    ASSERT_GE(ns[Phase::cold_build].size(), 2u);
+    ASSERT_EQ(ns[Phase::cold_build].size(), ns[Phase::cold_build_and_query].size());
+    EXPECT_GT(std::ranges::min(ns[Phase::cold_build_and_query]),
+              std::ranges::max(ns[Phase::build])); // pages are touched, and it answers
+    EXPECT_TRUE(std::ranges::any_of(got.compare, [](const results::Comparison& row) {
+        return row.phase == Phase::cold_build_and_query && row.family == results::Family::peers;
+    }));
+}
+
 TEST_F(SweepTest, TwoDoNotWriteOneFile) {
     const pid_t first = start();
     const fs::path lock = out().string() + ".shards/lock";

@@ -2,7 +2,7 @@
 (results/words.h has the same)."""
 
 PHASES = ("", "build", "cold_build", "update", "query", "upload", "device_build", "device_query", "download",
-          "build+query", "update+query")
+          "build+query", "update+query", "cold_build+query")
 STATUSES = ("unchecked", "exact", "conservative", "within_bound", "unsupported", "wrong")
 FAMILIES = ("", "peers", "ours", "threads", "stages", "devices")
 TOPICS = ("", "race", "kernel", "scene", "device")
