@@ -278,6 +278,7 @@ TEST_F(ResultFile, AnOlderMinorVersionMayLackWhatCameLater) {
     for (Shard& shard : results.shards) {
         shard.padding_bytes = no_count;
         shard.other_cores = missing;
+        shard.input = 0;
         shard.gpu_copy_gbs = shard.gpu_upload_gbs = shard.gpu_download_gbs =
             shard.gpu_upload_pageable_gbs = shard.gpu_download_pageable_gbs = shard.gpu_launch_ns =
                 missing;

@@ -102,6 +102,7 @@ struct Shard {
     std::uint64_t steal_ticks = 0;
     std::uint64_t padding_bytes = no_count;
     double other_cores = missing;
+    std::uint32_t input = 0;       ///< of several: its scenes have their seed plus this
     double gpu_copy_gbs = missing; ///< this and the next before the round; NaN without a device
     double gpu_upload_gbs = missing, gpu_download_gbs = missing;
     double gpu_upload_pageable_gbs = missing, gpu_download_pageable_gbs = missing;

@@ -120,7 +120,7 @@ Config read_config(const std::shared_ptr<const ConfigReader>& shared, std::strin
     const auto shared_root = std::make_shared<const toml::table>(reader.parse(text));
     const toml::table& root = *shared_root;
     check_keys(reader, root, "a sweep file",
-               {"rounds", "min_time_ms", "delta", "seed", "threads", "cells"});
+               {"rounds", "min_time_ms", "delta", "seed", "inputs", "threads", "cells"});
     Config config;
     if (const toml::node* node = root.get("rounds"))
         config.rounds = static_cast<unsigned>(reader.whole(*node, "rounds", 1, 10'000));
@@ -130,6 +130,8 @@ Config read_config(const std::shared_ptr<const ConfigReader>& shared, std::strin
         config.delta = reader.number(*node, "delta", 0, 1);
     if (const toml::node* node = root.get("seed"))
         config.seed = reader.whole(*node, "seed", 0, std::numeric_limits<std::int64_t>::max());
+    if (const toml::node* node = root.get("inputs"))
+        config.inputs = static_cast<unsigned>(reader.whole(*node, "inputs", 1, 1000));
     reader.list(root, "threads", config.threads,
                 [&](const toml::node& node) { return reader.threads(node); });
 

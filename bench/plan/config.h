@@ -26,6 +26,7 @@ struct Config {
     double min_time_ms = 200; ///< wanted time of one sample
     double delta = 0.05;      ///< times within +-delta are "the same"
     std::uint64_t seed = 1;
+    unsigned inputs = 1;              ///< rounds take turns at the seeds from `seed` on, so many
     std::vector<unsigned> threads{1}; ///< of blocks that name none
     std::vector<Block> blocks;
 };

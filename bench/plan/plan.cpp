@@ -126,6 +126,7 @@ Plan make_plan(const std::string& config_text, const std::string& config_file,
     plan.rounds = overrides.rounds.value_or(config.rounds);
     plan.min_time_ms = config.min_time_ms;
     plan.delta = config.delta;
+    plan.inputs = config.inputs;
     plan.seed = overrides.seed.value_or(config.seed);
 
     SweepInputs inputs{plan.seed,
@@ -172,7 +173,8 @@ std::string scene_file_text(const SceneSpec& spec) {
 
 std::string sweep_hash_of(const Plan& plan, std::uint64_t files_hash) {
     std::string canonical =
-        fmt::format("min_time_ms {} seed {} mesh {:x}\n", plan.min_time_ms, plan.seed, files_hash);
+        fmt::format("min_time_ms {} seed {} mesh {:x}{}\n", plan.min_time_ms, plan.seed, files_hash,
+                    plan.inputs > 1 ? fmt::format(" inputs {}", plan.inputs) : std::string());
     std::vector<std::string> lines;
     for (const PlannedCell& cell : plan.cells)
         lines.push_back(fmt::format(

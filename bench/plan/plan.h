@@ -43,6 +43,7 @@ struct Plan {
     unsigned rounds = 0;
     double min_time_ms = 0, delta = 0;
     std::uint64_t seed = 1;
+    unsigned inputs = 1; ///< see running/inputs.h
     std::vector<PlannedCell> cells;
     std::string sweep_hash;  ///< 32 hex digits
     std::string config_text; ///< the sweep file as read

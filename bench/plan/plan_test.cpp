@@ -64,6 +64,14 @@ TEST(Plan, CellsMayBeHeldToInstructionSets) {
     EXPECT_THROW(plan_of(config + "isa = \"avx3\"\n"), BadInput);
 }
 
+TEST(Plan, InputsArePartOfWhatIsMeasured) {
+    EXPECT_EQ(plan_of(config).inputs, 1u);
+    EXPECT_EQ(plan_of("inputs = 3\n" + config).inputs, 3u);
+    EXPECT_NE(plan_of("inputs = 3\n" + config).sweep_hash, plan_of(config).sweep_hash);
+    EXPECT_EQ(plan_of("inputs = 1\n" + config).sweep_hash, plan_of(config).sweep_hash);
+    EXPECT_THROW(plan_of("inputs = 0\n" + config), BadInput);
+}
+
 TEST(Plan, CellsMayBeTimedColdToo) {
     EXPECT_THROW(plan_of(config + "cold_build = 1\n"), BadInput);
     const Plan usual = plan_of(config), plan = plan_of(config + "cold_build = true\n");

@@ -1,5 +1,7 @@
 #include "bench/running/calibration.h"
 
+#include "bench/running/inputs.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,9 +28,17 @@ TEST(Calibration, ARoundWarmsUpOnce) { EXPECT_EQ(round_ns({2, 3, 10, 100}), 3 * 
 TEST(Calibration, TextRoundTrips) {
     const Calibrations calibrations{{"a/b", {1, 10'000'000, 0.1, 1.0 / 3}}, {"c", {7, 1, 1e12, 0}}};
     EXPECT_EQ(calibrations_of(to_text(calibrations)), calibrations);
-    EXPECT_TRUE(calibrations_of(to_text({})).empty());
+    EXPECT_TRUE(calibrations_of(to_text(Calibrations{})).empty());
     EXPECT_THROW(calibrations_of(""), std::runtime_error);
     EXPECT_THROW(calibrations_of(to_text(calibrations) + "x\n"), std::runtime_error);
+}
+
+TEST(Inputs, TextRoundTrips) {
+    const InputAnswers answers{{{"a/b", 0}, {~std::uint64_t{0}, 7}}, {{"a/b", 1}, {1, 0}}};
+    EXPECT_EQ(input_answers_of(to_text(answers)), answers);
+    EXPECT_TRUE(input_answers_of(to_text(InputAnswers{})).empty());
+    EXPECT_THROW(input_answers_of(""), std::runtime_error);
+    EXPECT_THROW(input_answers_of(to_text(answers) + "x\n"), std::runtime_error);
 }
 
 /// Cells "c0", "c1", ... each of a variant of its own.

@@ -190,7 +190,7 @@ void CellTimer::make(const Timing& timing) {
     report_(done_, timings_, timing.cell->name);
     const PlannedCell& cell = *timing.cell;
     std::fegetenv(&floating_point_mode_);
-    const Scene& scene = scene_of(cell.scene);
+    const Scene& scene = scene_of(timing.scene);
     instruction_set_.emplace(cell.isa);
     contender_ = cell.contender.make(Job{&scene, cell.task, cell.executor, cell.threads, cell.isa});
 }

@@ -23,6 +23,7 @@ namespace boxwood::bench {
 /// One timing of a cell in a round.
 struct Timing {
     const PlannedCell* cell;
+    SceneSpec scene; ///< of the round's input
     Calibration calibration;
     std::uint32_t cell_id;
     std::uint64_t checked_hash, answers; ///< hash and number of the answers that were checked

@@ -14,12 +14,12 @@
 
 namespace boxwood::bench {
 
-ColdTimes time_cold(const PlannedCell& cell) {
+ColdTimes time_cold(const PlannedCell& cell, const SceneSpec& spec) {
     using Clock = std::chrono::steady_clock;
     const auto ns = [](Clock::duration time) {
         return std::chrono::duration<double, std::nano>(time).count();
     };
-    const Scene scene = make_scene(cell.scene);
+    const Scene scene = make_scene(spec);
     const InstructionSetLimit limit(cell.isa);
     const std::unique_ptr<Contender> contender =
         cell.contender.make(Job{&scene, cell.task, cell.executor, cell.threads, cell.isa});

@@ -15,7 +15,7 @@ struct ColdTimes {
 };
 
 /// To be called once in a process.
-ColdTimes time_cold(const PlannedCell& cell);
+ColdTimes time_cold(const PlannedCell& cell, const SceneSpec& spec);
 
 /// A line, and what it says. Throws std::runtime_error if it is not such a line.
 std::string to_text(const ColdTimes& times);

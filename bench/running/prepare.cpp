@@ -1,6 +1,7 @@
 #include "bench/running/prepare.h"
 
 #include "bench/running/calibration.h"
+#include "bench/running/inputs.h"
 #include "bench/running/play.h"
 #include "bench/running/record.h"
 #include "bench/tasks/instruction_sets.h"
@@ -64,6 +65,7 @@ class Preparation {
         for (const std::string& key : keys)
             prepare_scene(cells_of[key]);
         out_.texts["calibration"] = to_text(calibrations_);
+        out_.texts["inputs"] = to_text(input_answers_);
         out_.texts["sweep_toml"] = plan_.config_text;
         return std::move(out_);
     }
@@ -90,6 +92,58 @@ class Preparation {
             report_(out_.cells.size(), plan_.cells.size(), cell->name);
             prepare_cell(*cell, scene_id);
         }
+        for (unsigned input = 1; input < plan_.inputs; ++input)
+            prepare_input(cells, input);
+    }
+
+    /// Judges the answers on another input of those cells that are timed.
+    void prepare_input(const std::vector<const PlannedCell*>& cells, unsigned input) {
+        std::vector<const PlannedCell*> timed;
+        for (const PlannedCell* cell : cells)
+            if (has_inputs(*cell) && calibrations_.contains(cell->name))
+                timed.push_back(cell);
+        if (timed.empty())
+            return;
+        truths_.clear();
+        scene_ = make_scene(scene_in_round(plan_, *timed.front(), input));
+        for (const PlannedCell* cell : timed) {
+            report_(out_.cells.size(), plan_.cells.size(), cell->name);
+            results::Check& check = check_of(*cell);
+            input_answers_.try_emplace({cell->name, 0}, check.result_hash, check.n_got);
+            try {
+                const Judgement judgement = judge_once(*cell);
+                input_answers_[{cell->name, input}] = {judgement.check.result_hash,
+                                                       judgement.check.n_got};
+                add_input(check, input, judgement.check);
+            } catch (const DeviceError&) {
+                throw;
+            } catch (const std::exception& error) {
+                calibrations_.erase(cell->name);
+                check.status = Status::wrong;
+                check.witness = fmt::format("threw on input {}: {:.500}", input, error.what());
+            }
+        }
+    }
+
+    Judgement judge_once(const PlannedCell& cell) {
+        const Task& task = *cell.task;
+        const KeepFloatingPointMode keep;
+        const InstructionSetLimit limit(cell.isa);
+        const std::unique_ptr<Contender> contender =
+            cell.contender.make(Job{&scene_, cell.task, cell.executor, cell.threads, cell.isa});
+        const std::unique_ptr<Answers> answers = task.make_answers();
+        contender->build();
+        contender->query(*answers);
+        contender->fetch(*answers);
+        Judgement judgement = truth_of(task).judge(*answers, cell.contender);
+        judgement.check.status = judgement.status;
+        judgement.check.result_hash = task.hash(*answers);
+        return judgement;
+    }
+
+    results::Check& check_of(const PlannedCell& cell) {
+        const auto row = std::ranges::find(out_.cells, cell.name, &results::Cell::name);
+        return *std::ranges::find(out_.checks, row->cell_id, &results::Check::cell_id);
     }
 
     void prepare_cell(const PlannedCell& cell, std::uint32_t scene_id) {
@@ -228,6 +282,7 @@ class Preparation {
     Record record_;
     results::Results& out_; ///< of the record
     Calibrations calibrations_;
+    InputAnswers input_answers_;
     // Of the scene at hand.
     Scene scene_;
     std::map<const Task*, std::unique_ptr<Truth>> truths_;

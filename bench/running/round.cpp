@@ -3,6 +3,7 @@
 #include "bench/machine/usage.h"
 #include "bench/running/cell_timer.h"
 #include "bench/running/child.h"
+#include "bench/running/inputs.h"
 #include "trees/device.h"
 
 #include <benchmark/benchmark.h>
@@ -47,6 +48,7 @@ std::vector<Timing> timings_of(const Plan& plan, const results::Results& prepare
     for (const results::Check& check : prepared.checks)
         check_of.emplace(check.cell_id, &check);
 
+    const InputAnswers answers = input_answers_of(prepared.texts.at("inputs"));
     std::vector<Timing> timings;
     const std::set<std::string> twins = choose_twins(prepared, calibrations);
     for (const PlannedCell& cell : plan.cells) {
@@ -55,7 +57,12 @@ std::vector<Timing> timings_of(const Plan& plan, const results::Results& prepare
             continue;
         const std::uint32_t id = id_of.at(cell.name);
         const results::Check& check = *check_of.at(id);
-        timings.push_back({&cell, found->second, id, check.result_hash, check.n_got, false});
+        const auto of_input = answers.find({cell.name, round % plan.inputs});
+        const CheckedAnswers checked = of_input == answers.end()
+                                           ? CheckedAnswers{check.result_hash, check.n_got}
+                                           : of_input->second;
+        timings.push_back({&cell, scene_in_round(plan, cell, round), found->second, id,
+                           checked.hash, checked.n, false});
         if (twins.contains(cell.name)) {
             timings.push_back(timings.back());
             timings.back().is_twin = true;
@@ -162,6 +169,7 @@ results::Results run_round(const Plan& plan, const results::Results& prepared, u
     shard.pid = static_cast<std::uint32_t>(getpid());
     shard.order_seed = order_seed_of(plan.seed, round);
     shard.padding_bytes = own_padding();
+    shard.input = round % plan.inputs;
     shard.t0_utc_ns = static_cast<std::uint64_t>(
         duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count());
     double load = 0;

@@ -3,6 +3,7 @@
 #include "bench/running/round.h"
 
 #include "bench/running/calibration.h"
+#include "bench/running/inputs.h"
 #include "bench/running/prepare.h"
 #include "bench/tasks/task.h"
 #include "scenes/moving/frames.h"
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -23,7 +25,16 @@ namespace boxwood::bench {
 namespace {
 
 /// What a made-up contender does wrong.
-enum class Fault { none, loses_a_pair, loses_a_pair_later, throws, cannot, counts_otherwise };
+enum class Fault {
+    none,
+    loses_a_pair,
+    loses_a_pair_later,
+    loses_a_pair_elsewhere, ///< on another input than the first
+    throws,
+    throws_elsewhere,
+    cannot,
+    counts_otherwise
+};
 
 int alive = 0, max_alive = 0;
 
@@ -38,7 +49,8 @@ class Made final : public Contender {
     void build() override { std::this_thread::sleep_for(std::chrono::microseconds(50)); }
     void query(Answers& answers) override {
         ++queries_;
-        if (fault_ == Fault::throws)
+        const bool is_elsewhere = scene_.spec.seed != 1;
+        if (fault_ == Fault::throws || (fault_ == Fault::throws_elsewhere && is_elsewhere))
             throw std::runtime_error("no more\nmemory");
         std::vector<Pair>& pairs = list_of<Pair>(answers);
         pairs.clear();
@@ -46,7 +58,8 @@ class Made final : public Contender {
             for (std::uint32_t a = 0; a < b; ++a)
                 if (overlaps(scene_.boxes[a], scene_.boxes[b]))
                     pairs.push_back({a, b});
-        if (fault_ == Fault::loses_a_pair || (fault_ == Fault::loses_a_pair_later && is_late))
+        if (fault_ == Fault::loses_a_pair || (fault_ == Fault::loses_a_pair_later && is_late) ||
+            (fault_ == Fault::loses_a_pair_elsewhere && is_elsewhere))
             pairs.pop_back();
     }
     std::optional<Work> counted_query(Answers& answers) override {
@@ -156,6 +169,42 @@ TEST_F(RoundTest, PreparationChecksCountsAndCalibrates) {
         counters,
         (std::map<std::string, std::uint64_t>{
             {"pairs", 2}, {"bytes", 123}, {"node_visits", 5}, {"box_tests", 6}, {"stack_max", 2}}));
+}
+
+TEST_F(RoundTest, RoundsTakeTurnsAtTheInputs) {
+    plan.inputs = 3;
+    add("right", Fault::none);
+    add("wrong", Fault::loses_a_pair_elsewhere);
+    add("throws", Fault::throws_elsewhere);
+    add("file", Fault::loses_a_pair_elsewhere); // of one input
+    for (PlannedCell& cell : plan.cells) {
+        cell.scene.generator = "uniform";
+        cell.scene.n = 40;
+    }
+    plan.cells.back().scene.generator = "mesh";
+    plan.cells.back().scene.file = "two_triangles.obj";
+    std::ofstream("two_triangles.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n";
+    const results::Results p = prepared();
+    const InputAnswers answers = input_answers_of(p.texts.at("inputs"));
+    EXPECT_NE(answers.at({"right", 0}), answers.at({"right", 2}));
+    EXPECT_EQ(check_of(p, "right")->status, results::Status::exact);
+    EXPECT_EQ(check_of(p, "right")->n_got,
+              answers.at({"right", 0}).n + answers.at({"right", 1}).n + answers.at({"right", 2}).n);
+    EXPECT_EQ(check_of(p, "wrong")->status, results::Status::wrong);
+    EXPECT_EQ(check_of(p, "wrong")->missing, 2u);
+    EXPECT_TRUE(check_of(p, "wrong")->witness.starts_with("on input 1: "))
+        << check_of(p, "wrong")->witness;
+    EXPECT_EQ(check_of(p, "throws")->status, results::Status::wrong);
+    EXPECT_EQ(check_of(p, "throws")->witness, "threw on input 1: no more\nmemory");
+    EXPECT_EQ(check_of(p, "file")->status, results::Status::exact);
+    std::vector<std::uint32_t> inputs;
+    for (const unsigned round : {0u, 1u, 2u, 5u}) {
+        const results::Results r = run_round(plan, p, round, report());
+        inputs.push_back(r.shards.at(0).input);
+        for (const results::Sample& sample : r.samples)
+            EXPECT_FALSE(sample.flags & results::wrong_answer) << r.cells[sample.cell_id].name;
+    }
+    EXPECT_EQ(inputs, (std::vector<std::uint32_t>{0, 1, 2, 2}));
 }
 
 TEST_F(RoundTest, ARoundTimesEveryCellOnceAndTheAaCellTwice) {

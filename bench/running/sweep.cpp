@@ -12,6 +12,7 @@
 #include "bench/machine/quiet.h"
 #include "bench/running/calibration.h"
 #include "bench/running/child.h"
+#include "bench/running/inputs.h"
 #include "bench/running/prepare.h"
 #include "bench/running/shards.h"
 #include "bench/truth/crash.h"
@@ -107,7 +108,10 @@ class Sweep {
             arguments.push_back("--prepare");
             for (const auto& [cell, witness] : crashed_)
                 arguments.insert(arguments.end(), {"--skip", cell});
-            Eta eta(static_cast<double>(plan_.cells.size()));
+            double steps = 0;
+            for (const PlannedCell& cell : plan_.cells)
+                steps += has_inputs(cell) ? plan_.inputs : 1;
+            Eta eta(steps);
             const ChildEnd end =
                 run_child_process("preparing", arguments, 0, eta, [](const auto&) { return 1.0; });
             if (end.kind == ChildEnd::Kind::interrupted)

@@ -3,6 +3,7 @@
 #include "bench/machine/environment.h"
 #include "bench/running/child.h"
 #include "bench/running/cold.h"
+#include "bench/running/inputs.h"
 #include "bench/running/prepare.h"
 #include "bench/running/round.h"
 #include "bench/running/sweep.h"
@@ -25,7 +26,7 @@ int time_first_build(const ChildOptions& options) {
     const auto cell = std::ranges::find(plan.cells, options.cold, &PlannedCell::name);
     if (cell == plan.cells.end())
         throw BadInput(fmt::format("--cold: there is no cell {}", options.cold));
-    fmt::print("{}", to_text(time_cold(*cell)));
+    fmt::print("{}", to_text(time_cold(*cell, scene_in_round(plan, *cell, options.round))));
     return exit_success;
 }
 
