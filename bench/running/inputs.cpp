@@ -28,8 +28,7 @@ SceneSpec scene_in_round(const Plan& plan, const PlannedCell& cell, unsigned rou
 std::string to_text(const InputAnswers& answers) {
     std::string text = fmt::format("{}\n", table_header);
     for (const auto& [key, checked] : answers)
-        text +=
-            fmt::format("{}\t{}\t{}\t{}\n", key.second, checked.hash, checked.n, key.first);
+        text += fmt::format("{}\t{}\t{}\t{}\n", key.second, checked.hash, checked.n, key.first);
     return text;
 }
 
@@ -53,11 +52,11 @@ InputAnswers input_answers_of(std::string_view text) {
 
 void add_input(results::Check& check, unsigned input, const results::Check& of_input) {
     using results::Check;
-    for (std::uint64_t Check::* count : {&Check::n_checked, &Check::n_expected, &Check::n_got,
-                                         &Check::missing, &Check::extra, &Check::bound_violations})
-        check.*count = check.*count == results::no_count ? results::no_count
-                                                         : check.*count + of_input.*count;
-    for (double Check::* error : {&Check::max_ulp, &Check::max_abs_err, &Check::max_rel_err})
+    for (std::uint64_t Check::*count : {&Check::n_checked, &Check::n_expected, &Check::n_got,
+                                        &Check::missing, &Check::extra, &Check::bound_violations})
+        check.*count =
+            check.*count == results::no_count ? results::no_count : check.*count + of_input.*count;
+    for (double Check::*error : {&Check::max_ulp, &Check::max_abs_err, &Check::max_rel_err})
         if (!(check.*error >= of_input.*error))
             check.*error = of_input.*error;
     if (of_input.status <= check.status)

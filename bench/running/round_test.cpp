@@ -182,8 +182,9 @@ TEST_F(RoundTest, RoundsTakeTurnsAtTheInputs) {
         cell.scene.n = 40;
     }
     plan.cells.back().scene.generator = "mesh";
-    plan.cells.back().scene.file = "two_triangles.obj";
-    std::ofstream("two_triangles.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n";
+    const std::string mesh = testing::TempDir() + "two_triangles.obj";
+    plan.cells.back().scene.file = mesh;
+    std::ofstream(mesh) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n";
     const results::Results p = prepared();
     const InputAnswers answers = input_answers_of(p.texts.at("inputs"));
     EXPECT_NE(answers.at({"right", 0}), answers.at({"right", 2}));

@@ -371,11 +371,12 @@ void list_cells(const SweepOptions& options) {
     const Plan plan =
         make_plan(read_text(options.config.string()), options.config.string(), options.overrides);
     const unsigned rounds = (plan.rounds + options.shards - 1 - options.shard) / options.shards;
-    double guess_s = 0; // the preparation takes about as long as a round
+    double guess_s = 0; // the preparation takes about as long as a round for each input
     for (const PlannedCell& cell : plan.cells) {
         fmt::print("{}\n", cell.name);
-        guess_s += guessed_cell_s(cell, plan.min_time_ms) *
-                   (std::min(rounds, cell.rounds.value_or(rounds)) + 1);
+        guess_s +=
+            guessed_cell_s(cell, plan.min_time_ms) *
+            (std::min(rounds, cell.rounds.value_or(rounds)) + (has_inputs(cell) ? plan.inputs : 1));
     }
     say(fmt::format("{} cells, {} rounds, sweep {}: about {} (a guess; the preparation measures)\n",
                     plan.cells.size(), rounds, plan.sweep_hash, duration_text(guess_s)));
