@@ -88,6 +88,7 @@ void add_child(CLI::App& app, int& exit_code) {
     child->add_option("--shard-out", options->out, "the file to write")->required();
     child->add_option("--prepared", options->prepared, "what the preparation wrote");
     child->add_flag("--prepare", options->is_preparation, "prepare instead of timing a round");
+    child->add_option("--dumps", options->dumps, "count instructions, which callgrind dumps there");
     child->add_option("--round", options->round, "the round's number, from 0");
     child->add_option("--skip", options->skip, "cells that the preparation leaves out")->take_all();
     child->add_option("--report-fd", options->report_fd, "where to report")->required();
@@ -119,6 +120,16 @@ void add_sweep(CLI::App& app, int& exit_code) {
         "--budget", *budget,
         "time for the rounds, such as 90s, 10min or 2h: more rounds than planned while "
         "comparisons with peers are open, fewer (9 at least) where there is no more time");
+    CLI::Option* const rounds = sweep->get_option("--rounds");
+    CLI::Option* const counts =
+        sweep
+            ->add_flag("--count", options->counts,
+                       "instead of timed rounds count the instructions of each cell of ours on one "
+                       "thread, under valgrind: for boxwood compare --count, which no noise "
+                       "disturbs")
+            ->excludes(rounds)
+            ->excludes(of_shards)
+            ->excludes(timed);
     CLI::Option* const dry_run = sweep->add_flag(
         "--dry-run", *is_dry_run, "list the cells and guess the time; measure nothing");
     CLI::Option* const other =
@@ -128,7 +139,8 @@ void add_sweep(CLI::App& app, int& exit_code) {
                          "of both take turns, its results go to OUT.base.h5, and both are compared")
             ->excludes(of_shards)
             ->excludes(timed)
-            ->excludes(dry_run);
+            ->excludes(dry_run)
+            ->excludes(counts);
     sweep
         ->add_option("--fail-if", *fail_if,
                      "of --against: what counts as a regression, as boxwood compare has it")

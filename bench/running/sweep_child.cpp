@@ -2,6 +2,7 @@
 #include "bench/io/csv.h"
 #include "bench/running/child.h"
 #include "bench/running/environment.h"
+#include "bench/running/instructions/count.h"
 #include "bench/running/prepare.h"
 #include "bench/running/round.h"
 #include "bench/running/sweep.h"
@@ -24,6 +25,8 @@ results::Results work(const ChildOptions& options, const Report& report) {
         return prepare(plan, env, options.skip, report);
     }
     const results::Results prepared = results::read(options.prepared);
+    if (!options.dumps.empty())
+        return count_instructions(plan, prepared, options.dumps, report);
     if (environment(false).env_hash != prepared.env.at(0).env_hash)
         throw BadInput("the machine or the build changed while the sweep ran");
     return run_round(plan, prepared, options.round, report);
