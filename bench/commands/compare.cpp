@@ -2,6 +2,7 @@
 
 #include "bench/analysis/wording.h"
 #include "bench/commands/command.h"
+#include "bench/commands/compare_counts.h"
 #include "bench/io/json.h"
 #include "bench/io/pattern.h"
 #include "bench/io/read_results.h"
@@ -108,24 +109,6 @@ std::string verdict_line(const FileComparison& comparison, const FileOptions& op
     return "CAN'T TELL: " + comma_list(parts) + summary_text(comparison);
 }
 
-std::string_view gate_word(Gate gate) {
-    return gate == Gate::passes ? "passes" : gate == Gate::fails ? "fails" : "open";
-}
-
-std::string file_text(std::string_view which, const Results& results) {
-    std::string text;
-    for (const auto& env : results.env)
-        text += fmt::format("{}{}{} on {}, {}", text.empty() ? "" : "; ",
-                            env.git_commit.empty() ? "?" : env.git_commit.substr(0, 12),
-                            env.git_dirty ? " with changes" : "", env.host.empty() ? "?" : env.host,
-                            env.cpu.empty() ? "?" : env.cpu);
-    return fmt::format("{}: {}{}\n", which, text.empty() ? "no machine named" : text,
-                       results.is_sealed
-                           ? ""
-                           : "\n  THIS FILE WAS CHANGED after it was written: it need "
-                             "not say what was measured");
-}
-
 /// What a reader has to know before the table.
 std::string notes_text(const FileComparison& comparison) {
     std::string text;
@@ -174,6 +157,24 @@ std::string table_text(const std::vector<FileRow>& rows, const FileView& view) {
 
 } // namespace
 
+std::string_view gate_word(Gate gate) {
+    return gate == Gate::passes ? "passes" : gate == Gate::fails ? "fails" : "open";
+}
+
+std::string file_text(std::string_view which, const Results& results) {
+    std::string text;
+    for (const auto& env : results.env)
+        text += fmt::format("{}{}{} on {}, {}", text.empty() ? "" : "; ",
+                            env.git_commit.empty() ? "?" : env.git_commit.substr(0, 12),
+                            env.git_dirty ? " with changes" : "", env.host.empty() ? "?" : env.host,
+                            env.cpu.empty() ? "?" : env.cpu);
+    return fmt::format("{}: {}{}\n", which, text.empty() ? "no machine named" : text,
+                       results.is_sealed
+                           ? ""
+                           : "\n  THIS FILE WAS CHANGED after it was written: it need "
+                             "not say what was measured");
+}
+
 double percent_of(const std::string& text) {
     double value = 0;
     const char* end = text.data() + text.size();
@@ -184,16 +185,16 @@ double percent_of(const std::string& text) {
     return value / 100;
 }
 
-double fail_threshold(const std::string& condition) {
-    constexpr std::string_view start = "slower>";
+double fail_threshold(const std::string& condition, std::string_view change) {
+    const std::string start = fmt::format("{}>", change);
     std::string packed;
     for (const char c : condition)
         if (c != ' ')
             packed += c;
     if (!packed.starts_with(start))
-        throw BadInput(fmt::format("compare: --fail-if takes \"slower>5%\" or another percentage, "
-                                   "not '{}'",
-                                   condition));
+        throw BadInput(fmt::format("compare: --fail-if takes \"{}5%\" or another percentage, not "
+                                   "'{}'",
+                                   start, condition));
     return percent_of(packed.substr(start.size()));
 }
 
@@ -272,8 +273,8 @@ std::string comparison_json(const Results& base, const Results& head,
 
 void add_compare(CLI::App& app, int& exit_code) {
     struct Options {
-        std::string base, head, fail_if, delta = "5%", only;
-        bool all = false, markdown = false, json = false, any_processor = false;
+        std::string base, head, fail_if, delta = "5%", only, expect;
+        bool all = false, markdown = false, json = false, any_processor = false, counts = false;
     };
     auto options = std::make_shared<Options>();
     CLI::App* compare = app.add_subcommand(
@@ -283,8 +284,21 @@ void add_compare(CLI::App& app, int& exit_code) {
     compare->add_option("--fail-if", options->fail_if,
                         "what counts as a regression, such as \"slower>5%\"; any verdict "
                         "\"slower\" if not given");
-    compare->add_option("--delta", options->delta, "\"same\" means within this")
-        ->capture_default_str();
+    CLI::Option* delta =
+        compare->add_option("--delta", options->delta, "\"same\" means within this")
+            ->capture_default_str();
+    CLI::Option* counts =
+        compare
+            ->add_flag("--count", options->counts,
+                       "compare counters instead of times, which no noise disturbs: work must be "
+                       "equal or less, instructions (of boxwood sweep --count) and bytes at most 1 "
+                       "% more, or as --fail-if \"more>1%\" says")
+            ->excludes(delta);
+    compare
+        ->add_option("--expect", options->expect,
+                     "of --count: a regex searched for in \"CELL COUNTER\"; what it finds may be "
+                     "more")
+        ->needs(counts);
     compare->add_option("--only", options->only, "cells whose name has a match of this regex");
     compare->add_flag("--all", options->all,
                       "every row, and the peers', which no gate looks at; else what changed");
@@ -298,16 +312,34 @@ void add_compare(CLI::App& app, int& exit_code) {
         "Exit codes: 0 fine, 1 a regression, 2 bad input, 3 can't tell (too few or too noisy "
         "rounds, the head lacks what the base has, another processor, or the peers changed too).");
     compare->callback([options, &exit_code] {
+        const Results base = read_results(options->base), head = read_results(options->head);
+        const auto pattern = [](const std::string& text) {
+            std::function<bool(const std::string&)> finds;
+            if (!text.empty())
+                finds = [regex = Pattern(text)](const std::string& name) {
+                    return regex.is_in(name);
+                };
+            return finds;
+        };
+        if (options->counts) {
+            CountOptions chosen;
+            if (!options->fail_if.empty())
+                chosen.more = fail_threshold(options->fail_if, "more");
+            chosen.wanted = pattern(options->only);
+            chosen.expected = pattern(options->expect);
+            const CountComparison comparison = compare_counts(base, head, chosen);
+            std::cout << (options->json ? counts_json(comparison)
+                                        : counts_text(base, head, comparison, chosen,
+                                                      {options->markdown, options->all}));
+            exit_code = exit_code_of(comparison.gate);
+            return;
+        }
         FileOptions chosen;
         chosen.delta = percent_of(options->delta);
         chosen.any_processor = options->any_processor;
         if (!options->fail_if.empty())
             chosen.fail_if = fail_threshold(options->fail_if);
-        if (!options->only.empty())
-            chosen.wanted = [only = Pattern(options->only)](const std::string& name) {
-                return only.is_in(name);
-            };
-        const Results base = read_results(options->base), head = read_results(options->head);
+        chosen.wanted = pattern(options->only);
         const FileComparison comparison = compare_files(base, head, chosen);
         if (comparison.rows.empty() && comparison.lost.empty() &&
             (comparison.peers.empty() || !options->all))

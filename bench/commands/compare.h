@@ -4,17 +4,24 @@
 #include "results/results.h"
 
 #include <string>
+#include <string_view>
 
 namespace boxwood::bench {
 
 /// "5%" or "0.5 %" as 0.05 or 0.005. Throws BadInput for anything else.
 double percent_of(const std::string& text);
 
-/// The 0.05 of "slower>5%". Throws BadInput for anything else.
-double fail_threshold(const std::string& condition);
+/// The 0.05 of "slower>5%", or of another change. Throws BadInput for anything else.
+double fail_threshold(const std::string& condition, std::string_view change = "slower");
 
 /// The exit code of `boxwood compare`.
 int exit_code_of(Gate gate);
+
+/// "passes", "open", "fails".
+std::string_view gate_word(Gate gate);
+
+/// The commit and machine of a file, and whether it was changed; one line or two.
+std::string file_text(std::string_view which, const results::Results& results);
 
 struct FileView {
     bool markdown = false;

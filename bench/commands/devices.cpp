@@ -1,13 +1,12 @@
 #include "bench/commands/devices.h"
 
 #include "bench/io/bad_input.h"
+#include "bench/io/output_of.h"
 #include "kernels/suggest.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <memory>
 #include <sstream>
 
 namespace boxwood::bench {
@@ -15,18 +14,6 @@ namespace {
 
 std::string cuda_version(int version) {
     return fmt::format("{}.{}", version / 1000, version % 1000 / 10);
-}
-
-std::string output_of(const char* command) {
-    struct Close {
-        void operator()(std::FILE* file) const { pclose(file); }
-    };
-    const std::unique_ptr<std::FILE, Close> pipe(popen(command, "r"));
-    std::string text;
-    char part[4096];
-    while (pipe && std::fgets(part, sizeof part, pipe.get()))
-        text += part;
-    return text;
 }
 
 /// The rows of the device, without the bus id that they begin with. nvidia-smi writes its domain
@@ -102,12 +89,9 @@ int chosen_device(std::string_view name, std::span<const Device> there,
 
 DeviceUse device_use() {
     const std::string format = " --format=csv,noheader,nounits 2>/dev/null";
-    return {
-        output_of(("nvidia-smi --query-gpu=pci.bus_id,clocks.sm,clocks.max.sm,"
-                   "persistence_mode" +
-                   format)
-                      .c_str()),
-        output_of(("nvidia-smi --query-compute-apps=gpu_bus_id,pid,used_memory" + format).c_str())};
+    return {output_of("nvidia-smi --query-gpu=pci.bus_id,clocks.sm,clocks.max.sm,persistence_mode" +
+                      format),
+            output_of("nvidia-smi --query-compute-apps=gpu_bus_id,pid,used_memory" + format)};
 }
 
 std::vector<Finding> examine_devices(std::span<const Device> there, const std::string& why_none,

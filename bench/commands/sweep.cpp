@@ -90,6 +90,7 @@ void add_child(CLI::App& app, int& exit_code) {
     child->add_option("--shard-out", options->out, "the file to write")->required();
     child->add_option("--prepared", options->prepared, "what the preparation wrote");
     child->add_flag("--prepare", options->is_preparation, "prepare instead of timing a round");
+    child->add_option("--dumps", options->dumps, "count instructions, which callgrind dumps there");
     child->add_option("--round", options->round, "the round's number, from 0");
     child->add_option("--cold", options->cold, "the cell whose first build is timed");
     child->add_option("--other-cores", options->other_cores, "processors at work for others");
@@ -129,6 +130,16 @@ void add_sweep(CLI::App& app, int& exit_code) {
                      "how long rounds wait in all for other programs to end, and no longer than "
                      "they take; 0s: not at all")
         ->capture_default_str();
+    CLI::Option* const rounds = sweep->get_option("--rounds");
+    CLI::Option* const counts =
+        sweep
+            ->add_flag("--count", options->counts,
+                       "instead of timed rounds count the instructions of each cell of ours on one "
+                       "thread, under valgrind: for boxwood compare --count, which no noise "
+                       "disturbs")
+            ->excludes(rounds)
+            ->excludes(of_shards)
+            ->excludes(timed);
     CLI::Option* const dry_run = sweep->add_flag(
         "--dry-run", *is_dry_run, "list the cells and guess the time; measure nothing");
     CLI::Option* const other =
@@ -138,7 +149,8 @@ void add_sweep(CLI::App& app, int& exit_code) {
                          "of both take turns, its results go to OUT.base.h5, and both are compared")
             ->excludes(of_shards)
             ->excludes(timed)
-            ->excludes(dry_run);
+            ->excludes(dry_run)
+            ->excludes(counts);
     sweep
         ->add_option("--fail-if", *fail_if,
                      "of --against: what counts as a regression, as boxwood compare has it")

@@ -1,5 +1,6 @@
 #include "bench/machine/environment.h"
 
+#include "bench/io/output_of.h"
 #include "bench/machine/machine.h"
 #include "bench/tasks/contender.h"
 #include "bench/tasks/instruction_sets.h"
@@ -15,9 +16,7 @@
 #include <toml++/toml.h>
 #include <xxhash.h>
 
-#include <cstdio>
 #include <map>
-#include <memory>
 #if defined(__SSE__)
 #include <xmmintrin.h>
 #endif
@@ -45,19 +44,7 @@ std::string hash_of(const results::Env& e) {
 
 std::string cmake_cache_text() { return cmake_cache; }
 
-std::string lscpu_text() {
-    struct Close {
-        void operator()(std::FILE* pipe) const { pclose(pipe); }
-    };
-    const std::unique_ptr<std::FILE, Close> pipe(popen("LC_ALL=C lscpu 2>/dev/null", "r"));
-    std::string text;
-    char part[4096];
-    for (std::size_t got = 1; pipe && got != 0;) {
-        got = std::fread(part, 1, sizeof part, pipe.get());
-        text.append(part, got);
-    }
-    return text;
-}
+std::string lscpu_text() { return output_of("LC_ALL=C lscpu 2>/dev/null"); }
 
 std::string_view build_type() { return BOXWOOD_BUILD_TYPE; }
 std::string_view sanitizers() { return BOXWOOD_SANITIZERS; }

@@ -109,14 +109,14 @@ bool listen(int pipe, Interrupt& interrupt, Conversation& conversation) {
     }
 }
 
-[[noreturn]] void become_child(pid_t parent, const sigset_t& mask, char* const* arguments,
-                               char* const* variables) {
+[[noreturn]] void become_child(pid_t parent, const sigset_t& mask, const char* program,
+                               char* const* arguments, char* const* variables) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) // it died before the line above
         _exit(127);
     signal(SIGINT, SIG_IGN); // Ctrl-C goes to the whole group; only the parent answers it
     pthread_sigmask(SIG_SETMASK, &mask, nullptr);
-    execve("/proc/self/exe", arguments, variables);
+    execvpe(program, arguments, variables);
     _exit(127);
 }
 
@@ -137,7 +137,7 @@ std::string cause_of(int status) {
 } // namespace
 
 ChildEnd run_child(std::vector<std::string> arguments, unsigned max_threads, std::size_t padding,
-                   Interrupt& interrupt, const Report& report) {
+                   Interrupt& interrupt, const Report& report, const char* program) {
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0)
         throw std::system_error(errno, std::generic_category(), "pipe");
@@ -152,7 +152,7 @@ ChildEnd run_child(std::vector<std::string> arguments, unsigned max_threads, std
         throw std::system_error(errno, std::generic_category(), "fork");
     if (child == 0) {
         fcntl(ends[1], F_SETFD, 0); // the one descriptor that outlives exec
-        become_child(parent, interrupt.mask_before(), argument_pointers.data(),
+        become_child(parent, interrupt.mask_before(), program, argument_pointers.data(),
                      variable_pointers.data());
     }
     close(ends[1]);
@@ -174,7 +174,7 @@ ChildEnd run_child(std::vector<std::string> arguments, unsigned max_threads, std
     return end;
 }
 
-std::string output_of(std::vector<std::string> arguments) {
+std::string output_of_child(std::vector<std::string> arguments) {
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0)
         throw std::system_error(errno, std::generic_category(), "pipe");
@@ -187,7 +187,7 @@ std::string output_of(std::vector<std::string> arguments) {
         throw std::system_error(errno, std::generic_category(), "fork");
     if (child == 0) {
         dup2(ends[1], STDOUT_FILENO);
-        become_child(parent, mask, pointers.data(), environ);
+        become_child(parent, mask, own_program, pointers.data(), environ);
     }
     close(ends[1]);
     std::string output;

@@ -10,6 +10,8 @@
 
 namespace boxwood::bench {
 
+inline constexpr const char* own_program = "/proc/self/exe";
+
 /// How a child process ended.
 struct ChildEnd {
     enum class Kind {
@@ -23,7 +25,8 @@ struct ChildEnd {
     std::string cause; ///< "signal 11 (Segmentation fault)", or its own words
 };
 
-/// Runs this executable again with other arguments and waits for its end. The child's environment
+/// Runs this executable again, or a program that the PATH leads to, with other arguments (the first
+/// is its name) and waits for its end. The child's environment
 /// is fit for timing (idle OpenMP threads sleep; no google-benchmark settings from outside; malloc
 /// asks for huge pages, for peers as for us), and larger by `padding` bytes, which moves the stack:
 /// where memory lies is a matter of chance, too. It does not see Ctrl-C, and dies with its parent.
@@ -31,7 +34,7 @@ struct ChildEnd {
 /// says; between two cells the parent sleeps, so as to take no time from what is measured. Throws
 /// std::system_error if no process can be started.
 ChildEnd run_child(std::vector<std::string> arguments, unsigned max_threads, std::size_t padding,
-                   Interrupt& interrupt, const Report& report);
+                   Interrupt& interrupt, const Report& report, const char* program = own_program);
 
 /// Of this process.
 std::size_t own_padding();
@@ -39,7 +42,7 @@ std::size_t own_padding();
 /// Runs this executable again with other arguments in this environment, and gives what it writes to
 /// stdout. It dies with this process. Throws std::runtime_error unless it exits with 0, and
 /// std::system_error if no process can be started.
-std::string output_of(std::vector<std::string> arguments);
+std::string output_of_child(std::vector<std::string> arguments);
 
 /// The child's side.
 class ChildReport {

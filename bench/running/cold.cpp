@@ -53,7 +53,7 @@ ColdTimes run_cold_process(const std::string& cell) {
     for (std::string argument; std::getline(file, argument, '\0');)
         arguments.push_back(argument);
     arguments.insert(arguments.end(), {"--cold", cell});
-    return cold_times_of(output_of(std::move(arguments)));
+    return cold_times_of(output_of_child(std::move(arguments)));
 }
 
 } // namespace boxwood::bench

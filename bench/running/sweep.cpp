@@ -13,6 +13,7 @@
 #include "bench/running/calibration.h"
 #include "bench/running/child.h"
 #include "bench/running/inputs.h"
+#include "bench/running/instructions/count.h"
 #include "bench/running/prepare.h"
 #include "bench/running/shards.h"
 #include "bench/truth/crash.h"
@@ -33,6 +34,8 @@ namespace fs = std::filesystem;
 
 /// What a cell takes in a round beside its timed loops and their warm-up: contender, answers, hash.
 constexpr double set_up_ns = 1e6;
+
+constexpr double callgrind_slowdown = 50;
 
 constexpr std::size_t max_padding = 4096; ///< a page: beyond it all comes again
 
@@ -58,6 +61,8 @@ class Sweep {
             throw BadInput(fmt::format("--shard {}/{} has none of the {} rounds", options_.shard,
                                        options_.shards, plan_.rounds));
         shards_.open(); // before OUT is read: no other sweep may write it meanwhile
+        if (options_.counts)
+            return count();
         read_earlier_output();
         write_sweep_file();
         if (!get_prepared() || !run_rounds() || !run_more_rounds())
@@ -94,6 +99,40 @@ class Sweep {
         file << plan_.config_text << std::flush;
         if (!file)
             throw BadInput(fmt::format("cannot write {}", shards_.sweep_file().string()));
+    }
+
+    /// The instructions of our cells instead of rounds.
+    int count() {
+        const fs::path counted = shards_.folder() / "counted.h5",
+                       dumps = shards_.folder() / "callgrind";
+        std::vector<std::string> arguments = under_callgrind(fs::absolute(dumps));
+        if (fs::exists(options_.out))
+            throw BadInput(fmt::format("--out: {} is there already; choose another, or remove it",
+                                       options_.out.string()));
+        write_sweep_file();
+        if (!get_prepared())
+            return stop();
+        const std::vector<std::string> own = child_arguments(counted);
+        arguments.insert(arguments.end(), own.begin() + 1, own.end());
+        arguments.insert(arguments.end(), {"--prepared", shards_.prepared_file().string(),
+                                           "--dumps", dumps.string()});
+        const auto cells = std::ranges::count_if(plan_.cells, is_counted);
+        while (!fs::exists(counted)) {
+            Eta eta(static_cast<double>(cells));
+            const ChildEnd end = run_child_process(
+                "counting", arguments, 0, eta, [](const auto&) { return 1.0; }, "valgrind");
+            if (end.kind == ChildEnd::Kind::interrupted)
+                return stop();
+            note_crash(end, "the count");
+            take_out_crashed();
+        }
+        merged_ = results::read(counted);
+        put_in_place();
+        shards_.remove();
+        progress_.say(fmt::format("instructions of {} cells are in {}; boxwood compare --count "
+                                  "compares two such files",
+                                  cells, options_.out.string()));
+        return is_promise_broken(merged_) ? exit_failed : exit_success;
     }
 
     /// False if it was interrupted.
@@ -239,7 +278,8 @@ class Sweep {
     }
 
     ChildEnd run_child_process(const std::string& stage, const std::vector<std::string>& arguments,
-                               std::size_t padding, Eta& eta, const Cost& cost) {
+                               std::size_t padding, Eta& eta, const Cost& cost,
+                               const char* program = own_program) {
         double at_work = 0; // expected cost of the cell that runs now
         const Report report = [&](std::size_t, std::size_t, const std::string& cell) {
             eta.done(at_work);
@@ -247,7 +287,7 @@ class Sweep {
             progress_.show({stage, eta.fraction(), eta.left_s(elapsed_s()), cell});
         };
         progress_.show({stage, eta.fraction(), -1, ""});
-        ChildEnd end = run_child(arguments, max_threads(), padding, interrupt_, report);
+        ChildEnd end = run_child(arguments, max_threads(), padding, interrupt_, report, program);
         eta.done(at_work);
         if (end.kind == ChildEnd::Kind::failed)
             throw BadInput(fmt::format("{}; what is finished is kept in {}: mend this and start "
@@ -311,6 +351,12 @@ class Sweep {
         if (done.empty())
             return false;
         merged_ = results::merge(parts);
+        put_in_place();
+        return true;
+    }
+
+    /// What was merged or counted becomes OUT.
+    void put_in_place() {
         merged_.texts["argv"] = options_.command_line;
         merged_.texts["lscpu"] = lscpu_text();
         merged_.texts["cmake_cache"] = cmake_cache_text();
@@ -318,7 +364,6 @@ class Sweep {
         const fs::path merged_file = shards_.folder() / "merged.h5";
         results::write(merged_file, merged_);
         fs::rename(merged_file, options_.out);
-        return true;
     }
 
     int stop() {
@@ -372,6 +417,18 @@ void list_cells(const SweepOptions& options) {
         make_plan(read_text(options.config.string()), options.config.string(), options.overrides);
     const unsigned rounds = (plan.rounds + options.shards - 1 - options.shard) / options.shards;
     double guess_s = 0; // the preparation takes about as long as a round for each input
+    if (options.counts) {
+        std::size_t counted = 0;
+        for (const PlannedCell& cell : plan.cells)
+            if (is_counted(cell)) {
+                fmt::print("{}\n", cell.name);
+                guess_s += callgrind_slowdown * guessed_cell_s(cell, 0);
+                ++counted;
+            }
+        say(fmt::format("{} cells to count, sweep {}: about {} (a guess)\n", counted,
+                        plan.sweep_hash, duration_text(guess_s)));
+        return;
+    }
     for (const PlannedCell& cell : plan.cells) {
         fmt::print("{}\n", cell.name);
         guess_s +=

@@ -19,10 +19,11 @@ struct SweepOptions {
     double budget_s = 0;
     /// How long rounds wait in all for a quiet machine; and no longer than they take.
     double wait_s = 60;
+    bool counts = false;      ///< instructions of our cells instead of rounds: see count.h
     std::string command_line; ///< recorded
 };
 
-/// Prints the cells of a sweep and how long it may take.
+/// Prints the cells of a sweep and how long it may take; if it counts, those that are counted.
 void list_cells(const SweepOptions& options);
 
 /// Plans, prepares, runs every round in a process of its own, merges, compares and prints the
@@ -30,9 +31,9 @@ void list_cells(const SweepOptions& options);
 /// code; throws BadInput for bad input and for a place that takes no data.
 int run_sweep(const SweepOptions& options);
 
-/// What one child process does: the preparation, or one round.
+/// What one child process does: the preparation, one round, or the count of instructions.
 struct ChildOptions {
-    std::filesystem::path config, prepared, out;
+    std::filesystem::path config, prepared, out, dumps; ///< dumps: of callgrind, if it counts
     Overrides overrides;
     std::string sweep_hash; ///< that of the parent's plan
     bool is_preparation = false;

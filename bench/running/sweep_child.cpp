@@ -4,6 +4,7 @@
 #include "bench/running/child.h"
 #include "bench/running/cold.h"
 #include "bench/running/inputs.h"
+#include "bench/running/instructions/count.h"
 #include "bench/running/prepare.h"
 #include "bench/running/round.h"
 #include "bench/running/sweep.h"
@@ -41,6 +42,8 @@ results::Results work(const ChildOptions& options, const Report& report) {
         return prepare(plan, env, options.skip, report);
     }
     const results::Results prepared = results::read(options.prepared);
+    if (!options.dumps.empty())
+        return count_instructions(plan, prepared, options.dumps, report);
     if (environment(false).env_hash != prepared.env.at(0).env_hash)
         throw BadInput("the machine or the build changed while the sweep ran");
     results::Results results = run_round(plan, prepared, options.round, report, run_cold_process);

@@ -3,6 +3,7 @@
 #include "bench/running/sweep.h"
 
 #include "bench/io/bad_input.h"
+#include "bench/running/instructions/count.h"
 #include "bench/running/shards.h"
 
 #include <gmock/gmock.h>
@@ -393,6 +394,38 @@ TEST_F(SweepTest, RefusesToOverwriteOtherFiles) {
     EXPECT_EQ(sweep({"--seed", "2"}), 2);
     EXPECT_THAT(text_of(log()), HasSubstr("another sweep"));
     EXPECT_EQ(text_of(out()), bytes);
+}
+
+TEST_F(SweepTest, CountsTheSameInstructionsTwice) {
+    try {
+        under_callgrind(folder / "dumps");
+    } catch (const BadInput& missing) {
+        GTEST_SKIP() << missing.what();
+    }
+    write_config("n = 300\nbuilders = \"median\"\npeers = \"brute_force\"\n", 1);
+    std::map<std::string, std::uint64_t> earlier;
+    for (int run = 0; run < 2; ++run) {
+        fs::remove(out());
+        ASSERT_EQ(sweep({"--count"}), 0) << text_of(log());
+        const results::Results r = results::read(out());
+        EXPECT_TRUE(r.samples.empty());
+        EXPECT_THAT(r.texts.at("instructions_by"), HasSubstr("valgrind"));
+        std::map<std::string, std::uint64_t> counts;
+        for (const results::Counter& row : r.counters)
+            if (row.counter.starts_with("instructions_"))
+                counts[r.cells.at(row.cell_id).name + " " + row.counter] = row.value;
+        ASSERT_EQ(counts.size(), 2u); // build and query of ours
+        for (const auto& [name, count] : counts) {
+            EXPECT_GT(count, 10'000u) << name; // at least one per item and level
+            if (run > 0) {
+                const auto before = static_cast<double>(earlier[name]);
+                EXPECT_NEAR(static_cast<double>(count), before, 1e-3 * before) << name;
+            }
+        }
+        earlier = counts;
+    }
+    EXPECT_EQ(sweep({"--count"}), 2); // OUT is there
+    EXPECT_FALSE(fs::exists(out().string() + ".shards"));
 }
 
 TEST_F(SweepTest, TellsBeforeMeasuringThatThePlaceTakesNoData) {
