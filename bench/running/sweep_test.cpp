@@ -1,157 +1,20 @@
-/// Whole sweeps, run by the `boxwood` program that stands one folder above this test's.
-
 #include "bench/running/sweep.h"
 
 #include "bench/io/bad_input.h"
-#include "bench/running/instructions/count.h"
 #include "bench/running/shards.h"
+#include "bench/running/sweep_fixture.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <chrono>
-#include <csignal>
-#include <fcntl.h>
-#include <fstream>
-#include <map>
 #include <set>
-#include <sstream>
-#include <thread>
 
 namespace boxwood::bench {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::HasSubstr;
-
-fs::path program() {
-    return fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "boxwood";
-}
-
-std::string text_of(const fs::path& file) {
-    std::ostringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
-}
-
-template <class Condition> bool wait_until(Condition condition) {
-    for (int i = 0; i < 6000; ++i) {
-        if (condition())
-            return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    return false;
-}
-
-/// CPU time of a process in seconds; negative if it is gone or a zombie.
-double cpu_s(pid_t pid) {
-    std::istringstream stat(text_of("/proc/" + std::to_string(pid) + "/stat"));
-    std::string field;
-    double user = 0, system = 0;
-    for (int i = 1; i <= 15 && stat >> field; ++i) {
-        if (i == 3 && field == "Z")
-            return -1;
-        if (i == 14)
-            user = std::stod(field);
-        if (i == 15)
-            system = std::stod(field);
-    }
-    return stat ? (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK)) : -1;
-}
-
-pid_t child_of(pid_t pid) {
-    const std::string id = std::to_string(pid);
-    std::istringstream children(text_of("/proc/" + id + "/task/" + id + "/children"));
-    pid_t child = 0;
-    children >> child;
-    return child;
-}
-
-struct SweepTest : testing::Test {
-    fs::path folder;
-    fs::path config() const { return folder / "sweep.toml"; }
-    fs::path out() const { return folder / "out.h5"; }
-    fs::path log() const { return folder / "log.txt"; }
-
-    void SetUp() override {
-        if (!fs::exists(program()))
-            GTEST_SKIP() << program() << " is not built";
-        std::string name = fs::temp_directory_path() / "boxwood-sweep-XXXXXX";
-        ASSERT_TRUE(mkdtemp(name.data()));
-        folder = name;
-        write_config("n = 300\nbuilders = [\"median\", \"binned_sah\"]\npeers = \"brute_force\"\n",
-                     20);
-    }
-    void TearDown() override {
-        if (!folder.empty())
-            fs::remove_all(folder);
-    }
-
-    void write_config(const std::string& block, int min_time_ms) const {
-        std::ofstream(config()) << "rounds = 3\nmin_time_ms = " << min_time_ms
-                                << "\n[[cells]]\nscene = \"uniform\"\ntask = \"pairs\"\n"
-                                << block;
-    }
-
-    pid_t start(const std::vector<std::string>& more = {}) const {
-        std::vector<std::string> words{"boxwood", "sweep", "--config", config(), "--out", out()};
-        words.insert(words.end(), more.begin(), more.end());
-        std::vector<char*> pointers;
-        for (std::string& word : words)
-            pointers.push_back(word.data());
-        pointers.push_back(nullptr);
-        const pid_t pid = fork();
-        if (pid == 0) {
-            const int file = open(log().c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-            dup2(file, 1);
-            dup2(file, 2);
-            execv(program().c_str(), pointers.data());
-            _exit(127);
-        }
-        return pid;
-    }
-
-    static int wait_for(pid_t pid) {
-        int status = 0;
-        waitpid(pid, &status, 0);
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-    }
-    int sweep(const std::vector<std::string>& more = {}) const { return wait_for(start(more)); }
-
-    /// The shard files there are, by round.
-    std::map<unsigned, fs::path> shard_files() const {
-        std::map<unsigned, fs::path> files;
-        std::error_code error;
-        for (const auto& entry :
-             fs::recursive_directory_iterator(out().string() + ".shards", error)) {
-            unsigned round = 0;
-            char end = 0;
-            const std::string name = entry.path().filename();
-            if (std::sscanf(name.c_str(), "round-%u.h%c", &round, &end) == 2 &&
-                name.ends_with(".h5"))
-                files[round] = entry.path();
-        }
-        return files;
-    }
-
-    /// Which process measured which round.
-    static std::map<unsigned, unsigned> pids(const results::Results& results) {
-        std::map<unsigned, unsigned> by_round;
-        for (const results::Shard& shard : results.shards)
-            EXPECT_TRUE(by_round.emplace(shard.round, shard.pid).second) << "a round twice";
-        return by_round;
-    }
-    std::map<unsigned, unsigned> pids_of_shards() const {
-        std::map<unsigned, unsigned> by_round;
-        for (const auto& [round, file] : shard_files())
-            by_round[round] = pids(results::read(file)).at(round);
-        return by_round;
-    }
-};
 
 TEST_F(SweepTest, TellsNothingOfTreesThatWereNotMade) {
     std::ofstream(config()) << "rounds = 1\nmin_time_ms = 1\n[[cells]]\nscene = \"sphere_mesh\"\n"
@@ -263,49 +126,6 @@ TEST_F(SweepTest, MoreRoundsExtendAndShardsShareThem) {
     EXPECT_EQ(pids(results::read(out())), all);
 }
 
-TEST_F(SweepTest, ABudgetAddsRoundsAndTakesThemAway) {
-    write_config("n = 100\nbuilders = \"median\"\npeers = \"brute_force\"\n", 1);
-    ASSERT_EQ(sweep({"--budget", "2s"}), 0) << text_of(log());
-    EXPECT_GT(pids(results::read(out())).size(), 3u); // three leave comparisons open
-    EXPECT_THAT(text_of(log()),
-                testing::AnyOf(HasSubstr("has its verdict"), HasSubstr("the budget is spent; ")));
-    fs::remove(out());
-    ASSERT_EQ(sweep({"--rounds", "12", "--budget", "0.001s"}), 0) << text_of(log());
-    EXPECT_EQ(pids(results::read(out())).size(), 9u);
-    for (const char* bad : {"10", "-1s", "0min", "1day"})
-        EXPECT_EQ(sweep({"--budget", bad}), 2) << bad;
-}
-
-TEST_F(SweepTest, PaddingIsDrawnByRound) {
-    ASSERT_EQ(sweep(), 0) << text_of(log());
-    std::set<std::uint64_t> paddings;
-    for (const results::Shard& shard : results::read(out()).shards)
-        paddings.insert(shard.padding_bytes);
-    EXPECT_EQ(paddings.size(), 3u);
-    EXPECT_LT(*paddings.rbegin(), 4096u);
-}
-
-TEST_F(SweepTest, ColdBuildsAreThoseOfFreshProcesses) {
-    using results::Phase;
-    write_config("n = 3000\nbuilders = \"median\"\npeers = \"brute_force\"\ncold_build = true\n",
-                 2);
-    ASSERT_EQ(sweep(), 0) << text_of(log());
-    const results::Results got = results::read(out());
-    std::map<Phase, std::vector<double>> ns;
-    for (const results::Sample& sample : got.samples)
-        if (sample.cell_id == 0) {
-            ns[sample.phase].push_back(sample.wall_ns);
-            EXPECT_EQ(sample.flags & results::wrong_answer, 0u);
-        }
-    ASSERT_GE(ns[Phase::cold_build].size(), 2u);
-    ASSERT_EQ(ns[Phase::cold_build].size(), ns[Phase::cold_build_and_query].size());
-    EXPECT_GT(std::ranges::min(ns[Phase::cold_build_and_query]),
-              std::ranges::max(ns[Phase::build])); // pages are touched, and it answers
-    EXPECT_TRUE(std::ranges::any_of(got.compare, [](const results::Comparison& row) {
-        return row.phase == Phase::cold_build_and_query && row.family == results::Family::peers;
-    }));
-}
-
 TEST_F(SweepTest, TwoDoNotWriteOneFile) {
     const pid_t first = start();
     const fs::path lock = out().string() + ".shards/lock";
@@ -394,38 +214,6 @@ TEST_F(SweepTest, RefusesToOverwriteOtherFiles) {
     EXPECT_EQ(sweep({"--seed", "2"}), 2);
     EXPECT_THAT(text_of(log()), HasSubstr("another sweep"));
     EXPECT_EQ(text_of(out()), bytes);
-}
-
-TEST_F(SweepTest, CountsTheSameInstructionsTwice) {
-    try {
-        under_callgrind(folder / "dumps");
-    } catch (const BadInput& missing) {
-        GTEST_SKIP() << missing.what();
-    }
-    write_config("n = 300\nbuilders = \"median\"\npeers = \"brute_force\"\n", 1);
-    std::map<std::string, std::uint64_t> earlier;
-    for (int run = 0; run < 2; ++run) {
-        fs::remove(out());
-        ASSERT_EQ(sweep({"--count"}), 0) << text_of(log());
-        const results::Results r = results::read(out());
-        EXPECT_TRUE(r.samples.empty());
-        EXPECT_THAT(r.texts.at("instructions_by"), HasSubstr("valgrind"));
-        std::map<std::string, std::uint64_t> counts;
-        for (const results::Counter& row : r.counters)
-            if (row.counter.starts_with("instructions_"))
-                counts[r.cells.at(row.cell_id).name + " " + row.counter] = row.value;
-        ASSERT_EQ(counts.size(), 2u); // build and query of ours
-        for (const auto& [name, count] : counts) {
-            EXPECT_GT(count, 10'000u) << name; // at least one per item and level
-            if (run > 0) {
-                const auto before = static_cast<double>(earlier[name]);
-                EXPECT_NEAR(static_cast<double>(count), before, 1e-3 * before) << name;
-            }
-        }
-        earlier = counts;
-    }
-    EXPECT_EQ(sweep({"--count"}), 2); // OUT is there
-    EXPECT_FALSE(fs::exists(out().string() + ".shards"));
 }
 
 TEST_F(SweepTest, TellsBeforeMeasuringThatThePlaceTakesNoData) {
