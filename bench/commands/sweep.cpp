@@ -106,6 +106,7 @@ void add_sweep(CLI::App& app, int& exit_code) {
     auto shard = std::make_shared<std::string>();
     auto budget = std::make_shared<std::string>();
     auto wait = std::make_shared<std::string>("60s");
+    auto give_up = std::make_shared<std::string>("10min");
     auto is_dry_run = std::make_shared<bool>(false);
     auto against = std::make_shared<std::filesystem::path>();
     auto fail_if = std::make_shared<std::string>();
@@ -125,6 +126,10 @@ void add_sweep(CLI::App& app, int& exit_code) {
         "--budget", *budget,
         "time for the rounds, such as 90s, 10min or 2h: more rounds than planned while "
         "comparisons with peers are open, fewer (9 at least) where there is no more time");
+    sweep
+        ->add_option("--give-up", *give_up,
+                     "a cell in which a process hangs for so long is left out, as a wrong answer")
+        ->capture_default_str();
     sweep
         ->add_option("--wait", *wait,
                      "how long rounds wait in all for other programs to end, and no longer than "
@@ -165,6 +170,7 @@ void add_sweep(CLI::App& app, int& exit_code) {
         if (!budget->empty())
             options->budget_s = duration_s("--budget", *budget, false);
         options->wait_s = duration_s("--wait", *wait, true);
+        options->give_up_s = duration_s("--give-up", *give_up, false);
         options->command_line = own_command_line();
         if (*is_dry_run)
             return list_cells(*options);

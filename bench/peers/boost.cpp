@@ -24,9 +24,9 @@ using Value = std::pair<Box, std::uint32_t>;
 Point point_of(Vec3<float> p) { return {p.x, p.y, p.z}; }
 Box box_of(const Aabb<float>& box) { return {point_of(box.min), point_of(box.max)}; }
 
-/// Most values of a node. For 10,000 boxes 8 was best, build and query together: 8.9 ms packed (6: 9.2,
-/// 16: 10.7, 32: 13.4) and 44 ms for R* (16: 55, 32: 90, and seconds for 6). Interleaved minima on a
-/// shared machine.
+/// Most values of a node. For 10,000 boxes 8 was best, build and query together: 8.9 ms packed
+/// (6: 9.2, 16: 10.7, 32: 13.4) and 44 ms for R* (16: 55, 32: 90, and seconds for 6). Interleaved
+/// minima on a shared machine.
 constexpr std::size_t node_size = 8;
 using Packed = bgi::rtree<Value, bgi::quadratic<node_size>>; ///< the packing is that of all kinds
 using RStar = bgi::rtree<Value, bgi::rstar<node_size>>;
@@ -191,7 +191,8 @@ ContenderEntry entry(std::string name, std::string summary, std::string notes,
     e.name = "boost." + std::move(name);
     e.library = "boost";
     e.summary = "Boost.Geometry's rtree, " + std::move(summary);
-    e.notes = std::move(notes) + fmt::format("; at most {} values a node, which are pairs of a box of floats and a number; an output "
+    e.notes = std::move(notes) + fmt::format("; at most {} values a node, which are pairs of a box "
+                                             "of floats and a number; an output "
                                              "iterator takes what is found; one thread",
                                              node_size);
     e.precision = "f32";
@@ -210,8 +211,9 @@ Peer boost_peer() {
     peer.version = fmt::format("{}.{}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000,
                                BOOST_VERSION % 100);
     peer.build = "headers compiled here in single precision";
-    const std::string pairs = "query = one by intersects for each value in the order of the tree, of "
-                              "which pairs with a later item are kept";
+    const std::string pairs =
+        "query = one by intersects for each value in the order of the tree, of "
+        "which pairs with a later item are kept";
     peer.contenders = {
         entry("rtree.packed", "packed",
               "build = the packing constructor; a frame: all packed again; " + pairs,
@@ -220,7 +222,8 @@ Peer boost_peer() {
               "build = insert each; a frame: each moved value removed and inserted; " + pairs,
               answering_all_pairs<Pairs<RStar, Made::inserted>>()),
         entry("rtree.queries", "packed, queried with one point or region after another",
-              "build = the packing constructor; points are flat boxes, balls go by their boxes and are "
+              "build = the packing constructor; points are flat boxes, balls go by their boxes and "
+              "are "
               "tested in doubles; nearest by its own search, distances found again in doubles",
               {answering<Points>("points", PointQuery::containing),
                answering<Points>("regions", PointQuery::overlapping),

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -89,23 +90,34 @@ class Conversation {
     std::string pending_;
 };
 
-/// Until the child closes its end of the pipe, by exit at the latest. False if interrupted.
-bool listen(int pipe, Interrupt& interrupt, Conversation& conversation) {
+enum class Heard : std::uint8_t { all, interrupt, silence };
+
+/// Until the child closes its end of the pipe, by exit at the latest.
+Heard listen(int pipe, Interrupt& interrupt, Conversation& conversation, double silence_s) {
+    using Clock = std::chrono::steady_clock;
+    const std::chrono::duration<double> silence(silence_s);
+    Clock::time_point last = Clock::now();
     std::array<char, 4096> bytes;
     std::array<pollfd, 2> waiting{pollfd{pipe, POLLIN, 0},
                                   pollfd{interrupt.descriptor(), POLLIN, 0}};
     while (true) {
-        if (poll(waiting.data(), waiting.size(), -1) < 0 && errno != EINTR)
+        const std::chrono::duration<double, std::milli> left = silence - (Clock::now() - last);
+        const int ready = poll(waiting.data(), waiting.size(),
+                               static_cast<int>(std::clamp(left.count() + 1, 0., 1e9)));
+        if (ready < 0 && errno != EINTR)
             throw std::system_error(errno, std::generic_category(), "poll");
         if (interrupt.requested())
-            return false;
+            return Heard::interrupt;
+        if (ready == 0 && left.count() <= 0)
+            return Heard::silence;
         if (waiting[0].revents == 0)
             continue;
+        last = Clock::now();
         const ssize_t got = read(pipe, bytes.data(), bytes.size());
         if (got > 0)
             conversation.take({bytes.data(), static_cast<std::size_t>(got)});
         else if (got == 0 || errno != EINTR)
-            return true;
+            return Heard::all;
     }
 }
 
@@ -137,7 +149,8 @@ std::string cause_of(int status) {
 } // namespace
 
 ChildEnd run_child(std::vector<std::string> arguments, unsigned max_threads, std::size_t padding,
-                   Interrupt& interrupt, const Report& report, const char* program) {
+                   Interrupt& interrupt, const Report& report, double silence_s,
+                   const char* program) {
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0)
         throw std::system_error(errno, std::generic_category(), "pipe");
@@ -159,14 +172,17 @@ ChildEnd run_child(std::vector<std::string> arguments, unsigned max_threads, std
 
     ChildEnd end;
     Conversation conversation(report, end);
-    const bool finished = listen(ends[0], interrupt, conversation);
-    if (!finished)
+    const Heard heard = listen(ends[0], interrupt, conversation, silence_s);
+    if (heard != Heard::all)
         kill(child, SIGKILL);
     close(ends[0]);
     const int status = wait_for(child);
     const std::string cause = cause_of(status);
-    if (!finished || interrupt.requested()) {
+    if (heard == Heard::interrupt || interrupt.requested()) {
         end.kind = ChildEnd::Kind::interrupted;
+    } else if (heard == Heard::silence) {
+        end.kind = ChildEnd::Kind::hung;
+        end.cause = fmt::format("no sign of life for {:g} s", silence_s);
     } else if (WIFSIGNALED(status) || (!cause.empty() && end.kind == ChildEnd::Kind::done)) {
         end.kind = ChildEnd::Kind::crashed;
         end.cause = cause;

@@ -18,6 +18,7 @@ struct ChildEnd {
         done,
         interrupted, ///< Ctrl-C reached the parent; the child was stopped
         crashed,     ///< by a signal, by exit(n), or by an exception within a cell
+        hung,        ///< it reported nothing for too long, and was stopped
         failed       ///< it said why it cannot go on: no space left, a broken file
     };
     Kind kind = Kind::done;
@@ -32,9 +33,11 @@ struct ChildEnd {
 /// where memory lies is a matter of chance, too. It does not see Ctrl-C, and dies with its parent.
 /// `--report-fd N` is added to the arguments: where a ChildReport writes. `report` gets what it
 /// says; between two cells the parent sleeps, so as to take no time from what is measured. Throws
-/// std::system_error if no process can be started.
+/// std::system_error if no process can be started. A child that reports nothing for `silence_s`
+/// hangs, and is stopped.
 ChildEnd run_child(std::vector<std::string> arguments, unsigned max_threads, std::size_t padding,
-                   Interrupt& interrupt, const Report& report, const char* program = own_program);
+                   Interrupt& interrupt, const Report& report, double silence_s = 600,
+                   const char* program = own_program);
 
 /// Of this process.
 std::size_t own_padding();

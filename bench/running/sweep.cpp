@@ -287,7 +287,8 @@ class Sweep {
             progress_.show({stage, eta.fraction(), eta.left_s(elapsed_s()), cell});
         };
         progress_.show({stage, eta.fraction(), -1, ""});
-        ChildEnd end = run_child(arguments, max_threads(), padding, interrupt_, report, program);
+        ChildEnd end = run_child(arguments, max_threads(), padding, interrupt_, report,
+                                 options_.give_up_s, program);
         eta.done(at_work);
         if (end.kind == ChildEnd::Kind::failed)
             throw BadInput(fmt::format("{}; what is finished is kept in {}: mend this and start "
@@ -296,19 +297,21 @@ class Sweep {
         return end;
     }
 
-    /// A cell that brings its process down twice is out.
+    /// A cell that brings its process down twice, or hangs, is out.
     void note_crash(const ChildEnd& end, const std::string& where) {
-        if (end.kind != ChildEnd::Kind::crashed)
+        const bool hung = end.kind == ChildEnd::Kind::hung;
+        if (end.kind != ChildEnd::Kind::crashed && !hung)
             return;
-        const unsigned times = ++crashes_[end.cell];
+        const unsigned times = crashes_[end.cell] += hung ? 2 : 1;
         if (end.cell.empty() && times >= 2)
             throw BadInput(
                 fmt::format("{} failed twice outside of any cell: {}", where, end.cause));
         if (times >= 2)
             crashed_[end.cell] = crash_text(fmt::format("{} in {}", end.cause, where));
-        progress_.say(fmt::format(
-            "{} crashed in {}: {}; {}", where, end.cell.empty() ? "no cell" : end.cell, end.cause,
-            times >= 2 ? "that cell is left out from here on" : "it is run again"));
+        progress_.say(
+            fmt::format("{} {} in {}: {}; {}", where, hung ? "stood still" : "crashed",
+                        end.cell.empty() ? "no cell" : end.cell, end.cause,
+                        times >= 2 ? "that cell is left out from here on" : "it is run again"));
     }
 
     void take_out_crashed() {

@@ -19,6 +19,7 @@ struct SweepOptions {
     double budget_s = 0;
     /// How long rounds wait in all for a quiet machine; and no longer than they take.
     double wait_s = 60;
+    double give_up_s = 600;   ///< a cell that says nothing for so long is left out
     bool counts = false;      ///< instructions of our cells instead of rounds: see count.h
     std::string command_line; ///< recorded
 };
