@@ -17,6 +17,7 @@
     X(cloud_in_room)                                                                               \
     X(layer)                                                                                       \
     X(lattice)                                                                                     \
+    X(point_cloud)                                                                                 \
     X(sphere_mesh)                                                                                 \
     X(triangle_soup)                                                                               \
     X(sliver_mesh)                                                                                 \

@@ -40,6 +40,7 @@ TEST(Scene, SameBitsOnEveryMachine) {
         {"log_normal", 119137152364335574u},
         {"needles", 16002729800118459568u},
         {"planks", 5660410375597526544u},
+        {"point_cloud", 8370301100190198716u},
         {"sliver_mesh", 5353869513049790800u},
         {"sliver_mesh_ambient", 2254452493378884098u},
         {"sliver_mesh_occlusion", 7351402160539420174u},

@@ -1,3 +1,25 @@
+# Peers that no package of the distribution brings: found in folders that the user names.
+
+# Header-only libraries that a user has, in one folder: sets found_NAME and the library
+# boxwood_NAME_headers for each of them.
+set(BOXWOOD_PEER_PATH "" CACHE PATH "Folder of header-only peers: tiny_bvh.h")
+if(BOXWOOD_PEER_PATH AND NOT IS_DIRECTORY "${BOXWOOD_PEER_PATH}")
+    message(FATAL_ERROR "BOXWOOD_PEER_PATH is '${BOXWOOD_PEER_PATH}', which is no folder: name the one that holds "
+                        "tiny_bvh.h, or leave it empty")
+endif()
+# boxwood_header_peer(NAME HEADER)
+function(boxwood_header_peer name header)
+    set(found FALSE)
+    if(BOXWOOD_PEER_PATH AND EXISTS "${BOXWOOD_PEER_PATH}/${header}")
+        set(found TRUE)
+        add_library(boxwood_${name}_headers INTERFACE)
+        target_include_directories(boxwood_${name}_headers SYSTEM INTERFACE "${BOXWOOD_PEER_PATH}")
+    endif()
+    set(found_${name} ${found} PARENT_SCOPE)
+    set(${name}_why "no ${header} (-DBOXWOOD_PEER_PATH=FOLDER names where it lies)" PARENT_SCOPE)
+endfunction()
+boxwood_header_peer(tinybvh tiny_bvh.h)
+
 # Sets warp_folder to NVIDIA Warp's Python package, if it is there, and warp_why to why the peer warp
 # is not built. The package that `scripts/setup --with-warp` puts into build/warp is used where the
 # user names none.
