@@ -372,8 +372,8 @@ std::vector<Table> main_tables() {
              {"verdict", &Comparison::verdict, "",
               "b is faster, slower, same, cannot_tell or wrong"},
              {"reason", &Comparison::reason, "",
-              "of cannot_tell: too_few_rounds, below_the_floor, crosses_1, unchecked or "
-              "too_noisy"},
+              "of cannot_tell: too_few_rounds, below_the_floor, crosses_1, unchecked, "
+              "too_noisy or memory_layout"},
              {"words", &Comparison::words, "", "verdict and reason for readers", word},
          },
          derived},

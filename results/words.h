@@ -42,7 +42,8 @@ enum class Reason : std::uint8_t {
     below_the_floor,
     crosses_1,
     unchecked,
-    too_noisy
+    too_noisy,
+    memory_layout ///< it flips with the size of the environment, by which memory is laid out
 };
 /// Which claims were corrected together; analysis/comparisons.h says how each is formed.
 enum class Family : std::uint8_t { none, peers, ours, threads, stages, devices };
@@ -76,8 +77,9 @@ template <> struct Words<Verdict> {
                                                          "same", "cannot_tell", "wrong"};
 };
 template <> struct Words<Reason> {
-    static constexpr std::array<std::string_view, 6> all{
-        "", "too_few_rounds", "below_the_floor", "crosses_1", "unchecked", "too_noisy"};
+    static constexpr std::array<std::string_view, 7> all{
+        "",          "too_few_rounds", "below_the_floor", "crosses_1",
+        "unchecked", "too_noisy",      "memory_layout"};
 };
 template <> struct Words<Family> {
     static constexpr std::array<std::string_view, 6> all{"",        "peers",  "ours",

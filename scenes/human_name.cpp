@@ -86,7 +86,8 @@ std::string human_name(const SceneSpec& spec) {
     std::string text = generator_title(spec, scene_generator(spec.generator));
     replace(text, "{n}", grouped(spec.n));
     if (!spec.rays.empty())
-        text += fmt::format(", {} rays", spaced(spec.rays));
+        text += spec.rays_file.empty() ? fmt::format(", {} rays", spaced(spec.rays))
+                                       : fmt::format(", rays {}", spec.rays_file.stem().string());
     if (spec.n_points != 0 && spec.regions.empty())
         text += ", " + counted(spec.n_points, "point", "points");
     if (spec.n_points != 0 && !spec.regions.empty())

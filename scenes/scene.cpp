@@ -157,7 +157,8 @@ const SceneEntry& checked(const SceneSpec& spec) {
         throw std::invalid_argument(fmt::format(
             "scene {}: n = {} is too large; items are numbered by 32 bits", entry.name, spec.n));
     if (!spec.rays.empty()) {
-        check_ray_kind(spec.rays);
+        if (spec.rays_file.empty())
+            check_ray_kind(spec.rays);
         if (!entry.has_mesh)
             throw std::invalid_argument(
                 fmt::format("scene {} has no triangles to aim {} rays at; use a mesh scene such as "
@@ -183,7 +184,8 @@ std::string scene_name(const SceneSpec& spec) {
     if (entry.uses_overlaps && spec.overlaps != SceneSpec{}.overlaps)
         name += "_overlaps" + atom(spec.overlaps);
     if (!spec.rays.empty())
-        name += '_' + spec.rays;
+        name += '_' + (spec.rays_file.empty() ? spec.rays
+                                              : "rays_" + atom(spec.rays_file.stem().string()));
     if (spec.n_points != 0)
         name += spec.regions.empty() ? "_points" : '_' + spec.regions;
     if (spec.k && *spec.k != 1)
@@ -217,7 +219,7 @@ Scene start_of(const SceneSpec& spec) {
     Scene scene;
     scene.name = scene_name(spec);
     scene.spec = spec;
-    scene.boxes = boxes_of(MovingScene(*spec.moving));
+    scene.boxes = boxes_at_start(*spec.moving);
     scene.params_json = params_json(*spec.moving);
     scene.content_hash = hash_of(scene);
     return scene;
@@ -240,7 +242,9 @@ Scene make_scene(const SceneSpec& spec) {
     for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i)
         scene.boxes.push_back(scene.mesh.triangle(i).bounds());
     if (!spec.rays.empty())
-        scene.rays = make_rays(spec.rays, scene.mesh, spec.n_rays, spec.seed);
+        scene.rays = spec.rays_file.empty()
+                         ? make_rays(spec.rays, scene.mesh, spec.n_rays, spec.seed)
+                         : read_rays(spec.rays_file);
     lay_queries(scene, spec);
     scene.content_hash = hash_of(scene);
     return scene;

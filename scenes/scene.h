@@ -22,15 +22,16 @@ struct SceneFile; // scenes/moving/scene_file.h
 
 /// What a generator makes. The same spec gives the same bits on every machine.
 struct SceneSpec {
-    std::string generator{};      ///< a name of `scene_generators()` or `hard_case_families()`
-    std::size_t n = 1000;         ///< wanted number of items (boxes, or triangles of a mesh)
-    std::uint64_t seed = 1;       ///< key of the counter-based random numbers
-    double overlaps = 10;         ///< wanted mean number of boxes that overlap a box (box scenes)
-    std::string rays{};           ///< a name of `ray_kinds()`, or empty for no rays (mesh scenes)
-    std::size_t n_rays = 0;       ///< number of rays
-    std::filesystem::path file{}; ///< of `mesh` and `boxes`, or a family's cases
-    std::size_t n_points = 0;     ///< number of points or regions
-    std::string regions{};        ///< a name of `region_kinds()`, or empty for no regions
+    std::string generator{}; ///< a name of `scene_generators()` or `hard_case_families()`
+    std::size_t n = 1000;    ///< wanted number of items (boxes, or triangles of a mesh)
+    std::uint64_t seed = 1;  ///< key of the counter-based random numbers
+    double overlaps = 10;    ///< wanted mean number of boxes that overlap a box (box scenes)
+    std::string rays{};      ///< a name of `ray_kinds()`, or empty for no rays (mesh scenes)
+    std::size_t n_rays = 0;  ///< number of rays
+    std::filesystem::path rays_file{}; ///< of the user's own rays, whose kind is own_rays
+    std::filesystem::path file{};      ///< of `mesh` and `boxes`, or a family's cases
+    std::size_t n_points = 0;          ///< number of points or regions
+    std::string regions{};             ///< a name of `region_kinds()`, or empty for no regions
     /// A scene that moves, instead of a generator's: its n and seed are those of the spec, and
     /// what is made is its frame 0.
     std::shared_ptr<const SceneFile> moving{};

@@ -2,6 +2,10 @@
 
 #include "trees/queries/box_queries.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -80,6 +84,27 @@ struct MeshBvh::State {
     TriangleMesh mesh;
     std::unique_ptr<AnyLayout> layout;
     TriangleBlocks triangles;
+
+    /// What closed meshes are asked, made when it is.
+    struct Closed {
+        std::size_t open_edges = 0;
+        std::unique_ptr<AnyLayout> boxes; ///< where `layout` holds parts of triangles
+    };
+    const Closed& closed() const {
+        std::call_once(closed_made_, [&] {
+            closed_.open_edges = boxwood::open_edges(mesh);
+            if (!layout->answers(Query::regions)) {
+                Tree tree;
+                closed_.boxes = make_layout(layout_entry_of(LayoutName::wide8), BinnedSahBuilder{},
+                                            boxes_of(mesh), serial(), tree);
+            }
+        });
+        return closed_;
+    }
+
+  private:
+    mutable std::once_flag closed_made_;
+    mutable Closed closed_;
 };
 
 MeshBvh::MeshBvh(TriangleMesh mesh, const MeshBvhOptions& options)
@@ -173,6 +198,36 @@ std::vector<SurfacePoint> MeshBvh::closest_points(std::span<const Vec3<float>> p
     std::vector<SurfacePoint> found(points.size());
     layout().closest_points(points, mesh(), *executor_, found);
     return found;
+}
+
+std::size_t MeshBvh::open_edges() const { return state_->closed().open_edges; }
+
+std::vector<Side> MeshBvh::sides(std::span<const Vec3<float>> points) const {
+    const State::Closed& closed = state_->closed();
+    if (closed.open_edges > 0)
+        throw std::invalid_argument("the mesh is not closed, so that nothing is inside it: " +
+                                    std::to_string(closed.open_edges) +
+                                    " of its edges have an odd number of triangles");
+    std::vector<Side> found(points.size());
+    boxwood::sides(closed.boxes ? *closed.boxes : layout(), mesh(), points, *executor_, found);
+    return found;
+}
+Side MeshBvh::side(Vec3<float> point) const { return sides({&point, 1}).front(); }
+
+std::vector<double> MeshBvh::signed_distances(std::span<const Vec3<float>> points) const {
+    const std::vector<Side> where = sides(points);
+    const std::vector<SurfacePoint> nearest = closest_points(points);
+    std::vector<double> distances(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        // What rounds to nothing is something yet.
+        const double d = std::max(std::sqrt(nearest[i].squared_distance),
+                                  std::numeric_limits<double>::denorm_min());
+        distances[i] = where[i] == Side::on_surface ? 0 : where[i] == Side::inside ? -d : d;
+    }
+    return distances;
+}
+double MeshBvh::signed_distance(Vec3<float> point) const {
+    return signed_distances({&point, 1}).front();
 }
 
 } // namespace boxwood

@@ -7,6 +7,7 @@
 #include "trees/builders/binned_sah.h"
 #include "trees/layout.h"
 #include "trees/queries/answers.h"
+#include "trees/queries/sides.h"
 #include "trees/queries/single_rays.h"
 
 #include <array>
@@ -79,6 +80,17 @@ class MeshBvh {
     std::optional<SurfacePoint> closest_point(Vec3<float> point) const;
     /// Of many: `triangle` is Neighbour::none where there is nothing.
     std::vector<SurfacePoint> closest_points(std::span<const Vec3<float>> points) const;
+
+    /// How many edges have an odd number of triangles, vertices at one place taken for one; found
+    /// once. 0 of a closed mesh, which the following want: else they throw std::invalid_argument.
+    std::size_t open_edges() const;
+    /// Where a point is: exact, also in line with edges and vertices. Inside by the even-odd rule.
+    Side side(Vec3<float> point) const;
+    std::vector<Side> sides(std::span<const Vec3<float>> points) const;
+    /// How far the mesh is, less than 0 inside: the sign is exact, and 0 is on the surface alone;
+    /// infinity of an empty mesh or a point that is not finite.
+    double signed_distance(Vec3<float> point) const;
+    std::vector<double> signed_distances(std::span<const Vec3<float>> points) const;
 
     /// The part beneath, with all that it answers.
     const AnyLayout& layout() const;

@@ -68,6 +68,7 @@
 #include "trees/queries/rays.h"
 #include "trees/queries/regions.h"
 #include "trees/queries/self_pairs.h"
+#include "trees/queries/sides.h"
 #include "trees/queries/single_rays.h"
 #include "trees/queries/sinks.h"
 #include "trees/queries/sorted_rays.h"

@@ -29,7 +29,14 @@ using results::Verdict;
 class Judge {
   public:
     Judge(const Results& results, const Times& times, double delta)
-        : times_(times), delta_(delta), floors_(results, times) {}
+        : times_(times), delta_(delta), floors_(results, times) {
+        std::map<std::uint32_t, std::string> machines;
+        for (const auto& env : results.env)
+            machines[env.env_id] = env.env_hash;
+        for (const results::Shard& shard : results.shards)
+            if (shard.padding_bytes != results::no_count)
+                padding_[{machines[shard.env_id], shard.round}] = shard.padding_bytes;
+    }
 
     /// b against a in one phase, to be decided with the others of its task and the open family.
     void claim(const Cell& a, const Cell& b, Phase phase, const std::string& name = "") {
@@ -61,8 +68,13 @@ class Judge {
     void close(Family family) {
         for (const auto& [task, open] : open_) {
             const auto rulings = decide(open.claims, delta_);
-            for (std::size_t i = 0; i < rulings.size(); ++i)
-                set_ruling(rows_[open.rows[i]], rulings[i]);
+            for (std::size_t i = 0; i < rulings.size(); ++i) {
+                Ruling ruling = rulings[i];
+                const Comparison& row = rows_[open.rows[i]];
+                if (ruling.reason == Reason::crosses_1 && flips_with_layout(row))
+                    ruling.reason = Reason::memory_layout;
+                set_ruling(rows_[open.rows[i]], ruling);
+            }
         }
         for (; closed_ < rows_.size(); ++closed_)
             rows_[closed_].family = family;
@@ -71,9 +83,37 @@ class Judge {
     std::vector<Comparison> take() { return std::move(rows_); }
 
   private:
+    /// Whether all rounds with the smaller environments say one thing, and all with the larger ones
+    /// the other, both beyond the noise.
+    bool flips_with_layout(const Comparison& row) const {
+        const Times::Rounds* const a = times_.rounds(row.cell_a, row.phase);
+        const Times::Rounds* const b = times_.rounds(row.cell_b, row.phase);
+        std::vector<std::pair<std::uint64_t, double>> by_size;
+        for (const auto& [round, ns] : *a)
+            if (const auto padding = padding_.find(round);
+                padding != padding_.end() && b->contains(round))
+                by_size.emplace_back(
+                    padding->second,
+                    paired_ratio(log_ratios({{round, ns}}, {*b->find(round)})).ratio);
+        if (by_size.size() < min_pairs_verdict)
+            return false;
+        std::ranges::sort(by_size);
+        const auto half = static_cast<std::ptrdiff_t>(by_size.size() / 2);
+        const double beyond = 1 + (std::isnan(row.floor) ? 0 : row.floor);
+        const auto all = [&](auto from, auto to, bool is_slower) {
+            return std::all_of(from, to, [&](const auto& round) {
+                return is_slower ? round.second > beyond : round.second * beyond < 1;
+            });
+        };
+        const auto begin = by_size.begin(), end = by_size.end();
+        return (all(begin, begin + half, true) && all(end - half, end, false)) ||
+               (all(begin, begin + half, false) && all(end - half, end, true));
+    }
+
     const Times& times_;
     double delta_;
     NoiseFloors floors_;
+    std::map<Times::RoundKey, std::uint64_t> padding_; ///< bytes added to the environment
     std::vector<Comparison> rows_;
     std::size_t closed_ = 0;
     struct Open {

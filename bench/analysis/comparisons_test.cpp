@@ -174,6 +174,23 @@ TEST(NoiseFloor, FromTheTwinAndBoundsClaims) {
     EXPECT_EQ(row.delta, default_delta);
 }
 
+TEST(Comparisons, SayWhereTheMemoryLayoutDecides) {
+    for (const bool by_layout : {true, false}) {
+        Maker maker(15);
+        const auto ours = maker.cell("ours", false), peer = maker.cell("peer", true);
+        maker.time(ours, Phase::query, steady(100));
+        maker.time(peer, Phase::query, [](std::uint32_t round) { return round % 2 ? 120. : 80.; });
+        for (results::Shard& shard : maker.results.shards)
+            shard.padding_bytes =
+                64 * (by_layout ? 100 * (shard.round % 2) + shard.round : shard.round);
+        const Comparison row = against_peers(maker.results)[0];
+        EXPECT_EQ(row.verdict, Verdict::cannot_tell);
+        EXPECT_EQ(row.reason, by_layout ? Reason::memory_layout : Reason::crosses_1);
+        EXPECT_EQ(row.words, by_layout ? "can't tell (flips with the memory layout)"
+                                       : "can't tell (may be equal)");
+    }
+}
+
 TEST(NoiseFloor, IsThatOfTheNoisiestPhase) {
     Maker maker(9);
     const auto ours = maker.cell("ours", false);

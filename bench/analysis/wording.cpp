@@ -61,6 +61,8 @@ std::string reason_text(results::Reason reason) {
         return "unchecked";
     case results::Reason::too_noisy:
         return "too noisy";
+    case results::Reason::memory_layout:
+        return "flips with the memory layout";
     case results::Reason::none:
         break;
     }

@@ -12,6 +12,7 @@ namespace boxwood::bench {
 /// sets `exit_code`. One file of bench/commands/ per command.
 void add_list(CLI::App& app, int& exit_code);
 void add_sweep(CLI::App& app, int& exit_code);
+void add_choose(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
 void add_show(CLI::App& app, int& exit_code);
 void add_compare(CLI::App& app, int& exit_code);
@@ -20,6 +21,8 @@ void add_doctor(CLI::App& app, int& exit_code);
 void add_demo(CLI::App& app, int& exit_code);
 void add_scene(CLI::App& app, int& exit_code);
 void add_plan(CLI::App& app, int& exit_code);
+void add_explain(CLI::App& app, int& exit_code);
+void add_grade(CLI::App& app, int& exit_code);
 void add_query(CLI::App& app, int& exit_code);
 
 } // namespace boxwood::bench

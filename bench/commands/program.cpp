@@ -122,10 +122,13 @@ int run(int argc, char** argv) {
     app.get_formatter()->column_width(32);
     add_list(app, exit_code);
     add_sweep(app, exit_code);
+    add_choose(app, exit_code);
     add_check(app, exit_code);
     add_show(app, exit_code);
     add_compare(app, exit_code);
     add_merge(app, exit_code);
+    add_explain(app, exit_code);
+    add_grade(app, exit_code);
     add_doctor(app, exit_code);
     add_demo(app, exit_code);
     add_scene(app, exit_code);

@@ -33,6 +33,17 @@ void add_plan_options(CLI::App& command, std::filesystem::path& config, Override
                     "blocks with scene = \"boxes\"; may be given more than once")
         ->allow_extra_args(false);
     command
+        .add_option("--rays", overrides.rays,
+                    "rays of your own (CSV, ox,oy,oz,dx,dy,dz[,t_max] a line), cast at each --mesh "
+                    "instead of generated ones; may be given more than once")
+        ->allow_extra_args(false);
+    command
+        .add_option("--motion", overrides.motions,
+                    "boxes that move, of your own (CSV, frame,body,min_x,min_y,min_z,max_x,max_y,"
+                    "max_z a line; a body without a line stays), for the blocks with scene = "
+                    "\"motion\"; may be given more than once")
+        ->allow_extra_args(false);
+    command
         .add_option("--threads", overrides.threads,
                     "numbers of threads, such as 1,2, instead of those of the sweep file")
         ->delimiter(',')

@@ -8,8 +8,8 @@ namespace boxwood::bench {
 
 /// Whether bodies of the scene come and go.
 inline bool has_comers(const Job& job) {
-    if (!job.scene->spec.moving)
-        return false;
+    if (!job.scene->spec.moving || job.scene->spec.moving->recording)
+        return false; // recorded bodies are always there
     for (const BodyGroup& group : job.scene->spec.moving->groups)
         for (const EffectChoice& effect : group.effects)
             if (effect_of(effect.name).changes.presence)

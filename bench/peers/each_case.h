@@ -13,8 +13,21 @@
 
 namespace boxwood::bench {
 
-/// The registry row of a peer's function over all cases of a family of hard cases, on one thread.
-/// `Input`, in the peer's own types, is made of one case of type `Case`.
+/// A peer's function over all cases of a family of hard cases. `Input`, in the peer's own types, is
+/// made of one case of type `Case`.
+template <class Case, class Input, auto function>
+std::unique_ptr<Contender> over_cases(const Job& job) {
+    std::vector<Input> inputs;
+    if constexpr (std::is_same_v<Case, MotionCase>)
+        for (const Case& c : std::get<MotionCases>(job.scene->cases).motions)
+            inputs.emplace_back(c);
+    else
+        for (const Case& c : std::get<std::vector<Case>>(job.scene->cases))
+            inputs.emplace_back(c);
+    return one_by_one(std::move(inputs), [](Input& input) { return function(input); });
+}
+
+/// Its registry row, on one thread.
 template <class Case, class Input, auto function>
 ContenderEntry each_case(std::string task, std::string library, std::string name,
                          std::string precision, std::string summary, std::string notes) {
@@ -26,17 +39,7 @@ ContenderEntry each_case(std::string task, std::string library, std::string name
     e.precision = std::move(precision);
     e.kernel = e.name;
     e.runs_on = RunsOn::one_thread;
-    e.answers = {{std::move(task), [](const Job& job) {
-                      std::vector<Input> inputs;
-                      if constexpr (std::is_same_v<Case, MotionCase>)
-                          for (const Case& c : std::get<MotionCases>(job.scene->cases).motions)
-                              inputs.emplace_back(c);
-                      else
-                          for (const Case& c : std::get<std::vector<Case>>(job.scene->cases))
-                              inputs.emplace_back(c);
-                      return one_by_one(std::move(inputs),
-                                        [](Input& input) { return function(input); });
-                  }}};
+    e.answers = {{std::move(task), over_cases<Case, Input, function>}};
     return e;
 }
 

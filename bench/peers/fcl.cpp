@@ -4,7 +4,6 @@
 #include "bench/peers/kernel_peers.h"
 #include "bench/peers/point_peers.h"
 #include "bench/tasks/moving_pairs.h"
-#include "scenes/moving/frames.h"
 
 #include <fcl/broadphase/broadphase_SSaP.h>
 #include <fcl/broadphase/broadphase_SaP.h>
@@ -26,31 +25,12 @@ using Interval = fcl::IntervalTreeCollisionManager<double>;
 using Sap = fcl::SaPCollisionManager<double>;
 using SimpleSap = fcl::SSaPCollisionManager<double>;
 
-/// What a frame tells the manager.
-enum class Told : std::uint8_t {
-    all_may_have_moved, ///< update()
-    which_moved         ///< update(moved)
-};
-
-/// The cells have the mean of the boxes' longest sides. Of the limits only the numbers of the cells
-/// depend: three times as wide, boxes may leave the scene without being kept in lists.
 std::unique_ptr<Broadphase<double>> hash_for(const std::vector<Aabb<float>>& boxes) {
-    fcl::AABB<double> limits(fcl::Vector3<double>::Zero());
-    double sides = 0;
-    std::size_t present = 0;
-    for (const Aabb<float>& box : boxes) {
-        if (box.is_empty())
-            continue;
-        const fcl::AABB<double> bounds = FclBounds<double>(box).aabb_local;
-        limits = present++ ? limits + bounds : bounds;
-        sides += (bounds.max_ - bounds.min_).maxCoeff();
-    }
-    const fcl::Vector3<double> extent = limits.max_ - limits.min_;
-    const double tenth = extent.maxCoeff() / 10;
-    const double cell = sides > 0 ? sides / static_cast<double>(present) : std::max(tenth, 1.0);
-    const fcl::Vector3<double> room = extent + fcl::Vector3<double>::Constant(cell);
-    return std::make_unique<Hash>(cell, limits.min_ - room, limits.max_ + room,
-                                  static_cast<unsigned>(std::max<std::size_t>(present, 1)));
+    const HashGrid grid = hash_grid(boxes);
+    const Aabb<double>& within = grid.limits;
+    return std::make_unique<Hash>(
+        grid.cell, fcl::Vector3<double>(within.min.x, within.min.y, within.min.z),
+        fcl::Vector3<double>(within.max.x, within.max.y, within.max.z), grid.slots);
 }
 
 template <class S>
@@ -66,98 +46,20 @@ bool append_overlapping(fcl::CollisionObject<double>* a, fcl::CollisionObject<do
 }
 
 template <class S> struct Kind {
-    /// An empty manager for a scene of these boxes.
-    std::unique_ptr<Broadphase<S>> (*make)(const std::vector<Aabb<float>>& boxes);
+    using Object = fcl::CollisionObject<S>;
+    using Manager = Broadphase<S>;
+    using Bounds = FclBounds<S>;
+
+    std::unique_ptr<Manager> (*make)(const std::vector<Aabb<float>>& boxes);
     Told told = Told::all_may_have_moved;
     fcl::CollisionCallBack<S> callback = append<S>;
-};
 
-template <class S> class FclContender final : public Contender {
-    using Object = fcl::CollisionObject<S>;
-
-  public:
-    FclContender(const Job& job, Sides sides, Kind<S> kind)
-        : scene_(*job.scene), kind_(kind), between_halves_(sides == Sides::two_halves) {
-        const std::vector<Aabb<float>>& boxes = scene_.boxes;
-        const std::size_t split = between_halves_ ? tree_pairs_split(boxes.size()) : 0;
-        is_present_.resize(boxes.size());
-        for (std::size_t i = 0; i < boxes.size(); ++i) {
-            bounds_.push_back(std::make_shared<FclBounds<S>>(boxes[i]));
-            objects_.push_back(fcl_object(bounds_.back(), i));
-            (i < split ? first_ : rest_).push_back(objects_.back().get());
-        }
+    void collide(Manager& manager, std::vector<Pair>& pairs) const {
+        manager.collide(&pairs, callback);
     }
-
-    void build() override {
-        if (std::exchange(moved_, false))
-            for (std::size_t i = 0; i < objects_.size(); ++i)
-                give(i, scene_.boxes[i]);
-        for (std::size_t i = 0; i < objects_.size(); ++i)
-            is_present_[i] = !scene_.boxes[i].is_empty();
-        first_manager_ = make_manager(first_);
-        rest_manager_ = make_manager(rest_);
+    void collide(Manager& manager, Manager& other, std::vector<Pair>& pairs) const {
+        manager.collide(&other, &pairs, callback);
     }
-
-    void query(Answers& answers) override {
-        std::vector<Pair>& pairs = list_of<Pair>(answers);
-        pairs.clear();
-        if (between_halves_)
-            first_manager_->collide(rest_manager_.get(), &pairs, kind_.callback);
-        else
-            rest_manager_->collide(&pairs, kind_.callback);
-    }
-
-    void update(const Frame& now) override {
-        moved_ = true;
-        changed_.clear();
-        for (const std::uint32_t i : now.moved) {
-            Object* const object = objects_[i].get();
-            const bool was_present = std::exchange(is_present_[i], !now.boxes[i].is_empty());
-            if (!is_present_[i]) {
-                rest_manager_->unregisterObject(object);
-                continue;
-            }
-            give(i, now.boxes[i]);
-            if (was_present)
-                changed_.push_back(object);
-            else
-                rest_manager_->registerObject(object);
-        }
-        if (kind_.told == Told::which_moved)
-            rest_manager_->update(changed_);
-        else
-            rest_manager_->update();
-    }
-
-  private:
-    void give(std::size_t i, const Aabb<float>& box) {
-        if (box.is_empty())
-            return;
-        bounds_[i]->take(box);
-        objects_[i]->computeAABB();
-    }
-
-    std::unique_ptr<Broadphase<S>> make_manager(const std::vector<Object*>& objects) {
-        std::unique_ptr<Broadphase<S>> manager = kind_.make(scene_.boxes);
-        changed_.clear();
-        for (Object* const object : objects)
-            if (is_present_[item_of(object)])
-                changed_.push_back(object);
-        manager->registerObjects(changed_);
-        manager->setup();
-        return manager;
-    }
-
-    const Scene& scene_;
-    Kind<S> kind_;
-    bool between_halves_;
-    bool moved_ = false;           ///< whether the boxes are those of a frame
-    std::vector<char> is_present_; ///< by item
-    std::vector<std::shared_ptr<FclBounds<S>>> bounds_;
-    std::vector<std::unique_ptr<Object>> objects_;
-    std::vector<Object*> changed_;
-    std::vector<Object*> first_, rest_; ///< all of them in `rest_` but for two halves
-    std::unique_ptr<Broadphase<S>> first_manager_, rest_manager_;
 };
 
 template <class M, class S> std::unique_ptr<Broadphase<S>> plain(const std::vector<Aabb<float>>&) {
@@ -186,7 +88,7 @@ ContenderEntry entry(std::string name, std::string summary, std::string notes, K
                                                : "double, equal to the scene's floats",
                           kind.told == Told::which_moved ? "update(moved)" : "update() of all");
     e.runs_on = RunsOn::one_thread;
-    e.answers = answering_all_pairs<FclContender<S>>(kind);
+    e.answers = answering_all_pairs<ManagerContender<Kind<S>>>(kind);
     return e;
 }
 

@@ -1,13 +1,9 @@
 #pragma once
 
-#include "kernels/primitives/aabb.h"
+#include "bench/peers/managers.h"
 
 #include <fcl/geometry/collision_geometry.h>
 #include <fcl/narrowphase/collision_object.h>
-
-#include <cstdint>
-#include <memory>
-#include <vector>
 
 namespace boxwood::bench {
 
@@ -28,18 +24,5 @@ template <class S> class FclBounds final : public fcl::CollisionGeometry<S> {
         this->aabb_radius = (this->aabb_local.max_ - this->aabb_center).norm();
     }
 };
-
-/// An object of these bounds that stands for item i.
-template <class S>
-std::unique_ptr<fcl::CollisionObject<S>> fcl_object(std::shared_ptr<FclBounds<S>> bounds,
-                                                    std::size_t i) {
-    auto object = std::make_unique<fcl::CollisionObject<S>>(std::move(bounds));
-    object->setUserData(reinterpret_cast<void*>(static_cast<std::uintptr_t>(i)));
-    return object;
-}
-
-template <class S> std::uint32_t item_of(const fcl::CollisionObject<S>* object) {
-    return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(object->getUserData()));
-}
 
 } // namespace boxwood::bench

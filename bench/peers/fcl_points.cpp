@@ -14,9 +14,8 @@ using Manager = fcl::DynamicAABBTreeCollisionManager<double>;
 
 std::vector<std::unique_ptr<Object>> objects_of(const std::vector<Aabb<float>>& boxes) {
     std::vector<std::unique_ptr<Object>> objects;
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-        objects.push_back(fcl_object(std::make_shared<FclBounds<double>>(boxes[i]), i));
-    }
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        objects.push_back(object_for<Object>(std::make_shared<FclBounds<double>>(boxes[i]), i));
     return objects;
 }
 

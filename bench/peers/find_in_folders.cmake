@@ -2,23 +2,28 @@
 
 # Header-only libraries that a user has, in one folder: sets found_NAME and the library
 # boxwood_NAME_headers for each of them.
-set(BOXWOOD_PEER_PATH "" CACHE PATH "Folder of header-only peers: tiny_bvh.h")
+set(BOXWOOD_PEER_PATH "" CACHE PATH "Folder of header-only peers or of their checkouts: tiny_bvh.h, bvh/v2/bvh.h")
 if(BOXWOOD_PEER_PATH AND NOT IS_DIRECTORY "${BOXWOOD_PEER_PATH}")
     message(FATAL_ERROR "BOXWOOD_PEER_PATH is '${BOXWOOD_PEER_PATH}', which is no folder: name the one that holds "
-                        "tiny_bvh.h, or leave it empty")
+                        "tiny_bvh.h or bvh/v2/bvh.h, or checkouts of tinybvh and bvh, or leave it empty")
 endif()
 # boxwood_header_peer(NAME HEADER)
 function(boxwood_header_peer name header)
     set(found FALSE)
-    if(BOXWOOD_PEER_PATH AND EXISTS "${BOXWOOD_PEER_PATH}/${header}")
+    unset(folder)
+    if(BOXWOOD_PEER_PATH)
+        find_path(folder ${header} PATHS ${BOXWOOD_PEER_PATH} PATH_SUFFIXES . tinybvh src bvh/src NO_DEFAULT_PATH NO_CACHE)
+    endif()
+    if(folder)
         set(found TRUE)
         add_library(boxwood_${name}_headers INTERFACE)
-        target_include_directories(boxwood_${name}_headers SYSTEM INTERFACE "${BOXWOOD_PEER_PATH}")
+        target_include_directories(boxwood_${name}_headers SYSTEM INTERFACE ${folder})
     endif()
     set(found_${name} ${found} PARENT_SCOPE)
     set(${name}_why "no ${header} (-DBOXWOOD_PEER_PATH=FOLDER names where it lies)" PARENT_SCOPE)
 endfunction()
 boxwood_header_peer(tinybvh tiny_bvh.h)
+boxwood_header_peer(madmann_bvh bvh/v2/bvh.h)
 
 # Sets warp_folder to NVIDIA Warp's Python package, if it is there, and warp_why to why the peer warp
 # is not built. The package that `scripts/setup --with-warp` puts into build/warp is used where the
@@ -51,4 +56,34 @@ if(warp_folder)
         "$<$<COMPILE_LANGUAGE:CUDA>:-Xcompiler=-Wall,-Wextra,-Wconversion,-Wshadow,-Wdouble-promotion>"
         "$<$<AND:$<BOOL:${BOXWOOD_WERROR}>,$<COMPILE_LANGUAGE:CUDA>>:-Werror=all-warnings>")
     target_link_libraries(boxwood_warp INTERFACE ${CMAKE_DL_LIBS})
+endif()
+
+# Sets coal_folder to what holds Coal's include/ and lib/, if it is there, and coal_why to why the peer
+# coal is not built. The package that `scripts/setup --with-coal` puts into build/coal is used where
+# the user names none.
+set(BOXWOOD_COAL "" CACHE PATH "Coal: the folder of its include/ and lib/; found in build/coal where empty")
+set(coal_folder ${BOXWOOD_COAL})
+if(NOT coal_folder)
+    file(GLOB coal_folder ${PROJECT_SOURCE_DIR}/build/coal/lib/python3*/site-packages/cmeel.prefix)
+endif()
+set(coal_why "")
+if(BOXWOOD_COAL AND NOT EXISTS ${BOXWOOD_COAL}/include/coal/config.hh)
+    message(FATAL_ERROR "BOXWOOD_COAL is '${BOXWOOD_COAL}', which has no include/coal/config.hh: name the folder "
+                        "cmeel.prefix of the Python package libcoal, or leave it empty")
+elseif(NOT EXISTS "${coal_folder}/include/coal/config.hh")
+    set(coal_why "package not found (scripts/setup --with-coal)")
+elseif(BOXWOOD_SANITIZE)
+    set(coal_why "its module cannot be opened in a build with sanitizers")
+endif()
+if(NOT coal_why)
+    file(STRINGS ${coal_folder}/include/coal/config.hh coal_version REGEX "define COAL_VERSION ")
+    string(REGEX REPLACE ".*\"(.*)\".*" "\\1" coal_version "${coal_version}")
+    # Its CMake package would bring in another Boost and another assimp.
+    add_library(boxwood_coal MODULE peers/coal/module.cpp)
+    target_include_directories(boxwood_coal SYSTEM PRIVATE ${coal_folder}/include ${EIGEN3_INCLUDE_DIRS})
+    target_compile_definitions(boxwood_coal PRIVATE COAL_HAS_OCTOMAP COAL_HAVE_OCTOMAP
+        OCTOMAP_MAJOR_VERSION=1 OCTOMAP_MINOR_VERSION=10 OCTOMAP_PATCH_VERSION=0)
+    target_link_libraries(boxwood_coal PRIVATE boxwood_options boxwood_warnings ${coal_folder}/lib/libcoal.so)
+    target_link_options(boxwood_coal PRIVATE -Wl,--no-undefined)
+    set_target_properties(boxwood_coal PROPERTIES BUILD_RPATH ${coal_folder}/lib)
 endif()

@@ -30,12 +30,19 @@ struct OwnScene {
     std::size_t items = 0;
 };
 
+/// A file with rays of the user's, for the blocks with scene = "mesh".
+struct OwnRays {
+    std::filesystem::path file;
+    std::size_t n = 0;
+};
+
 /// What holds for all blocks of a sweep.
 struct SweepInputs {
     std::uint64_t seed = 1;
     std::vector<unsigned> threads;  ///< of blocks that name none
     bool overrides_threads = false; ///< also of those that do
     std::vector<OwnScene> own;      ///< of the user's files
+    std::vector<OwnRays> own_rays;
 };
 
 /// Where a contender of a block runs.

@@ -62,6 +62,7 @@ class ConfigReader : public TomlReader {
         if (const std::string path = node.value_or(std::string()); path.ends_with(".toml"))
             return path;
         Names known = names_of(built_in_scenes());
+        known.push_back(motion_scene);
         for (const SceneEntry& generator : scene_generators())
             if (!generator.reads_file)
                 known.push_back(generator.name);

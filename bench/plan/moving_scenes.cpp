@@ -27,10 +27,48 @@ SceneSpec moving(const BlockReader& block, SceneSpec spec, SceneFile file) {
     return spec;
 }
 
+/// The files of the user's that hold boxes frame by frame.
+std::vector<SceneSpec> recordings(const BlockReader& block) {
+    for (const char* key : {"n", "effects", "overlaps"})
+        if (block.has(key))
+            block.fail(fmt::format("{} is not for the scene \"{}\", which is read from a file", key,
+                                   motion_scene),
+                       key);
+    std::vector<SceneSpec> all;
+    for (const OwnScene& own : block.inputs().own) {
+        if (own.generator != motion_scene)
+            continue;
+        SceneFile file;
+        file.name = fmt::format("{}_{}", motion_scene, own.file.stem().string());
+        file.title = fmt::format("motion {}, {{n}} bodies", own.file.stem().string());
+        file.source = own.file.filename().string();
+        file.recording = std::make_shared<const Recording>(read_recording(own.file));
+        file.frames = file.recording->size() - 1;
+        if (const auto frames = block.integer("frames", 1, 100'000'000);
+            frames && *frames > file.frames)
+            block.fail(
+                fmt::format("{} has {} frames after its first", own.file.string(), file.frames),
+                "frames");
+        SceneSpec spec;
+        spec.seed = block.inputs().seed;
+        spec.generator = motion_scene;
+        spec.file = own.file;
+        spec.n = own.items;
+        all.push_back(moving(block, spec, std::move(file)));
+    }
+    return all;
+}
+
 } // namespace
 
 std::vector<SceneSpec> moving_scenes(const BlockReader& block) {
     const std::vector<std::string> names = block.moving_scenes();
+    if (std::ranges::find(names, motion_scene) != names.end()) {
+        if (names.size() > 1)
+            block.fail(
+                fmt::format("the scene \"{}\" needs a [[cells]] block of its own", motion_scene));
+        return recordings(block);
+    }
     const std::vector<std::vector<EffectChoice>> laid = block.effects();
     const std::vector<std::size_t> sizes = block.sizes({});
     const std::vector<double> overlaps = block.numbers("overlaps", 0, 1e6, {SceneSpec{}.overlaps});

@@ -5,6 +5,8 @@
 #include "bench/io/pattern.h"
 #include "bench/plan/cell_name.h"
 #include "bench/plan/config.h"
+#include "scenes/moving/recording.h"
+#include "scenes/sampling/rays.h"
 
 #include <fmt/format.h>
 #include <xxhash.h>
@@ -67,18 +69,24 @@ class Expansion {
 };
 
 struct OwnOption {
-    std::string_view option, generator;
+    std::string_view option, scene; ///< of the blocks that use its files
     std::vector<std::filesystem::path> Overrides::*files;
 };
 constexpr OwnOption own_options[] = {{"--mesh", "mesh", &Overrides::meshes},
-                                     {"--boxes", "boxes", &Overrides::boxes}};
+                                     {"--boxes", "boxes", &Overrides::boxes},
+                                     {"--motion", motion_scene, &Overrides::motions},
+                                     {"--rays", "mesh", &Overrides::rays}};
 
 /// The number of items of a file, so that cell names can say it.
 std::size_t size_of(const OwnOption& own, const std::filesystem::path& file) {
     SceneSpec spec;
-    spec.generator = own.generator;
+    spec.generator = own.scene;
     spec.file = file;
     try {
+        if (own.files == &Overrides::rays)
+            return read_rays(file).size();
+        if (own.files == &Overrides::motions)
+            return read_recording(file).front().size();
         return make_scene(spec).boxes.size();
     } catch (const std::exception& error) {
         throw BadInput(fmt::format("{}: {}", own.option, error.what()));
@@ -92,14 +100,19 @@ std::uint64_t add_own_files(const Config& config, const std::string& config_file
     for (const OwnOption& own : own_options)
         for (const std::filesystem::path& file : overrides.*own.files) {
             if (std::ranges::none_of(config.blocks, [&own](const Block& block) {
-                    return block.reader.takes(own.generator);
+                    return block.reader.takes(own.scene);
                 }))
                 throw BadInput(fmt::format("{}: {} has no [[cells]] block with scene = \"{}\" "
                                            "that would use it",
-                                           own.option, config_file, own.generator));
-            inputs.own.push_back({std::string(own.generator), file, size_of(own, file)});
+                                           own.option, config_file, own.scene));
+            if (own.files == &Overrides::rays)
+                inputs.own_rays.push_back({file, size_of(own, file)});
+            else
+                inputs.own.push_back({std::string(own.scene), file, size_of(own, file)});
             content += read_text(file.string());
         }
+    if (!overrides.rays.empty() && overrides.meshes.empty())
+        throw BadInput("--rays: there is no mesh to cast them at; give --mesh FILE, too");
     return content.empty() ? 0 : XXH3_64bits(content.data(), content.size());
 }
 
@@ -132,6 +145,7 @@ Plan make_plan(const std::string& config_text, const std::string& config_file,
     SweepInputs inputs{plan.seed,
                        overrides.threads.empty() ? config.threads : overrides.threads,
                        !overrides.threads.empty(),
+                       {},
                        {}};
     const std::uint64_t files_hash = add_own_files(config, config_file, overrides, inputs);
     Expansion expansion(plan.cells);
@@ -148,13 +162,14 @@ Plan make_plan(const std::string& config_text, const std::string& config_file,
     if (!overrides.only.empty())
         keep_only(overrides.only, plan.cells);
     if (plan.cells.empty())
-        throw BadInput(overrides.only.empty()
-                           ? fmt::format("{}: no cell to measure; blocks of scene \"mesh\" need "
-                                         "--mesh FILE, of \"boxes\" --boxes FILE",
-                                         config_file)
-                           : fmt::format("--only \"{}\" leaves no cell of {}; --dry-run without "
-                                         "it lists all",
-                                         overrides.only, config_file));
+        throw BadInput(
+            overrides.only.empty()
+                ? fmt::format("{}: no cell to measure; blocks of scene \"mesh\" need "
+                              "--mesh FILE, of \"boxes\" --boxes FILE, of \"motion\" --motion FILE",
+                              config_file)
+                : fmt::format("--only \"{}\" leaves no cell of {}; --dry-run without "
+                              "it lists all",
+                              overrides.only, config_file));
     plan.sweep_hash = sweep_hash_of(plan, files_hash);
     return plan;
 }

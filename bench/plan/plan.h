@@ -16,7 +16,8 @@ struct Overrides {
     std::vector<unsigned> threads; ///< replaces the threads of every block, if any
     std::optional<std::uint64_t> seed;
     std::string only; ///< regular expression searched for in cell names
-    std::vector<std::filesystem::path> meshes, boxes; ///< the user's own, for blocks of such scenes
+    /// The user's own, for blocks of such scenes; rays for those of meshes.
+    std::vector<std::filesystem::path> meshes, boxes, motions, rays;
 
     /// As the command line says it: {"--mesh", FILE, ...}.
     std::vector<std::string> own_files() const;

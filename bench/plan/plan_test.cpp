@@ -226,6 +226,42 @@ TEST(Plan, FilesOfTheUsersAreAsManyScenes) {
     std::filesystem::remove(first);
 }
 
+TEST(Plan, RaysAndMotionsOfTheUsersAreScenesToo) {
+    const auto folder = std::filesystem::temp_directory_path();
+    const auto mesh = folder / "boxwood_own.obj", rays = folder / "boxwood_own_rays.csv",
+               motion = folder / "boxwood_own_motion.csv";
+    std::ofstream(mesh) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    std::ofstream(rays) << "0.2,0.2,1,0,0,-1\n0.2,0.2,1,0,0,1\n";
+    std::ofstream(motion) << "0,0,0,0,0,1,1,1\n0,1,2,2,2,3,3,3\n1,1,1,1,1,3,3,3\n";
+    const std::string blocks =
+        "[[cells]]\nscene = \"mesh\"\ntask = \"rays_closest\"\nrays = [\"primary\", \"random\"]\n"
+        "builders = \"median\"\n"
+        "[[cells]]\nscene = \"motion\"\ntask = \"moving_pairs\"\nupdates = \"rebuild\"\n";
+    Overrides overrides;
+    overrides.rays = {rays};
+    EXPECT_THROW(plan_of(blocks, overrides), BadInput); // at what?
+    overrides.meshes = {mesh};
+    overrides.motions = {motion};
+    const Plan plan = plan_of(blocks, overrides);
+    ASSERT_EQ(plan.cells.size(), 2u);
+    EXPECT_THAT(plan.cells[0].name,
+                StartsWith("mesh_boxwood_own_rays_boxwood_own_rays/n1-s1/rays_closest/"));
+    EXPECT_EQ(make_scene(plan.cells[0].scene).rays.size(), 2u);
+    EXPECT_THAT(plan.cells[1].name, StartsWith("motion_boxwood_own_motion/n2-s1/moving_pairs/"));
+    EXPECT_EQ(plan.cells[1].scene.moving->frames, 1u);
+    EXPECT_EQ(make_scene(plan.cells[1].scene).boxes.size(), 2u);
+    EXPECT_EQ(overrides.own_files(),
+              (std::vector<std::string>{"--mesh", mesh.string(), "--motion", motion.string(),
+                                        "--rays", rays.string()}));
+    const std::string played = "[[cells]]\nscene = \"motion\"\ntask = \"scene_queries\"\n"
+                               "stages = \"required\"\n";
+    EXPECT_THROW(plan_of(blocks + played, overrides), BadInput);
+    std::ofstream(motion) << "0,0,0,0,0,1,1,1\n";
+    EXPECT_THROW(plan_of(blocks, overrides), BadInput);
+    for (const auto& file : {mesh, rays, motion})
+        std::filesystem::remove(file);
+}
+
 TEST(Plan, RefusesAPatternThatIsNoneOrLeavesNothing) {
     Overrides overrides;
     overrides.only = "(";

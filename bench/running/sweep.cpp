@@ -384,7 +384,8 @@ class Sweep {
         write_output();
         shards_.remove();
         progress_.say("");
-        fmt::print("{}{}", screen_text(merged_), paths_text(options_.out));
+        if (!options_.is_quiet)
+            fmt::print("{}{}", screen_text(merged_), paths_text(options_.out));
         if (merged_.samples.empty()) {
             progress_.say("nothing was timed, as no cell can run here");
             return exit_failed;

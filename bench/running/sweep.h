@@ -22,6 +22,7 @@ struct SweepOptions {
     double give_up_s = 600;   ///< a cell that says nothing for so long is left out
     bool counts = false;      ///< instructions of our cells instead of rounds: see count.h
     std::string command_line; ///< recorded
+    bool is_quiet = false;    ///< the findings are not printed
 };
 
 /// Prints the cells of a sweep and how long it may take; if it counts, those that are counted.

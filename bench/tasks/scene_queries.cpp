@@ -142,6 +142,9 @@ class SceneQueries final : public Task {
         if (stages.empty() && left_out.empty())
             block.fail("scene_queries needs stages: required, all_stages, or both");
         for (const SceneSpec& scene : moving_scenes(block)) {
+            if (scene.moving->recording)
+                block.fail(
+                    "a recorded motion holds boxes and no effects: its task is moving_pairs");
             std::vector<ContenderEntry> ours;
             for (const std::string& extent : stages)
                 ours.push_back(stages_contender(extent == all_stages_variant ? Extent::all_stages

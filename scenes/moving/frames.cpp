@@ -35,6 +35,10 @@ std::size_t bytes_of(const Bodies& bodies) {
 
 } // namespace
 
+std::vector<Aabb<float>> boxes_at_start(const SceneFile& file) {
+    return file.recording ? file.recording->front() : boxes_of(MovingScene(file));
+}
+
 std::vector<Aabb<float>> boxes_of(const MovingScene& scene) {
     std::vector<Aabb<float>> boxes(scene.bodies().size());
     for (std::uint32_t i = 0; i < boxes.size(); ++i)
@@ -43,8 +47,13 @@ std::vector<Aabb<float>> boxes_of(const MovingScene& scene) {
 }
 
 Frames::Frames(std::shared_ptr<const SceneFile> file, std::size_t max_bytes)
-    : file_(std::move(file)), scene_(std::make_unique<MovingScene>(*file_)) {
-    start_ = boxes_of(*scene_);
+    : file_(std::move(file)) {
+    start_ = boxes_at_start(*file_);
+    if (file_->recording) {
+        bake(*file_->recording);
+        return;
+    }
+    scene_ = std::make_unique<MovingScene>(*file_);
     is_baked_ = size() <= max_bytes / (start_.size() * sizeof(start_[0]));
     if (!is_baked_) {
         now_.boxes = start_;
@@ -57,6 +66,16 @@ Frames::Frames(std::shared_ptr<const SceneFile> file, std::size_t max_bytes)
         baked_.push_back(frame);
     }
     scene_.reset();
+}
+
+void Frames::bake(const Recording& recording) {
+    is_baked_ = true;
+    for (std::size_t i = 1; i <= size(); ++i) {
+        baked_.push_back({recording[i], {}});
+        for (std::uint32_t body = 0; body < start_.size(); ++body)
+            if (!(recording[i][body] == recording[i - 1][body]))
+                baked_.back().moved.push_back(body);
+    }
 }
 
 const Frame* Frames::next() {

@@ -20,6 +20,9 @@ struct Frame {
 /// The boxes of all bodies as they stand, widened by the margins of their groups: those of a Frame.
 std::vector<Aabb<float>> boxes_of(const MovingScene& scene);
 
+/// Those of frame 0.
+std::vector<Aabb<float>> boxes_at_start(const SceneFile& file);
+
 /// The boxes of a moving scene, frame by frame: the same bits in each pass. They are made once and
 /// held if the boxes of all frames take `max_bytes` at most, else made again in each pass; then
 /// memory does not grow with their number.
@@ -41,6 +44,8 @@ class Frames {
     std::size_t bytes() const;
 
   private:
+    void bake(const Recording& recording);
+
     std::shared_ptr<const SceneFile> file_;
     bool is_baked_ = false;
     std::size_t played_ = 0;

@@ -3,9 +3,11 @@
 #include "kernels/primitives/vec3.h"
 #include "kernels/settings.h"
 #include "scenes/moving/query.h"
+#include "scenes/moving/recording.h"
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -50,6 +52,8 @@ struct SceneFile {
     std::string view = "xy"; ///< the plane in which it is drawn: xy, xz or yz
     std::vector<BodyGroup> groups;
     std::vector<SceneQuery> queries{{.name = "pairs"}}; ///< each name once
+    /// Played instead of groups and effects, of which there are none then.
+    std::shared_ptr<const Recording> recording{};
 };
 
 /// The query of this name, or nullptr.

@@ -1,6 +1,7 @@
 #include "scenes/sampling/rays.h"
 
 #include "kernels/suggest.h"
+#include "scenes/rows.h"
 #include "scenes/sampling/random.h"
 #include "scenes/scene.h"
 
@@ -205,6 +206,29 @@ std::vector<Ray<float>> make_rays(std::string_view kind, const TriangleMesh& mes
                 "rays: at this mesh some would start at coordinates that are not "
                 "below 2^126 (8.5e37) in size, or have a direction beyond "
                 "floats: scale the mesh down");
+    return rays;
+}
+
+std::vector<Ray<float>> read_rays(const std::filesystem::path& file) {
+    std::vector<Ray<float>> rays;
+    read_rows(file, "ox,oy,oz,dx,dy,dz[,t_max]", 6, 7,
+              [&](std::span<const double> row, const std::string& place) {
+                  float numbers[7] = {};
+                  for (std::size_t i = 0; i < row.size(); ++i)
+                      if (numbers[i] = as_float(row[i], place);
+                          std::abs(numbers[i]) >= max_ray_coordinate)
+                          throw std::runtime_error(
+                              place + ": rays have numbers below 2^126; scale the scene");
+                  Ray<float> ray{{numbers[0], numbers[1], numbers[2]},
+                                 {numbers[3], numbers[4], numbers[5]}};
+                  if (ray.direction == Vec3<float>{})
+                      throw std::runtime_error(place + ": the direction is zero");
+                  if (row.size() == 7)
+                      ray.t_max = numbers[6];
+                  if (ray.t_max < 0)
+                      throw std::runtime_error(place + ": t_max is below 0");
+                  rays.push_back(ray);
+              });
     return rays;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string_view>
 #include <vector>
 
@@ -19,6 +20,13 @@ void check_ray_kind(std::string_view kind);
 /// std::runtime_error for a mesh so large that a ray would overflow.
 std::vector<Ray<float>> make_rays(std::string_view kind, const TriangleMesh& mesh, std::size_t n,
                                   std::uint64_t seed);
+
+/// What SceneSpec::rays is of rays that the user has.
+inline constexpr std::string_view own_rays = "own";
+
+/// From a CSV file with rows of ox,oy,oz,dx,dy,dz[,t_max]. Throws std::runtime_error, "file:line:
+/// ...", for anything else, a direction of zero, t_max < 0, or a number of 2^126 or more.
+std::vector<Ray<float>> read_rays(const std::filesystem::path& file);
 
 /// Pixels in a row of the picture that n rays of a kind are, whose last row may be in part; 0 if
 /// they are no picture.

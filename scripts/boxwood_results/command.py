@@ -5,7 +5,7 @@ import os
 import sys
 from pathlib import Path
 
-from .reader import BadFile
+from boxwood.results.reader import BadFile
 
 
 def parser(description, example, several=False):

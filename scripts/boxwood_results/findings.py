@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from .words import interval_text
+from boxwood.results.words import interval_text
 
 PEERS, OURS, THREADS, STAGES, DEVICES = "peers", "ours", "threads", "stages", "devices"  # families of /compare
 RACE = "race"  # the topic of /findings that is about times against rivals

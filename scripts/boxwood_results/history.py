@@ -4,7 +4,7 @@ from . import labels, style
 from .metrics import METRICS
 from .picture import Picture, cell_text
 from .run import TOTAL
-from .words import time_text
+from boxwood.results.words import time_text
 
 TITLE = "Over commits"
 HOW_TO_READ = (

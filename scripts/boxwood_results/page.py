@@ -8,7 +8,7 @@ from .findings import comparison_rows
 from .inline_svg import InlineSvgs
 from .picture import cell_text, svgs_of_panels
 from .selection import wrong_text
-from .words import time_text
+from boxwood.results.words import time_text
 
 STYLE = """
 :root { --paper: #fff; --ink: #222; --soft: #555; --line: #e4e4e4; --link: #0058a3; --bad: #b00000; color-scheme: light dark; }
@@ -230,13 +230,17 @@ def unsupported_html(run):
     return "".join(parts)
 
 
+# Texts with a line per cell, for the sweep that goes on: in the file, and in no report.
+OF_THE_SWEEP = {"calibration", "inputs"}
+
+
 def machine_html(run):
     env = run.source["env"]
     # As text: one column of values of all kinds reads best from the left.
     rows = [(name, *(shown(as_plain(row[name]))[0] for row in env)) for name in env.dtype.names]
     columns = ("", *(f"machine state {row['env_id']}" for row in env))
     texts = "".join(folded(name, f"<pre>{escape(text)}</pre>") for name, text in sorted(run.source.texts.items())
-                    if text and not name.startswith(STRIP))
+                    if text and not name.startswith(STRIP) and name not in OF_THE_SWEEP)
     packages = [(row["library"], row["version"] or "absent", row["build"]) for row in run.source["packages"]]
     libraries = table(("library", "version", "build"), packages)
     return f"{table(columns, rows)}{folded('Libraries and peers', libraries)}{texts}"

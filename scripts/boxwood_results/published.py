@@ -11,9 +11,9 @@ from . import picture, registry
 from .figures import forest
 from .moving import played_scenes
 from .picture import cell_text
-from .reader import BadFile
+from boxwood.results.reader import BadFile
 from .run import Where, read
-from .words import count_text, ratio_text, time_text
+from boxwood.results.words import count_text, ratio_text, time_text
 
 ONE = Where("", 1)
 MAX_BYTES = 2_000_000

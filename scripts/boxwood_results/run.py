@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from .findings import read_comparisons, read_findings
 from .kernels import KernelPoint, read_costs
-from .reader import load
+from boxwood.results.reader import load
 
 AA_TWIN, DISTURBED = 4, 1 | 2
 WHOLE_QUERY = "typical"  # a kernel row about a whole query, whose cell stays among the others

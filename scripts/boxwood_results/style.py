@@ -11,7 +11,7 @@ from matplotlib import colors
 from matplotlib import pyplot as plt
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullFormatter, NullLocator
 
-from .words import count_text, time_tick
+from boxwood.results.words import count_text, time_tick
 
 # By place in the registry that the file names (/variants.place): builders, policies or ways to play, which never stand
 # beside each other, and peers. Okabe and Ito 2008 without its yellow, which is faint on white, and Tol's muted colours.

@@ -1,12 +1,10 @@
 """Result files made once for all tests."""
 
 import subprocess
-from pathlib import Path
 
 import pytest
 import synthetic
-
-SCRIPTS = Path(__file__).resolve().parents[1]
+from synthetic import SCRIPTS
 
 
 @pytest.fixture(scope="session")

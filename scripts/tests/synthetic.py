@@ -11,9 +11,10 @@ import h5py
 import numpy as np
 import pytest
 
-from boxwood_results.reader import fnv_1a
+from boxwood.results.reader import fnv_1a
 
 ROOT = Path(__file__).resolve().parents[2]
+SCRIPTS = ROOT / "scripts"
 PROGRAM = Path(os.environ.get("BOXWOOD_BUILD", ROOT / "build" / "release")) / "boxwood"
 GPU_RATES = {"gpu_copy_gbs": 4300, "gpu_upload_gbs": 52, "gpu_download_gbs": 54, "gpu_upload_pageable_gbs": 11,
              "gpu_download_pageable_gbs": 10, "gpu_launch_ns": 1900}

@@ -6,7 +6,7 @@ import shutil
 import subprocess
 
 import pytest
-from conftest import SCRIPTS
+from synthetic import SCRIPTS
 
 
 @pytest.mark.parametrize("command", ["setup", "test", "sweep", "fuzz", "format"])

@@ -19,7 +19,7 @@ OURS = re.compile(r"7boxwood")
 SOURCES = sorted(p for m in ("kernels", "trees", "bench/stages") for p in (ROOT / m).rglob("*.cu"))
 WARP = sorted((ROOT / "build" / "warp" / "lib").glob("python3*/site-packages/warp"))
 if WARP:
-    SOURCES.append(ROOT / "bench" / "peers" / "warp_tree.cu")
+    SOURCES.append(ROOT / "bench" / "peers" / "warp" / "warp_tree.cu")
     FLAGS += ["-isystem", str(WARP[0].parent), '-DBOXWOOD_WARP_LIBRARY=""']
 
 

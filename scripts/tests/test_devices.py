@@ -3,7 +3,7 @@
 import synthetic
 
 from boxwood_results import page, registry, run, style
-from boxwood_results.reader import load
+from boxwood.results.reader import load
 
 
 def test_a_device_is_a_job_of_its_own(full):

@@ -3,9 +3,9 @@
 import ast
 
 import pytest
-from conftest import SCRIPTS
+from synthetic import SCRIPTS
 
-from boxwood_results.reader import DERIVED, MEASURED
+from boxwood.results.reader import DERIVED, MEASURED
 
 MODULES = {"statistics", "scipy", "pandas", "functools", "itertools", "operator", "fractions"}
 SUMS = {"sum", "fsum", "prod", "reduce", "accumulate"}

@@ -7,7 +7,7 @@ import subprocess
 import h5py
 import pytest
 import synthetic
-from conftest import SCRIPTS
+from synthetic import SCRIPTS
 
 from boxwood_results import published
 

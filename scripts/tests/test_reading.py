@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 import synthetic
 
-from boxwood_results import findings, reader, run, words
+from boxwood.results import reader, words
+from boxwood_results import findings, run
 
 
 def test_reads_what_was_written(full):

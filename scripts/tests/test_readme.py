@@ -14,7 +14,7 @@ needs_program = pytest.mark.skipif(not PROGRAM.exists(), reason=f"{PROGRAM} is n
 def test_links_and_paths_exist(document):
     text = re.sub(r"```.*?```", "", (ROOT / document).read_text(), flags=re.S)
     links = [link for link in re.findall(r"\]\(([^)#]+)[^)]*\)", text) if "://" not in link]
-    folders = "kernels|trees|scenes|bench|results|scripts"
+    folders = "kernels|trees|scenes|bench|results|python|scripts"
     paths = [path for path in re.findall(rf"`((?:{folders})/[\w./-]*)`", text) if not re.search(r"NAME|FAMILY|halving", path)]
     assert links and paths
     missing = [path for path in links + paths if not (ROOT / path).exists()]

@@ -5,7 +5,7 @@ import subprocess
 
 import h5py
 import pytest
-from conftest import SCRIPTS
+from synthetic import SCRIPTS
 from synthetic import PROGRAM
 
 SNAKEMAKE = shutil.which("snakemake")

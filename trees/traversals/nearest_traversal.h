@@ -11,19 +11,23 @@
 
 namespace boxwood::detail {
 
-/// The k nearest items of one point so far: a heap with the farthest at its front, in the memory of
-/// the answer. An item is offered once.
+/// The k nearest items of one point so far, in the memory of the answer: in order where there are
+/// few, else a heap with the farthest at its front. An item is offered once.
 class NearestItems {
   public:
-    explicit NearestItems(std::span<Neighbour> out) : out_(out) {}
+    explicit NearestItems(std::span<Neighbour> out)
+        : out_(out), is_sorted_(out.size() <= most_sorted) {}
 
     /// Nothing farther than this matters.
     double worst() const {
-        return n_ == out_.size() ? out_.front().squared_distance
-                                 : std::numeric_limits<double>::infinity();
+        return n_ < out_.size() ? std::numeric_limits<double>::infinity()
+               : is_sorted_     ? out_.back().squared_distance
+                                : out_.front().squared_distance;
     }
     void offer(const Neighbour& item) {
-        if (n_ < out_.size()) {
+        if (is_sorted_)
+            insert(item);
+        else if (n_ < out_.size()) {
             out_[n_++] = item;
             std::push_heap(out_.begin(), end(), nearer);
         } else if (nearer(item, out_.front())) {
@@ -34,7 +38,8 @@ class NearestItems {
     }
     /// Puts them in order and fills up with no item; returns how many were found.
     std::size_t finish() {
-        std::sort_heap(out_.begin(), end(), nearer);
+        if (!is_sorted_)
+            std::sort_heap(out_.begin(), end(), nearer);
         std::fill(end(), out_.end(), Neighbour{});
         return n_;
     }
@@ -46,11 +51,22 @@ class NearestItems {
     }
 
   private:
+    static constexpr std::size_t most_sorted = 32;
+
+    void insert(const Neighbour& item) {
+        if (n_ == out_.size() && !nearer(item, out_.back()))
+            return;
+        std::size_t at = n_ < out_.size() ? n_++ : n_ - 1; // else the farthest goes
+        for (; at > 0 && nearer(item, out_[at - 1]); --at)
+            out_[at] = out_[at - 1];
+        out_[at] = item;
+    }
     std::span<Neighbour>::iterator end() const {
         return out_.begin() + static_cast<std::ptrdiff_t>(n_);
     }
 
     std::span<Neighbour> out_;
+    bool is_sorted_;
     std::size_t n_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #include "bench/truth/judging/case_truths.h"
 #include "kernels/registry.h"
 #include "kernels/suggest.h"
+#include "scenes/sampling/rays.h"
 #include "trees/mesh_bvh.h"
 #include "trees/queries/single_rays.h"
 #include "trees/queries/sorted_rays.h"
@@ -290,6 +291,15 @@ std::vector<SceneSpec> RayTask::with_queries(const BlockReader& block,
         block.fail(fmt::format("the task {} needs rays: one or more of {}", name(),
                                fmt::join(names_of(ray_kinds()), ", ")));
     std::vector<SceneSpec> all;
+    if (!scene.file.empty() && !block.inputs().own_rays.empty()) {
+        for (const OwnRays& own : block.inputs().own_rays) {
+            all.push_back(scene);
+            all.back().rays = own_rays;
+            all.back().rays_file = own.file;
+            all.back().n_rays = own.n;
+        }
+        return all;
+    }
     for (const std::string& kind : kinds) {
         all.push_back(scene);
         all.back().rays = kind;

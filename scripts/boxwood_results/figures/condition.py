@@ -38,7 +38,7 @@ def draw(run):
         ax.set_xlim(decades[0] - 0.3, decades[-1] + 0.3)
         ax.xaxis.set_major_locator(style.MaxNLocator(8, integer=True))
         for power in (1, 2):
-            ys = [FLOOR * 10 ** (power * d) for d in decades]
+            ys = [FLOOR * 10.0 ** min(power * d, 300) for d in decades]
             ax.plot(decades, ys, color="#888888", linestyle=":", linewidth=1)
         rows, ends = [], []
         looks = style.looks({kernel for ours, _, kernel, _ in lines if ours})

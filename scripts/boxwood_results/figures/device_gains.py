@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from .. import labels, style
 from ..metrics import METRICS
 from ..picture import Picture, Skip
-from ..words import count_text, time_text
+from boxwood.results.words import count_text, time_text
 
 NAME = "device_gains"
 TITLE = "From which size a device wins"

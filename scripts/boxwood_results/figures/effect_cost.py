@@ -6,7 +6,7 @@ from .. import style
 from ..findings import footer
 from ..moving import played_scenes
 from ..picture import Picture, Skip
-from ..words import time_text
+from boxwood.results.words import time_text
 
 NAME = "effect_cost"
 TITLE = "What an effect costs, against ourselves"

@@ -5,7 +5,7 @@ from ..metrics import METRICS
 from ..moving import SCREEN_NS
 from ..picture import Picture, Skip
 from ..selection import choose, largest_jobs, left_out_note, wrong_notes
-from ..words import time_text
+from boxwood.results.words import time_text
 
 NAME = "frame_times"
 TITLE = "Frame times"

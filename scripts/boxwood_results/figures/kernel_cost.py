@@ -4,7 +4,7 @@ from .. import style
 from ..metrics import METRICS
 from ..picture import Picture, Skip
 from ..selection import largest_jobs
-from ..words import ratio_text, time_tick
+from boxwood.results.words import ratio_text, time_tick
 
 NAME = "kernel_cost"
 TITLE = "What a kernel costs in a whole query"

@@ -3,7 +3,7 @@
 from .. import labels, style
 from ..moving import played_scenes
 from ..picture import Picture, Skip
-from ..words import time_text, time_tick
+from boxwood.results.words import time_text, time_tick
 
 NAME = "ledger"
 TITLE = "Only what the scene requires, against ourselves"

@@ -6,7 +6,7 @@ from ..metrics import METRICS
 from ..picture import Picture, Skip
 from ..run import TOTAL
 from ..selection import MAX_LINES, wrong_notes
-from ..words import ratio_text
+from boxwood.results.words import ratio_text
 
 NAME = "thread_scaling"
 TITLE = "What threads give"

@@ -5,7 +5,7 @@ from ..metrics import METRICS
 from ..picture import Picture, Skip
 from ..run import Where
 from ..selection import choose, largest_jobs, left_out_note, wrong_notes
-from ..words import ratio_text
+from boxwood.results.words import ratio_text
 
 NAME = "tree_quality_over_time"
 TITLE = "How trees degrade"

@@ -77,7 +77,7 @@ template <class L, class Held = L> class LayoutModel final : public AnyLayout {
         : held_(std::move(layout)), is_split_(is_split) {}
 
     std::size_t bytes() const override { return layout().bytes(); }
-    bool answers(Query query) const override { return answers_query<L>(query); }
+    bool answers(Query query) const override { return answers_query<L>(query) && suits(query); }
 
     void self_pairs(const Executor& executor, PairSink& sink, Work* work) const override {
         require(Query::self_pairs);
@@ -172,11 +172,14 @@ template <class L, class Held = L> class LayoutModel final : public AnyLayout {
         }
     }
 
+    bool suits(Query query) const {
+        return !is_split_ || query == Query::rays || query == Query::closest_points;
+    }
     void require(Query query) const {
         if (!answers_query<L>(query))
             throw std::invalid_argument("the layout '" + std::string(L::name) +
                                         "' does not answer " + std::string(to_string(query)));
-        if (is_split_ && query != Query::rays && query != Query::closest_points)
+        if (!suits(query))
             throw std::invalid_argument("a split tree is for rays and closest points alone; build "
                                         "one of the boxes for other queries");
     }

@@ -1,4 +1,4 @@
-#include "bench/peers/warp_tree.h"
+#include "bench/peers/warp/warp_tree.h"
 #include "bench/tasks/detail/bench_place.h"
 #include "trees/cuda/device/machine.h"
 

@@ -1,7 +1,7 @@
 #include "bench/peers/answering.h"
 #include "bench/peers/comers.h"
 #include "bench/peers/point_peers.h"
-#include "bench/peers/warp_tree.h"
+#include "bench/peers/warp/warp_tree.h"
 #include "bench/tasks/detail/device_contender.h"
 #include "bench/tasks/detail/ray_classes.h"
 #include "bench/tasks/task.h"

@@ -7,7 +7,7 @@ STATUSES = ("unchecked", "exact", "conservative", "within_bound", "unsupported",
 FAMILIES = ("", "peers", "ours", "threads", "stages", "devices")
 TOPICS = ("", "race", "kernel", "scene", "device")
 VERDICTS = ("", "faster", "slower", "same", "cannot_tell", "wrong")
-REASONS = ("", "too_few_rounds", "below_the_floor", "crosses_1", "unchecked", "too_noisy")
+REASONS = ("", "too_few_rounds", "below_the_floor", "crosses_1", "unchecked", "too_noisy", "memory_layout")
 
 
 def digits_text(value, most):

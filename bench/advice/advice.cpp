@@ -1,0 +1,228 @@
+#include "bench/advice/advice.h"
+
+#include "bench/analysis/index.h"
+#include "bench/analysis/status.h"
+#include "bench/analysis/times.h"
+#include "bench/io/bad_input.h"
+#include "trees/builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace boxwood::bench {
+namespace {
+
+using results::Phase;
+
+/// One number a round: of all that were timed in it the median.
+double of_round(std::vector<double> values) {
+    std::ranges::sort(values);
+    return median_of_sorted(values);
+}
+
+std::vector<double> by_round(const Times::Rounds& rounds) {
+    std::vector<double> all;
+    for (const auto& [key, values] : rounds)
+        all.push_back(of_round(values));
+    return all;
+}
+
+/// "ploc_reinsertion" is "ploc+reinsertion" to who asks for it.
+std::string as_given(std::string builder) {
+    for (const OptimizerEntry& optimizer : optimizers())
+        if (const std::string end = "_" + std::string(optimizer.name); builder.ends_with(end))
+            builder[builder.size() - end.size()] = '+';
+    return builder;
+}
+
+class Adviser {
+  public:
+    Adviser(const results::Results& results, std::optional<double> wanted)
+        : results_(results), index_(results), times_(results), floors_(results, times_) {
+        advice_.wanted = wanted;
+    }
+
+    Advice advise() {
+        collect();
+        std::ranges::sort(advice_.ways, {}, &Way::build_ns);
+        climb();
+        advice_.best = best_for(advice_.wanted.value_or(advice_.n_queries));
+        find_rival();
+        return std::move(advice_);
+    }
+
+  private:
+    void collect() {
+        for (const results::Cell& cell : results_.cells) {
+            const Times::Rounds* const build = times_.rounds(cell.cell_id, Phase::build);
+            const Times::Rounds* const query = times_.rounds(cell.cell_id, Phase::query);
+            if (!is_right(cell.status) || !build || !query)
+                continue;
+            Way way;
+            const results::Variant& variant = index_.variant(cell);
+            way.cell_id = cell.cell_id;
+            way.build = median_interval(by_round(*build));
+            way.query = median_interval(by_round(*query));
+            way.build_ns = way.build.mid;
+            way.query_ns = way.query.mid;
+            if (variant.is_peer) {
+                const std::string own = variant.name.substr(variant.name.find('.') + 1);
+                way.name = variant.library_title + ": " + own;
+                rivals_.push_back(std::move(way));
+                continue;
+            }
+            way.builder = as_given(variant.builder);
+            way.layout = variant.layout;
+            way.name = way.builder + "." + way.layout;
+            advice_.ways.push_back(std::move(way));
+            if (cell.n_queries > 0)
+                advice_.n_queries = static_cast<double>(cell.n_queries);
+            advice_.task = cell.task;
+            advice_.scene = index_.scene(cell.scene_id).human_name;
+        }
+        if (advice_.ways.empty())
+            throw BadInput("choose: no way to build a tree was timed and answered right");
+        const bool is_of_rays = advice_.task.starts_with("rays");
+        advice_.query_word = is_of_rays ? "rays" : "queries";
+        if (advice_.task == "pairs")
+            advice_.n_queries = 1; // one query finds all
+    }
+
+    /// Which of the ways have queries that take less time than those of `from`, beyond noise.
+    std::vector<std::size_t> faster_than(std::size_t from, Phase phase) const {
+        std::vector<Claim> claims;
+        std::vector<std::size_t> of;
+        const std::uint32_t a = advice_.ways[from].cell_id;
+        for (std::size_t i = 0; i < advice_.ways.size(); ++i) {
+            if (i == from)
+                continue;
+            const std::uint32_t b = advice_.ways[i].cell_id;
+            const double floor =
+                floors_.of(index_.cell(a), index_.cell(b), phase).value_or(default_delta);
+            claims.push_back({times_.log_ratios(a, b, phase), floor});
+            of.push_back(i);
+        }
+        const std::vector<Ruling> rulings = decide(claims, default_delta);
+        std::vector<std::size_t> faster;
+        for (std::size_t i = 0; i < of.size(); ++i)
+            if (rulings[i].verdict == results::Verdict::faster)
+                faster.push_back(of[i]);
+        return faster;
+    }
+
+    /// From the cheapest to build on, each time to what pays for itself first.
+    void climb() {
+        // Of those that no other is told to build faster than, the one with the fastest queries.
+        std::size_t at = 0;
+        for (std::size_t i = 1; i < advice_.ways.size(); ++i) {
+            const std::vector<std::size_t> cheaper = faster_than(i, Phase::build);
+            const bool is_told_apart = std::ranges::find(cheaper, std::size_t{0}) != cheaper.end();
+            if (!is_told_apart && advice_.ways[i].query_ns < advice_.ways[at].query_ns)
+                at = i;
+        }
+        advice_.front = {at};
+        for (;;) {
+            std::optional<std::size_t> next;
+            Step step;
+            for (const std::size_t i : faster_than(at, Phase::query)) {
+                const MedianInterval queries = break_even(at, i);
+                const bool is_sooner = queries.mid < step.queries.mid;
+                const bool is_as_soon = next && queries.mid <= step.queries.hi &&
+                                        advice_.ways[i].query_ns < advice_.ways[*next].query_ns;
+                if (!next || is_sooner || is_as_soon) {
+                    next = i;
+                    step.queries = queries;
+                }
+            }
+            if (!next)
+                return;
+            step = step_from(at, *next);
+            if (!(step.queries.mid > 0)) { // it is better in both
+                advice_.front.back() = *next;
+                if (!advice_.steps.empty())
+                    advice_.steps.back() =
+                        step_from(advice_.front[advice_.front.size() - 2], *next);
+            } else {
+                advice_.front.push_back(*next);
+                advice_.steps.push_back(step);
+            }
+            at = *next;
+        }
+    }
+
+    Step step_from(std::size_t a, std::size_t b) const {
+        return {break_even(a, b),
+                paired_ratio(times_.log_ratios(advice_.ways[b].cell_id, advice_.ways[a].cell_id,
+                                               Phase::query))};
+    }
+
+    /// After how many queries per build `b` has paid for itself against `a`, round by round.
+    MedianInterval break_even(std::size_t a, std::size_t b) const {
+        const auto of = [&](std::size_t way, Phase phase) {
+            return times_.rounds(advice_.ways[way].cell_id, phase);
+        };
+        const Times::Rounds &build_a = *of(a, Phase::build), &build_b = *of(b, Phase::build),
+                            &query_a = *of(a, Phase::query), &query_b = *of(b, Phase::query);
+        std::vector<double> queries;
+        for (const auto& [round, values] : build_a) {
+            if (!build_b.contains(round) || !query_a.contains(round) || !query_b.contains(round))
+                continue;
+            const double dearer = of_round(build_b.at(round)) - of_round(values);
+            const double saved = of_round(query_a.at(round)) - of_round(query_b.at(round));
+            queries.push_back(saved > 0 ? advice_.n_queries * dearer / saved
+                                        : std::numeric_limits<double>::infinity());
+        }
+        return median_interval(std::move(queries));
+    }
+
+    double total_ns(const Way& way, double queries) const {
+        return way.build_ns + queries / advice_.n_queries * way.query_ns;
+    }
+    std::size_t best_for(double queries) const {
+        std::size_t best = advice_.front.front();
+        for (const std::size_t way : advice_.front)
+            if (total_ns(advice_.ways[way], queries) < total_ns(advice_.ways[best], queries))
+                best = way;
+        return best;
+    }
+
+    void find_rival() {
+        const double queries = advice_.wanted.value_or(advice_.n_queries);
+        for (const Way& way : rivals_)
+            if (!advice_.rival || total_ns(way, queries) < total_ns(*advice_.rival, queries))
+                advice_.rival = way;
+        if (!advice_.rival)
+            return;
+        const auto totals = [&](std::uint32_t cell) {
+            std::map<Times::RoundKey, double> all;
+            const Times::Rounds& query = *times_.rounds(cell, Phase::query);
+            for (const auto& [round, values] : *times_.rounds(cell, Phase::build))
+                if (query.contains(round))
+                    all[round] =
+                        of_round(values) + queries / advice_.n_queries * of_round(query.at(round));
+            return all;
+        };
+        const auto ours = totals(advice_.ways[advice_.best].cell_id);
+        std::vector<double> ratios;
+        for (const auto& [round, ns] : totals(advice_.rival->cell_id))
+            if (ours.contains(round))
+                ratios.push_back(std::log(ns / ours.at(round)));
+        advice_.rival_ratio = paired_ratio(ratios);
+    }
+
+    const results::Results& results_;
+    Index index_;
+    Times times_;
+    NoiseFloors floors_;
+    std::vector<Way> rivals_;
+    Advice advice_;
+};
+
+} // namespace
+
+Advice advise(const results::Results& results, std::optional<double> wanted) {
+    return Adviser(results, wanted).advise();
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "bench/analysis/statistics.h"
+#include "results/results.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace boxwood::bench {
+
+/// A way to build and keep a tree, as it was timed.
+struct Way {
+    std::uint32_t cell_id = 0;
+    std::string name;                              ///< "binned_sah.wide8", "Embree: rtc_intersect1"
+    std::string builder, layout;                   ///< ours
+    double build_ns = unknown, query_ns = unknown; ///< medians; all queries together
+    MedianInterval build, query;                   ///< in ns
+};
+
+/// From one way of the front to the next, which takes longer to build.
+struct Step {
+    MedianInterval queries; ///< per build, from which on the next is the better
+    PairedRatio query;      ///< the queries of the first over those of the next
+};
+
+/// Which way to take, by the number of queries per build.
+struct Advice {
+    std::string task, scene;
+    std::string query_word;         ///< "rays"; "queries" where one query answers all
+    double n_queries = 1;           ///< of the words above, as they were timed
+    std::vector<Way> ways;          ///< all right ones of ours, by rising build time
+    std::vector<std::size_t> front; ///< of them, by rising build time: what to take
+    std::vector<Step> steps;        ///< between them
+    std::optional<double> wanted;   ///< queries per build, if they were said
+    std::size_t best = 0;           ///< of `ways`: for the wanted number, else for those timed
+    std::optional<Way> rival;       ///< the best peer for that number
+    PairedRatio rival_ratio;        ///< its time over that of the best
+};
+
+/// Ways are told apart only by differences beyond noise: see decide. Of a result with one scene and
+/// one task that builds and queries. Throws BadInput if no way of ours was timed and right.
+Advice advise(const results::Results& results, std::optional<double> wanted = {});
+
+/// What to take, in words, with the lines of C++ and Python that do it.
+std::string advice_text(const Advice& advice);
+std::string advice_json(const Advice& advice);
+/// Build against query, as an SVG: the front joined, with intervals; peers beside it.
+std::string advice_picture(const Advice& advice);
+
+} // namespace boxwood::bench

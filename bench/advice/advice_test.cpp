@@ -1,0 +1,115 @@
+#include "bench/advice/advice.h"
+
+#include "bench/io/bad_input.h"
+#include "bench/testing/maker.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace boxwood::bench {
+namespace {
+
+using results::Phase;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+struct Timed {
+    const char *builder, *layout;
+    double build_ns, query_ns; ///< of 1000 rays
+    results::Status status = results::Status::exact;
+};
+
+results::Results timed(const std::vector<Timed>& ways, double peer_ns = 0, double twin = 1.001) {
+    Maker made(15);
+    const auto add = [&](const std::string& name, bool is_peer, double build, double query,
+                         results::Status status) {
+        const std::uint32_t cell = made.cell(name, is_peer, status);
+        made.results.cells[cell].task = "rays_closest";
+        made.results.cells[cell].n_queries = 1000;
+        made.results.cells[cell].status = status;
+        made.time(cell, Phase::build, steady(build));
+        made.time(cell, Phase::query, steady(query));
+        return cell;
+    };
+    for (const Timed& way : ways) {
+        const std::uint32_t cell = add(std::string(way.builder) + "." + way.layout, false,
+                                       way.build_ns, way.query_ns, way.status);
+        made.results.variants[cell].builder = way.builder;
+        made.results.variants[cell].layout = way.layout;
+    }
+    made.time(0, Phase::query, steady(ways[0].query_ns * twin), results::aa_twin);
+    if (peer_ns > 0) {
+        const std::uint32_t cell =
+            add("embree.rtc_x", true, peer_ns, peer_ns, results::Status::exact);
+        made.results.variants[cell].library_title = "Embree";
+    }
+    return made.results;
+}
+
+std::vector<std::string> front_of(const Advice& advice) {
+    std::vector<std::string> names;
+    for (const std::size_t i : advice.front)
+        names.push_back(advice.ways[i].name);
+    return names;
+}
+
+TEST(Advice, SaysFromHowManyQueriesADearerTreePays) {
+    const Advice advice = advise(timed({{"hilbert", "wide8", 1e6, 9e5},
+                                        {"binned_sah", "wide8", 3e6, 4e5},
+                                        {"worse", "wide8", 4e6, 8e5},
+                                        {"best", "wide8", 9e6, 3e5}},
+                                       5e6));
+    EXPECT_THAT(front_of(advice), ElementsAre("hilbert.wide8", "binned_sah.wide8", "best.wide8"));
+    ASSERT_EQ(advice.steps.size(), 2u);
+    // 2 ms more for half a microsecond less a ray, 6 ms for a tenth.
+    EXPECT_NEAR(advice.steps[0].queries.mid, 4000, 40);
+    EXPECT_LE(advice.steps[0].queries.lo, advice.steps[0].queries.mid);
+    EXPECT_NEAR(advice.steps[1].queries.mid, 60000, 600);
+    EXPECT_NEAR(advice.steps[0].query.ratio, 9. / 4, 0.02);
+    EXPECT_EQ(advice.ways[advice.best].name, "hilbert.wide8"); // for the 1000 that were timed
+    ASSERT_TRUE(advice.rival);
+    EXPECT_NEAR(advice.rival_ratio.ratio, 10 / 1.9, 0.05);
+    EXPECT_THAT(advice_text(advice), HasSubstr("Up to 4,000 rays per build"));
+    EXPECT_THAT(advice_text(advice), HasSubstr("above it binned_sah.wide8 (2.25x"));
+    EXPECT_THAT(advice_text(advice), HasSubstr("Embree: rtc_x would take 5.26x"));
+    EXPECT_THAT(advice_text(advice), HasSubstr("make_builder(\"hilbert\")"));
+}
+
+TEST(Advice, IsForAsManyQueriesAsAreWanted) {
+    const auto results = timed({{"hilbert", "wide8", 1e6, 9e5}, {"binned_sah", "wide8", 3e6, 4e5}});
+    EXPECT_EQ(advise(results, 3000).best, 0u);
+    EXPECT_EQ(advise(results, 5000).best, 1u);
+}
+
+TEST(Advice, IsNeverMadeOfADifferenceThatIsNone) {
+    // 2 % faster, where the same cell differs by 6 % from itself.
+    const Advice advice =
+        advise(timed({{"a", "wide8", 1e6, 5e5}, {"b", "wide8", 3e6, 4.9e5}}, 0, 1.06));
+    EXPECT_THAT(front_of(advice), ElementsAre("a.wide8"));
+    EXPECT_TRUE(advice.steps.empty());
+    EXPECT_THAT(advice_text(advice), HasSubstr("for any number of rays"));
+    EXPECT_FALSE(advice.rival);
+}
+
+TEST(Advice, LeavesOutWhatErrs) {
+    const Advice advice =
+        advise(timed({{"a", "wide8", 1e6, 5e5}, {"b", "wide8", 1e5, 1e5, results::Status::wrong}}));
+    EXPECT_THAT(front_of(advice), ElementsAre("a.wide8"));
+    EXPECT_THROW(advise(timed({{"b", "wide8", 1, 1, results::Status::wrong}})), BadInput);
+}
+
+TEST(Advice, IsDrawnAndToldToPrograms) {
+    const Advice advice =
+        advise(timed({{"hilbert", "wide8", 1e6, 9e5}, {"binned_sah", "wide8", 3e6, 4e5}}, 5e6));
+    const std::string svg = advice_picture(advice);
+    EXPECT_THAT(svg, HasSubstr(">hilbert.wide8</text>"));
+    EXPECT_THAT(svg, HasSubstr("class=\"rival\""));
+    EXPECT_THAT(svg, Not(HasSubstr("nan")));
+    const std::string json = advice_json(advice);
+    EXPECT_THAT(json, HasSubstr(R"("best":"hilbert.wide8")"));
+    EXPECT_THAT(json, HasSubstr(R"("break_even":{"value":)"));
+}
+
+} // namespace
+} // namespace boxwood::bench

@@ -1,0 +1,322 @@
+#include "bench/advice/advice.h"
+#include "bench/advice/policies.h"
+#include "bench/commands/command.h"
+#include "bench/io/read_results.h"
+#include "bench/io/say.h"
+#include "bench/running/sweep.h"
+#include "scenes/moving/recording.h"
+#include "trees/builder.h"
+#include "trees/dynamic/update.h"
+#include "trees/layout.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <memory>
+
+namespace boxwood::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What is asked, and how a sweep file says it.
+struct Question {
+    std::string_view name, summary, block; ///< the keys of the block but scene, builders, layouts
+    Query query;
+    std::string_view layout; ///< that builders are tried in
+    std::string_view peers;
+};
+constexpr Question questions[] = {
+    {"rays", "the nearest hit of random rays, one after another",
+     "task = \"rays_closest\"\nrays = \"random\"\nn_rays = 20000\nray_order = \"single\"\n"
+     "kernels = \"watertight\"\n",
+     Query::rays, "wide8",
+     "\"embree.rtc_intersect1.robust\", \"embree.rtc_intersect1.robust.high\""},
+    {"pairs", "which boxes overlap", "task = \"pairs\"\n", Query::self_pairs, "packed",
+     "\"fcl.dynamic_aabb_tree_f32\", \"embree.rtc_collide.low\", \"embree.rtc_collide.medium\", "
+     "\"cgal\", \"bullet.dbvt\""},
+    {"points", "which boxes contain a point", "task = \"points\"\nn_points = 20000\n",
+     Query::points, "wide8", "\"all\""},
+    {"nearest", "the nearest box to a point", "task = \"nearest\"\nn_points = 20000\n",
+     Query::nearest, "wide8", "\"all\""},
+};
+
+const Question& question_named(const std::string& name) {
+    for (const Question& question : questions)
+        if (question.name == name)
+            return question;
+    std::vector<std::string_view> names;
+    for (const Question& question : questions)
+        names.push_back(question.name);
+    throw BadInput(
+        fmt::format("choose: --task '{}' is none of {}, moving", name, fmt::join(names, ", ")));
+}
+
+struct ChooseOptions {
+    fs::path mesh, boxes, motion, out;
+    std::string scene;
+    std::string task;
+    double minutes = 2, queries = 0;
+    unsigned threads = 1;
+    bool as_json = false;
+};
+
+std::string quoted_list(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names)
+        text += (text.empty() ? "" : ", ") + ('"' + name + '"');
+    return '[' + text + ']';
+}
+
+/// Every builder, and the best of them with what improves their trees.
+std::vector<std::string> builders_to_try() {
+    std::vector<std::string> all;
+    for (const BuilderEntry& builder : builders())
+        if (builder.name != "incremental") // one box at a time: for DynamicBvh
+            all.emplace_back(builder.name);
+    for (const OptimizerEntry& optimizer : optimizers())
+        for (const char* builder : {"hilbert", "ploc", "binned_sah"})
+            all.push_back(fmt::format("{}+{}", builder, optimizer.name));
+    return all;
+}
+
+/// A sweep of blocks that are written for it.
+class OwnSweep {
+  public:
+    explicit OwnSweep(const ChooseOptions& options)
+        : options_(options),
+          folder_(fs::temp_directory_path() / fmt::format("boxwood-choose-{}", getpid())) {
+        fs::create_directories(folder_);
+    }
+    ~OwnSweep() {
+        std::error_code ignored;
+        fs::remove_all(folder_, ignored);
+    }
+    OwnSweep(const OwnSweep&) = delete;
+
+    const fs::path& folder() const { return folder_; }
+    /// Gives an exit code, 0 if it was measured. Without a budget three rounds are run.
+    int run(const std::string& blocks, const fs::path& out, double budget_s) const {
+        const fs::path config = folder_ / "choose.toml";
+        std::ofstream(config) << fmt::format("rounds = {}\nmin_time_ms = 5\nthreads = {}\n\n{}",
+                                             budget_s > 0 ? 9 : 3, options_.threads, blocks);
+        SweepOptions sweep;
+        sweep.config = config;
+        sweep.out = out;
+        sweep.budget_s = budget_s;
+        sweep.wait_s = 10;
+        sweep.is_quiet = true;
+        sweep.command_line = "boxwood choose";
+        if (!options_.mesh.empty())
+            sweep.overrides.meshes = {options_.mesh};
+        if (!options_.boxes.empty())
+            sweep.overrides.boxes = {options_.boxes};
+        if (!options_.motion.empty())
+            sweep.overrides.motions = {options_.motion};
+        return run_sweep(sweep);
+    }
+
+  private:
+    const ChooseOptions& options_;
+    fs::path folder_;
+};
+
+class Chooser {
+  public:
+    explicit Chooser(const ChooseOptions& options)
+        : options_(options), question_(question_named(options.task)), sweep_(options) {}
+
+    int run() {
+        const auto start = std::chrono::steady_clock::now();
+        say(fmt::format("trying {} builders and {} layouts\n", builders_to_try().size(),
+                        layouts_to_try().size()));
+        const std::string first = std::string(question_.layout);
+        const fs::path once = sweep_.folder() / "first.h5";
+        if (const int code = sweep_.run(block(builders_to_try(), {first}, false) +
+                                            block({"binned_sah"}, layouts_to_try(), false),
+                                        once, 0))
+            return code;
+        const auto [builders, layouts] = survivors(read_results(once));
+        const double spent =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        say(fmt::format("timing {} x {}, and the peers\n", fmt::join(builders, ", "),
+                        fmt::join(layouts, ", ")));
+        if (const int code = sweep_.run(block(builders, layouts, true), options_.out,
+                                        std::max(10., 60 * options_.minutes - spent)))
+            return code;
+        const Advice advice =
+            advise(read_results(options_.out),
+                   options_.queries > 0 ? std::optional(options_.queries) : std::nullopt);
+        fs::path picture = options_.out;
+        picture.replace_extension(".svg");
+        std::ofstream(picture) << advice_picture(advice);
+        std::cout << (options_.as_json ? advice_json(advice) : advice_text(advice));
+        if (!options_.as_json)
+            std::cout << fmt::format("\nevidence  {}\npicture   {}\n", options_.out.string(),
+                                     picture.string());
+        return 0;
+    }
+
+  private:
+    std::vector<std::string> layouts_to_try() const {
+        std::vector<std::string> all;
+        for (const LayoutEntry& layout : layouts())
+            if (layout.answers(question_.query) && layout.precision == "f32")
+                all.emplace_back(layout.name);
+        return all;
+    }
+
+    std::string block(const std::vector<std::string>& builders,
+                      const std::vector<std::string>& layouts, bool with_peers) const {
+        return fmt::format("[[cells]]\nscene = \"{}\"\n{}builders = {}\nlayouts = {}\n{}\n",
+                           options_.mesh.empty() ? "boxes" : "mesh", question_.block,
+                           quoted_list(builders), quoted_list(layouts),
+                           with_peers ? fmt::format("peers = [{}]\n", question_.peers) : "");
+    }
+
+    /// Those that may be best for some number of queries: within 1.2 times the least time there is
+    /// for it, and no other is better in both. Of builders in one layout, of layouts under one
+    /// builder.
+    std::pair<std::vector<std::string>, std::vector<std::string>>
+    survivors(const results::Results& results) const {
+        const Advice once = advise(results);
+        std::vector<std::string> builders, layouts;
+        const auto is_bettered = [&](const Way& way) {
+            return std::ranges::any_of(once.ways, [&](const Way& other) {
+                const bool is_like = other.layout == way.layout || other.builder == way.builder;
+                return is_like && other.build_ns < .9 * way.build_ns &&
+                       other.query_ns < .95 * way.query_ns;
+            });
+        };
+        const auto keep = [&](const auto& is_meant, const auto& name,
+                              std::vector<std::string>& to) {
+            for (double queries = 1; queries < 1e12; queries *= 2) {
+                const auto total = [&](const Way& way) {
+                    return way.build_ns + queries / once.n_queries * way.query_ns;
+                };
+                double least = std::numeric_limits<double>::infinity();
+                for (const Way& way : once.ways)
+                    if (is_meant(way))
+                        least = std::min(least, total(way));
+                for (const Way& way : once.ways)
+                    if (is_meant(way) && total(way) <= 1.2 * least && !is_bettered(way) &&
+                        std::ranges::find(to, name(way)) == to.end())
+                        to.push_back(name(way));
+            }
+        };
+        keep([&](const Way& way) { return way.layout == question_.layout; },
+             [](const Way& way) { return way.builder; }, builders);
+        keep([](const Way& way) { return way.builder == "binned_sah"; },
+             [](const Way& way) { return way.layout; }, layouts);
+        return {builders, layouts};
+    }
+
+    const ChooseOptions& options_;
+    const Question& question_;
+    OwnSweep sweep_;
+};
+
+/// Every update policy, and the peers that take frames.
+int choose_policy(const ChooseOptions& options) {
+    std::vector<std::string> policies;
+    for (const UpdateEntry& update : updates())
+        policies.emplace_back(update.name);
+    say(fmt::format("timing {}, and the peers\n", fmt::join(policies, ", ")));
+    const OwnSweep sweep(options);
+    const std::string scene = options.motion.empty() ? (options.scene.ends_with(".toml")
+                                                            ? fs::absolute(options.scene).string()
+                                                            : options.scene)
+                                                     : std::string(motion_scene);
+    if (const int code = sweep.run(
+            fmt::format(
+                "[[cells]]\nscene = \"{}\"\ntask = \"moving_pairs\"\nupdates = {}\n"
+                "peers = [\"fcl.dynamic_aabb_tree_f32.moved\", \"fcl.dynamic_aabb_tree_f32\", "
+                "\"bullet.dbvt\", \"embree.rtc_collide.low\"]\n",
+                scene, quoted_list(policies)),
+            options.out, 60 * options.minutes))
+        return code;
+    const PolicyAdvice advice = advise_of_policies(read_results(options.out));
+    std::cout << (options.as_json ? policies_json(advice)
+                                  : policies_text(advice) +
+                                        fmt::format("\nevidence  {}\n", options.out.string()));
+    return 0;
+}
+
+int choose(ChooseOptions options) {
+    const bool moves = !options.scene.empty() || !options.motion.empty();
+    if (!options.mesh.empty() + !options.boxes.empty() + !options.scene.empty() +
+            !options.motion.empty() !=
+        1)
+        throw BadInput(
+            "choose: name what it is for: one of --mesh FILE, --boxes FILE, --motion FILE "
+            "and --scene NAME");
+    if (options.task.empty())
+        options.task = moves ? "moving" : options.mesh.empty() ? "pairs" : "rays";
+    if (moves != (options.task == "moving"))
+        throw BadInput(
+            "choose: --task moving is for --scene and --motion, and these for nothing else");
+    if (options.mesh.empty() && options.task == "rays")
+        throw BadInput("choose: rays meet triangles; give --mesh FILE");
+    if (options.out.empty()) {
+        fs::path of = options.scene;
+        for (const fs::path& file : {options.mesh, options.boxes, options.motion})
+            if (!file.empty())
+                of = file;
+        options.out = fmt::format("choose-{}-{}.h5", of.stem().string(), options.task);
+    }
+    if (options.out.extension() != ".h5")
+        throw BadInput(fmt::format("choose: --out '{}': the name of a result file ends in .h5",
+                                   options.out.string()));
+    fs::remove(options.out); // what was timed before is not asked again
+    return moves ? choose_policy(options) : Chooser(options).run();
+}
+
+} // namespace
+
+void add_choose(CLI::App& app, int& exit_code) {
+    auto options = std::make_shared<ChooseOptions>();
+    CLI::App* command = app.add_subcommand(
+        "choose", "which builder and layout, or update policy, to take for what you have");
+    command->add_option("--mesh", options->mesh, "a mesh (OBJ, PLY, STL, ...)");
+    command->add_option("--boxes", options->boxes,
+                        "boxes (CSV, min_x,min_y,min_z,max_x,max_y,max_z a line)");
+    command->add_option(
+        "--motion", options->motion,
+        "boxes that move (CSV, frame,body,min_x,min_y,min_z,max_x,max_y,max_z a line)");
+    command->add_option("--scene", options->scene,
+                        "a moving scene of boxwood list moving_scenes, or a scene file (.toml)");
+    std::string tasks;
+    for (const Question& question : questions)
+        tasks +=
+            fmt::format("{}{} ({})", tasks.empty() ? "" : ", ", question.name, question.summary);
+    command->add_option("--task", options->task,
+                        tasks + ", moving (the pairs of each frame); by what is given if not said");
+    command->add_option("--minutes", options->minutes, "how long it may take, about")
+        ->check(CLI::Range(0.2, 600.))
+        ->capture_default_str();
+    command
+        ->add_option("--queries", options->queries,
+                     "how many queries (rays, ...) you make of one tree before you build it again")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--threads", options->threads, "of build and query")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+    command->add_option("--out", options->out,
+                        "the result file with the evidence; a picture (.svg) goes beside it");
+    command->add_flag("--json", options->as_json, "as one JSON object");
+    command->footer(
+        "Example: boxwood choose --mesh bunny.obj --queries 50000\n"
+        "Each builder and layout is tried in three rounds; those that may be best for some number "
+        "of queries\nare timed in rounds that take turns, until the time is spent.\n"
+        "Exit codes: 0 done, 1 an answer was wrong, 2 bad input, 130 interrupted.");
+    command->callback([options, &exit_code] { exit_code = choose(*options); });
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,105 @@
+#include "bench/peers/coal/module.h"
+#include "bench/peers/comers.h"
+#include "bench/tasks/moving_pairs.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace boxwood::bench {
+namespace {
+
+/// Opened once and kept: what it made may outlive any one caller.
+const CoalModule& module() {
+    static const CoalModule* const opened = [] {
+        void* const door = dlopen(BOXWOOD_COAL_MODULE, RTLD_NOW | RTLD_LOCAL | RTLD_DEEPBIND);
+        const void* const found = door ? dlsym(door, coal_module_symbol) : nullptr;
+        if (!found)
+            throw std::runtime_error(fmt::format("the peer coal cannot be opened: {}", dlerror()));
+        return static_cast<const CoalModule*>(found);
+    }();
+    return *opened;
+}
+
+ContenderEntry row(std::string name, std::string summary, std::string notes) {
+    ContenderEntry e;
+    e.name = "coal." + std::move(name);
+    e.library = "coal";
+    e.summary = "Coal's " + std::move(summary);
+    e.notes = std::move(notes);
+    e.precision = "f64";
+    e.runs_on = RunsOn::one_thread;
+    return e;
+}
+
+ContenderEntry manager(std::string name, std::string summary, const std::string& build,
+                       CoalManager kind, Told told = Told::all_may_have_moved) {
+    ContenderEntry e =
+        row(std::move(name), std::move(summary),
+            fmt::format("{}; query = collide with a callback that appends the pair; boxes in "
+                        "double, equal to the scene's floats; one thread; a build also frees what "
+                        "was built before; a frame: boxes of the moved, {}; bodies that come and "
+                        "go: registerObject, unregisterObject",
+                        build, told == Told::which_moved ? "update(moved)" : "update() of all"));
+    const auto answers = [kind, told](std::string task, Sides sides) {
+        return Answering{std::move(task),
+                         [=](const Job& job) { return module().manager(job, sides, kind, told); }};
+    };
+    if (told == Told::all_may_have_moved)
+        e.answers = {answers("pairs", Sides::all), answers("tree_pairs", Sides::two_halves)};
+    e.answers.push_back(answers("moving_pairs", Sides::all));
+    return e;
+}
+
+std::vector<ContenderEntry> managers() {
+    const std::string in_bulk = "build = registerObjects in bulk + setup, tree_init_level 2 "
+                                "(Morton order)";
+    const std::string build = "build = registerObjects + setup";
+    const std::string tree = "DynamicAABBTreeCollisionManager",
+                      array = "DynamicAABBTreeArrayCollisionManager: nodes in one array",
+                      given = ", given which objects moved";
+    std::vector<ContenderEntry> all{
+        manager("dynamic_aabb_tree", tree, in_bulk, CoalManager::tree),
+        manager("dynamic_aabb_tree.moved", tree + given, in_bulk, CoalManager::tree,
+                Told::which_moved),
+        manager("dynamic_aabb_tree_array", array, in_bulk, CoalManager::tree_array),
+        manager("dynamic_aabb_tree_array.moved", array + given, in_bulk, CoalManager::tree_array,
+                Told::which_moved),
+        manager("ssap", "SSaPCollisionManager: objects sorted by their minima, one axis swept",
+                build, CoalManager::ssap)};
+    return all;
+}
+
+ContenderEntry kernel(std::string name, std::string task, std::string summary, std::string notes,
+                      CoalKernel kind) {
+    ContenderEntry e = row(std::move(name), std::move(summary), std::move(notes));
+    e.kernel = e.name;
+    e.answers = {{std::move(task), [kind](const Job& job) { return module().kernel(job, kind); }}};
+    return e;
+}
+
+} // namespace
+
+Peer coal_peer() {
+    Peer peer;
+    peer.name = "coal";
+    peer.title = "Coal";
+    peer.summary = "Coal, FCL's successor: broad phase by dynamic AABB trees, narrow phase by GJK";
+    peer.version = BOXWOOD_COAL_VERSION;
+    peer.build = "the package index's library: double precision, SSE2";
+    peer.contenders = managers();
+    const std::string shapes = "on two TriangleP, enable_contact ";
+    peer.contenders.push_back(kernel("collide", "triangle_triangle", "collide " + shapes + "off",
+                                     "GJK; Coal's default is on, FCL's off; one pair per call",
+                                     CoalKernel::collide));
+    peer.contenders.push_back(kernel(
+        "collide.contact", "triangle_triangle", "collide " + shapes + "on, its default",
+        "GJK and EPA, which finds a contact; one pair per call", CoalKernel::collide_with_contact));
+    peer.contenders.push_back(kernel("tri_distance", "triangle_distance",
+                                     "TriangleDistance::sqrTriDistance, after PQP",
+                                     "one pair per call; the root is taken", CoalKernel::distance));
+    return peer;
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,149 @@
+#pragma once
+
+#include "kernels/primitives/vec3.h"
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// numpy arrays in and out. What lies in memory as Boxwood wants it is read where it lies; what is
+/// found is handed over, not copied.
+namespace boxwood::python {
+
+namespace py = pybind11;
+
+/// "(12, 3)"
+inline std::string shape_of(const py::array& array) {
+    std::string text = "(";
+    for (py::ssize_t i = 0; i < array.ndim(); ++i)
+        text += (i ? ", " : "") + std::to_string(array.shape(i));
+    return text + (array.ndim() == 1 ? ",)" : ")");
+}
+
+/// Any array, nested list or buffer of real numbers. Throws TypeError for what is none.
+inline py::array numbers_of(const py::handle& given, const std::string& name) {
+    py::array array = py::module_::import("numpy").attr("asarray")(given);
+    if (std::string("fiub").find(array.dtype().kind()) == std::string::npos)
+        throw py::type_error(name + ": real numbers are wanted, not an array of " +
+                             std::string(py::str(array.dtype())));
+    return array;
+}
+
+/// Numbers T in rows of `row` (3: vectors; {3, 3}: triangles), one after the other. Contiguous
+/// arrays of T are not copied.
+template <class T> class Rows {
+  public:
+    Rows(const py::handle& given, const std::string& name, std::initializer_list<py::ssize_t> row)
+        : name_(name) {
+        py::array array = numbers_of(given, name);
+        if (array.size() == 0 && array.ndim() == 1) { // an empty list
+            std::vector<py::ssize_t> shape{0};
+            shape.insert(shape.end(), row.begin(), row.end());
+            array = array.reshape(shape);
+        }
+        bool fits = array.ndim() == static_cast<py::ssize_t>(row.size()) + 1;
+        std::string wanted = "(n";
+        py::ssize_t axis = 1;
+        for (const py::ssize_t extent : row) {
+            fits = fits && array.shape(axis++) == extent;
+            wanted += ", " + std::to_string(extent);
+        }
+        if (!fits)
+            throw py::value_error(name + ": an array of shape " + wanted + ") is wanted, not " +
+                                  shape_of(array));
+        array_ = Array(std::move(array));
+        n_ = static_cast<std::size_t>(array_.shape(0));
+        for (const py::ssize_t extent : row)
+            columns_ *= static_cast<std::size_t>(extent);
+    }
+
+    std::size_t size() const { return n_; }
+    const std::string& name() const { return name_; }
+    /// As records of the same numbers: Rows<float>(..., {3}).as<Vec3<float>>().
+    template <class Record> std::span<const Record> as() const {
+        static_assert(sizeof(Record) % sizeof(T) == 0 && alignof(Record) == alignof(T));
+        return {reinterpret_cast<const Record*>(array_.data()), n_};
+    }
+    std::span<const T> numbers() const { return {array_.data(), n_ * columns_}; }
+
+    /// Throws ValueError for the first row with a number for which `is_good` is false.
+    template <class Good> void require(const Good& is_good, const std::string& what) const {
+        const std::span<const T> all = numbers();
+        for (std::size_t i = 0; i < all.size(); ++i)
+            if (!is_good(all[i]))
+                throw py::value_error(name_ + ": row " + std::to_string(i / columns_) + " " + what);
+    }
+    void require_finite() const {
+        require([](T x) { return std::isfinite(x); }, "has a NaN or an infinity");
+    }
+
+  private:
+    using Array = py::array_t<T, py::array::c_style | py::array::forcecast>;
+    std::string name_;
+    Array array_;
+    std::size_t n_ = 0, columns_ = 1;
+};
+
+/// Numbers of items, each below `limit`; `columns` 0: shape (n,).
+std::vector<std::uint32_t> indices_of(const py::handle& given, const std::string& name,
+                                      std::size_t limit, py::ssize_t columns = 0);
+
+/// A vector's memory, which lives as long as one of its arrays.
+template <class T> class Owned {
+  public:
+    explicit Owned(std::vector<T> found)
+        : found_(new std::vector<T>(std::move(found))),
+          owner_(found_, [](void* p) { delete static_cast<std::vector<T>*>(p); }) {}
+
+    std::size_t size() const { return found_->size(); }
+    const T* data() const { return found_->data(); }
+
+    /// The numbers of a member of each record: shape (n,), or (n, columns).
+    template <class Number> py::array column(std::size_t offset, py::ssize_t columns = 0) const {
+        std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(size())};
+        std::vector<py::ssize_t> strides{sizeof(T)};
+        if (columns) {
+            shape.push_back(columns);
+            strides.push_back(sizeof(Number));
+        }
+        const auto* const first = reinterpret_cast<const std::byte*>(data()) + offset;
+        return py::array_t<Number>(shape, strides, reinterpret_cast<const Number*>(first), owner_);
+    }
+
+  private:
+    std::vector<T>* found_;
+    py::capsule owner_;
+};
+
+/// One record or number a row.
+template <class Number, class T> py::array array_of(std::vector<T> found, py::ssize_t columns = 0) {
+    return Owned<T>(std::move(found)).template column<Number>(0, columns);
+}
+
+/// What the library took of all calls so far, for scripts/python_bench.
+inline std::atomic<std::int64_t> inside_ns = 0;
+
+/// Work without Python's lock.
+template <class Work> auto without_gil(const Work& work) {
+    const py::gil_scoped_release release;
+    struct Clock {
+        std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+        ~Clock() { inside_ns += (std::chrono::steady_clock::now() - start).count(); }
+    } const clock;
+    return work();
+}
+
+/// The class of boxwood/_answers.py.
+py::object named_tuple(const char* name);
+
+} // namespace boxwood::python

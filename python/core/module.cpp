@@ -1,0 +1,47 @@
+#include "core.h"
+
+#include "arrays.h"
+
+#include <boxwood/version.h>
+
+namespace boxwood::python {
+
+py::object named_tuple(const char* name) {
+    return py::module_::import("boxwood._answers").attr(name);
+}
+
+std::vector<std::uint32_t> indices_of(const py::handle& given, const std::string& name,
+                                      std::size_t limit, py::ssize_t columns) {
+    const py::array array = numbers_of(given, name);
+    if (array.dtype().kind() != 'i' && array.dtype().kind() != 'u' && array.size() > 0)
+        throw py::type_error(name + ": integers are wanted, not " +
+                             std::string(py::str(array.dtype())));
+    const auto numbers = [&](const Rows<std::int64_t>& rows) {
+        std::vector<std::uint32_t> indices;
+        for (const std::int64_t i : rows.numbers()) {
+            if (i < 0 || static_cast<std::uint64_t>(i) >= limit)
+                throw py::value_error(
+                    name + ": row " +
+                    std::to_string(indices.size() /
+                                   static_cast<std::size_t>(columns ? columns : 1)) +
+                    " names " + std::to_string(i) + ", but there are " + std::to_string(limit));
+            indices.push_back(static_cast<std::uint32_t>(i));
+        }
+        return indices;
+    };
+    return columns ? numbers({array, name, {columns}}) : numbers({array, name, {}});
+}
+
+} // namespace boxwood::python
+
+PYBIND11_MODULE(_core, module) {
+    using namespace boxwood::python;
+    module.doc() = "What boxwood/__init__.py offers, in C++.";
+    module.attr("__version__") = BOXWOOD_VERSION;
+    module.def(
+        "_inside_ns", [] { return inside_ns.load(); },
+        "Nanoseconds that the library took of all calls so far.");
+    add_boxes(module);
+    add_meshes(module);
+    add_triangles(module);
+}
