@@ -7,8 +7,9 @@
 
 namespace boxwood::bench {
 
-inline constexpr std::size_t max_in_strip = 300;                     ///< bodies
-inline constexpr std::size_t max_strip_bytes = std::size_t{1} << 20; ///< bytes
+inline constexpr std::size_t max_in_strip = 300; ///< bodies
+inline constexpr std::size_t max_strip_bytes =
+    100'000; ///< of several scenes in a file that others fetch
 
 /// The first, the middle and the last frame of a scene side by side, as SVG for the report, drawn
 /// with `max_in_strip` bodies where the scene has more, fewer where that is too long a text. Empty
