@@ -44,6 +44,7 @@
 #include "kernels/features/point_segment.h"            // foot on the line, clamped
 #include "kernels/features/point_triangle.h"           // by region, and by cross product
 #include "kernels/features/segment_segment.h"          // Ericson, and by cross product
+#include "kernels/features/upward_crossing.h"          // of a triangle, by a ray from a point
 #include "kernels/triangle_distance/certified.h"       // between proven bounds
 #include "kernels/triangle_distance/distance_kernel.h" // contract: triangles, segments, points
 #include "kernels/triangle_distance/features.h"        // 15 features, plain

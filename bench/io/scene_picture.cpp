@@ -64,9 +64,9 @@ std::vector<Pair> overlapping_bodies(const MovingScene& scene, const BoxedBodies
     return pairs;
 }
 
-ScenePicture::ScenePicture(const MovingScene& scene, int depth)
+ScenePicture::ScenePicture(const MovingScene& scene, int depth, MeshesAs meshes)
     : name_(scene.file().name), across_(axis_of(scene.file().view[0])),
-      up_(axis_of(scene.file().view[1])), depth_(depth) {}
+      up_(axis_of(scene.file().view[1])), depth_(depth), meshes_(meshes) {}
 
 ScenePicture::Polygon ScenePicture::rectangle(const Box& box) const {
     const Point a = seen(static_cast<Vec3<double>>(box.min));
@@ -74,12 +74,19 @@ ScenePicture::Polygon ScenePicture::rectangle(const Box& box) const {
     return {{a.x, a.y}, {b.x, a.y}, {b.x, b.y}, {a.x, b.y}};
 }
 
-/// Of a mesh its triangles, of a box its silhouette.
+/// Of a mesh its triangles or their hull, of a box its silhouette.
 void ScenePicture::add_outline(const Bodies& bodies, std::uint32_t i,
                                std::vector<Polygon>& to) const {
     const auto& pose = bodies.pose[i];
     if (bodies.mesh[i] != no_mesh) {
         const TriangleMesh& mesh = bodies.meshes[bodies.mesh[i]];
+        if (meshes_ == MeshesAs::hulls) {
+            Polygon corners;
+            for (const auto& vertex : mesh.vertices)
+                corners.push_back(seen(pose(static_cast<Vec3<double>>(vertex))));
+            to.push_back(hull(std::move(corners)));
+            return;
+        }
         for (const auto& triangle : mesh.triangles) {
             Polygon corners;
             for (const std::uint32_t v : triangle)

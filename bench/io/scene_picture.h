@@ -21,11 +21,13 @@ BoxedBodies boxed(const Bodies& bodies);
 /// Every pair of present bodies whose boxes overlap, without the expected ones; ascending.
 std::vector<Pair> overlapping_bodies(const MovingScene& scene, const BoxedBodies& boxed);
 
+enum class MeshesAs : std::uint8_t { triangles, hulls };
+
 /// Draws frames of one scene side by side, all to one scale.
 class ScenePicture {
   public:
     /// depth: of the tree's boxes to draw, the root's is 0; negative: none.
-    ScenePicture(const MovingScene& scene, int depth);
+    ScenePicture(const MovingScene& scene, int depth, MeshesAs meshes = MeshesAs::triangles);
 
     /// The scene as it is now, with the bodies that its last step changed.
     void add(const MovingScene& scene, std::span<const std::uint32_t> changed);
@@ -53,6 +55,7 @@ class ScenePicture {
 
     std::string name_;
     int across_, up_, depth_;
+    MeshesAs meshes_;
     Aabb<double> drawn_; ///< all points of all frames; z unused
     std::vector<Frame> frames_;
 };

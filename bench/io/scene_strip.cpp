@@ -10,7 +10,7 @@ namespace {
 
 std::string strip_of(const SceneFile& file, std::size_t n) {
     MovingScene scene(file, n);
-    ScenePicture picture(scene, -1);
+    ScenePicture picture(scene, -1, MeshesAs::hulls);
     picture.add(scene, {});
     std::span<const std::uint32_t> changed;
     for (const std::size_t frame : {file.frames / 2, file.frames}) {

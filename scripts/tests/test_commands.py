@@ -152,8 +152,9 @@ def toy(tmp_path):
     """toy(c_test, py_test, build): a checkout with one test of each kind, and scripts/test run in it."""
 
     def make(*arguments, c_test="true", py_test="pass", build="true"):
-        (tmp_path / "scripts").mkdir()
-        for name in ("setup", "test", "packages.txt"):
+        for folder in ("scripts", "python"):
+            (tmp_path / folder).mkdir()
+        for name in ("setup", "test", "packages.txt", "pytest.ini"):
             shutil.copy2(SCRIPTS / name, tmp_path / "scripts" / name)
         (tmp_path / "CMakePresets.json").write_text(PRESETS)
         (tmp_path / "CMakeLists.txt").write_text(
