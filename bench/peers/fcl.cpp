@@ -66,10 +66,11 @@ template <class M, class S> std::unique_ptr<Broadphase<S>> plain(const std::vect
     return std::make_unique<M>();
 }
 
-/// In Morton order.
-template <class M, class S> std::unique_ptr<Broadphase<S>> tree(const std::vector<Aabb<float>>&) {
+/// level: 0 splits at the median, from the top; 2 in Morton order.
+template <class M, class S, int level>
+std::unique_ptr<Broadphase<S>> tree(const std::vector<Aabb<float>>&) {
     auto made = std::make_unique<M>();
-    made->tree_init_level = 2;
+    made->tree_init_level = level;
     return made;
 }
 
@@ -100,13 +101,18 @@ ContenderEntry only_for(std::string_view task, ContenderEntry e) {
 template <class S, class M>
 void add_trees(std::vector<ContenderEntry>& all, const std::string& name,
                const std::string& summary) {
-    const std::string build = "build = registerObjects in bulk + setup, tree_init_level 2 (Morton "
-                              "order: the fastest to build and no slower to query than the default "
-                              "median split); ";
-    all.push_back(entry<S>(name, summary, build, {tree<M, S>}));
-    all.push_back(
-        only_for("moving_pairs", entry<S>(name + ".moved", summary + ", given which objects moved",
-                                          build, {tree<M, S>, Told::which_moved})));
+    const auto add = [&](const std::string& setting, const std::string& said,
+                         const std::string& level, auto make) {
+        const std::string build = "build = registerObjects in bulk + setup, " + level + "; ";
+        all.push_back(entry<S>(name + setting, summary + said, build, {make}));
+        all.push_back(
+            only_for("moving_pairs", entry<S>(name + setting + ".moved",
+                                              summary + said + ", given which objects moved", build,
+                                              {make, Told::which_moved})));
+    };
+    add("", "", "tree_init_level 2 (Morton order: the faster to build)", tree<M, S, 2>);
+    add(".median", ", split at the median",
+        "tree_init_level 0 (the default: from the top, at the median)", tree<M, S, 0>);
 }
 
 std::optional<std::string> cannot_unregister(const Job& job) {

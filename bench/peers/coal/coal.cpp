@@ -53,21 +53,44 @@ ContenderEntry manager(std::string name, std::string summary, const std::string&
 }
 
 std::vector<ContenderEntry> managers() {
-    const std::string in_bulk = "build = registerObjects in bulk + setup, tree_init_level 2 "
-                                "(Morton order)";
     const std::string build = "build = registerObjects + setup";
+    std::vector<ContenderEntry> all;
+    const auto add_tree = [&](const std::string& name, const std::string& summary,
+                              const std::string& level, CoalManager kind) {
+        const std::string in_bulk = "build = registerObjects in bulk + setup, " + level;
+        all.push_back(manager(name, summary, in_bulk, kind));
+        all.push_back(manager(name + ".moved", summary + ", given which objects moved", in_bulk,
+                              kind, Told::which_moved));
+    };
     const std::string tree = "DynamicAABBTreeCollisionManager",
                       array = "DynamicAABBTreeArrayCollisionManager: nodes in one array",
-                      given = ", given which objects moved";
-    std::vector<ContenderEntry> all{
-        manager("dynamic_aabb_tree", tree, in_bulk, CoalManager::tree),
-        manager("dynamic_aabb_tree.moved", tree + given, in_bulk, CoalManager::tree,
-                Told::which_moved),
-        manager("dynamic_aabb_tree_array", array, in_bulk, CoalManager::tree_array),
-        manager("dynamic_aabb_tree_array.moved", array + given, in_bulk, CoalManager::tree_array,
-                Told::which_moved),
-        manager("ssap", "SSaPCollisionManager: objects sorted by their minima, one axis swept",
-                build, CoalManager::ssap)};
+                      morton = "tree_init_level 2 (Morton order: the faster to build)",
+                      median = "tree_init_level 0 (the default: from the top, at the median)";
+    add_tree("dynamic_aabb_tree", tree, morton, CoalManager::tree);
+    add_tree("dynamic_aabb_tree.median", tree + ", split at the median", median,
+             CoalManager::tree_median);
+    add_tree("dynamic_aabb_tree_array", array, morton, CoalManager::tree_array);
+    add_tree("dynamic_aabb_tree_array.median", array + ", split at the median", median,
+             CoalManager::tree_array_median);
+    all.push_back(manager("ssap",
+                          "SSaPCollisionManager: objects sorted by their minima, one axis swept",
+                          build, CoalManager::ssap));
+    const std::size_t exact = all.size();
+    all.push_back(manager("sap", "SaPCollisionManager: sorted end points, and the pairs they tell",
+                          build + ", which finds the pairs", CoalManager::sap));
+    all.back().answers_from_cache = true;
+    all.push_back(manager("interval_tree",
+                          "IntervalTreeCollisionManager: end points swept along one axis", build,
+                          CoalManager::interval_tree));
+    all.push_back(manager("spatial_hash", "SpatialHashingCollisionManager: a hash table of cells",
+                          build + "; cells of the boxes' mean longest side, as many slots as "
+                                  "boxes; the callback compares the boxes",
+                          CoalManager::hash));
+    for (std::size_t i = exact; i < all.size(); ++i) { // as FCL's, of which they come
+        all[i].answers.resize(1);                      // "pairs"
+        all[i].notes += "; may miss pairs that only touch";
+        all[i].misses_touching = true;
+    }
     return all;
 }
 

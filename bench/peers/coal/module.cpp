@@ -49,10 +49,10 @@ struct Append final : coal::CollisionCallBackBase {
 
 using Managers = coal::BroadPhaseCollisionManager;
 
-/// In Morton order.
-template <class M> std::unique_ptr<Managers> tree() {
+/// level: 0 splits at the median, from the top; 2 in Morton order.
+template <class M> std::unique_ptr<Managers> tree(int level) {
     auto made = std::make_unique<M>();
-    made->tree_init_level = 2;
+    made->tree_init_level = level;
     return made;
 }
 
@@ -67,9 +67,13 @@ struct Kind {
     std::unique_ptr<Manager> make(const std::vector<Aabb<float>>& boxes) const {
         switch (manager) {
         case CoalManager::tree:
-            return tree<coal::DynamicAABBTreeCollisionManager>();
+            return tree<coal::DynamicAABBTreeCollisionManager>(2);
+        case CoalManager::tree_median:
+            return tree<coal::DynamicAABBTreeCollisionManager>(0);
         case CoalManager::tree_array:
-            return tree<coal::DynamicAABBTreeArrayCollisionManager>();
+            return tree<coal::DynamicAABBTreeArrayCollisionManager>(2);
+        case CoalManager::tree_array_median:
+            return tree<coal::DynamicAABBTreeArrayCollisionManager>(0);
         case CoalManager::sap:
             return std::make_unique<coal::SaPCollisionManager>();
         case CoalManager::ssap:

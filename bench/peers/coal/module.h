@@ -5,8 +5,17 @@
 
 namespace boxwood::bench {
 
-/// Coal's managers of broad phases.
-enum class CoalManager : std::uint8_t { tree, tree_array, sap, ssap, hash, interval_tree };
+/// Coal's managers of broad phases; trees in Morton order, or split at the median.
+enum class CoalManager : std::uint8_t {
+    tree,
+    tree_median,
+    tree_array,
+    tree_array_median,
+    sap,
+    ssap,
+    hash,
+    interval_tree
+};
 
 /// Coal's answers about two triangles.
 enum class CoalKernel : std::uint8_t { collide, collide_with_contact, distance };
