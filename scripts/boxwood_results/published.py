@@ -45,13 +45,13 @@ def time_of(row):
 
 
 def against_peers(*tasks):
-    """Of each scene and class the ratio to the fastest variant of each library, with its interval."""
+    """Of each question the ratio to the fastest variant of each library, with its interval."""
 
     def table(run):
         found = [block for block in forest.blocks(run) if block.job.task in tasks and block.job.where == ONE]
         libraries = dict(sorted(((library, cell) for block in found for library, cell in block.libraries.items()),
                                 key=lambda item: item[1].place))
-        rows = [["scene, one thread", "n", "measured", "ours", *(cell.library_title for cell in libraries.values())]]
+        rows = [["question, one thread", "measured", "ours", *(cell.library_title for cell in libraries.values())]]
         for block in found:
             for column in (0, 1):
                 known = block.fastest(column)
@@ -59,7 +59,7 @@ def against_peers(*tasks):
                     first = next(iter(known.values()))
                     words = run.tasks[block.job.task].total_title if not column else "query alone"
                     rows.append([
-                        " ".join(filter(None, (block.job.scene, block.finding.contender_class))), f"{block.job.n:,}", words, f"{first.b.label} {time_of(first)}",
+                        block.finding.question, words, f"{first.b.label} {time_of(first)}",
                         *(known[library].text if library in known else "" for library in libraries)])
         return rows
 
@@ -91,7 +91,7 @@ def kernels_of(task):
 ALL = (
     Published("pairs", "pairs", "Overlapping pairs: a peer's time over ours", against_peers("pairs"),
               ("forest", "forest_pairs_1", "pairs.png")),
-    Published("rays", "rays", "Rays: Embree's time over ours", against_peers("rays_closest", "rays_any")),
+    Published("rays", "rays", "Rays: a peer's time over ours", against_peers("rays_closest", "rays_any")),
     Published("queries", "queries", "Points, regions and nearest items: a peer's time over ours",
               against_peers("points", "regions", "nearest", "closest_points")),
     Published("moving", "dynamic", "Moving boxes, update and query of a frame: a peer's time over ours",
