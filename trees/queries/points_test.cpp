@@ -149,6 +149,32 @@ TEST(Points, AnswerInOneOrderOnEveryExecutor) {
     }
 }
 
+/// So many points of a tree so large come in another order; asked one by one they do not.
+TEST(Points, ManyAtOnceAreAnsweredAsOneByOne) {
+    const std::vector<Box> items = random_boxes(9000, .01f, 5);
+    std::mt19937 random(6);
+    std::uniform_real_distribution<float> unit(-.2f, 1.2f);
+    std::vector<Vec3<float>> points{{nan, 0, 0}, {0, inf, 0}, {-1e30f, 1e30f, .5f}};
+    while (points.size() < 2500)
+        points.push_back({unit(random), unit(random), unit(random)});
+    for (const LayoutEntry& entry : layouts_answering({Query::nearest})) {
+        SCOPED_TRACE(entry.name);
+        const auto layout = entry.make(builders().front().make({})(items, serial()), serial());
+        for (const std::size_t wanted : {std::size_t{1}, k}) {
+            std::vector<Neighbour> alone(wanted * points.size()), together(alone.size());
+            for (std::size_t i = 0; i < points.size(); ++i)
+                layout->nearest(std::span(points).subspan(i, 1), wanted, serial(),
+                                std::span(alone).subspan(i * wanted, wanted));
+            for (const auto& [name, executor] : every_executor()) {
+                SCOPED_TRACE(name);
+                std::ranges::fill(together, Neighbour{7, 7});
+                layout->nearest(points, wanted, *executor, together);
+                EXPECT_EQ(alone, together);
+            }
+        }
+    }
+}
+
 TEST(Points, RefuseAnswersOfTheWrongSize) {
     const std::vector<Box> items = random_boxes(10, .1f, 3);
     const std::vector<Vec3<float>> points(4);

@@ -1,7 +1,6 @@
 #include "trees/queries/sorted_rays.h"
 
-#include "trees/executors/chunks.h"
-#include "trees/ordering/detail/radix_sort.h"
+#include "trees/ordering/detail/code_records.h"
 #include "trees/ordering/ray_codes.h"
 
 #include <algorithm>
@@ -14,25 +13,12 @@ namespace {
 
 constexpr std::size_t window = std::size_t{1} << 24, chunk = 512;
 
-template <class F> void for_parts(std::size_t n, const Executor& executor, const F& f) {
-    const std::size_t parts = chunks_for(n, executor);
-    executor.for_each(parts, [&](std::size_t p) {
-        const ChunkRange range(n, parts, p);
-        f(range.begin, range.end);
-    });
-}
-
 /// What is sorted: the code above the ray.
 Buffer<std::uint64_t> sorted_records(std::span<const Ray<float>> rays, const Box& bounds,
                                      const Executor& executor) {
-    const EntryGrid grid(bounds);
-    Buffer<std::uint64_t> records(rays.size()), spare(rays.size());
-    for_parts(rays.size(), executor, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            records[i] = std::uint64_t{grid.code(rays[i])} << 32 | i;
-    });
-    radix_sort(records, spare, 32, 32 + 3 * EntryGrid::bits + 3, executor);
-    return records;
+    return code_records(
+        rays.size(), 3 * EntryGrid::bits + 3, executor,
+        [&, grid = EntryGrid(bounds)](std::size_t i) { return grid.code(rays[i]); });
 }
 
 } // namespace

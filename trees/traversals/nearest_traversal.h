@@ -1,6 +1,8 @@
 #pragma once
 
 #include "kernels/features/point_triangle.h"
+#include "trees/ordering/detail/code_records.h"
+#include "trees/ordering/detail/point_codes.h"
 #include "trees/queries/box_distance.h"
 #include "trees/queries/nearest.h"
 #include "trees/traversals/region_traversal.h"
@@ -18,6 +20,8 @@ class NearestItems {
     explicit NearestItems(std::span<Neighbour> out)
         : out_(out), is_sorted_(out.size() <= most_sorted) {}
 
+    /// Of several items the bound comes late.
+    bool is_bounded_by_one_leaf() const { return out_.size() == 1; }
     /// Nothing farther than this matters.
     double worst() const {
         return n_ < out_.size() ? std::numeric_limits<double>::infinity()
@@ -75,6 +79,7 @@ class NearestSurface {
   public:
     NearestSurface(Vec3<float> point, const TriangleMesh& mesh) : point_(point), mesh_(mesh) {}
 
+    static constexpr bool is_bounded_by_one_leaf() { return true; }
     double worst() const { return best_.squared_distance; }
     Triangle<float> triangle(std::uint32_t i) const { return mesh_.triangle(i); }
     void offer(std::uint32_t triangle) {
@@ -99,6 +104,8 @@ class NearestTraversal {
   public:
     NearestTraversal(std::size_t stack_room, Work* work)
         : stack_(stack_room + RegionTraversal::spare), work_(work) {}
+
+    static constexpr std::uint32_t no_ref = ~std::uint32_t{0};
 
     /// References that wait, each below the bits of a float bound from below of its squared
     /// distance: in order as numbers, they are in order of distance.
@@ -133,14 +140,35 @@ class NearestTraversal {
     Work* work_;
 };
 
-/// Runs `traverse(NearestTraversal&, first, last)` on the n queries, chunk by chunk.
-template <class Traverse>
-void run_nearest(std::size_t n, std::size_t stack_room, const Executor& executor, Work* work,
-                 const Traverse& traverse) {
-    for_query_chunks(n, executor, [&](std::size_t, std::size_t first, std::size_t last) {
-        NearestTraversal state(stack_room, work);
-        traverse(state, first, last);
-    });
+/// So many points at a time are put in order, which needs 16 bytes of each.
+inline constexpr std::size_t points_in_order = std::size_t{1} << 24;
+
+/// Runs `answer(NearestTraversal&, i)` for the points i, chunk by chunk. Many points in a large
+/// tree come in order along a curve: neighbours visit much the same nodes, which are at hand then,
+/// and whose branches are foreseen.
+template <class L, class Answer>
+void for_points(const L& layout, std::span<const Vec3<float>> points, const Executor& executor,
+                Work* work, const Answer& answer) {
+    constexpr std::size_t few_points = 2048, few_items = 8192; // the order would gain nothing
+    const std::size_t room = stack_room(layout);
+    const auto run = [&](std::size_t n, const auto& point) {
+        for_query_chunks(n, executor, [&](std::size_t, std::size_t first, std::size_t last) {
+            NearestTraversal state(room, work);
+            for (std::size_t i = first; i < last; ++i)
+                answer(state, point(i));
+        });
+    };
+    if (points.size() < few_points || layout.size() < few_items)
+        return run(points.size(), [](std::size_t i) { return i; });
+    const PointGrid grid(layout.bounds());
+    for (std::size_t begin = 0; begin < points.size(); begin += points_in_order) {
+        const auto some = points.subspan(begin, std::min(points_in_order, points.size() - begin));
+        const Buffer<std::uint64_t> records =
+            code_records(some.size(), 3 * PointGrid::bits, executor,
+                         [&](std::size_t i) { return grid.code(some[i]); });
+        run(some.size(),
+            [&](std::size_t i) { return begin + static_cast<std::uint32_t>(records[i]); });
+    }
 }
 
 /// Answers one finite point, over a layout that is not empty.

@@ -31,15 +31,12 @@ void find_nearest(const L& layout, std::span<const Vec3<float>> points, std::siz
         throw std::invalid_argument("nearest: k neighbours per point are wanted");
     if (k == 0)
         return;
-    run_nearest(points.size(), stack_room(layout), executor, work,
-                [&](NearestTraversal& traversal, std::size_t first, std::size_t last) {
-                    for (std::size_t i = first; i < last; ++i) {
-                        NearestItems best(out.subspan(i * k, k));
-                        if (!layout.empty() && is_finite(points[i]))
-                            traverse_nearest(layout, points[i], best, traversal);
-                        traversal.answered(best.finish());
-                    }
-                });
+    for_points(layout, points, executor, work, [&](NearestTraversal& traversal, std::size_t i) {
+        NearestItems best(out.subspan(i * k, k));
+        if (!layout.empty() && is_finite(points[i]))
+            traverse_nearest(layout, points[i], best, traversal);
+        traversal.answered(best.finish());
+    });
 }
 
 template <class L>
@@ -47,16 +44,13 @@ void find_closest(const L& layout, std::span<const Vec3<float>> points, const Tr
                   const Executor& executor, std::span<SurfacePoint> out, Work* work) {
     if (out.size() != points.size())
         throw std::invalid_argument("closest_points: one answer per point is wanted");
-    run_nearest(points.size(), stack_room(layout), executor, work,
-                [&](NearestTraversal& traversal, std::size_t first, std::size_t last) {
-                    for (std::size_t i = first; i < last; ++i) {
-                        NearestSurface best(points[i], mesh);
-                        if (!layout.empty() && is_finite(points[i]))
-                            traverse_closest_point(layout, points[i], best, traversal);
-                        out[i] = best.result();
-                        traversal.answered(out[i].triangle != Neighbour::none);
-                    }
-                });
+    for_points(layout, points, executor, work, [&](NearestTraversal& traversal, std::size_t i) {
+        NearestSurface best(points[i], mesh);
+        if (!layout.empty() && is_finite(points[i]))
+            traverse_closest_point(layout, points[i], best, traversal);
+        out[i] = best.result();
+        traversal.answered(out[i].triangle != Neighbour::none);
+    });
 }
 
 } // namespace

@@ -133,7 +133,8 @@ HWY_INLINE void offer_all(const Leaf& leaf, Goal& goal, NearestSurface& best,
             offer(i);
 }
 
-/// Down to the nearest leaf first, for a bound; then all that may be as near, nearest first.
+/// All that may be as near as the best so far, nearest first; after a way down to the nearest leaf,
+/// where that gives a bound that spares more than it costs.
 template <bool Counted, class L, class Best>
 HWY_INLINE void search(const L& tree, Vec3<float> point, Best& best, NearestTraversal& traversal) {
     Goal goal{point, DistanceScale(point, tree.bounds())};
@@ -142,19 +143,22 @@ HWY_INLINE void search(const L& tree, Vec3<float> point, Best& best, NearestTrav
         traversal.template count<Counted>(L::width, waiting);
         offer_all<Counted>(tree.leaf(ref), goal, best, traversal);
     };
-    std::uint32_t first = tree.root();
-    while (!L::is_leaf(first)) {
-        first = nearest_lane(tree.block(first), point, scale);
-        traversal.template count<Counted>(L::width, 0);
+    std::uint32_t opened = NearestTraversal::no_ref;
+    if (best.is_bounded_by_one_leaf()) {
+        opened = tree.root();
+        while (!L::is_leaf(opened)) {
+            opened = nearest_lane(tree.block(opened), point, scale);
+            traversal.template count<Counted>(L::width, 0);
+        }
+        open_leaf(opened, 0);
     }
-    open_leaf(first, 0);
 
     std::uint64_t* const stack = traversal.stack();
     stack[0] = NearestTraversal::waiting(0, tree.root());
     for (std::size_t top = 1; top != 0;) {
         const std::uint64_t next = stack[--top];
         const std::uint32_t ref = NearestTraversal::ref(next);
-        if (NearestTraversal::bound(next) > goal.bound || ref == first)
+        if (NearestTraversal::bound(next) > goal.bound || ref == opened)
             continue;
         if (L::is_leaf(ref)) {
             open_leaf(ref, top);

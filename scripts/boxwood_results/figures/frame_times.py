@@ -86,5 +86,5 @@ def draw(run):
             shown, left_out = choose(cells)
             groups.setdefault((job.task, job.where), []).append((job, shown, left_out, wrong_notes(cells)))
     if not groups:
-        raise Skip(f"no scene of {MIN_FRAMES} or more frames was timed (bench/configs/dynamic.toml does)")
+        raise Skip(f"no scene of {MIN_FRAMES} or more frames was timed (bench/configs/policies.toml does)")
     return [draw_all(run, task, where, jobs) for (task, where), jobs in groups.items()]
