@@ -75,3 +75,6 @@
 #include "trees/queries/touching_pairs.h"
 #include "trees/queries/tree_pairs.h"
 #include "trees/tree.h"
+#include "trees/world/mesh_pairs.h"
+#include "trees/world/mesh_tree.h"
+#include "trees/world/pose.h"

@@ -223,8 +223,38 @@ class Pending {
     std::size_t count_ = 0;
 };
 
+/// A single block, without what many need to gather.
+void distances_of_one(const TrianglePairBlock<double>& block, std::span<Distance> distances) {
+    for (std::size_t lane = 0; lane < distances.size(); lane += lanes) {
+        const std::size_t count = std::min(lanes, distances.size() - lane);
+        const std::uint32_t used = (1u << count) - 1;
+        PointPair<Lanes> pair;
+        std::uint32_t wrong = ~mask_bits(guess(block.corner, lane, pair)) & used;
+        const Answers answers(pair);
+        for (std::size_t i = 0; i < count; ++i)
+            answers.hand_out(i, distances[lane + i]);
+        if (wrong == 0)
+            continue;
+        const std::uint32_t in_range = mask_bits(compare(block.corner, lane, pair));
+        const Answers compared(pair);
+        for (; wrong != 0; wrong &= wrong - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(wrong));
+            if ((in_range >> i & 1) != 0) [[likely]]
+                compared.hand_out(i, distances[lane + i]);
+            else
+                distances[lane + i] = FeaturesF64Batch::distance(block.triangle(0, lane + i),
+                                                                 block.triangle(1, lane + i));
+        }
+    }
+}
+
 void distances_of(std::span<const TrianglePairBlock<double>> blocks,
                   std::span<Distance> distances) {
+    if (distances.size() <= width) {
+        if (!distances.empty())
+            distances_of_one(blocks.front(), distances);
+        return;
+    }
     Pending pending(distances);
     std::uint32_t wrong[Pending::max_added / lanes];
     for (std::size_t begin = 0; begin < distances.size(); begin += Pending::max_added) {

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "kernels/primitives/aabb.h"
+#include "trees/world/detail/obb_block.h"
+
+#include <cstddef>
+#include <span>
+
+namespace boxwood::detail {
+
+/// Rows of the corners of triangles, one after the other: by corner and axis. `n` floats each, and
+/// up to eight more may be read behind a range.
+struct CornerRows {
+    const float* of[3][3];
+};
+
+/// Symmetric matrices side by side: xx, xy, xz, yy, yz, zz.
+struct SymmetricRows {
+    float* of[6];
+};
+
+/// Of each matrix i < n (n a multiple of 16) with a trace of about 1 its eigenvectors, as rows of
+/// 9 floats, axes[k][component]; nearly orthonormal, in no order. Cyclic Jacobi rotations, matrices
+/// side by side.
+void principal_axes(const SymmetricRows& matrices, std::size_t n, float* const (&axes)[9]);
+
+/// The box along `axes` (nearly orthonormal floats) around the corners [first, last), whose bounds
+/// are given.
+PosedBox box_along(const float (&axes)[9], const CornerRows& corners, std::size_t first,
+                   std::size_t last, const Aabb<float>& bounds);
+
+/// The bounds themselves.
+PosedBox box_of(const Aabb<float>& bounds);
+
+} // namespace boxwood::detail

@@ -1,0 +1,142 @@
+// Once per instruction set: include after <hwy/foreach_target.h>.
+#if defined(BOXWOOD_OBB_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BOXWOOD_OBB_LANES_INL_H
+#undef BOXWOOD_OBB_LANES_INL_H
+#else
+#define BOXWOOD_OBB_LANES_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include "trees/world/detail/pair_frame.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace boxwood::detail::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Eight boxes of B as seen from A.
+struct alignas(64) SeenBoxes {
+    float centre[3][8], axis[3][3][8];
+    const float (*half)[8];
+
+    SeenBox lane(std::size_t i) const {
+        SeenBox box;
+        for (std::size_t k = 0; k < 3; ++k) {
+            box.centre[k] = centre[k][i];
+            box.half[k] = half[k][i];
+            for (std::size_t axis_ = 0; axis_ < 3; ++axis_)
+                box.axis[k][axis_] = axis[k][axis_][i];
+        }
+        return box;
+    }
+};
+
+constexpr hn::CappedTag<float, 8> d8;
+using F8 = hn::Vec<decltype(d8)>;
+
+/// The lanes of a block of B seen from where t starts.
+HWY_INLINE void see_lanes(const ObbBlock& block, const PairFrame& frame, const Vec3<double>& t,
+                          SeenBoxes& seen) {
+    seen.half = block.half;
+    for (std::size_t i = 0; i < 8; i += hn::Lanes(d8)) {
+        for (std::size_t row = 0; row < 3; ++row) {
+            const F8 r0 = hn::Set(d8, frame.rotation[row][0]);
+            const F8 r1 = hn::Set(d8, frame.rotation[row][1]);
+            const F8 r2 = hn::Set(d8, frame.rotation[row][2]);
+            const auto turned = [&](const float(&v)[3][8]) HWY_ATTR {
+                return hn::Add(hn::Add(hn::Mul(r0, hn::Load(d8, v[0] + i)),
+                                       hn::Mul(r1, hn::Load(d8, v[1] + i))),
+                               hn::Mul(r2, hn::Load(d8, v[2] + i)));
+            };
+            const F8 from = hn::Set(d8, static_cast<float>(t[static_cast<int>(row)]));
+            hn::Store(hn::Add(turned(block.centre), from), d8, seen.centre[row] + i);
+            for (std::size_t k = 0; k < 3; ++k)
+                hn::Store(turned(block.axis[k]), d8, seen.axis[k][row] + i);
+        }
+    }
+}
+
+/// How one box lies to the lanes [i, i + Lanes(d8)) of eight others, along the six axes: distances
+/// of centres and the sums of half lengths.
+struct SixAxes {
+    F8 apart[6], sum[6]; ///< of the one's axes, then of the lanes' own
+    F8 t[3];             ///< between the centres
+
+    template <class Centre>
+    HWY_INLINE SixAxes(const SeenBox& one, const Centre& centre, const float (&axis)[3][3][8],
+                       const float (&half)[3][8], std::size_t i) {
+        for (std::size_t k = 0; k < 3; ++k)
+            t[k] = hn::Sub(hn::Load(d8, centre[k] + i), hn::Set(d8, one.centre[k]));
+        F8 own[3], half_of[3];
+        for (std::size_t k = 0; k < 3; ++k) {
+            half_of[k] = hn::Load(d8, half[k] + i);
+            own[k] = half_of[k];
+        }
+        const F8 x0 = hn::Set(d8, one.half[0]), x1 = hn::Set(d8, one.half[1]),
+                 x2 = hn::Set(d8, one.half[2]);
+        const F8 ones[3] = {x0, x1, x2};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const F8 nx = hn::Set(d8, one.axis[k][0]), ny = hn::Set(d8, one.axis[k][1]),
+                     nz = hn::Set(d8, one.axis[k][2]);
+            apart[k] =
+                hn::Abs(hn::Add(hn::Add(hn::Mul(nx, t[0]), hn::Mul(ny, t[1])), hn::Mul(nz, t[2])));
+            sum[k] = ones[k];
+            for (std::size_t j = 0; j < 3; ++j) {
+                const F8 cosine =
+                    hn::Abs(hn::Add(hn::Add(hn::Mul(nx, hn::Load(d8, axis[j][0] + i)),
+                                            hn::Mul(ny, hn::Load(d8, axis[j][1] + i))),
+                                    hn::Mul(nz, hn::Load(d8, axis[j][2] + i))));
+                sum[k] = hn::Add(sum[k], hn::Mul(cosine, half_of[j]));
+                own[j] = hn::Add(own[j], hn::Mul(cosine, ones[k]));
+            }
+        }
+        for (std::size_t j = 0; j < 3; ++j) {
+            apart[3 + j] = hn::Abs(hn::Add(hn::Add(hn::Mul(hn::Load(d8, axis[j][0] + i), t[0]),
+                                                   hn::Mul(hn::Load(d8, axis[j][1] + i), t[1])),
+                                           hn::Mul(hn::Load(d8, axis[j][2] + i), t[2])));
+            sum[3 + j] = own[j];
+        }
+    }
+
+    /// The greatest gap along an axis; below 0 where they overlap along all.
+    HWY_INLINE F8 greatest_gap() const {
+        F8 gap = hn::Sub(apart[0], sum[0]);
+        for (std::size_t k = 1; k < 6; ++k)
+            gap = hn::Max(gap, hn::Sub(apart[k], sum[k]));
+        return gap;
+    }
+
+    HWY_INLINE F8 centres_squared() const {
+        return hn::Add(hn::Add(hn::Mul(t[0], t[0]), hn::Mul(t[1], t[1])), hn::Mul(t[2], t[2]));
+    }
+
+    /// A bound of the distance from below, but for the frame's error: in the one's frame, in the
+    /// lane's, and along the line of centres.
+    HWY_INLINE F8 distance_bound(const SeenBox& one, const float (&half)[3][8],
+                                 std::size_t i) const {
+        const F8 zero = hn::Zero(d8);
+        F8 squared[2];
+        for (std::size_t side = 0; side < 2; ++side) {
+            squared[side] = zero;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const F8 gap = hn::Max(hn::Sub(apart[3 * side + k], sum[3 * side + k]), zero);
+                squared[side] = hn::Add(squared[side], hn::Mul(gap, gap));
+            }
+        }
+        const F8 tt = centres_squared();
+        F8 left = tt;
+        for (std::size_t k = 0; k < 3; ++k) {
+            left = hn::Sub(left, hn::Mul(hn::Set(d8, one.half[k]), apart[k]));
+            left = hn::Sub(left, hn::Mul(hn::Load(d8, half[k] + i), apart[3 + k]));
+        }
+        const F8 in_frames = hn::Sqrt(hn::Max(squared[0], squared[1]));
+        const F8 between_centres = hn::Div(left, hn::Max(hn::Sqrt(tt), hn::Set(d8, 0x1p-50f)));
+        return hn::Mul(hn::Max(in_frames, between_centres), hn::Set(d8, 1 - 0x1p-20f));
+    }
+};
+
+} // namespace boxwood::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

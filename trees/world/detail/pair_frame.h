@@ -1,0 +1,88 @@
+#pragma once
+
+#include "trees/world/detail/obb_block.h"
+#include "trees/world/mesh_tree.h"
+#include "trees/world/pose.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace boxwood::detail {
+
+/// A box as another tree's lanes meet it: floats, seen from a point of A's frame.
+struct SeenBox {
+    float centre[3], axis[3][3], half[3];
+};
+
+/// B as seen from A, and how far what is computed in floats may be off.
+///
+/// Boxes are seen from the centre of one of A's blocks. With u = 2^-24, S = |t|_1 + reach_a +
+/// reach_b, t from that centre to the one of B's block: the rotation's entries, a moved centre and
+/// a moved axis (3 products, 2 sums) are off by less than 8u of |t|_1 + reach, or of 1; a
+/// difference of centres along an axis (1 + 3 roundings) by less than 14u S in all, and so is a
+/// centre rounded to float; a reach sum |n . axis| half (9 products of an 8u-wrong cosine) by less
+/// than 14u S, and what it lacks as axes are not orthonormal (PosedBox::slack: 2 * 3.5u half) by
+/// 7u S. Together below 40u S; 128u = 2^-17 leaves room for squares, roots and sums of gaps, and
+/// 2^-70 for squares that underflow.
+/// `moved`: corners of B that are moved in doubles are off by 2^-50 of what they are made of.
+/// `corners`: heights of both sides' corners along a direction in floats, 8u of |corner|_1.
+struct PairFrame {
+    PairFrame(const MeshTree& a, const MeshTree& b, const Pose& b_in_a) : pose(b_in_a) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vec3<double>& row = pose.rotation[i];
+            rotation[i][0] = static_cast<float>(row.x);
+            rotation[i][1] = static_cast<float>(row.y);
+            rotation[i][2] = static_cast<float>(row.z);
+        }
+        const auto size = [](const MeshTree& mesh) {
+            const Aabb<float>& box = mesh.bounds();
+            double greatest = 0;
+            for (int axis = 0; axis < 3; ++axis)
+                greatest +=
+                    std::max(std::abs(double{box.min[axis]}), std::abs(double{box.max[axis]}));
+            return greatest;
+        };
+        const Vec3<double>& t = pose.translation;
+        moved = 0x1p-48 * (size(a) + size(b) + std::abs(t.x) + std::abs(t.y) + std::abs(t.z));
+        corners = 0x1p-21 * (size(a) + size(b)) + moved + 0x1p-60;
+    }
+
+    /// From the centre of a box of A to that of a box of B, in A's frame.
+    Vec3<double> between(const double (&a)[3], const double (&b)[3]) const {
+        return pose(Vec3<double>{b[0], b[1], b[2]}) - Vec3<double>{a[0], a[1], a[2]};
+    }
+    /// What any bound of lanes of the two boxes may be off by.
+    float error(const Vec3<double>& t, const PosedBox& a, const PosedBox& b) const {
+        const double size =
+            std::abs(t.x) + std::abs(t.y) + std::abs(t.z) + double{a.reach} + double{b.reach};
+        return static_cast<float>((0x1p-17 * size + moved) * (1 + 0x1p-20) + 0x1p-70);
+    }
+    /// A box of B as seen from where t starts.
+    SeenBox seen_b(const PosedBox& b, const Vec3<double>& t) const {
+        SeenBox seen;
+        for (int i = 0; i < 3; ++i) {
+            seen.centre[i] = static_cast<float>(t[i]);
+            seen.half[i] = b.half[i];
+            for (int k = 0; k < 3; ++k)
+                seen.axis[k][i] = rotation[i][0] * b.axis[k][0] + rotation[i][1] * b.axis[k][1] +
+                                  rotation[i][2] * b.axis[k][2];
+        }
+        return seen;
+    }
+    /// A box of A as seen from its own centre.
+    static SeenBox seen_a(const PosedBox& a) {
+        SeenBox seen{};
+        for (int i = 0; i < 3; ++i) {
+            seen.half[i] = a.half[i];
+            for (int k = 0; k < 3; ++k)
+                seen.axis[k][i] = a.axis[k][i];
+        }
+        return seen;
+    }
+
+    Pose pose;
+    float rotation[3][3];
+    double moved, corners;
+};
+
+} // namespace boxwood::detail

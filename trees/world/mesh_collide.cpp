@@ -1,0 +1,254 @@
+/// Which triangles of two meshes share a point.
+///
+/// A step takes a pair of blocks and opens both at once. B's eight boxes are moved into A's frame
+/// and tested against the box around A's block; each that is left against A's eight boxes. Pairs of
+/// leaves: B's corners are moved in doubles, boxes of triangles are compared, and what is left goes
+/// to the exact kernel, 64 pairs at a time, or at once where the first hit will do.
+
+// Compiled once per instruction set; the best one is chosen at run time.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "trees/world/mesh_collide.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.
+#include <hwy/highway.h>
+
+#include "kernels/arithmetic/float_mode.h"
+#include "kernels/triangle_triangle/guigue_devillers_batch.h"
+#include "trees/world/detail/entry_stack.h"
+#include "trees/world/detail/leaf_lanes-inl.h"
+#include "trees/world/detail/obb_lanes-inl.h"
+#include "trees/world/mesh_pairs.h"
+
+#include <bit>
+#include <limits>
+
+HWY_BEFORE_NAMESPACE();
+namespace boxwood::detail::HWY_NAMESPACE {
+namespace {
+
+/// The lanes of eight boxes that one box may overlap, as bits; their greatest gaps if wanted.
+template <bool with_gaps, class Centre>
+HWY_INLINE std::uint32_t overlapping(const SeenBox& one, const Centre& centre,
+                                     const float (&axis)[3][3][8], const float (&half)[3][8],
+                                     std::uint32_t count, float error, float* gaps) {
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < 8; i += hn::Lanes(d8)) {
+        const F8 gap = SixAxes(one, centre, axis, half, i).greatest_gap();
+        if constexpr (with_gaps)
+            hn::StoreU(gap, d8, gaps + i);
+        std::uint8_t part[8] = {};
+        hn::StoreMaskBits(d8, hn::Le(gap, hn::Set(d8, error)), part);
+        bits |= static_cast<std::uint32_t>(part[0]) << i;
+    }
+    return bits & ((1u << count) - 1);
+}
+
+template <bool first_hit, bool counted> class Collision {
+  public:
+    Collision(const MeshTree& a, const MeshTree& b, const Pose& pose, std::size_t limit,
+              std::vector<Pair>* pairs, Work* work)
+        : a_(a), b_(b), frame_(a, b, pose), stack_(most_entries(a.depth(), b.depth())),
+          limit_(limit), pairs_(pairs), work_(work) {}
+
+    bool run() {
+        stack_.push({a_.root(), b_.root()});
+        while (!stack_.empty()) {
+            const Pair open = stack_.pop();
+            count_visit();
+            if (is_leaf(open.a) && is_leaf(open.b) && compare_leaves(open))
+                return true;
+            if (is_leaf(open.a) && is_leaf(open.b))
+                continue;
+            if (is_leaf(open.a))
+                open_b(open);
+            else if (is_leaf(open.b))
+                open_a(open);
+            else
+                open_both(open);
+        }
+        return queue_.size() > 0 && decide();
+    }
+
+  private:
+    HWY_INLINE void open_both(Pair open) {
+        const ObbBlock& a = a_.block(open.a);
+        const ObbBlock& b = b_.block(open.b);
+        const Vec3<double> t = frame_.between(a.own.centre, b.own.centre);
+        const float error = frame_.error(t, a.own, b.own);
+        SeenBoxes seen;
+        see_lanes(b, frame_, t, seen);
+        std::uint32_t near = overlapping<false>(PairFrame::seen_a(a.own), seen.centre, seen.axis,
+                                                b.half, b.count, error, nullptr);
+        count_tests(8);
+        const std::size_t first = stack_.size();
+        std::size_t deepest = first;
+        float least = std::numeric_limits<float>::infinity();
+        for (; near != 0; near &= near - 1) {
+            const auto j = static_cast<std::size_t>(std::countr_zero(near));
+            alignas(32) float gaps[8];
+            std::uint32_t hits = overlapping<first_hit>(seen.lane(j), a.centre, a.axis, a.half,
+                                                        a.count, error, gaps);
+            count_tests(8);
+            for (; hits != 0; hits &= hits - 1) {
+                const auto i = static_cast<std::size_t>(std::countr_zero(hits));
+                if (first_hit && gaps[i] < least) {
+                    least = gaps[i];
+                    deepest = stack_.size();
+                }
+                stack_.push({a.ref[i], b.ref[j]});
+            }
+        }
+        if (first_hit && stack_.size() > first + 1)
+            std::swap(*stack_.from(deepest), *stack_.from(stack_.size() - 1));
+    }
+    /// A's is a leaf.
+    HWY_INLINE void open_b(Pair open) {
+        const PosedBox& own = a_.leaf(open.a).own;
+        const ObbBlock& b = b_.block(open.b);
+        const Vec3<double> t = frame_.between(own.centre, b.own.centre);
+        SeenBoxes seen;
+        see_lanes(b, frame_, t, seen);
+        std::uint32_t near =
+            overlapping<false>(PairFrame::seen_a(own), seen.centre, seen.axis, b.half, b.count,
+                               frame_.error(t, own, b.own), nullptr);
+        count_tests(8);
+        for (; near != 0; near &= near - 1)
+            stack_.push({open.a, b.ref[static_cast<std::size_t>(std::countr_zero(near))]});
+    }
+    /// B's is a leaf.
+    HWY_INLINE void open_a(Pair open) {
+        const ObbBlock& a = a_.block(open.a);
+        const PosedBox& own = b_.leaf(open.b).own;
+        const Vec3<double> t = frame_.between(a.own.centre, own.centre);
+        std::uint32_t near = overlapping<false>(frame_.seen_b(own, t), a.centre, a.axis, a.half,
+                                                a.count, frame_.error(t, a.own, own), nullptr);
+        count_tests(8);
+        for (; near != 0; near &= near - 1)
+            stack_.push({a.ref[static_cast<std::size_t>(std::countr_zero(near))], open.b});
+    }
+
+    /// True once enough is known.
+    HWY_INLINE bool compare_leaves(Pair open) {
+        const TriangleLeaf& a = a_.leaf(open.a);
+        const TriangleLeaf& b = b_.leaf(open.b);
+        const MovedLeaf moved(b, frame_.pose);
+        const NearBoxes boxes_a(NearCorners(a, a.own.centre));
+        const NearBoxes boxes_b(NearCorners(moved, a.own.centre));
+        const std::uint32_t used = (1u << b.count) - 1;
+        for (std::size_t i = 0; i < a.count; ++i) {
+            std::uint32_t near = 0;
+            for (std::size_t lane = 0; lane < 8; lane += hn::Lanes(d8)) {
+                auto apart = hn::FirstN(d8, 0);
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    const auto low = hn::Load(d8, boxes_b.low[axis] + lane);
+                    const auto high = hn::Load(d8, boxes_b.high[axis] + lane);
+                    apart = hn::Or(apart, hn::Or(hn::Lt(hn::Set(d8, boxes_a.high[axis][i]), low),
+                                                 hn::Gt(hn::Set(d8, boxes_a.low[axis][i]), high)));
+                }
+                std::uint8_t part[8] = {};
+                hn::StoreMaskBits(d8, hn::Not(apart), part);
+                near |= static_cast<std::uint32_t>(part[0]) << lane;
+            }
+            for (near &= used; near != 0; near &= near - 1)
+                queue_.add(a, i, b, moved, static_cast<std::size_t>(std::countr_zero(near)));
+        }
+        // A leaf pair adds up to 64.
+        return (first_hit ? queue_.size() > 0 : !queue_.has_room_for(64)) && decide();
+    }
+
+    HWY_NOINLINE bool decide() {
+        queue_.pad();
+        const std::size_t n = queue_.size();
+        GuigueDevillersExactBatch::intersect(queue_.blocks(), {decisions_, n});
+        if constexpr (counted)
+            work_->triangle_tests += n;
+        bool done = false;
+        for (std::size_t i = 0; i < n && !done; ++i)
+            if (decisions_[i].answer == Answer::yes) {
+                if constexpr (counted)
+                    ++work_->answers;
+                if constexpr (first_hit) {
+                    done = true;
+                } else {
+                    pairs_->push_back(queue_.triangles(i));
+                    done = pairs_->size() >= limit_;
+                }
+            }
+        queue_.clear();
+        return done;
+    }
+
+    HWY_INLINE void count_visit() {
+        if constexpr (counted) {
+            ++work_->node_visits;
+            work_->stack_max = std::max<std::uint64_t>(work_->stack_max, stack_.size() + 1);
+        }
+    }
+    HWY_INLINE void count_tests(std::uint64_t n) {
+        if constexpr (counted)
+            work_->box_tests += n;
+    }
+
+    const MeshTree &a_, &b_;
+    PairFrame frame_;
+    EntryStack<Pair> stack_;
+    PairBlocks<128> queue_;
+    Decision decisions_[128];
+    std::size_t limit_;
+    std::vector<Pair>* pairs_;
+    Work* work_;
+};
+
+bool first_touch(const MeshTree& a, const MeshTree& b, const Pose& pose, Work* work) {
+    if (work)
+        return Collision<true, true>(a, b, pose, 1, nullptr, work).run();
+    return Collision<true, false>(a, b, pose, 1, nullptr, nullptr).run();
+}
+void all_touches(const MeshTree& a, const MeshTree& b, const Pose& pose, std::size_t limit,
+                 std::vector<Pair>& pairs, Work* work) {
+    if (work)
+        Collision<false, true>(a, b, pose, limit, &pairs, work).run();
+    else
+        Collision<false, false>(a, b, pose, limit, &pairs, nullptr).run();
+}
+
+} // namespace
+} // namespace boxwood::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace boxwood {
+namespace detail {
+HWY_EXPORT(first_touch);
+HWY_EXPORT(all_touches);
+} // namespace detail
+
+bool collide(const MeshTree& a, const MeshTree& b, const Pose& b_in_a, Work* work) {
+    if (a.empty() || b.empty())
+        return false;
+    return without_flushing([&] {
+        using namespace detail;
+        return HWY_DYNAMIC_DISPATCH(first_touch)(a, b, b_in_a, work);
+    });
+}
+
+void touching_triangles(const MeshTree& a, const MeshTree& b, const Pose& b_in_a, std::size_t limit,
+                        std::vector<Pair>& pairs, Work* work) {
+    pairs.clear();
+    if (a.empty() || b.empty() || limit == 0)
+        return;
+    without_flushing([&] {
+        using namespace detail;
+        HWY_DYNAMIC_DISPATCH(all_touches)(a, b, b_in_a, limit, pairs, work);
+    });
+}
+
+std::vector<Pair> touching_triangles(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
+                                     std::size_t limit, Work* work) {
+    std::vector<Pair> pairs;
+    touching_triangles(a, b, b_in_a, limit, pairs, work);
+    return pairs;
+}
+
+} // namespace boxwood
+#endif

@@ -1,0 +1,355 @@
+/// How far two meshes are apart.
+///
+/// Depth first, the nearest pair of blocks on top. A step opens both blocks at once: bounds of the
+/// distances of boxes in floats, eight at a time; where a bound is just below what is wanted, the
+/// gap in doubles. Pairs of leaves: bounds of the distances of triangles by their boxes and along
+/// their normals; what is left is gathered and measured eight pairs at a time. Each measured pair
+/// is bounded from below by the gap along the line of its nearest points. Where that does not do,
+/// the certified kernel decides, at the end, for what is then still near enough.
+
+// Compiled once per instruction set; the best one is chosen at run time.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "trees/world/mesh_distance.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.
+#include <hwy/highway.h>
+
+#include "kernels/arithmetic/float_mode.h"
+#include "kernels/triangle_distance/features_batch.h"
+#include "trees/world/detail/box_gap.h"
+#include "trees/world/detail/entry_stack.h"
+#include "trees/world/detail/leaf_bounds-inl.h"
+#include "trees/world/detail/nearest_candidates.h"
+#include "trees/world/mesh_pairs.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <stdexcept>
+
+#ifndef BOXWOOD_MESH_DISTANCE_ONCE
+#define BOXWOOD_MESH_DISTANCE_ONCE
+namespace boxwood::detail {
+
+/// A pair of blocks that waits, with a bound of its distance and what it is ordered by.
+struct NearEntry {
+    float bound, key;
+    std::uint32_t a, b;
+};
+
+} // namespace boxwood::detail
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace boxwood::detail::HWY_NAMESPACE {
+namespace {
+
+template <bool counted> class Search {
+  public:
+    Search(const MeshTree& a, const MeshTree& b, const Pose& pose, const DistanceGoal& goal,
+           Work* work)
+        : a_(a), b_(b), frame_(a, b, pose), nearest_(goal, 0x1p18 * frame_.moved),
+          stack_(most_entries(a.depth(), b.depth())), work_(work) {
+        if (goal.options.start)
+            measure_start(*goal.options.start);
+    }
+
+    MeshDistance run() {
+        stack_.push({0, 0, a_.root(), b_.root()});
+        while (!stack_.empty() && !nearest_.is_done()) {
+            const NearEntry open = stack_.pop();
+            if (open.bound >= nearest_.wanted_f32())
+                continue;
+            if constexpr (counted) {
+                ++work_->node_visits;
+                work_->stack_max = std::max<std::uint64_t>(work_->stack_max, stack_.size() + 1);
+            }
+            if (is_leaf(open.a) && is_leaf(open.b))
+                compare_leaves(open);
+            else if (is_leaf(open.a))
+                open_b(open);
+            else if (is_leaf(open.b))
+                open_a(open);
+            else
+                open_both(open);
+        }
+        measure_queue();
+        return nearest_.certified();
+    }
+
+  private:
+    // A step.
+
+    template <class Centre>
+    HWY_INLINE std::uint32_t bound_lanes(const SeenBox& one, const Centre& centre,
+                                         const float (&axis)[3][3][8], const float (&half)[3][8],
+                                         std::uint32_t count, float error, float* bounds,
+                                         float* keys) {
+        std::uint32_t bits = 0;
+        const F8 wanted = hn::Set(d8, nearest_.wanted_f32());
+        for (std::size_t i = 0; i < 8; i += hn::Lanes(d8)) {
+            const SixAxes six(one, centre, axis, half, i);
+            const F8 bound = hn::Max(hn::Sub(six.distance_bound(one, half, i), hn::Set(d8, error)),
+                                     hn::Zero(d8));
+            hn::StoreU(bound, d8, bounds + i);
+            if (keys)
+                hn::StoreU(six.centres_squared(), d8, keys + i);
+            std::uint8_t part[8] = {};
+            hn::StoreMaskBits(d8, hn::Lt(bound, wanted), part);
+            bits |= static_cast<std::uint32_t>(part[0]) << i;
+        }
+        if constexpr (counted)
+            work_->box_tests += 8;
+        return bits & ((1u << count) - 1);
+    }
+    /// Whether floats leave open what doubles might not.
+    bool is_tie(float bound) const { return bound > 0.99f * nearest_.wanted_f32(); }
+
+    HWY_INLINE void open_both(const NearEntry& open) {
+        const ObbBlock& a = a_.block(open.a);
+        const ObbBlock& b = b_.block(open.b);
+        const Vec3<double> t = frame_.between(a.own.centre, b.own.centre);
+        const float error = 2 * frame_.error(t, a.own, b.own);
+        SeenBoxes seen;
+        see_lanes(b, frame_, t, seen);
+        alignas(64) float bounds[8], keys[8];
+        std::uint32_t near = bound_lanes(PairFrame::seen_a(a.own), seen.centre, seen.axis, b.half,
+                                         b.count, error, bounds, nullptr);
+        const std::size_t first = stack_.size();
+        for (; near != 0; near &= near - 1) {
+            const auto j = static_cast<std::size_t>(std::countr_zero(near));
+            std::uint32_t hits =
+                bound_lanes(seen.lane(j), a.centre, a.axis, a.half, a.count, error, bounds, keys);
+            for (; hits != 0; hits &= hits - 1) {
+                const auto i = static_cast<std::size_t>(std::countr_zero(hits));
+                if (is_tie(bounds[i]) &&
+                    box_gap(BoxF64(a, i), BoxF64(b, j), frame_) >= nearest_.wanted())
+                    continue;
+                stack_.push({bounds[i], keys[i], a.ref[i], b.ref[j]});
+            }
+        }
+        order(first);
+    }
+    HWY_INLINE void open_b(const NearEntry& open) {
+        const PosedBox& own = a_.leaf(open.a).own;
+        const ObbBlock& b = b_.block(open.b);
+        const Vec3<double> t = frame_.between(own.centre, b.own.centre);
+        SeenBoxes seen;
+        see_lanes(b, frame_, t, seen);
+        alignas(64) float bounds[8], keys[8];
+        std::uint32_t near = bound_lanes(PairFrame::seen_a(own), seen.centre, seen.axis, b.half,
+                                         b.count, 2 * frame_.error(t, own, b.own), bounds, keys);
+        const std::size_t first = stack_.size();
+        for (; near != 0; near &= near - 1) {
+            const auto j = static_cast<std::size_t>(std::countr_zero(near));
+            if (!is_tie(bounds[j]) ||
+                box_gap(BoxF64(own), BoxF64(b, j), frame_) < nearest_.wanted())
+                stack_.push({bounds[j], keys[j], open.a, b.ref[j]});
+        }
+        order(first);
+    }
+    HWY_INLINE void open_a(const NearEntry& open) {
+        const ObbBlock& a = a_.block(open.a);
+        const PosedBox& own = b_.leaf(open.b).own;
+        const Vec3<double> t = frame_.between(a.own.centre, own.centre);
+        alignas(64) float bounds[8], keys[8];
+        std::uint32_t near = bound_lanes(frame_.seen_b(own, t), a.centre, a.axis, a.half, a.count,
+                                         2 * frame_.error(t, a.own, own), bounds, keys);
+        const std::size_t first = stack_.size();
+        for (; near != 0; near &= near - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(near));
+            if (!is_tie(bounds[i]) ||
+                box_gap(BoxF64(a, i), BoxF64(own), frame_) < nearest_.wanted())
+                stack_.push({bounds[i], keys[i], a.ref[i], open.b});
+        }
+        order(first);
+    }
+    /// The nearest of those pushed last on top.
+    HWY_INLINE void order(std::size_t first) {
+        NearEntry* const entries = stack_.from(first);
+        const std::size_t n = stack_.size() - first;
+        for (std::size_t i = 1; i < n; ++i) {
+            const NearEntry x = entries[i];
+            std::size_t k = i;
+            for (; k > 0 && entries[k - 1].key < x.key; --k)
+                entries[k] = entries[k - 1];
+            entries[k] = x;
+        }
+    }
+
+    // Leaves.
+
+    HWY_INLINE void compare_leaves(const NearEntry& open) {
+        const TriangleLeaf& a = a_.leaf(open.a);
+        const TriangleLeaf& b = b_.leaf(open.b);
+        if (gap_of_corners(a, b, frame_) >= nearest_.wanted())
+            return;
+        const LeafPair leaves(a, b, frame_);
+        struct Near {
+            float bound;
+            std::uint32_t lanes; // 8 i + j
+        };
+        Near found[64];
+        std::size_t n = 0;
+        for (std::size_t i = 0; i < a.count; ++i) {
+            alignas(64) float bounds[8];
+            std::uint32_t near =
+                leaves.bound_triangles(i, nearest_.wanted_f32(), bounds) & ((1u << b.count) - 1);
+            for (; near != 0; near &= near - 1) {
+                const auto j = static_cast<std::uint32_t>(std::countr_zero(near));
+                found[n++] = {bounds[j], static_cast<std::uint32_t>(8 * i) + j};
+            }
+        }
+        const auto add = [&](const Near& pair) HWY_ATTR {
+            queue_.add(a, pair.lanes / 8, b, leaves.moved(), pair.lanes % 8);
+        };
+        if (n <= 8) {
+            for (std::size_t k = 0; k < n; ++k)
+                add(found[k]);
+        } else { // the nearest first, eight at a time
+            std::sort(found, found + n,
+                      [](const Near& x, const Near& y) { return x.bound < y.bound; });
+            for (std::size_t k = 0;
+                 k < n && found[k].bound < nearest_.wanted_f32() && !nearest_.is_done();) {
+                const std::size_t end = std::min(n, k + 8 - queue_.size() % 8);
+                for (; k < end; ++k)
+                    add(found[k]);
+                if (queue_.size() % 8 == 0)
+                    measure_queue();
+            }
+        }
+        if (queue_.size() >= 8)
+            measure_queue();
+    }
+
+    // Pairs of triangles.
+
+    HWY_NOINLINE void measure_queue() {
+        if (queue_.size() == 0 || nearest_.is_done())
+            return;
+        queue_.pad();
+        const std::size_t n = queue_.size();
+        FeaturesF64Batch::distance(queue_.blocks(), {distances_, n});
+        if constexpr (counted)
+            work_->triangle_tests += n;
+        for (std::size_t begin = 0; begin < n && !nearest_.is_done(); begin += 8)
+            judge(begin, std::min<std::size_t>(8, n - begin));
+        queue_.clear();
+    }
+
+    /// Up to eight measured pairs: lowers the best, and keeps what may still be nearer than it was
+    /// measured. The gap along any direction n is a bound: min n.b - max n.a over the corners,
+    /// over |n|; each product sum is off by less than 4 2^-53 |n|_1 times the greatest
+    /// |coordinate|, which `moved` exceeds 32 times over.
+    HWY_INLINE void judge(std::size_t begin, std::size_t count) {
+        const hn::CappedTag<double, 8> d;
+        using D8 = hn::Vec<decltype(d)>;
+        alignas(64) double way[3][8], lower[8];
+        for (std::size_t i = 0; i < 8; ++i) {
+            const Distance& found = distances_[begin + std::min(i, count - 1)];
+            const Vec3<double> n = found.point_b - found.point_a;
+            way[0][i] = n.x, way[1][i] = n.y, way[2][i] = n.z;
+        }
+        const TrianglePairBlock<double>& block = queue_.blocks()[begin / 8];
+        for (std::size_t i = 0; i < 8; i += hn::Lanes(d)) {
+            const D8 n[3] = {hn::Load(d, way[0] + i), hn::Load(d, way[1] + i),
+                             hn::Load(d, way[2] + i)};
+            const auto heights = [&](int side, bool least) HWY_ATTR {
+                D8 h[3];
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const auto& corner = block.corner[side][k];
+                    h[k] = hn::Add(hn::Add(hn::Mul(n[0], hn::Load(d, corner[0] + i)),
+                                           hn::Mul(n[1], hn::Load(d, corner[1] + i))),
+                                   hn::Mul(n[2], hn::Load(d, corner[2] + i)));
+                }
+                return least ? hn::Min(hn::Min(h[0], h[1]), h[2])
+                             : hn::Max(hn::Max(h[0], h[1]), h[2]);
+            };
+            const D8 gap = hn::Sub(heights(1, true), heights(0, false));
+            const D8 length = hn::Sqrt(
+                hn::Add(hn::Add(hn::Mul(n[0], n[0]), hn::Mul(n[1], n[1])), hn::Mul(n[2], n[2])));
+            const D8 bound = hn::Sub(
+                hn::Mul(hn::Div(gap, hn::Max(length, hn::Set(d, 1e-150))), hn::Set(d, 1 - 0x1p-48)),
+                hn::Set(d, frame_.moved));
+            hn::Store(bound, d, lower + i);
+        }
+        for (std::size_t i = 0; i < count && !nearest_.is_done(); ++i) {
+            const Distance& found = distances_[begin + i];
+            if (found.distance < nearest_.best() || lower[i] < nearest_.wanted())
+                nearest_.offer(queue_.triangle(0, begin + i), queue_.triangle(1, begin + i),
+                               queue_.triangles(begin + i), found.distance, lower[i]);
+        }
+    }
+
+    void measure_start(Pair start) {
+        if (start.a >= a_.size() || start.b >= b_.size())
+            throw std::invalid_argument("the pair of triangles to start with is not there");
+        const auto corners = [](const MeshTree& mesh, std::uint32_t triangle, const Pose& pose) {
+            const Triangle<float> t = mesh.mesh().triangle(triangle);
+            return Triangle<double>{pose(Vec3<double>(t.a)), pose(Vec3<double>(t.b)),
+                                    pose(Vec3<double>(t.c))};
+        };
+        nearest_.offer(corners(a_, start.a, Pose{}), corners(b_, start.b, frame_.pose), start);
+    }
+
+    const MeshTree &a_, &b_;
+    PairFrame frame_;
+    NearestCandidates nearest_;
+    EntryStack<NearEntry> stack_;
+    PairBlocks<128> queue_;
+    Distance distances_[128];
+    Work* work_;
+};
+
+MeshDistance find_nearest(const MeshTree& a, const MeshTree& b, const Pose& pose,
+                          const DistanceGoal& goal, Work* work) {
+    if (work)
+        return Search<true>(a, b, pose, goal, work).run();
+    return Search<false>(a, b, pose, goal, nullptr).run();
+}
+
+} // namespace
+} // namespace boxwood::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace boxwood {
+namespace detail {
+HWY_EXPORT(find_nearest);
+} // namespace detail
+
+namespace {
+
+MeshDistance search(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
+                    const detail::DistanceGoal& goal, Work* work) {
+    if (a.empty() || b.empty())
+        return {};
+    return without_flushing([&] {
+        using namespace detail;
+        return HWY_DYNAMIC_DISPATCH(find_nearest)(a, b, b_in_a, goal, work);
+    });
+}
+
+} // namespace
+
+MeshDistance distance(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
+                      const DistanceOptions& options, Work* work) {
+    if (!(options.relative >= 0 && options.relative < 1) || !(options.absolute >= 0) ||
+        !(options.limit >= 0))
+        throw std::invalid_argument("a relative tolerance must be in [0, 1), an absolute one and a "
+                                    "limit at least 0");
+    return search(a, b, b_in_a, {options, 0}, work);
+}
+
+MeshWithin within(const MeshTree& a, const MeshTree& b, const Pose& b_in_a, double tolerance,
+                  Work* work) {
+    if (!(tolerance >= 0))
+        throw std::invalid_argument("a tolerance must be at least 0");
+    DistanceOptions options;
+    options.limit = tolerance * (1 + 0x1p-31) + std::numeric_limits<double>::denorm_min();
+    const MeshDistance found = search(a, b, b_in_a, {options, tolerance}, work);
+    return {found.found() && found.lo <= tolerance, found.lo, found.hi};
+}
+
+} // namespace boxwood
+#endif

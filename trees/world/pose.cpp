@@ -1,0 +1,61 @@
+#include "trees/world/pose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace boxwood {
+namespace {
+
+/// The greatest part by which the rows are no orthonormal ones.
+double skew(const std::array<Vec3<double>, 3>& rows) {
+    double greatest = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = i; j < 3; ++j)
+            greatest = std::max(greatest, std::abs(dot(rows[i], rows[j]) - (i == j ? 1 : 0)));
+    return greatest;
+}
+
+} // namespace
+
+Pose checked_pose(const Pose& pose) {
+    constexpr double largest = 0x1p60, permitted = 1e-3;
+    for (const Vec3<double>& row : pose.rotation)
+        if (!is_finite(row))
+            throw std::invalid_argument("a pose has a rotation with a number that is not finite");
+    const Vec3<double>& t = pose.translation;
+    if (!is_finite(t) || std::max({std::abs(t.x), std::abs(t.y), std::abs(t.z)}) >= largest)
+        throw std::invalid_argument("a pose has a translation that is not finite or beyond 2^60");
+    Pose checked = pose;
+    auto& r = checked.rotation;
+    if (!(skew(r) <= permitted))
+        throw std::invalid_argument("a pose is no rigid transform: its matrix is off a rotation by "
+                                    "more than 1e-3 (rows must be of length 1 and at right angles; "
+                                    "put a scale into the mesh)");
+    if (dot(cross(r[0], r[1]), r[2]) < 0)
+        throw std::invalid_argument("a pose is a reflection, not a rotation: mirror the mesh");
+    // Newton's iteration towards the nearest rotation: R <- R (3 - R^T R) / 2 squares the error.
+    for (int step = 0; step < 4 && skew(r) > 0x1p-51; ++step) {
+        const auto from = r;
+        for (std::size_t i = 0; i < 3; ++i)
+            r[i] = 1.5 * from[i] -
+                   0.5 * (dot(from[i], from[0]) * from[0] + dot(from[i], from[1]) * from[1] +
+                          dot(from[i], from[2]) * from[2]);
+    }
+    return checked;
+}
+
+Pose relative_pose(const Pose& a, const Pose& b) {
+    const auto& [r0, r1, r2] = a.rotation;
+    const Vec3<double> column[3] = {{r0.x, r1.x, r2.x}, {r0.y, r1.y, r2.y}, {r0.z, r1.z, r2.z}};
+    const Vec3<double> apart = b.translation - a.translation;
+    Pose relative;
+    for (std::size_t i = 0; i < 3; ++i) {
+        relative.rotation[i] =
+            column[i].x * b.rotation[0] + column[i].y * b.rotation[1] + column[i].z * b.rotation[2];
+        relative.translation[static_cast<int>(i)] = dot(column[i], apart);
+    }
+    return relative;
+}
+
+} // namespace boxwood
