@@ -15,6 +15,22 @@ def largest_jobs(jobs):
     return list(largest.values())
 
 
+def fullest(entries):
+    """Of each scene, task, place and class the entry with the most items among those with the most libraries: at a size that
+    only some libraries ran, the others would go unseen. An entry has a job, a contender_class and libraries."""
+    best = {}
+    for entry in entries:
+        job = entry.job
+        key = (job.task, job.scene, job.seed, job.where, entry.contender_class)
+        if key not in best or rank(entry) > rank(best[key]):
+            best[key] = entry
+    return list(best.values())
+
+
+def rank(entry):
+    return len(entry.libraries), entry.job.n
+
+
 def choose(cells, keep=(), limit=MAX_LINES):
     """At most `limit` of the cells of one job: those in `keep`, then the best of each family, then the
     best of the rest; wrong ones last. Returns them and how many were left out."""

@@ -9,7 +9,7 @@ from ..findings import PEERS, RACE, footer
 from ..metrics import METRICS
 from ..picture import Picture, Skip
 from ..run import TOTAL
-from ..selection import largest_jobs, wrong_notes
+from ..selection import fullest, wrong_notes
 
 NAME = "forest"
 TITLE = "Against the peers"
@@ -41,13 +41,13 @@ class Block:
     def job(self):
         return self.cell.job
 
+    @property
+    def contender_class(self):
+        return self.finding.contender_class
+
     def fastest(self, column):
         """{library: its comparison}, each by its fastest variant, in the order of the registry."""
-        rows = (self.alone if column else self.together).values()
-        best = {}
-        for row in sorted(rows, key=lambda row: row.gain.mid):
-            best.setdefault(row.a.library, row)
-        return dict(sorted(best.items(), key=lambda item: item[1].a.place))
+        return fastest((self.alone if column else self.together).values())
 
     @property
     def libraries(self):
@@ -60,8 +60,21 @@ class Block:
         return (finding.ours_alone or finding.ours) if column else self.cell
 
 
+def fastest(comparisons):
+    """{library: its comparison}, each by its fastest variant, in the order of the registry."""
+    best = {}
+    for row in sorted(comparisons, key=lambda row: row.gain.mid):
+        best.setdefault(row.a.library, row)
+    return dict(sorted(best.items(), key=lambda item: item[1].a.place))
+
+
 def blocks(run):
-    """One for each race against peers, the largest jobs alone; builds alone stand in tree_quality."""
+    """One for each race against peers, at the largest size of the fullest field; builds alone stand in tree_quality."""
+    return sorted(fullest(races(run)), key=lambda b: (b.job.task, b.job.where, b.job.scene))
+
+
+def races(run):
+    """One for each race against peers, of every size."""
     rows = {}
     for row in run.family(PEERS):
         if row.verdict != "wrong":
@@ -74,8 +87,7 @@ def blocks(run):
                  if ours else {} for ours, phase in ((finding.ours, TOTAL), (finding.ours_alone, "query"))]
         if any(sides):
             found.append(Block(finding, *sides))
-    shown = set(largest_jobs(block.job for block in found))
-    return sorted((b for b in found if b.job in shown), key=lambda b: (b.job.task, b.job.where, b.job.scene))
+    return found
 
 
 def draw_marks(ax, comparisons, heights, floor):
