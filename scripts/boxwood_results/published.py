@@ -63,19 +63,24 @@ def against_peers(*tasks):
 
     def table(run):
         found = [block for block in forest.blocks(run) if block.job.task in tasks and block.job.where == ONE]
-        cold_builds = cold(run)
+        cold_builds, races = cold(run), forest.races(run)
         libraries = dict(sorted(((library, cell) for block in found for library, cell in block.libraries.items()),
                                 key=lambda item: item[1].place))
         rows = [["question, one thread", "measured", "ours", *(cell.library_title for cell in libraries.values())]]
+
+        def add(question, words, known):
+            if known:
+                first = next(iter(known.values()))
+                rows.append([question, words, f"{first.b.label} {time_of(first)}",
+                             *(known[library].text if library in known else "" for library in libraries)])
+
         for block in found:
-            measures = {run.tasks[block.job.task].total_title: block.fastest(0), "query alone": block.fastest(1),
-                        "first build and query, fresh process": cold_builds.get((block.job, block.contender_class))}
-            for words, known in measures.items():
-                if known:
-                    first = next(iter(known.values()))
-                    rows.append([
-                        block.finding.question, words, f"{first.b.label} {time_of(first)}",
-                        *(known[library].text if library in known else "" for library in libraries)])
+            add(block.finding.question, run.tasks[block.job.task].total_title, block.fastest(0))
+            add(block.finding.question, "query alone", block.fastest(1))
+            for race in races:
+                if race.kind == block.kind and race.job.n >= block.job.n:
+                    add(race.finding.question, "first build and query, fresh process",
+                        cold_builds.get((race.job, race.contender_class)))
         return rows
 
     return table

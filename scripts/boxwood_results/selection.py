@@ -15,20 +15,21 @@ def largest_jobs(jobs):
     return list(largest.values())
 
 
-def fullest(entries):
-    """Of each scene, task, place and class the entry with the most items among those with the most libraries: at a size that
-    only some libraries ran, the others would go unseen. An entry has a job, a contender_class and libraries."""
-    best = {}
-    for entry in entries:
-        job = entry.job
-        key = (job.task, job.scene, job.seed, job.where, entry.contender_class)
-        if key not in best or rank(entry) > rank(best[key]):
-            best[key] = entry
-    return list(best.values())
+def fullest(races):
+    """Of each kind the race with the most items among those with the most libraries and at least half of the variants: at a
+    size that only some ran, the others would go unseen."""
+    kinds = {}
+    for race in races:
+        kinds.setdefault(race.kind, []).append(race)
+    return [fullest_of(alike) for alike in kinds.values()]
 
 
-def rank(entry):
-    return len(entry.libraries), entry.job.n
+def fullest_of(races):
+    libraries = max(len(race.libraries) for race in races)
+    races = [race for race in races if len(race.libraries) == libraries]
+    variants = max(len(race.variants) for race in races)
+    by_size = {race.job.n: race for race in races if 2 * len(race.variants) >= variants}
+    return by_size[max(by_size)]
 
 
 def choose(cells, keep=(), limit=MAX_LINES):

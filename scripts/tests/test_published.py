@@ -130,13 +130,16 @@ def test_times_in_readme_agree_with_the_dry_run(config, words, said, tmp_path):
     assert words in README and 0.5 * said < minutes(guess) < 1.6 * said
 
 
-def entry(n, libraries, contender_class="", scene="uniform"):
-    return SimpleNamespace(job=Job(scene, n, 1, "pairs", published.ONE), contender_class=contender_class, libraries=dict.fromkeys(libraries))
+def entry(n, libraries, contender_class="", scene="uniform", variants=3):
+    return SimpleNamespace(job=Job(scene, n, 1, "pairs", published.ONE), kind=(scene, contender_class), libraries=dict.fromkeys(libraries),
+                           variants=range(variants))
 
 
 def test_a_race_is_shown_at_the_largest_size_that_most_libraries_ran():
     few, most, small = entry(10**6, ["fcl"]), entry(10**5, ["fcl", "cgal"]), entry(10**4, ["fcl", "cgal"])
     assert fullest([few, small, most]) == [most]
+    cut, rather_full = entry(10**6, ["fcl", "cgal"], variants=1), entry(10**6, ["fcl", "cgal"], variants=2)
+    assert fullest([most, cut]) == [most] and fullest([most, rather_full]) == [rather_full]
     # A size of one class alone takes no row from another class, nor one scene's from another's.
     single, elsewhere = entry(10**6, ["fcl"], "single rays"), entry(10**6, ["fcl"], scene="clusters")
     assert fullest([most, single, elsewhere]) == [most, single, elsewhere]

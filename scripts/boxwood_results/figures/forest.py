@@ -45,6 +45,11 @@ class Block:
     def contender_class(self):
         return self.finding.contender_class
 
+    @property
+    def kind(self):
+        """What it shares with the same race at other sizes."""
+        return self.job.task, self.job.scene, self.job.seed, self.job.where, self.contender_class
+
     def fastest(self, column):
         """{library: its comparison}, each by its fastest variant, in the order of the registry."""
         return fastest((self.alone if column else self.together).values())
@@ -54,6 +59,11 @@ class Block:
         """{library: one of its cells} of both columns."""
         rows = sorted([*self.together.values(), *self.alone.values()], key=lambda row: row.a.place)
         return {row.a.library: row.a for row in rows}
+
+    @property
+    def variants(self):
+        """Ids of the peers' cells."""
+        return self.together.keys() | self.alone.keys()
 
     def ours(self, column):
         finding = self.finding
