@@ -1,5 +1,6 @@
 #include "bench/peers/answering.h"
 #include "bench/peers/point_peers.h"
+#include "bench/peers/query_order.h"
 #include "scenes/moving/frames.h"
 
 #include <boost/geometry.hpp>
@@ -138,8 +139,8 @@ template <class Tree, Made made> class Pairs final : public Contender {
 
 class Points final : public Contender {
   public:
-    Points(const Job& job, PointQuery query)
-        : scene_(*job.scene), query_(query), k_(neighbours_of(scene_)) {
+    Points(const Job& job, PointQuery query, Asked asked)
+        : scene_(*job.scene), query_(query), k_(neighbours_of(scene_)), order_(job, query, asked) {
         for (const Aabb<float>& box : query_boxes(scene_, query))
             queries_.push_back(box_of(box));
     }
@@ -154,21 +155,25 @@ class Points final : public Contender {
     }
 
     void query(Answers& answers) override {
+        order_.find();
         if (query_ == PointQuery::nearest)
             return find_nearest(list_of<Neighbour>(answers));
         std::vector<Pair>& pairs = list_of<Pair>(answers);
         pairs.clear();
-        for (std::uint32_t i = 0; i < queries_.size(); ++i)
+        for (std::size_t place = 0; place < order_.size(); ++place) {
+            const std::uint32_t i = order_[place];
             each(*tree_, bgi::intersects(queries_[i]), [&](std::uint32_t item) {
                 if (scene_.spheres.empty() || meets(scene_.spheres[i], scene_.boxes[item]))
                     pairs.push_back({i, item});
             });
+        }
     }
 
   private:
     void find_nearest(std::vector<Neighbour>& neighbours) const {
         neighbours.resize(k_ * queries_.size());
-        for (std::size_t i = 0; i < queries_.size(); ++i) {
+        for (std::size_t place = 0; place < order_.size(); ++place) {
+            const std::uint32_t i = order_[place];
             const Vec3<float> p = scene_.points[i];
             NearestOfPeer nearest(std::span<Neighbour>(neighbours).subspan(i * k_, k_));
             each(*tree_, bgi::nearest(point_of(p), static_cast<unsigned>(k_)),
@@ -181,6 +186,7 @@ class Points final : public Contender {
     const Scene& scene_;
     PointQuery query_;
     std::size_t k_;
+    QueryOrder order_;
     std::vector<Box> queries_;
     std::unique_ptr<Packed> tree_;
 };
@@ -199,6 +205,18 @@ ContenderEntry entry(std::string name, std::string summary, std::string notes,
     e.runs_on = RunsOn::one_thread;
     e.answers = std::move(answers);
     return e;
+}
+
+ContenderEntry queries(Asked asked) {
+    return entry(fmt::format("rtree.queries{}", name_of(asked)),
+                 "packed, queried with one point or region after another",
+                 fmt::format("build = the packing constructor; {}; points are flat boxes, balls go "
+                             "by their boxes and are tested in doubles; nearest by its own search, "
+                             "distances found again in doubles",
+                             words_for(asked)),
+                 {answering<Points>("points", PointQuery::containing, asked),
+                  answering<Points>("regions", PointQuery::overlapping, asked),
+                  answering<Points>("nearest", PointQuery::nearest, asked)});
 }
 
 } // namespace
@@ -221,13 +239,7 @@ Peer boost_peer() {
         entry("rtree.rstar", "of the R* kind, values inserted one by one",
               "build = insert each; a frame: each moved value removed and inserted; " + pairs,
               answering_all_pairs<Pairs<RStar, Made::inserted>>()),
-        entry("rtree.queries", "packed, queried with one point or region after another",
-              "build = the packing constructor; points are flat boxes, balls go by their boxes and "
-              "are "
-              "tested in doubles; nearest by its own search, distances found again in doubles",
-              {answering<Points>("points", PointQuery::containing),
-               answering<Points>("regions", PointQuery::overlapping),
-               answering<Points>("nearest", PointQuery::nearest)})};
+        queries(Asked::as_given), queries(Asked::along_a_curve)};
     return peer;
 }
 

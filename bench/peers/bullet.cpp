@@ -51,6 +51,8 @@ class DbvtContender final : public Contender {
     }
 
     void build() override {
+        first_.reset();
+        rest_.reset();
         if (std::exchange(moved_, false))
             take_boxes();
         first_ = make_tree(0, split_);

@@ -93,6 +93,7 @@ class Broadphase final : public Contender {
             if (proxy)
                 broadphase_->destroyProxy(std::exchange(proxy, nullptr), nullptr);
         broadphase_.reset();
+        cache_.reset();
     }
 
     const Scene& scene_;

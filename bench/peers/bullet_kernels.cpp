@@ -16,24 +16,26 @@ btVector3 vector(Vec3<double> v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// GIMPACT's triangles; it wants their planes made first, which a mesh would do per query.
-struct GimpactPair {
-    Triangle<double> a, b;
-    explicit GimpactPair(const TrianglePairCase& c) : a(c.a), b(c.b) {}
-};
-
+/// In floats, without the plane.
 btPrimitiveTriangle primitive(const Triangle<double>& t) {
     btPrimitiveTriangle triangle;
     triangle.m_vertices[0] = vector(t.a);
     triangle.m_vertices[1] = vector(t.b);
     triangle.m_vertices[2] = vector(t.c);
     triangle.m_margin = 0;
-    triangle.buildTriPlane();
     return triangle;
 }
 
-Decision gimpact(const GimpactPair& p) {
-    btPrimitiveTriangle a = primitive(p.a), b = primitive(p.b);
+struct GimpactPair {
+    btPrimitiveTriangle a, b;
+    explicit GimpactPair(const TrianglePairCase& c) : a(primitive(c.a)), b(primitive(c.b)) {}
+};
+
+/// The planes are wanted first, which a mesh would make per query.
+Decision gimpact(GimpactPair& p) {
+    btPrimitiveTriangle &a = p.a, &b = p.b;
+    a.buildTriPlane();
+    b.buildTriPlane();
     if (!a.overlap_test_conservative(b))
         return yes_or_no(false);
     GIM_TRIANGLE_CONTACT contact;

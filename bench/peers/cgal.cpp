@@ -7,6 +7,7 @@
 
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/version.h>
+#include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/task_arena.h>
 
@@ -35,12 +36,12 @@ struct BoxTraits {
 /// Below so many boxes CGAL scans instead of dividing. Of 10 (its default) to 5000, at 5*10^4 and
 /// 2*10^5 boxes, 100 was best for long thin boxes and 2000 or more for cubes; 500 is near the best
 /// of both.
-constexpr std::ptrdiff_t cutoff = 500;
+constexpr std::ptrdiff_t usual_cutoff = 500;
 
 class BoxIntersection final : public Contender {
   public:
-    BoxIntersection(const Job& job, Sides sides)
-        : scene_(*job.scene), between_halves_(sides == Sides::two_halves),
+    BoxIntersection(const Job& job, Sides sides, std::ptrdiff_t cutoff)
+        : scene_(*job.scene), between_halves_(sides == Sides::two_halves), cutoff_(cutoff),
           parallel_(job.executor == "tbb"), arena_(static_cast<int>(job.threads)) {}
 
     void build() override { take(scene_.boxes); }
@@ -83,29 +84,35 @@ class BoxIntersection final : public Contender {
             sorted_.begin() + static_cast<std::ptrdiff_t>(tree_pairs_split(sorted_.size()));
         if (between_halves_)
             CGAL::box_intersection_d<Tag>(sorted_.begin(), middle, middle, sorted_.end(), append,
-                                          BoxTraits(), cutoff, CLOSED);
+                                          BoxTraits(), cutoff_, CLOSED);
         else
             CGAL::box_self_intersection_d<Tag>(sorted_.begin(), sorted_.end(), append, BoxTraits(),
-                                               cutoff, CLOSED);
+                                               cutoff_, CLOSED);
     }
 
     const Scene& scene_;
-    bool between_halves_, parallel_;
+    bool between_halves_;
+    std::ptrdiff_t cutoff_;
+    bool parallel_;
     tbb::task_arena arena_;
     std::vector<Box> boxes_, sorted_;
     tbb::enumerable_thread_specific<std::vector<Pair>> parts_;
 };
 
-ContenderEntry entry(std::vector<Answering> answers, std::string name, std::string summary) {
+ContenderEntry entry(std::string name, std::string summary, std::ptrdiff_t cutoff,
+                     std::vector<Answering> answers) {
     ContenderEntry e;
     e.name = std::move(name);
+    if (cutoff != usual_cutoff)
+        e.name += fmt::format(".cutoff{}", cutoff);
     e.library = "cgal";
     e.summary = std::move(summary);
-    e.notes =
+    e.notes = fmt::format(
         "build and query are one: build only fills the box array, and a query copies and sorts "
         "it; a frame: the boxes of the bodies that are present copied again; closed boxes, cutoff "
-        "500; with TBB CGAL cuts its input into 4 x 4 parts, whatever "
-        "the number of threads, and pairs go to one list per thread that are joined at the end";
+        "{}; with TBB CGAL cuts its input into 4 x 4 parts, whatever the number of threads, and "
+        "pairs go to one list per thread that are joined at the end",
+        cutoff);
     e.precision = "f32";
     e.keeps_structure = false;
     e.runs_on = RunsOn::tbb;
@@ -122,14 +129,16 @@ Peer cgal_peer() {
     peer.summary = "CGAL: streamed segment tree, without a structure that is kept";
     peer.version = CGAL_VERSION_STR;
     peer.build = "headers compiled here with single-precision boxes and TBB";
-    peer.contenders.push_back(
-        entry({answering<BoxIntersection>("pairs", Sides::all),
-               answering<BoxIntersection>("moving_pairs", Sides::all)},
-              "cgal.box_self_intersection_d",
-              "CGAL's box_self_intersection_d (Zomorodian and Edelsbrunner)"));
-    peer.contenders.push_back(entry({answering<BoxIntersection>("tree_pairs", Sides::two_halves)},
-                                    "cgal.box_intersection_d",
-                                    "CGAL's box_intersection_d between two sets of boxes"));
+    for (const std::ptrdiff_t cutoff : {usual_cutoff, std::ptrdiff_t{100}, std::ptrdiff_t{2000}}) {
+        peer.contenders.push_back(
+            entry("cgal.box_self_intersection_d",
+                  "CGAL's box_self_intersection_d (Zomorodian and Edelsbrunner)", cutoff,
+                  {answering<BoxIntersection>("pairs", Sides::all, cutoff),
+                   answering<BoxIntersection>("moving_pairs", Sides::all, cutoff)}));
+        peer.contenders.push_back(
+            entry("cgal.box_intersection_d", "CGAL's box_intersection_d between two sets of boxes",
+                  cutoff, {answering<BoxIntersection>("tree_pairs", Sides::two_halves, cutoff)}));
+    }
     for (ContenderEntry& e : cgal_points())
         peer.contenders.push_back(std::move(e));
     for (ContenderEntry& e : cgal_kernels())

@@ -36,6 +36,8 @@ class Collide final : public Contender {
     void build() override {
         boxes_ = scene_.boxes;
         arena_.execute([&] {
+            first_.reset();
+            rest_.reset();
             first_ = make_scene_of(0, split_);
             rest_ = make_scene_of(split_, boxes_.size());
         });

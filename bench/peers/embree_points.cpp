@@ -1,6 +1,7 @@
 #include "bench/peers/answering.h"
 #include "bench/peers/embree_handles.h"
 #include "bench/peers/point_peers.h"
+#include "bench/peers/query_order.h"
 #include "kernels/features/point_triangle.h"
 
 #include <tbb/blocked_range.h>
@@ -19,15 +20,16 @@ void bounds_of_item(const RTCBoundsFunctionArguments* args) {
 /// rtcPointQuery around points: all within a radius, or the nearest with a radius that shrinks.
 class EmbreePoints final : public Contender {
   public:
-    EmbreePoints(const Job& job, PointQuery query, RTCBuildQuality quality)
+    EmbreePoints(const Job& job, PointQuery query, RTCBuildQuality quality, Asked asked)
         : scene_(*job.scene), query_(query), quality_(quality), k_(neighbours_of(scene_)),
-          threads_(job.threads), vertices_(scene_.mesh.vertices), device_(make_device(job)),
-          arena_(static_cast<int>(job.threads)) {
+          order_(job, query, asked), threads_(job.threads), vertices_(scene_.mesh.vertices),
+          device_(make_device(job)), arena_(static_cast<int>(job.threads)) {
         vertices_.emplace_back(); // Embree reads 16 bytes at the last vertex
     }
 
     void build() override {
         arena_.execute([&] {
+            embree_scene_.reset();
             embree_scene_ = commit(device_.get(),
                                    query_ == PointQuery::surface_point
                                        ? triangle_geometry(device_.get(), vertices_, scene_.mesh)
@@ -46,6 +48,7 @@ class EmbreePoints final : public Contender {
             (out.surface = &list_of<SurfacePoint>(answers))->resize(n);
         else
             (out.pairs = &list_of<Pair>(answers))->clear();
+        order_.find();
         if (threads_ == 1)
             return answer_all(0, n, out);
         for (std::vector<Pair>& part : parts_)
@@ -90,11 +93,11 @@ class EmbreePoints final : public Contender {
     void answer_all(std::size_t begin, std::size_t end, const Out& out) const {
         const FlushDenormals flush;
         for (std::size_t i = begin; i < end; ++i)
-            answer(i, out);
+            answer(order_[i], out);
     }
 
-    void answer(std::size_t i, const Out& out) const {
-        Current current{this, static_cast<std::uint32_t>(i), out.pairs, nullptr, nullptr};
+    void answer(std::uint32_t i, const Out& out) const {
+        Current current{this, i, out.pairs, nullptr, nullptr};
         const Vec3<float> p =
             query_ == PointQuery::overlapping ? scene_.spheres[i].centre : scene_.points[i];
         RTCPointQueryContext context;
@@ -166,6 +169,7 @@ class EmbreePoints final : public Contender {
     PointQuery query_;
     RTCBuildQuality quality_;
     std::size_t k_;
+    QueryOrder order_;
     unsigned threads_;
     std::vector<Vec3<float>> vertices_;
     Device device_;
@@ -174,25 +178,28 @@ class EmbreePoints final : public Contender {
     tbb::enumerable_thread_specific<std::vector<Pair>> parts_;
 };
 
-ContenderEntry point_query(RTCBuildQuality quality) {
+ContenderEntry point_query(RTCBuildQuality quality, Asked asked) {
     ContenderEntry e;
     e.name = "embree.rtc_point_query";
     if (quality != RTC_BUILD_QUALITY_HIGH)
         e.name += fmt::format(".{}", word_of(quality));
+    e.name += name_of(asked);
     e.library = "embree";
     e.summary = "Embree's rtcPointQuery, a callback per item or triangle within the radius";
     e.notes = fmt::format(
-        "build quality {}; points: radius 0; balls: the ball's radius, tested in doubles by the "
+        "build quality {}; {}; points: radius 0; balls: the ball's radius, tested in doubles by "
+        "the "
         "callback; nearest and closest_points: a radius that the callback shrinks; distances to "
         "triangles by our kernel in floats, as Embree brings none; no regions that are boxes; with "
         "several threads pairs go to one list per thread that are joined at the end",
-        word_of(quality));
+        word_of(quality), words_for(asked));
     e.precision = "f32";
     e.runs_on = RunsOn::tbb;
-    e.answers = {answering<EmbreePoints>("points", PointQuery::containing, quality),
-                 answering<EmbreePoints>("regions", PointQuery::overlapping, quality),
-                 answering<EmbreePoints>("nearest", PointQuery::nearest, quality),
-                 answering<EmbreePoints>("closest_points", PointQuery::surface_point, quality)};
+    e.answers = {
+        answering<EmbreePoints>("points", PointQuery::containing, quality, asked),
+        answering<EmbreePoints>("regions", PointQuery::overlapping, quality, asked),
+        answering<EmbreePoints>("nearest", PointQuery::nearest, quality, asked),
+        answering<EmbreePoints>("closest_points", PointQuery::surface_point, quality, asked)};
     e.cannot = [](const Job& job) -> std::optional<std::string> {
         if (!job.scene->regions.empty())
             return "takes balls as regions, not boxes";
@@ -205,8 +212,9 @@ ContenderEntry point_query(RTCBuildQuality quality) {
 
 std::vector<ContenderEntry> embree_points() {
     std::vector<ContenderEntry> all;
-    for (const RTCBuildQuality quality : build_qualities)
-        all.push_back(point_query(quality));
+    for (const Asked asked : {Asked::as_given, Asked::along_a_curve})
+        for (const RTCBuildQuality quality : build_qualities)
+            all.push_back(point_query(quality, asked));
     return all;
 }
 

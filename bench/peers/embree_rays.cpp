@@ -53,11 +53,9 @@ class SingleRays final : public EmbreeRays {
             QueryContext context;
             Tracing tracing(embree_scene(), false, context);
             if (settings_.wanted == Wanted::any)
-                for (std::size_t i = begin; i < end; ++i) {
-                    RTCRay ray = rays_[i];
-                    tracing.occluded(ray);
-                    hits[i] = any_hit_by(ray.tfar);
-                }
+                trace_any(tracing, begin, end, [&](std::size_t i, const RTCRay& answered) {
+                    hits[i] = any_hit_by(answered.tfar);
+                });
             else
                 trace(tracing, begin, end, [&](std::size_t i, const RTCRayHit& answered) {
                     hits[i] = hit_in(answered);
@@ -78,6 +76,15 @@ class SingleRays final : public EmbreeRays {
         }
     }
 
+    template <class Answered>
+    void trace_any(Tracing& tracing, std::size_t begin, std::size_t end, const Answered& answered) {
+        for (std::size_t i = begin; i < end; ++i) {
+            RTCRay ray = rays_[i];
+            tracing.occluded(ray);
+            answered(i, ray);
+        }
+    }
+
     void find_all(std::vector<Pair>& pairs) {
         pairs.clear();
         for (std::vector<Pair>& part : parts_)
@@ -88,11 +95,15 @@ class SingleRays final : public EmbreeRays {
             Tracing tracing(embree_scene(), false, collecting.context);
             collecting.ray = static_cast<std::uint32_t>(begin);
             auto own = collecting.out->size();
-            trace(tracing, begin, end, [&](std::size_t, const RTCRayHit&) {
+            const auto answered = [&](std::size_t, const auto&) {
                 if (settings_.quality == RTC_BUILD_QUALITY_HIGH)
                     own = drop_repeated(*collecting.out, own);
                 ++collecting.ray;
-            });
+            };
+            if (settings_.in_no_order)
+                trace_any(tracing, begin, end, answered);
+            else
+                trace(tracing, begin, end, answered);
         });
         for (const std::vector<Pair>& part : parts_)
             pairs.insert(pairs.end(), part.begin(), part.end());
@@ -102,17 +113,20 @@ class SingleRays final : public EmbreeRays {
     tbb::enumerable_thread_specific<std::vector<Pair>> parts_; ///< of rays_all
 };
 
-void append_single_rays(std::vector<ContenderEntry>& all, Wanted wanted, const char* task) {
+void append_single_rays(std::vector<ContenderEntry>& all, Wanted wanted, const char* task,
+                        bool in_no_order = false) {
     RayForm form{"1", "1", "single rays", {ray_class::single, ray_class::batches}};
     if (wanted == Wanted::all)
         form = {"1",
                 "1.filter",
-                "single rays, whose intersection filter takes each hit down and refuses it",
+                "single rays, whose filter takes each hit down and refuses it",
                 {ray_class::batches}};
     for (const RTCBuildQuality quality : build_qualities)
         for (const bool is_robust : {false, true}) {
-            const RaySettings settings{
-                .wanted = wanted, .quality = quality, .is_robust = is_robust};
+            const RaySettings settings{.wanted = wanted,
+                                       .quality = quality,
+                                       .is_robust = is_robust,
+                                       .in_no_order = in_no_order};
             ContenderEntry e = ray_entry(form, settings);
             if (wanted == Wanted::all && quality == RTC_BUILD_QUALITY_HIGH)
                 e.notes += "; cut triangles are met several times: each ray's are sorted, and "
@@ -133,9 +147,12 @@ EmbreeRays::EmbreeRays(const Job& job, const RaySettings& settings)
 
 void EmbreeRays::build() {
     arena_.execute([&] {
+        embree_scene_.reset();
         Geometry geometry = triangle_geometry(device_.get(), vertices_, scene_.mesh);
         if (settings_.wanted == Wanted::all)
-            rtcSetGeometryIntersectFilterFunction(geometry.get(), collect);
+            (settings_.in_no_order
+                 ? rtcSetGeometryOccludedFilterFunction
+                 : rtcSetGeometryIntersectFilterFunction)(geometry.get(), collect);
         embree_scene_ = commit(device_.get(), std::move(geometry), settings_.quality,
                                settings_.is_robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
     });
@@ -148,7 +165,7 @@ std::vector<std::uint32_t> EmbreeRays::lanes(std::size_t width) const {
 }
 
 ContenderEntry ray_entry(const RayForm& form, const RaySettings& settings) {
-    const bool any = settings.wanted == Wanted::any;
+    const bool any = settings.wanted == Wanted::any || settings.in_no_order;
     ContenderEntry e;
     e.name = fmt::format("embree.rtc_{}{}", any ? "occluded" : "intersect", form.word);
     if (settings.is_robust)
@@ -189,6 +206,7 @@ std::vector<ContenderEntry> embree_rays() {
     append_single_rays(all, Wanted::closest, "rays_closest");
     append_single_rays(all, Wanted::any, "rays_any");
     append_single_rays(all, Wanted::all, "rays_all");
+    append_single_rays(all, Wanted::all, "rays_all", true);
     append_embree_packets(all);
     append_embree_streams(all);
     return all;

@@ -27,6 +27,7 @@ struct RaySettings {
     bool in_tiles = false;    ///< lanes are filled tile by tile of the picture
     bool is_coherent = false; ///< by the flag, which Embree reads of packets and streams alone
     bool is_robust = false;   ///< by the flag of the scene: watertight
+    bool in_no_order = false; ///< every hit by rtcOccluded, which need not go by distance
 };
 
 /// The mesh in Embree, and the threads that trace. Rays are in Embree's form from the constructor

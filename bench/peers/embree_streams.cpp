@@ -161,9 +161,9 @@ class StreamNp final : public Stream {
 
 void append_embree_streams(std::vector<ContenderEntry>& all) {
     append_batches<Stream1M>(
-        all, {"1M", "1m", "streams of 256 rays, a struct each", {ray_class::packets}});
+        all, {"1M", "1m", "streams of 256 rays, a struct each", {ray_class::batches}});
     append_batches<StreamNp>(
-        all, {"Np", "_np", "streams of 256 rays, an array for each number", {ray_class::packets}});
+        all, {"Np", "_np", "streams of 256 rays, an array for each number", {ray_class::batches}});
 }
 
 } // namespace boxwood::bench

@@ -1,4 +1,5 @@
 #include "bench/peers/answering.h"
+#include "bench/peers/ray_peers.h"
 #include "bench/tasks/detail/ray_classes.h"
 
 #include <bvh/v2/bvh.h>
@@ -92,6 +93,8 @@ template <bool any, Boxes boxes> class SingleRays final : public Contender {
 std::optional<std::string> cannot(const Job& job) {
     if (std::holds_alternative<RayCases>(job.scene->cases))
         return "answers about the rays of a scene, not about cases";
+    if (auto why = missing_avx2())
+        return why;
     if (job.scene->mesh.triangles.empty())
         return "wants a triangle at least";
     return std::nullopt;
@@ -107,8 +110,7 @@ void append(std::vector<ContenderEntry>& all, const std::string& name, Builder::
     e.summary = fmt::format("madmann91/bvh, {}{}", build, is_robust ? ", padded boxes" : "");
     e.notes = fmt::format("build = DefaultBuilder, {}, one thread, and PrecomputedTri in the order "
                           "of the leaves; query = Bvh::intersect, {} boxes, one ray after another, "
-                          "rays in its structs, made before; compiled for SSE2, as its users do "
-                          "without -march=native",
+                          "rays in its structs, made before; compiled for AVX2 and FMA",
                           build, is_robust ? "robust" : "fast");
     e.precision = "f32";
     e.runs_on = RunsOn::one_thread;
@@ -127,7 +129,7 @@ Peer madmann_bvh_peer() {
     peer.title = "madmann91/bvh";
     peer.summary = "madmann91/bvh: binary trees for rays";
     peer.version = "2";
-    peer.build = "the user's headers, compiled here";
+    peer.build = "the user's headers, compiled here for AVX2 and FMA";
     using Quality = Builder::Quality;
     append<Boxes::fast>(peer.contenders, "low", Quality::Low, "binned SAH");
     append<Boxes::fast>(peer.contenders, "medium", Quality::Medium, "sweep SAH");

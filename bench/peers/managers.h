@@ -58,6 +58,8 @@ template <class Kind> class ManagerContender final : public Contender {
     }
 
     void build() override {
+        first_manager_.reset();
+        rest_manager_.reset();
         if (std::exchange(moved_, false))
             for (std::size_t i = 0; i < objects_.size(); ++i)
                 give(i, scene_.boxes[i]);

@@ -1,5 +1,6 @@
 #include "bench/peers/answering.h"
 #include "bench/peers/point_peers.h"
+#include "bench/peers/query_order.h"
 
 #include <fmt/format.h>
 #include <nanoflann.hpp>
@@ -26,8 +27,9 @@ constexpr std::size_t leaf_size = 20; // the library's default of 10 is 1.05 tim
 
 class NearestPoints final : public Contender {
   public:
-    explicit NearestPoints(const Job& job)
-        : scene_(*job.scene), k_(neighbours_of(scene_)), found_(k_), distances_(k_) {
+    NearestPoints(const Job& job, Asked asked)
+        : scene_(*job.scene), k_(neighbours_of(scene_)), order_(job, PointQuery::nearest, asked),
+          found_(k_), distances_(k_) {
         for (const Aabb<float>& box : scene_.boxes)
             points_.points.push_back(box.min);
     }
@@ -40,19 +42,28 @@ class NearestPoints final : public Contender {
     void query(Answers& answers) override {
         std::vector<Neighbour>& neighbours = list_of<Neighbour>(answers);
         neighbours.resize(k_ * scene_.points.size());
-        for (std::size_t i = 0; i < scene_.points.size(); ++i) {
+        order_.find();
+        for (std::size_t place = 0; place < order_.size(); ++place) {
+            const std::uint32_t i = order_[place];
             const Vec3<float> p = scene_.points[i];
             const float query[3] = {p.x, p.y, p.z};
             const std::size_t n = tree_->knnSearch(query, k_, found_.data(), distances_.data());
             NearestOfPeer nearest(std::span<Neighbour>(neighbours).subspan(i * k_, k_));
             for (std::size_t j = 0; j < n; ++j)
-                nearest.offer({found_[j], squared_distance(p, scene_.boxes[found_[j]])});
+                nearest.offer({found_[j], distance_to(found_[j], p)});
         }
     }
 
   private:
+    /// In doubles, which the library's floats are not.
+    double distance_to(std::uint32_t item, Vec3<float> p) const {
+        const Vec3<double> offset = Vec3<double>(points_.points[item]) - Vec3<double>(p);
+        return dot(offset, offset);
+    }
+
     const Scene& scene_;
     std::size_t k_;
+    QueryOrder order_;
     Points points_;
     std::vector<std::uint32_t> found_;
     std::vector<float> distances_;
@@ -67,21 +78,25 @@ std::optional<std::string> needs_points(const Job& job) {
                                                    "size: scene = \"point_cloud\" has none");
 }
 
-} // namespace
-
-Peer nanoflann_peer() {
+ContenderEntry kd_tree(Asked asked) {
     ContenderEntry e;
-    e.name = "nanoflann.kd_tree";
+    e.name = fmt::format("nanoflann.kd_tree{}", name_of(asked));
     e.library = "nanoflann";
     e.summary = "nanoflann's KDTreeSingleIndexAdaptor";
     e.notes = fmt::format("build = the constructor, over an array of points; leaves of at most "
-                          "{} points; query = knnSearch for one point after another, whose "
-                          "distances are found again in doubles; one thread",
-                          leaf_size);
+                          "{} points; query = knnSearch, {}, whose distances are found again in "
+                          "doubles; one thread",
+                          leaf_size, words_for(asked));
     e.precision = "f32";
     e.runs_on = RunsOn::one_thread;
     e.cannot = needs_points;
-    e.answers = {answering<NearestPoints>("nearest")};
+    e.answers = {answering<NearestPoints>("nearest", asked)};
+    return e;
+}
+
+} // namespace
+
+Peer nanoflann_peer() {
     Peer peer;
     peer.name = "nanoflann";
     peer.title = "nanoflann";
@@ -89,7 +104,7 @@ Peer nanoflann_peer() {
     peer.version = fmt::format("{:x}.{:x}.{:x}", NANOFLANN_VERSION >> 8,
                                NANOFLANN_VERSION >> 4 & 0xf, NANOFLANN_VERSION & 0xf);
     peer.build = "headers compiled here in single precision";
-    peer.contenders = {std::move(e)};
+    peer.contenders = {kd_tree(Asked::as_given), kd_tree(Asked::along_a_curve)};
     return peer;
 }
 

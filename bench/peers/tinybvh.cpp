@@ -3,6 +3,7 @@
 #include <tiny_bvh.h>
 
 #include "bench/peers/answering.h"
+#include "bench/peers/ray_peers.h"
 #include "bench/tasks/detail/ray_classes.h"
 
 #include <fmt/format.h>
@@ -82,8 +83,8 @@ template <class Layout> class SingleRays final : public Contender {
 std::optional<std::string> cannot(const Job& job) {
     if (std::holds_alternative<RayCases>(job.scene->cases))
         return "answers about the rays of a scene, not about cases";
-    if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
-        return "is compiled for AVX2 and FMA, which this processor has not";
+    if (auto why = missing_avx2())
+        return why;
     if (job.scene->mesh.triangles.size() < 2)
         return "wants two triangles at least";
     if (std::ranges::any_of(job.scene->rays, [](const Ray<float>& ray) { return ray.t_min != 0; }))

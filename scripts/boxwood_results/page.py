@@ -31,7 +31,7 @@ figcaption, .note { color: var(--soft); font-size: .88rem; }
 .panel .halo text { paint-order: stroke; stroke: var(--paper); stroke-width: 2.4px; stroke-linejoin: round; }
 table { border-collapse: collapse; font-size: .82rem; font-variant-numeric: tabular-nums; overflow-wrap: normal; }
 th, td { text-align: left; padding: .18rem .7rem .18rem 0; border-bottom: 1px solid var(--line); vertical-align: top; }
-td.number { text-align: right; } td:first-child { min-width: 9rem; } h3::first-letter { text-transform: uppercase; }
+td.n { text-align: right; } td:first-child { min-width: 9rem; } h3::first-letter { text-transform: uppercase; }
 .scroll { overflow-x: auto; margin-bottom: 1.1rem; } pre { overflow-x: auto; }
 details .scroll { max-height: 30rem; overflow-y: auto; }
 summary { cursor: pointer; font-size: .88rem; color: var(--link); }
@@ -64,7 +64,7 @@ def table(columns, rows):
         lines.append("<tr>")
         for value in row:
             text, number = shown(value)
-            kind = " class=number" if number else " class=wrong" if text == "wrong" else ""
+            kind = " class=n" if number else " class=wrong" if text == "wrong" else ""
             lines.append(f"<td{kind}>{escape(text)}</td>")
         lines.append("</tr>")
     lines.append("</tbody></table></div>")

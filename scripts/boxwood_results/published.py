@@ -9,6 +9,7 @@ from pathlib import Path
 
 from . import picture, registry
 from .figures import forest
+from .findings import PEERS
 from .moving import played_scenes
 from .picture import cell_text
 from boxwood.results.reader import BadFile
@@ -44,23 +45,42 @@ def time_of(row):
     return time_text(row.b.median(row.phase))
 
 
+COLD = "cold_build+query"
+
+
+def cold(run):
+    """{(job, class): {library: its comparison}} of first builds, by the fastest of ours and of each library."""
+    found = {}
+    for row in sorted(run.family(PEERS, COLD), key=lambda row: row.b.median(COLD)):
+        if row.verdict != "wrong":
+            ours, rows = found.setdefault((row.b.job, row.contender_class), (row.b, []))
+            rows += [row] if row.b is ours else []
+    return {key: forest.fastest(rows) for key, (_, rows) in found.items()}
+
+
 def against_peers(*tasks):
     """Of each question the ratio to the fastest variant of each library, with its interval."""
 
     def table(run):
         found = [block for block in forest.blocks(run) if block.job.task in tasks and block.job.where == ONE]
+        cold_builds, races = cold(run), forest.races(run)
         libraries = dict(sorted(((library, cell) for block in found for library, cell in block.libraries.items()),
                                 key=lambda item: item[1].place))
         rows = [["question, one thread", "measured", "ours", *(cell.library_title for cell in libraries.values())]]
+
+        def add(question, words, known):
+            if known:
+                first = next(iter(known.values()))
+                rows.append([question, words, f"{first.b.label} {time_of(first)}",
+                             *(known[library].text if library in known else "" for library in libraries)])
+
         for block in found:
-            for column in (0, 1):
-                known = block.fastest(column)
-                if known:
-                    first = next(iter(known.values()))
-                    words = run.tasks[block.job.task].total_title if not column else "query alone"
-                    rows.append([
-                        block.finding.question, words, f"{first.b.label} {time_of(first)}",
-                        *(known[library].text if library in known else "" for library in libraries)])
+            add(block.finding.question, run.tasks[block.job.task].total_title, block.fastest(0))
+            add(block.finding.question, "query alone", block.fastest(1))
+            for race in races:
+                if race.kind == block.kind and race.job.n >= block.job.n:
+                    add(race.finding.question, "first build and query, fresh process",
+                        cold_builds.get((race.job, race.contender_class)))
         return rows
 
     return table
@@ -91,7 +111,7 @@ def kernels_of(task):
 ALL = (
     Published("pairs", "pairs", "Overlapping pairs: a peer's time over ours", against_peers("pairs"),
               ("forest", "forest_pairs_1", "pairs.png")),
-    Published("rays", "rays", "Rays: a peer's time over ours", against_peers("rays_closest", "rays_any")),
+    Published("rays", "rays", "Rays: a peer's time over ours", against_peers("rays_closest", "rays_any", "rays_all")),
     Published("queries", "queries", "Points, regions and nearest items: a peer's time over ours",
               against_peers("points", "regions", "nearest", "closest_points")),
     Published("moving", "dynamic", "Moving boxes, update and query of a frame: a peer's time over ours",

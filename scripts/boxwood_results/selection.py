@@ -15,6 +15,23 @@ def largest_jobs(jobs):
     return list(largest.values())
 
 
+def fullest(races):
+    """Of each kind the race with the most items among those with the most libraries and at least half of the variants: at a
+    size that only some ran, the others would go unseen."""
+    kinds = {}
+    for race in races:
+        kinds.setdefault(race.kind, []).append(race)
+    return [fullest_of(alike) for alike in kinds.values()]
+
+
+def fullest_of(races):
+    libraries = max(len(race.libraries) for race in races)
+    races = [race for race in races if len(race.libraries) == libraries]
+    variants = max(len(race.variants) for race in races)
+    by_size = {race.job.n: race for race in races if 2 * len(race.variants) >= variants}
+    return by_size[max(by_size)]
+
+
 def choose(cells, keep=(), limit=MAX_LINES):
     """At most `limit` of the cells of one job: those in `keep`, then the best of each family, then the
     best of the rest; wrong ones last. Returns them and how many were left out."""

@@ -3,6 +3,7 @@
 import re
 import shutil
 import subprocess
+from types import SimpleNamespace
 
 import h5py
 import pytest
@@ -10,6 +11,8 @@ import synthetic
 from synthetic import SCRIPTS
 
 from boxwood_results import published
+from boxwood_results.run import Job
+from boxwood_results.selection import fullest
 
 ROOT = SCRIPTS.parent
 README = (ROOT / "README.md").read_text()
@@ -125,3 +128,31 @@ def test_times_in_readme_agree_with_the_dry_run(config, words, said, tmp_path):
     guess = synthetic.answer("sweep", "--config", ROOT / "bench" / "configs" / f"{config}.toml", "--out", tmp_path / "x.h5",
                              "--dry-run").stderr
     assert words in README and 0.5 * said < minutes(guess) < 1.6 * said
+
+
+def entry(n, libraries, contender_class="", scene="uniform", variants=3):
+    return SimpleNamespace(job=Job(scene, n, 1, "pairs", published.ONE), kind=(scene, contender_class), libraries=dict.fromkeys(libraries),
+                           variants=range(variants))
+
+
+def test_a_race_is_shown_at_the_largest_size_that_most_libraries_ran():
+    few, most, small = entry(10**6, ["fcl"]), entry(10**5, ["fcl", "cgal"]), entry(10**4, ["fcl", "cgal"])
+    assert fullest([few, small, most]) == [most]
+    cut, rather_full = entry(10**6, ["fcl", "cgal"], variants=1), entry(10**6, ["fcl", "cgal"], variants=2)
+    assert fullest([most, cut]) == [most] and fullest([most, rather_full]) == [rather_full]
+    # A size of one class alone takes no row from another class, nor one scene's from another's.
+    single, elsewhere = entry(10**6, ["fcl"], "single rays"), entry(10**6, ["fcl"], scene="clusters")
+    assert fullest([most, single, elsewhere]) == [most, single, elsewhere]
+
+
+def test_first_builds_have_a_row_of_their_own(tmp_path):
+    made = synthetic.full()
+    cells = {name: number for name, number in made.ids["cells"].items() if "/pairs/" in name and name.endswith("serial-1")}
+    job = max((name.split("/pairs/")[0] for name in cells if "embree" in name), key=lambda job: int(re.search(r"/n(\d+)", job)[1]))
+    for name, ns in (("median.wide8.self_pairs", 4e6), ("binned_sah.wide8.self_pairs", 5e6), ("embree.rtc_collide.low", 8e6)):
+        made.samples(next(number for cell, number in cells.items() if cell.startswith(f"{job}/pairs/{name}/")), published.COLD, ns)
+    rows = published.BY_NAME["pairs"].table(published.read(made.write(tmp_path / "cold.h5")))
+    first = [row for row in rows if row[1] == "first build and query, fresh process"]
+    assert len(first) == 1 and first[0][2].startswith("median.wide8 ")
+    named = {title: text for title, text in zip(rows[0], first[0]) if text}
+    assert re.match(r"(1\.9|2|2\.0)\d*x \(", named["Embree"]) and "Fcl" not in named

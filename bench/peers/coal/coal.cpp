@@ -113,12 +113,15 @@ Peer coal_peer() {
     peer.build = "the package index's library: double precision, SSE2";
     peer.contenders = managers();
     const std::string shapes = "on two TriangleP, enable_contact ";
-    peer.contenders.push_back(kernel("collide", "triangle_triangle", "collide " + shapes + "off",
-                                     "GJK; Coal's default is on, FCL's off; one pair per call",
+    peer.contenders.push_back(kernel("collide", "triangle_triangle",
+                                     "ComputeCollision " + shapes + "off",
+                                     "GJK; Coal's default is on, FCL's off; a ComputeCollision "
+                                     "kept for each pair, one call each",
                                      CoalKernel::collide));
     peer.contenders.push_back(kernel(
-        "collide.contact", "triangle_triangle", "collide " + shapes + "on, its default",
-        "GJK and EPA, which finds a contact; one pair per call", CoalKernel::collide_with_contact));
+        "collide.contact", "triangle_triangle", "ComputeCollision " + shapes + "on, its default",
+        "GJK and EPA, which finds a contact; a ComputeCollision kept for each pair, one call each",
+        CoalKernel::collide_with_contact));
     peer.contenders.push_back(kernel("tri_distance", "triangle_distance",
                                      "TriangleDistance::sqrTriDistance, after PQP",
                                      "one pair per call; the root is taken", CoalKernel::distance));

@@ -97,8 +97,10 @@ struct Kind {
     }
 };
 
+/// What a user who asks often about two triangles keeps.
 template <bool contact> struct Shapes {
     coal::TriangleP a, b;
+    coal::ComputeCollision compute{&a, &b};
     coal::CollisionRequest request;
     coal::CollisionResult result;
 
@@ -107,12 +109,19 @@ template <bool contact> struct Shapes {
           b(vector(c.b.a), vector(c.b.b), vector(c.b.c)) {
         request.enable_contact = contact;
     }
+    Shapes(const Shapes&) = delete; // `compute` points to a and b
+    Shapes& operator=(const Shapes&) = delete;
+};
+template <bool contact> struct KeptShapes {
+    std::unique_ptr<Shapes<contact>> shapes;
+    explicit KeptShapes(const TrianglePairCase& c) : shapes(std::make_unique<Shapes<contact>>(c)) {}
 };
 
-template <bool contact> Decision collide(Shapes<contact>& of) {
+template <bool contact> Decision collide(KeptShapes<contact>& kept) {
+    Shapes<contact>& of = *kept.shapes;
     of.result.clear();
     const coal::Transform3s in_place;
-    return yes_or_no(coal::collide(&of.a, in_place, &of.b, in_place, of.request, of.result) > 0);
+    return yes_or_no(of.compute(in_place, in_place, of.request, of.result) > 0);
 }
 
 struct Corners {
@@ -136,9 +145,9 @@ std::unique_ptr<Contender> make_manager(const Job& job, Sides sides, CoalManager
 std::unique_ptr<Contender> make_kernel(const Job& job, CoalKernel kernel) {
     switch (kernel) {
     case CoalKernel::collide:
-        return over_cases<TrianglePairCase, Shapes<false>, collide<false>>(job);
+        return over_cases<TrianglePairCase, KeptShapes<false>, collide<false>>(job);
     case CoalKernel::collide_with_contact:
-        return over_cases<TrianglePairCase, Shapes<true>, collide<true>>(job);
+        return over_cases<TrianglePairCase, KeptShapes<true>, collide<true>>(job);
     case CoalKernel::distance:
         return over_cases<TrianglePairCase, Corners, distance>(job);
     }

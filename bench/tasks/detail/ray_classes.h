@@ -3,12 +3,12 @@
 #include <string>
 #include <vector>
 
-/// The classes of contenders of rays. A peer takes single rays, or packets and streams. Ours
-/// answers a batch in one call: it stands against packets, and against single rays for what a batch
-/// gains over them.
+/// The classes of contenders of rays: one ray in a call, answered before the next; or a batch that
+/// is known as a whole. Batches are for ours in one call, and for peers in whatever they take:
+/// single rays too, as many a user has nothing else, packets and streams.
 namespace boxwood::bench::ray_class {
 
-inline const std::string single = "single rays", batches = "batches", packets = "packets";
+inline const std::string single = "single rays", batches = "batches";
 
 /// Watertight contenders stand by themselves.
 inline std::vector<std::string> watertight(std::vector<std::string> classes) {

@@ -253,15 +253,15 @@ TEST(RaysOneByOne, AnswerAsABatchForEveryWay) {
     });
 }
 
-TEST(RayClasses, SingleRaysBatchesAndPacketsAndWatertightOnesByThemselves) {
+TEST(RayClasses, SingleRaysAndBatchesAndWatertightOnesByThemselves) {
     using Classes = std::vector<std::string>;
     const auto of_ours = [](const char* order, const char* kernel) {
         return find_task("rays_any")
             ->contender({.settings = {}, .kernel = kernel, .ray_order = order})
             .classes;
     };
-    EXPECT_EQ(of_ours("given", "plucker_f32"), (Classes{"packets", "batches"}));
-    EXPECT_EQ(of_ours("sorted", "plucker_f32"), Classes{"packets"});
+    EXPECT_EQ(of_ours("given", "plucker_f32"), Classes{"batches"});
+    EXPECT_EQ(of_ours("sorted", "plucker_f32"), Classes{"batches"});
     EXPECT_EQ(of_ours("single", "watertight"), (Classes{"single rays", "watertight single rays"}));
     std::map<std::string, Classes> classes;
     for (const char* task : {"rays_closest", "rays_all"})
@@ -270,10 +270,11 @@ TEST(RayClasses, SingleRaysBatchesAndPacketsAndWatertightOnesByThemselves) {
     if (!classes.contains("embree.rtc_intersect1"))
         GTEST_SKIP() << "libembree-dev was not found when this was compiled";
     EXPECT_EQ(classes.at("embree.rtc_intersect1"), (Classes{"single rays", "batches"}));
-    EXPECT_EQ(classes.at("embree.rtc_intersect8.robust"), Classes{"watertight packets"});
+    EXPECT_EQ(classes.at("embree.rtc_intersect8.robust"), Classes{"watertight batches"});
     EXPECT_EQ(classes.at("embree.rtc_intersect1.filter"), Classes{"batches"});
+    EXPECT_EQ(classes.at("embree.rtc_occluded1.filter"), Classes{"batches"});
     EXPECT_EQ(classes.at("embree.rtc_intersect16.robust.high.coherent.tiles"),
-              Classes{"watertight packets"});
+              Classes{"watertight batches"});
 }
 
 /// A peer of tiles answers primary rays alone.

@@ -9,7 +9,7 @@ from ..findings import PEERS, RACE, footer
 from ..metrics import METRICS
 from ..picture import Picture, Skip
 from ..run import TOTAL
-from ..selection import largest_jobs, wrong_notes
+from ..selection import fullest, wrong_notes
 
 NAME = "forest"
 TITLE = "Against the peers"
@@ -41,13 +41,18 @@ class Block:
     def job(self):
         return self.cell.job
 
+    @property
+    def contender_class(self):
+        return self.finding.contender_class
+
+    @property
+    def kind(self):
+        """What it shares with the same race at other sizes."""
+        return self.job.task, self.job.scene, self.job.seed, self.job.where, self.contender_class
+
     def fastest(self, column):
         """{library: its comparison}, each by its fastest variant, in the order of the registry."""
-        rows = (self.alone if column else self.together).values()
-        best = {}
-        for row in sorted(rows, key=lambda row: row.gain.mid):
-            best.setdefault(row.a.library, row)
-        return dict(sorted(best.items(), key=lambda item: item[1].a.place))
+        return fastest((self.alone if column else self.together).values())
 
     @property
     def libraries(self):
@@ -55,13 +60,31 @@ class Block:
         rows = sorted([*self.together.values(), *self.alone.values()], key=lambda row: row.a.place)
         return {row.a.library: row.a for row in rows}
 
+    @property
+    def variants(self):
+        """Ids of the peers' cells."""
+        return self.together.keys() | self.alone.keys()
+
     def ours(self, column):
         finding = self.finding
         return (finding.ours_alone or finding.ours) if column else self.cell
 
 
+def fastest(comparisons):
+    """{library: its comparison}, each by its fastest variant, in the order of the registry."""
+    best = {}
+    for row in sorted(comparisons, key=lambda row: row.gain.mid):
+        best.setdefault(row.a.library, row)
+    return dict(sorted(best.items(), key=lambda item: item[1].a.place))
+
+
 def blocks(run):
-    """One for each race against peers, the largest jobs alone; builds alone stand in tree_quality."""
+    """One for each race against peers, at the largest size of the fullest field; builds alone stand in tree_quality."""
+    return sorted(fullest(races(run)), key=lambda b: (b.job.task, b.job.where, b.job.scene))
+
+
+def races(run):
+    """One for each race against peers, of every size."""
     rows = {}
     for row in run.family(PEERS):
         if row.verdict != "wrong":
@@ -74,8 +97,7 @@ def blocks(run):
                  if ours else {} for ours, phase in ((finding.ours, TOTAL), (finding.ours_alone, "query"))]
         if any(sides):
             found.append(Block(finding, *sides))
-    shown = set(largest_jobs(block.job for block in found))
-    return sorted((b for b in found if b.job in shown), key=lambda b: (b.job.task, b.job.where, b.job.scene))
+    return found
 
 
 def draw_marks(ax, comparisons, heights, floor):

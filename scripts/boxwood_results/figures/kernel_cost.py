@@ -3,7 +3,7 @@
 from .. import style
 from ..metrics import METRICS
 from ..picture import Picture, Skip
-from ..selection import largest_jobs
+from ..selection import largest_jobs, left_out_note
 from boxwood.results.words import ratio_text, time_tick
 
 NAME = "kernel_cost"
@@ -14,6 +14,17 @@ HOW_TO_READ = (
     "stands beside it."
 )
 COLUMNS = ("task", "scene", "n", "threads", "tree", "kernel", "status", "query_ns", "times_the_fastest", "missing", "extra")
+
+
+TREES = 2  # drawn of each job, those with the quickest kernels
+
+
+def drawn(jobs):
+    """Of groups of (job, tree, cells) the quickest of each job, in their order."""
+    places = {}
+    for place, (job, _, cells) in sorted(enumerate(jobs), key=lambda item: item[1][2][0].median("query")):
+        places.setdefault(job, []).append(place)
+    return [jobs[place] for place in sorted(place for of_job in places.values() for place in of_job[:TREES])]
 
 
 def groups(run):
@@ -35,19 +46,19 @@ def draw(run):
         raise Skip("no whole query was run with two kernels under the same tree")
     pictures = []
     for task, jobs in by_task.items():
-        most = max(len(cells) for *_, cells in jobs)
-        figure, axes = style.panels(len(jobs), width=6.0, height=1.25 + 0.26 * most)
-        rows = []
-        for ax, (job, tree, cells) in zip(axes, jobs):
+        shown_jobs = drawn(jobs)
+        most = max(len(cells) for *_, cells in shown_jobs)
+        figure, axes = style.panels(len(shown_jobs), width=6.0, height=1.25 + 0.26 * most)
+        rows = [(job.task, job.scene, job.n, job.where.column, tree, cell.kernel, cell.status, cell.median("query"),
+                 cell.times_fastest, int(cell.check["missing"]) if cell.check is not None else None,
+                 int(cell.check["extra"]) if cell.check is not None else None) for job, tree, cells in jobs for cell in cells]
+        for ax, (job, tree, cells) in zip(axes, shown_jobs):
             for y, cell in enumerate(cells):
                 time, wrong = cell.median("query"), cell.status == "wrong"
                 colour = style.OUR_LOOK[0]
                 ax.barh(y, time, height=0.7, color="white" if wrong else colour, edgecolor=colour, linewidth=1.2)
                 lost = f"  {int(cell.check['missing']):,} missing, {int(cell.check['extra']):,} extra" if wrong else ""
                 ax.text(time, y, f" {ratio_text(cell.times_fastest)}x{lost}", va="center", fontsize=7.5)
-                rows.append((job.task, job.scene, job.n, job.where.column, tree, cell.kernel, cell.status, time,
-                             cell.times_fastest, int(cell.check["missing"]) if cell.check is not None else None,
-                             int(cell.check["extra"]) if cell.check is not None else None))
             ax.set_yticks(range(len(cells)), [cell.kernel for cell in cells], fontsize=7.5)
             ax.set_ylim(len(cells) - 0.4, -0.6)
             ax.set_xlim(0, 1.45 * max(cell.median("query") for cell in cells))
@@ -58,5 +69,6 @@ def draw(run):
             ax.set_xlabel(METRICS["query"].axis, fontsize=8)
             box = ax.get_position()
             ax.set_position([box.x0 + 0.28 * box.width, box.y0, 0.72 * box.width, box.height])
-        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {run.tasks[task].title}", f"Time of whole queries of {task} with {len(rows)} kernels under the same trees.", COLUMNS, rows))
+        pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {run.tasks[task].title}", f"Time of whole queries of {task} with {len(rows)} kernels under the same trees.", COLUMNS, rows,
+                                left_out_note(len(jobs) - len(shown_jobs), "trees")))
     return pictures
