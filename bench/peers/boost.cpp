@@ -208,15 +208,18 @@ ContenderEntry entry(std::string name, std::string summary, std::string notes,
 }
 
 ContenderEntry queries(Asked asked) {
-    return entry(fmt::format("rtree.queries{}", name_of(asked)),
-                 "packed, queried with one point or region after another",
-                 fmt::format("build = the packing constructor; {}; points are flat boxes, balls go "
-                             "by their boxes and are tested in doubles; nearest by its own search, "
-                             "distances found again in doubles",
-                             words_for(asked)),
-                 {answering<Points>("points", PointQuery::containing, asked),
-                  answering<Points>("regions", PointQuery::overlapping, asked),
-                  answering<Points>("nearest", PointQuery::nearest, asked)});
+    ContenderEntry e =
+        entry(fmt::format("rtree.queries{}", name_of(asked)),
+              "packed, queried with one point or region after another",
+              fmt::format("build = the packing constructor; {}; points are flat boxes, balls go "
+                          "by their boxes and are tested in doubles; nearest by its own search, "
+                          "distances found again in doubles",
+                          words_for(asked)),
+              {answering<Points>("points", PointQuery::containing, asked),
+               answering<Points>("regions", PointQuery::overlapping, asked),
+               answering<Points>("nearest", PointQuery::nearest, asked)});
+    e.classes = classes_of(asked);
+    return e;
 }
 
 } // namespace

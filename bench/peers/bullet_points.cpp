@@ -1,6 +1,7 @@
 #include "bench/peers/answering.h"
 #include "bench/peers/bullet_volume.h"
 #include "bench/peers/point_peers.h"
+#include "bench/tasks/detail/point_classes.h"
 
 #include <fmt/format.h>
 
@@ -79,6 +80,7 @@ ContenderEntry collide_tv(Tree kind) {
                     is_inserted ? "" : " + optimizeTopDown(32)");
     e.precision = "f32";
     e.runs_on = RunsOn::one_thread;
+    e.classes = point_class::of_single_calls();
     e.answers = {answering<CollideVolumes>("points", PointQuery::containing, kind),
                  answering<CollideVolumes>("regions", PointQuery::overlapping, kind)};
     return e;

@@ -1,5 +1,6 @@
 #include "bench/peers/answering.h"
 #include "bench/peers/point_peers.h"
+#include "bench/tasks/detail/point_classes.h"
 
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
@@ -74,6 +75,7 @@ std::vector<ContenderEntry> cgal_points() {
               "search tree of the corners that gives the first bound)";
     e.precision = "f64";
     e.runs_on = RunsOn::tbb;
+    e.classes = point_class::of_single_calls();
     e.answers = {answering<ClosestPoint>("closest_points")};
     return {e};
 }

@@ -195,6 +195,7 @@ ContenderEntry point_query(RTCBuildQuality quality, Asked asked) {
         word_of(quality), words_for(asked));
     e.precision = "f32";
     e.runs_on = RunsOn::tbb;
+    e.classes = classes_of(asked);
     e.answers = {
         answering<EmbreePoints>("points", PointQuery::containing, quality, asked),
         answering<EmbreePoints>("regions", PointQuery::overlapping, quality, asked),

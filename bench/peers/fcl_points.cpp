@@ -133,6 +133,7 @@ template <class S> ContenderEntry query_manager(FclTree tree) {
         is_single ? "float, compiled here" : "double, equal to the scene's floats");
     e.precision = is_single ? "f32" : "f64";
     e.runs_on = RunsOn::one_thread;
+    e.classes = classes_of(tree.asked);
     using Made = QueryManager<S>;
     e.answers = {answering<Made>("points", PointQuery::containing, tree),
                  answering<Made>("regions", PointQuery::overlapping, tree),

@@ -89,6 +89,7 @@ ContenderEntry kd_tree(Asked asked) {
                           leaf_size, words_for(asked));
     e.precision = "f32";
     e.runs_on = RunsOn::one_thread;
+    e.classes = classes_of(asked);
     e.cannot = needs_points;
     e.answers = {answering<NearestPoints>("nearest", asked)};
     return e;

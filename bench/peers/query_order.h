@@ -1,11 +1,13 @@
 #pragma once
 
 #include "bench/peers/point_peers.h"
+#include "bench/tasks/detail/point_classes.h"
 #include "trees/ordering/curve_order.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace boxwood::bench {
@@ -42,6 +44,10 @@ class QueryOrder {
     Buffer<std::uint32_t> order_;
 };
 
+inline std::vector<std::string> classes_of(Asked asked) {
+    return asked == Asked::as_given ? point_class::of_single_calls()
+                                    : std::vector{point_class::batches};
+}
 /// What a contender's name ends in, and its notes say.
 inline const char* name_of(Asked asked) { return asked == Asked::as_given ? "" : ".sorted"; }
 inline const char* words_for(Asked asked) {

@@ -17,7 +17,12 @@ class NearestOnMesh final : public PointContender {
     void run(Answers& answers, const Executor& executor, Work* work) override {
         std::vector<SurfacePoint>& nearest = list_of<SurfacePoint>(answers);
         nearest.resize(scene_.points.size());
-        layout_->closest_points(scene_.points, scene_.mesh, executor, nearest, work);
+        if (calls_ == Calls::batch)
+            return layout_->closest_points(scene_.points, scene_.mesh, executor, nearest, work);
+        one_by_one(scene_.points.size(), executor, [&](std::size_t, std::size_t i) {
+            layout_->closest_points(std::span(scene_.points).subspan(i, 1), scene_.mesh, serial(),
+                                    std::span(nearest).subspan(i, 1), work);
+        });
     }
 };
 
@@ -50,10 +55,9 @@ class ClosestPoints final : public PointTask {
 
   protected:
     std::string_view mesh_is_for() const override { return "test"; }
-    Way way(const Choice&) const override {
-        return {.traversal = "closest_points",
-                .make = maker<NearestOnMesh>(),
-                .query = Query::closest_points};
+    Way way(const Choice& choice) const override {
+        return way_of<NearestOnMesh>(choice, "closest_points", "single_closest_points",
+                                     Query::closest_points);
     }
 };
 

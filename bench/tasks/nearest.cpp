@@ -18,7 +18,12 @@ class NearestBoxes final : public PointContender {
     void run(Answers& answers, const Executor& executor, Work* work) override {
         std::vector<Neighbour>& neighbours = list_of<Neighbour>(answers);
         neighbours.resize(k_ * scene_.points.size());
-        layout_->nearest(scene_.points, k_, executor, neighbours, work);
+        if (calls_ == Calls::batch)
+            return layout_->nearest(scene_.points, k_, executor, neighbours, work);
+        one_by_one(scene_.points.size(), executor, [&](std::size_t, std::size_t i) {
+            layout_->nearest(std::span(scene_.points).subspan(i, 1), k_, serial(),
+                             std::span(neighbours).subspan(i * k_, k_), work);
+        });
     }
     std::size_t k_ = neighbours_of(scene_);
 };
@@ -84,8 +89,8 @@ class Nearest final : public PointTask {
         return all.empty() ? std::vector{spec} : all;
     }
     Way way(const Choice& choice) const override {
-        Way way{.traversal = "nearest", .make = maker<NearestBoxes>(), .query = Query::nearest};
-        if (choice.builder != "hilbert") // DeviceBvh::nearest
+        Way way = way_of<NearestBoxes>(choice, "nearest", "single_nearest", Query::nearest);
+        if (calls_of(choice) == Calls::batch && choice.builder != "hilbert") // DeviceBvh::nearest
             way.make_on_device = on_device<NearestOnDevice>(choice);
         return way;
     }

@@ -7,15 +7,16 @@
 namespace boxwood::bench {
 namespace {
 
-class Containing final : public PointContender {
+class Containing final : public PointPairsContender {
   public:
-    using PointContender::PointContender;
+    using PointPairsContender::PointPairsContender;
 
   private:
-    void run(Answers& answers, const Executor& executor, Work* work) override {
-        layout_->points(scene_.points, executor, pairs_.to(answers), work);
+    std::size_t n_queries() const override { return scene_.points.size(); }
+    void find(std::size_t first, std::size_t n, const Executor& executor, PairSink& sink,
+              Work* work) const override {
+        layout_->points(std::span(scene_.points).subspan(first, n), executor, sink, work);
     }
-    PairsInto pairs_;
 };
 
 class ContainingOnDevice final : public ItemsOfQueries {
@@ -44,10 +45,10 @@ class Points final : public PairAnswers<PointTask> {
 
   protected:
     Way way(const Choice& choice) const override {
-        return {.traversal = "points",
-                .make = maker<Containing>(),
-                .query = Query::points,
-                .make_on_device = on_device<ContainingOnDevice>(choice)};
+        Way way = way_of<Containing>(choice, "points", "single_points", Query::points);
+        if (calls_of(choice) == Calls::batch)
+            way.make_on_device = on_device<ContainingOnDevice>(choice);
+        return way;
     }
 };
 

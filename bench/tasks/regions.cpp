@@ -10,18 +10,21 @@
 namespace boxwood::bench {
 namespace {
 
-class Overlapping final : public PointContender {
+class Overlapping final : public PointPairsContender {
   public:
-    using PointContender::PointContender;
+    using PointPairsContender::PointPairsContender;
 
   private:
-    void run(Answers& answers, const Executor& executor, Work* work) override {
-        if (scene_.spheres.empty())
-            layout_->regions(scene_.regions, executor, pairs_.to(answers), work);
-        else
-            layout_->regions(scene_.spheres, executor, pairs_.to(answers), work);
+    std::size_t n_queries() const override {
+        return scene_.spheres.empty() ? scene_.regions.size() : scene_.spheres.size();
     }
-    PairsInto pairs_;
+    void find(std::size_t first, std::size_t n, const Executor& executor, PairSink& sink,
+              Work* work) const override {
+        if (scene_.spheres.empty())
+            layout_->regions(std::span(scene_.regions).subspan(first, n), executor, sink, work);
+        else
+            layout_->regions(std::span(scene_.spheres).subspan(first, n), executor, sink, work);
+    }
 };
 
 class OverlappingOnDevice final : public ItemsOfQueries {
@@ -70,10 +73,10 @@ class Regions final : public PairAnswers<PointTask> {
         return all;
     }
     Way way(const Choice& choice) const override {
-        return {.traversal = "regions",
-                .make = maker<Overlapping>(),
-                .query = Query::regions,
-                .make_on_device = on_device<OverlappingOnDevice>(choice)};
+        Way way = way_of<Overlapping>(choice, "regions", "single_regions", Query::regions);
+        if (calls_of(choice) == Calls::batch)
+            way.make_on_device = on_device<OverlappingOnDevice>(choice);
+        return way;
     }
 };
 

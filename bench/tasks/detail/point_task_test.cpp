@@ -40,7 +40,11 @@ TEST(PointQueries, OursAndThePeersAreRight) {
         std::vector<ContenderEntry> entries = peers_that_answer(task.name());
         EXPECT_GE(entries.size(), peers().size() < 2 ? 0u : 1u);
         for (const LayoutEntry& layout : layouts())
-            entries.push_back(task.contender({"median", {}, std::string(layout.name), "", ""}));
+            for (const char* calls : {"given", "single"}) {
+                Choice choice{"median", {}, std::string(layout.name), "", ""};
+                choice.ray_order = calls;
+                entries.push_back(task.contender(choice));
+            }
         for (const ContenderEntry& entry : entries)
             for (const auto& [executor, threads] :
                  {std::pair{"serial", 1u}, std::pair{"tbb", 2u}}) {
@@ -70,7 +74,7 @@ TEST(PointQueries, OursAndThePeersAreRight) {
                 ++answered;
             }
     }
-    EXPECT_GE(answered, questions().size() * layouts().size() * 2);
+    EXPECT_GE(answered, questions().size() * layouts().size() * 4);
 }
 
 /// The right answers are right, and each way to spoil them is seen.
@@ -111,6 +115,24 @@ TEST(PointQueries, TheTruthSeesWhatIsWrong) {
                 [](auto& x) {
                     x.push_back({100'000, 0});
                 });
+}
+
+TEST(PointQueries, AreOfTheClassOfTheirCalls) {
+    using Classes = std::vector<std::string>;
+    for (const char* task : {"points", "regions", "nearest", "closest_points"}) {
+        Choice choice{"median", {}, "wide8", "", ""};
+        EXPECT_EQ(find_task(task)->contender(choice).classes, Classes{"batches"});
+        EXPECT_EQ(find_task(task)->contender(choice).name, std::string("median.wide8.") + task);
+        choice.ray_order = "single";
+        EXPECT_EQ(find_task(task)->contender(choice).classes, Classes{"one query a call"});
+        EXPECT_EQ(find_task(task)->contender(choice).name,
+                  std::string("median.wide8.single_") + task);
+        for (const ContenderEntry& peer : peers_that_answer(task))
+            EXPECT_EQ(peer.classes, peer.name.ends_with(".sorted") || peer.library == "warp"
+                                        ? Classes{"batches"}
+                                        : (Classes{"one query a call", "batches"}))
+                << peer.name;
+    }
 }
 
 TEST(PointQueries, SayWhatASceneLacks) {
