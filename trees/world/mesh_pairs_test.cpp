@@ -3,8 +3,8 @@
 #include "kernels/oracle/oracle.h"
 #include "kernels/triangle_distance/certified.h"
 #include "trees/builders/lbvh.h"
+#include "trees/testing/test_meshes.h"
 #include "trees/testing/triangle_soup.h"
-#include "trees/world/testing/test_meshes.h"
 
 #include <gtest/gtest.h>
 
@@ -59,8 +59,8 @@ void expect_between(const MeshDistance& got, const Bounds& truth) {
 
 class RandomPoses : public testing::TestWithParam<MeshVolume> {};
 INSTANTIATE_TEST_SUITE_P(MeshPairs, RandomPoses, testing::Values(MeshVolume::obb, MeshVolume::aabb),
-                         [](const auto& info) {
-                             return info.param == MeshVolume::obb ? "obb" : "aabb";
+                         [](const auto& param) {
+                             return param.param == MeshVolume::obb ? "obb" : "aabb";
                          });
 
 TEST_P(RandomPoses, TouchAsRationalsSay) {

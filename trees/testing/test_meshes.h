@@ -44,7 +44,7 @@ inline TriangleMesh plate(std::uint32_t n, double z, double wave = 0) {
     for (std::uint32_t i = 0; i <= n; ++i)
         for (std::uint32_t j = 0; j <= n; ++j)
             mesh.vertices.push_back(Vec3<float>(
-                Vec3<double>{double{i} / n, double{j} / n,
+                Vec3<double>{static_cast<double>(i) / n, static_cast<double>(j) / n,
                              z + wave * std::sin(9.0 * i / n) * std::cos(7.0 * j / n)}));
     for (std::uint32_t i = 0; i < n; ++i)
         for (std::uint32_t j = 0; j < n; ++j) {
