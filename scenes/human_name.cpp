@@ -92,6 +92,9 @@ std::string human_name(const SceneSpec& spec) {
         text += ", " + counted(spec.n_points, "point", "points");
     if (spec.n_points != 0 && !spec.regions.empty())
         text += fmt::format(", {} regions, {}", grouped(spec.n_points), spaced(spec.regions));
+    if (!spec.poses.empty())
+        text += fmt::format(", {} of a copy, {}", counted(spec.n_poses, "pose", "poses"),
+                            spaced(spec.poses));
     if (spec.k && spec.n_points != 0)
         text += fmt::format(", {} nearest each", *spec.k);
     return text;

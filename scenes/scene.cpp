@@ -3,6 +3,7 @@
 #include "scenes/atom.h"
 #include "scenes/moving/frames.h"
 #include "scenes/registry.h"
+#include "scenes/sampling/poses.h"
 #include "scenes/sampling/queries.h"
 #include "scenes/sampling/rays.h"
 
@@ -75,6 +76,7 @@ std::uint64_t hash_of(const Scene& scene) {
     add(*state, scene.points);
     add(*state, scene.regions);
     add(*state, scene.spheres);
+    add(*state, scene.poses);
     std::visit(CaseHash(*state), scene.cases);
     return XXH3_64bits_digest(state.get());
 }
@@ -165,6 +167,17 @@ const SceneEntry& checked(const SceneSpec& spec) {
                             "sphere_mesh, or leave rays out",
                             entry.name, spec.rays));
     }
+    if (!spec.poses.empty()) {
+        check_pose_kind(spec.poses);
+        if (!entry.has_mesh)
+            throw std::invalid_argument(fmt::format(
+                "scene {} has no triangles to place a copy of; use a mesh scene such as "
+                "sphere_mesh, or leave poses out",
+                entry.name));
+        if (spec.n_poses == 0)
+            throw std::invalid_argument(
+                fmt::format("scene {}: poses are wanted, but n_poses is 0", entry.name));
+    }
     return entry;
 }
 
@@ -188,12 +201,20 @@ std::string scene_name(const SceneSpec& spec) {
                                               : "rays_" + atom(spec.rays_file.stem().string()));
     if (spec.n_points != 0)
         name += spec.regions.empty() ? "_points" : '_' + spec.regions;
+    if (!spec.poses.empty())
+        name += '_' + spec.poses;
     if (spec.k && *spec.k != 1)
         name += signed_atom("k", *spec.k);
     return name;
 }
 
 namespace {
+
+void add_params(Scene& scene, const std::string& params) {
+    std::string& json = scene.params_json;
+    json.pop_back();
+    json += (json.size() > 1 ? "," : "") + params + "}";
+}
 
 /// Adds the points or regions of the spec, and says so among the parameters.
 void lay_queries(Scene& scene, const SceneSpec& spec) {
@@ -210,9 +231,7 @@ void lay_queries(Scene& scene, const SceneSpec& spec) {
             scene.spheres = make_sphere_regions(scene.boxes, spec.n_points, spec.seed);
         params += fmt::format(R"(,"regions":"{}")", spec.regions);
     }
-    std::string& json = scene.params_json;
-    json.pop_back();
-    json += (json.size() > 1 ? "," : "") + params + "}";
+    add_params(scene, params);
 }
 
 Scene start_of(const SceneSpec& spec) {
@@ -245,6 +264,10 @@ Scene make_scene(const SceneSpec& spec) {
         scene.rays = spec.rays_file.empty()
                          ? make_rays(spec.rays, scene.mesh, spec.n_rays, spec.seed)
                          : read_rays(spec.rays_file);
+    if (!spec.poses.empty()) {
+        scene.poses = make_poses(spec.poses, scene.mesh, spec.n_poses, spec.seed);
+        add_params(scene, fmt::format(R"("poses":"{}","n_poses":{})", spec.poses, spec.n_poses));
+    }
     lay_queries(scene, spec);
     scene.content_hash = hash_of(scene);
     return scene;

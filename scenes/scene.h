@@ -2,6 +2,7 @@
 
 #include "kernels/primitives/aabb.h"
 #include "kernels/primitives/ray.h"
+#include "kernels/primitives/rigid_transform.h"
 #include "kernels/primitives/sphere.h"
 #include "kernels/primitives/triangle.h"
 #include "scenes/hard_cases/hard_cases.h"
@@ -32,6 +33,8 @@ struct SceneSpec {
     std::filesystem::path file{};      ///< of `mesh` and `boxes`, or a family's cases
     std::size_t n_points = 0;          ///< number of points or regions
     std::string regions{};             ///< a name of `region_kinds()`, or empty for no regions
+    std::string poses{};     ///< a name of `pose_kinds()`, or empty for no poses (mesh scenes)
+    std::size_t n_poses = 0; ///< number of poses
     /// A scene that moves, instead of a generator's: its n and seed are those of the spec, and
     /// what is made is its frame 0.
     std::shared_ptr<const SceneFile> moving{};
@@ -51,6 +54,8 @@ struct Scene {
     std::vector<Vec3<float>> points;
     std::vector<Aabb<float>> regions; ///< boxes or spheres, not both
     std::vector<Sphere<float>> spheres;
+    /// Of a copy of the mesh, in the mesh's frame.
+    std::vector<RigidTransform<double>> poses;
     Cases cases;             ///< of a hard-case family, else none
     std::string params_json; ///< the generator's parameters as one JSON object
     /// XXH3 of boxes, vertices, indices and rays, then of each case number by number, little-endian

@@ -17,6 +17,7 @@
 #include "scenes/moving/frames.h"        // a moving scene's boxes frame by frame, held or streamed
 #include "scenes/moving/moving_scene.h"  // bodies and what happens to them, played frame by frame
 #include "scenes/robots/four_link.h"     // the demo's robot: forward kinematics and its boxes
+#include "scenes/sampling/poses.h"       // places of a copy of a mesh beside it
 #include "scenes/sampling/queries.h"     // points and regions laid into a scene
 #include "scenes/sampling/random.h"      // Philox: item i is independent of n and of order
 #include "scenes/sampling/rays.h"        // camera, random, ambient and occlusion rays at a mesh

@@ -6,6 +6,8 @@
 #include "bench/machine/environment.h"
 #include "bench/tasks/contender.h"
 #include "bench/tasks/instruction_sets.h"
+#include "scenes/meshes/mesh_file.h"
+#include "trees/world/mesh_triage.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -223,14 +225,55 @@ std::vector<Finding> examine_disk(const std::filesystem::path& folder) {
 
 std::string doctor(bool json) { return json ? as_json(Examination()) : as_text(Examination()); }
 
+namespace {
+
+/// "3 (the first: triangle 17)"
+std::string some(const std::vector<std::uint32_t>& triangles) {
+    return triangles.empty()
+               ? "0"
+               : fmt::format("{} (the first: triangle {})", triangles.size(), triangles.front());
+}
+
+} // namespace
+
+std::string doctor_of_mesh(const std::string& file, bool json) {
+    const MeshTriage found = triage(load_mesh(file));
+    if (json)
+        return fmt::format(
+            "{{\"triangles\":{},\"vertices\":{},\"without_area\":{},\"repeated\":{},\"open_edges\":"
+            "{},"
+            "\"non_manifold_edges\":{},\"turned_edges\":{},\"is_closed\":{},\"is_clean\":{}}}\n",
+            found.triangles, found.vertices, found.without_area.size(), found.repeated.size(),
+            found.open_edges, found.non_manifold_edges, found.turned_edges, found.is_closed(),
+            found.is_clean());
+    std::string text =
+        fmt::format("{}: {} triangles, {} vertices (those at one place counted once)\n", file,
+                    found.triangles, found.vertices);
+    text += fmt::format("  triangles without area       {}\n", some(found.without_area));
+    text += fmt::format("  triangles that are repeated  {}\n", some(found.repeated));
+    text += fmt::format("  open edges                   {}\n", found.open_edges);
+    text += fmt::format("  edges of three and more      {}\n", found.non_manifold_edges);
+    text += fmt::format("  edges wound both ways        {}\n", found.turned_edges);
+    text += found.is_closed()
+                ? "It is closed: it may be a solid (query collide --solid, contains).\n"
+                : "It is not closed: it is a surface, and no solid.\n";
+    return text;
+}
+
 void add_doctor(CLI::App& app, int&) {
     auto json = std::make_shared<bool>(false);
+    auto mesh = std::make_shared<std::string>();
     CLI::App* command = app.add_subcommand(
-        "doctor", "what on this machine will spoil timings, and which peers were found");
+        "doctor", "what on this machine will spoil timings, and which peers were found; or what is "
+                  "wrong with a mesh");
+    command->add_option("MESH", *mesh,
+                        "a mesh file: its triangles and edges are looked at instead");
     command->add_flag("--json", *json, "print one JSON object");
     command->footer("It changes nothing; each note and warning says what you could do.\n"
-                    "Example: boxwood doctor");
-    command->callback([json] { std::cout << doctor(*json); });
+                    "Examples:\n  boxwood doctor\n  boxwood doctor gripper.stl");
+    command->callback([json, mesh] {
+        std::cout << (mesh->empty() ? doctor(*json) : doctor_of_mesh(*mesh, *json));
+    });
 }
 
 } // namespace boxwood::bench

@@ -26,4 +26,7 @@ std::vector<Finding> examine_disk(const std::filesystem::path& folder);
 /// What `boxwood doctor` prints; measures the memory bandwidth (about 0.3 s).
 std::string doctor(bool json);
 
+/// What `boxwood doctor MESH` prints. Throws as load_mesh.
+std::string doctor_of_mesh(const std::string& file, bool json);
+
 } // namespace boxwood::bench

@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 
 namespace boxwood::bench {
@@ -156,6 +158,22 @@ TEST(Devices, ListAndQuerySayWhyThereIsNone) {
     query.device = "cuda:0";
     EXPECT_THAT([&] { run(query, std::cout); },
                 ThrowsMessage<BadInput>(HasSubstr("no device 'cuda:0': " + why_no_device())));
+}
+
+TEST(Doctor, LooksAtAMesh) {
+    const auto file = std::filesystem::temp_directory_path() / "boxwood_doctor.obj";
+    std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 2 0 0\n"
+                           "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 1 2 5\nf 3 2 1\n";
+    const std::string text = doctor_of_mesh(file.string(), false);
+    EXPECT_THAT(text, HasSubstr("6 triangles"));
+    EXPECT_THAT(text, HasSubstr("without area       1 (the first: triangle 4)"));
+    EXPECT_THAT(text, HasSubstr("repeated  1 (the first: triangle 5)"));
+    EXPECT_THAT(text, HasSubstr("It is closed"));
+    const std::string json = doctor_of_mesh(file.string(), true);
+    EXPECT_THAT(json, HasSubstr("\"open_edges\":0"));
+    EXPECT_THAT(json, HasSubstr("\"is_clean\":false}"));
+    std::filesystem::remove(file);
+    EXPECT_THROW(doctor_of_mesh(file.string(), false), std::runtime_error);
 }
 
 } // namespace

@@ -55,13 +55,16 @@ class Expansion {
             rounds.reset();
         const SceneSpec& other = cells_[seen->second].scene;
         if (other.overlaps != spec.overlaps || other.n_rays != spec.n_rays ||
-            other.n_points != spec.n_points || other.file != spec.file)
+            other.n_points != spec.n_points || other.n_poses != spec.n_poses ||
+            other.file != spec.file)
             throw BadInput(fmt::format("{}: the cell {} stands twice with different scenes "
                                        "(overlaps {} and {}, n_rays {} and {}, n_points {} and "
-                                       "{}, file \"{}\" and \"{}\"); make them equal",
+                                       "{}, n_poses {} and {}, file \"{}\" and \"{}\"); make them "
+                                       "equal",
                                        block.reader.place(), cell.name, other.overlaps,
                                        spec.overlaps, other.n_rays, spec.n_rays, other.n_points,
-                                       spec.n_points, other.file.string(), spec.file.string()));
+                                       spec.n_points, other.n_poses, spec.n_poses,
+                                       other.file.string(), spec.file.string()));
     }
 
     std::vector<PlannedCell>& cells_;
@@ -192,13 +195,16 @@ std::string sweep_hash_of(const Plan& plan, std::uint64_t files_hash) {
                     plan.inputs > 1 ? fmt::format(" inputs {}", plan.inputs) : std::string());
     std::vector<std::string> lines;
     for (const PlannedCell& cell : plan.cells)
-        lines.push_back(fmt::format(
-            "{} overlaps {} n_rays {}{}{}{}{}\n", cell.name, cell.scene.overlaps, cell.scene.n_rays,
-            cell.scene.n_points == 0 ? std::string()
-                                     : fmt::format(" n_points {}", cell.scene.n_points),
-            scene_file_text(cell.scene),
-            cell.rounds ? fmt::format(" rounds {}", *cell.rounds) : std::string(),
-            cell.cold_build ? " cold_build" : ""));
+        lines.push_back(
+            fmt::format("{} overlaps {} n_rays {}{}{}{}{}{}\n", cell.name, cell.scene.overlaps,
+                        cell.scene.n_rays,
+                        cell.scene.n_points == 0 ? std::string()
+                                                 : fmt::format(" n_points {}", cell.scene.n_points),
+                        cell.scene.n_poses == 0 ? std::string()
+                                                : fmt::format(" n_poses {}", cell.scene.n_poses),
+                        scene_file_text(cell.scene),
+                        cell.rounds ? fmt::format(" rounds {}", *cell.rounds) : std::string(),
+                        cell.cold_build ? " cold_build" : ""));
     std::ranges::sort(lines); // the order of blocks does not matter
     for (const std::string& line : lines)
         canonical += line;

@@ -21,6 +21,9 @@
     X(regions)                                                                                     \
     X(nearest)                                                                                     \
     X(closest_points)                                                                              \
+    X(collide)                                                                                     \
+    X(collide_all)                                                                                 \
+    X(distance)                                                                                    \
     X(scene_queries)                                                                               \
     X(triangle_triangle)                                                                           \
     X(triangle_distance)                                                                           \

@@ -12,12 +12,12 @@ casts rays for trimesh.
 
 import importlib
 
-from ._answers import ClosestPoints, Distances, Hits, Items, Nearest
+from ._answers import ClosestPoints, Contacts, Distances, Hits, Items, MeshDistance, Nearest
 
-__all__ = ["Bvh", "ClosestPoints", "Distances", "Hits", "Items", "MeshBvh", "Nearest", "results",
-           "triangle_distances", "triangles_intersect"]
+__all__ = ["Bvh", "ClosestPoints", "Contacts", "Distances", "Hits", "Items", "Mesh", "MeshBvh", "MeshDistance", "Nearest",
+           "results", "triangle_distances", "triangles_intersect"]
 
-_CORE = {"Bvh", "MeshBvh", "triangle_distances", "triangles_intersect", "__version__"}
+_CORE = {"Bvh", "Mesh", "MeshBvh", "triangle_distances", "triangles_intersect", "__version__"}
 
 
 def __getattr__(name):

@@ -42,3 +42,24 @@ class Distances(NamedTuple):
     distance: np.ndarray  # (n,) float64
     lo: np.ndarray  # (n,) float64
     hi: np.ndarray  # (n,) float64
+
+
+class MeshDistance(NamedTuple):
+    """How far two meshes are apart: the true distance is between lo and hi; -1 where one is empty."""
+
+    distance: float
+    lo: float
+    hi: float
+    point_a: np.ndarray  # (3,) float64, in world coordinates
+    point_b: np.ndarray  # (3,) float64
+    triangle_a: int
+    triangle_b: int
+
+
+class Contacts(NamedTuple):
+    """Where two meshes touch, the deepest first."""
+
+    points: np.ndarray  # (n, 3) float64, in world coordinates
+    normals: np.ndarray  # (n, 3) float64, of length 1
+    depths: np.ndarray  # (n,) float64
+    triangles: np.ndarray  # (n, 2) uint32

@@ -5,6 +5,7 @@
 namespace boxwood::python {
 
 void add_boxes(pybind11::module_& to);
+void add_mesh_pairs(pybind11::module_& to);
 void add_meshes(pybind11::module_& to);
 void add_triangles(pybind11::module_& to);
 

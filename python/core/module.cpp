@@ -43,5 +43,6 @@ PYBIND11_MODULE(_core, module) {
         "Nanoseconds that the library took of all calls so far.");
     add_boxes(module);
     add_meshes(module);
+    add_mesh_pairs(module);
     add_triangles(module);
 }

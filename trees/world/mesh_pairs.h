@@ -15,6 +15,7 @@ namespace boxwood {
 
 /// Questions about two meshes. B stands at `b_in_a` in A's frame (relative_pose); its corners are
 /// moved there in doubles, rounded once, and the answers are exact or certified for those corners.
+/// A pose with a number that is not finite throws std::invalid_argument.
 /// Touching counts. A mesh is its surface: what lies inside one without touching it is apart.
 /// `work`, if given, is added to.
 
@@ -31,7 +32,8 @@ void touching_triangles(const MeshTree& a, const MeshTree& b, const Pose& b_in_a
                         std::vector<Pair>& pairs, Work* work = nullptr);
 
 struct DistanceOptions {
-    /// The answer may be farther than the least distance: hi <= (lo + absolute) / (1 - relative).
+    /// The answer may be farther than the least distance: hi <= (lo + absolute) / (1 - relative),
+    /// up to 2^-32 of it.
     double relative = 0, absolute = 0;
     /// A pair of triangles that is likely to be near, as that of the last answer along a motion.
     std::optional<Pair> start = std::nullopt;

@@ -207,6 +207,25 @@ TEST(MeshPairs, FlatParallelPlatesAreNoTrap) {
     EXPECT_LT(work.node_visits, 500u);
 }
 
+TEST(MeshPairs, NearContactBoundsStayNarrow) {
+    std::mt19937 random(5);
+    const TriangleMesh a = noisy_sphere(6, 7, .2, 1), b = noisy_sphere(5, 8, .2, 2);
+    const MeshTree tree_a(a), tree_b(b);
+    for (const double gap : {1e-3, 1e-5, 1e-7, 1e-9, 1e-11})
+        for (int k = 0; k < 4; ++k) {
+            Pose pose = random_pose(random, {});
+            const Vec3<double> way{.48, .6, .64};
+            pose.translation = 3.0 * way;
+            for (int step = 0; step < 60; ++step) { // towards each other, to about the gap
+                const double d = distance(tree_a, tree_b, pose).distance;
+                pose.translation = pose.translation + (gap - d) * .9 * way;
+            }
+            const Bounds truth = distance_of_all_pairs(a, b, pose);
+            ASSERT_GT(truth.hi, 0);
+            expect_between(distance(tree_a, tree_b, pose), truth);
+        }
+}
+
 TEST(MeshPairs, NestedSpheresOpenLeavesNotTriangles) {
     const MeshTree inner(noisy_sphere(60, 60, 0, 1)), outer(noisy_sphere(60, 60, 0, 1, 1.001));
     Work work;
@@ -302,6 +321,10 @@ TEST(MeshPairs, BadInputIsRefused) {
     EXPECT_THROW(distance(cube, cube, no_pose, {.absolute = -1}), std::invalid_argument);
     EXPECT_THROW(distance(cube, cube, no_pose, {.start = Pair{12, 0}}), std::invalid_argument);
     EXPECT_THROW(within(cube, cube, no_pose, std::nan("")), std::invalid_argument);
+    Pose pose;
+    pose.translation.y = std::nan("");
+    EXPECT_THROW(collide(cube, cube, pose), std::invalid_argument);
+    EXPECT_THROW(distance(cube, cube, pose), std::invalid_argument);
 }
 
 TEST(Poses, MustBeRigid) {

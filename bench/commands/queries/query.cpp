@@ -99,6 +99,8 @@ void add_query(CLI::App& app, int&) {
     add_query_rays(*query);
     add_query_triangles(*query);
     add_query_ccd(*query);
+    add_query_meshes(*query);
+    add_query_continuous(*query);
 }
 
 } // namespace boxwood::bench

@@ -90,6 +90,35 @@ struct TrianglesQuery {
 void run(const TrianglesQuery& query, std::ostream& out);
 void add_query_triangles(CLI::App& query);
 
+/// Of two meshes: each a file, or box:x,y,z.
+struct MeshesQuery {
+    enum class Question : std::uint8_t { collide, distance, tolerance, contacts };
+    Question question = Question::collide;
+    std::string a, b;
+    std::string pose_a, pose_b; ///< 16 numbers, row by row; the identity if empty
+    std::string kernel;         ///< the one there is, if empty
+    std::optional<double> tolerance;
+    bool solid = false;            ///< closed meshes, and what lies inside touches
+    bool reduce = false;           ///< contacts: at most four
+    std::size_t limit = 1'000'000; ///< touching pairs of triangles that are looked at
+    Format format;
+};
+/// Prints whether they touch, how far apart they are, whether they are near, or where they touch.
+/// Throws BadInput.
+void run(const MeshesQuery& query, std::ostream& out);
+void add_query_meshes(CLI::App& query);
+
+/// Of two meshes that move: each a file, or box:x,y,z.
+struct ContinuousQuery {
+    std::string a, b;
+    std::string from_a, to_a, from_b, to_b; ///< 16 numbers each, row by row
+    std::string motion = "linear";          ///< or screw
+    Format format;
+};
+/// Prints whether and when they first touch. Throws BadInput.
+void run(const ContinuousQuery& query, std::ostream& out);
+void add_query_continuous(CLI::App& query);
+
 struct CcdQuery {
     std::string queries; ///< a file of rational queries (ccd_file.h); - for standard input
     std::string kind;    ///< vertex-face | edge-edge

@@ -28,7 +28,10 @@ void NearestCandidates::lower_to(double distance) {
 
 void NearestCandidates::offer(const Triangle<double>& a, const Triangle<double>& b, Pair triangles,
                               double measured, double lower) {
-    if (!(measured > near_contact_) || measured <= goal_.stop_at) {
+    // What is measured in plain doubles is off by some 2^-50 of the size of all: where that is too
+    // much of the distance, what lowers the best is made sure of.
+    const bool is_rough = measured < best_ && !(measured > 0x1p16 * near_contact_);
+    if (!(measured > near_contact_) || is_rough || measured <= goal_.stop_at) {
         offer(a, b, triangles);
         return;
     }
@@ -36,7 +39,7 @@ void NearestCandidates::offer(const Triangle<double>& a, const Triangle<double>&
         lower_to(measured);
     else if (lower >= wanted_)
         return;
-    keep({a, b, triangles, lower});
+    keep({a, b, triangles, std::min(lower, measured)}); // the best one is never left out
 }
 
 void NearestCandidates::offer(const Triangle<double>& a, const Triangle<double>& b,

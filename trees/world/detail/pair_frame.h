@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace boxwood::detail {
 
@@ -28,6 +29,9 @@ struct SeenBox {
 /// `corners`: heights of both sides' corners along a direction in floats, 8u of |corner|_1.
 struct PairFrame {
     PairFrame(const MeshTree& a, const MeshTree& b, const Pose& b_in_a) : pose(b_in_a) {
+        const auto& [r0, r1, r2] = pose.rotation;
+        if (!is_finite(r0) || !is_finite(r1) || !is_finite(r2) || !is_finite(pose.translation))
+            throw std::invalid_argument("a pose has a number that is not finite");
         for (std::size_t i = 0; i < 3; ++i) {
             const Vec3<double>& row = pose.rotation[i];
             rotation[i][0] = static_cast<float>(row.x);

@@ -1,5 +1,5 @@
 #include "bench/peers/answering.h"
-#include "bench/peers/fcl_bounds.h"
+#include "bench/peers/fcl/fcl_bounds.h"
 #include "bench/peers/point_peers.h"
 #include "bench/peers/query_order.h"
 

@@ -1,6 +1,7 @@
 #include "bench/peers/answering.h"
 #include "bench/peers/comers.h"
-#include "bench/peers/fcl_bounds.h"
+#include "bench/peers/fcl/fcl_bounds.h"
+#include "bench/peers/fcl/mesh_peers.h"
 #include "bench/peers/kernel_peers.h"
 #include "bench/peers/point_peers.h"
 #include "bench/tasks/moving_pairs.h"
@@ -180,6 +181,8 @@ Peer fcl_peer() {
                                        "DynamicAABBTreeCollisionManager_Array in floats");
     add_others(all);
     for (ContenderEntry& e : fcl_points())
+        all.push_back(std::move(e));
+    for (ContenderEntry& e : fcl_meshes())
         all.push_back(std::move(e));
     for (ContenderEntry& e : fcl_kernels())
         all.push_back(std::move(e));

@@ -1,0 +1,196 @@
+#include "bench/commands/command.h"
+#include "bench/commands/queries/query.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <utility>
+
+namespace boxwood::bench {
+namespace {
+
+using ::testing::HasSubstr;
+using Question = MeshesQuery::Question;
+
+/// Files in a folder of their own.
+class QueryMeshes : public ::testing::Test {
+  protected:
+    QueryMeshes()
+        : folder_(std::filesystem::temp_directory_path() /
+                  ("boxwood_meshes_" + std::to_string(std::random_device{}()))) {
+        std::filesystem::create_directories(folder_);
+    }
+    ~QueryMeshes() override { std::filesystem::remove_all(folder_); }
+
+    std::string put(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name) << text;
+        return (folder_ / name).string();
+    }
+    static std::string answer(const MeshesQuery& query) {
+        std::ostringstream out;
+        run(query, out);
+        return out.str();
+    }
+    static std::string complaint(const MeshesQuery& query) {
+        try {
+            return "answered: " + answer(query);
+        } catch (const BadInput& e) {
+            return e.what();
+        }
+    }
+    static MeshesQuery cubes(Question question, const std::string& pose_b = "") {
+        MeshesQuery query;
+        query.question = question;
+        query.a = "box:2,2,2";
+        query.b = "box:2,2,2";
+        query.pose_b = pose_b;
+        return query;
+    }
+    static std::string at(const std::string& x) {
+        return "1 0 0 " + x + " 0 1 0 0 0 0 1 0 0 0 0 1";
+    }
+
+    std::filesystem::path folder_;
+};
+
+TEST_F(QueryMeshes, CubesTouchOrDoNot) {
+    EXPECT_EQ(answer(cubes(Question::collide, at("2"))), "1\n");
+    EXPECT_EQ(answer(cubes(Question::collide, at("2.0000000000000004"))), "0\n");
+    MeshesQuery query = cubes(Question::collide, at("3"));
+    query.format.json = true;
+    EXPECT_EQ(answer(query), "{\"collide\":false,\"triangle_pairs\":[],\"kernel\":"
+                             "\"guigue_devillers_exact_batch\"}\n");
+    query.pose_b = at("2");
+    EXPECT_THAT(answer(query), HasSubstr("{\"collide\":true,\"triangle_pairs\":[["));
+}
+
+TEST_F(QueryMeshes, DistancesAreCertifiedAndInWorldCoordinates) {
+    MeshesQuery query = cubes(Question::distance, at("5"));
+    EXPECT_THAT(answer(query), ::testing::StartsWith("3,"));
+    query.pose_a = at("10");
+    query.pose_b = at("15");
+    query.format.json = true;
+    const std::string text = answer(query);
+    EXPECT_THAT(text, HasSubstr("{\"distance\":3,\"lo\":"));
+    EXPECT_THAT(text, HasSubstr("\"point_a\":[11,"));
+    EXPECT_THAT(text, HasSubstr("\"point_b\":[14,"));
+    EXPECT_THAT(text, HasSubstr("\"kernel\":\"certified\""));
+    query.pose_b = at("11");
+    EXPECT_THAT(answer(query), HasSubstr("{\"distance\":0,\"lo\":0,\"hi\":0,"));
+}
+
+TEST_F(QueryMeshes, ToleranceIsAYesOrNo) {
+    MeshesQuery query = cubes(Question::tolerance, at("5"));
+    EXPECT_THAT(complaint(query), HasSubstr("--tolerance T"));
+    query.tolerance = 3;
+    EXPECT_EQ(answer(query), "1\n");
+    query.tolerance = 2.999999;
+    EXPECT_EQ(answer(query), "0\n");
+    query.tolerance = std::nan("");
+    EXPECT_THAT(complaint(query), HasSubstr("finite number"));
+}
+
+TEST_F(QueryMeshes, SolidsHoldWhatIsInside) {
+    for (const Question question : {Question::collide, Question::tolerance, Question::distance}) {
+        MeshesQuery query = cubes(question);
+        query.b = "box:.2,.2,.2";
+        query.tolerance = .1;
+        const std::string surfaces = answer(query);
+        query.solid = true;
+        const std::string solids = answer(query);
+        if (question == Question::distance) {
+            EXPECT_THAT(surfaces, ::testing::StartsWith("0.8999"));
+            EXPECT_EQ(solids, "0,0,0\n");
+        } else {
+            EXPECT_EQ(surfaces, "0\n");
+            EXPECT_EQ(solids, "1\n");
+        }
+        std::swap(query.a, query.b);
+        EXPECT_EQ(answer(query), solids);
+        query.pose_b = at("1.5");
+        EXPECT_EQ(answer(query).substr(0, 2), question == Question::distance ? "0." : "0\n");
+    }
+    MeshesQuery query = cubes(Question::collide);
+    query.a = put("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    query.solid = true;
+    EXPECT_THAT(complaint(query), HasSubstr("open.obj: the mesh is no solid: 3 of its edges"));
+}
+
+TEST_F(QueryMeshes, ContactsSayWhereAndHowDeep) {
+    MeshesQuery query;
+    query.question = Question::contacts;
+    query.a = put("a.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
+    query.b = put("b.obj", "v 0 0 -0.001\nv 10 0 10\nv -10 0 10\nf 1 2 3\n");
+    query.format.json = true;
+    const std::string text = answer(query);
+    EXPECT_THAT(text, HasSubstr("{\"contacts\":[{\"point\":["));
+    EXPECT_THAT(text, HasSubstr("\"normal\":[0,0,1],\"depth\":0.001"));
+    query.a = put("turned.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 2 1 3\n"); // FCL says depth 1
+    EXPECT_THAT(answer(query), HasSubstr("\"normal\":[0,0,1],\"depth\":0.001"));
+    MeshesQuery deep = cubes(Question::contacts, at("1.9"));
+    const std::string all = answer(deep);
+    deep.reduce = true;
+    const std::string few = answer(deep);
+    EXPECT_GT(std::ranges::count(all, '\n'), 4);
+    EXPECT_EQ(std::ranges::count(few, '\n'), 4);
+}
+
+TEST_F(QueryMeshes, BadInputIsSaidWhereItIs) {
+    MeshesQuery query = cubes(Question::collide, "1 2 3");
+    EXPECT_THAT(complaint(query), HasSubstr("--pose-b"));
+    query.pose_b = "2 0 0 0 0 2 0 0 0 0 2 0 0 0 0 1";
+    EXPECT_THAT(complaint(query), HasSubstr("no rigid transform"));
+    query.pose_b = "1 0 0 0 0 1 0 0 0 0 1 0 5 0 0 1";
+    EXPECT_THAT(complaint(query), HasSubstr("the last row"));
+    query.pose_b = " ";
+    EXPECT_THAT(complaint(query), HasSubstr("--pose-b"));
+    query.pose_b = "";
+    query.a = "sphere:1";
+    EXPECT_THAT(complaint(query), HasSubstr("only boxes"));
+    query.a = "box:1,2";
+    EXPECT_THAT(complaint(query), HasSubstr("box:1,2"));
+    query.a = "box:";
+    EXPECT_THAT(complaint(query), HasSubstr("full side lengths"));
+    query.a = "box:-1,2,3";
+    EXPECT_THAT(complaint(query), HasSubstr("at least 0"));
+    query.a = "box:1,2,3";
+    query.kernel = "moller";
+    EXPECT_THAT(complaint(query), HasSubstr("moller"));
+}
+
+/// Pure translation: whichever motion is named, FCL's screw motion says .225, .11875 and .02475.
+TEST_F(QueryMeshes, ContinuousPassesThroughNothingThin) {
+    for (const auto& [length, time] : {std::pair{1.0, .45}, {2.0, .475}, {10.0, .495}})
+        for (const char* motion : {"linear", "screw"}) {
+            ContinuousQuery query;
+            query.a = "box:.1,.1,.1";
+            query.b = "box:.1,1,1";
+            query.from_a = at(std::to_string(-length));
+            query.to_a = at(std::to_string(length));
+            query.motion = motion;
+            std::ostringstream out;
+            run(query, out);
+            double hit = 0, t_free = 0, t_hit = 0;
+            ASSERT_EQ(std::sscanf(out.str().c_str(), "%lf,%lf,%lf", &hit, &t_free, &t_hit), 3);
+            EXPECT_EQ(hit, 1);
+            EXPECT_NEAR(t_free, time, 1e-6); // sides are rounded to floats
+            EXPECT_NEAR(t_hit, time, 1e-6);
+        }
+    ContinuousQuery query;
+    query.a = query.b = "box:1,1,1";
+    query.from_a = at("5");
+    query.format.json = true;
+    std::ostringstream out;
+    run(query, out);
+    EXPECT_EQ(out.str(), "{\"hit\":false,\"t_free\":1,\"t_hit\":1}\n");
+}
+
+} // namespace
+} // namespace boxwood::bench

@@ -1,0 +1,82 @@
+#pragma once
+
+#include "bench/tasks/task.h"
+#include "trees/world/mesh_pairs.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace boxwood::bench {
+
+/// Two triangles that touch in one of the scene's poses.
+struct PosedPair {
+    std::uint32_t pose, a, b;
+    constexpr auto operator<=>(const PosedPair&) const = default;
+};
+
+/// Of one pose: how far apart the two are, in doubles, and by which triangles.
+struct PosedDistance {
+    double distance = 0, lo = 0, hi = 0;
+    Pair triangles{~0u, ~0u};
+};
+
+/// The tree of the scene's mesh, which stands for the mesh and for its copy.
+class MeshPairContender : public Contender {
+  public:
+    MeshPairContender(const Job& job, BuildFunction build, MeshVolume volume)
+        : scene_(*job.scene), build_(std::move(build)), volume_(volume) {}
+
+    void build() override {
+        tree_.reset();
+        tree_.emplace(scene_.mesh, MeshTreeOptions{build_, volume_});
+    }
+    void query(Answers& answers) override { run(answers, nullptr); }
+    std::optional<Work> counted_query(Answers& answers) override {
+        Work work;
+        run(answers, &work);
+        return work;
+    }
+    std::optional<StructureInfo> structure() const override {
+        return StructureInfo{.bytes = tree_->bytes()};
+    }
+
+  protected:
+    virtual void run(Answers& answers, Work* work) = 0;
+
+    const Scene& scene_;
+    std::optional<MeshTree> tree_;
+
+  private:
+    BuildFunction build_;
+    MeshVolume volume_;
+};
+
+/// A task about a mesh and a copy of it in the scene's poses, which the contender
+/// "<builder>.<volume>.<query>" answers. Keys: scene, n, poses, n_poses, builders, volumes, peers.
+class MeshPairTask : public Task {
+  public:
+    std::vector<std::string_view> keys() const override;
+    SceneKind scenes() const override { return SceneKind::still; }
+    void expand(const BlockReader& block, AddCell add) const override;
+    ContenderEntry contender(const Choice& choice) const override;
+    std::optional<std::string> missing(const Scene& scene) const override;
+    std::uint64_t n_queries(const Scene& scene) const override { return scene.poses.size(); }
+
+  protected:
+    using Make = std::unique_ptr<Contender> (*)(const Job& job, BuildFunction build,
+                                                MeshVolume volume);
+    virtual Make make() const = 0;
+    virtual Promise promise() const = 0;
+};
+
+template <class C>
+std::unique_ptr<Contender> mesh_pair_contender(const Job& job, BuildFunction build,
+                                               MeshVolume volume) {
+    return std::make_unique<C>(job, std::move(build), volume);
+}
+
+} // namespace boxwood::bench

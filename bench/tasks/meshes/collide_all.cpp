@@ -1,0 +1,70 @@
+/// Which triangles of a mesh and a copy of it touch.
+
+#include "bench/tasks/detail/mesh_pair_task.h"
+#include "bench/truth/mesh_pair_truth.h"
+
+#include <xxhash.h>
+
+#include <algorithm>
+
+namespace boxwood::bench {
+namespace {
+
+class AllTouches final : public MeshPairContender {
+  public:
+    using MeshPairContender::MeshPairContender;
+
+  private:
+    void run(Answers& answers, Work* work) override {
+        std::vector<PosedPair>& touching = list_of<PosedPair>(answers);
+        touching.clear();
+        for (std::uint32_t i = 0; i < scene_.poses.size(); ++i) {
+            touching_triangles(*tree_, *tree_, scene_.poses[i],
+                               std::numeric_limits<std::size_t>::max(), pairs_, work);
+            for (const Pair pair : pairs_)
+                touching.push_back({i, pair.a, pair.b});
+        }
+    }
+
+    std::vector<Pair> pairs_;
+};
+
+class CollideAll final : public MeshPairTask {
+  public:
+    std::string_view name() const override { return "collide_all"; }
+    std::string title() const override { return "triangles of two meshes that touch"; }
+    std::string_view summary() const override {
+        return "every pair of triangles of the scene's mesh and a copy of it that touch, pose "
+               "after "
+               "pose";
+    }
+    std::unique_ptr<Answers> make_answers() const override {
+        return std::make_unique<AnswerList<PosedPair>>();
+    }
+    std::uint64_t hash(const Answers& answers) const override {
+        std::vector<PosedPair> sorted = list_of<PosedPair>(answers);
+        std::ranges::sort(sorted);
+        return XXH3_64bits(sorted.data(), sorted.size() * sizeof(PosedPair));
+    }
+    std::unique_ptr<Truth> make_truth(const Scene& scene, unsigned threads) const override {
+        return make_touching_truth(scene, threads);
+    }
+    std::vector<NamedCount> counters(const Answers& answers, const Work* work) const override {
+        std::vector<NamedCount> counts{{"pairs", answers.size()}};
+        append_work(counts, work, true);
+        return counts;
+    }
+
+  protected:
+    Make make() const override { return mesh_pair_contender<AllTouches>; }
+    Promise promise() const override { return Promise::exact; }
+};
+
+} // namespace
+
+const Task& collide_all_task() {
+    static const CollideAll task;
+    return task;
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,241 @@
+#include "bench/truth/mesh_pair_truth.h"
+
+#include "bench/tasks/detail/mesh_pair_task.h"
+#include "bench/truth/column_sweep.h"
+#include "bench/truth/sample.h"
+#include "kernels/arithmetic/rounding.h"
+#include "kernels/oracle/nearest.h"
+#include "kernels/oracle/oracle.h"
+#include "kernels/triangle_distance/certified.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+namespace boxwood::bench {
+namespace {
+
+using Triangles = std::vector<Triangle<double>>;
+
+Triangles triangles_at(const TriangleMesh& mesh, const Pose& pose) {
+    Triangles all;
+    all.reserve(mesh.triangles.size());
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const Triangle<float> t = mesh.triangle(i);
+        all.push_back({pose(Vec3<double>(t.a)), pose(Vec3<double>(t.b)), pose(Vec3<double>(t.c))});
+    }
+    return all;
+}
+
+/// The pairs of triangles of two sides that share a point, ascending.
+std::vector<Pair> touching(const Triangles& a, const Triangles& b, unsigned threads) {
+    std::vector<Aabb<float>> boxes;
+    for (const Triangles* side : {&a, &b})
+        for (const Triangle<double>& t : *side)
+            boxes.push_back(round_outward(t.bounds()));
+    std::vector<Pair> candidates = ColumnSweep(boxes, threads).pairs();
+    std::erase_if(candidates, [&](Pair p) { return p.a >= a.size() || p.b < a.size(); });
+    std::vector<std::uint8_t> touch(candidates.size());
+    make_executor("tbb", threads)->for_each(candidates.size(), [&](std::size_t i) {
+        const Pair p = candidates[i];
+        touch[i] = oracle::intersect(a[p.a], b[p.b - a.size()]);
+    });
+    std::vector<Pair> found;
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+        if (touch[i])
+            found.push_back(
+                {candidates[i].a, static_cast<std::uint32_t>(candidates[i].b - a.size())});
+    return found;
+}
+
+class TouchTruth final : public Truth {
+  public:
+    TouchTruth(const Scene& scene, bool wants_pairs, unsigned threads) : wants_pairs_(wants_pairs) {
+        const Triangles mesh = triangles_at(scene.mesh, {});
+        for (std::uint32_t i = 0; i < scene.poses.size(); ++i) {
+            const std::vector<Pair> pairs =
+                touching(mesh, triangles_at(scene.mesh, scene.poses[i]), threads);
+            touches_.push_back(!pairs.empty());
+            for (const Pair pair : pairs)
+                pairs_.push_back({i, pair.a, pair.b});
+        }
+    }
+
+    Judgement judge(const Answers& answers, const ContenderEntry&) override {
+        Judgement judgement;
+        results::Check& check = judgement.check;
+        check.oracle = "rational";
+        if (wants_pairs_)
+            judge_pairs(list_of<PosedPair>(answers), check);
+        else
+            judge_touches(list_of<std::uint8_t>(answers), check);
+        judgement.conclude(true);
+        return judgement;
+    }
+
+  private:
+    void judge_touches(const std::vector<std::uint8_t>& got, results::Check& check) const {
+        check.n_checked = check.n_expected = touches_.size();
+        check.n_got = got.size();
+        if (got.size() != touches_.size()) {
+            check.missing = touches_.size();
+            check.witness = fmt::format("{} answers for {} poses", got.size(), touches_.size());
+            return;
+        }
+        for (std::size_t i = 0; i < got.size(); ++i) {
+            if ((got[i] != 0) == (touches_[i] != 0))
+                continue;
+            ++(touches_[i] ? check.missing : check.extra);
+            if (check.witness.empty())
+                check.witness =
+                    fmt::format("pose {}: {}", i, touches_[i] ? "a touch is missed" : "none touch");
+        }
+    }
+    void judge_pairs(std::vector<PosedPair> got, results::Check& check) const {
+        std::ranges::sort(got);
+        check.n_checked = check.n_got = got.size();
+        check.n_expected = pairs_.size();
+        std::vector<PosedPair> missing, extra;
+        std::ranges::set_difference(pairs_, got, std::back_inserter(missing));
+        std::ranges::set_difference(got, pairs_, std::back_inserter(extra));
+        check.missing = missing.size();
+        check.extra = extra.size();
+        const std::vector<PosedPair>& wrong = missing.empty() ? extra : missing;
+        if (!wrong.empty())
+            check.witness =
+                fmt::format("pose {}: triangles {} and {} are {}", wrong[0].pose, wrong[0].a,
+                            wrong[0].b, missing.empty() ? "apart" : "missing");
+    }
+
+    bool wants_pairs_;
+    std::vector<std::uint8_t> touches_;
+    std::vector<PosedPair> pairs_; ///< ascending
+};
+
+/// The distance of two boxes, a little less than it is.
+double box_distance(const Aabb<double>& a, const Aabb<double>& b) {
+    double squared = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double gap = std::max({0.0, a.min[axis] - b.max[axis], b.min[axis] - a.max[axis]});
+        squared += gap * gap;
+    }
+    return std::sqrt(squared) * (1 - 0x1p-40);
+}
+
+class MeshDistanceTruth final : public Truth {
+  public:
+    MeshDistanceTruth(const Scene& scene, unsigned threads)
+        : scene_(scene), threads_(threads), mesh_(triangles_at(scene.mesh, {})) {
+        const std::size_t n = mesh_.size();
+        sample_ = sampled_queries(n, std::min<std::size_t>(n, 2048), scene.spec.seed);
+        least_.resize(scene.poses.size(), std::numeric_limits<double>::infinity());
+    }
+
+    Judgement judge(const Answers& answers, const ContenderEntry& contender) override {
+        Judgement judgement;
+        results::Check& check = judgement.check;
+        check.oracle = "rational";
+        check.max_abs_err = check.max_rel_err = 0;
+        const std::vector<PosedDistance>& got = list_of<PosedDistance>(answers);
+        check.n_expected = scene_.poses.size();
+        check.n_got = got.size();
+        if (got.size() != scene_.poses.size()) {
+            check.missing = scene_.poses.size();
+            check.witness = fmt::format("{} answers for {} poses", got.size(), scene_.poses.size());
+            judgement.conclude(true);
+            return judgement;
+        }
+        const bool is_certified = contender.promise == Promise::certified;
+        for (std::size_t i = 0; i < got.size(); ++i)
+            judge_pose(i, got[i], is_certified, check);
+        judgement.conclude(false);
+        return judgement;
+    }
+
+  private:
+    void judge_pose(std::size_t i, const PosedDistance& got, bool is_certified,
+                    results::Check& check) {
+        ++check.n_checked;
+        const auto complain = [&](std::uint64_t& count, const std::string& what) {
+            ++count;
+            if (check.witness.empty())
+                check.witness = fmt::format("pose {}: {}", i, what);
+        };
+        const Triangles copy = triangles_at(scene_.mesh, scene_.poses[i]);
+        if (got.triangles.a >= mesh_.size() || got.triangles.b >= copy.size())
+            return complain(check.missing, "no triangles are named");
+        const double named = std::sqrt(
+            oracle::nearest(mesh_[got.triangles.a], copy[got.triangles.b]).squared.get_d());
+        look_for_nearer(i, copy, named);
+        const double truth = least_[i];
+        const double error = std::abs(got.distance - truth);
+        check.max_abs_err = std::max(check.max_abs_err, error);
+        if (truth > 0)
+            check.max_rel_err = std::max(check.max_rel_err, error / truth);
+        // Too far is unsafe: something nearer is there. Too near is not, but wrong.
+        const double slack = 1e-9 * truth + 1e-13 * size_;
+        if (got.distance > truth + slack)
+            complain(check.missing, fmt::format("said to be {} apart, and a pair is {} apart",
+                                                got.distance, truth));
+        else if (named > got.distance + slack)
+            complain(check.extra, fmt::format("said to be {} apart by triangles that are {} apart",
+                                              got.distance, named));
+        if (is_certified && (got.lo > truth * (1 + 0x1p-50) || got.hi < truth * (1 - 0x1p-50))) {
+            ++check.extra;
+            complain(check.bound_violations,
+                     fmt::format("[{}, {}] does not hold {}", got.lo, got.hi, truth));
+        }
+    }
+
+    /// Lowers the least that is known of pose i to `bound` and to what the sample knows.
+    void look_for_nearer(std::size_t i, const Triangles& copy, double bound) {
+        if (bound >= least_[i])
+            return;
+        least_[i] = bound;
+        std::vector<Aabb<double>> boxes[2];
+        for (const Triangle<double>& t : mesh_)
+            boxes[0].push_back(t.bounds());
+        for (const Triangle<double>& t : copy)
+            boxes[1].push_back(t.bounds());
+        size_ = 0;
+        for (const Aabb<double>& box : boxes[0])
+            for (int axis = 0; axis < 3; ++axis)
+                size_ = std::max({size_, std::abs(box.min[axis]), std::abs(box.max[axis])});
+        std::mutex lowering;
+        make_executor("tbb", threads_)->for_each(sample_.size(), [&](std::size_t s) {
+            const std::size_t k = sample_[s];
+            double least = bound;
+            for (std::size_t j = 0; j < mesh_.size(); ++j) {
+                if (box_distance(boxes[0][k], boxes[1][j]) < least)
+                    least = std::min(least, CertifiedDistance::distance(mesh_[k], copy[j]).hi);
+                if (box_distance(boxes[0][j], boxes[1][k]) < least)
+                    least = std::min(least, CertifiedDistance::distance(mesh_[j], copy[k]).hi);
+            }
+            const std::scoped_lock lock(lowering);
+            least_[i] = std::min(least_[i], least);
+        });
+    }
+
+    const Scene& scene_;
+    unsigned threads_;
+    Triangles mesh_;
+    std::vector<std::size_t> sample_;
+    std::vector<double> least_; ///< by pose: of all that was ever named, or is in the sample
+    double size_ = 0;           ///< the mesh's greatest |coordinate|
+};
+
+} // namespace
+
+std::unique_ptr<Truth> make_touch_truth(const Scene& scene, unsigned threads) {
+    return std::make_unique<TouchTruth>(scene, false, threads);
+}
+std::unique_ptr<Truth> make_touching_truth(const Scene& scene, unsigned threads) {
+    return std::make_unique<TouchTruth>(scene, true, threads);
+}
+std::unique_ptr<Truth> make_mesh_distance_truth(const Scene& scene, unsigned threads) {
+    return std::make_unique<MeshDistanceTruth>(scene, threads);
+}
+
+} // namespace boxwood::bench

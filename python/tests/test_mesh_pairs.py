@@ -1,0 +1,72 @@
+"""Mesh against the triangle kernels, pair by pair."""
+
+import numpy as np
+import pytest
+
+import boxwood as bw
+from test_meshes import CUBE, FACES, soup
+
+
+def at(x=0, y=0, z=0):
+    pose = np.eye(4)
+    pose[:3, 3] = x, y, z
+    return pose
+
+
+def turned(seed):
+    q, r = np.linalg.qr(np.random.default_rng(seed).standard_normal((3, 3)))
+    q *= np.sign(np.diag(r))
+    pose = np.eye(4)
+    pose[:3, :3] = q if np.linalg.det(q) > 0 else -q
+    pose[:3, 3] = 0.4, -0.1, 0.2
+    return pose
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_pairs_against_all_triangles(seed):
+    vertices, faces = soup(60, seed)
+    others, other_faces = soup(50, seed + 10)
+    pose = turned(seed)
+    mesh, other = bw.Mesh(vertices, faces), bw.Mesh(others, other_faces)
+    a = vertices[faces].astype(float)
+    b = others[other_faces].astype(float) @ pose[:3, :3].T + pose[:3, 3]
+    i, j = (index.ravel() for index in np.meshgrid(np.arange(60), np.arange(50), indexing="ij"))
+    touch = bw.triangles_intersect(a[i], b[j])
+    found = mesh.touching(other, other_pose=pose)
+    assert {tuple(pair) for pair in found.tolist()} == {(int(p), int(q)) for p, q in zip(i[touch], j[touch])}
+    assert mesh.collides(other, other_pose=pose) == touch.any()
+    pose[:3, 3] += 3, 1, 0
+    b = b + np.array([3, 1, 0])
+    least = bw.triangle_distances(a[i], b[j])
+    answer = mesh.distance(other, other_pose=pose)
+    assert answer.lo <= least.hi.min() * (1 + 1e-12) and least.lo.min() <= answer.hi * (1 + 1e-12)
+    assert np.linalg.norm(answer.point_b - answer.point_a) == pytest.approx(answer.distance)
+    assert mesh.within(other, answer.hi * 1.001, other_pose=pose) and not mesh.within(other, answer.lo * 0.999, other_pose=pose)
+    loose = mesh.distance(other, other_pose=pose, relative=0.5)
+    assert answer.lo <= loose.hi and loose.hi * 0.5 <= loose.lo * (1 + 1e-9)
+
+
+def test_poses_of_both_move_the_answer():
+    cube = bw.Mesh(CUBE, FACES)
+    assert len(cube) == 12 and cube.nbytes > 0 and "12" in repr(cube)
+    answer = cube.distance(cube, at(10), at(13))
+    assert answer.distance == 2 and answer.point_a[0] == 11 and answer.point_b[0] == 13
+    assert cube.collides(cube, at(1), at(2)) and not cube.collides(cube, at(1), at(2.000001))
+    contacts = cube.contacts(cube, None, at(0.9), max_contacts=4)
+    assert contacts.points.shape == contacts.normals.shape == (4, 3) and contacts.triangles.shape == (4, 2)
+    assert (contacts.depths >= 0).all() and np.allclose(np.linalg.norm(contacts.normals, axis=1), 1)
+
+
+def test_what_is_wrong_is_said():
+    cube = bw.Mesh(CUBE, FACES)
+    for pose, words in ((np.eye(3), "shape"), (2 * np.eye(4), "last row"), (np.diag([2, 2, 2, 1]), "rigid"),
+                        (np.full((4, 4), np.nan), "last row")):
+        with pytest.raises(ValueError, match=words):
+            cube.collides(cube, pose)
+    with pytest.raises(ValueError, match="tolerance"):
+        cube.within(cube, -1)
+    with pytest.raises(ValueError, match="finite"):
+        bw.Mesh(CUBE * np.nan, FACES)
+    empty = bw.Mesh(np.zeros((0, 3)), np.zeros((0, 3), int))
+    answer = cube.distance(empty)
+    assert not cube.collides(empty) and answer.triangle_a == -1 and answer.distance == np.inf

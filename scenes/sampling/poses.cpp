@@ -1,0 +1,112 @@
+#include "scenes/sampling/poses.h"
+
+#include "kernels/suggest.h"
+#include "scenes/sampling/random.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace boxwood {
+namespace {
+
+using Vec = Vec3<double>;
+
+/// How far the two are apart, in parts of the mesh's width along the direction; below 0: overlap.
+struct PoseKind {
+    std::string_view name, summary;
+    double gap;
+};
+constexpr PoseKind kinds[] = {
+    {"apart", "half its width away from the mesh", .5},
+    {"near", "a hundredth of its width away", .01},
+    {"shallow", "overlapping by a fiftieth of its width, which need not touch", -.02},
+    {"deep", "overlapping by half its width", -.5},
+};
+
+/// A rotation from four numbers, uniform over all: a point in the ball of four dimensions.
+std::array<Vec, 3> rotation_of(Draws& draws) {
+    for (;;) {
+        std::array<double, 4> q{};
+        double squared = 0;
+        for (double& x : q) {
+            x = 2 * draws.uniform() - 1;
+            squared += x * x;
+        }
+        if (squared > 1 || squared < 0x1p-20)
+            continue;
+        const double s = 2 / squared;
+        const auto [w, x, y, z] = q;
+        return {{{1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)},
+                 {s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x)},
+                 {s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y)}}};
+    }
+}
+
+struct Extent {
+    double least = std::numeric_limits<double>::infinity(), greatest = -least;
+};
+Extent extent_along(const Vec& direction, const TriangleMesh& mesh) {
+    Extent extent;
+    for (const auto& triangle : mesh.triangles)
+        for (const std::uint32_t vertex : triangle) {
+            const double h = dot(direction, Vec(mesh.vertices[vertex]));
+            extent.least = std::min(extent.least, h);
+            extent.greatest = std::max(extent.greatest, h);
+        }
+    return extent;
+}
+
+Vec middle_of(const TriangleMesh& mesh) {
+    Aabb<double> box;
+    for (const auto& triangle : mesh.triangles)
+        for (const std::uint32_t vertex : triangle)
+            box.extend(Vec(mesh.vertices[vertex]));
+    return 0.5 * (box.min + box.max);
+}
+
+} // namespace
+
+std::span<const PoseKindEntry> pose_kinds() {
+    static constexpr auto entries = [] {
+        std::array<PoseKindEntry, std::size(kinds)> all;
+        std::ranges::transform(kinds, all.begin(), [](const PoseKind& kind) {
+            return PoseKindEntry{kind.name, kind.summary};
+        });
+        return all;
+    }();
+    return entries;
+}
+
+void check_pose_kind(std::string_view kind) { entry_named(kind, pose_kinds(), "kind of poses"); }
+
+std::vector<RigidTransform<double>> make_poses(std::string_view kind, const TriangleMesh& mesh,
+                                               std::size_t n, std::uint64_t seed) {
+    check_pose_kind(kind);
+    if (mesh.triangles.empty())
+        throw std::invalid_argument("poses: the mesh has no triangles to place a copy of");
+    const double gap = std::ranges::find(kinds, kind, &PoseKind::name)->gap;
+    const Vec middle = middle_of(mesh);
+    const Random numbers(seed, "poses");
+    std::vector<RigidTransform<double>> poses(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        Draws draws = numbers.item(i);
+        RigidTransform<double>& pose = poses[i];
+        pose.rotation = rotation_of(draws);
+        const Vec way = draws.unit_vector();
+        const auto& [r0, r1, r2] = pose.rotation;
+        const Vec way_in_copy = way.x * r0 + way.y * r1 + way.z * r2;
+        const Extent own = extent_along(way, mesh), copy = extent_along(way_in_copy, mesh);
+        // The middles on one line, then apart along it.
+        pose.translation = middle - pose(middle);
+        const double between = dot(way, pose.translation);
+        const double width = own.greatest - own.least;
+        pose.translation =
+            pose.translation + (own.greatest - (copy.least + between) + gap * width) * way;
+    }
+    return poses;
+}
+
+} // namespace boxwood

@@ -1,0 +1,56 @@
+#include "scenes/sampling/poses.h"
+
+#include "scenes/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <stdexcept>
+#include <string_view>
+
+namespace boxwood {
+namespace {
+
+TEST(ScenePoses, AreRotationsAtTheirGap) {
+    const Scene scene = make_scene({.generator = "sphere_mesh", .n = 500});
+    std::map<std::string_view, double> between; // middles, in the mean
+    for (const PoseKindEntry& kind : pose_kinds())
+        for (const auto& pose : make_poses(kind.name, scene.mesh, 20, 3)) {
+            for (std::size_t i = 0; i < 3; ++i)
+                for (std::size_t j = 0; j < 3; ++j)
+                    EXPECT_NEAR(dot(pose.rotation[i], pose.rotation[j]), i == j ? 1 : 0, 4e-15);
+            between[kind.name] += length(pose.translation) / 20;
+        }
+    // The same rotations and directions: what differs are parts of the width.
+    const double width = (between["apart"] - between["deep"]);
+    EXPECT_GT(width, 1.5);
+    EXPECT_LT(width, 3);
+    EXPECT_NEAR(between["near"] - between["shallow"], .03 * width, .005);
+    EXPECT_NEAR(between["near"] / width, 1.01, .15);
+}
+
+TEST(ScenePoses, DependOnSeedAndNumberAlone) {
+    const Scene scene = make_scene({.generator = "sphere_mesh", .n = 100});
+    const auto few = make_poses("near", scene.mesh, 3, 1),
+               more = make_poses("near", scene.mesh, 5, 1);
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_EQ(few[i], more[i]);
+    EXPECT_NE(make_poses("near", scene.mesh, 1, 2)[0], few[0]);
+    EXPECT_THROW(make_poses("far", scene.mesh, 1, 1), std::invalid_argument);
+    EXPECT_THROW(make_poses("near", {}, 1, 1), std::invalid_argument);
+}
+
+TEST(ScenePoses, ArePartOfASceneByName) {
+    const SceneSpec spec{.generator = "sphere_mesh", .n = 100, .poses = "deep", .n_poses = 7};
+    const Scene scene = make_scene(spec);
+    EXPECT_EQ(scene.name, "sphere_mesh_deep");
+    EXPECT_EQ(scene.poses.size(), 7u);
+    EXPECT_NE(scene.content_hash, make_scene({.generator = "sphere_mesh", .n = 100}).content_hash);
+    EXPECT_NE(scene.params_json.find("\"poses\":\"deep\""), std::string::npos);
+    EXPECT_THROW(make_scene({.generator = "uniform", .poses = "deep", .n_poses = 7}),
+                 std::invalid_argument);
+    EXPECT_THROW(make_scene({.generator = "sphere_mesh", .poses = "deep"}), std::invalid_argument);
+}
+
+} // namespace
+} // namespace boxwood

@@ -1,0 +1,140 @@
+#include "trees/world/continuous.h"
+
+#include "trees/testing/test_meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace boxwood {
+namespace {
+
+Pose moved(double x, double y = 0, double z = 0) {
+    Pose pose;
+    pose.translation = {x, y, z};
+    return pose;
+}
+
+TEST(Motions, BeginAndEndWhereTheyShould) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> place(-3, 3);
+    for (int k = 0; k < 50; ++k) {
+        const Pose from = random_pose(random, {place(random), place(random), place(random)});
+        Pose to = random_pose(random, {place(random), place(random), place(random)});
+        if (k % 5 == 0)
+            to.rotation = from.rotation;
+        for (const MotionPath kind : {MotionPath::linear, MotionPath::screw}) {
+            const Motion motion(from, to, kind);
+            const Vec3<double> p{.3, -.7, .2};
+            EXPECT_LT(length(motion.at(0)(p) - from(p)), 1e-13);
+            EXPECT_LT(length(motion.at(1)(p) - to(p)), 1e-12);
+            // Nobody is faster than the longest way says.
+            Aabb<float> box;
+            box.extend(Vec3<float>{-.5f, -.75f, -.25f});
+            box.extend(Vec3<float>{.5f, .25f, .75f});
+            const double way = motion.longest_way(box);
+            for (int corner = 0; corner < 8; ++corner) {
+                const Vec3<double> at{corner & 1 ? .5 : -.5, corner & 2 ? .25 : -.75,
+                                      corner & 4 ? .75 : -.25};
+                for (double t = 0; t < 1; t += .125)
+                    EXPECT_LE(length(motion.at(t + .125)(at) - motion.at(t)(at)),
+                              .125 * way * (1 + 1e-9));
+            }
+        }
+    }
+    EXPECT_EQ(Motion(moved(1, 2, 3)).longest_way(Aabb<float>{{-1, -1, -1}, {1, 1, 1}}), 0);
+}
+
+TEST(Motions, OfHalfATurnAreNoTrap) {
+    Pose turned;
+    turned.rotation = {{{-1, 0, 0}, {0, -1, 0}, {0, 0, 1}}};
+    const Motion motion(Pose{}, turned);
+    EXPECT_LT(std::abs(motion.at(.5)(Vec3<double>{1, 0, 0}).x), 1e-15);
+    EXPECT_LT(length(motion.at(1)(Vec3<double>{1, 2, 3}) - Vec3<double>{-1, -2, 3}), 1e-14);
+}
+
+TEST(Motions, OfSmallAnglesAreNoTrap) {
+    for (const double angle : {0.0, 1e-12, 1e-9, 1e-6, 1e-3, 3.0, std::acos(-1.0) - 1e-9}) {
+        Pose from, to;
+        from.translation = {.5, -1, 2};
+        to.rotation = {{{std::cos(angle), -std::sin(angle), 0},
+                        {std::sin(angle), std::cos(angle), 0},
+                        {0, 0, 1}}};
+        to.translation = {1, 2, 3};
+        const Motion motion(from, to, MotionPath::screw);
+        Aabb<float> box;
+        box.extend(Vec3<float>{-1, -1, -1});
+        box.extend(Vec3<float>{1, 1, 1});
+        const double way = motion.longest_way(box);
+        for (const Vec3<double>& p : {Vec3<double>{}, Vec3<double>{1, -1, 1}}) {
+            EXPECT_LT(length(motion.at(0)(p) - from(p)), 1e-14) << angle;
+            EXPECT_LT(length(motion.at(1)(p) - to(p)), 1e-13) << angle;
+            for (double t = 0; t < 1; t += .125)
+                EXPECT_LE(length(motion.at(t + .125)(p) - motion.at(t)(p)),
+                          .125 * way * (1 + 1e-12));
+        }
+    }
+}
+
+TEST(FirstContact, OfAThinPlateIsNotMissed) {
+    const MeshTree ball(noisy_sphere(16, 16, 0, 1, .05)), thin(plate(1, 0));
+    // The plate stands at z = 0; the ball flies through its middle.
+    const Motion flight(moved(.5, .5, -10), moved(.5, .5, 10));
+    const FirstContact hit = first_contact(ball, flight, thin, Motion());
+    EXPECT_EQ(hit.hit, Answer::yes);
+    EXPECT_NEAR(hit.t_free, (10 - .05) / 20, 1e-8);
+    EXPECT_NEAR(hit.t_hit, hit.t_free, 1e-8);
+    EXPECT_LT(hit.steps, 100u);
+    const FirstContact beside =
+        first_contact(ball, Motion(moved(2, .5, -10), moved(2, .5, 10)), thin, Motion());
+    EXPECT_EQ(beside.hit, Answer::no);
+    EXPECT_EQ(beside.t_free, 1);
+    EXPECT_EQ(first_contact(ball, Motion(moved(.5, .5, 0)), thin, Motion()).t_hit, 0);
+}
+
+/// Whatever a fine sampling of the motion finds touching, the answer is not later; and at its time
+/// they are as good as in touch.
+TEST(FirstContact, IsNotAfterWhatSamplesFind) {
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> place(-2.5, 2.5);
+    const MeshTree a(noisy_sphere(6, 7, .3, 1)), b(noisy_sphere(5, 8, .2, 2));
+    std::size_t hits = 0;
+    for (int k = 0; k < 60; ++k) {
+        const MotionPath kind = k % 2 == 0 ? MotionPath::linear : MotionPath::screw;
+        const auto somewhere = [&] {
+            return random_pose(random, {place(random), place(random), place(random)});
+        };
+        const Motion motion_a(somewhere(), somewhere(), kind);
+        const Motion motion_b(somewhere(), somewhere(), kind);
+        const FirstContact first = first_contact(a, motion_a, b, motion_b);
+        const auto touch = [&](double t) {
+            return collide(a, b, relative_pose(motion_a.at(t), motion_b.at(t)));
+        };
+        constexpr int samples = 400;
+        for (int i = 0; i <= samples; ++i) {
+            const double t = static_cast<double>(i) / samples;
+            if (t < first.t_free || first.hit == Answer::no) {
+                EXPECT_FALSE(touch(t)) << t;
+            }
+        }
+        EXPECT_NE(first.hit, Answer::maybe);
+        if (first.hit == Answer::yes) {
+            ++hits;
+            const Pose there = relative_pose(motion_a.at(first.t_hit), motion_b.at(first.t_hit));
+            EXPECT_LT(distance(a, b, there).lo, 1e-9);
+        }
+    }
+    EXPECT_GT(hits, 10u);
+    EXPECT_LT(hits, 55u);
+}
+
+TEST(FirstContact, OfNothingNever) {
+    const MeshTree cube(cube_mesh(1));
+    EXPECT_EQ(first_contact(MeshTree(), Motion(), cube, Motion()).hit, Answer::no);
+    EXPECT_THROW(first_contact(cube, Motion(), cube, Motion(), {.tolerance = -1}),
+                 std::invalid_argument);
+}
+
+} // namespace
+} // namespace boxwood

@@ -1,0 +1,129 @@
+#include "trees/world/mesh_contacts.h"
+
+#include "trees/testing/test_meshes.h"
+#include "trees/world/solid.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace boxwood {
+namespace {
+
+TEST(Contacts, WindingChangesNothing) {
+    // Hard case 6: FCL says depth 1 along y for one of the two.
+    const Triangle<double> b{{0, 0, -.001}, {10, 0, 10}, {-10, 0, 10}};
+    for (const Triangle<double>& a : {Triangle<double>{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}},
+                                      Triangle<double>{{1, -1, 0}, {-1, -1, 0}, {0, 1, 0}}}) {
+        const Contact contact = contact_of(a, b);
+        EXPECT_NEAR(contact.depth, .001, 1e-15);
+        EXPECT_EQ(contact.normal, (Vec3<double>{0, 0, 1}));
+        EXPECT_LT(length(contact.point), .002);
+    }
+}
+
+TEST(Contacts, MovingByTheDepthPartsThem) {
+    std::mt19937 random(3);
+    const TriangleMesh a = noisy_sphere(8, 9, .2, 1), b = noisy_sphere(7, 8, .2, 2);
+    const MeshTree tree_a(a), tree_b(b);
+    std::size_t seen = 0;
+    for (int k = 0; k < 10; ++k) {
+        const Pose pose = random_pose(random, {1.4, .4, .2});
+        const std::vector<Contact> all = contacts(tree_a, tree_b, pose);
+        std::vector<Pair> pairs;
+        for (const Contact& c : all) {
+            pairs.push_back(c.triangles);
+            EXPECT_NEAR(length(c.normal), 1, 1e-14);
+            EXPECT_GE(c.depth, 0);
+            Pose moved = pose;
+            moved.translation = moved.translation + (c.depth + 1e-9) * c.normal;
+            const MeshTree one_a({{a.triangle(c.triangles.a).a, a.triangle(c.triangles.a).b,
+                                   a.triangle(c.triangles.a).c},
+                                  {{0, 1, 2}}});
+            const MeshTree one_b({{b.triangle(c.triangles.b).a, b.triangle(c.triangles.b).b,
+                                   b.triangle(c.triangles.b).c},
+                                  {{0, 1, 2}}});
+            EXPECT_TRUE(collide(one_a, one_b, pose));
+            EXPECT_FALSE(collide(one_a, one_b, moved));
+            // The point is on both.
+            const TriangleMesh at_point{{Vec3<float>(c.point)}, {{0, 0, 0}}};
+            EXPECT_LT(distance(one_a, MeshTree(at_point), {}).hi, 1e-6);
+            EXPECT_LT(distance(MeshTree(at_point), one_b, pose).hi, 1e-6);
+        }
+        std::ranges::sort(pairs);
+        std::vector<Pair> expected = touching_triangles(tree_a, tree_b, pose);
+        std::ranges::sort(expected);
+        EXPECT_EQ(pairs, expected);
+        EXPECT_TRUE(std::ranges::is_sorted(all, std::greater<>{}, &Contact::depth));
+        seen += all.size();
+        const std::vector<Contact> few = contacts(tree_a, tree_b, pose, {.max_contacts = 4});
+        EXPECT_LE(few.size(), 4u);
+        if (!all.empty()) {
+            EXPECT_EQ(few.front().depth, all.front().depth);
+        }
+    }
+    EXPECT_GT(seen, 50u);
+}
+
+TEST(Contacts, OfTouchingAndDegenerateTrianglesAreFlat) {
+    const Triangle<double> a{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    const Contact face = contact_of(a, {{.2, .2, 0}, {1, 1, 2}, {0, 1, 2}});
+    EXPECT_NEAR(face.depth, 0, 1e-15);
+    const Contact same = contact_of(a, a);
+    EXPECT_NEAR(same.depth, 0, 1e-15);
+    EXPECT_NEAR(std::abs(same.normal.z), 1, 1e-15);
+    const Contact point =
+        contact_of({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}});
+    EXPECT_EQ(point.depth, 0);
+    EXPECT_EQ(length(point.normal), 1);
+    EXPECT_TRUE(contacts(MeshTree(), MeshTree(), {}).empty());
+}
+
+TEST(Solids, HoldWhatLiesInside) {
+    const Solid outer(cube_mesh(1)), inner(cube_mesh(.1f, {.2f, .1f, 0}));
+    EXPECT_TRUE(collide(outer, inner, {}));
+    EXPECT_TRUE(collide(inner, outer, {}));
+    Pose away;
+    away.translation = {1.5, 0, 0};
+    EXPECT_FALSE(collide(outer, inner, away));
+    EXPECT_FALSE(collide(inner, outer, relative_pose(away, {})));
+    EXPECT_FALSE(collide(Solid(TriangleMesh{}), inner, {}));
+}
+
+TEST(Solids, OfPartsAreLookedAtOneByOne) {
+    // Far from the first part, the second one holds the small cube.
+    TriangleMesh two = cube_mesh(1, {-10, 0, 0});
+    const TriangleMesh other = cube_mesh(1, {10, 0, 0});
+    for (const auto& [a, b, c] : other.triangles)
+        two.triangles.push_back({a + 8, b + 8, c + 8});
+    two.vertices.insert(two.vertices.end(), other.vertices.begin(), other.vertices.end());
+    const Solid parts(two), small(cube_mesh(.1f));
+    EXPECT_EQ(parts.parts(), 2u);
+    Pose pose;
+    EXPECT_FALSE(collide(parts, small, pose));
+    for (const double x : {-10.0, 10.0}) {
+        pose.translation = {x, 0, 0};
+        EXPECT_TRUE(collide(parts, small, pose));
+        EXPECT_TRUE(collide(small, parts, relative_pose(pose, {})));
+    }
+}
+
+TEST(Solids, KeepPartsWhoseVerticesHaveUnusedTwins) {
+    const TriangleMesh cube = cube_mesh(.1f);
+    TriangleMesh doubled{cube.vertices, {}};
+    doubled.vertices.insert(doubled.vertices.end(), cube.vertices.begin(), cube.vertices.end());
+    for (const auto& [a, b, c] : cube.triangles)
+        doubled.triangles.push_back({a + 8, b + 8, c + 8});
+    EXPECT_TRUE(collide(Solid(cube_mesh(1)), Solid(doubled), {}));
+    EXPECT_TRUE(collide(Solid(doubled), Solid(cube_mesh(1)), {}));
+}
+
+TEST(Solids, MustBeClosed) {
+    TriangleMesh open = cube_mesh(1);
+    open.triangles.pop_back();
+    EXPECT_THROW(Solid{open}, std::invalid_argument);
+}
+
+} // namespace
+} // namespace boxwood

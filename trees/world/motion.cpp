@@ -1,0 +1,127 @@
+#include "trees/world/motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace boxwood {
+namespace {
+
+using Rotation = std::array<Vec3<double>, 3>;
+
+Vec3<double> times(const Rotation& r, const Vec3<double>& v) {
+    return {dot(r[0], v), dot(r[1], v), dot(r[2], v)};
+}
+Rotation times(const Rotation& r, const Rotation& s) {
+    Rotation product;
+    for (std::size_t i = 0; i < 3; ++i)
+        product[i] = r[i].x * s[0] + r[i].y * s[1] + r[i].z * s[2];
+    return product;
+}
+
+/// By an angle about an axis of length 1 (Rodrigues).
+Rotation rotation_about(const Vec3<double>& u, double angle) {
+    const double s = std::sin(angle), half = std::sin(angle / 2), c = 2 * half * half; // 1 - cos
+    return {{{1 - c * (u.y * u.y + u.z * u.z), c * u.x * u.y - s * u.z, c * u.x * u.z + s * u.y},
+             {c * u.x * u.y + s * u.z, 1 - c * (u.x * u.x + u.z * u.z), c * u.y * u.z - s * u.x},
+             {c * u.x * u.z - s * u.y, c * u.y * u.z + s * u.x, 1 - c * (u.x * u.x + u.y * u.y)}}};
+}
+
+struct AxisAngle {
+    Vec3<double> axis{0, 0, 1};
+    double angle = 0; ///< 0 to pi
+};
+
+/// From the quaternion, whose greatest part is computed first, so that no angle is ill-conditioned.
+AxisAngle axis_angle_of(const Rotation& r) {
+    const double xx = r[0].x, yy = r[1].y, zz = r[2].z;
+    std::array<double, 4> q{1 + xx + yy + zz, 1 + xx - yy - zz, 1 - xx + yy - zz, 1 - xx - yy + zz};
+    const auto greatest = static_cast<std::size_t>(std::ranges::max_element(q) - q.begin());
+    const double x = r[2].y - r[1].z, y = r[0].z - r[2].x, z = r[1].x - r[0].y;
+    const double xy = r[0].y + r[1].x, xz = r[0].z + r[2].x, yz = r[1].z + r[2].y;
+    switch (greatest) { // times 4 of the greatest part
+    case 0:
+        q = {q[0], x, y, z};
+        break;
+    case 1:
+        q = {x, q[1], xy, xz};
+        break;
+    case 2:
+        q = {y, xy, q[2], yz};
+        break;
+    default:
+        q = {z, xz, yz, q[3]};
+    }
+    Vec3<double> v{q[1], q[2], q[3]};
+    double w = q[0];
+    if (w < 0) {
+        w = -w;
+        v = -v;
+    }
+    const double size = length(v);
+    if (!(size > 0))
+        return {};
+    return {(1 / size) * v, 2 * std::atan2(size, w)};
+}
+
+} // namespace
+
+Motion::Motion(const Pose& from, const Pose& to, MotionPath kind) : from_(checked_pose(from)) {
+    const Pose end = checked_pose(to);
+    Rotation back; // the inverse of the start
+    for (int i = 0; i < 3; ++i)
+        back[static_cast<std::size_t>(i)] = {from_.rotation[0][i], from_.rotation[1][i],
+                                             from_.rotation[2][i]};
+    const Rotation turn = times(end.rotation, back); // end = turn after start
+    const AxisAngle a = axis_angle_of(turn);
+    axis_ = a.axis;
+    angle_ = a.angle;
+    way_ = end.translation - from_.translation;
+    is_screw_ = kind == MotionPath::screw;
+    if (is_screw_) {
+        const double along = dot(way_, axis_);
+        across_ = way_ - along * axis_;
+        way_ = along * axis_;
+    }
+}
+
+// With R(t) the rotation so far and c the axis' place, the origin is at c + R(t) (o - c) across the
+// axis, and across = (R(1) - 1) (o - c): the way to t is (R(t) - 1) (R(1) - 1)^-1 across. Turns
+// about one axis commute, and R(t) - 1 is 2 sin(t angle / 2) times a turn by t angle / 2 and a
+// right angle: what is left is a ratio of sines times a turn by (t - 1) angle / 2. No place is
+// needed, which would be far away for a small angle.
+Pose Motion::at(double t) const {
+    Pose pose;
+    pose.rotation = times(rotation_about(axis_, t * angle_), from_.rotation);
+    Vec3<double> shift = t * way_;
+    if (is_screw_) {
+        const double half = angle_ / 2;
+        const double part = half > 0 ? std::sin(t * half) / std::sin(half) : t;
+        shift = shift + part * times(rotation_about(axis_, (t - 1) * half), across_);
+    }
+    pose.translation = from_.translation + shift;
+    return pose;
+}
+
+double Motion::longest_way(const Aabb<float>& box) const {
+    // The speed of the origin across the axis at the start; that of a point does not change.
+    Vec3<double> start{};
+    if (is_screw_) {
+        const double half = angle_ / 2;
+        start =
+            (half > 0 ? half / std::sin(half) : 1.0) * times(rotation_about(axis_, -half), across_);
+    }
+    double fastest = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3<double> p{double{corner & 1 ? box.max.x : box.min.x},
+                             double{corner & 2 ? box.max.y : box.min.y},
+                             double{corner & 4 ? box.max.z : box.min.z}};
+        fastest =
+            std::max(fastest, length(start + angle_ * cross(axis_, times(from_.rotation, p))));
+    }
+    // Across and along the axis of a screw the ways are at right angles.
+    const double slid = length(way_);
+    const double way = is_screw_ ? std::sqrt(fastest * fastest + slid * slid) : fastest + slid;
+    return way * (1 + 0x1p-40);
+}
+
+} // namespace boxwood

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "kernels/primitives/aabb.h"
+#include "trees/world/pose.h"
+
+#include <cstdint>
+
+namespace boxwood {
+
+/// How a body goes from one pose to another while t goes from 0 to 1. linear: its origin on a
+/// straight line, while it turns about it at a constant rate by the smaller angle. screw: it turns
+/// about one axis of space and slides along it, both at constant rates.
+enum class MotionPath : std::uint8_t { linear, screw };
+
+class Motion {
+  public:
+    /// Throws as checked_pose.
+    Motion(const Pose& from, const Pose& to, MotionPath kind = MotionPath::linear);
+    /// A body that stays.
+    explicit Motion(const Pose& pose = {}) : Motion(pose, pose) {}
+
+    /// Rounded: off by less than 2^-46 of the greatest coordinate of the two poses.
+    Pose at(double t) const;
+    /// The longest way that a point of a box of the body goes, rounded up: also the greatest speed
+    /// per unit of t, as all rates are constant.
+    double longest_way(const Aabb<float>& box) const;
+
+  private:
+    Pose from_;
+    Vec3<double> axis_{0, 0, 1};
+    Vec3<double> way_{};    ///< of the origin, or of a screw along its axis
+    Vec3<double> across_{}; ///< of a screw: the rest of the origin's way
+    double angle_ = 0;
+    bool is_screw_ = false;
+};
+
+} // namespace boxwood
