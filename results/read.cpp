@@ -1,5 +1,6 @@
 #include "results/detail/handle.h"
 #include "results/detail/ids.h"
+#include "results/detail/open.h"
 #include "results/detail/seal.h"
 #include "results/results.h"
 #include "results/schema.h"
@@ -227,23 +228,12 @@ Results read_open(hid_t file, const fs::path& path, Required required) {
 } // namespace
 
 Results read(const fs::path& file, Required required) try {
-    if (!fs::exists(file))
-        fail("no such file");
-    if (!fs::is_regular_file(file))
-        fail("not a regular file");
-    if (fs::file_size(file) == 0)
-        fail("the file is empty");
+    require_file(file);
     const SealState seal = state_of_seal(file);
     if (seal == SealState::broken)
         fail("it is damaged: its content is not what was written (checksum); use another copy");
     const Silence silence;
-    if (checked(H5Fis_hdf5(file.c_str()), "opening it") == 0)
-        fail("not an HDF5 file, or cut off within its first bytes");
-    // The core driver takes the whole file into memory: no lock, and no way back to the disk.
-    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");
-    checked(H5Pset_fapl_core(access, /*increment=*/4096, /*backing_store=*/false), "file access");
-    const Handle handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), H5Fclose,
-                        "not a readable HDF5 file");
+    const Handle handle = open_to_read(file);
     Results results = read_open(handle, file, required);
     results.is_sealed = seal == SealState::fits;
     return results;

@@ -248,6 +248,7 @@ std::vector<std::uint32_t> BvhF64::containing(Vec3<double> point) const {
 /// Whatever is within that bound overlaps the box that has it for its half side.
 std::vector<Neighbour> BvhF64::nearest(Vec3<double> point, std::size_t k) const {
     std::vector<Neighbour> found;
+    k = std::min(k, size());
     if (!is_finite(point) || k == 0)
         return found;
     const auto offer = [&](std::uint32_t item) {

@@ -76,6 +76,8 @@ void expect_all_answers(const BoxQueries& bvh, Boxes boxes) {
     const auto of_balls = bvh.overlapping(q.balls);
     const auto of_points = bvh.containing(q.points);
     const std::vector<Neighbour> near = bvh.nearest(q.points, 3);
+    const std::vector<Vec3<float>> two(2);
+    EXPECT_THROW(bvh.nearest(two, std::size_t{1} << 63), std::length_error); // times 2 is 0
     ASSERT_EQ(of_boxes.size(), q.boxes.size());
     ASSERT_EQ(near.size(), 3 * q.points.size());
     const auto list = [](std::span<const std::uint32_t> items) {
@@ -352,6 +354,7 @@ TEST(BvhF64, PairsOfTwoTreesAndBadInput) {
     const BvhF64 bvh(a);
     EXPECT_TRUE(bvh.containing({nan, 1, 1}).empty());
     EXPECT_TRUE(bvh.nearest({inf, 1, 1}).empty());
+    EXPECT_EQ(bvh.nearest({1, 1, 1}, std::numeric_limits<std::size_t>::max()).size(), a.size());
     EXPECT_TRUE(bvh.overlapping({{1, 1, nan}, {2, 2, 2}}).empty());
     const Vec3<double> inside{1 + 0x1p-26, 1 + 0x1p-26, 1 + 0x1p-26};
     Aabb<double> inverted{inside, inside};

@@ -105,10 +105,30 @@ TEST(SharedTrees, AreQueriedByManyThreadsAtOnce) {
                 all.push_back(mesh.closest_hit(ray).value_or(RayHit{}).triangle);
                 all.push_back(mesh.any_hit(ray));
                 all.push_back(mesh.closest_point(ray.origin)->squared_distance);
+                all.push_back(mesh.signed_distances({&ray.origin, 1}).front());
             }
             return all;
         });
     }
+}
+
+/// What sides() keeps of a mesh is made by whoever asks first.
+TEST(SharedTrees, FirstAskedBySeveralThreadsAtOnce) {
+    constexpr std::size_t n = 4;
+    const std::vector<Vec3<float>> points{{0, 0, 0}, {9, 0, 0}, {0.1f, 0.2f, 0.3f}};
+    const MeshBvh mesh(sphere(12));
+    std::vector<std::vector<Side>> found(n);
+    std::latch start(n);
+    {
+        std::vector<std::jthread> threads;
+        for (std::vector<Side>& sides : found)
+            threads.emplace_back([&] {
+                start.arrive_and_wait();
+                sides = mesh.sides(points);
+            });
+    }
+    for (const std::vector<Side>& sides : found)
+        EXPECT_EQ(sides, (std::vector{Side::inside, Side::outside, Side::inside}));
 }
 
 } // namespace

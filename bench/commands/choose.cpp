@@ -5,6 +5,7 @@
 #include "bench/io/say.h"
 #include "bench/running/sweep.h"
 #include "scenes/moving/recording.h"
+#include "scenes/moving/scene_file.h"
 #include "trees/builder.h"
 #include "trees/dynamic/update.h"
 #include "trees/layout.h"
@@ -16,10 +17,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
 
 namespace boxwood::bench {
 namespace {
@@ -63,7 +66,8 @@ struct ChooseOptions {
     fs::path mesh, boxes, motion, out;
     std::string scene;
     std::string task;
-    double minutes = 2, queries = 0;
+    double minutes = 2;
+    std::optional<double> queries;
     unsigned threads = 1;
     bool as_json = false;
 };
@@ -148,12 +152,11 @@ class Chooser {
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         say(fmt::format("timing {} x {}, and the peers\n", fmt::join(builders, ", "),
                         fmt::join(layouts, ", ")));
+        fs::remove(options_.out); // what was timed before is not asked again
         if (const int code = sweep_.run(block(builders, layouts, true), options_.out,
                                         std::max(10., 60 * options_.minutes - spent)))
             return code;
-        const Advice advice =
-            advise(read_results(options_.out),
-                   options_.queries > 0 ? std::optional(options_.queries) : std::nullopt);
+        const Advice advice = advise(read_results(options_.out), options_.queries);
         fs::path picture = options_.out;
         picture.replace_extension(".svg");
         std::ofstream(picture) << advice_picture(advice);
@@ -223,8 +226,21 @@ class Chooser {
     OwnSweep sweep_;
 };
 
+/// Before what was timed earlier is removed.
+void require_motion(const ChooseOptions& options) {
+    try {
+        if (options.motion.empty())
+            load_scene(options.scene);
+        else
+            read_recording(options.motion);
+    } catch (const std::exception& error) {
+        throw BadInput(fmt::format("choose: {}", error.what()));
+    }
+}
+
 /// Every update policy, and the peers that take frames.
 int choose_policy(const ChooseOptions& options) {
+    require_motion(options);
     std::vector<std::string> policies;
     for (const UpdateEntry& update : updates())
         policies.emplace_back(update.name);
@@ -234,6 +250,7 @@ int choose_policy(const ChooseOptions& options) {
                                                             ? fs::absolute(options.scene).string()
                                                             : options.scene)
                                                      : std::string(motion_scene);
+    fs::remove(options.out);
     if (const int code = sweep.run(
             fmt::format(
                 "[[cells]]\nscene = \"{}\"\ntask = \"moving_pairs\"\nupdates = {}\n"
@@ -264,6 +281,11 @@ int choose(ChooseOptions options) {
             "choose: --task moving is for --scene and --motion, and these for nothing else");
     if (options.mesh.empty() && options.task == "rays")
         throw BadInput("choose: rays meet triangles; give --mesh FILE");
+    if (options.queries && !(*options.queries > 0 && std::isfinite(*options.queries)))
+        throw BadInput(
+            fmt::format("choose: --queries {}: a number above 0 is wanted, of queries that "
+                        "you make of one tree",
+                        *options.queries));
     if (options.out.empty()) {
         fs::path of = options.scene;
         for (const fs::path& file : {options.mesh, options.boxes, options.motion})
@@ -274,7 +296,10 @@ int choose(ChooseOptions options) {
     if (options.out.extension() != ".h5")
         throw BadInput(fmt::format("choose: --out '{}': the name of a result file ends in .h5",
                                    options.out.string()));
-    fs::remove(options.out); // what was timed before is not asked again
+    if (const fs::path folder = fs::absolute(options.out).parent_path(); !fs::is_directory(folder))
+        throw BadInput(
+            fmt::format("choose: --out '{}': there is no folder {}; make it: mkdir -p {}",
+                        options.out.string(), folder.string(), folder.string()));
     return moves ? choose_policy(options) : Chooser(options).run();
 }
 
@@ -301,10 +326,9 @@ void add_choose(CLI::App& app, int& exit_code) {
     command->add_option("--minutes", options->minutes, "how long it may take, about")
         ->check(CLI::Range(0.2, 600.))
         ->capture_default_str();
-    command
-        ->add_option("--queries", options->queries,
-                     "how many queries (rays, ...) you make of one tree before you build it again")
-        ->check(CLI::PositiveNumber);
+    command->add_option(
+        "--queries", options->queries,
+        "how many queries (rays, ...) you make of one tree before you build it again");
     command->add_option("--threads", options->threads, "of build and query")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();

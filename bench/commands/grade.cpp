@@ -34,8 +34,8 @@ std::string line_of(const std::string& name, const Grade& g) {
                        counted(g.points), counted(g.rays));
 }
 
-int grade_file(const std::string& file, bool as_json) {
-    const NodeTable theirs = read_node_table(file);
+int grade_file(const std::string& file, const std::string& table, bool as_json) {
+    const NodeTable theirs = read_node_table(file, table);
     if (const auto fault = fault_of(theirs)) {
         std::cout << (as_json ? fmt::format(R"({{"fault":{}}})"
                                             "\n",
@@ -75,19 +75,24 @@ int grade_file(const std::string& file, bool as_json) {
 
 void add_grade(CLI::App& app, int& exit_code) {
     auto file = std::make_shared<std::string>();
+    auto table = std::make_shared<std::string>("nodes");
     auto as_json = std::make_shared<bool>(false);
     CLI::App* grade = app.add_subcommand(
         "grade", "how good anybody's tree is, beside ours on the same boxes, without a clock");
     grade
-        ->add_option("table", *file,
-                     "CSV: node,parent,item,min_x,min_y,min_z,max_x,max_y,max_z a line. Of a node "
-                     "item is -1, of the root parent is -1; of an item node is -1")
+        ->add_option("tree", *file,
+                     "CSV: node,parent,item,min_x,min_y,min_z,max_x,max_y,max_z a line; or HDF5: a "
+                     "table with columns of these names. Of a node item is -1, of the root parent "
+                     "is -1; of an item node is -1")
         ->required();
+    grade->add_option("--table", *table, "the table of an HDF5 file")->capture_default_str();
     grade->add_flag("--json", *as_json, "as one JSON object");
     grade->footer(
-        "Example: boxwood grade my_tree.csv\n"
+        "Example: boxwood grade my_tree.csv; boxwood grade mine.h5 --table frame_7/tree\n"
+        "HDF5: a structured array of h5py, a DataFrame by to_hdf(FILE, key=\"nodes\", "
+        "format=\"table\", data_columns=True), or a group with a dataset of each column.\n"
         "Exit codes: 0 a valid tree, 1 a node does not hold what is below it, 2 no tree.");
-    grade->callback([=, &exit_code] { exit_code = grade_file(*file, *as_json); });
+    grade->callback([=, &exit_code] { exit_code = grade_file(*file, *table, *as_json); });
 }
 
 } // namespace boxwood::bench

@@ -85,14 +85,17 @@ TEST(Grade, WhatIsNoTreeIsRefused) {
     const Row root{0, -1, -1, whole}, item{-1, 0, 0, left_box};
     EXPECT_EQ(refusal({root, item}), "none");
     EXPECT_THAT(refusal({item}), HasSubstr("no node is the root"));
-    EXPECT_THAT(refusal({root, root, item}), HasSubstr("stands there twice"));
+    EXPECT_THAT(refusal({root, root, item}), HasSubstr("node 0 has two rows"));
     EXPECT_THAT(refusal({root, {1, -1, -1, whole}, item}), HasSubstr("both have no parent"));
     EXPECT_THAT(refusal({root, item, {1, 9, -1, whole}}),
-                HasSubstr("no node 9, the parent of node 1"));
+                HasSubstr("no node 9, the parent of node 1 (row 0)"));
     EXPECT_THAT(refusal({root, item, {1, 2, -1, whole}, {2, 1, -1, whole}}),
                 HasSubstr("in a circle"));
-    EXPECT_THAT(refusal({root, item, item}), HasSubstr("item 0 stands there twice"));
-    EXPECT_THAT(refusal({root, item, {-1, 0, 5, whole}}), HasSubstr("item 5 is none of the 2"));
+    EXPECT_THAT(refusal({root, item, item}), HasSubstr("item 0 has two rows"));
+    EXPECT_THAT(refusal({root, item, {-1, 0, 5, whole}}), HasSubstr("is none of the 2"));
+    EXPECT_THAT(refusal({root, item, {-1, -1, 1, whole}}), HasSubstr("is below no node"));
+    EXPECT_THAT(refusal({root, item, {1, 0, -1, whole, 7}, {1, 0, -1, whole, 9}}),
+                HasSubstr("node 1 has two rows, rows 7 and 9"));
 }
 
 } // namespace

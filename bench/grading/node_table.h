@@ -2,10 +2,12 @@
 
 #include "trees/tree.h"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace boxwood::bench {
@@ -24,10 +26,12 @@ class NodeTable {
         static constexpr std::int64_t none = -1;
         std::int64_t node, parent, item;
         Box box;
+        std::uint64_t number = 0; ///< of its row or line, for messages
     };
     /// Node 0 is the root; children come after their parents. Throws BadInput for rows that are no
-    /// tree: a node that stands twice, a parent that is not there, no root or several, a circle.
-    explicit NodeTable(std::span<const Row> rows);
+    /// tree: a node with two rows, a parent that is not there, no root or several, a circle.
+    /// row_word: what its number counts, "row" or "line".
+    explicit NodeTable(std::span<const Row> rows, std::string_view row_word = "row");
     /// Of ours: each leaf a node with its item.
     NodeTable(const Tree& tree, Boxes boxes);
 
@@ -52,9 +56,13 @@ class NodeTable {
     std::vector<Box> boxes_;
 };
 
-/// From a CSV file with rows of node,parent,item,min_x,min_y,min_z,max_x,max_y,max_z: parent is -1
-/// of the root, item -1 of nodes; the row of an item has the number -1 for its node. Throws
-/// BadInput.
-NodeTable read_node_table(const std::filesystem::path& file);
+/// The columns of a table of nodes: parent is -1 of the root, item -1 of nodes; the row of an item
+/// has the number -1 for its node.
+inline constexpr std::array<std::string_view, 9> node_columns{
+    "node", "parent", "item", "min_x", "min_y", "min_z", "max_x", "max_y", "max_z"};
+
+/// From the lines of a CSV file, or from the table `table` of an HDF5 file
+/// (results/columns.h). Throws BadInput, which names the file and the row.
+NodeTable read_node_table(const std::filesystem::path& file, const std::string& table = "nodes");
 
 } // namespace boxwood::bench

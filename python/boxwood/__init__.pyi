@@ -2,6 +2,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import results as results
+from . import trimesh as trimesh
 from ._answers import ClosestPoints as ClosestPoints
 from ._answers import Contacts as Contacts
 from ._answers import Distances as Distances

@@ -23,6 +23,10 @@ class RayMeshIntersector:
     def __repr__(self):
         return f"<boxwood.trimesh.RayMeshIntersector of {len(self.mesh.faces)} triangles>"
 
+    def __getstate__(self):
+        """Copies and pickles make the tree again."""
+        return {"mesh": self.mesh, "threads": self.threads, "_made_of": None}
+
     def _tree(self):
         made_of = hash(self.mesh)
         if self._made_of != made_of:
@@ -58,7 +62,7 @@ class RayMeshIntersector:
                                                              return_locations=True)
         return locations, index_ray, index_tri
 
-    def intersects_id(self, ray_origins, ray_directions, multiple_hits=True, max_hits=20, return_locations=False):
+    def intersects_id(self, ray_origins, ray_directions, multiple_hits=True, max_hits=100, return_locations=False):
         """Which triangles rays meet: (index_tri, index_ray), and the locations if asked for.
 
         max_hits: the first so many of each ray.

@@ -30,9 +30,19 @@ inline std::string shape_of(const py::array& array) {
     return text + (array.ndim() == 1 ? ",)" : ")");
 }
 
-/// Any array, nested list or buffer of real numbers. Throws TypeError for what is none.
+/// Any array, nested list or buffer of real numbers. Throws TypeError for what is none or has a
+/// mask, and ValueError for rows of several lengths.
 inline py::array numbers_of(const py::handle& given, const std::string& name) {
-    py::array array = py::module_::import("numpy").attr("asarray")(given);
+    if (py::isinstance<py::array>(given) && py::hasattr(given, "filled"))
+        throw py::type_error(name + ": a masked array is not taken; give its filled()");
+    py::array array;
+    try {
+        array = py::module_::import("numpy").attr("asarray")(given);
+    } catch (const py::error_already_set& error) {
+        if (!error.matches(PyExc_ValueError))
+            throw;
+        throw py::value_error(name + ": " + std::string(py::str(error.value())));
+    }
     if (std::string("fiub").find(array.dtype().kind()) == std::string::npos)
         throw py::type_error(name + ": real numbers are wanted, not an array of " +
                              std::string(py::str(array.dtype())));
@@ -88,11 +98,19 @@ template <class T> class Rows {
     }
 
   private:
-    using Array = py::array_t<T, py::array::c_style | py::array::forcecast>;
+    static constexpr int aligned = py::detail::npy_api::NPY_ARRAY_ALIGNED_;
+    using Array = py::array_t<T, py::array::c_style | py::array::forcecast | aligned>;
     std::string name_;
     Array array_;
     std::size_t n_ = 0, columns_ = 1;
 };
+
+/// As the library counts them. Throws ValueError for none and for more than 1024.
+inline unsigned threads_of(std::int64_t threads) {
+    if (threads < 1 || threads > 1024)
+        throw py::value_error("threads: 1 to 1024 are wanted, not " + std::to_string(threads));
+    return static_cast<unsigned>(threads);
+}
 
 /// Numbers of items, each below `limit`; `columns` 0: shape (n,).
 std::vector<std::uint32_t> indices_of(const py::handle& given, const std::string& name,

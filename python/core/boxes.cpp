@@ -66,6 +66,8 @@ template <class Found, class Ask> AnswersOf<Found> each(std::size_t n, const Ask
     return all;
 }
 
+constexpr std::size_t max_neighbours = std::size_t{1} << 32; ///< of one call: 64 GiB
+
 /// A tree of float boxes, or of doubles where the boxes are.
 class PyBvh {
     template <class Tree> static constexpr bool is_double_tree = std::is_same_v<Tree, BvhF64>;
@@ -111,11 +113,11 @@ class PyBvh {
 
   public:
     PyBvh(const py::object& boxes, const std::string& builder, const std::string& layout,
-          unsigned threads) {
+          std::int64_t threads) {
         BvhOptions options;
         options.builder = make_builder(builder);
         options.layout = static_cast<LayoutName>(&find_layout(layout) - layouts().data());
-        options.threads = threads;
+        options.threads = threads_of(threads);
         if (are_doubles(boxes, "boxes"))
             make<BvhF64>(boxes, options);
         else
@@ -182,13 +184,19 @@ class PyBvh {
         });
     }
 
-    py::object nearest(const py::object& points, std::size_t k) const {
-        if (k < 1)
+    py::object nearest(const py::object& points, py::ssize_t number) const {
+        if (number < 1)
             throw py::value_error("k: at least 1 is wanted");
+        const auto k = static_cast<std::size_t>(number);
         return visit([&]<class Tree>(const Tree& tree) {
             using Real = RealOf<Tree>;
             const Rows<Real> given(points, "points", {3});
             given.require_finite();
+            if (k > max_neighbours / std::max<std::size_t>(1, given.size()))
+                throw py::value_error("k: " + std::to_string(k) + " for each of " +
+                                      std::to_string(given.size()) +
+                                      " points are more than 2^32 answers; there are " +
+                                      std::to_string(tree.size()) + " items");
             const auto asked = given.template as<Vec3<Real>>();
             std::vector<Neighbour> found = without_gil([&] {
                 if constexpr (is_double_tree<Tree>) {
@@ -229,7 +237,7 @@ Queries of another dtype are converted to that of the tree.
 
 Any number of threads may query one tree at the same time (the GIL is
 released); who calls update() is alone with it meanwhile.)")
-        .def(py::init<const py::object&, const std::string&, const std::string&, unsigned>(),
+        .def(py::init<const py::object&, const std::string&, const std::string&, std::int64_t>(),
              py::arg("boxes"), py::kw_only(), py::arg("builder") = "hilbert",
              py::arg("layout") = "packed", py::arg("threads") = 1, R"(
 boxes: shape (n, 6), each row min x, y, z, max x, y, z; or a tuple
@@ -280,7 +288,8 @@ Returns Items(offsets, items), as overlapping().)")
 by item; a box that contains the point has distance 0.
 
 Returns Nearest(items, distances), each of shape (n, k), filled up with -1
-and infinity if there are fewer.)");
+and infinity if there are fewer. Raises ValueError for k < 1, and for more
+than 2^32 answers.)");
 }
 
 } // namespace boxwood::python

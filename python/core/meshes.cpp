@@ -66,18 +66,19 @@ py::object hits_of(std::vector<RayHit> found) {
 class PyMeshBvh {
   public:
     PyMeshBvh(const py::object& vertices, const py::object& faces, const std::string& builder,
-              const std::string& layout, const std::string& kernel, unsigned threads) {
+              const std::string& layout, const std::string& kernel, std::int64_t threads) {
         MeshBvhOptions options;
         options.builder = make_builder(builder);
         options.layout = static_cast<LayoutName>(&find_layout(layout) - layouts().data());
         options.kernel = kernel_named(kernel);
-        options.threads = threads;
+        options.threads = threads_of(threads);
         const Rows<float> points(vertices, "vertices", {3});
         const auto corners = points.as<Vec3<float>>();
         TriangleMesh mesh{{corners.begin(), corners.end()}, {}};
         const std::vector<std::uint32_t> indices = indices_of(faces, "faces", points.size(), 3);
         for (std::size_t i = 0; i < indices.size(); i += 3)
             mesh.triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
+        require_corners(corners, mesh);
         without_gil([&] { bvh_.emplace(std::move(mesh), options); });
     }
 
@@ -85,7 +86,10 @@ class PyMeshBvh {
 
     void update(const py::object& vertices) {
         const Rows<float> points(vertices, "vertices", {3});
-        without_gil([&] { bvh_->update(points.as<Vec3<float>>()); });
+        const auto corners = points.as<Vec3<float>>();
+        if (corners.size() == bvh_->mesh().vertices.size()) // else update() says so
+            require_corners(corners, bvh_->mesh());
+        without_gil([&] { bvh_->update(corners); });
     }
 
     py::object closest_hits(const py::object& origins, const py::object& directions,
@@ -139,6 +143,16 @@ class PyMeshBvh {
     }
 
   private:
+    /// Of vertices that no triangle has it does not matter what they are.
+    static void require_corners(std::span<const Vec3<float>> vertices, const TriangleMesh& mesh) {
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+            for (const std::uint32_t corner : mesh.triangles[i])
+                for (int axis = 0; axis < 3; ++axis)
+                    if (!(std::abs(vertices[corner][axis]) < max_ray_coordinate))
+                        throw py::value_error("vertices: row " + std::to_string(corner) +
+                                              ", of face " + std::to_string(i) +
+                                              ", has a NaN, or a number of 2^126 or more");
+    }
     static RayKernelName kernel_named(const std::string& name) {
         for (std::size_t i = 0; i < ray_kernels().size(); ++i)
             if (ray_kernels()[i].name == name)
@@ -181,7 +195,7 @@ default kernel are watertight: none slips between triangles with a common edge.
 Any number of threads may query one tree at the same time (the GIL is
 released); who calls update() is alone with it meanwhile.)")
         .def(py::init<const py::object&, const py::object&, const std::string&, const std::string&,
-                      const std::string&, unsigned>(),
+                      const std::string&, std::int64_t>(),
              arg("vertices"), arg("faces"), py::kw_only(), arg("builder") = "binned_sah",
              arg("layout") = "wide8", arg("kernel") = "watertight", arg("threads") = 1, R"(
 vertices: shape (n, 3). faces: shape (m, 3), integers, each row the vertices of

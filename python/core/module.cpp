@@ -32,10 +32,20 @@ std::vector<std::uint32_t> indices_of(const py::handle& given, const std::string
     return columns ? numbers({array, name, {columns}}) : numbers({array, name, {}});
 }
 
+/// pybind11 before 2.12 takes numpy 2 for numpy 1, and gives wrong answers.
+void require_known_numpy() {
+    const std::string numpy(py::str(py::module_::import("numpy").attr("__version__")));
+    if (PYBIND11_VERSION_HEX < 0x020C0000 && !numpy.starts_with("1."))
+        throw py::import_error(
+            "boxwood was built with a pybind11 older than 2.12, which does not know numpy " +
+            numpy + ": build it by `pip install .`, which takes a newer one, or use numpy 1");
+}
+
 } // namespace boxwood::python
 
 PYBIND11_MODULE(_core, module) {
     using namespace boxwood::python;
+    require_known_numpy();
     module.doc() = "What boxwood/__init__.py offers, in C++.";
     module.attr("__version__") = BOXWOOD_VERSION;
     module.def(

@@ -28,8 +28,9 @@ struct Pairs {
 };
 
 /// body(begin, end) for parts of n pairs, on so many threads, without the GIL.
-template <class Body> void in_parts(std::size_t n, unsigned threads, const Body& body) {
+template <class Body> void in_parts(std::size_t n, std::int64_t given_threads, const Body& body) {
     constexpr std::size_t part = 1024; // a multiple of the lanes of a block
+    const unsigned threads = threads_of(given_threads);
     const auto executor = make_executor(default_executor(threads), threads);
     without_gil([&] {
         executor->for_each((n + part - 1) / part,
@@ -37,7 +38,7 @@ template <class Body> void in_parts(std::size_t n, unsigned threads, const Body&
     });
 }
 
-py::array triangles_intersect(const py::object& a, const py::object& b, unsigned threads) {
+py::array triangles_intersect(const py::object& a, const py::object& b, std::int64_t threads) {
     using Kernel = GuigueDevillersExactBatch;
     using Block = TrianglePairBlock<double>;
     const Pairs pairs(a, b);
@@ -58,7 +59,7 @@ py::array triangles_intersect(const py::object& a, const py::object& b, unsigned
     return answers;
 }
 
-py::object triangle_distances(const py::object& a, const py::object& b, unsigned threads) {
+py::object triangle_distances(const py::object& a, const py::object& b, std::int64_t threads) {
     const Pairs pairs(a, b);
     std::vector<Distance> found(pairs.size());
     in_parts(pairs.size(), threads, [&](std::size_t begin, std::size_t end) {

@@ -1,7 +1,11 @@
 """Bvh against numpy, pair by pair."""
 
+import os
+import subprocess
+import sys
 import threading
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -86,7 +90,12 @@ def test_every_way_to_give_boxes():
     wide[:, ::2] = boxes
     flipped = np.asfortranarray(boxes)
     swapped = boxes.astype(">f4")
+    unaligned = np.frombuffer(b"x" + boxes.tobytes(), np.uint8)[1:].view(np.float32).reshape(100, 6)
+    read_only = boxes.copy()
+    read_only.flags.writeable = False
+    assert not unaligned.flags.aligned
     for given in (wide[:, ::2], flipped, swapped, boxes.tolist(), boxes.astype(np.float64), memoryview(boxes),
+                  unaligned, read_only, boxes[::-1][::-1], boxes.view(np.recarray), list(boxes),
                   (boxes[:, :3], boxes[:, 3:]), (boxes[:, :3].tolist(), boxes[:, 3:])):
         assert sorted(bw.Bvh(given).pairs().tolist()) == sorted(expected)
     assert bw.Bvh(np.array([[0, 0, 0, 2, 2, 2], [1, 1, 1, 3, 3, 3]])).pairs().tolist() == [[0, 1]]  # integers
@@ -109,10 +118,18 @@ def test_bad_boxes_are_refused(given, message):
 def test_other_bad_input_is_refused():
     with pytest.raises(TypeError, match="real numbers"):
         bw.Bvh([["a"] * 6])
+    for ragged in ([[0, 0, 0, 1, 1, 1], [0, 0, 0]], [[0] * 6, 7]):
+        with pytest.raises((TypeError, ValueError), match="boxes: "):
+            bw.Bvh(ragged)
+    for nothing in (None, object(), {}, "boxes"):
+        with pytest.raises(TypeError, match="boxes: real numbers"):
+            bw.Bvh(nothing)
+    with pytest.raises(TypeError, match="boxes: a masked array is not taken"):
+        bw.Bvh(np.ma.masked_array(np.zeros((2, 6)), mask=[[True] * 6, [False] * 6]))
     with pytest.raises(TypeError, match="complex"):
         bw.Bvh(np.zeros((3, 6), complex))
     for options, message in (({"builder": "binned_sha"}, "binned_sah"), ({"layout": "wide9"}, "wide"),
-                             ({"threads": 0}, "thread")):
+                             ({"threads": 0}, "threads: 1 to 1024"), ({"threads": -1}, "threads: 1 to 1024")):
         with pytest.raises(ValueError, match=message):
             bw.Bvh([], **options)
     bvh = bw.Bvh(boxes_of(10))
@@ -122,6 +139,14 @@ def test_other_bad_input_is_refused():
         bvh.overlapping([[0, 0, 0, 1, 1, np.nan]])
     with pytest.raises(ValueError, match="at least 1"):
         bvh.nearest([[0, 0, 0]], k=0)
+    with pytest.raises(ValueError, match="at least 1"):
+        bvh.nearest([[0, 0, 0]], k=-1)
+    for held in (bvh, bw.Bvh(boxes_of(10, dtype=np.float64))):
+        for k in (2**31, 2**62):  # 4 times the latter is 0 in 64 bits
+            with pytest.raises(ValueError, match=r"more than 2\^32 answers; there are 10 items"):
+                held.nearest(np.zeros((4, 3)), k=k)
+        assert held.nearest(np.empty((0, 3)), k=4).items.shape == (0, 4)
+        assert (held.nearest([[0, 0, 0]], k=100).items[0] >= 0).sum() == 10
     with pytest.raises(ValueError, match="another dtype"):
         bvh.pairs(bw.Bvh(boxes_of(10, dtype=np.float64)))
     with pytest.raises(ValueError, match="different layouts|same layout|two trees"):
@@ -184,3 +209,10 @@ def test_the_gil_is_released():
     counter.join()
     assert took > 0.02, "too quick to tell"
     assert during > 20
+
+
+def test_a_numpy_that_pybind11_does_not_know_is_refused():
+    code = "import numpy; numpy.__version__ = '2.0.0'; import boxwood; boxwood.Bvh([])"
+    environment = {**os.environ, "PYTHONPATH": str(Path(bw.__path__[-1]).parent)}
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment)
+    assert done.returncode == 0 or "ImportError" in done.stderr and "does not know numpy 2.0.0" in done.stderr, done.stderr

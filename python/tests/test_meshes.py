@@ -1,5 +1,8 @@
 """MeshBvh and the triangle kernels against plain numpy, and trimesh where it is installed."""
 
+import copy
+import pickle
+
 import numpy as np
 import pytest
 
@@ -72,13 +75,21 @@ def test_bad_meshes_and_rays_are_refused():
     for vertices, faces, message in ((CUBE[:, :2], FACES, r"vertices: .*\(n, 3\)"), (CUBE, FACES[:, :2], r"faces: .*\(n, 3\)"),
                                      (CUBE, [[0, 1, 8]], "faces: row 0 names 8, but there are 8"),
                                      (CUBE, [[0, 1, 2], [0, -1, 2]], "faces: row 1 names -1"),
-                                     (np.full((3, 3), np.nan), [[0, 1, 2]], "not finite")):
+                                     (np.full((3, 3), np.nan), [[0, 1, 2]], "vertices: row 0, of face 0, has a NaN"),
+                                     (2.0**125 * CUBE * 2, FACES, r"vertices: row 1, of face 0, .*2\^126")):
         with pytest.raises(ValueError, match=message):
             bw.MeshBvh(vertices, faces)
     with pytest.raises(TypeError, match="integers"):
         bw.MeshBvh(CUBE, FACES.astype(float))
     with pytest.raises(ValueError, match="unknown kernel 'watertigt'; known: .*watertight"):
         bw.MeshBvh(CUBE, FACES, kernel="watertigt")
+    bw.MeshBvh(np.vstack([CUBE, [[np.nan, 0, 0]]]), FACES)  # of no face
+    mesh = bw.MeshBvh(CUBE, FACES)
+    with pytest.raises(ValueError, match="vertices: row 0, of face 0"):
+        mesh.update(CUBE - [np.inf, 0, 0])
+    with pytest.raises(ValueError, match="8 vertices, 7 are given"):
+        mesh.update(CUBE[:-1])
+    assert mesh.contains([[0.5, 0.5, 0.5]])[0]  # as before
     mesh = bw.MeshBvh(CUBE, FACES[:-1])
     with pytest.raises(ValueError, match="not closed.* 3 of its edges"):
         mesh.contains([[0.5, 0.5, 0.5]])
@@ -110,6 +121,13 @@ def test_triangles_exactly():
     assert bw.triangles_intersect([], []).shape == (0,)
 
 
+def rays_of_trimesh(trimesh):
+    """Its ways to cast rays: without Embree, and with it where embreex is installed."""
+    from trimesh.ray import has_embree, ray_pyembree, ray_triangle
+
+    return [ray_triangle.RayMeshIntersector] + [ray_pyembree.RayMeshIntersector] * bool(has_embree)
+
+
 def test_trimesh_interface():
     trimesh = pytest.importorskip("trimesh", reason="trimesh is not installed (pip install trimesh)")
     from boxwood.trimesh import RayMeshIntersector
@@ -117,20 +135,41 @@ def test_trimesh_interface():
     mesh = trimesh.creation.icosphere(subdivisions=3)
     mesh.apply_translation([100, 0, 0])
     ours = RayMeshIntersector(mesh)
-    theirs = trimesh.ray.ray_triangle.RayMeshIntersector(mesh)
     random = np.random.default_rng(5)
     origins = mesh.bounds.mean(axis=0) + 1.5 * random.standard_normal((300, 3))
     directions = random.standard_normal((300, 3))
-    np.testing.assert_array_equal(ours.intersects_any(origins, directions), theirs.intersects_any(origins, directions))
-    np.testing.assert_array_equal(ours.intersects_first(origins, directions), theirs.intersects_first(origins, directions))
-    places, rays, triangles = ours.intersects_location(origins, directions)
-    expected, of_rays, of_triangles = theirs.intersects_location(origins, directions)
-    assert {*zip(rays, triangles)} == {*zip(of_rays, of_triangles)}
-    order, by = np.lexsort((triangles, rays)), np.lexsort((of_triangles, of_rays))
-    np.testing.assert_allclose(places[order], expected[by], atol=1e-5)
     points = mesh.bounds.mean(axis=0) + random.standard_normal((300, 3))
-    np.testing.assert_array_equal(ours.contains_points(points), theirs.contains_points(points))
-    mesh.ray = ours
+    for theirs in (kind(mesh) for kind in rays_of_trimesh(trimesh)):
+        np.testing.assert_array_equal(ours.intersects_any(origins, directions), theirs.intersects_any(origins, directions))
+        np.testing.assert_array_equal(ours.intersects_first(origins, directions), theirs.intersects_first(origins, directions))
+        for multiple in (True, False):
+            places, rays, triangles = ours.intersects_location(origins, directions, multiple_hits=multiple)
+            expected, of_rays, of_triangles = theirs.intersects_location(origins, directions, multiple_hits=multiple)
+            order, by = np.lexsort((triangles, rays)), np.lexsort((of_triangles, of_rays))
+            np.testing.assert_array_equal(rays[order], of_rays[by])
+            np.testing.assert_array_equal(triangles[order], of_triangles[by])
+            np.testing.assert_allclose(places[order], expected[by], atol=1e-5)
+            again = ours.intersects_id(origins, directions, multiple_hits=multiple)
+            assert (again[0] == triangles).all() and (again[1] == rays).all()
+        np.testing.assert_array_equal(ours.contains_points(points), theirs.contains_points(points))
+
+
+def test_trimesh_takes_it_as_its_own():
+    trimesh = pytest.importorskip("trimesh", reason="trimesh is not installed (pip install trimesh)")
+    from boxwood.trimesh import RayMeshIntersector
+
+    mesh = trimesh.creation.icosphere(subdivisions=2)
+    mesh.apply_translation([100, 0, 0])
+    mesh.ray = RayMeshIntersector(mesh)
+    assert mesh.contains([[100, 0, 0], [0, 0, 0]]).tolist() == [True, False]
     assert mesh.ray.intersects_first([[100, 0, 9], [np.nan, 0, 0]], [[0, 0, -1], [0, 0, 1]]).tolist()[1] == -1
+    for copied in (copy.copy(mesh.ray), copy.deepcopy(mesh.ray), pickle.loads(pickle.dumps(mesh.ray))):
+        assert copied.intersects_any([[100, 0, 9], [0, 0, 9]], [[0, 0, -1]] * 2).tolist() == [True, False]
+    assert mesh.ray.intersects_first(np.empty((0, 3)), np.empty((0, 3))).shape == (0,)
+    with pytest.raises(ValueError, match="2 ray_origins and 1 ray_directions"):
+        mesh.ray.intersects_any([[0, 0, 0]] * 2, [[0, 0, 1]])
     mesh.apply_translation([0, 50, 0])
-    assert not ours.intersects_any([[100, 0, 9]], [[0, 0, -1]])[0] and ours.intersects_any([[100, 50, 9]], [[0, 0, -1]])[0]
+    assert mesh.ray.intersects_any([[100, 0, 9], [100, 50, 9]], [[0, 0, -1]] * 2).tolist() == [False, True]
+    nothing = RayMeshIntersector(trimesh.Trimesh())
+    assert nothing.intersects_any([[0, 0, 9]], [[0, 0, -1]]).tolist() == [False]
+    assert nothing.intersects_id([[0, 0, 9]], [[0, 0, -1]])[0].shape == (0,)

@@ -65,12 +65,20 @@ def test_every_header_that_is_included_is_installed(installed):
     assert not [file for file in files if {"testing", "oracle", "cuda"} & set(file.parts)]
 
 
-def test_as_a_part_of_another_project(tmp_path):
-    """add_subdirectory, which FetchContent calls: no bench, no tests, and nobody gets our flags."""
+BY_FETCH_CONTENT = f"""include(FetchContent)
+FetchContent_Declare(boxwood SOURCE_DIR {ROOT})
+FetchContent_MakeAvailable(boxwood)
+"""
+
+
+@pytest.mark.parametrize("inclusion", [f"add_subdirectory({ROOT} boxwood)\n", BY_FETCH_CONTENT],
+                         ids=["add_subdirectory", "FetchContent"])  # fmt: skip
+def test_as_a_part_of_another_project(tmp_path, inclusion):
+    """No bench, no tests, and nobody gets our flags."""
     (tmp_path / "main.cpp").write_text("int main() {}\n")
     (tmp_path / "CMakeLists.txt").write_text(
         "cmake_minimum_required(VERSION 3.25)\nproject(other LANGUAGES CXX)\nset(CMAKE_EXPORT_COMPILE_COMMANDS ON)\n"
-        f"add_subdirectory({ROOT} boxwood)\nadd_executable(other main.cpp)\n"
+        f"{inclusion}add_executable(other main.cpp)\n"
         "target_link_libraries(other PRIVATE boxwood::boxwood boxwood::trees boxwood::kernels)\n"
     )
     run("cmake", "-S", tmp_path, "-B", tmp_path / "build", "-G", "Ninja", "-DBOXWOOD_CUDA=OFF")

@@ -81,7 +81,10 @@ std::vector<Neighbour> BoxQueries::nearest(Vec3<float> point, std::size_t k) con
 }
 std::vector<Neighbour> BoxQueries::nearest(std::span<const Vec3<float>> points,
                                            std::size_t k) const {
-    std::vector<Neighbour> found(k * points.size());
+    std::vector<Neighbour> found;
+    if (!points.empty() && k > found.max_size() / points.size())
+        throw std::length_error("nearest: k answers to each point are more than memory holds");
+    found.resize(k * points.size());
     layout_->nearest(points, k, *executor_, found);
     return found;
 }

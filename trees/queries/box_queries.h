@@ -78,7 +78,8 @@ class BoxQueries {
     /// The k items nearest to a point, by distance and then by item; fewer if there are fewer, none
     /// of a point that is not finite.
     std::vector<Neighbour> nearest(Vec3<float> point, std::size_t k = 1) const;
-    /// Of many: k to a point, filled up with no item (Neighbour::none).
+    /// Of many: k to a point, filled up with no item (Neighbour::none). Throws std::length_error
+    /// for more than memory can hold.
     std::vector<Neighbour> nearest(std::span<const Vec3<float>> points, std::size_t k = 1) const;
 
     /// The part beneath, with all that it answers.

@@ -3,7 +3,10 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-import h5py
+try:
+    import h5py
+except ImportError as error:
+    raise ImportError("boxwood.results reads files by h5py, which is not installed: pip install h5py pandas") from error
 import numpy as np
 
 from .words import FAMILIES, PHASES, REASONS, STATUSES, TOPICS, VERDICTS
