@@ -97,13 +97,14 @@ template <class S> class Bodies {
     std::mt19937_64& random_;
 };
 
-/// The distance of two bodies, no less than that of their bounds, the same both ways round (FCL's of
-/// bounds with min > max is not).
+/// The distance of two bodies, no less than that of their bounds, the same both ways round (FCL's
+/// of bounds with min > max is not).
 template <class S>
 S shape_distance(const fcl::CollisionObject<S>* a, const fcl::CollisionObject<S>* b) {
-    const auto key = reinterpret_cast<std::uintptr_t>(a) ^ reinterpret_cast<std::uintptr_t>(b);
+    const auto number = [](auto* body) { return static_cast<const FclBody<S>*>(body)->number(); };
     const auto &of_a = a->getAABB(), &of_b = b->getAABB();
-    return std::max(of_a.distance(of_b), of_b.distance(of_a)) + static_cast<S>(key / 16 % 8) / 16;
+    return std::max(of_a.distance(of_b), of_b.distance(of_a)) +
+           static_cast<S>((number(a) ^ number(b)) % 8) / 16;
 }
 
 template <class S> struct Least {
@@ -132,13 +133,13 @@ template <class S> class Side {
     std::vector<std::unique_ptr<FclBody<S>>> bodies;
 
     void add(const fcl::AABB<S>& bounds) {
-        bodies.push_back(std::make_unique<FclBody<S>>(bounds));
+        bodies.push_back(std::make_unique<FclBody<S>>(bounds, ++numbers_));
         each([&](Manager& manager) { manager.registerObject(bodies.back().get()); });
     }
     void add_many(const std::vector<fcl::AABB<S>>& bounds) {
         std::vector<Object*> added;
         for (const auto& b : bounds) {
-            bodies.push_back(std::make_unique<FclBody<S>>(b));
+            bodies.push_back(std::make_unique<FclBody<S>>(b, ++numbers_));
             added.push_back(bodies.back().get());
         }
         each([&](Manager& manager) { manager.registerObjects(added); });
@@ -163,13 +164,14 @@ template <class S> class Side {
 
   private:
     bool with_tree_;
+    unsigned numbers_ = 0;
 };
 
 template <class S> class History {
   public:
     History(Family family, std::uint64_t seed)
-        : random_(seed), some_(family, random_),
-          sides_{Side<S>(family != Family::wide), Side<S>(family != Family::wide)} {}
+        : random_(seed), some_(family, random_), sides_{Side<S>(family != Family::wide),
+                                                        Side<S>(family != Family::wide)} {}
 
     void run() {
         for (int i = 0; i < operations && !testing::Test::HasFailure(); ++i) {
@@ -275,12 +277,13 @@ template <class S> class History {
         same_pairs(side, naive.sorted(), [](Manager& manager, Manager&, void* data, auto callback) {
             manager.collide(data, callback);
         });
-        same_pairs(side, naive.sorted(), [&](Manager& manager, Manager& tree, void* data, auto callback) {
-            if (&manager == &tree)
-                manager.collide(data, callback); // FCL's tree shows all twice here
-            else
-                manager.collide(&manager, data, callback);
-        });
+        same_pairs(side, naive.sorted(),
+                   [&](Manager& manager, Manager& tree, void* data, auto callback) {
+                       if (&manager == &tree)
+                           manager.collide(data, callback); // FCL's tree shows all twice here
+                       else
+                           manager.collide(&manager, data, callback);
+                   });
     }
     /// Of this side, of the other one, or of none.
     Object* any_object(Side<S>& other) {
@@ -294,9 +297,10 @@ template <class S> class History {
         Object* object = any_object(other);
         ShownPairs<S> naive;
         side.naive.collide(object, &naive, ShownPairs<S>::add);
-        same_pairs(side, naive.overlapping(), [&](Manager& manager, Manager&, void* data, auto callback) {
-            manager.collide(object, data, callback);
-        });
+        same_pairs(side, naive.overlapping(),
+                   [&](Manager& manager, Manager&, void* data, auto callback) {
+                       manager.collide(object, data, callback);
+                   });
     }
     void collide_two(Side<S>& side, Side<S>& other) {
         if (&side == &other)
@@ -304,14 +308,15 @@ template <class S> class History {
         ShownPairs<S> naive;
         side.naive.collide(&other.naive, &naive, ShownPairs<S>::add);
         const bool foreign = some_.one_in(2);
-        same_pairs(side, naive.sorted(), [&](Manager& manager, Manager& tree, void* data, auto callback) {
-            if (&manager == &tree)
-                manager.collide(&other.tree, data, callback);
-            else if (foreign)
-                manager.collide(&other.naive, data, callback);
-            else
-                manager.collide(&other.ours, data, callback);
-        });
+        same_pairs(side, naive.sorted(),
+                   [&](Manager& manager, Manager& tree, void* data, auto callback) {
+                       if (&manager == &tree)
+                           manager.collide(&other.tree, data, callback);
+                       else if (foreign)
+                           manager.collide(&other.naive, data, callback);
+                       else
+                           manager.collide(&other.ours, data, callback);
+                   });
     }
 
     void same_least(S ours, S naive, const std::optional<S>& tree) {

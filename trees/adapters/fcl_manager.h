@@ -27,11 +27,10 @@
 
 namespace boxwood {
 
-/// An fcl::BroadPhaseCollisionManager, S being float or double: what is shown to a callback are the
-/// pairs that FCL's DynamicAABBTreeCollisionManager shows of the same bounds, each once, in another
-/// order; `distance` shows the nearest first. Bounds are those of the last registration or update.
-/// A callback's true ends the query at once. Throws: std::invalid_argument for a null object, and
-/// std::logic_error for a change of the manager from within one of its callbacks.
+/// In place of FCL's managers, S being float or double: callbacks are shown each pair whose bounds,
+/// those of the last registration or update, overlap; `distance` shows the nearest first. True from
+/// a callback ends the query at once. Throws std::invalid_argument for a null object, and
+/// std::logic_error where a callback changes the manager.
 /// Threads: any number may query at the same time; who changes it is alone meanwhile.
 template <class S> class FclBroadPhase final : public fcl::BroadPhaseCollisionManager<S> {
   public:
@@ -83,7 +82,7 @@ template <class S> class FclBroadPhase final : public fcl::BroadPhaseCollisionMa
     }
 
     /// What the next query would do first.
-    void setup() override { prepare(detail::ItemTree::per_query); }
+    void setup() override { const Query query(*this, detail::ItemTree::per_query); }
 
     /// Objects that moved have had their bounds computed (computeAABB) before.
     void update() override {
@@ -175,7 +174,6 @@ template <class S> class FclBroadPhase final : public fcl::BroadPhaseCollisionMa
         Bounds bounds;
         Object* object; ///< null where none is
         bool is_wide;
-
     };
     class ShowPairs;
     class Nearest;
@@ -269,12 +267,11 @@ template <class S> class FclBroadPhase final : public fcl::BroadPhaseCollisionMa
     void prepare(double cost) const {
         if (is_stale_) {
             const std::lock_guard lock(changing_);
-            if (!is_stale_)
-                return;
-            tree_.refresh(cost);
-            lost_ = 0;
+            if (is_stale_ && tree_.refresh(cost))
+                lost_ = 0;
             is_stale_ = false;
-        } else if (const double excess = tree_.excess(cost); excess > 0) {
+        }
+        if (const double excess = tree_.excess(cost); excess > 0) {
             const double lost = lost_.load(std::memory_order_relaxed) + excess;
             lost_.store(lost, std::memory_order_relaxed);
             if (tree_.is_worth_order(lost))
@@ -291,9 +288,10 @@ template <class S> class FclBroadPhase final : public fcl::BroadPhaseCollisionMa
         is_stale_ = false;
     }
 
-    bool overlap(std::uint32_t a, const Bounds& b) const { return bodies_[a].bounds.overlap(b); }
-    /// Of objects of the tree.
-    bool overlap(Pair pair) const { return detail::overlap(bodies_[pair.a].bounds, bodies_[pair.b].bounds); }
+    bool overlap(std::uint32_t a, const Bounds& b) const {
+        return detail::overlap(bodies_[a].bounds, b);
+    }
+    bool overlap(Pair pair) const { return overlap(pair.a, bodies_[pair.b].bounds); }
     static constexpr bool is_exact = std::is_same_v<S, float>; ///< the boxes of the tree
 
     const std::vector<Pair>* cached_pairs() const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -33,7 +34,11 @@ class ChangedItems {
 
     bool are_many() const { return are_many_; }
     bool empty() const { return !are_many_ && items_.empty(); }
-    bool contains(std::uint32_t item) const { return item < marks_.size() && marks_[item]; }
+    /// By item, of n in all: 1 for those listed, else 0.
+    const std::uint8_t* marks(std::size_t n) {
+        marks_.resize(std::max(n, marks_.size()));
+        return marks_.data();
+    }
     /// Those listed: all of them unless they are many.
     std::span<const std::uint32_t> items() const { return items_; }
 

@@ -39,12 +39,13 @@ template <class S> bool is_same(const fcl::AABB<S>& a, const fcl::AABB<S>& b) {
     return same;
 }
 
-/// fcl::AABB::overlap of two that are numbers, without a branch.
+/// fcl::AABB::overlap, of any bounds, without a call and without a branch: what is not a number
+/// keeps nothing apart.
 template <class S> bool overlap(const fcl::AABB<S>& a, const fcl::AABB<S>& b) {
-    bool both = true;
+    bool apart = false;
     for (int axis = 0; axis < 3; ++axis)
-        both &= a.min_[axis] <= b.max_[axis] && b.min_[axis] <= a.max_[axis];
-    return both;
+        apart |= a.min_[axis] > b.max_[axis] || a.max_[axis] < b.min_[axis];
+    return !apart;
 }
 
 /// Asks for the line of its first byte to be in the cache soon.

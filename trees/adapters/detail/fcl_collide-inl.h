@@ -66,14 +66,17 @@ template <class S> void FclBroadPhase<S>::find_pairs() const {
 
 /// Takes out the pairs of objects that changed, and finds these again.
 template <class S> void FclBroadPhase<S>::follow_pairs() const {
-    std::size_t kept = 0;
+    const std::uint8_t* const changed = unpaired_.marks(bodies_.size());
+    Pair* kept = pairs_.data();
     for (const Pair pair : pairs_) {
-        pairs_[kept] = pair;
-        kept += !unpaired_.contains(pair.a) && !unpaired_.contains(pair.b);
+        *kept = pair;
+        kept += (changed[pair.a] | changed[pair.b]) == 0;
     }
-    pairs_.resize(kept);
+    pairs_.resize(static_cast<std::size_t>(kept - pairs_.data()));
     std::vector<std::uint32_t> items;
     std::vector<Box> boxes;
+    items.reserve(unpaired_.items().size());
+    boxes.reserve(unpaired_.items().size());
     for (const std::uint32_t item : unpaired_.items())
         if (!(tree_.box(item) == Box{})) {
             items.push_back(item);
@@ -81,8 +84,8 @@ template <class S> void FclBroadPhase<S>::follow_pairs() const {
         }
     ForEachPair found([&](Pair answer) {
         const std::uint32_t a = items[answer.a], b = answer.b;
-        const bool once = unpaired_.contains(b) ? a < b : true; // of two that changed
-        if (once && (is_exact || overlap(Pair{a, b})))
+        const bool is_first = !changed[b] || a < b; // two that changed find each other
+        if (is_first && (is_exact || overlap(Pair{a, b})))
             pairs_.push_back({std::min(a, b), std::max(a, b)});
         return true;
     });
@@ -96,7 +99,8 @@ bool FclBroadPhase<S>::collide_self(void* data, fcl::CollisionCallBack<S> callba
         for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
             const std::uint32_t a = wide_[i];
             const bool once = b != a && bodies_[b].object && (!bodies_[b].is_wide || a < b);
-            if (once && overlap(a, bodies_[b].bounds) && callback(bodies_[a].object, bodies_[b].object, data))
+            if (once && overlap(a, bodies_[b].bounds) &&
+                callback(bodies_[a].object, bodies_[b].object, data))
                 return false;
         }
     if (cached) {
@@ -118,7 +122,8 @@ bool FclBroadPhase<S>::collide_one(Object* object, void* data,
     const bool is_wide = box == Box{};
     if (is_wide) {
         for (std::uint32_t item = 0; item < bodies_.size(); ++item)
-            if (bodies_[item].object && overlap(item, bounds) && callback(bodies_[item].object, object, data))
+            if (bodies_[item].object && overlap(item, bounds) &&
+                callback(bodies_[item].object, object, data))
                 return false;
         return true;
     }

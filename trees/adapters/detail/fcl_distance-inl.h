@@ -29,8 +29,7 @@ template <class S> class FclBroadPhase<S>::Nearest {
     bool goes_on_ = true;
 };
 
-template <class S>
-bool FclBroadPhase<S>::distance_one(Object* object, Nearest& nearest) const {
+template <class S> bool FclBroadPhase<S>::distance_one(Object* object, Nearest& nearest) const {
     const Bounds& bounds = object->getAABB();
     const Box box = detail::box_around(bounds);
     const auto offer = [&](std::uint32_t item, std::uint32_t) {
@@ -52,7 +51,8 @@ bool FclBroadPhase<S>::distance_one(Object* object, Nearest& nearest) const {
 
 template <class S> bool FclBroadPhase<S>::distance_self(Nearest& nearest) const {
     const auto offer = [&](std::uint32_t a, std::uint32_t b) {
-        return nearest.offer(bodies_[a].object, bodies_[b].object, bodies_[a].bounds, bodies_[b].bounds);
+        return nearest.offer(bodies_[a].object, bodies_[b].object, bodies_[a].bounds,
+                             bodies_[b].bounds);
     };
     if (!detail::NearestFirst(nearest.squared_limit()).self_pairs(tree_.layout(), offer))
         return false;
@@ -66,7 +66,8 @@ template <class S> bool FclBroadPhase<S>::distance_self(Nearest& nearest) const 
 template <class S>
 bool FclBroadPhase<S>::distance_two(const FclBroadPhase& other, Nearest& nearest) const {
     const auto offer = [&](std::uint32_t a, std::uint32_t b) {
-        return nearest.offer(bodies_[a].object, other.bodies_[b].object, bodies_[a].bounds, other.bodies_[b].bounds);
+        return nearest.offer(bodies_[a].object, other.bodies_[b].object, bodies_[a].bounds,
+                             other.bodies_[b].bounds);
     };
     const detail::NearestFirst search(nearest.squared_limit());
     if (!search.tree_pairs(tree_.layout(), other.tree_.layout(), offer))

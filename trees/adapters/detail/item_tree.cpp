@@ -14,14 +14,15 @@ void ItemTree::clear() {
 
 /// Items that are new to the tree get room for more of them, so that they are put into its order
 /// one by one at a cost that does not grow with their number.
-void ItemTree::refresh(double query) {
+bool ItemTree::refresh(double query) {
     if (boxes_.size() > tree_.size()) {
         if (tree_.size() > 0)
             boxes_.resize(boxes_.size() + boxes_.size() / 8);
-        return reorder();
+        reorder();
+        return true;
     }
     if (changed_.empty())
-        return;
+        return false;
     const bool are_many = changed_.are_many();
     const std::size_t n = are_many ? boxes_.size() : changed_.items().size();
     if (are_many)
@@ -35,8 +36,10 @@ void ItemTree::refresh(double query) {
     if (unmeasured_ >= some)
         note_ratio();
     constexpr double max_ratio = 1.35;
-    if ((are_many && ratio_ > max_ratio) || is_worth_order(excess(query)))
-        reorder();
+    if (!(are_many && ratio_ > max_ratio) && !is_worth_order(excess(query)))
+        return false;
+    reorder();
+    return true;
 }
 
 void ItemTree::note_ratio() {

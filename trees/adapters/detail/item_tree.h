@@ -27,8 +27,8 @@ class ItemTree {
     /// and of all pairs for each item.
     static constexpr double per_query = 400, per_item = 20;
 
-    /// Brings the tree up to date, for a query that would take so much.
-    void refresh(double query);
+    /// Brings the tree up to date, for a query that would take so much. Whether by a new order.
+    bool refresh(double query);
     /// What such a query loses by the order as it is.
     double excess(double query) const { return (ratio_ - 1) * query; }
     /// Whether losses add up to more than the cost of a new order.
@@ -52,8 +52,8 @@ class ItemTree {
     std::vector<Box> boxes_; ///< by item
     ChangedItems changed_;   ///< since the tree was up to date
     MovingTree tree_;
-    double ratio_ = 1;            ///< of areas, as it was when last measured
-    std::size_t unmeasured_ = 0;  ///< items that changed since then
+    double ratio_ = 1;           ///< of areas, as it was when last measured
+    std::size_t unmeasured_ = 0; ///< items that changed since then
     std::size_t orders_ = 0;
 };
 

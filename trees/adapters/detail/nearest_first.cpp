@@ -134,9 +134,8 @@ class Descent {
             return lanes_near(a_.block(p), q.box, [&](std::size_t lane) {
                 return between_trees(a_.child(p, lane), q);
             });
-        return lanes_near(b_.block(q), p.box, [&](std::size_t lane) {
-            return between_trees(p, b_.child(q, lane));
-        });
+        return lanes_near(b_.block(q), p.box,
+                          [&](std::size_t lane) { return between_trees(p, b_.child(q, lane)); });
     }
 
   private:
@@ -150,8 +149,7 @@ class Descent {
             near.add(gaps[lane], lane, 0);
         }
         near.sort();
-        return near.visit(limit_,
-                          [&](std::size_t lane, std::size_t) { return visit(lane); });
+        return near.visit(limit_, [&](std::size_t lane, std::size_t) { return visit(lane); });
     }
 
     Blocks a_, b_;
@@ -193,8 +191,7 @@ bool NearestFirst::self_pairs(const PackedLayout& tree, Decide decide) const {
 }
 
 bool NearestFirst::tree_pairs(const PackedLayout& a, const PackedLayout& b, Decide decide) const {
-    return a.empty() || b.empty() ||
-           HWY_DYNAMIC_DISPATCH(nearest_between)(a, b, limit_, decide);
+    return a.empty() || b.empty() || HWY_DYNAMIC_DISPATCH(nearest_between)(a, b, limit_, decide);
 }
 
 } // namespace boxwood::detail

@@ -16,13 +16,16 @@ template <class S> class FclBody final : public fcl::CollisionObject<S> {
   public:
     using Bounds = fcl::AABB<S>;
 
-    explicit FclBody(const Bounds& bounds)
-        : fcl::CollisionObject<S>(std::shared_ptr<fcl::CollisionGeometry<S>>(new Nothing)) {
+    explicit FclBody(const Bounds& bounds, unsigned number = 0)
+        : fcl::CollisionObject<S>(std::shared_ptr<fcl::CollisionGeometry<S>>(new Nothing)),
+          number_(number) {
         move(bounds);
     }
     void move(const Bounds& bounds) { this->aabb = bounds; }
+    unsigned number() const { return number_; }
 
   private:
+    unsigned number_;
     struct Nothing final : fcl::CollisionGeometry<S> {
         void computeLocalAABB() override {}
     };
