@@ -28,8 +28,8 @@
 namespace boxwood {
 
 /// In place of FCL's managers, S being float or double: callbacks are shown each pair whose bounds,
-/// those of the last registration or update, overlap; `distance` shows the nearest first. True from
-/// a callback ends the query at once. Throws std::invalid_argument for a null object, and
+/// those of the last registration or update, overlap; `distance` goes to the nearer ones first.
+/// True from a callback ends the query at once. Throws std::invalid_argument for a null object, and
 /// std::logic_error where a callback changes the manager.
 /// Threads: any number may query at the same time; who changes it is alone meanwhile.
 template <class S> class FclBroadPhase final : public fcl::BroadPhaseCollisionManager<S> {
