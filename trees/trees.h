@@ -75,3 +75,7 @@
 #include "trees/queries/touching_pairs.h"
 #include "trees/queries/tree_pairs.h"
 #include "trees/tree.h"
+#include "trees/world/allowed_pairs.h"
+#include "trees/world/propose_pairs.h"
+#include "trees/world/robot.h"
+#include "trees/world/robot_collision.h"

@@ -195,6 +195,31 @@ Mimic followed(const RobotDescription& robot, std::uint32_t j) {
 
 } // namespace
 
+/// Of a turn by q about a unit axis a, Rodrigues' formula: a a^T + sin q [a] + cos q (I - a a^T).
+KinematicTree::Step KinematicTree::step_of(const JointDescription& joint) {
+    Step step{joint.parent, joint.child};
+    step.rotation = orthonormalised(orthonormalised(joint.origin.rotation));
+    step.translation = joint.origin.translation;
+    if (joint.kind == JointKind::fixed)
+        return step;
+    const Vec3<double> a = unit_axis(joint);
+    if (joint.kind == JointKind::prismatic) {
+        step.slides = true;
+        step.slide = RigidTransform<double>{step.rotation}(a);
+        return step;
+    }
+    step.turns = true;
+    const Rotation along{{a.x * a, a.y * a, a.z * a}};
+    const Rotation across{{Vec3<double>{1, 0, 0} - along[0], Vec3<double>{0, 1, 0} - along[1],
+                           Vec3<double>{0, 0, 1} - along[2]}};
+    const Rotation turned{{{0, -a.z, a.y}, {a.z, 0, -a.x}, {-a.y, a.x, 0}}};
+    const Rotation origin = step.rotation;
+    step.rotation = product(origin, along);
+    step.sine = product(origin, turned);
+    step.cosine = product(origin, across);
+    return step;
+}
+
 KinematicTree::KinematicTree(const RobotDescription& robot)
     : n_links_(robot.links.size()), parents_(n_links_), rigid_parts_(n_links_) {
     check_names(robot.links, "link");
@@ -224,9 +249,7 @@ KinematicTree::KinematicTree(const RobotDescription& robot)
     for (const std::uint32_t j : order) {
         const JointDescription& joint = robot.joints[j];
         check_pose(joint.origin, quoted(joint));
-        Step step{joint.parent, joint.child, joint.kind};
-        step.origin = {orthonormalised(orthonormalised(joint.origin.rotation)),
-                       joint.origin.translation};
+        Step step = step_of(joint);
         parents_[joint.child] = joint.parent;
         rigid_parts_[joint.child] = joint.child;
         if (joint.kind == JointKind::fixed) {
@@ -236,24 +259,24 @@ KinematicTree::KinematicTree(const RobotDescription& robot)
             step.value = value_of[by.joint];
             step.multiplier = by.multiplier;
             step.offset = by.offset;
-            step.axis = unit_axis(joint);
         }
         steps_.push_back(step);
     }
 }
 
-void KinematicTree::forward(std::span<const double> values,
-                            std::span<RigidTransform<double>> poses,
+void KinematicTree::forward(std::span<const double> values, std::span<RigidTransform<double>> poses,
                             const RigidTransform<double>& root) const {
     poses[root_] = root;
     for (const Step& step : steps_) {
-        RigidTransform<double> local = step.origin;
-        if (step.kind != JointKind::fixed) {
-            const double at = step.multiplier * values[step.value] + step.offset;
-            if (step.kind == JointKind::prismatic)
-                local.translation = step.origin(at * step.axis);
-            else
-                local.rotation = product(local.rotation, rotation_about(step.axis, at));
+        RigidTransform<double> local{step.rotation, step.translation};
+        if (step.turns) {
+            const double q = step.multiplier * values[step.value] + step.offset;
+            const double s = std::sin(q), c = std::cos(q);
+            for (std::size_t i = 0; i < 3; ++i)
+                local.rotation[i] = step.rotation[i] + (s * step.sine[i] + c * step.cosine[i]);
+        } else if (step.slides) {
+            const double q = step.multiplier * values[step.value] + step.offset;
+            local.translation = step.translation + q * step.slide;
         }
         RigidTransform<double> pose = compose(poses[step.parent], local);
         pose.rotation = orthonormalised(pose.rotation);

@@ -2,6 +2,7 @@
 
 #include "kernels/kinematics/robot_description.h"
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -43,14 +44,17 @@ class KinematicTree {
                  const RigidTransform<double>& root = {}) const;
 
   private:
+    /// The child's frame in the parent's, at value q of the joint: turned by
+    /// rotation + sin q * sine + cos q * cosine if it turns, at translation + q * slide.
     struct Step {
         std::uint32_t parent, child;
-        JointKind kind;
-        std::uint32_t value = 0;            ///< not of fixed joints
-        double multiplier = 1, offset = 0;  ///< the joint stands at multiplier * value + offset
-        RigidTransform<double> origin{};
-        Vec3<double> axis{};
+        std::uint32_t value = 0; ///< not of fixed joints
+        bool turns = false, slides = false;
+        double multiplier = 1, offset = 0; ///< q = multiplier * value + offset
+        std::array<Vec3<double>, 3> rotation{}, sine{}, cosine{};
+        Vec3<double> translation{}, slide{};
     };
+    static Step step_of(const JointDescription& joint);
 
     std::size_t n_links_;
     std::uint32_t root_ = 0;

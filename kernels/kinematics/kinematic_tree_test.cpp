@@ -36,7 +36,8 @@ Motion operator*(const Motion& a, const Motion& b) {
     return {a.turn * b.turn, a.x + p.x, a.y + p.y, a.z + p.z};
 }
 Motion turn_about(Vec3<double> axis, double angle) {
-    const long double x = axis.x, y = axis.y, z = axis.z, half = static_cast<long double>(angle) / 2;
+    const long double x = axis.x, y = axis.y, z = axis.z,
+                      half = static_cast<long double>(angle) / 2;
     const long double s = std::sin(half) / std::sqrt(x * x + y * y + z * z);
     return {{std::cos(half), s * x, s * y, s * z}};
 }
@@ -141,8 +142,9 @@ TEST(KinematicTree, RotationsStayOrthonormalHoweverLongTheChain) {
 
 TEST(KinematicTree, WholeTurnsAndRightAnglesOfTheBoxStayExact) {
     RobotDescription robot{"r", {{"a"}, {"b"}, {"c"}}};
-    robot.joints = {{"b", JointKind::fixed, 0, 1, {{{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}}, {1, 2, 3}}},
-                    {"c", JointKind::revolute, 1, 2, {.translation = {.5, 0, 0}}, {0, 0, 2}, -1, 1}};
+    robot.joints = {
+        {"b", JointKind::fixed, 0, 1, {{{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}}, {1, 2, 3}}},
+        {"c", JointKind::revolute, 1, 2, {.translation = {.5, 0, 0}}, {0, 0, 2}, -1, 1}};
     const KinematicTree tree(robot);
     EXPECT_EQ(tree.n_values(), 1u);
     std::vector<RigidTransform<double>> poses(3);
@@ -160,9 +162,10 @@ TEST(KinematicTree, WholeTurnsAndRightAnglesOfTheBoxStayExact) {
 /// base - slide (prismatic) - follower, which mimics it - second, which mimics that.
 RobotDescription gripper() {
     RobotDescription robot{"gripper", {{"base"}, {"left"}, {"right"}, {"third"}}};
-    robot.joints = {{"second", JointKind::prismatic, 0, 3, {}, {0, 0, 1}, -1, 1, Mimic{1, 3, 1}},
-                    {"follower", JointKind::prismatic, 0, 2, {}, {0, -1, 0}, 0, 1, Mimic{2, 2, .25}},
-                    {"slide", JointKind::prismatic, 0, 1, {}, {0, 5, 0}, 0, .5}};
+    robot.joints = {
+        {"second", JointKind::prismatic, 0, 3, {}, {0, 0, 1}, -1, 1, Mimic{1, 3, 1}},
+        {"follower", JointKind::prismatic, 0, 2, {}, {0, -1, 0}, 0, 1, Mimic{2, 2, .25}},
+        {"slide", JointKind::prismatic, 0, 1, {}, {0, 5, 0}, 0, .5}};
     return robot;
 }
 
@@ -224,7 +227,8 @@ TEST(KinematicTree, RefusesWhatIsNoTree) {
     EXPECT_THAT(complaint({"r", abc, {{"j", K::fixed, 2, 1}, {"k", K::fixed, 1, 2}}}),
                 AllOf(HasSubstr("cycle"), HasSubstr("link")));
     EXPECT_THAT(
-        complaint({"r", abc, {{"j", K::fixed, 0, 1}, {"k", K::fixed, 1, 2}, {"l", K::fixed, 2, 0}}}),
+        complaint(
+            {"r", abc, {{"j", K::fixed, 0, 1}, {"k", K::fixed, 1, 2}, {"l", K::fixed, 2, 0}}}),
         HasSubstr("cycle"));
 }
 
@@ -249,7 +253,8 @@ TEST(KinematicTree, RefusesBadJoints) {
     EXPECT_THAT(with([](auto& j) { j.origin.rotation[0] = {-1, 0, 0}; }), HasSubstr("no rotation"));
     EXPECT_THAT(with([](auto& j) { j.mimic = Mimic{0}; }), HasSubstr("mimics itself"));
     EXPECT_THAT(with([](auto& j) { j.mimic = Mimic{7}; }), HasSubstr("joint number 7"));
-    EXPECT_EQ(with([](auto& j) { j.kind = JointKind::fixed, j.axis = {}, j.lower = 9; }), "accepted");
+    EXPECT_EQ(with([](auto& j) { j.kind = JointKind::fixed, j.axis = {}, j.lower = 9; }),
+              "accepted");
     EXPECT_THAT(with([](auto& j) { j.kind = JointKind::fixed, j.mimic = Mimic{0}; }),
                 HasSubstr("is fixed and mimics"));
 
@@ -265,9 +270,7 @@ TEST(KinematicTree, RefusesBadJoints) {
 }
 
 TEST(KinematicTree, RefusesBadShapes) {
-    const auto with = [](const LinkShape& shape) {
-        return complaint({"r", {{"a", {{shape}}}}});
-    };
+    const auto with = [](const LinkShape& shape) { return complaint({"r", {{"a", {{shape}}}}}); };
     EXPECT_EQ(with(LinkBox{{1, 0, 2}}), "accepted");
     EXPECT_EQ(with(LinkMesh{3, {-1, 1, 1}}), "accepted");
     EXPECT_THAT(with(LinkBox{{1, -1, 2}}), HasSubstr("link 'a': the side of a box is -1"));

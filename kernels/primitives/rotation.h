@@ -45,11 +45,11 @@ inline double distance_from_orthonormal(const Rotation& r) {
 /// One Newton step to the nearest rotation, R + (I - R R^T) R / 2: a matrix that is d from
 /// orthonormal becomes one that is about d^2, or a few roundings, from it. Exact ones stay.
 inline Rotation orthonormalised(const Rotation& r) {
-    Rotation out = r;
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-            out[i] = out[i] + (((i == j ? 1 : 0) - dot(r[i], r[j])) / 2) * r[j];
-    return out;
+    const double xx = .5 - dot(r[0], r[0]) / 2, yy = .5 - dot(r[1], r[1]) / 2,
+                 zz = .5 - dot(r[2], r[2]) / 2;
+    const double xy = -dot(r[0], r[1]) / 2, yz = -dot(r[1], r[2]) / 2, zx = -dot(r[2], r[0]) / 2;
+    return {{r[0] + (xx * r[0] + xy * r[1] + zx * r[2]), r[1] + (xy * r[0] + yy * r[1] + yz * r[2]),
+             r[2] + (zx * r[0] + yz * r[1] + zz * r[2])}};
 }
 
 } // namespace boxwood

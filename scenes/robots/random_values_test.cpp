@@ -9,11 +9,11 @@
 namespace boxwood {
 namespace {
 
-const std::vector<ValueRange> ranges{{-2, 3, false},
-                                     {-std::numbers::pi, std::numbers::pi, true},
-                                     {.25, .25, false},
-                                     {-std::numeric_limits<double>::max(),
-                                      std::numeric_limits<double>::max(), false}};
+const std::vector<ValueRange> ranges{
+    {-2, 3, false},
+    {-std::numbers::pi, std::numbers::pi, true},
+    {.25, .25, false},
+    {-std::numeric_limits<double>::max(), std::numeric_limits<double>::max(), false}};
 
 TEST(RandomValues, LieInTheirRangesAndFillThem) {
     std::vector<double> values(4);

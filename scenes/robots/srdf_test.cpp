@@ -47,12 +47,11 @@ const std::string srdf = R"(<?xml version="1.0"?>
 
 TEST(SrdfFile, ReadsPairsWithTheirReasonsAndStates) {
     const Srdf found = parse_srdf(srdf, "r.srdf", four_links());
-    EXPECT_THAT(found.allowed,
-                ElementsAre(AllowedPair{0, 1, Reason::adjacent},
-                            AllowedPair{0, 2, Reason::user, "a cable hangs there"},
-                            AllowedPair{0, 3, Reason::sampled, "in none of 9"},
-                            AllowedPair{1, 2, Reason::default_state},
-                            AllowedPair{1, 3, Reason::user}));
+    EXPECT_THAT(found.allowed, ElementsAre(AllowedPair{0, 1, Reason::adjacent},
+                                           AllowedPair{0, 2, Reason::user, "a cable hangs there"},
+                                           AllowedPair{0, 3, Reason::sampled, "in none of 9"},
+                                           AllowedPair{1, 2, Reason::default_state},
+                                           AllowedPair{1, 3, Reason::user}));
     ASSERT_EQ(found.states.size(), 1u);
     EXPECT_EQ(found.states[0].name, "ready");
     EXPECT_EQ(found.states[0].group, "all");
@@ -74,7 +73,8 @@ TEST(SrdfFile, WhatIsWrittenReadsTheSame) {
     std::uint32_t n = 0;
     for (std::uint32_t a = 0; a < 4; ++a)
         for (std::uint32_t b = a + 1; b < 4; ++b, ++n)
-            pairs.push_back({a, b, static_cast<Reason>(n % 6), n % 2 ? "Never: <&\"'> \xc3\xa9" : ""});
+            pairs.push_back(
+                {a, b, static_cast<Reason>(n % 6), n % 2 ? "Never: <&\"'> \xc3\xa9" : ""});
     const std::string text = srdf_text(four_links(), pairs);
     EXPECT_THAT(text, AllOf(HasSubstr("<robot name=\"four\">"), HasSubstr("reason=\"Adjacent\"")));
     EXPECT_EQ(parse_srdf(text, "w.srdf", four_links()).allowed, pairs);
@@ -132,8 +132,7 @@ TEST(SharedRobots, SrdfFilesLoadAndComeBackTheSame) {
     if (!fs::is_directory(robots))
         GTEST_SKIP() << robots << " is not here: the sample robots are no part of the project";
     for (const std::string name : {"panda", "z1"}) {
-        const RobotDescription robot =
-            read_urdf(robots / name / (name + ".urdf")).description;
+        const RobotDescription robot = read_urdf(robots / name / (name + ".urdf")).description;
         const Srdf found = read_srdf(robots / name / (name + ".srdf"), robot);
         std::map<Reason, int> reasons;
         for (const AllowedPair& pair : found.allowed)
@@ -148,8 +147,7 @@ TEST(SharedRobots, SrdfFilesLoadAndComeBackTheSame) {
         std::ifstream in(robots / name / (name + ".srdf"));
         std::stringstream original;
         original << in.rdbuf();
-        const Srdf again =
-            parse_srdf(srdf_text(robot, found.allowed, original.str()), "w", robot);
+        const Srdf again = parse_srdf(srdf_text(robot, found.allowed, original.str()), "w", robot);
         EXPECT_EQ(again.allowed, found.allowed);
         EXPECT_EQ(again.states.size(), found.states.size());
     }

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Keeps what liburdfdom would print.
+/// Keeps what liburdfdom would print of errors. It may go on after one, with a part left out.
 class UrdfdomLog final : public console_bridge::OutputHandler {
   public:
     UrdfdomLog() : before_(console_bridge::getOutputHandler()) {
@@ -31,8 +31,9 @@ class UrdfdomLog final : public console_bridge::OutputHandler {
     ~UrdfdomLog() override { console_bridge::useOutputHandler(before_); }
     UrdfdomLog(const UrdfdomLog&) = delete;
     UrdfdomLog& operator=(const UrdfdomLog&) = delete;
-    void log(const std::string& line, console_bridge::LogLevel, const char*, int) override {
-        text += text.empty() ? line : "; " + line;
+    void log(const std::string& line, console_bridge::LogLevel level, const char*, int) override {
+        if (level >= console_bridge::CONSOLE_BRIDGE_LOG_WARN)
+            text += text.empty() ? line : "; " + line;
     }
     std::string text;
 
@@ -48,7 +49,7 @@ class UrdfdomModel {
         const std::lock_guard lock(one_at_a_time);
         UrdfdomLog log;
         model_ = urdf::parseURDF(plain);
-        if (!model_)
+        if (!model_ || !log.text.empty())
             throw std::runtime_error(
                 fmt::format("{}: liburdfdom does not take it: {}", source, log.text));
     }
@@ -61,7 +62,9 @@ class UrdfdomModel {
     UrdfdomModel(const UrdfdomModel&) = delete;
     UrdfdomModel& operator=(const UrdfdomModel&) = delete;
 
-    const urdf::Link& link(std::size_t i) const { return *model_->links_.at(fmt::format("L{}", i)); }
+    const urdf::Link& link(std::size_t i) const {
+        return *model_->links_.at(fmt::format("L{}", i));
+    }
     const urdf::Joint& joint(std::size_t j) const {
         return *model_->joints_.at(fmt::format("J{}", j));
     }
@@ -73,8 +76,7 @@ class UrdfdomModel {
 Vec3<double> vector_of(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
 
 RigidTransform<double> transform_of(const urdf::Pose& pose) {
-    const double x = pose.rotation.x, y = pose.rotation.y, z = pose.rotation.z,
-                 w = pose.rotation.w;
+    const double x = pose.rotation.x, y = pose.rotation.y, z = pose.rotation.z, w = pose.rotation.w;
     return {{{{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
               {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
               {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}}},

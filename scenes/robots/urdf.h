@@ -12,7 +12,8 @@
 namespace boxwood {
 
 /// What a URDF file says of a robot: links and joints in the order of the file, and the meshes of
-/// its collision geometry, each read once, unscaled, in its own frame (LinkMesh::mesh is the index).
+/// its collision geometry, each read once, unscaled, in its own frame (LinkMesh::mesh is the
+/// index).
 struct UrdfRobot {
     RobotDescription description;
     std::vector<std::filesystem::path> mesh_files;

@@ -60,8 +60,7 @@ class UrdfScanner {
             const auto [entry, is_new] = all.indices.try_emplace(name, index);
             if (!is_new)
                 reader_.fail(e, fmt::format("a second <{} name=\"{}\">; the first is in line {}",
-                                            kind, name,
-                                            all.elements[entry->second]->GetLineNum()));
+                                            kind, name, all.elements[entry->second]->GetLineNum()));
             all.elements.push_back(&e);
             all.names.push_back(name);
         });
@@ -115,8 +114,8 @@ class UrdfScanner {
             return {LinkBox{}, fmt::format("<box size=\"{}\"/>", plain_vector(sides))};
         }
         if (kind == "sphere")
-            return {LinkSphere{}, fmt::format("<sphere radius=\"{}\"/>",
-                                              plain_number(size(e, "radius")))};
+            return {LinkSphere{},
+                    fmt::format("<sphere radius=\"{}\"/>", plain_number(size(e, "radius")))};
         const double radius = kind == "cylinder" || kind == "capsule" ? size(e, "radius") : 0;
         const double length = kind == "cylinder" || kind == "capsule" ? size(e, "length") : 0;
         if (kind == "cylinder")
@@ -150,8 +149,8 @@ class UrdfScanner {
 
     JointKind kind(const Element& e) const {
         const std::string type = reader_.text(e, "type");
-        for (const JointKind kind : {JointKind::fixed, JointKind::revolute, JointKind::continuous,
-                                     JointKind::prismatic})
+        for (const JointKind kind :
+             {JointKind::fixed, JointKind::revolute, JointKind::continuous, JointKind::prismatic})
             if (type == name_of(kind))
                 return kind;
         if (type == "planar" || type == "floating")
@@ -168,12 +167,11 @@ class UrdfScanner {
     std::string plain_limits(const Element& e, JointDescription& joint) const {
         const Element* limit = e.FirstChildElement("limit");
         if (!limit)
-            reader_.fail(e, fmt::format("joint '{0}' is {1} and has no limits; give it <limit "
-                                        "lower=\"...\" upper=\"...\"/>{2}",
-                                        joint.name, name_of(joint.kind),
-                                        joint.kind == JointKind::revolute
-                                            ? ", or make it continuous"
-                                            : ""));
+            reader_.fail(
+                e, fmt::format("joint '{0}' is {1} and has no limits; give it <limit "
+                               "lower=\"...\" upper=\"...\"/>{2}",
+                               joint.name, name_of(joint.kind),
+                               joint.kind == JointKind::revolute ? ", or make it continuous" : ""));
         joint.lower = reader_.number(*limit, "lower", 0); // 0 as the format has it
         joint.upper = reader_.number(*limit, "upper", 0);
         if (joint.lower > joint.upper)
@@ -209,10 +207,9 @@ class UrdfScanner {
                                      plain_number(joint.mimic->offset));
             }
         }
-        scan_.plain +=
-            fmt::format("<joint name=\"J{}\" type=\"{}\"><parent link=\"L{}\"/><child "
-                        "link=\"L{}\"/>{}</joint>\n",
-                        j, name_of(joint.kind), joint.parent, joint.child, plain);
+        scan_.plain += fmt::format("<joint name=\"J{}\" type=\"{}\"><parent link=\"L{}\"/><child "
+                                   "link=\"L{}\"/>{}</joint>\n",
+                                   j, name_of(joint.kind), joint.parent, joint.child, plain);
         scan_.outline.joints.push_back(std::move(joint));
     }
 

@@ -25,9 +25,9 @@ struct UrdfScan {
     std::string plain;
 };
 
-/// Looks at a file before liburdfdom does, which names neither file nor line, takes what it cannot
-/// read for 0, knows the order of no link, and whose XML reader overflows the stack on deep files.
-/// Throws as read_urdf says.
+/// Looks at a file before liburdfdom does, which names neither file nor line, leaves out a
+/// collision element that it cannot read (numbers between tabs, say), keeps no order of links, and
+/// whose XML reader overflows the stack on deep files. Throws as read_urdf says.
 UrdfScan scan_urdf(const XmlReader& reader);
 
 } // namespace boxwood

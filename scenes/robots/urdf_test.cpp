@@ -1,14 +1,10 @@
 #include "scenes/robots/urdf.h"
 
-#include "kernels/kinematics/kinematic_tree.h"
-#include "scenes/meshes/mesh_file.h"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <numbers>
 #include <random>
 
 namespace boxwood {
@@ -174,7 +170,8 @@ TEST(Urdf, ErrorsNameTheLineAndTheWayOut) {
     EXPECT_THAT(with("lower=\"-1\"", "lower=\"nan\""), HasSubstr("'nan' is not finite"));
     EXPECT_THAT(with("axis xyz=\"0 0 2\"", "axis xyz=\"0 0 0\""), HasSubstr("no direction"));
     EXPECT_THAT(with("axis xyz=\"0 0 2\"", "axis xyz=\"0 0\""), HasSubstr("'0 0' is not three"));
-    EXPECT_THAT(with("axis xyz=\"0 0 2\"", "axis xyz=\"0 0 1e999\""), HasSubstr("beyond the range"));
+    EXPECT_THAT(with("axis xyz=\"0 0 2\"", "axis xyz=\"0 0 1e999\""),
+                HasSubstr("beyond the range"));
     EXPECT_THAT(with("axis xyz=\"0 0 2\"", "axis xyz=\"0 0 2m\""), HasSubstr("'2m' is no number"));
     EXPECT_THAT(with("radius=\"0.05\"", "radius=\"-0.05\""),
                 HasSubstr("arm.urdf:6: <sphere radius=\"-0.05\">: it must not be negative"));
@@ -258,8 +255,8 @@ class UrdfFiles : public ::testing::Test {
     fs::path robot(const fs::path& name, const std::vector<std::string>& meshes) const {
         std::string text = "<robot name=\"r\">\n<link name=\"a\">\n";
         for (const std::string& mesh : meshes)
-            text += "<collision><geometry><mesh filename=\"" + mesh +
-                    "\"/></geometry></collision>\n";
+            text +=
+                "<collision><geometry><mesh filename=\"" + mesh + "\"/></geometry></collision>\n";
         return put(name, text + "</link></robot>");
     }
     static std::string error(const fs::path& file, const std::vector<fs::path>& packages = {}) {
@@ -277,11 +274,12 @@ TEST_F(UrdfFiles, MeshesAreReadOnceEach) {
     put("meshes/a.obj", triangle_obj);
     put("meshes/b.obj", triangle_obj);
     put("c d.obj", triangle_obj);
-    const fs::path file = robot("r.urdf", {"meshes/a.obj", "./meshes/../meshes/b.obj",
-                                           "meshes/b.obj", "file://" + (folder_ / "c%20d.obj").string()});
+    const fs::path file =
+        robot("r.urdf", {"meshes/a.obj", "./meshes/../meshes/b.obj", "meshes/b.obj",
+                         "file://" + (folder_ / "c%20d.obj").string()});
     const UrdfRobot found = read_urdf(file);
-    EXPECT_THAT(found.mesh_files,
-                ElementsAre(folder_ / "meshes/a.obj", folder_ / "meshes/b.obj", folder_ / "c d.obj"));
+    EXPECT_THAT(found.mesh_files, ElementsAre(folder_ / "meshes/a.obj", folder_ / "meshes/b.obj",
+                                              folder_ / "c d.obj"));
     ASSERT_EQ(found.meshes.size(), 3u);
     EXPECT_EQ(found.meshes[2].triangles.size(), 1u);
     std::vector<std::uint32_t> indices;
@@ -294,12 +292,11 @@ TEST_F(UrdfFiles, PackagesAreLookedForUpwards) {
     put("arm_description/meshes/in.obj", triangle_obj);
     put("other/meshes/beside.obj", triangle_obj);
     const fs::path file =
-        robot("arm_description/urdf/r.urdf", {"package://arm_description/meshes/in.obj",
-                                              "package://other/meshes/beside.obj",
-                                              "package://renamed/robots/arm/meshes/in.obj"});
-    EXPECT_THAT(read_urdf(file).mesh_files,
-                ElementsAre(folder_ / "arm_description/meshes/in.obj",
-                            folder_ / "other/meshes/beside.obj"));
+        robot("arm_description/urdf/r.urdf",
+              {"package://arm_description/meshes/in.obj", "package://other/meshes/beside.obj",
+               "package://renamed/robots/arm/meshes/in.obj"});
+    EXPECT_THAT(read_urdf(file).mesh_files, ElementsAre(folder_ / "arm_description/meshes/in.obj",
+                                                        folder_ / "other/meshes/beside.obj"));
     EXPECT_THAT(error(robot("x/r.urdf", {"package://nowhere/meshes/in.obj"})),
                 AllOf(HasSubstr("r.urdf:3: link 'a': mesh package://nowhere/meshes/in.obj is not"),
                       HasSubstr((folder_ / "x/nowhere/meshes/in.obj").string()),
@@ -328,108 +325,9 @@ TEST_F(UrdfFiles, WhatIsNotThereIsNamed) {
     EXPECT_THAT(error(robot("r.urdf", {"http://x/y.stl"})), HasSubstr("fetch the file"));
     EXPECT_THAT(error(robot("r.urdf", {"package://only"})), HasSubstr("package://PACKAGE/PATH"));
     put("bad.obj", "v 0 0 nan\n");
-    EXPECT_THAT(error(robot("r.urdf", {"bad.obj"})),
-                AllOf(HasSubstr("r.urdf:3: link 'a': mesh"), HasSubstr("bad.obj"),
-                      HasSubstr("line 1")));
-}
-
-const fs::path robots = "../shared/data/robots";
-#define BOXWOOD_NEEDS_ROBOTS()                                                                     \
-    if (!fs::is_directory(robots))                                                                 \
-    GTEST_SKIP() << robots << " is not here: the sample robots are no part of the project"
-
-TEST(SharedRobots, PandaLoads) {
-    BOXWOOD_NEEDS_ROBOTS();
-    const UrdfRobot panda = read_urdf(robots / "panda/panda.urdf");
-    EXPECT_EQ(panda.description.links.size(), 12u);
-    EXPECT_EQ(panda.description.joints.size(), 11u);
-    EXPECT_EQ(panda.meshes.size(), 10u); // both fingers have one
-    const KinematicTree tree(panda.description);
-    EXPECT_EQ(tree.n_values(), 8u); // seven joints, and the fingers move as one
-    EXPECT_EQ(tree.ranges()[3].lower, -3.1416);
-    std::size_t triangles = 0;
-    for (const TriangleMesh& mesh : panda.meshes)
-        triangles += mesh.triangles.size();
-    EXPECT_EQ(triangles, 2332u);
-}
-
-TEST(SharedRobots, Z1Loads) {
-    BOXWOOD_NEEDS_ROBOTS();
-    const UrdfRobot z1 = read_urdf(robots / "z1/z1.urdf");
-    const KinematicTree tree(z1.description);
-    EXPECT_EQ(tree.n_values(), 7u);
-    EXPECT_EQ(z1.description.links[tree.root()].name, "world");
-    ASSERT_FALSE(z1.meshes.empty());
-    for (std::size_t i = 0; i < z1.meshes.size(); ++i)
-        EXPECT_EQ(z1.meshes[i].triangles.size(), (fs::file_size(z1.mesh_files[i]) - 84) / 50);
-}
-
-using Matrix = std::array<std::array<long double, 4>, 4>;
-
-Matrix times(const Matrix& a, const Matrix& b) {
-    Matrix out{};
-    for (std::size_t i = 0; i < 4; ++i)
-        for (std::size_t j = 0; j < 4; ++j)
-            for (std::size_t k = 0; k < 4; ++k)
-                out[i][j] += a[i][k] * b[k][j];
-    return out;
-}
-
-/// The frames of Panda's joints by the parameters that its maker publishes (Denavit and Hartenberg,
-/// in Craig's form): Rot_x(alpha) Trans_x(a) Rot_z(theta) Trans_z(d).
-std::array<Matrix, 8> panda_frames(std::span<const double> angles) {
-    constexpr long double right = std::numbers::pi_v<long double> / 2;
-    constexpr long double a[]{0, 0, 0, .0825L, -.0825L, 0, .088L, 0};
-    constexpr long double d[]{.333L, 0, .316L, 0, .384L, 0, 0, .107L};
-    constexpr long double alpha[]{0, -right, right, right, -right, right, right, 0};
-    std::array<Matrix, 8> frames;
-    Matrix all{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
-    for (std::size_t i = 0; i < 8; ++i) {
-        const long double theta = i < 7 ? static_cast<long double>(angles[i]) : 0;
-        const long double ca = std::cos(alpha[i]), sa = std::sin(alpha[i]), ct = std::cos(theta),
-                          st = std::sin(theta);
-        const Matrix step{{{ct, -st, 0, a[i]},
-                           {st * ca, ct * ca, -sa, -sa * d[i]},
-                           {st * sa, ct * sa, ca, ca * d[i]},
-                           {0, 0, 0, 1}}};
-        frames[i] = all = times(all, step);
-    }
-    return frames;
-}
-
-TEST(SharedRobots, PandaStandsWhereItsMakerSays) {
-    BOXWOOD_NEEDS_ROBOTS();
-    const RobotDescription panda = read_urdf(robots / "panda/panda.urdf").description;
-    const KinematicTree tree(panda);
-    std::vector<RigidTransform<double>> poses(tree.n_links());
-    const double quarter = std::numbers::pi / 4;
-    std::vector<double> values{0, -quarter, 0, -3 * quarter, 0, 2 * quarter, quarter, 0};
-    tree.forward(values, poses); // "ready": the flange is at (0.307, 0, 0.590)
-    EXPECT_NEAR(poses[8].translation.x, .3069, 1e-4);
-    EXPECT_NEAR(poses[8].translation.y, 0, 1e-9);
-    EXPECT_NEAR(poses[8].translation.z, .4869 + .1034, 1e-4);
-    std::mt19937_64 random(4);
-    for (int state = 0; state < 1000; ++state) {
-        for (std::size_t k = 0; k < values.size(); ++k)
-            values[k] = std::uniform_real_distribution<double>(tree.ranges()[k].lower,
-                                                               tree.ranges()[k].upper)(random);
-        tree.forward(values, poses);
-        const auto frames = panda_frames(values);
-        for (std::size_t i = 0; i < 8; ++i) { // the file has pi / 2 to 12 digits
-            ASSERT_EQ(panda.links[i + 1].name, fmt::format("panda_link{}", i + 1));
-            for (std::size_t r = 0; r < 3; ++r) {
-                const int row = static_cast<int>(r);
-                ASSERT_NEAR(static_cast<double>(frames[i][r][3]), poses[i + 1].translation[row],
-                            1e-10);
-                for (int c = 0; c < 3; ++c)
-                    ASSERT_NEAR(static_cast<double>(frames[i][r][static_cast<std::size_t>(c)]),
-                                poses[i + 1].rotation[r][c], 1e-10);
-            }
-        }
-        // The fingers part by twice their value, along the hand's y.
-        const Vec3<double> apart = poses[10].translation - poses[11].translation;
-        ASSERT_NEAR(length(apart), 2 * values[7], 1e-12);
-    }
+    EXPECT_THAT(
+        error(robot("r.urdf", {"bad.obj"})),
+        AllOf(HasSubstr("r.urdf:3: link 'a': mesh"), HasSubstr("bad.obj"), HasSubstr("line 1")));
 }
 
 } // namespace

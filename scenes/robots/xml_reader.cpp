@@ -67,8 +67,8 @@ XmlReader::XmlReader(std::string_view text, std::string source, std::string_view
     if (!robot_)
         refuse(fmt::format("it has no element; a {} file has one, <robot>", kind));
     if (std::string_view(robot_->Name()) != "robot")
-        fail(*robot_, fmt::format("the root element is <{}>; a {} file has <robot>",
-                                  robot_->Name(), kind));
+        fail(*robot_,
+             fmt::format("the root element is <{}>; a {} file has <robot>", robot_->Name(), kind));
     for_each_child(*robot_, nullptr, [&](const Element& e) {
         if (std::string_view(e.Name()).starts_with("xacro:"))
             fail(e, fmt::format("<{}> is xacro, from which {} files are made; expand it first: "
@@ -144,8 +144,8 @@ std::size_t XmlReader::index(const Element& of, const char* attribute, std::stri
     const std::string name = text(of, attribute);
     const auto found = std::ranges::find(known, name);
     if (found == known.end())
-        fail(of, fmt::format("<{} {}=...>: {}", of.Name(), attribute,
-                             unknown_name(what, name, known)));
+        fail(of,
+             fmt::format("<{} {}=...>: {}", of.Name(), attribute, unknown_name(what, name, known)));
     return static_cast<std::size_t>(found - known.begin());
 }
 

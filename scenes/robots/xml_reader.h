@@ -36,8 +36,8 @@ class XmlReader {
     Vec3<double> vector(const tinyxml2::XMLElement& of, const char* attribute,
                         Vec3<double> fallback) const;
     /// The index of a name. What there is instead is suggested.
-    std::size_t index(const tinyxml2::XMLElement& of, const char* attribute,
-                      std::string_view what, std::span<const std::string_view> known) const;
+    std::size_t index(const tinyxml2::XMLElement& of, const char* attribute, std::string_view what,
+                      std::span<const std::string_view> known) const;
 
   private:
     tinyxml2::XMLDocument document_;

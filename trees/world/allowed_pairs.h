@@ -34,7 +34,8 @@ class AllowedPairs {
     /// Again for a pair: the reason and note are replaced. Throw std::invalid_argument if a and b
     /// are one item, or for a name or index of none.
     void allow(std::uint32_t a, std::uint32_t b, AllowedReason reason, std::string note = {});
-    void allow(std::string_view a, std::string_view b, AllowedReason reason, std::string note = {}) {
+    void allow(std::string_view a, std::string_view b, AllowedReason reason,
+               std::string note = {}) {
         allow(item(a), item(b), reason, std::move(note));
     }
     void disallow(std::uint32_t a, std::uint32_t b);

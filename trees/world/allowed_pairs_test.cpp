@@ -76,8 +76,9 @@ TEST(AllowedPairs, AgreesWithAMapOnRandomChanges) {
     AllowedPairs allowed((std::vector<std::string>(n)));
     std::map<std::pair<std::uint32_t, std::uint32_t>, Reason> expected;
     std::mt19937 random(3);
+    const auto any = [&] { return static_cast<std::uint32_t>(random() % n); };
     for (int change = 0; change < 20000; ++change) {
-        const std::uint32_t a = random() % n, b = random() % n;
+        const std::uint32_t a = any(), b = any();
         if (a == b)
             continue;
         const std::pair pair(std::min(a, b), std::max(a, b));

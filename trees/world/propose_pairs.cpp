@@ -82,14 +82,13 @@ PairsBySampling allow_by_samples(const Robot& robot, const LinkBoxes& boxes,
             (meets ? pair.met : pair.parted) = true;
         }
     }
-    const std::string samples = std::to_string(states.n) + " samples, seed " +
-                                std::to_string(states.seed);
+    const std::string samples =
+        std::to_string(states.n) + " samples, seed " + std::to_string(states.seed);
     for (const Watched& pair : pairs) {
         if (pair.met && pair.parted)
             continue;
         if (pair.is_rigid) {
-            allowed.allow(pair.a, pair.b,
-                          pair.met ? AllowedReason::always : AllowedReason::never,
+            allowed.allow(pair.a, pair.b, pair.met ? AllowedReason::always : AllowedReason::never,
                           "held together by fixed joints");
             ++(pair.met ? counts.always : counts.never);
         } else if (pair.met) {

@@ -24,9 +24,16 @@ Robot sliding_balls() {
     }
     for (std::uint32_t i = 1; i < 7; ++i)
         robot.joints.push_back({"joint" + std::to_string(i),
-                                i < 5 ? JointKind::prismatic : JointKind::fixed, i - 1, i,
-                                {.translation = {i < 5 ? 1. : i < 6 ? .125 : 9., 0, 0}},
-                                {1, 0, 0}, -1, 1});
+                                i < 5 ? JointKind::prismatic : JointKind::fixed,
+                                i - 1,
+                                i,
+                                {.translation = {i < 5   ? 1.
+                                                 : i < 6 ? .125
+                                                         : 9.,
+                                                 0, 0}},
+                                {1, 0, 0},
+                                -1,
+                                1});
     return Robot(std::move(robot));
 }
 
@@ -40,11 +47,11 @@ TEST(ProposePairs, AdjacentLinksReachOverThoseWithoutGeometry) {
     AllowedPairs allowed = no_allowed_pairs(robot);
     allowed.allow("ball0", "ball1", Reason::user);
     EXPECT_EQ(allow_adjacent(robot, allowed), 4u);
-    EXPECT_THAT(allowed.pairs(), ElementsAre(AllowedPair{0, 1, Reason::user},
-                                             AllowedPair{1, 3, Reason::adjacent},
-                                             AllowedPair{3, 4, Reason::adjacent},
-                                             AllowedPair{4, 5, Reason::adjacent},
-                                             AllowedPair{5, 6, Reason::adjacent}));
+    EXPECT_THAT(allowed.pairs(),
+                ElementsAre(AllowedPair{0, 1, Reason::user}, AllowedPair{1, 3, Reason::adjacent},
+                            AllowedPair{3, 4, Reason::adjacent},
+                            AllowedPair{4, 5, Reason::adjacent},
+                            AllowedPair{5, 6, Reason::adjacent}));
 }
 
 /// State i: the last value alternates, the others stay.

@@ -1,5 +1,6 @@
 #include "trees/world/robot.h"
 
+#include "kernels/arithmetic/rounding.h"
 #include "kernels/boxes/fit.h"
 #include "kernels/primitives/rotation.h"
 #include "kernels/suggest.h"
@@ -16,8 +17,8 @@ namespace {
 
 void check_size(std::size_t given, std::size_t wanted, const char* what) {
     if (given != wanted)
-        throw std::invalid_argument(std::to_string(given) + " " + what + " are given; the robot has " +
-                                    std::to_string(wanted));
+        throw std::invalid_argument(std::to_string(given) + " " + what +
+                                    " are given; the robot has " + std::to_string(wanted));
 }
 
 /// Rounding to nearest is off by less than one step outward.
@@ -25,6 +26,10 @@ Vec3<double> up(Vec3<double> v) {
     for (int axis = 0; axis < 3; ++axis)
         v[axis] = std::nextafter(v[axis], INFINITY);
     return v;
+}
+
+Vec3<double> scaled_point(Vec3<double> p, Vec3<double> scale) {
+    return {p.x * scale.x, p.y * scale.y, p.z * scale.z};
 }
 
 Aabb<double> around_origin(Vec3<double> half) { return {-half, half}; }
@@ -36,22 +41,22 @@ struct ShapeBox {
 
     Aabb<double> operator()(const LinkMesh& mesh) const {
         if (mesh.mesh >= mesh_boxes.size())
-            throw std::invalid_argument("link '" + link.name + "' has mesh number " +
-                                        std::to_string(mesh.mesh) + " of " +
-                                        std::to_string(mesh_boxes.size()) +
-                                        " meshes, which count from 0");
+            throw std::invalid_argument(
+                "link '" + link.name + "' has mesh number " + std::to_string(mesh.mesh) + " of " +
+                std::to_string(mesh_boxes.size()) + " meshes, which count from 0");
         const Aabb<double> box(mesh_boxes[mesh.mesh]);
         if (!box.is_valid())
             throw std::invalid_argument("link '" + link.name + "': the box of mesh number " +
                                         std::to_string(mesh.mesh) + " is empty or not finite");
-        Aabb<double> scaled;
+        if (mesh.scale == Vec3<double>{1, 1, 1})
+            return box;
+        Aabb<double> around;
         for (const Vec3<double>& corner : {box.min, box.max}) {
-            const Vec3<double> p{corner.x * mesh.scale.x, corner.y * mesh.scale.y,
-                                 corner.z * mesh.scale.z};
-            scaled.extend(up(p));
-            scaled.extend(-up(-p));
+            const Vec3<double> p = scaled_point(corner, mesh.scale);
+            around.extend(up(p));
+            around.extend(-up(-p));
         }
-        return scaled;
+        return Aabb<double>(round_outward(around)); // rounding is monotone: scaled() lies in it
     }
     Aabb<double> operator()(const LinkBox& box) const { return around_origin(up(.5 * box.sides)); }
     Aabb<double> operator()(const LinkSphere& s) const {
@@ -156,6 +161,17 @@ void JointPath::at(double s, std::span<double> out) const {
     const auto i = static_cast<std::size_t>(time);
     const std::size_t next = std::min(i + 1, size() - 1);
     robot_->interpolate(states_[i], states_[next], time - static_cast<double>(i), out);
+}
+
+TriangleMesh scaled(TriangleMesh mesh, Vec3<double> scale) {
+    if (scale == Vec3<double>{1, 1, 1})
+        return mesh;
+    for (Vec3<float>& vertex : mesh.vertices)
+        vertex = Vec3<float>(scaled_point(Vec3<double>(vertex), scale));
+    if ((scale.x < 0) != ((scale.y < 0) != (scale.z < 0)))
+        for (auto& triangle : mesh.triangles)
+            std::swap(triangle[1], triangle[2]);
+    return mesh;
 }
 
 LinkBoxes::LinkBoxes(const Robot& robot, std::span<const Aabb<float>> mesh_boxes) {

@@ -2,6 +2,7 @@
 
 #include "kernels/kinematics/kinematic_tree.h"
 #include "kernels/primitives/aabb.h"
+#include "kernels/primitives/triangle.h"
 
 #include <cstddef>
 #include <span>
@@ -73,6 +74,10 @@ class JointPath {
     std::vector<std::vector<double>> states_;
 };
 
+/// The mesh that a LinkMesh means: its vertices scaled and rounded to floats, axis by axis. Of a
+/// mirrored one two corners of each triangle change places, so that outside stays outside.
+TriangleMesh scaled(TriangleMesh mesh, Vec3<double> scale);
+
 /// Boxes around the links of a robot, for candidate pairs.
 class LinkBoxes {
   public:
@@ -82,13 +87,14 @@ class LinkBoxes {
 
     /// The links with geometry, ascending; the others have no box.
     std::span<const std::uint32_t> links() const { return links_; }
-    /// boxes[i], of every link i: contains its geometry under the exact matrix of poses[i];
-    /// empty without geometry. Spans of one element per link. Allocates nothing.
+    /// boxes[i], of every link i: contains its geometry, of meshes as `scaled` gives them, too,
+    /// under the exact matrices of its origin, then of poses[i]; empty without geometry. Spans of
+    /// one element per link. Allocates nothing.
     void boxes(std::span<const RigidTransform<double>> poses, std::span<Aabb<double>> boxes) const;
 
   private:
     std::vector<std::uint32_t> links_;
-    std::vector<std::size_t> first_; ///< of each link in parts_; one more at the end
+    std::vector<std::size_t> first_;  ///< of each link in parts_; one more at the end
     std::vector<Aabb<double>> parts_; ///< around each shape, in its link's frame
 };
 

@@ -60,9 +60,8 @@ const SelfCollision& RobotSelfCollision::check(std::span<const double> values) {
     const auto may_touch = [&](Pair p) { return overlaps(boxes_[p.a], boxes_[p.b]); };
     std::ranges::copy_if(pairs_, std::back_inserter(answer_.candidates), may_touch);
     std::ranges::copy_if(pairs_to_test_, std::back_inserter(answer_.tested), may_touch);
-    std::ranges::copy_if(answer_.tested, std::back_inserter(answer_.colliding), [&](Pair p) {
-        return narrow_phase_->collide(p.a, p.b, poses_);
-    });
+    std::ranges::copy_if(answer_.tested, std::back_inserter(answer_.colliding),
+                         [&](Pair p) { return narrow_phase_->collide(p.a, p.b, poses_); });
     find_least();
     return answer_;
 }

@@ -49,8 +49,14 @@ Robot snake(std::uint32_t n) {
         if (i % 5 != 4)
             robot.links[i].geometries = {{LinkSphere{.1 + .01 * i}, {}}};
         if (i > 0)
-            robot.joints.push_back({"joint" + std::to_string(i), JointKind::revolute, i - 1, i,
-                                    {.translation = {.5, 0, 0}}, {0, 0, 1}, -2, 2});
+            robot.joints.push_back({"joint" + std::to_string(i),
+                                    JointKind::revolute,
+                                    i - 1,
+                                    i,
+                                    {.translation = {.5, 0, 0}},
+                                    {0, 0, 1},
+                                    -2,
+                                    2});
     }
     return Robot(std::move(robot));
 }

@@ -48,10 +48,16 @@ TEST(Robot, PosesRefuseWrongSizesAndValues) {
     robot.poses(robot.rest(), poses);
     EXPECT_EQ(poses[1].translation, (Vec3<double>{0, 0, 1}));
     using E = std::invalid_argument;
-    EXPECT_THAT([&] { robot.poses(std::vector{1., 2.}, poses); },
-                ThrowsMessage<E>(HasSubstr("2 joint values are given; the robot has 3")));
-    EXPECT_THAT([&] { robot.poses(std::vector{0., std::nan(""), 0.}, poses); },
-                ThrowsMessage<E>(HasSubstr("joint 'swing' is nan")));
+    EXPECT_THAT(
+        [&] {
+            robot.poses(std::vector{1., 2.}, poses);
+        },
+        ThrowsMessage<E>(HasSubstr("2 joint values are given; the robot has 3")));
+    EXPECT_THAT(
+        [&] {
+            robot.poses(std::vector{0., std::nan(""), 0.}, poses);
+        },
+        ThrowsMessage<E>(HasSubstr("joint 'swing' is nan")));
     poses.pop_back();
     EXPECT_THROW(robot.poses(robot.rest(), poses), E);
 }
@@ -171,6 +177,41 @@ TEST(LinkBoxes, HoldEveryPointOfTheGeometry) {
     const Vec3<double> size = around[4].max - around[4].min;
     for (int axis = 0; axis < 3; ++axis)
         EXPECT_LE(size[axis], 2 * std::numbers::sqrt3 + 1e-12);
+}
+
+TEST(LinkBoxes, HoldScaledMeshesToTheLastBit) {
+    std::mt19937_64 bits(2);
+    const auto real = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(bits);
+    };
+    for (int round = 0; round < 200; ++round) {
+        TriangleMesh mesh;
+        Aabb<float> box;
+        for (int i = 0; i < 3; ++i) {
+            mesh.vertices.push_back(
+                Vec3<float>(Vec3<double>{real(-1, 1), real(-1, 1), real(-1, 1)}));
+            box.extend(mesh.vertices.back());
+        }
+        mesh.triangles = {{0, 1, 2}};
+        const Vec3<double> scale{real(-2, 2), real(-.001, .001), real(-1e6, 1e6)};
+        const Robot robot({"r", {{"a", {{LinkMesh{0, scale}, {}}}}}});
+        std::vector<RigidTransform<double>> poses(1);
+        std::vector<Aabb<double>> around(1);
+        LinkBoxes(robot, std::vector{box}).boxes(poses, around);
+        const TriangleMesh large = scaled(mesh, scale);
+        for (const Vec3<float>& vertex : large.vertices)
+            ASSERT_TRUE(around[0].contains(Vec3<double>(vertex)));
+        // Outside stays outside: the normal of the scaled triangle is that of the first one over
+        // the scale, up to its length.
+        const auto normal = [](const TriangleMesh& m) {
+            const Triangle<float> t = m.triangle(0);
+            return cross(Vec3<double>(t.b) - Vec3<double>(t.a),
+                         Vec3<double>(t.c) - Vec3<double>(t.a));
+        };
+        const Vec3<double> n = normal(mesh), m = normal(large);
+        ASSERT_GT(n.x / scale.x * m.x + n.y / scale.y * m.y + n.z / scale.z * m.z, 0);
+    }
+    EXPECT_EQ(scaled({{{1, 2, 3}}, {}}, {1, 1, 1}).vertices[0], (Vec3<float>{1, 2, 3}));
 }
 
 TEST(LinkBoxes, RefusesMeshesThatAreNotThere) {
