@@ -74,7 +74,7 @@ TEST(RobotSelfCollision, AgreesWithEveryPairTested) {
     std::size_t asked = 0;
     for (int state = 0; state < 2000; ++state) {
         for (double& value : values)
-            value = std::uniform_real_distribution<double>(-1, 1)(random);
+            value = std::uniform_real_distribution<double>(-2, 2)(random);
         balls.asked = 0;
         const SelfCollision& found = self.check(values);
         asked += balls.asked;
