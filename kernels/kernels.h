@@ -10,6 +10,7 @@
 #include "kernels/primitives/obb.h"             // boxes in any pose
 #include "kernels/primitives/ray.h"             // rays and their hits
 #include "kernels/primitives/rigid_transform.h" // rotation and translation
+#include "kernels/primitives/rotation.h"        // products of them
 #include "kernels/primitives/segment.h"
 #include "kernels/primitives/sphere.h"
 #include "kernels/primitives/triangle.h" // triangles and indexed meshes
@@ -19,6 +20,10 @@
 #include "kernels/arithmetic/float_mode.h" // flush-to-zero, and keeping it out
 #include "kernels/arithmetic/on_both.h"    // what a CUDA device calls too
 #include "kernels/arithmetic/rounding.h"   // double to float, outward
+
+// Robots
+#include "kernels/kinematics/kinematic_tree.h"    // values of joints to poses of links
+#include "kernels/kinematics/robot_description.h" // links, joints, geometry, as plain data
 
 // What all kernels share
 #include "kernels/decision.h" // no, yes, maybe; promises

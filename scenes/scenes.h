@@ -17,6 +17,9 @@
 #include "scenes/moving/frames.h"        // a moving scene's boxes frame by frame, held or streamed
 #include "scenes/moving/moving_scene.h"  // bodies and what happens to them, played frame by frame
 #include "scenes/robots/four_link.h"     // the demo's robot: forward kinematics and its boxes
+#include "scenes/robots/random_values.h" // states of a robot at random, within limits
+#include "scenes/robots/srdf.h"          // allowed pairs and named states, read and written
+#include "scenes/robots/urdf.h"          // the user's robot and its meshes through liburdfdom
 #include "scenes/sampling/poses.h"       // places of a copy of a mesh beside it
 #include "scenes/sampling/queries.h"     // points and regions laid into a scene
 #include "scenes/sampling/random.h"      // Philox: item i is independent of n and of order

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/primitives/obb.h"
-#include "kernels/primitives/rigid_transform.h"
+#include "kernels/primitives/rotation.h"
 
 #include <array>
 #include <cmath>
@@ -47,15 +47,6 @@ class RandomPoses {
   private:
     std::mt19937_64 bits_;
 };
-
-/// The product of two matrices given by rows.
-inline std::array<Vec3<double>, 3> product(const std::array<Vec3<double>, 3>& a,
-                                           const std::array<Vec3<double>, 3>& b) {
-    std::array<Vec3<double>, 3> out;
-    for (std::size_t i = 0; i < 3; ++i)
-        out[i] = a[i].x * b[0] + a[i].y * b[1] + a[i].z * b[2];
-    return out;
-}
 
 template <class Real> std::array<Vec3<Real>, 3> rounded(const std::array<Vec3<double>, 3>& m) {
     return {static_cast<Vec3<Real>>(m[0]), static_cast<Vec3<Real>>(m[1]),

@@ -46,12 +46,4 @@ std::array<Vec3<double>, 3> cayley_rotation(Vec3<double> axis, double t) {
              {k * x * z - s * y, k * y * z + s * x, c + k * z * z}}};
 }
 
-std::array<Vec3<double>, 3> product(const std::array<Vec3<double>, 3>& a,
-                                    const std::array<Vec3<double>, 3>& b) {
-    std::array<Vec3<double>, 3> rows;
-    for (std::size_t i = 0; i < 3; ++i)
-        rows[i] = a[i].x * b[0] + a[i].y * b[1] + a[i].z * b[2];
-    return rows;
-}
-
 } // namespace boxwood

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/primitives/rotation.h"
 #include "kernels/settings.h"
 #include "scenes/effects/steps.h"
 #include "scenes/moving/bodies.h"
@@ -110,7 +111,5 @@ double wave(double quarters);
 
 /// The rotation about a unit axis by 2 atan(t): Cayley's form, orthonormal up to rounding.
 std::array<Vec3<double>, 3> cayley_rotation(Vec3<double> axis, double t);
-std::array<Vec3<double>, 3> product(const std::array<Vec3<double>, 3>& a,
-                                    const std::array<Vec3<double>, 3>& b);
 
 } // namespace boxwood

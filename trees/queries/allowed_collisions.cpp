@@ -13,6 +13,11 @@ std::size_t AllowedCollisions::size() const {
     return static_cast<std::size_t>(std::count(bits_.begin(), bits_.end(), true));
 }
 
+void AllowedCollisions::add_item() {
+    bits_.resize(bits_.size() + items_);
+    ++items_;
+}
+
 std::size_t AllowedCollisions::checked_slot(std::uint32_t a, std::uint32_t b) const {
     if (a == b)
         throw std::invalid_argument("allowed collisions: item " + std::to_string(a) +

@@ -18,6 +18,7 @@ class AllowedCollisions {
 
     std::size_t items() const { return items_; }
     std::size_t size() const; ///< number of allowed pairs
+    void add_item();          ///< at the end, with no allowed pair
 
     /// Throw std::invalid_argument if a == b or one of them is not an item.
     void allow(std::uint32_t a, std::uint32_t b) { bits_[checked_slot(a, b)] = true; }

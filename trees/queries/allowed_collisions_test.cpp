@@ -35,6 +35,23 @@ TEST(AllowedCollisions, EveryPairHasItsOwnBit) {
             EXPECT_EQ(allowed.allows(a, b), expected.count({a, b}) == 1) << a << ", " << b;
 }
 
+TEST(AllowedCollisions, GrowsItemByItem) {
+    AllowedCollisions grown(0), expected(40);
+    for (std::uint32_t b = 0; b < 40; ++b) {
+        grown.add_item();
+        for (std::uint32_t a = 0; a < b; ++a)
+            if ((a * 5 + b) % 3 == 0) {
+                grown.allow(a, b);
+                expected.allow(a, b);
+            }
+    }
+    EXPECT_EQ(grown.items(), 40u);
+    EXPECT_EQ(grown.size(), expected.size());
+    for (std::uint32_t b = 0; b < 40; ++b)
+        for (std::uint32_t a = 0; a < b; ++a)
+            EXPECT_EQ(grown.allows(a, b), expected.allows(a, b)) << a << ", " << b;
+}
+
 TEST(AllowedCollisions, RefusesWhatIsNoPair) {
     AllowedCollisions allowed(3);
     EXPECT_THROW(allowed.allow(1, 1), std::invalid_argument);

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "kernels/primitives/rigid_transform.h"
+
+#include <array>
+#include <cmath>
+
+namespace boxwood {
+
+/// The rows of a 3 x 3 matrix.
+using Rotation = std::array<Vec3<double>, 3>;
+
+/// The matrix product a b, rounded.
+inline Rotation product(const Rotation& a, const Rotation& b) {
+    Rotation out;
+    for (std::size_t i = 0; i < 3; ++i)
+        out[i] = a[i].x * b[0] + a[i].y * b[1] + a[i].z * b[2];
+    return out;
+}
+
+/// x -> a(b(x)), rounded.
+inline RigidTransform<double> compose(const RigidTransform<double>& a,
+                                      const RigidTransform<double>& b) {
+    return {product(a.rotation, b.rotation), a(b.translation)};
+}
+
+/// The rotation about an axis of length 1, right-handed, by Rodrigues' formula. Radians.
+inline Rotation rotation_about(Vec3<double> axis, double angle) {
+    const double s = std::sin(angle), c = std::cos(angle);
+    const Vec3<double> rest = (1 - c) * axis, turn = s * axis;
+    return {{{rest.x * axis.x + c, rest.x * axis.y - turn.z, rest.x * axis.z + turn.y},
+             {rest.y * axis.x + turn.z, rest.y * axis.y + c, rest.y * axis.z - turn.x},
+             {rest.z * axis.x - turn.y, rest.z * axis.y + turn.x, rest.z * axis.z + c}}};
+}
+
+/// The largest entry of |R R^T - I|.
+inline double distance_from_orthonormal(const Rotation& r) {
+    double largest = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = i; j < 3; ++j)
+            largest = std::fmax(largest, std::abs(dot(r[i], r[j]) - (i == j ? 1 : 0)));
+    return largest;
+}
+
+/// One Newton step to the nearest rotation, R + (I - R R^T) R / 2: a matrix that is d from
+/// orthonormal becomes one that is about d^2, or a few roundings, from it. Exact ones stay.
+inline Rotation orthonormalised(const Rotation& r) {
+    const double xx = .5 - dot(r[0], r[0]) / 2, yy = .5 - dot(r[1], r[1]) / 2,
+                 zz = .5 - dot(r[2], r[2]) / 2;
+    const double xy = -dot(r[0], r[1]) / 2, yz = -dot(r[1], r[2]) / 2, zx = -dot(r[2], r[0]) / 2;
+    return {{r[0] + (xx * r[0] + xy * r[1] + zx * r[2]), r[1] + (xy * r[0] + yy * r[1] + yz * r[2]),
+             r[2] + (zx * r[0] + yz * r[1] + zz * r[2])}};
+}
+
+} // namespace boxwood

@@ -1,0 +1,96 @@
+#include "trees/world/robot_collision.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+
+namespace boxwood {
+namespace {
+
+/// At most the distance of two boxes: three differences, their squares, sum and root round eight
+/// times in all, each by 2^-53 of the result at most. Squares below 2^-1022 may be lost: then it is
+/// 0, as for boxes that overlap.
+double gap_below(const Aabb<double>& a, const Aabb<double>& b) {
+    Vec3<double> apart;
+    for (int axis = 0; axis < 3; ++axis)
+        apart[axis] = std::max({0.0, a.min[axis] - b.max[axis], b.min[axis] - a.max[axis]});
+    const double square = dot(apart, apart);
+    return square < 0x1p-1000 ? 0 : std::sqrt(std::min(square, 0x1p1020)) * (1 - 8 * 0x1p-53);
+}
+
+} // namespace
+
+RobotSelfCollision::RobotSelfCollision(const Robot& robot, const LinkBoxes& boxes,
+                                       const AllowedPairs& allowed,
+                                       const LinkNarrowPhase& narrow_phase)
+    : robot_(&robot), link_boxes_(&boxes), narrow_phase_(&narrow_phase),
+      poses_(robot.links().size()), boxes_(robot.links().size()) {
+    if (allowed.items() != robot.links().size())
+        throw std::invalid_argument("the allowed pairs are of " + std::to_string(allowed.items()) +
+                                    " items; the robot has " +
+                                    std::to_string(robot.links().size()) + " links");
+    const auto links = boxes.links();
+    for (std::size_t i = 0; i < links.size(); ++i)
+        for (std::size_t j = i + 1; j < links.size(); ++j) {
+            pairs_.push_back({links[i], links[j]});
+            if (!allowed.allows(links[i], links[j]))
+                pairs_to_test_.push_back({links[i], links[j]});
+        }
+}
+
+void RobotSelfCollision::place(std::span<const double> values) {
+    robot_->poses(values, poses_);
+    link_boxes_->boxes(poses_, boxes_);
+}
+
+bool RobotSelfCollision::collides(std::span<const double> values) {
+    place(values);
+    return std::ranges::any_of(pairs_to_test_, [&](Pair p) {
+        return overlaps(boxes_[p.a], boxes_[p.b]) && narrow_phase_->collide(p.a, p.b, poses_);
+    });
+}
+
+const SelfCollision& RobotSelfCollision::check(std::span<const double> values) {
+    place(values);
+    answer_.candidates.clear();
+    answer_.tested.clear();
+    answer_.colliding.clear();
+    const auto may_touch = [&](Pair p) { return overlaps(boxes_[p.a], boxes_[p.b]); };
+    std::ranges::copy_if(pairs_, std::back_inserter(answer_.candidates), may_touch);
+    std::ranges::copy_if(pairs_to_test_, std::back_inserter(answer_.tested), may_touch);
+    std::ranges::copy_if(answer_.tested, std::back_inserter(answer_.colliding),
+                         [&](Pair p) { return narrow_phase_->collide(p.a, p.b, poses_); });
+    find_least();
+    return answer_;
+}
+
+/// The pairs by the gaps of their boxes: none can be nearer than its gap.
+void RobotSelfCollision::find_least() {
+    answer_.nearest.reset();
+    answer_.least = {};
+    if (!answer_.colliding.empty()) {
+        answer_.nearest = answer_.colliding.front();
+        answer_.least = {0, 0, 0};
+        return;
+    }
+    by_gap_.clear();
+    for (const Pair p : pairs_to_test_)
+        by_gap_.push_back({gap_below(boxes_[p.a], boxes_[p.b]), p});
+    std::ranges::stable_sort(by_gap_, {}, &Near::gap);
+    LinkDistance& least = answer_.least;
+    for (const auto& [gap, p] : by_gap_) {
+        if (gap >= least.hi)
+            break;
+        const LinkDistance found = narrow_phase_->distance(p.a, p.b, poses_, least.hi);
+        if (!answer_.nearest || found.distance < least.distance) {
+            answer_.nearest = p;
+            least.distance = found.distance;
+        }
+        least.lo = std::min(least.lo, found.lo);
+        least.hi = std::min(least.hi, found.hi);
+    }
+}
+
+} // namespace boxwood
