@@ -60,7 +60,7 @@ template <bool any, Boxes boxes> class SingleRays final : public Contender {
         hits.resize(rays_.size());
         bvh::v2::SmallStack<Node::Index, 128> stack;
         for (std::size_t i = 0; i < rays_.size(); ++i) {
-            stack.size = 0; // an any-hit leaves what it did not come to
+            stack.size = 0;         // an any-hit leaves what it did not come to
             PeerRay ray = rays_[i]; // whose tmax comes nearer
             RayHit hit;
             const auto leaf = [&](std::size_t begin, std::size_t end) {
