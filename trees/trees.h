@@ -76,6 +76,7 @@
 #include "trees/queries/tree_pairs.h"
 #include "trees/tree.h"
 #include "trees/world/allowed_pairs.h"
+#include "trees/world/box_mesh.h"
 #include "trees/world/continuous.h"
 #include "trees/world/mesh_contacts.h"
 #include "trees/world/mesh_pairs.h"
@@ -86,4 +87,5 @@
 #include "trees/world/propose_pairs.h"
 #include "trees/world/robot.h"
 #include "trees/world/robot_collision.h"
+#include "trees/world/robot_meshes.h"
 #include "trees/world/solid.h"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/primitives/triangle.h"
+#include "trees/world/box_mesh.h"
 #include "trees/world/pose.h"
 
 #include <array>
@@ -57,20 +58,9 @@ inline TriangleMesh plate(std::uint32_t n, double z, double wave = 0) {
 
 /// An axis-aligned cube about a centre, of 12 triangles.
 inline TriangleMesh cube_mesh(float half, Vec3<float> centre = {}) {
-    TriangleMesh mesh;
-    for (int corner = 0; corner < 8; ++corner)
-        mesh.vertices.push_back(centre + Vec3<float>{corner & 1 ? half : -half,
-                                                     corner & 2 ? half : -half,
-                                                     corner & 4 ? half : -half});
-    for (const auto& [a, b, c, d] : {std::array<std::uint32_t, 4>{0, 2, 3, 1},
-                                     {4, 5, 7, 6},
-                                     {0, 1, 5, 4},
-                                     {2, 6, 7, 3},
-                                     {0, 4, 6, 2},
-                                     {1, 3, 7, 5}}) {
-        mesh.triangles.push_back({a, b, c});
-        mesh.triangles.push_back({a, c, d});
-    }
+    TriangleMesh mesh = box_mesh(2 * double{half} * Vec3<double>{1, 1, 1});
+    for (Vec3<float>& v : mesh.vertices)
+        v = centre + v;
     return mesh;
 }
 

@@ -58,4 +58,15 @@ Pose relative_pose(const Pose& a, const Pose& b) {
     return relative;
 }
 
+Pose compose(const Pose& outer, const Pose& inner) {
+    Pose both;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3<double>& row = outer.rotation[i];
+        both.rotation[i] =
+            row.x * inner.rotation[0] + row.y * inner.rotation[1] + row.z * inner.rotation[2];
+    }
+    both.translation = outer(inner.translation);
+    return both;
+}
+
 } // namespace boxwood

@@ -15,4 +15,7 @@ Pose checked_pose(const Pose& pose);
 /// The pose of B as seen from A: x -> A^-1 B x. Both as checked_pose gives them.
 Pose relative_pose(const Pose& a, const Pose& b);
 
+/// x -> outer (inner x).
+Pose compose(const Pose& outer, const Pose& inner);
+
 } // namespace boxwood

@@ -3,6 +3,7 @@
 #include "bench/io/bad_input.h"
 #include "bench/io/csv.h"
 #include "scenes/meshes/mesh_file.h"
+#include "trees/world/box_mesh.h"
 
 #include <fmt/format.h>
 
@@ -27,7 +28,7 @@ std::optional<TriangleMesh> primitive(const std::string& text) {
             fmt::format("{}: of primitives only boxes are answered (box:x,y,z, full side "
                         "lengths); a {} can be given as a mesh file",
                         text, kind));
-    Vec3<float> half;
+    Vec3<double> lengths;
     std::size_t rows = 0;
     read_csv(text.substr(colon + 1), text, {"x,y,z, the full side lengths of the box", 3, 3},
              [&](std::span<const double> sides, std::size_t) {
@@ -37,25 +38,12 @@ std::optional<TriangleMesh> primitive(const std::string& text) {
                          throw BadInput(fmt::format("{}: a side is {}; it must be at least 0 and "
                                                     "finite",
                                                     text, sides[axis]));
-                     half[static_cast<int>(axis)] = static_cast<float>(sides[axis] / 2);
+                     lengths[static_cast<int>(axis)] = sides[axis];
                  }
              });
     if (rows != 1)
         throw BadInput(fmt::format("{}: a box is box:x,y,z, its full side lengths", text));
-    TriangleMesh mesh;
-    for (int corner = 0; corner < 8; ++corner)
-        mesh.vertices.push_back({corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y,
-                                 corner & 4 ? half.z : -half.z});
-    for (const auto& [a, b, c, d] : {std::array<std::uint32_t, 4>{0, 2, 3, 1},
-                                     {4, 5, 7, 6},
-                                     {0, 1, 5, 4},
-                                     {2, 6, 7, 3},
-                                     {0, 4, 6, 2},
-                                     {1, 3, 7, 5}}) {
-        mesh.triangles.push_back({a, b, c});
-        mesh.triangles.push_back({a, c, d});
-    }
-    return mesh;
+    return box_mesh(lengths);
 }
 
 } // namespace
