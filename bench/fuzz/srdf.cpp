@@ -1,7 +1,8 @@
-/// SRDF files of a robot of three links: refused with the file's name, or written and read the same.
+/// SRDF files of a robot of three links: refused with the file's name, or written and read the
+/// same.
 
-#include "bench/fuzz/fuzz.h"
 #include "scenes/robots/srdf.h"
+#include "bench/fuzz/fuzz.h"
 
 namespace boxwood::fuzz {
 
@@ -17,7 +18,8 @@ void srdf(Bytes bytes) {
         return;
     }
     const Srdf plain = parse_srdf(srdf_text(robot, found.allowed), "fuzz.srdf", robot);
-    const Srdf kept = parse_srdf(srdf_text(robot, found.allowed, text_of(bytes)), "fuzz.srdf", robot);
+    const Srdf kept =
+        parse_srdf(srdf_text(robot, found.allowed, text_of(bytes)), "fuzz.srdf", robot);
     require(plain.allowed == found.allowed && kept.allowed == found.allowed,
             "what is written reads otherwise");
     require(kept.states.size() == found.states.size(), "states are lost");

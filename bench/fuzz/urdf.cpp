@@ -1,8 +1,8 @@
 /// URDF files: refused with the file's name, or a robot whose links have poses.
 
+#include "scenes/robots/urdf.h"
 #include "bench/fuzz/fuzz.h"
 #include "kernels/kinematics/kinematic_tree.h"
-#include "scenes/robots/urdf.h"
 
 namespace boxwood::fuzz {
 

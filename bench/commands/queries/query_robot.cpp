@@ -70,9 +70,8 @@ void propose_allowed(const RobotQuery& query, const LinkNarrowPhase& narrow_phas
         const auto collide = [&](std::uint32_t a, std::uint32_t b, auto poses) {
             return narrow_phase.collide(a, b, poses);
         };
-        const PairsBySampling found =
-            allow_by_samples(robot.robot, robot.boxes, {*query.samples, query.seed, draw}, collide,
-                             robot.allowed);
+        const PairsBySampling found = allow_by_samples(
+            robot.robot, robot.boxes, {*query.samples, query.seed, draw}, collide, robot.allowed);
         say(fmt::format("boxwood: of {} samples (seed {}): {} pairs always collide, {} cannot, {} "
                         "were never seen to, which proves nothing\n",
                         *query.samples, query.seed, found.always, found.never, found.sampled));
@@ -105,8 +104,7 @@ void take_joints(const Robot& robot, std::string_view text, std::vector<double>&
         text.remove_prefix(std::min(item.size() + 1, text.size()));
         const std::size_t equals = item.rfind('=');
         const std::string_view name = item.substr(0, equals);
-        const double value =
-            joint_value(item, equals == item.npos ? "" : item.substr(equals + 1));
+        const double value = joint_value(item, equals == item.npos ? "" : item.substr(equals + 1));
         values[robot.value(name)] = value;
     }
 }
@@ -205,8 +203,8 @@ class RobotJson final : public RobotPrinter {
         text_ << fmt::format("{{\"robot\":{},\"links\":[", json_string(robot.name()));
         for (std::uint32_t i = 0; i < robot.links().size(); ++i) {
             const std::uint32_t parent = robot.kinematics().parents()[i];
-            text_ << fmt::format("{}{{\"name\":{},\"parent\":{},\"geometries\":{}}}",
-                                 i ? "," : "", name(i), parent == i ? "null" : name(parent),
+            text_ << fmt::format("{}{{\"name\":{},\"parent\":{},\"geometries\":{}}}", i ? "," : "",
+                                 name(i), parent == i ? "null" : name(parent),
                                  robot.links()[i].geometries.size());
         }
         text_ << "],\"joints\":[";
@@ -243,9 +241,8 @@ class RobotJson final : public RobotPrinter {
             ",\"distance\":{},\"lo\":{},\"hi\":{},\"nearest\":{}}}",
             json_number(found.least.distance), json_number(found.least.lo),
             json_number(found.least.hi),
-            found.nearest
-                ? fmt::format("[{},{}]", name(found.nearest->a), name(found.nearest->b))
-                : "null");
+            found.nearest ? fmt::format("[{},{}]", name(found.nearest->a), name(found.nearest->b))
+                          : "null");
     }
     void end() override { text_ << "]}\n"; }
 
@@ -322,7 +319,8 @@ void add_query_robot(CLI::App& query, MakeLinkNarrowPhase narrow_phase) {
     add_format_options(*robot, options->format);
     robot->footer(
         "Each line begins with what it is: link, joint, allowed, and for each state value,\n"
-        "candidate (boxes of the links overlap), filtered (those that are not allowed), colliding,\n"
+        "candidate (boxes of the links overlap), filtered (those that are not allowed), "
+        "colliding,\n"
         "least (the least distance of links that are not allowed, 0 if two collide: the true one\n"
         "lies between lo and hi). Without --srdf adjacent links are allowed to collide.\n\n"
         "Examples:\n"
