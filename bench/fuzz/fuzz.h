@@ -23,6 +23,8 @@
     X(mesh_ply)                                                                                    \
     X(mesh_stl)                                                                                    \
     X(scene_toml)                                                                                  \
+    X(urdf)                                                                                        \
+    X(srdf)                                                                                        \
     X(result_file)                                                                                 \
     X(box_csv)                                                                                     \
     X(ray_csv)                                                                                     \

@@ -61,8 +61,10 @@ class SrdfParser {
                                                         "disable_default_collisions"};
         });
         for_each_child(robot, "disable_collisions", [&](const Element& e) {
-            const char* reason = e.Attribute("reason");
-            pairs_[pair_of(e)] = parse_reason(reason ? reason : "User");
+            std::string reason = e.Attribute("reason") ? e.Attribute("reason") : "User";
+            std::ranges::replace_if(
+                reason, [](char c) { return c >= 0 && c < ' '; }, ' '); // line ends are not kept
+            pairs_[pair_of(e)] = parse_reason(reason);
         });
         for_each_child(robot, "enable_collisions",
                        [&](const Element& e) { pairs_.erase(pair_of(e)); });

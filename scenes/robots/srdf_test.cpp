@@ -114,6 +114,11 @@ TEST(SrdfFile, ErrorsNameTheLineAndTheWayOut) {
                 HasSubstr("not finite"));
     EXPECT_THAT(complaint("<group_state><joint name='turn'/></group_state>"),
                 HasSubstr("needs an attribute name"));
+    for (const std::string text :
+         {"<robot/>\n<robot/>", "<robot/>\ntext<!-- c -->", "<robot/>x</a>"})
+        EXPECT_THROW(parse_srdf(text, "r", four_links()), std::runtime_error) << text;
+    EXPECT_EQ(parse_srdf("<?xml?><!-- a --><robot/><!-- b -->", "r", four_links()).allowed.size(),
+              0u);
     EXPECT_THROW(parse_srdf("<robot>", "r", four_links()), std::runtime_error);
     EXPECT_THROW(read_srdf("/nonexistent.srdf", four_links()), std::runtime_error);
     EXPECT_THROW(srdf_text(four_links(), {}, "<sdf/>"), std::runtime_error);

@@ -69,6 +69,12 @@ XmlReader::XmlReader(std::string_view text, std::string source, std::string_view
     if (std::string_view(robot_->Name()) != "robot")
         fail(*robot_,
              fmt::format("the root element is <{}>; a {} file has <robot>", robot_->Name(), kind));
+    // tinyxml2 reads on, as far as it gets.
+    for (const auto* node = document_.FirstChild(); node; node = node->NextSibling())
+        if (node != robot_ && (node->ToElement() || node->ToText()))
+            throw std::runtime_error(fmt::format("{}:{}: a {} file has one element, <robot>, and "
+                                                 "nothing but comments beside it",
+                                                 source_, node->GetLineNum(), kind));
     for_each_child(*robot_, nullptr, [&](const Element& e) {
         if (std::string_view(e.Name()).starts_with("xacro:"))
             fail(e, fmt::format("<{}> is xacro, from which {} files are made; expand it first: "
