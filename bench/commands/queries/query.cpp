@@ -2,6 +2,7 @@
 
 #include "bench/commands/command.h"
 #include "kernels/suggest.h"
+#include "trees/world/robot_meshes.h"
 
 #include <CLI/CLI.hpp>
 
@@ -101,6 +102,9 @@ void add_query(CLI::App& app, int&) {
     add_query_ccd(*query);
     add_query_meshes(*query);
     add_query_continuous(*query);
+    add_query_robot(*query, [](const Robot& robot, std::span<const TriangleMesh> meshes) {
+        return std::make_unique<RobotMeshes>(robot, meshes);
+    });
 }
 
 } // namespace boxwood::bench

@@ -1,5 +1,9 @@
 #include "bench/commands/command.h"
 #include "bench/commands/queries/query.h"
+#include "kernels/triangle_distance/features.h"
+#include "scenes/robots/random_values.h"
+#include "scenes/robots/urdf.h"
+#include "trees/world/robot_meshes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -228,6 +232,53 @@ TEST_F(QueryRobot, SharedPandaIsReadWithItsPairs) {
         query_, [](const Robot&, auto) { return std::make_unique<Boxes>(); }, proposed);
     EXPECT_EQ(adjacent(text).size(), 10u);
     EXPECT_EQ(adjacent(proposed.str()), adjacent(text));
+}
+
+/// Pair by pair against all triangles, in states at random.
+TEST(QueryRobotMeshes, AnswerForPandaAsAllItsTrianglesDo) {
+    const fs::path panda = "../shared/data/robots/panda";
+    if (!fs::is_directory(panda))
+        GTEST_SKIP() << panda << " is not here: the sample robots are no part of the project";
+    const UrdfRobot read = read_urdf(panda / "panda.urdf");
+    const Robot robot(read.description);
+    const RobotMeshes narrow(robot, read.meshes);
+    std::vector<Pose> poses(robot.links().size());
+    std::vector<double> values(robot.n_values());
+    std::vector<std::vector<Triangle<double>>> placed(robot.links().size());
+    std::size_t touching = 0, pairs = 0;
+    for (std::uint64_t state = 0; state < 3; ++state) {
+        random_values(robot.ranges(), 7, state, values);
+        robot.poses(values, poses);
+        for (std::size_t i = 0; i < placed.size(); ++i) {
+            placed[i].clear();
+            for (const LinkGeometry& geometry : robot.links()[i].geometries) {
+                const TriangleMesh& mesh = read.meshes[std::get<LinkMesh>(geometry.shape).mesh];
+                const Pose pose = compose(poses[i], geometry.origin);
+                for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+                    const Triangle<float> t = mesh.triangle(k);
+                    placed[i].push_back({pose(Vec3<double>(t.a)), pose(Vec3<double>(t.b)),
+                                         pose(Vec3<double>(t.c))});
+                }
+            }
+        }
+        for (std::uint32_t a = 0; a < placed.size(); ++a)
+            for (std::uint32_t b = a + 2; b < placed.size(); ++b) {
+                if (placed[a].empty() || placed[b].empty())
+                    continue;
+                ++pairs;
+                double least = std::numeric_limits<double>::infinity();
+                for (const Triangle<double>& s : placed[a])
+                    for (const Triangle<double>& t : placed[b])
+                        least = std::min(least, FeaturesF64::distance(s, t).distance);
+                const LinkDistance found =
+                    narrow.distance(a, b, poses, std::numeric_limits<double>::infinity());
+                EXPECT_NEAR(found.distance, least, 1e-12) << a << " " << b;
+                EXPECT_EQ(narrow.collide(a, b, poses), least == 0);
+                touching += least == 0;
+            }
+    }
+    EXPECT_GT(pairs, 100u);
+    EXPECT_LT(touching, pairs / 2);
 }
 
 } // namespace
