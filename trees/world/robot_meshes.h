@@ -1,6 +1,7 @@
 #pragma once
 
 #include "trees/world/mesh_tree.h"
+#include "trees/world/pose.h"
 #include "trees/world/robot_collision.h"
 
 #include <memory>
