@@ -5,6 +5,12 @@ import numpy as np
 from . import MeshBvh
 
 
+def _largest(vectors):
+    """Of each the largest of its absolute coordinates; NaN if one is."""
+    x, y, z = np.abs(vectors.T)
+    return np.maximum(np.maximum(x, y), z)
+
+
 class RayMeshIntersector:
     """The interface of trimesh.ray.ray_pyembree.RayMeshIntersector.
 
@@ -42,10 +48,14 @@ class RayMeshIntersector:
         if len(origins) != len(directions):
             raise ValueError(f"there are {len(origins)} ray_origins and {len(directions)} ray_directions")
         tree = self._tree()
-        with np.errstate(divide="ignore", invalid="ignore"):
-            directions = directions / np.abs(directions).max(axis=1, initial=0, keepdims=True)
-        good = np.isfinite(origins).all(axis=1) & np.isfinite(directions).all(axis=1)
-        return getattr(tree, how)(origins[good] - self._middle, directions[good]), np.flatnonzero(good), len(origins)
+        length = _largest(directions)
+        good = (length > 0) & (length < np.inf) & (_largest(origins) < np.inf)
+        rays = np.flatnonzero(good)
+        if len(rays) < len(origins):
+            origins, directions, length = origins[rays], directions[rays], length[rays]
+        if len(rays) and not 1e-3 < length.min() <= length.max() < 1e3:
+            directions = directions / length[:, None]  # for float32 to hold it, and t
+        return getattr(tree, how)(origins - self._middle, directions), rays, len(good)
 
     def _places(self, triangle, u, v):
         corners = self.mesh.vertices[self.mesh.faces[triangle]].view(np.ndarray)

@@ -166,6 +166,9 @@ def test_trimesh_takes_it_as_its_own():
     for copied in (copy.copy(mesh.ray), copy.deepcopy(mesh.ray), pickle.loads(pickle.dumps(mesh.ray))):
         assert copied.intersects_any([[100, 0, 9], [0, 0, 9]], [[0, 0, -1]] * 2).tolist() == [True, False]
     assert mesh.ray.intersects_first(np.empty((0, 3)), np.empty((0, 3))).shape == (0,)
+    odd = np.array([[0, 0, -1e-300], [0, 0, 0], [0, 0, -1e300], [np.nan, 0, -1], [np.inf, 0, 0], [0, 0, -1]])
+    assert mesh.ray.intersects_any([[100, 0, 9]] * 6, odd).tolist() == [True, False, True, False, False, True]
+    assert mesh.ray.intersects_id([[100.1, 0, 9]] * 6, odd)[1].tolist() == [0, 0, 2, 2, 5, 5]
     with pytest.raises(ValueError, match="2 ray_origins and 1 ray_directions"):
         mesh.ray.intersects_any([[0, 0, 0]] * 2, [[0, 0, 1]])
     mesh.apply_translation([0, 50, 0])
