@@ -82,3 +82,11 @@
 #include "kernels/continuous/continuous_kernel.h" // contract: points in linear motion
 #include "kernels/continuous/cubic.h"             // roots of a cubic
 #include "kernels/continuous/tight_inclusion.h"   // separating planes, no miss
+
+// Convex shapes
+#include "kernels/convex/contact.h"         // up to four points where two meet
+#include "kernels/convex/first_contact.h"   // when two in motion first touch, between bounds
+#include "kernels/convex/motion.h"          // rigid, along lines and screws
+#include "kernels/convex/shapes.h"          // spheres, boxes, ... hulls; one of any kind
+#include "kernels/convex/signed_distance.h" // distance or depth between bounds; yes or no
+#include "kernels/convex/support.h"         // farthest points, extents, boxes of posed shapes

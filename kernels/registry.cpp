@@ -1,5 +1,8 @@
 #include "kernels/registry.h"
 
+#include "kernels/convex/first_contact.h"
+#include "kernels/convex/signed_distance.h"
+
 #include <algorithm>
 #include <array>
 
@@ -12,6 +15,9 @@ constexpr KernelInfo closed_overlap{"box_box",
                                     Promise::exact,
                                     "0: nothing is rounded",
                                     "6 comparisons"};
+
+constexpr std::array convex_rows{convex::closed_form_info, convex::gjk_epa_info,
+                                 convex::first_contact_info};
 
 template <class Kernels> constexpr auto rows() {
     return []<class... K>(std::type_identity<std::tuple<K...>>) {
@@ -32,10 +38,11 @@ template <std::size_t... n> constexpr auto concatenated(const std::array<KernelI
     ((to = std::copy(parts.begin(), parts.end(), to)), ...);
     return all;
 }
-constexpr auto all_rows = concatenated(
-    std::array{closed_overlap}, rows<RayBoxKernels>(), ray_rows, triangle_rows,
-    rows<DistanceKernels>(), rows<SegmentDistanceKernels>(), rows<PointTriangleKernels>(),
-    rows<PointSegmentKernels>(), rows<BoxFitKernels>(), rows<ObbKernels>(), motion_rows);
+constexpr auto all_rows =
+    concatenated(std::array{closed_overlap}, rows<RayBoxKernels>(), ray_rows, triangle_rows,
+                 rows<DistanceKernels>(), rows<SegmentDistanceKernels>(),
+                 rows<PointTriangleKernels>(), rows<PointSegmentKernels>(), rows<BoxFitKernels>(),
+                 rows<ObbKernels>(), motion_rows, convex_rows);
 
 } // namespace
 

@@ -1,0 +1,184 @@
+// What is known without computing: hard cases of primitives, symmetric poses, flat and empty
+// shapes.
+
+#include "kernels/convex/signed_distance.h"
+#include "kernels/testing/poses.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace boxwood::convex {
+namespace {
+
+Pose at(double x, double y, double z) { return {Pose{}.rotation, {x, y, z}}; }
+
+void expect_distance(const SignedDistance& d, double truth, double slack = 5e-13) {
+    EXPECT_LE(d.lo, truth);
+    EXPECT_GE(d.hi, truth);
+    EXPECT_NEAR(d.distance, truth, slack);
+    EXPECT_LE(d.hi - d.lo, 2 * slack);
+    EXPECT_NEAR(length((d.point_b - d.point_a) - d.normal * d.distance), 0, 1e-5);
+}
+
+TEST(KnownAnswers, BoxesAlongEveryAxis) { // FCL says sqrt(10) for 3, and so on
+    const Box unit{{.5, .5, .5}};
+    for (int axis = 0; axis < 3; ++axis)
+        for (int k = -60; k <= 60; ++k) {
+            Pose pose{};
+            pose.translation[axis] = k / 8.0;
+            expect_distance(signed_distance(unit, Pose{}, unit, pose), std::abs(k) / 8.0 - 1);
+        }
+    expect_distance(signed_distance(unit, at(0, 4, 0), unit, Pose{}), 3);
+}
+
+TEST(KnownAnswers, BoxesAcrossEdgesAndCorners) {
+    const Box unit{{.5, .5, .5}};
+    expect_distance(signed_distance(unit, Pose{}, unit, at(4, 5, 0)), 5);
+    expect_distance(signed_distance(unit, Pose{}, unit, at(3, 3, 2)), 3);
+    expect_distance(signed_distance(unit, Pose{}, unit, at(.75, .5, .25)), -.25);
+    expect_distance(signed_distance(Box{{1, 1, 1}}, Pose{}, Box{{.1, .1, .1}}, at(.2, .1, 0)),
+                    -.9); // hard case 12: inside
+}
+
+TEST(KnownAnswers, KissingBoxes) {
+    const std::array<Vec3<double>, 3> r{
+        {{.96193976625564348026, .15401279915737359216, .22572537250328919556},
+         {-.19134171618254486313, .96936494951283913579, .15401279915737359216},
+         {-.19509032201612822033, -.19134171618254486313, .96193976625564348026}}};
+    const Vec3<double> p1{2.0770063995786869349, .48468247475641951239, 1.1543291419087275962},
+        p2{2, 0, 1.25};
+    const Box half{{.25, .25, .25}};
+    const SignedDistance d = signed_distance(half, {r, p1}, half, {r, p2});
+    EXPECT_LT(std::abs(d.distance), 1e-12);
+    EXPECT_LE(d.lo, d.hi);
+    EXPECT_LT(d.hi - d.lo, 1e-12);
+    for (const double dim : {.01, .25, .5, 10.0, 1000.0})
+        for (const double gap : {0.0, 1e-16, -1e-16, 2.5e-16, -2.5e-16, 1e-15, -1e-15}) {
+            const double s = std::max(1.0, dim);
+            const Box box{{dim / 2, dim / 2, dim / 2}};
+            // One on the other along a column of R, the distance of their centres rounded.
+            const Vec3<double> up{r[0].y, r[1].y, r[2].y};
+            const Vec3<double> p3 = p2 + up * (dim + gap * s);
+            const SignedDistance e = signed_distance(box, {r, p2}, box, {r, p3});
+            EXPECT_LT(std::abs(e.distance), 1e-13 * s);
+            EXPECT_LT(e.hi - e.lo, 1e-12 * s);
+        }
+}
+
+TEST(KnownAnswers, RoundShapesOnAnAxis) {
+    const Sphere ball{1};
+    expect_distance(signed_distance(ball, Pose{}, ball, at(3, 4, 0)), 3);
+    expect_distance(signed_distance(ball, Pose{}, ball, Pose{}), -2);
+    expect_distance(signed_distance(ball, at(0, 0, 5), Capsule{1, 2}, Pose{}), 1);
+    expect_distance(signed_distance(ball, at(5, 0, 1), Cylinder{2, 2}, Pose{}), 2);
+    expect_distance(signed_distance(ball, at(5, 0, 6), Cylinder{2, 2}, Pose{}), 4);
+    expect_distance(signed_distance(ball, Pose{}, Cylinder{2, 3}, Pose{}), -3);
+    expect_distance(signed_distance(ball, at(0, 0, 6), Cone{3, 2}, Pose{}), 3);
+    expect_distance(signed_distance(ball, at(0, 0, -6), Cone{3, 2}, Pose{}), 3);
+    expect_distance(signed_distance(ball, at(6, 0, -6), Cone{3, 2}, Pose{}), 4);
+    // Slant of a 3-4-5 triangle: from (0, 2) to (3, -2); beside its middle by 5.
+    expect_distance(signed_distance(ball, at(1.5 + 4, 0, 3), Cone{3, 2}, Pose{}), 4);
+    expect_distance(signed_distance(Capsule{.5, 2}, Pose{}, Capsule{.5, 2}, at(0, 3, 1)), 2);
+    expect_distance(signed_distance(ball, at(0, 9, 0), Ellipsoid{{1, 2, 3}}, Pose{}), 6, 1e-9);
+    expect_distance(signed_distance(Cylinder{1, 2}, Pose{}, Cylinder{1, 2}, at(5, 0, 0)), 3, 1e-9);
+    expect_distance(signed_distance(Cylinder{1, 2}, Pose{}, Cylinder{1, 2}, at(0, 0, 5)), 1, 1e-9);
+    expect_distance(signed_distance(Cone{1, 2}, Pose{}, Box{{1, 1, 1}}, at(0, 0, 4)), 1, 1e-9);
+}
+
+TEST(KnownAnswers, RoundShapesInOneAnotherHaveBoundsThatHold) {
+    // Many directions are alike: the bounds may be wide, but hold.
+    const auto within_bounds = [](const SignedDistance& d, double truth) {
+        EXPECT_LE(d.lo, truth);
+        EXPECT_GE(d.hi, truth);
+        EXPECT_LE(d.hi - d.lo, .2 * std::abs(truth));
+    };
+    within_bounds(signed_distance(Cylinder{1, 2}, Pose{}, Cylinder{1, 2}, Pose{}), -2);
+    within_bounds(signed_distance(Ellipsoid{{1, 1, 1}}, Pose{}, Ellipsoid{{2, 2, 2}}, Pose{}), -3);
+    within_bounds(signed_distance(Cone{1, 9}, Pose{}, Sphere{1}, at(0, 0, -5)),
+                  -1 - 14 / std::sqrt(18 * 18 + 1));
+    EXPECT_EQ(collide(Ellipsoid{{1, 1, 1}}, Pose{}, Ellipsoid{{2, 2, 2}}, Pose{}).answer,
+              Answer::yes);
+}
+
+TEST(KnownAnswers, FlatAndEmptyShapes) {
+    const Box plate{{1, 1, 0}}, stick{{0, 0, 1}}, point{{0, 0, 0}};
+    expect_distance(signed_distance(plate, Pose{}, plate, at(0, 0, 2)), 2);
+    expect_distance(signed_distance(plate, Pose{}, plate, at(.5, .5, 0)), 0);
+    expect_distance(signed_distance(plate, Pose{}, stick, at(.25, .125, .5)), -.5);
+    expect_distance(signed_distance(point, Pose{}, point, at(3, 4, 0)), 5);
+    expect_distance(signed_distance(point, Pose{}, point, Pose{}), 0);
+    expect_distance(signed_distance(Sphere{0}, at(1, 1, 1), Sphere{0}, at(1, 1, 1)), 0);
+    expect_distance(signed_distance(Sphere{0}, at(1, 0, 0), Triangle{}, Pose{}), 1);
+    expect_distance(signed_distance(Cylinder{1, 0}, Pose{}, Cylinder{1, 0}, at(3, 0, 0)), 1, 1e-9);
+    expect_distance(signed_distance(Capsule{1, 0}, Pose{}, Capsule{0, 3}, at(0, 4, 0)), 3);
+    expect_distance(signed_distance(Capsule{0, 1}, Pose{}, Capsule{0, 1}, Pose{}), 0);
+    const std::array<Vec3<double>, 1> one{{{0, 0, 7}}};
+    expect_distance(signed_distance(Hull(one), Pose{}, Box{{1, 1, 1}}, Pose{}), 6);
+    const std::array<Vec3<double>, 5> twice{
+        {{0, 0, 3}, {0, 0, 3}, {1, 0, 3}, {0, 1, 3}, {0, 1, 3}}};
+    expect_distance(signed_distance(Hull(twice), Pose{}, Box{{1, 1, 1}}, Pose{}), 2);
+    // Hard case 1: tiny triangles.
+    for (const double s : {1.7e-4, 1e-4, 1e-5}) {
+        const double h = s / 10;
+        const Triangle a{{0, 0, 0}, {s, 0, 0}, {0, s, 0}},
+            b{{s / 4, s / 4, h}, {5 * s / 4, s / 4, h + s}, {s / 4, 5 * s / 4, h + s}};
+        expect_distance(signed_distance(a, Pose{}, b, Pose{}), h, 1e-15);
+    }
+}
+
+TEST(KnownAnswers, WhatIsNoShapeOrNoPoseIsNotANumber) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const Box unit{{1, 1, 1}};
+    EXPECT_TRUE(std::isnan(signed_distance(unit, at(nan, 0, 0), unit, Pose{}).distance));
+    EXPECT_TRUE(std::isnan(signed_distance(Sphere{nan}, Pose{}, unit, at(3, 0, 0)).lo));
+    EXPECT_TRUE(std::isnan(signed_distance(Hull(), Pose{}, unit, at(3, 0, 0)).hi));
+    const std::array<Vec3<double>, 3> holed{{{0, 0, 1}, {nan, 0, 0}, {1, 0, 0}}};
+    EXPECT_TRUE(std::isnan(signed_distance(Hull(holed), Pose{}, unit, at(3, 0, 0)).hi));
+    const Triangle corner{{0, 0, 0}, {0, nan, 0}, {1, 0, 0}};
+    EXPECT_TRUE(std::isnan(signed_distance(corner, Pose{}, unit, at(3, 0, 0)).hi));
+    EXPECT_TRUE(std::isnan(signed_distance(Plane{{0, 0, 0}, 1}, Pose{}, unit, Pose{}).hi));
+    EXPECT_EQ(collide(unit, at(nan, 0, 0), unit, Pose{}).answer, Answer::maybe);
+    EXPECT_EQ(collide(Sphere{1}, Pose{}, Sphere{nan}, Pose{}).answer, Answer::maybe);
+    Pose twice{};
+    for (int i = 0; i < 3; ++i)
+        twice.rotation[static_cast<std::size_t>(i)][i] = 2;
+    EXPECT_TRUE(std::isnan(signed_distance(unit, twice, unit, at(9, 0, 0)).distance));
+    // Out of range the bounds are wide, but hold.
+    const SignedDistance far = signed_distance(unit, at(1e200, 0, 0), unit, Pose{});
+    EXPECT_LE(far.lo, 1e200);
+    EXPECT_GE(far.hi, 1e200);
+}
+
+/// A rotation that is none by 1e-6: the bounds are as much wider.
+TEST(KnownAnswers, RoundedRotationsWidenTheBounds) {
+    Pose rough{};
+    rough.rotation[0].x = 1 + 1e-6;
+    const Box unit{{1, 1, 1}};
+    const SignedDistance d = signed_distance(unit, rough, unit, at(5, 0, 0));
+    EXPECT_LE(d.lo, 3 - 1e-6);
+    EXPECT_GE(d.hi, 3);
+    EXPECT_LT(d.hi - d.lo, 1e-4);
+}
+
+TEST(KnownAnswers, ToleranceWidensNoMoreThanItSays) {
+    RandomPoses random(1);
+    for (int k = 0; k < 200; ++k) {
+        const Pose a{random.rotation(), {}}, b{random.rotation(), random.unit_vector() * 5.0};
+        const Cone cone{1, 1};
+        const Cylinder cylinder{1, .5};
+        const SignedDistance fine = signed_distance(cone, a, cylinder, b);
+        for (const double part : {1e-1, 1e-3, 1e-6}) {
+            const SignedDistance d = signed_distance(cone, a, cylinder, b, {.relative = part});
+            EXPECT_LE(d.lo, fine.hi);
+            EXPECT_GE(d.hi, fine.lo);
+            EXPECT_LE(d.hi - d.lo, part * d.hi + 1e-12);
+            const SignedDistance e =
+                signed_distance(cone, a, cylinder, b, {.relative = 0, .absolute = part});
+            EXPECT_LE(e.hi - e.lo, part + 1e-12);
+        }
+    }
+}
+
+} // namespace
+} // namespace boxwood::convex

@@ -1,0 +1,91 @@
+#include "kernels/convex/support.h"
+
+#include "kernels/testing/posed_shapes.h"
+
+#include <gtest/gtest.h>
+
+namespace boxwood::convex {
+namespace {
+
+constexpr std::array bounded{ShapeKind::sphere,   ShapeKind::box,     ShapeKind::capsule,
+                             ShapeKind::cylinder, ShapeKind::cone,    ShapeKind::ellipsoid,
+                             ShapeKind::hull,     ShapeKind::triangle};
+
+TEST(Support, IsTheFarthestPointAndOnTheShape) {
+    RandomShapes shapes(1);
+    for (const ShapeKind kind : bounded)
+        for (int k = 0; k < 2000; ++k) {
+            const PosedShape s{shapes.shape(kind, -10, 10), {}};
+            const Vec3<double> d =
+                shapes.random.unit_vector() * std::exp2(shapes.random.real(-100, 100));
+            const Vec3<double> p = s.shape.visit([&]<class S>(const S& x) -> Vec3<double> {
+                if constexpr (BoundedShape<S>)
+                    return support(x, d);
+                else
+                    return {};
+            });
+            const Wide truth = farthest(s, wide(d)), size = length(d) * Wide(4096);
+            EXPECT_NEAR(static_cast<double>((dot(wide(p), wide(d)) - truth) / size), 0, 1e-15)
+                << to_string(kind);
+            for (int i = 0; i < 8; ++i) {
+                const WideVec e = normalized(wide(shapes.random.unit_vector()));
+                EXPECT_LE(dot(wide(p), e), farthest(s, e) + 1e-12L) << to_string(kind);
+            }
+        }
+}
+
+TEST(Support, OfDirectionsAlongAxes) {
+    const Cylinder cylinder{1, 2};
+    const Cone cone{1, 2};
+    EXPECT_EQ(support(cylinder, {0, 0, 1}).z, 2);
+    EXPECT_EQ(support(cylinder, {0, 0, -1}).z, -2);
+    EXPECT_EQ(support(cylinder, {3, 0, 0}).x, 1);
+    EXPECT_EQ(support(cone, {0, 0, 1}), (Vec3<double>{0, 0, 2}));
+    EXPECT_EQ(support(cone, {0, 0, -1}).z, -2);
+    EXPECT_EQ(support(cone, {5, 0, 0}), (Vec3<double>{1, 0, -2}));
+    EXPECT_EQ(support(Ellipsoid{{1, 2, 3}}, {0, -4, 0}), (Vec3<double>{0, -2, 0}));
+    EXPECT_EQ(support(Sphere{2}, {0, 0, 0}), (Vec3<double>{}));
+    EXPECT_EQ(support(Box{{1, 2, 3}}, {1, -1, 1}), (Vec3<double>{1, -2, 3}));
+}
+
+TEST(ExtentAlong, HoldsTheShapeTightly) {
+    RandomShapes shapes(2);
+    for (const ShapeKind kind : bounded)
+        for (int k = 0; k < 2000; ++k) {
+            const PosedShape s = shapes.posed(kind, 100, -10, 10);
+            const Vec3<double> d = shapes.random.unit_vector();
+            const Extent e = extent_along(s.shape, s.pose, d);
+            const Wide most = farthest(s, wide(d)), least = -farthest(s, wide(-d));
+            EXPECT_LE(e.least, least) << to_string(kind);
+            EXPECT_GE(e.greatest, most) << to_string(kind);
+            EXPECT_LE(e.greatest - most, 1e-10);
+            EXPECT_LE(least - e.least, 1e-10);
+            const Aabb<double> box = bounds(s.shape, s.pose);
+            for (int i = 0; i < 3; ++i) {
+                WideVec axis{}, back{};
+                axis[static_cast<std::size_t>(i)] = 1, back[static_cast<std::size_t>(i)] = -1;
+                EXPECT_GE(box.max[i], farthest(s, axis)) << to_string(kind);
+                EXPECT_LE(box.min[i], -farthest(s, back)) << to_string(kind);
+                EXPECT_LE(box.max[i] - farthest(s, axis), 1e-10);
+            }
+        }
+}
+
+TEST(ExtentAlong, OfWhatHasNoBoundsIsInfinite) {
+    EXPECT_EQ(bounds(Plane{}, {}).max.x, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(extent_along(HalfSpace{}, {}, {0, 0, 1}).least,
+              -std::numeric_limits<double>::infinity());
+}
+
+TEST(Shape, KeepsWhatItIs) {
+    const Shape s = Cone{1, 2};
+    EXPECT_EQ(s.kind(), ShapeKind::cone);
+    EXPECT_EQ(to_string(s.kind()), "cone");
+    EXPECT_EQ(s.get_if<Box>(), nullptr);
+    ASSERT_NE(s.get_if<Cone>(), nullptr);
+    EXPECT_EQ(s.get_if<Cone>()->half_length, 2);
+    EXPECT_EQ(Shape().kind(), ShapeKind::sphere);
+}
+
+} // namespace
+} // namespace boxwood::convex
