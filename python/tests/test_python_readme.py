@@ -28,6 +28,6 @@ def test_the_readme_of_the_module():
     faces = [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4],
              [1, 5, 7], [1, 7, 3]]
     given = {"boxes": boxes, "regions": boxes, "points": boxes[:, :3], "moved_boxes": boxes + 1, "vertices": cube, "faces": faces,
-             "origins": cube - 5, "directions": np.ones((8, 3)), "a": np.zeros((2, 3, 3)), "b": np.ones((2, 3, 3))}
+             "pose": np.eye(4), "cup_pose": np.eye(4), "origins": cube - 5, "directions": np.ones((8, 3)), "a": np.zeros((2, 3, 3)), "b": np.ones((2, 3, 3))}
     exec(example, given)
     assert isinstance(given["mesh"], bw.MeshBvh)
