@@ -72,6 +72,7 @@ template <class S> class FclBroadPhase final : public fcl::BroadPhaseCollisionMa
         begin_change();
         bodies_.clear();
         objects_.clear();
+        is_wide_.clear();
         item_of_.clear();
         free_.clear();
         wide_.clear();
@@ -87,10 +88,10 @@ template <class S> class FclBroadPhase final : public fcl::BroadPhaseCollisionMa
     /// Objects that moved have had their bounds computed (computeAABB) before.
     void update() override {
         begin_change();
-        constexpr std::size_t ahead = 12;
+        constexpr std::size_t ahead = 16;
         for (std::uint32_t item = 0; item < bodies_.size(); ++item) {
-            if (item + ahead < objects_.size() && objects_[item + ahead])
-                prefetch(objects_[item + ahead]->getAABB());
+            if (item + ahead < bodies_.size() && bodies_[item + ahead].object)
+                prefetch(*bodies_[item + ahead].newest);
             if (bodies_[item].object)
                 follow(item);
         }
@@ -172,8 +173,8 @@ template <class S> class FclBroadPhase final : public fcl::BroadPhaseCollisionMa
     /// One line of cache in doubles, half of one in floats.
     struct alignas(8 * sizeof(S)) Body {
         Bounds bounds;
-        Object* object; ///< null where none is
-        bool is_wide;
+        Object* object;       ///< null where none is
+        const Bounds* newest; ///< what object->getAABB() refers to, without a call
     };
     class ShowPairs;
     class Nearest;
@@ -215,13 +216,15 @@ template <class S> class FclBroadPhase final : public fcl::BroadPhaseCollisionMa
             return follow(found->second);
         if (free_.empty()) {
             found->second = static_cast<std::uint32_t>(bodies_.size());
-            bodies_.push_back({Bounds(), object, false});
-            objects_.push_back(object);
+            bodies_.push_back({Bounds(), nullptr, nullptr});
+            objects_.push_back(nullptr);
+            is_wide_.push_back(0);
         } else {
             found->second = free_.back();
             free_.pop_back();
-            bodies_[found->second].object = objects_[found->second] = object;
         }
+        bodies_[found->second].object = objects_[found->second] = object;
+        bodies_[found->second].newest = &object->getAABB();
         take(found->second);
     }
     /// Numbers the objects from 0 again, as most numbers are free.
@@ -242,21 +245,21 @@ template <class S> class FclBroadPhase final : public fcl::BroadPhaseCollisionMa
             follow(found->second);
     }
     void follow(std::uint32_t item) {
-        if (!detail::is_same(bodies_[item].object->getAABB(), bodies_[item].bounds))
+        if (!detail::is_same(*bodies_[item].newest, bodies_[item].bounds))
             take(item);
     }
     void take(std::uint32_t item) {
         Body& body = bodies_[item];
-        body.bounds = body.object->getAABB();
+        body.bounds = *body.newest;
         const Box box = detail::box_around(body.bounds);
         place(item, box, box == Box{});
     }
     void place(std::uint32_t item, const Box& box, bool is_wide) {
         tree_.set(item, box);
         unpaired_.add(item, bodies_.size());
-        if (is_wide == bodies_[item].is_wide)
+        if (is_wide == (is_wide_[item] != 0))
             return;
-        bodies_[item].is_wide = is_wide;
+        is_wide_[item] = is_wide;
         if (is_wide)
             wide_.push_back(item);
         else
@@ -314,10 +317,11 @@ template <class S> class FclBroadPhase final : public fcl::BroadPhaseCollisionMa
     bool distance_self(Nearest& nearest) const;
     bool distance_two(const FclBroadPhase& other, Nearest& nearest) const;
 
-    std::vector<Body> bodies_;        ///< by item
-    std::vector<Object*> objects_;    ///< the same objects, close together
-    std::vector<std::uint32_t> wide_; ///< items that are not in the tree, each tested with all
-    std::vector<std::uint32_t> free_; ///< items that are none
+    std::vector<Body> bodies_;          ///< by item
+    std::vector<Object*> objects_;      ///< the same objects, close together
+    std::vector<std::uint8_t> is_wide_; ///< by item: not in the tree
+    std::vector<std::uint32_t> wide_;   ///< items that are not in the tree, each tested with all
+    std::vector<std::uint32_t> free_;   ///< items that are none
     std::unordered_map<const Object*, std::uint32_t> item_of_;
 
     mutable std::mutex changing_; ///< whoever changes what queries read

@@ -98,7 +98,7 @@ bool FclBroadPhase<S>::collide_self(void* data, fcl::CollisionCallBack<S> callba
     for (std::size_t i = 0; i < wide_.size(); ++i)
         for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
             const std::uint32_t a = wide_[i];
-            const bool once = b != a && bodies_[b].object && (!bodies_[b].is_wide || a < b);
+            const bool once = b != a && bodies_[b].object && (!is_wide_[b] || a < b);
             if (once && overlap(a, bodies_[b].bounds) &&
                 callback(bodies_[a].object, bodies_[b].object, data))
                 return false;
@@ -150,7 +150,7 @@ bool FclBroadPhase<S>::collide_two(const FclBroadPhase& other, void* data,
                 return false;
     for (const std::uint32_t b : other.wide_)
         for (std::uint32_t a = 0; a < bodies_.size(); ++a)
-            if (bodies_[a].object && !bodies_[a].is_wide && overlap(a, other.bodies_[b].bounds) &&
+            if (bodies_[a].object && !is_wide_[a] && overlap(a, other.bodies_[b].bounds) &&
                 callback(bodies_[a].object, other.bodies_[b].object, data))
                 return false;
     ShowPairs show(*this, other, data, callback);

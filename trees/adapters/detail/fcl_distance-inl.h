@@ -58,7 +58,7 @@ template <class S> bool FclBroadPhase<S>::distance_self(Nearest& nearest) const 
         return false;
     for (const std::uint32_t a : wide_)
         for (std::uint32_t b = 0; b < bodies_.size(); ++b)
-            if (b != a && bodies_[b].object && (!bodies_[b].is_wide || a < b) && !offer(a, b))
+            if (b != a && bodies_[b].object && (!is_wide_[b] || a < b) && !offer(a, b))
                 return false;
     return true;
 }
@@ -78,7 +78,7 @@ bool FclBroadPhase<S>::distance_two(const FclBroadPhase& other, Nearest& nearest
                 return false;
     for (const std::uint32_t b : other.wide_)
         for (std::uint32_t a = 0; a < bodies_.size(); ++a)
-            if (bodies_[a].object && !bodies_[a].is_wide && !offer(a, b))
+            if (bodies_[a].object && !is_wide_[a] && !offer(a, b))
                 return false;
     return true;
 }
