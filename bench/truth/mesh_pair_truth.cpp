@@ -129,7 +129,8 @@ class MeshDistanceTruth final : public Truth {
     MeshDistanceTruth(const Scene& scene, unsigned threads)
         : scene_(scene), threads_(threads), mesh_(triangles_at(scene.mesh, {})) {
         const std::size_t n = mesh_.size();
-        sample_ = sampled_queries(n, std::min<std::size_t>(n, 2048), scene.spec.seed);
+        constexpr std::size_t all = 2048, some = 256;
+        sample_ = sampled_queries(n, n <= all ? n : some, scene.spec.seed);
         least_.resize(scene.poses.size(), std::numeric_limits<double>::infinity());
     }
 
