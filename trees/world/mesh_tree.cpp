@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -266,13 +268,14 @@ MeshTree::MeshTree(TriangleMesh mesh, const MeshTreeOptions& options) : mesh_(st
             const TreeNode& node = tree.nodes[from[i].node];
             leaf.own = own;
             leaf.count = node.count;
-            for (std::uint32_t lane = 0; lane < TriangleLeaf::width; ++lane) {
-                const std::size_t slot = node.first + (lane < node.count ? lane : 0);
-                leaf.triangle[lane] = tree.order[slot];
-                for (std::size_t k = 0; k < 3; ++k)
-                    for (std::size_t axis = 0; axis < 3; ++axis)
-                        leaf.corner[k][axis][lane] = corners.row(k, axis)[slot];
-            }
+            for (std::uint32_t lane = 0; lane < TriangleLeaf::width; ++lane)
+                leaf.triangle[lane] = tree.order[node.first + (lane < node.count ? lane : 0)];
+            for (std::size_t k = 0; k < 3; ++k)
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    float(&row)[TriangleLeaf::width] = leaf.corner[k][axis];
+                    std::memcpy(row, corners.row(k, axis) + node.first, sizeof row);
+                    std::fill(row + node.count, std::end(row), row[0]);
+                }
         }
     });
 }

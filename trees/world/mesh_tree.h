@@ -19,7 +19,9 @@ namespace boxwood {
 enum class MeshVolume : std::uint8_t { obb, aabb };
 
 struct MeshTreeOptions {
-    BuildFunction builder = BinnedSahBuilder{};
+    /// By default one that counts in whole leaves, as these hold eight triangles.
+    BuildFunction builder =
+        BinnedSahBuilder{.agglomerate_below = 8, .leaf_size = 8, .unsplit_below = 8};
     MeshVolume volume = MeshVolume::obb;
     const Executor* executor = nullptr; ///< the caller's thread, if none
 };
