@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/primitives/triangle.h"
 #include "kernels/primitives/vec3.h"
 
 #include <pybind11/numpy.h>
@@ -115,6 +116,9 @@ inline unsigned threads_of(std::int64_t threads) {
 /// Numbers of items, each below `limit`; `columns` 0: shape (n,).
 std::vector<std::uint32_t> indices_of(const py::handle& given, const std::string& name,
                                       std::size_t limit, py::ssize_t columns = 0);
+
+/// vertices: (n, 3), rounded to floats; faces: (m, 3), integers below n.
+TriangleMesh mesh_of(const py::handle& vertices, const py::handle& faces);
 
 /// A vector's memory, which lives as long as one of its arrays.
 template <class T> class Owned {

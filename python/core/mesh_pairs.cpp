@@ -40,12 +40,7 @@ py::array point_of(const Vec3<double>& p) {
 class PyMesh {
   public:
     PyMesh(const py::object& vertices, const py::object& faces, const std::string& builder) {
-        const Rows<float> points(vertices, "vertices", {3});
-        const auto corners = points.as<Vec3<float>>();
-        TriangleMesh mesh{{corners.begin(), corners.end()}, {}};
-        const std::vector<std::uint32_t> indices = indices_of(faces, "faces", points.size(), 3);
-        for (std::size_t i = 0; i < indices.size(); i += 3)
-            mesh.triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
+        TriangleMesh mesh = mesh_of(vertices, faces);
         MeshTreeOptions options;
         options.builder = make_builder(builder);
         without_gil([&] { tree_.emplace(std::move(mesh), options); });

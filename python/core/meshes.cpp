@@ -72,13 +72,8 @@ class PyMeshBvh {
         options.layout = static_cast<LayoutName>(&find_layout(layout) - layouts().data());
         options.kernel = kernel_named(kernel);
         options.threads = threads_of(threads);
-        const Rows<float> points(vertices, "vertices", {3});
-        const auto corners = points.as<Vec3<float>>();
-        TriangleMesh mesh{{corners.begin(), corners.end()}, {}};
-        const std::vector<std::uint32_t> indices = indices_of(faces, "faces", points.size(), 3);
-        for (std::size_t i = 0; i < indices.size(); i += 3)
-            mesh.triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
-        require_corners(corners, mesh);
+        TriangleMesh mesh = mesh_of(vertices, faces);
+        require_corners(mesh.vertices, mesh);
         without_gil([&] { bvh_.emplace(std::move(mesh), options); });
     }
 

@@ -41,6 +41,16 @@ void require_known_numpy() {
             numpy + ": build it by `pip install .`, which takes a newer one, or use numpy 1");
 }
 
+TriangleMesh mesh_of(const py::handle& vertices, const py::handle& faces) {
+    const Rows<float> points(vertices, "vertices", {3});
+    const auto corners = points.as<Vec3<float>>();
+    TriangleMesh mesh{{corners.begin(), corners.end()}, {}};
+    const std::vector<std::uint32_t> indices = indices_of(faces, "faces", points.size(), 3);
+    for (std::size_t i = 0; i < indices.size(); i += 3)
+        mesh.triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
+    return mesh;
+}
+
 } // namespace boxwood::python
 
 PYBIND11_MODULE(_core, module) {

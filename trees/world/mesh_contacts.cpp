@@ -147,14 +147,9 @@ Contact contact_of(const Triangle<double>& a, const Triangle<double>& b) {
 
 std::vector<Contact> contacts(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
                               const ContactOptions& options, Work* work) {
-    const auto corners = [](const MeshTree& mesh, std::uint32_t triangle, const Pose& pose) {
-        const Triangle<float> t = mesh.mesh().triangle(triangle);
-        return Triangle<double>{pose(Vec3<double>(t.a)), pose(Vec3<double>(t.b)),
-                                pose(Vec3<double>(t.c))};
-    };
     std::vector<Contact> found;
     for (const Pair pair : touching_triangles(a, b, b_in_a, options.max_pairs, work)) {
-        found.push_back(contact_of(corners(a, pair.a, Pose{}), corners(b, pair.b, b_in_a)));
+        found.push_back(contact_of(a.triangle(pair.a, Pose{}), b.triangle(pair.b, b_in_a)));
         found.back().triangles = pair;
     }
     std::ranges::sort(found, deeper);

@@ -284,12 +284,7 @@ template <bool counted> class Search {
     void measure_start(Pair start) {
         if (start.a >= a_.size() || start.b >= b_.size())
             throw std::invalid_argument("the pair of triangles to start with is not there");
-        const auto corners = [](const MeshTree& mesh, std::uint32_t triangle, const Pose& pose) {
-            const Triangle<float> t = mesh.mesh().triangle(triangle);
-            return Triangle<double>{pose(Vec3<double>(t.a)), pose(Vec3<double>(t.b)),
-                                    pose(Vec3<double>(t.c))};
-        };
-        nearest_.offer(corners(a_, start.a, Pose{}), corners(b_, start.b, frame_.pose), start);
+        nearest_.offer(a_.triangle(start.a, Pose{}), b_.triangle(start.b, frame_.pose), start);
     }
 
     const MeshTree &a_, &b_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/primitives/aabb.h"
+#include "kernels/primitives/rigid_transform.h"
 #include "kernels/primitives/triangle.h"
 #include "trees/buffer.h"
 #include "trees/builder.h"
@@ -37,6 +38,11 @@ class MeshTree {
 
     const TriangleMesh& mesh() const { return mesh_; }
     std::size_t size() const { return mesh_.triangles.size(); } ///< triangles
+    /// A triangle as a pose puts it: corners in doubles, rounded once.
+    Triangle<double> triangle(std::uint32_t i, const RigidTransform<double>& pose) const {
+        const Triangle<float> t = mesh_.triangle(i);
+        return {pose(Vec3<double>(t.a)), pose(Vec3<double>(t.b)), pose(Vec3<double>(t.c))};
+    }
     bool empty() const { return size() == 0; }
     std::size_t bytes() const { return blocks_.bytes() + leaves_.bytes(); } ///< without the mesh
     /// Of all triangles, in the mesh's frame; the mesh must not be empty.

@@ -6,24 +6,8 @@
 namespace boxwood {
 namespace {
 
-using Rotation = std::array<Vec3<double>, 3>;
-
 Vec3<double> times(const Rotation& r, const Vec3<double>& v) {
     return {dot(r[0], v), dot(r[1], v), dot(r[2], v)};
-}
-Rotation times(const Rotation& r, const Rotation& s) {
-    Rotation product;
-    for (std::size_t i = 0; i < 3; ++i)
-        product[i] = r[i].x * s[0] + r[i].y * s[1] + r[i].z * s[2];
-    return product;
-}
-
-/// By an angle about an axis of length 1 (Rodrigues).
-Rotation rotation_about(const Vec3<double>& u, double angle) {
-    const double s = std::sin(angle), half = std::sin(angle / 2), c = 2 * half * half; // 1 - cos
-    return {{{1 - c * (u.y * u.y + u.z * u.z), c * u.x * u.y - s * u.z, c * u.x * u.z + s * u.y},
-             {c * u.x * u.y + s * u.z, 1 - c * (u.x * u.x + u.z * u.z), c * u.y * u.z - s * u.x},
-             {c * u.x * u.z - s * u.y, c * u.y * u.z + s * u.x, 1 - c * (u.x * u.x + u.y * u.y)}}};
 }
 
 struct AxisAngle {
@@ -71,7 +55,7 @@ Motion::Motion(const Pose& from, const Pose& to, MotionPath kind) : from_(checke
     for (int i = 0; i < 3; ++i)
         back[static_cast<std::size_t>(i)] = {from_.rotation[0][i], from_.rotation[1][i],
                                              from_.rotation[2][i]};
-    const Rotation turn = times(end.rotation, back); // end = turn after start
+    const Rotation turn = product(end.rotation, back); // end = turn after start
     const AxisAngle a = axis_angle_of(turn);
     axis_ = a.axis;
     angle_ = a.angle;
@@ -91,7 +75,7 @@ Motion::Motion(const Pose& from, const Pose& to, MotionPath kind) : from_(checke
 // needed, which would be far away for a small angle.
 Pose Motion::at(double t) const {
     Pose pose;
-    pose.rotation = times(rotation_about(axis_, t * angle_), from_.rotation);
+    pose.rotation = product(rotation_about(axis_, t * angle_), from_.rotation);
     Vec3<double> shift = t * way_;
     if (is_screw_) {
         const double half = angle_ / 2;

@@ -5,18 +5,6 @@
 #include <stdexcept>
 
 namespace boxwood {
-namespace {
-
-/// The greatest part by which the rows are no orthonormal ones.
-double skew(const std::array<Vec3<double>, 3>& rows) {
-    double greatest = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = i; j < 3; ++j)
-            greatest = std::max(greatest, std::abs(dot(rows[i], rows[j]) - (i == j ? 1 : 0)));
-    return greatest;
-}
-
-} // namespace
 
 Pose checked_pose(const Pose& pose) {
     constexpr double largest = 0x1p60, permitted = 1e-3;
@@ -28,20 +16,14 @@ Pose checked_pose(const Pose& pose) {
         throw std::invalid_argument("a pose has a translation that is not finite or beyond 2^60");
     Pose checked = pose;
     auto& r = checked.rotation;
-    if (!(skew(r) <= permitted))
+    if (!(distance_from_orthonormal(r) <= permitted))
         throw std::invalid_argument("a pose is no rigid transform: its matrix is off a rotation by "
                                     "more than 1e-3 (rows must be of length 1 and at right angles; "
                                     "put a scale into the mesh)");
     if (dot(cross(r[0], r[1]), r[2]) < 0)
         throw std::invalid_argument("a pose is a reflection, not a rotation: mirror the mesh");
-    // Newton's iteration towards the nearest rotation: R <- R (3 - R^T R) / 2 squares the error.
-    for (int step = 0; step < 4 && skew(r) > 0x1p-51; ++step) {
-        const auto from = r;
-        for (std::size_t i = 0; i < 3; ++i)
-            r[i] = 1.5 * from[i] -
-                   0.5 * (dot(from[i], from[0]) * from[0] + dot(from[i], from[1]) * from[1] +
-                          dot(from[i], from[2]) * from[2]);
-    }
+    for (int step = 0; step < 4 && distance_from_orthonormal(r) > 0x1p-51; ++step)
+        r = orthonormalised(r);
     return checked;
 }
 
@@ -56,17 +38,6 @@ Pose relative_pose(const Pose& a, const Pose& b) {
         relative.translation[static_cast<int>(i)] = dot(column[i], apart);
     }
     return relative;
-}
-
-Pose compose(const Pose& outer, const Pose& inner) {
-    Pose both;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3<double>& row = outer.rotation[i];
-        both.rotation[i] =
-            row.x * inner.rotation[0] + row.y * inner.rotation[1] + row.z * inner.rotation[2];
-    }
-    both.translation = outer(inner.translation);
-    return both;
 }
 
 } // namespace boxwood

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/primitives/rigid_transform.h"
+#include "kernels/primitives/rotation.h"
 
 namespace boxwood {
 
@@ -14,8 +14,5 @@ Pose checked_pose(const Pose& pose);
 
 /// The pose of B as seen from A: x -> A^-1 B x. Both as checked_pose gives them.
 Pose relative_pose(const Pose& a, const Pose& b);
-
-/// x -> outer (inner x).
-Pose compose(const Pose& outer, const Pose& inner);
 
 } // namespace boxwood
