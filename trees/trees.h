@@ -72,6 +72,7 @@
 #include "trees/queries/single_rays.h"
 #include "trees/queries/sinks.h"
 #include "trees/queries/sorted_rays.h"
+#include "trees/queries/tiled_rays.h"
 #include "trees/queries/touching_pairs.h"
 #include "trees/queries/tree_pairs.h"
 #include "trees/tree.h"

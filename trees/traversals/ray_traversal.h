@@ -18,6 +18,9 @@ namespace boxwood::detail {
 
 enum class RayMode : std::uint8_t { closest, any, all };
 
+/// Rays are handed to threads so many at a time.
+inline constexpr std::size_t ray_chunk = 512;
+
 /// What all rays of one chunk share.
 struct RayJob {
     std::span<const Ray<float>> rays;
@@ -100,6 +103,15 @@ template <RayKernel K, RayMode mode, bool Counted> class RayState {
     RayHit best_;
 };
 
+/// All hits of a ray by t and then by triangle, once each: a triangle that stands in several leaves
+/// was found the same each time.
+inline void sort_distinct(std::vector<RayHit>& found) {
+    std::ranges::sort(found, [](const RayHit& a, const RayHit& b) {
+        return a.t != b.t ? a.t < b.t : a.triangle < b.triangle;
+    });
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+}
+
 /// Answers every ray of a job by `trace(ray, found)`, which gives a RayState's result. Kernels miss
 /// whatever is not finite, so such rays are not traced.
 template <RayMode mode, class Trace> void for_each_ray(const RayJob& job, const Trace& trace) {
@@ -110,11 +122,7 @@ template <RayMode mode, class Trace> void for_each_ray(const RayJob& job, const 
         if (job.depth != 0 && is_finite(ray.origin) && is_finite(ray.direction))
             hit = trace(ray, found);
         if constexpr (mode == RayMode::all) {
-            // A triangle that stands in several leaves was found the same each time.
-            std::ranges::sort(found, [](const RayHit& a, const RayHit& b) {
-                return a.t != b.t ? a.t < b.t : a.triangle < b.triangle;
-            });
-            found.erase(std::unique(found.begin(), found.end()), found.end());
+            sort_distinct(found);
             if (!found.empty() &&
                 !job.sink->take(job.chunk, static_cast<std::uint32_t>(job.first_ray + i), found)) {
                 *job.stop = true;
@@ -155,8 +163,7 @@ template <class F> void for_ray_chunks(RayJob job, const Executor& executor, con
     if (!with_kernel<RayKernels>(job.kernel, [](auto) {}))
         throw std::invalid_argument(
             unknown_name("ray kernel", job.kernel, names_of(ray_kernels())));
-    constexpr std::size_t chunk = 512;
-    const std::size_t chunks = (job.rays.size() + chunk - 1) / chunk;
+    const std::size_t chunks = (job.rays.size() + ray_chunk - 1) / ray_chunk;
     std::atomic<bool> stop = false;
     job.stop = &stop;
     if (job.sink)
@@ -165,12 +172,12 @@ template <class F> void for_ray_chunks(RayJob job, const Executor& executor, con
         if (stop)
             return;
         RayJob part = job;
-        const std::size_t n = std::min(chunk, job.rays.size() - c * chunk);
-        part.rays = job.rays.subspan(c * chunk, n);
+        const std::size_t n = std::min(ray_chunk, job.rays.size() - c * ray_chunk);
+        part.rays = job.rays.subspan(c * ray_chunk, n);
         if (!job.sink)
-            part.hits = job.hits.subspan(c * chunk, n);
+            part.hits = job.hits.subspan(c * ray_chunk, n);
         part.chunk = c;
-        part.first_ray = c * chunk;
+        part.first_ray = c * ray_chunk;
         traverse(part);
     });
     if (job.sink)

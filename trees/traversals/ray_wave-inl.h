@@ -8,15 +8,11 @@
 
 #include <hwy/cache_control.h>
 
-#include "kernels/simd/moller_trumbore_block-inl.h"
-#include "kernels/simd/watertight_block-inl.h"
-#include "trees/traversals/compress-inl.h"
-#include "trees/traversals/node_clip-inl.h"
-#include "trees/traversals/ray_traversal.h"
+#include "trees/traversals/coherent_rays.h"
+#include "trees/traversals/ray_steps-inl.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -24,15 +20,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::detail::HWY_NAMESPACE {
 
-using boxwood::HWY_NAMESPACE::intersect_block;
-
-/// Each open node on a path leaves all but one of its children waiting; a whole node is stored
-/// beyond them, and one reference below them ends a traversal.
-template <class Node> constexpr std::size_t room_for(std::size_t depth) {
-    return (depth + 2) * Node::width + 1;
-}
-
-/// The closest or any hits of a job's rays, many rays at a time, each with a stack of its own. A
+/// The closest, any or all hits of a job's rays, many rays at a time, each with a stack of its own. A
 /// step takes one ray through one node or one leaf and fetches what its next step will read; then
 /// the other rays have theirs, so that a ray waits neither for memory nor for its own last step.
 /// All rays at nodes have their step, then all at leaves: nothing is left to predict but whether
@@ -46,9 +34,9 @@ template <class Node, RayKernel K, RayMode mode, bool Counted> class RayWave {
     /// The most rays on their way; with fewer than 16 the memory is not far enough away.
     static constexpr std::size_t width = 16;
 
-    RayWave(const RayJob& job, const SlabBounds& bounds)
-        : job_(job),
-          bounds_(bounds), places_{{{job.triangles.nodes.data(), sizeof(Node)},
+    /// But for the rays of the packets that are answered.
+    RayWave(const RayJob& job, const SlabBounds& bounds, PacketSet answered)
+        : job_(job), bounds_(bounds), answered_(answered), places_{{{job.triangles.nodes.data(), sizeof(Node)},
                                     {job.triangles.blocks.data(), sizeof(RayBlock<Node>)}}} {}
 
     void run() {
@@ -66,6 +54,8 @@ template <class Node, RayKernel K, RayMode mode, bool Counted> class RayWave {
             if (start(own))
                 line_up(own);
         }
+        if constexpr (mode == RayMode::all)
+            in_all_.resize(job_.rays.size());
         while (n_at_[0] + n_at_[1] != 0) {
             for (std::size_t n = std::exchange(n_at_[0], 0), i = 0; i < n; ++i) {
                 WaveRay& own = *at_[0][i];
@@ -78,6 +68,8 @@ template <class Node, RayKernel K, RayMode mode, bool Counted> class RayWave {
                 go_on(own);
             }
         }
+        if constexpr (mode == RayMode::all)
+            hand_over();
     }
 
   private:
@@ -87,6 +79,7 @@ template <class Node, RayKernel K, RayMode mode, bool Counted> class RayWave {
     struct alignas(64) WaveRay {
         FusedSlabs slabs;
         std::optional<RayState<K, mode, Counted>> state;
+        std::vector<RayHit> found; ///< of RayMode::all
         const Ray<float>* ray;
         Waiting *bottom, *top;
         std::uint32_t at;       ///< ray_refs
@@ -96,13 +89,18 @@ template <class Node, RayKernel K, RayMode mode, bool Counted> class RayWave {
     /// The next ray that has to be traced, if there is one; those before it miss.
     bool start(WaveRay& own) {
         for (; next_ < job_.rays.size(); ++next_) {
+            if (answered_.holds(next_)) {
+                next_ += packet_size - 1;
+                continue;
+            }
             const Ray<float>& ray = job_.rays[next_];
             if (job_.depth == 0 || !is_finite(ray.origin) || !is_finite(ray.direction)) {
-                job_.hits[next_] = {};
+                if constexpr (mode != RayMode::all)
+                    job_.hits[next_] = {};
                 continue;
             }
             own.slabs = FusedSlabs(ray, bounds_);
-            own.state.emplace(ray, job_.work, found_);
+            own.state.emplace(ray, job_.work, own.found);
             own.ray = &ray;
             own.top = own.bottom;
             own.at = job_.triangles.root;
@@ -110,6 +108,31 @@ template <class Node, RayKernel K, RayMode mode, bool Counted> class RayWave {
             return true;
         }
         return false;
+    }
+
+    void answer(WaveRay& own) {
+        const auto i = static_cast<std::size_t>(own.ray - job_.rays.data());
+        if constexpr (mode != RayMode::all) {
+            job_.hits[i] = own.state->result();
+        } else {
+            sort_distinct(own.found);
+            in_all_[i] = {all_.size(), all_.size() + own.found.size()};
+            all_.insert(all_.end(), own.found.begin(), own.found.end());
+            own.found.clear();
+        }
+    }
+
+    /// All hits, in the order of the rays.
+    void hand_over() {
+        for (std::size_t i = 0; i < in_all_.size(); ++i) {
+            const auto [begin, end] = in_all_[i];
+            if (begin < end && !job_.sink->take(job_.chunk,
+                                                static_cast<std::uint32_t>(job_.first_ray + i),
+                                                std::span(all_).subspan(begin, end - begin))) {
+                *job_.stop = true;
+                return;
+            }
+        }
     }
 
     /// Without a branch on what comes next, which is hard to predict.
@@ -139,61 +162,24 @@ template <class Node, RayKernel K, RayMode mode, bool Counted> class RayWave {
             own.at = *--own.top;
         }
         if (own.at == over) [[unlikely]] {
-            job_.hits[static_cast<std::size_t>(own.ray - job_.rays.data())] = own.state->result();
+            answer(own);
             if (!start(own))
                 return;
         }
         line_up(own);
     }
 
-    /// Every child that is hit waits: the farthest first for the closest hit, else in no order.
     HWY_INLINE void open(WaveRay& own) {
-        namespace hn = hwy::HWY_NAMESPACE;
-        const NodeTag<Node> df;
-        const hn::Rebind<std::uint32_t, decltype(df)> du;
         const Node& node = *reinterpret_cast<const Node*>(own.place);
         own.state->count(Node::width, static_cast<std::size_t>(own.top - own.bottom));
-        const NodeClip<Node> clip(own.slabs, own.state->t_min());
-        const auto t_max = hn::Set(df, own.state->t_max());
-        [[maybe_unused]] alignas(64) float entries[Node::width];
-        [[maybe_unused]] std::uint32_t bits = 0;
-        for (std::size_t i = 0; i < Node::width; i += hn::Lanes(df)) {
-            hn::Vec<decltype(df)> entry;
-            const auto hit = clip.hits_of(node, i, t_max, entry);
-            if constexpr (!closest) {
-                hn::StoreU(compressed(du, hn::LoadU(du, node.ref + i), hn::RebindMask(du, hit)), du,
-                           own.top);
-                own.top += hn::CountTrue(df, hit);
-            } else {
-                bits |= wide_bits(df, hit, i);
-                if constexpr (in_register<Node>)
-                    push_sorted_eight(node.ref, bits, entry, own.top);
-                else
-                    hn::Store(entry, df, entries + i);
-            }
-        }
-        if constexpr (closest) {
-            if constexpr (!in_register<Node>)
-                push_sorted(node, bits, entries, own.top);
-            own.top += std::popcount(bits);
-        }
+        own.top = push_hit_children<closest>(
+            node, NodeClip<Node>(own.slabs, own.state->t_min()), own.state->t_max(), own.top);
     }
 
     HWY_INLINE void test(WaveRay& own) {
         const auto* block = reinterpret_cast<const RayBlock<Node>*>(own.place);
-        const auto* last = block + (Node::width > 8 && (own.at & ray_refs::two));
-        BlockHits<ray_lanes<Node>> hits;
-        do {
-            const std::uint32_t bits = intersect_block(std::type_identity<K>{}, own.state->per_ray,
-                                                       *own.ray, *block, own.state->t_max(), hits);
-            if (!Counted && bits == 0)
-                continue;
-            own.state->tested(*block, bits, hits);
-            if (own.state->done()) {
-                own.top = own.bottom;
-                return;
-            }
-        } while (++block <= last);
+        if (test_leaf<Node, K>(block, own.at, *own.ray, *own.state))
+            own.top = own.bottom;
     }
 
     struct Places {
@@ -203,9 +189,11 @@ template <class Node, RayKernel K, RayMode mode, bool Counted> class RayWave {
 
     const RayJob& job_;
     const SlabBounds& bounds_;
+    const PacketSet answered_;
     const std::array<Places, 2> places_; ///< nodes, blocks
     std::size_t next_ = 0;               ///< ray
-    std::vector<RayHit> found_;          ///< nothing: of RayMode::all
+    std::vector<RayHit> all_;            ///< of RayMode::all: the hits of the rays so far
+    std::vector<std::array<std::size_t, 2>> in_all_; ///< by ray: from where to where
     /// The rays at nodes and at leaves; one is written beyond those in line.
     std::array<std::array<WaveRay*, width + 1>, 2> at_;
     std::array<std::size_t, 2> n_at_{};

@@ -47,9 +47,7 @@ template <class Node, RayKernel K, RayMode mode> class RayAlone {
                 if (!open(node, clip, t_max, at))
                     goto waiting;
             }
-            if (at == over)
-                return state_.result();
-            if (test(at))
+            if (at == over || test(at))
                 return state_.result();
             t_max = hn::Set(df, state_.t_max());
         waiting:
@@ -147,22 +145,9 @@ template <class Node, RayKernel K, RayMode mode> class RayAlone {
             hwy::Prefetch(place + line);
     }
 
-    /// One leaf; whether the traversal is at its end.
     HWY_INLINE bool test(std::uint32_t at) {
-        const auto* block =
-            reinterpret_cast<const RayBlock<Node>*>(tree_.blocks) + ray_refs::index(at);
-        const auto* last = block + (Node::width > 8 && (at & ray_refs::two));
-        BlockHits<ray_lanes<Node>> hits;
-        do {
-            const std::uint32_t bits = intersect_block(std::type_identity<K>{}, state_.per_ray,
-                                                       ray_, *block, state_.t_max(), hits);
-            if (bits == 0)
-                continue;
-            state_.tested(*block, bits, hits);
-            if (state_.done())
-                return true;
-        } while (++block <= last);
-        return false;
+        const auto* blocks = reinterpret_cast<const RayBlock<Node>*>(tree_.blocks);
+        return test_leaf<Node, K>(blocks + ray_refs::index(at), at, ray_, state_);
     }
 
     const SingleRayTree& tree_;

@@ -1,10 +1,12 @@
 #include "bench/tasks/detail/mesh_pair_task.h"
 
 #include "bench/truth/truth.h"
+#include "kernels/oracle/nearest.h"
 #include "scenes/sampling/poses.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 namespace boxwood::bench {
@@ -100,6 +102,48 @@ TEST(MeshPairTasks, TheTruthSeesWhatIsWrong) {
             first.hi *= factor;
             const Judgement judged = task.make_truth(apart, 1)->judge(*answers, ours);
             EXPECT_EQ(judged.status, Status::wrong) << factor;
+        }
+    }
+}
+
+/// Another pair of triangles with its own true distance, just farther: for any number of triangles.
+TEST(MeshPairTasks, TheTruthSeesThatAnotherPairIsNearer) {
+    const Task& task = *find_task("distance");
+    for (const char* kind : {"apart", "near"}) {
+        const Scene scene = posed(kind, 6000);
+        const auto answers = task.make_answers();
+        const ContenderEntry ours = contenders_of(task).back();
+        const auto contender = ours.make({&scene, &task});
+        contender->build();
+        contender->query(*answers);
+        const auto truth = task.make_truth(scene, 2);
+        ASSERT_NE(truth->judge(*answers, ours).status, Status::wrong);
+        for (std::size_t i = 0; i < scene.poses.size(); ++i) {
+            auto wrong = task.make_answers();
+            list_of<PosedDistance>(*wrong) = list_of<PosedDistance>(*answers);
+            PosedDistance& got = list_of<PosedDistance>(*wrong)[i];
+            const Triangle<float> a = scene.mesh.triangle(got.triangles.a);
+            const auto corner = [&](std::uint32_t b, int k) {
+                const Triangle<float> t = scene.mesh.triangle(b);
+                return scene.poses[i](Vec3<double>(k == 0 ? t.a : k == 1 ? t.b : t.c));
+            };
+            const auto distance_to = [&](std::uint32_t b) {
+                return std::sqrt(oracle::nearest({Vec3<double>(a.a), Vec3<double>(a.b), Vec3<double>(a.c)},
+                                                 {corner(b, 0), corner(b, 1), corner(b, 2)})
+                                     .squared.get_d());
+            };
+            // The next one in the mesh that does not share the nearest point.
+            std::uint32_t other = got.triangles.b;
+            double farther = got.distance;
+            while (!(farther > got.distance * (1 + 1e-6))) {
+                other = (other + 1) % static_cast<std::uint32_t>(scene.mesh.triangles.size());
+                farther = distance_to(other);
+            }
+            got.triangles.b = other;
+            got.distance = got.lo = got.hi = farther;
+            const Judgement judged = truth->judge(*wrong, ours);
+            EXPECT_EQ(judged.status, Status::wrong) << kind << " " << i;
+            EXPECT_EQ(judged.check.missing, 1u);
         }
     }
 }

@@ -113,10 +113,12 @@ ContenderEntry TreeTask::contender(const Choice& choice) const {
     if (choice.by_front_door)
         entry.notes += "; by the front door (trees/bvh.h) around the same parts";
     entry.params_json = settings_json(choice.settings);
-    entry.cannot = [this, &layout, query = way.query, why_not = std::move(way.why_not_on_device)](
-                       const Job& job) -> std::optional<std::string> {
+    entry.cannot = [this, &layout, query = way.query, cannot = std::move(way.cannot),
+                    why_not = std::move(way.why_not_on_device)](const Job& job) -> std::optional<std::string> {
         if (query && !layout.answers(*query))
             return fmt::format("the layout {} does not answer {}", layout.name, to_string(*query));
+        if (auto why = cannot ? cannot(*job.scene) : std::nullopt)
+            return why;
         if (!is_device(job.executor))
             return std::nullopt;
         return why_not.empty() ? missing_on_device(*job.scene)

@@ -40,6 +40,7 @@ class TreeTask : public Task {
                                                               const LayoutEntry&)>;
         Make make;
         std::optional<Query> query{}; ///< what a layout must answer for it
+        std::function<std::optional<std::string>(const Scene&)> cannot{}; ///< why, if so
         std::vector<std::string> classes{};
         Answering::Make make_on_device{}; ///< null if it has no form for a device
         Answering::Make make_by_graph{};  ///< or for a graph
