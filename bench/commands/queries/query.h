@@ -1,11 +1,10 @@
 #pragma once
 
+#include "bench/commands/queries/robot_case.h"
 #include "trees/builder.h"
 #include "trees/layout.h"
 #include "trees/world/robot_collision.h"
 
-#include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <ostream>
@@ -135,9 +134,7 @@ void run(const CcdQuery& query, std::ostream& out);
 void add_query_ccd(CLI::App& query);
 
 struct RobotQuery {
-    std::string urdf;
-    std::optional<std::string> srdf; ///< without it the allowed pairs are proposed
-    std::vector<std::filesystem::path> package_paths;
+    RobotFiles files;
     std::optional<std::string> joints;   ///< "name=value,..."; the others at rest
     std::optional<std::string> state;    ///< a name of the SRDF file
     std::optional<std::uint64_t> random; ///< so many states at random
@@ -146,9 +143,6 @@ struct RobotQuery {
     std::optional<std::string> write_srdf;
     Format format;
 };
-/// What answers about the geometry of the links of a robot with these meshes.
-using MakeLinkNarrowPhase = std::function<std::unique_ptr<LinkNarrowPhase>(
-    const Robot& robot, std::span<const TriangleMesh> meshes)>;
 /// Prints links, joints and allowed pairs of a robot; and for each state the pairs of links whose
 /// boxes overlap, those of them that are tested and that collide, and the least distance.
 void run(const RobotQuery& query, const MakeLinkNarrowPhase& narrow_phase, std::ostream& out);

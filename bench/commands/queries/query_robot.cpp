@@ -2,6 +2,7 @@
 
 #include "bench/commands/command.h"
 #include "bench/commands/queries/query.h"
+#include "bench/commands/queries/robot_case.h"
 #include "bench/io/json.h"
 #include "bench/io/say.h"
 #include "kernels/suggest.h"
@@ -22,43 +23,10 @@
 namespace boxwood::bench {
 namespace {
 
-/// The robot of a query, and all that is asked about it.
-struct RobotCase {
-    Robot robot;
-    std::vector<TriangleMesh> meshes;
-    LinkBoxes boxes;
-    AllowedPairs allowed;
-    std::vector<Srdf::State> named_states;
-
-    RobotCase(UrdfRobot read, std::span<const Aabb<float>> mesh_boxes)
-        : robot(std::move(read.description)), meshes(std::move(read.meshes)),
-          boxes(robot, mesh_boxes), allowed(no_allowed_pairs(robot)) {}
-};
-
-std::unique_ptr<RobotCase> read_robot(const RobotQuery& query) {
-    UrdfRobot read = read_urdf(query.urdf, query.package_paths);
-    std::vector<Aabb<float>> mesh_boxes(read.meshes.size());
-    for (std::size_t i = 0; i < read.meshes.size(); ++i)
-        for (std::size_t t = 0; t < read.meshes[i].triangles.size(); ++t)
-            mesh_boxes[i].extend(read.meshes[i].triangle(t).bounds());
-    auto robot = std::make_unique<RobotCase>(std::move(read), mesh_boxes);
-    if (query.srdf) {
-        Srdf srdf = read_srdf(*query.srdf, robot->robot.description());
-        for (AllowedPair& pair : srdf.allowed)
-            robot->allowed.allow(pair.a, pair.b, pair.reason, std::move(pair.note));
-        robot->named_states = std::move(srdf.states);
-    }
-    if (robot->boxes.links().empty())
-        say(fmt::format("boxwood: no link of {} has a <collision> element, and <visual> ones are "
-                        "not read: nothing can collide\n",
-                        query.urdf));
-    return robot;
-}
-
 /// What no SRDF file says: adjacent links, and what samples show.
 void propose_allowed(const RobotQuery& query, const LinkNarrowPhase& narrow_phase,
                      RobotCase& robot) {
-    if (!query.srdf) {
+    if (!query.files.srdf) {
         const std::size_t n = allow_adjacent(robot.robot, robot.allowed);
         say(fmt::format("boxwood: no --srdf: {} pairs of adjacent links are allowed to collide{}\n",
                         n, query.samples ? "" : "; --samples N proposes more"));
@@ -79,7 +47,7 @@ void propose_allowed(const RobotQuery& query, const LinkNarrowPhase& narrow_phas
 }
 
 void write_allowed(const RobotQuery& query, const RobotCase& robot) {
-    const std::string original = query.srdf ? read_file(*query.srdf, "SRDF") : "";
+    const std::string original = query.files.srdf ? read_file(*query.files.srdf, "SRDF") : "";
     std::ofstream file(*query.write_srdf, std::ios::binary);
     file << srdf_text(robot.robot.description(), robot.allowed.pairs(), original);
     file.close();
@@ -260,9 +228,10 @@ class RobotJson final : public RobotPrinter {
 
 void run(const RobotQuery& query, const MakeLinkNarrowPhase& make_narrow_phase, std::ostream& out) {
     try {
-        if (query.state && !query.srdf)
+        if (query.state && !query.files.srdf)
             throw BadInput("--state names a state of an SRDF file; give one by --srdf");
-        const std::unique_ptr<RobotCase> robot = read_robot(query);
+        const std::unique_ptr<RobotCase> robot =
+            read_robot(query.files);
         const std::unique_ptr<LinkNarrowPhase> narrow_phase =
             make_narrow_phase(robot->robot, robot->meshes);
         propose_allowed(query, *narrow_phase, *robot);
@@ -282,12 +251,8 @@ void run(const RobotQuery& query, const MakeLinkNarrowPhase& make_narrow_phase, 
             printer->state(i, values, self.check(values));
         }
         printer->end();
-    } catch (const BadInput&) {
-        throw;
-    } catch (const std::runtime_error& error) { // of the files
-        throw BadInput(error.what());
-    } catch (const std::invalid_argument& error) { // of names
-        throw BadInput(error.what());
+    } catch (...) {
+        rethrow_as_bad_input();
     }
 }
 
@@ -295,10 +260,7 @@ void add_query_robot(CLI::App& query, MakeLinkNarrowPhase narrow_phase) {
     auto options = std::make_shared<RobotQuery>();
     CLI::App* robot = query.add_subcommand(
         "robot", "self-collision of a robot: links, candidate pairs, pairs that collide, distance");
-    robot->add_option("URDF", options->urdf, "the robot")->required();
-    robot->add_option("--srdf", options->srdf, "an SRDF file: pairs that may collide, states");
-    robot->add_option("--package-path", options->package_paths,
-                      "a folder that holds the packages of package:// meshes; may be repeated");
+    add_robot_options(*robot, options->files);
     auto* joints = robot->add_option("--joints", options->joints,
                                      "\"NAME=VALUE,...\", radians or metres; the others at rest, "
                                      "which is 0, or as near to it as their limits allow");

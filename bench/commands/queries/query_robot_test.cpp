@@ -71,7 +71,7 @@ class QueryRobot : public ::testing::Test {
         : folder_(fs::temp_directory_path() /
                   ("boxwood_query_robot_" + std::to_string(std::random_device{}()))) {
         fs::create_directories(folder_);
-        query_.urdf = put("balls.urdf", four_balls);
+        query_.files.urdf = put("balls.urdf", four_balls);
     }
     ~QueryRobot() override { fs::remove_all(folder_); }
 
@@ -138,7 +138,7 @@ TEST_F(QueryRobot, JsonHoldsTheSame) {
 }
 
 TEST_F(QueryRobot, AnSrdfFileSaysWhatIsAllowedAndNamesStates) {
-    query_.srdf = put("balls.srdf", "<robot><disable_collisions link1='d' link2='a' "
+    query_.files.srdf = put("balls.srdf", "<robot><disable_collisions link1='d' link2='a' "
                                     "reason='Never'/><group_state name='in'><joint name='bc' "
                                     "value='-1'/><joint name='cd' value='-2'/></group_state>"
                                     "</robot>");
@@ -147,7 +147,7 @@ TEST_F(QueryRobot, AnSrdfFileSaysWhatIsAllowedAndNamesStates) {
                                 HasSubstr("filtered,0,b,c\ncolliding,0,b,c\n")));
     query_.state = "out";
     EXPECT_THAT(complaint(), HasSubstr("unknown state 'out'"));
-    query_.srdf.reset();
+    query_.files.srdf.reset();
     EXPECT_THAT(complaint(), HasSubstr("give one by --srdf"));
 }
 
@@ -169,7 +169,7 @@ TEST_F(QueryRobot, SamplesProposePairsThatCanBeWritten) {
     query_.write_srdf = (folder_ / "out.srdf").string();
     EXPECT_THAT(answer(), AllOf(HasSubstr("allowed,a,c,sampled"), Not(HasSubstr("allowed,a,d"))));
     query_.samples.reset();
-    query_.srdf = query_.write_srdf;
+    query_.files.srdf = query_.write_srdf;
     query_.write_srdf.reset();
     query_.format.json = true;
     EXPECT_THAT(answer(), HasSubstr("{\"links\":[\"a\",\"c\"],\"reason\":\"sampled\",\"note\":\"in "
@@ -179,12 +179,12 @@ TEST_F(QueryRobot, SamplesProposePairsThatCanBeWritten) {
 }
 
 TEST_F(QueryRobot, BadFilesAreBadInput) {
-    query_.urdf = (folder_ / "none.urdf").string();
+    query_.files.urdf = (folder_ / "none.urdf").string();
     EXPECT_THAT(complaint(), HasSubstr("no such file"));
-    query_.urdf = put("bad.urdf", "<robot>");
+    query_.files.urdf = put("bad.urdf", "<robot>");
     EXPECT_THAT(complaint(), HasSubstr("bad.urdf:1:"));
-    query_.urdf = put("balls.urdf", four_balls);
-    query_.srdf = put("bad.srdf", "<robot><disable_collisions link1='x' link2='a'/></robot>");
+    query_.files.urdf = put("balls.urdf", four_balls);
+    query_.files.srdf = put("bad.srdf", "<robot><disable_collisions link1='x' link2='a'/></robot>");
     EXPECT_THAT(complaint(), HasSubstr("bad.srdf:1:"));
 }
 
@@ -192,8 +192,8 @@ TEST_F(QueryRobot, SharedPandaIsReadWithItsPairs) {
     const fs::path panda = "../shared/data/robots/panda";
     if (!fs::is_directory(panda))
         GTEST_SKIP() << panda << " is not here: the sample robots are no part of the project";
-    query_.urdf = (panda / "panda.urdf").string();
-    query_.srdf = (panda / "panda.srdf").string();
+    query_.files.urdf = (panda / "panda.urdf").string();
+    query_.files.srdf = (panda / "panda.srdf").string();
     query_.state = "ready";
     /// Boxes alone: whatever it is asked about collides.
     class Boxes final : public LinkNarrowPhase {
@@ -225,7 +225,7 @@ TEST_F(QueryRobot, SharedPandaIsReadWithItsPairs) {
                 found.push_back(line);
         return found;
     };
-    query_.srdf.reset();
+    query_.files.srdf.reset();
     query_.state.reset();
     std::ostringstream proposed;
     run(

@@ -1,4 +1,4 @@
-#include "bench/commands/demo.h"
+#include "bench/commands/demos/demo.h"
 
 #include "scenes/robots/four_link.h"
 #include "trees/builder.h"

@@ -1,41 +1,24 @@
-#include "bench/commands/demo.h"
-
-#include "bench/commands/command.h"
+#include "bench/commands/demos/demo.h"
+#include "bench/commands/demos/watched_traversal.h"
 #include "scenes/robots/four_link.h"
 #include "scenes/scene.h"
 #include "trees/builder.h"
 #include "trees/inspect/draw.h"
 #include "trees/layout.h"
-#include "trees/optimizers/refit.h"
 #include "trees/queries/allowed_collisions.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iostream>
 #include <numbers>
-#include <stdexcept>
 
 namespace boxwood::bench {
 namespace {
 
 const std::vector<std::string> link_names(four_link_names.begin(), four_link_names.end());
 using FourBoxes = std::array<Box, 4>;
-
-std::string name_of(Pair p) { return fmt::format("({}, {})", link_names[p.a], link_names[p.b]); }
-
-std::string pair_names(const std::vector<Pair>& pairs) {
-    if (pairs.empty())
-        return "none";
-    std::string text;
-    for (const Pair p : pairs)
-        text += (text.empty() ? "" : ", ") + name_of(p);
-    return text;
-}
 
 /// The boxes seen from above: a letter per link, # where two or more overlap.
 std::string sketch(const FourBoxes& boxes) {
@@ -71,101 +54,11 @@ std::string box_lines(const FourBoxes& boxes) {
     return text;
 }
 
-/// The traversal of self_pairs over a small tree, written to be watched: a line per box test.
-struct Traversal {
-    const Tree& tree;
-    std::string text;
-    std::size_t tests = 0, pruned = 0;
-    std::vector<Pair> pairs;
-
-    explicit Traversal(const Tree& tree_) : tree(tree_) {
-        if (!tree.empty())
-            within(0);
-        std::sort(pairs.begin(), pairs.end());
-    }
-
-    /// The pairs below one node: across its two children, then within each.
-    void within(std::size_t node) {
-        if (tree.is_leaf(node))
-            return;
-        across(Tree::left(node), tree.right(node));
-        within(Tree::left(node));
-        within(tree.right(node));
-    }
-
-    /// The pairs of one item below a and one below b.
-    void across(std::size_t a, std::size_t b) {
-        const TreeNode &x = tree.nodes[a], &y = tree.nodes[b];
-        const std::size_t below = std::size_t{x.count} * y.count;
-        text += fmt::format("     test {}: {} against {}: ", ++tests, describe(tree, a, link_names),
-                            describe(tree, b, link_names));
-        if (!overlaps(x.box, y.box)) {
-            pruned += below;
-            text += below == 1 ? "apart\n"
-                               : fmt::format("apart -> {} pairs pruned by one test\n", below);
-        } else if (below == 1) {
-            const std::uint32_t i = tree.item(a), j = tree.item(b);
-            pairs.push_back({std::min(i, j), std::max(i, j)});
-            text += fmt::format("overlap -> pair {}\n", name_of(pairs.back()));
-        } else {
-            text += "overlap -> open the larger\n";
-            const double area_x = x.box.half_area(), area_y = y.box.half_area();
-            const bool larger = area_x > area_y || (area_x == area_y && x.count >= y.count);
-            if (y.count == 1 || (x.count > 1 && larger)) {
-                across(Tree::left(a), b);
-                across(tree.right(a), b);
-            } else {
-                across(a, Tree::left(b));
-                across(a, tree.right(b));
-            }
-        }
-    }
-};
-
-/// The traversal, after the library has confirmed what it found.
-Traversal confirmed_traversal(const Tree& tree) {
-    Traversal traversal(tree);
-    std::vector<Pair> found;
-    AppendPairs sink(found);
-    find_layout("binary").make(tree, serial())->self_pairs(serial(), sink);
-    std::sort(found.begin(), found.end());
-    if (found != traversal.pairs)
-        throw std::logic_error("demo four-link: the traversal shown finds " +
-                               pair_names(traversal.pairs) + ", self_pairs finds " +
-                               pair_names(found));
-    return traversal;
-}
-
-/// The pairs of the tree that are worth reporting.
-std::vector<Pair> reported_pairs(const Tree& tree, const AllowedCollisions& allowed) {
-    std::vector<Pair> found;
-    AppendPairs append(found);
-    auto sink = without_allowed(allowed, append);
-    find_layout("binary").make(tree, serial())->self_pairs(serial(), sink);
-    std::sort(found.begin(), found.end());
-    return found;
-}
-
-/// Refits the tree to new boxes and says which nodes changed.
-std::string refit_text(Tree& tree, const FourBoxes& boxes) {
-    std::vector<Box> before;
-    for (const TreeNode& node : tree.nodes)
-        before.push_back(node.box);
-    refit(tree, boxes);
-    std::vector<std::string> changed, unchanged;
-    for (std::size_t i = tree.nodes.size();
-         i-- > 0;) // children before their parents, as refit goes
-        (tree.nodes[i].box == before[i] ? unchanged : changed)
-            .push_back(describe(tree, i, link_names));
-    return fmt::format("   {} of {} nodes changed, bottom-up: {}.\n   As before: {}.\n",
-                       changed.size(), tree.nodes.size(), fmt::join(changed, ", "),
-                       unchanged.empty() ? "none" : fmt::format("{}", fmt::join(unchanged, ", ")));
-}
-
 std::string pair_step(const Tree& tree, const AllowedCollisions& allowed) {
-    const Traversal traversal = confirmed_traversal(tree);
-    return fmt::format("{}   Overlapping: {}.\n   Not allowed, so reported: {}.\n", traversal.text,
-                       pair_names(traversal.pairs), pair_names(reported_pairs(tree, allowed)));
+    const WatchedTraversal traversal = watched_traversal(tree, link_names);
+    return fmt::format("{}   Overlapping: {}.\n   Not allowed, so reported: {}.\n",
+                       traversal.text(), pair_names(traversal.pairs, link_names),
+                       pair_names(reported_pairs(tree, allowed), link_names));
 }
 
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
@@ -216,15 +109,15 @@ std::string four_link_demo() {
         "   the middle, and do the same with each half. A node's box holds all boxes below it.\n\n";
     text += draw(tree, link_names) + "\n";
 
-    const Traversal traversal = confirmed_traversal(tree);
+    const WatchedTraversal traversal = watched_traversal(tree, link_names);
     text += fmt::format(
         "4. The traversal\n"
         "   At each node, test its left side against its right side. If two boxes are apart, so\n"
         "   is everything inside them: all pairs across are pruned by that one test.\n\n"
         "{}\n   Pairs found: {}.\n   {} box tests instead of {}; {} of {} pairs were never looked "
         "at.\n{}\n",
-        traversal.text, pair_names(traversal.pairs), traversal.tests, all_pairs,
-        all_pairs - std::min(all_pairs, traversal.tests), all_pairs, large_case());
+        traversal.text(), pair_names(traversal.pairs, link_names), traversal.lines.size(), all_pairs,
+        all_pairs - std::min(all_pairs, traversal.lines.size()), all_pairs, large_case());
 
     const AllowedCollisions allowed = allow_neighbours(n);
     std::vector<Pair> filtered;
@@ -237,7 +130,7 @@ std::string four_link_demo() {
         "   Links that share a joint may overlap there; that is no collision. An allowed\n"
         "   collision matrix marks the {} adjacent pairs, and a filter drops them from what is\n"
         "   found. Dropped: {}. Left to report: {}.\n\n",
-        allowed.size(), pair_names(filtered), reported.size());
+        allowed.size(), pair_names(filtered, link_names), reported.size());
 
     const FourBoxes bent = four_link_boxes(four_link_bent);
     text += fmt::format(
@@ -248,18 +141,18 @@ std::string four_link_demo() {
         "   The tree keeps its shape. Refitting gives each leaf its new box, then each parent the\n"
         "   box of its two children: one pass, much cheaper than building again.\n",
         degrees(four_link_bent[0]), degrees(four_link_bent[1]), box_lines(bent), sketch(bent));
-    text += refit_text(tree, bent) + "\n";
+    text += refit_text(tree, bent, link_names) + "\n";
     text += pair_step(tree, allowed) + "\n";
 
     const FourBoxes folded = four_link_boxes(four_link_folded);
     text += fmt::format("7. The last joint alone turns by {:.0f} degrees\n\n{}\n{}\n",
                         degrees(four_link_folded[2] - four_link_bent[2]), box_lines(folded),
                         sketch(folded));
-    text += refit_text(tree, folded) + "\n";
+    text += refit_text(tree, folded, link_names) + "\n";
     text += draw(tree, link_names) + "\n";
 
     text += "8. Pairs again\n" + pair_step(tree, allowed);
-    const std::size_t tests = confirmed_traversal(tree).tests;
+    const std::size_t tests = watched_traversal(tree, link_names).lines.size();
     for (const Pair p : reported_pairs(tree, allowed))
         text += fmt::format(
             "   A real collision to look into: {} meets {}. They are in different subtrees, and "
@@ -272,34 +165,6 @@ std::string four_link_demo() {
                         "   A tree pays where boxes are many and most pairs are far apart.\n",
                         tests, tests > all_pairs ? "more" : "no more", all_pairs);
     return text;
-}
-
-namespace {
-
-/// A line per demo.
-std::string demos_text(const CLI::App& demo) {
-    std::string text = "The demos:\n";
-    for (const CLI::App* each : demo.get_subcommands([](const CLI::App*) { return true; }))
-        text +=
-            fmt::format("  boxwood demo {:<12} {}\n", each->get_name(), each->get_description());
-    return text;
-}
-
-} // namespace
-
-void add_demo(CLI::App& app, int&) {
-    CLI::App* demo = app.add_subcommand("demo", "see how it works, step by step");
-    demo->require_subcommand(0, 1);
-    demo->footer("Example: boxwood demo four-link");
-    demo->callback([demo] {
-        if (demo->get_subcommands().empty())
-            std::cout << demos_text(*demo);
-    });
-    CLI::App* four_link = demo->add_subcommand(
-        "four-link",
-        "a robot of four links: the tree, its traversal, allowed pairs, a joint that turns");
-    four_link->footer("Example: boxwood demo four-link");
-    four_link->callback([] { std::cout << four_link_demo(); });
 }
 
 } // namespace boxwood::bench
