@@ -138,6 +138,8 @@ struct RobotQuery {
     std::optional<std::string> joints;   ///< "name=value,..."; the others at rest
     std::optional<std::string> state;    ///< a name of the SRDF file
     std::optional<std::uint64_t> random; ///< so many states at random
+    std::optional<std::uint64_t> steps;  ///< from each of them to the next, in so many
+    std::optional<std::string> svg;      ///< the least distance over time, drawn
     std::uint64_t seed = 1;
     std::optional<std::uint64_t> samples; ///< propose pairs by so many
     std::optional<std::string> write_srdf;

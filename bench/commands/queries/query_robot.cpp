@@ -3,6 +3,7 @@
 #include "bench/commands/command.h"
 #include "bench/commands/queries/query.h"
 #include "bench/commands/queries/robot_case.h"
+#include "bench/commands/queries/robot_picture.h"
 #include "bench/io/json.h"
 #include "bench/io/say.h"
 #include "kernels/suggest.h"
@@ -96,6 +97,42 @@ std::vector<double> chosen_state(const RobotQuery& query, const RobotCase& robot
     if (query.joints)
         take_joints(robot.robot, *query.joints, values);
     return values;
+}
+
+/// Calls f(i, time) once `values` are those of state i.
+template <class F>
+void for_each_state(const RobotQuery& query, const Robot& robot, std::vector<double>& values,
+                    const F& f) {
+    if (!query.random)
+        return f(std::uint64_t{0}, 0.0);
+    if (!query.steps) {
+        for (std::uint64_t i = 0; i < *query.random; ++i) {
+            random_values(robot.ranges(), query.seed, i, values);
+            f(i, static_cast<double>(i));
+        }
+        return;
+    }
+    std::vector<std::vector<double>> waypoints(*query.random, values);
+    for (std::uint64_t i = 0; i < waypoints.size(); ++i)
+        random_values(robot.ranges(), query.seed, i, waypoints[i]);
+    const JointPath path(robot, std::move(waypoints));
+    const std::uint64_t steps = *query.steps;
+    for (std::uint64_t i = 0; i <= (path.size() - 1) * steps; ++i) {
+        const double time = static_cast<double>(i) / static_cast<double>(steps);
+        path.at(time, values);
+        f(i, time);
+    }
+}
+
+void write_picture(const std::string& name, const std::string& robot,
+                   const std::vector<LeastOfState>& least) {
+    if (least.empty())
+        throw BadInput("--svg: no two links can collide, so there is no distance to draw");
+    std::ofstream file(name, std::ios::binary);
+    file << robot_picture(robot, least);
+    file.close();
+    if (!file)
+        throw BadInput(fmt::format("--svg {}: cannot be written", name));
 }
 
 class RobotPrinter {
@@ -245,12 +282,16 @@ void run(const RobotQuery& query, const MakeLinkNarrowPhase& make_narrow_phase, 
         else
             printer = std::make_unique<RobotLines>(*robot, query.format.header, out);
         printer->begin();
-        for (std::uint64_t i = 0; i < query.random.value_or(1); ++i) {
-            if (query.random)
-                random_values(robot->robot.ranges(), query.seed, i, values);
-            printer->state(i, values, self.check(values));
-        }
+        std::vector<LeastOfState> least;
+        for_each_state(query, robot->robot, values, [&](std::uint64_t i, double time) {
+            const SelfCollision& found = self.check(values);
+            printer->state(i, values, found);
+            if (query.svg && found.nearest)
+                least.push_back({time, found.least, !found.colliding.empty()});
+        });
         printer->end();
+        if (query.svg)
+            write_picture(*query.svg, robot->robot.name(), least);
     } catch (...) {
         rethrow_as_bad_input();
     }
@@ -265,12 +306,20 @@ void add_query_robot(CLI::App& query, MakeLinkNarrowPhase narrow_phase) {
                                      "\"NAME=VALUE,...\", radians or metres; the others at rest, "
                                      "which is 0, or as near to it as their limits allow");
     auto* state = robot->add_option("--state", options->state, "a state of the SRDF file");
+    auto* random =
+        robot
+            ->add_option("--random", options->random,
+                         "so many states at random within the limits instead")
+            ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{10'000'000}))
+            ->excludes(joints)
+            ->excludes(state);
     robot
-        ->add_option("--random", options->random,
-                     "so many states at random within the limits instead")
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{10'000'000}))
-        ->excludes(joints)
-        ->excludes(state);
+        ->add_option("--steps", options->steps,
+                     "go from each random state to the next in so many steps, joints in proportion")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000}))
+        ->needs(random);
+    robot->add_option("--svg", options->svg, "draw the least distance over time, with its interval")
+        ->needs(random);
     robot->add_option("--seed", options->seed, "of --random and --samples")->capture_default_str();
     robot
         ->add_option("--samples", options->samples,
@@ -287,7 +336,8 @@ void add_query_robot(CLI::App& query, MakeLinkNarrowPhase narrow_phase) {
         "lies between lo and hi). Without --srdf adjacent links are allowed to collide.\n\n"
         "Examples:\n"
         "  boxwood query robot panda.urdf --srdf panda.srdf --joints \"panda_joint4=-2.3\"\n"
-        "  boxwood query robot z1.urdf --samples 10000 --write-srdf z1.srdf --random 100 --seed 1");
+        "  boxwood query robot z1.urdf --samples 10000 --write-srdf z1.srdf --random 100 --seed 1\n"
+        "  boxwood query robot panda.urdf --random 8 --steps 50 --svg least.svg");
     robot->callback([options, narrow_phase = std::move(narrow_phase)] {
         run(*options, narrow_phase, std::cout);
     });

@@ -151,6 +151,32 @@ TEST_F(QueryRobot, AnSrdfFileSaysWhatIsAllowedAndNamesStates) {
     EXPECT_THAT(complaint(), HasSubstr("give one by --srdf"));
 }
 
+TEST_F(QueryRobot, StepsLeadFromEachRandomStateToTheNext) {
+    query_.random = 3;
+    const std::string waypoints = answer();
+    const auto value = [](const std::string& text, int state) {
+        const std::string key = "value," + std::to_string(state) + ",bc,";
+        const std::size_t at = text.find(key);
+        EXPECT_NE(at, std::string::npos) << state;
+        return std::stod(text.substr(at + key.size()));
+    };
+    query_.steps = 4;
+    query_.files.srdf.reset();
+    query_.svg = (folder_ / "least.svg").string();
+    const std::string text = answer();
+    EXPECT_THAT(text, Not(HasSubstr("value,9,")));
+    for (int i = 0; i <= 8; ++i) {
+        const double from = value(waypoints, i / 4), to = value(waypoints, std::min(i / 4 + 1, 2));
+        EXPECT_NEAR(value(text, i), from + (to - from) * (i % 4) / 4, 1e-12) << i;
+    }
+    std::ifstream file(*query_.svg);
+    const std::string drawn((std::istreambuf_iterator<char>(file)), {});
+    EXPECT_THAT(drawn, AllOf(StartsWith("<svg "), HasSubstr("9 states"), HasSubstr("class=\"least\"")));
+    EXPECT_EQ(std::ranges::count(drawn, '<'), std::ranges::count(drawn, '>'));
+    query_.svg = (folder_ / "nowhere" / "least.svg").string();
+    EXPECT_THAT(complaint(), HasSubstr("cannot be written"));
+}
+
 TEST_F(QueryRobot, RandomStatesAreTheSameForASeed) {
     query_.random = 50;
     const std::string first = answer();
