@@ -135,7 +135,7 @@ class Fitting {
         const Vec3<double> centre = 0.5 * (Vec3<double>(box.min) + Vec3<double>(box.max));
         const Vec3<double> sides = Vec3<double>(box.max) - Vec3<double>(box.min);
         const double largest = std::max({sides.x, sides.y, sides.z});
-        const double scale = largest > 0 ? 1 / largest : 1;
+        const double scale = largest > 0x1p-100 ? 1 / largest : 1;
         const CornerRows rows = corners_.rows();
         Buffer<Moments> moments(blocks_.size());
         for_each_block([&](std::size_t i) {
