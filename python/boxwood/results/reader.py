@@ -14,7 +14,7 @@ from .words import FAMILIES, PHASES, REASONS, STATUSES, TOPICS, VERDICTS
 
 SCHEMA_MAJOR = 2
 AGAIN = "use another copy, or measure again"
-NO_ID = 2**32 - 1
+NO_ID, NO_COUNT = 2**32 - 1, 2**64 - 1  # what stands for none in columns of ids and of counts
 
 # The columns that the figures stand on; other columns and tables are skipped.
 MEASURED = {
