@@ -31,7 +31,7 @@ std::string ratio_text(double ratio);
 /// A name as words: blanks for underscores.
 std::string spaced(std::string_view name);
 
-// scripts/boxwood_results/words.py has the same rules; scripts/tests/numbers.csv is the test of
+// python/boxwood/results/words.py has the same rules; scripts/tests/numbers.csv is the test of
 // both.
 
 } // namespace boxwood::bench
