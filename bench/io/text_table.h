@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,5 +34,11 @@ std::string spaced(std::string_view name);
 
 // python/boxwood/results/words.py has the same rules; scripts/tests/numbers.csv is the test of
 // both.
+
+/// Whole KiB or MiB, rounded down; "?" for results::no_count.
+std::string bytes_text(std::uint64_t bytes);
+
+/// "?" for an empty text.
+std::string or_unknown(std::string text);
 
 } // namespace boxwood::bench
