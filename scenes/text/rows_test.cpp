@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::vector<Box> boxes_of(const std::string& text) {
+std::vector<Aabb<float>> boxes_of(const std::string& text) {
     const FileOf file(text);
     SceneSpec spec;
     spec.generator = "boxes";
@@ -27,7 +27,7 @@ std::string complaint(const std::string& text) {
 
 TEST(Rows, BoxesOfASceneAreWrittenAsThoseOfQueries) {
     EXPECT_EQ(boxes_of("\xef\xbb\xbf# a mark\r\n+1,0x1p-1,1e-400, 2,3,4\r\n"),
-              (std::vector<Box>{{{1, 0.5f, 0}, {2, 3, 4}}}));
+              (std::vector<Aabb<float>>{{{1, 0.5f, 0}, {2, 3, 4}}}));
 }
 
 TEST(Rows, BadBoxesAreNamedByLineAndColumn) {
