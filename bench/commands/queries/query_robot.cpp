@@ -10,7 +10,7 @@
 #include "scenes/robots/random_values.h"
 #include "scenes/robots/srdf.h"
 #include "scenes/robots/urdf.h"
-#include "scenes/robots/xml_reader.h"
+#include "scenes/text/read_file.h"
 #include "trees/world/propose_pairs.h"
 
 #include <CLI/CLI.hpp>

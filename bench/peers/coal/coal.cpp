@@ -34,19 +34,21 @@ ContenderEntry row(std::string name, std::string summary, std::string notes) {
 }
 
 ContenderEntry manager(std::string name, std::string summary, const std::string& build,
-                       CoalManager kind, Told told = Told::all_may_have_moved) {
+                       CoalManager kind, Reported reported = Reported::all_may_have_moved) {
     ContenderEntry e =
         row(std::move(name), std::move(summary),
             fmt::format("{}; query = collide with a callback that appends the pair; boxes in "
                         "double, equal to the scene's floats; one thread; a build also frees what "
                         "was built before; a frame: boxes of the moved, {}; bodies that come and "
                         "go: registerObject, unregisterObject",
-                        build, told == Told::which_moved ? "update(moved)" : "update() of all"));
-    const auto answers = [kind, told](std::string task, Sides sides) {
-        return Answering{std::move(task),
-                         [=](const Job& job) { return module().manager(job, sides, kind, told); }};
+                        build,
+                        reported == Reported::which_moved ? "update(moved)" : "update() of all"));
+    const auto answers = [kind, reported](std::string task, Sides sides) {
+        return Answering{std::move(task), [=](const Job& job) {
+                             return module().manager(job, sides, kind, reported);
+                         }};
     };
-    if (told == Told::all_may_have_moved)
+    if (reported == Reported::all_may_have_moved)
         e.answers = {answers("pairs", Sides::all), answers("tree_pairs", Sides::two_halves)};
     e.answers.push_back(answers("moving_pairs", Sides::all));
     return e;
@@ -60,7 +62,7 @@ std::vector<ContenderEntry> managers() {
         const std::string in_bulk = "build = registerObjects in bulk + setup, " + level;
         all.push_back(manager(name, summary, in_bulk, kind));
         all.push_back(manager(name + ".moved", summary + ", given which objects moved", in_bulk,
-                              kind, Told::which_moved));
+                              kind, Reported::which_moved));
     };
     const std::string tree = "DynamicAABBTreeCollisionManager",
                       array = "DynamicAABBTreeArrayCollisionManager: nodes in one array",

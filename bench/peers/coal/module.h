@@ -24,7 +24,7 @@ enum class CoalKernel : std::uint8_t { collide, collide_with_contact, distance }
 /// FCL's package two octomaps would meet under the same names, and the program end in a double
 /// free.
 struct CoalModule {
-    std::unique_ptr<Contender> (*manager)(const Job&, Sides, CoalManager, Told);
+    std::unique_ptr<Contender> (*manager)(const Job&, Sides, CoalManager, Reported);
     std::unique_ptr<Contender> (*kernel)(const Job&, CoalKernel);
 };
 

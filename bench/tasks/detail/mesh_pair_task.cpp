@@ -56,19 +56,11 @@ void MeshPairTask::expand(const BlockReader& block, AddCell add) const {
 }
 
 ContenderEntry MeshPairTask::contender(const Choice& choice) const {
-    const BuilderEntry& builder =
-        entry_named(std::string_view(choice.builder).substr(0, choice.builder.find('+')),
-                    builders(), "builder");
+    const BuilderEntry& builder = builder_of(choice);
     const VolumeRow& volume =
         entry_named(choice.layout, std::span<const VolumeRow>(volumes), "volume");
-    ContenderEntry entry;
-    entry.library = "boxwood";
-    entry.is_peer = false;
+    ContenderEntry entry = entry_of_ours(builder, choice);
     entry.precision = "f64";
-    entry.builder = name_with_settings(choice.builder, choice.settings);
-    entry.place = static_cast<std::size_t>(&builder - builders().data());
-    entry.is_plain = entry.builder == builder.name;
-    entry.is_reference = builder.is_reference && entry.is_plain;
     entry.layout = volume.name;
     entry.traversal = name();
     entry.promise = promise();
@@ -76,7 +68,6 @@ ContenderEntry MeshPairTask::contender(const Choice& choice) const {
     entry.summary = fmt::format("{}; {}", builder.summary, volume.summary);
     entry.notes = "build: one tree, which stands for the mesh and for its copy; query: pose after "
                   "pose; the copy's corners are moved in doubles, boxes are bounded in floats";
-    entry.params_json = settings_json(choice.settings);
     entry.runs_on = RunsOn::one_thread;
     entry.answers = {{std::string(name()),
                       [build = make_builder(choice.builder, choice.settings), kind = volume.volume,

@@ -53,7 +53,6 @@ void ItemTree::reorder() {
     changed_.clear();
     ratio_ = 1;
     unmeasured_ = 0;
-    ++orders_;
 }
 
 } // namespace boxwood::detail

@@ -1,5 +1,5 @@
 #include "bench/peers/answering.h"
-#include "bench/peers/embree_handles.h"
+#include "bench/peers/embree/embree_handles.h"
 #include "bench/peers/kernel_peers.h"
 
 #include <map>

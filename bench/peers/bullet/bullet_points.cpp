@@ -1,5 +1,5 @@
 #include "bench/peers/answering.h"
-#include "bench/peers/bullet_volume.h"
+#include "bench/peers/bullet/bullet_volume.h"
 #include "bench/peers/point_peers.h"
 #include "bench/tasks/detail/point_classes.h"
 

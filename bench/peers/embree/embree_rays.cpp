@@ -1,6 +1,6 @@
 /// Rays one at a time, and every hit; what all of Embree's contenders of rays have in common.
 
-#include "bench/peers/embree_rays.h"
+#include "bench/peers/embree/embree_rays.h"
 #include "bench/peers/ray_peers.h"
 #include "bench/tasks/detail/ray_classes.h"
 #include "scenes/sampling/rays.h"

@@ -1,4 +1,4 @@
-#include "bench/peers/embree_rays.h"
+#include "bench/peers/embree/embree_rays.h"
 
 #if defined(BOXWOOD_EMBREE_4)
 

@@ -1,5 +1,5 @@
 #include "bench/peers/answering.h"
-#include "bench/peers/bullet_volume.h"
+#include "bench/peers/bullet/bullet_volume.h"
 #include "bench/tasks/moving_pairs.h"
 #include "scenes/moving/frames.h"
 

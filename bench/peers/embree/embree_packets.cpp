@@ -1,4 +1,4 @@
-#include "bench/peers/embree_rays.h"
+#include "bench/peers/embree/embree_rays.h"
 #include "bench/tasks/detail/ray_classes.h"
 
 #include <array>

@@ -10,7 +10,7 @@
 
 namespace boxwood::bench {
 
-/// Bullet's btDbvtBroadphase, for moving_pairs; made in peers/bullet_broadphase.cpp.
+/// Bullet's btDbvtBroadphase, for moving_pairs; made in peers/bullet/bullet_broadphase.cpp.
 std::vector<ContenderEntry> bullet_broadphases();
 
 inline btVector3 vector_of(Vec3<float> v) { return {v.x, v.y, v.z}; }

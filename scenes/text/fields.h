@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace boxwood::bench {
+namespace boxwood {
 
 /// The text without spaces, tabs and CR around it.
 inline std::string_view trimmed(std::string_view text) {
@@ -36,4 +36,4 @@ inline std::string_view without_byte_order_mark(std::string_view text) {
     return text.starts_with(mark) ? text.substr(mark.size()) : text;
 }
 
-} // namespace boxwood::bench
+} // namespace boxwood

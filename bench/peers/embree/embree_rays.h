@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bench/peers/answering.h"
-#include "bench/peers/embree_handles.h"
+#include "bench/peers/embree/embree_handles.h"
 #include "bench/peers/ray_lanes.h"
 
 #include <tbb/parallel_for.h>

@@ -5,18 +5,18 @@
 
 namespace boxwood::cuda {
 
-constexpr unsigned walk_threads = 256, walk_warps = walk_threads / 32;
+constexpr unsigned traversal_threads = 256, traversal_warps = traversal_threads / 32;
 
 /// A warp's way through a packed layout: up to two blocks are opened at a time, one by each half of
 /// the warp.
-class PackedWalk {
+class PackedTraversal {
   public:
     /// Two blocks of one level are opened at a time, so that on the stack each level has at most
     /// the 32 lanes of one step, and the levels above it 30.
     static constexpr unsigned room = 2 + 30 * PackedView::max_levels;
 
     /// stack: the warp's own `room` numbers in shared memory.
-    __device__ PackedWalk(const PackedView& tree, std::uint32_t* stack)
+    __device__ PackedTraversal(const PackedView& tree, std::uint32_t* stack)
         : tree_(tree), stack_(stack), lane_(threadIdx.x % 32) {}
 
     /// meet(lanes, leaf), for all lanes together: of the leaves below block `start` those whose

@@ -1,6 +1,6 @@
 #include "bench/peers/answering.h"
 #include "bench/peers/comers.h"
-#include "bench/peers/embree_handles.h"
+#include "bench/peers/embree/embree_handles.h"
 #include "bench/peers/kernel_peers.h"
 #include "bench/peers/point_peers.h"
 #include "bench/peers/ray_peers.h"

@@ -1,5 +1,5 @@
 #include "bench/peers/answering.h"
-#include "bench/peers/embree_handles.h"
+#include "bench/peers/embree/embree_handles.h"
 #include "bench/peers/point_peers.h"
 #include "bench/peers/query_order.h"
 #include "kernels/features/point_triangle.h"
