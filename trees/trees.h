@@ -81,6 +81,7 @@
 #include "trees/world/continuous.h"
 #include "trees/world/mesh_contacts.h"
 #include "trees/world/mesh_pairs.h"
+#include "trees/world/mesh_shape.h"
 #include "trees/world/mesh_tree.h"
 #include "trees/world/mesh_triage.h"
 #include "trees/world/motion.h"

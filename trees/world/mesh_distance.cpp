@@ -418,21 +418,12 @@ MeshDistance search(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
 
 MeshDistance distance(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
                       const DistanceOptions& options, Work* work) {
-    if (!(options.relative >= 0 && options.relative < 1) || !(options.absolute >= 0) ||
-        !(options.limit >= 0))
-        throw std::invalid_argument("a relative tolerance must be in [0, 1), an absolute one and a "
-                                    "limit at least 0");
-    return search(a, b, b_in_a, {options, 0}, work);
+    return search(a, b, b_in_a, detail::goal_of(options), work);
 }
 
 MeshWithin within(const MeshTree& a, const MeshTree& b, const Pose& b_in_a, double tolerance,
                   Work* work) {
-    if (!(tolerance >= 0))
-        throw std::invalid_argument("a tolerance must be at least 0");
-    DistanceOptions options;
-    options.limit = tolerance * (1 + 0x1p-31) + std::numeric_limits<double>::denorm_min();
-    const MeshDistance found = search(a, b, b_in_a, {options, tolerance}, work);
-    return {found.found() && found.lo <= tolerance, found.lo, found.hi};
+    return detail::within_by(search(a, b, b_in_a, detail::goal_within(tolerance), work), tolerance);
 }
 
 } // namespace boxwood

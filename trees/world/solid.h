@@ -1,9 +1,12 @@
 #pragma once
 
+#include "kernels/convex/shapes.h"
+#include "kernels/decision.h"
 #include "trees/mesh_bvh.h"
 #include "trees/world/mesh_pairs.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace boxwood {
@@ -23,6 +26,9 @@ class Solid {
         return std::span(vertices_).subspan(begin_[part], begin_[part + 1] - begin_[part]);
     }
 
+    /// Whether a point, which may be off by `error`, lies inside; nothing where the surface is too
+    /// near to tell in floats.
+    std::optional<bool> holds(const Vec3<double>& point, double error = 0) const;
     /// Whether a part of another solid, whose surface does not touch this one's, lies inside. Where
     /// all its vertices are within the rounding of floats of this surface, the answer is yes.
     bool holds(const Solid& other, std::size_t part, const Pose& other_in_this) const;
@@ -36,5 +42,9 @@ class Solid {
 
 /// Whether two solids share a point: their surfaces touch, or a part of one lies in the other.
 bool collide(const Solid& a, const Solid& b, const Pose& b_in_a, Work* work = nullptr);
+
+/// The same of a solid and a convex shape, as mesh_shape.h says of its surface.
+Decision collide(const Solid& solid, const convex::Shape& shape, const Pose& shape_in_solid,
+                 Work* work = nullptr);
 
 } // namespace boxwood

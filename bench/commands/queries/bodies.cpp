@@ -8,47 +8,70 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <optional>
 #include <span>
-#include <stdexcept>
+#include <string_view>
+#include <vector>
 
 namespace boxwood::bench {
 namespace {
 
-/// A primitive in the place of a file: "box:1,1,1", its full side lengths.
-std::optional<TriangleMesh> primitive(const std::string& text) {
-    constexpr std::array kinds{"box", "sphere", "capsule", "cylinder"};
-    const std::size_t colon = text.find(':');
-    const std::string kind = text.substr(0, colon);
-    if (colon == std::string::npos || std::ranges::find(kinds, kind) == kinds.end())
-        return std::nullopt;
-    if (kind != "box")
-        throw BadInput(
-            fmt::format("{}: of primitives only boxes are answered (box:x,y,z, full side "
-                        "lengths); a {} can be given as a mesh file",
-                        text, kind));
-    Vec3<double> lengths;
-    const auto take_sides = [&](std::span<const double> sides, std::size_t) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (!(sides[axis] >= 0 && sides[axis] < 0x1p60))
-                throw BadInput(fmt::format("{}: a side is {}; it must be at least 0 and finite",
-                                           text, sides[axis]));
-            lengths[static_cast<int>(axis)] = sides[axis];
-        }
+/// The numbers of a primitive, all at least 0.
+std::vector<double> numbers_of(const std::string& text, std::string_view numbers, std::size_t count,
+                               std::string_view form) {
+    std::vector<double> found;
+    const auto take = [&](std::span<const double> row, std::size_t) {
+        found.assign(row.begin(), row.end());
     };
-    if (read_csv(text.substr(colon + 1), text, {"x,y,z, the full side lengths of the box", 3, 3},
-                 take_sides) != 1)
-        throw BadInput(fmt::format("{}: a box is box:x,y,z, its full side lengths", text));
-    return box_mesh(lengths);
+    if (read_csv(numbers, text, {form, count, count}, take) != 1)
+        throw BadInput(fmt::format("{}: it is {}", text, form));
+    for (const double x : found)
+        if (!(x >= 0 && x < 0x1p60))
+            throw BadInput(
+                fmt::format("{}: a length is {}; it must be at least 0 and finite", text, x));
+    return found;
 }
 
 } // namespace
 
+std::optional<convex::Shape> read_primitive(const std::string& text) {
+    struct Kind {
+        std::string_view name;
+        std::size_t numbers;
+        std::string_view form;
+        convex::Shape (*make)(std::span<const double>);
+    };
+    static constexpr Kind kinds[] = {
+        {"box", 3, "box:x,y,z, its full side lengths",
+         [](std::span<const double> n) -> convex::Shape {
+             return convex::Box{{n[0] / 2, n[1] / 2, n[2] / 2}};
+         }},
+        {"sphere", 1, "sphere:radius",
+         [](std::span<const double> n) -> convex::Shape { return convex::Sphere{n[0]}; }},
+        {"capsule", 2, "capsule:radius,length, the length without the round ends",
+         [](std::span<const double> n) -> convex::Shape {
+             return convex::Capsule{n[0], n[1] / 2};
+         }},
+        {"cylinder", 2, "cylinder:radius,length",
+         [](std::span<const double> n) -> convex::Shape {
+             return convex::Cylinder{n[0], n[1] / 2};
+         }},
+    };
+    const std::size_t colon = text.find(':');
+    const std::string_view name = std::string_view(text).substr(0, colon);
+    const auto kind = std::ranges::find(kinds, name, &Kind::name);
+    if (colon == std::string::npos || kind == std::ranges::end(kinds))
+        return std::nullopt;
+    return kind->make(
+        numbers_of(text, std::string_view(text).substr(colon + 1), kind->numbers, kind->form));
+}
+
 TriangleMesh read_body(const std::string& body) {
-    if (auto mesh = primitive(body))
-        return *mesh;
-    return load_mesh(body);
+    const std::optional<convex::Shape> primitive = read_primitive(body);
+    if (!primitive)
+        return load_mesh(body);
+    if (const auto* box = primitive->get_if<convex::Box>())
+        return box_mesh(2.0 * box->half);
+    throw BadInput(fmt::format("{}: of primitives only boxes are meshes", body));
 }
 
 Pose read_pose(const std::string& text, const std::string& option) {

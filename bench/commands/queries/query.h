@@ -92,7 +92,7 @@ struct TrianglesQuery {
 void run(const TrianglesQuery& query, std::ostream& out);
 void add_query_triangles(CLI::App& query);
 
-/// Of two meshes: each a file, or box:x,y,z.
+/// Of two bodies: each a mesh file or a primitive (bodies.h).
 struct MeshesQuery {
     enum class Question : std::uint8_t { collide, distance, tolerance, contacts };
     Question question = Question::collide;
@@ -110,7 +110,7 @@ struct MeshesQuery {
 void run(const MeshesQuery& query, std::ostream& out);
 void add_query_meshes(CLI::App& query);
 
-/// Of two meshes that move: each a file, or box:x,y,z.
+/// Of two bodies that move.
 struct ContinuousQuery {
     std::string a, b;
     std::string from_a, to_a, from_b, to_b; ///< 16 numbers each, row by row
