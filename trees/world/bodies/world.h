@@ -172,7 +172,7 @@ class World {
     /// Every stage there is, and whether these queries of this world require it.
     std::vector<PlannedStage> plan(std::span<const WorldQuery> queries) const;
     /// The same stages, and what they did since the start or clear_ledger.
-    std::vector<LedgerRow> ledger() const;
+    Ledger ledger(std::span<const WorldQuery> queries = {}) const;
     void clear_ledger();
 
   private:

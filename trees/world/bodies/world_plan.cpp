@@ -70,29 +70,30 @@ std::vector<PlannedStage> World::plan(std::span<const WorldQuery> queries) const
     return plan;
 }
 
-std::vector<LedgerRow> World::ledger() const {
-    std::vector<LedgerRow> rows;
+Ledger World::ledger(std::span<const WorldQuery> queries) const {
+    Ledger ledger(plan(queries));
     for (std::size_t i = 0; i < stage_names.size(); ++i) {
         const auto& count = state_->counts.of(static_cast<Stage>(i));
-        rows.push_back({std::string(stage_names[i]), count.calls, count.items,
-                        static_cast<double>(count.ns), 0});
+        ledger.add(i, count.calls, count.items, static_cast<double>(count.ns));
     }
-    const auto bytes = [&](Stage stage) -> std::size_t& {
-        return rows[static_cast<std::size_t>(stage)].bytes;
+    const auto holds = [&](Stage stage, std::size_t bytes) {
+        ledger.set_bytes(static_cast<std::size_t>(stage), bytes);
     };
-    bytes(Stage::fit) = bodies_.capacity() * sizeof(Body);
-    bytes(Stage::update) = state_->tree.bytes();
-    bytes(Stage::groups) = state_->tree.group_bytes();
-    bytes(Stage::pairs) = state_->filter.bytes();
+    holds(Stage::fit, bodies_.capacity() * sizeof(Body));
+    holds(Stage::update, state_->tree.bytes());
+    holds(Stage::groups, state_->tree.group_bytes());
+    holds(Stage::pairs, state_->filter.bytes());
     std::vector<const MeshTree*> trees;
     for (const Body& body : bodies_)
         if (body.shape && body.shape->shape_class() != ShapeClass::convex && body.shape->is_built())
             trees.push_back(&body.shape->tree());
     std::ranges::sort(trees);
     trees.erase(std::ranges::unique(trees).begin(), trees.end());
+    std::size_t bytes = 0;
     for (const MeshTree* tree : trees)
-        bytes(Stage::mesh_trees) += tree->bytes();
-    return rows;
+        bytes += tree->bytes();
+    holds(Stage::mesh_trees, bytes);
+    return ledger;
 }
 
 void World::clear_ledger() { state_->counts.clear(); }
