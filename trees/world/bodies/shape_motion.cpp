@@ -3,11 +3,10 @@
 #include "kernels/arithmetic/rounding.h"
 #include "kernels/convex/first_contact.h"
 #include "trees/world/bodies/detail/swept_box.h"
+#include "trees/world/detail/advance.h"
 #include "trees/world/mesh_shape.h"
 
 #include <algorithm>
-#include <cmath>
-#include <stdexcept>
 #include <utility>
 
 namespace boxwood {
@@ -48,79 +47,53 @@ FirstContact of_surfaces(const MovingShape& a, const MovingShape& b,
     return found;
 }
 
-/// One of two that approach each other.
-struct Approaching {
-    explicit Approaching(const MovingShape& of)
-        : shape(of.shape), margin(of.margin), motion(of.from, of.to, of.path) {
-        const Vec3<double>& t = of.from.translation;
-        reach = std::abs(t.x) + std::abs(t.y) + std::abs(t.z);
-        if (shape.is_bounded()) {
-            speed = motion.longest_way(round_outward(shape.bounds()));
-            const auto& [low, high] = shape.bounds();
-            size = length(high - low);
-            const Vec3<double> far = max(-low, high);
-            reach += std::abs(far.x) + std::abs(far.y) + std::abs(far.z);
-        } else {
-            speed = length(of.to.translation - of.from.translation) * (1 + 0x1p-40);
-        }
-    }
-    PosedShape at(double t) const { return {shape, motion.at(t), margin}; }
-
-    const BodyShape& shape;
-    double margin;
-    Motion motion;
-    double speed = 0, size = 0, reach = 0;
-};
-
-/// Conservative advancement on the distance between bounds, as that of two meshes (continuous.h),
-/// margins included.
-FirstContact advance(const Approaching& a, const Approaching& b, const ContinuousOptions& options,
-                     Work* work) {
-    const double speed = a.speed + b.speed;
-    const double rounding = 0x1p-44 * (speed + a.reach + b.reach);
-    const double tolerance = std::max(
-        options.tolerance > 0 ? options.tolerance : 0x1p-36 * (a.size + b.size), 4 * rounding);
-    FirstContact found;
-    DistanceOptions near;
-    double t = 0;
-    while (found.steps < options.max_steps) {
-        const BodyDistance d = distance(a.at(t), b.at(t), near, work);
-        ++found.steps;
-        if (d.lo <= tolerance && d.hi > tolerance && near.relative > 0) {
-            near.relative = 0; // look again
-            continue;
-        }
-        if (d.hi <= tolerance || d.lo <= 2 * rounding) {
-            found.hit = Answer::yes;
-            found.t_free = found.t_hit = t;
-            found.triangles = d.parts;
-            return found;
-        }
-        if (t >= 1)
-            return found;
-        const double free = std::max(d.lo - 2 * rounding, 0.0);
-        t = std::min(1.0, t + (speed > 0 ? free / speed * (1 - 0x1p-40) : 1));
-        found.t_free = t;
-        if (d.parts.a != ~0u && d.parts.b != ~0u)
-            near.start = d.parts;
-        // Far apart a rough distance will do.
-        near.relative = d.lo > 64 * tolerance ? .1 : 0;
-    }
-    found.hit = Answer::maybe;
-    found.t_free = t;
-    return found;
+/// The box of a shape in its frame. Of one without bounds, what of it the other one may meet: no
+/// point of that is ever farther from its origin.
+Aabb<float> box_of(const MovingShape& of, const Motion& motion, const MovingShape& other,
+                   const Motion& other_motion) {
+    if (of.shape.is_bounded())
+        return round_outward(of.shape.bounds());
+    if (!other.shape.is_bounded())
+        return {{0, 0, 0}, {0, 0, 0}}; // neither turns
+    const Aabb<float> box = round_outward(other.shape.bounds());
+    const double reach = reach_of(box, relative_pose(other.from, of.from)) +
+                         other_motion.longest_way(box) +
+                         motion.longest_way({{0, 0, 0}, {0, 0, 0}}) + of.margin + other.margin +
+                         other.shape.radius();
+    const Vec3<double> far{reach, reach, reach};
+    return round_outward(Aabb<double>{-far, far});
 }
 
-bool turns_without_bounds(const MovingShape& of) {
-    return !of.shape.is_bounded() && !(of.from.rotation == of.to.rotation);
+/// Conservative advancement on the distance between bounds, margins included.
+FirstContact of_grown(const MovingShape& a, const MovingShape& b, const ContinuousOptions& options,
+                      Work* work) {
+    const Motion motion_a(a.from, a.to, a.path), motion_b(b.from, b.to, b.path);
+    const Aabb<float> box_a = box_of(a, motion_a, b, motion_b),
+                      box_b = box_of(b, motion_b, a, motion_a);
+    const auto size = [](const MovingShape& of, const Aabb<float>& box) {
+        return of.shape.is_bounded() ? size_of(box) : 0;
+    };
+    const Approach approach{motion_a.longest_way(box_a) + motion_b.longest_way(box_b),
+                            reach_of(box_a, a.from) + reach_of(box_b, b.from),
+                            size(a, box_a) + size(b, box_b)};
+    return advance(approach, options, [&](double t, const DistanceOptions& near) -> MeshDistance {
+        const BodyDistance d = distance(PosedShape{a.shape, motion_a.at(t), a.margin},
+                                        PosedShape{b.shape, motion_b.at(t), b.margin}, near, work);
+        return {d.distance, d.lo, d.hi, d.point_a, d.point_b, d.parts};
+    });
+}
+
+/// Two half-spaces or planes of which one turns.
+bool turn_without_bounds(const MovingShape& a, const MovingShape& b) {
+    return !a.shape.is_bounded() && !b.shape.is_bounded() &&
+           !(a.from.rotation == a.to.rotation && b.from.rotation == b.to.rotation);
 }
 
 } // namespace
 
 FirstContact first_contact(const MovingShape& a, const MovingShape& b,
                            const ContinuousOptions& options, Work* work) {
-    if (!(options.tolerance >= 0))
-        throw std::invalid_argument("a tolerance must be at least 0");
+    check(options);
     FirstContact found;
     if (a.shape.empty() || b.shape.empty())
         return found;
@@ -131,14 +104,13 @@ FirstContact first_contact(const MovingShape& a, const MovingShape& b,
         found.t_hit = found.hit == Answer::yes ? 0 : 1;
         return found;
     }
-    if (turns_without_bounds(a) || turns_without_bounds(b)) {
-        found.hit = Answer::maybe;
-        found.t_free = 0;
-        return found;
-    }
-    if (margin_of(start_a, start_b) > 0)
-        return advance(Approaching(a), Approaching(b), options, work);
-    return of_surfaces(a, b, options, work);
+    if (margin_of(start_a, start_b) == 0)
+        return of_surfaces(a, b, options, work);
+    if (!turn_without_bounds(a, b))
+        return of_grown(a, b, options, work);
+    found.hit = Answer::maybe;
+    found.t_free = 0;
+    return found;
 }
 
 } // namespace boxwood

@@ -75,8 +75,8 @@ struct MovingShape {
     MotionPath path = MotionPath::linear;
     double margin = 0;
 };
-/// When they first share a point: FirstContact, whose triangles are parts. `maybe` also for
-/// half-spaces and planes that turn.
+/// When they first share a point: FirstContact, whose triangles are parts. `maybe` also for a
+/// half-space or plane that turns and meets what is convex.
 FirstContact first_contact(const MovingShape& a, const MovingShape& b,
                            const ContinuousOptions& options = {}, Work* work = nullptr);
 

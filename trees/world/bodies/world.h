@@ -204,6 +204,7 @@ class World {
     void each_pair(const Search& where, double tolerance, Work* work, const Visit& visit) const;
     std::vector<std::uint32_t> near_to(std::uint32_t body, double tolerance) const;
     void build_trees(std::span<const Pair> pairs) const;
+    std::vector<Pair> ready_pairs(double tolerance = 0) const;
     template <class Found, class Decide>
     std::vector<Found> decided(std::span<const Pair> pairs, const Decide& decide) const;
 

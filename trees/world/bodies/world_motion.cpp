@@ -66,6 +66,7 @@ std::vector<BodyFirstContact> World::first_contacts(std::span<const BodyMotion> 
         call.items = pairs.size();
     }
 
+    build_trees(pairs);
     const StageCounts::Call call(state_->counts, Stage::first_contact, pairs.size());
     const auto answers = decided<FirstContact>(
         pairs, [&](Pair p) { return first_contact(moved(p.a), moved(p.b), options); });

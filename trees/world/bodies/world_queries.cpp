@@ -32,6 +32,12 @@ std::vector<Pair> pairs_with(std::uint32_t body, std::span<const std::uint32_t> 
 
 } // namespace
 
+std::vector<Pair> World::ready_pairs(double tolerance) const {
+    std::vector<Pair> pairs = candidates(tolerance);
+    build_trees(pairs);
+    return pairs;
+}
+
 PosedShape World::posed(std::uint32_t body) const {
     const Body& of = at(body);
     return {*of.shape, of.pose, of.margin};
@@ -77,16 +83,17 @@ std::vector<BodyContact> World::contacts(std::uint32_t a, std::uint32_t b,
 }
 
 std::vector<Pair> World::collisions() const {
-    const std::vector<Pair> pairs = candidates();
+    const std::vector<Pair> pairs = ready_pairs();
     const StageCounts::Call call(state_->counts, Stage::collide, pairs.size());
     return not_denied(pairs, decided<Answer>(pairs, [&](Pair p) { return collide(p.a, p.b); }));
 }
 
 std::vector<std::uint32_t> World::collisions_of(std::uint32_t body) const {
     const std::vector<std::uint32_t> others = near_to(body, 0);
+    const std::vector<Pair> pairs = pairs_with(body, others);
+    build_trees(pairs);
     const StageCounts::Call call(state_->counts, Stage::collide, others.size());
-    const auto answers =
-        decided<Answer>(pairs_with(body, others), [&](Pair p) { return collide(p.a, p.b); });
+    const auto answers = decided<Answer>(pairs, [&](Pair p) { return collide(p.a, p.b); });
     std::vector<std::uint32_t> found;
     for (std::size_t i = 0; i < others.size(); ++i)
         if (answers[i] != Answer::no)
@@ -203,14 +210,14 @@ std::optional<BodyDistance> World::least_distance_of(std::uint32_t body, double 
 }
 
 std::vector<Pair> World::within(double tolerance) const {
-    const std::vector<Pair> pairs = candidates(tolerance);
+    const std::vector<Pair> pairs = ready_pairs(tolerance);
     const StageCounts::Call call(state_->counts, Stage::within, pairs.size());
     return not_denied(pairs,
                       decided<Answer>(pairs, [&](Pair p) { return within(p.a, p.b, tolerance); }));
 }
 
 std::vector<BodyDistance> World::distances(double tolerance) const {
-    const std::vector<Pair> pairs = candidates(tolerance);
+    const std::vector<Pair> pairs = ready_pairs(tolerance);
     const StageCounts::Call call(state_->counts, Stage::distance, pairs.size());
     DistanceOptions options; // at the tolerance is within
     options.limit = tolerance * (1 + 0x1p-31) + std::numeric_limits<double>::denorm_min();
@@ -220,7 +227,7 @@ std::vector<BodyDistance> World::distances(double tolerance) const {
 }
 
 std::vector<BodyContact> World::contacts(const ContactOptions& options) const {
-    const std::vector<Pair> pairs = candidates();
+    const std::vector<Pair> pairs = ready_pairs();
     const StageCounts::Call call(state_->counts, Stage::contacts, pairs.size());
     std::vector<BodyContact> all;
     for (const auto& of_pair : decided<std::vector<BodyContact>>(

@@ -110,12 +110,14 @@ BodyDistance surface_distance(const PosedShape& a, const PosedShape& b,
             of_mesh.start = Pair{options.start->b, options.start->a};
         return swapped(surface_distance(b, a, of_mesh, work));
     }
+    if (options.start && options.start->a == none)
+        of_mesh.start.reset();
     const MeshTree& mesh = a.shape.tree();
     const Pose b_in_a = relative_pose(a.pose, b.pose);
     if (!is_convex(b))
-        return posed(distance(mesh, b.shape.tree(), b_in_a, options, work), a.pose);
-    if (options.start)
-        of_mesh.start = Pair{options.start->a, 0};
+        return posed(distance(mesh, b.shape.tree(), b_in_a, of_mesh, work), a.pose);
+    if (of_mesh.start)
+        of_mesh.start->b = 0;
     BodyDistance found =
         posed(distance(mesh, b.shape.convex_shape(), b_in_a, of_mesh, work), a.pose);
     found.parts.b = none;

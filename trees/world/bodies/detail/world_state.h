@@ -65,11 +65,10 @@ void World::each_pair(const Search& where, double tolerance, Work* work, const V
         });
 }
 
-/// Answers about pairs, by the threads of the world.
+/// Answers about pairs, whose trees are built, by the threads of the world.
 template <class Found, class Decide>
 std::vector<Found> World::decided(std::span<const Pair> pairs, const Decide& decide) const {
     constexpr std::size_t some = 16; // to a task
-    build_trees(pairs);
     std::vector<Found> answers(pairs.size());
     executor_->for_each((pairs.size() + some - 1) / some, [&](std::size_t task) {
         for (std::size_t i = task * some; i < std::min(pairs.size(), (task + 1) * some); ++i)
