@@ -1,5 +1,6 @@
 #include "arrays.h"
 #include "core.h"
+#include "poses.h"
 
 #include "trees/world/mesh_contacts.h"
 
@@ -10,15 +11,8 @@
 namespace boxwood::python {
 namespace {
 
-/// A 4 x 4 matrix, or None for no motion.
-Pose pose_of(const py::object& given, const std::string& name) {
-    if (given.is_none())
-        return {};
-    const Rows<double> rows(given, name, {4});
-    if (rows.size() != 4)
-        throw py::value_error(name + ": an array of shape (4, 4) is wanted, not (" +
-                              std::to_string(rows.size()) + ", 4)");
-    const std::span<const double> m = rows.numbers();
+/// 16 numbers, row by row.
+Pose pose_of_matrix(std::span<const double> m, const std::string& name) {
     if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1)
         throw py::value_error(name + ": the last row is to be 0, 0, 0, 1");
     Pose pose;
@@ -33,23 +27,35 @@ Pose pose_of(const py::object& given, const std::string& name) {
     }
 }
 
-py::array point_of(const Vec3<double>& p) {
-    return array_of<double>(std::vector<double>{p.x, p.y, p.z});
+} // namespace
+
+Pose pose_of(const py::object& given, const std::string& name) {
+    if (given.is_none())
+        return {};
+    const Rows<double> rows(given, name, {4});
+    if (rows.size() != 4)
+        throw py::value_error(name + ": an array of shape (4, 4) is wanted, not (" +
+                              std::to_string(rows.size()) + ", 4)");
+    return pose_of_matrix(rows.numbers(), name);
 }
 
-class PyMesh {
-  public:
-    PyMesh(const py::object& vertices, const py::object& faces, const std::string& builder) {
-        TriangleMesh mesh = mesh_of(vertices, faces);
-        MeshTreeOptions options;
-        options.builder = make_builder(builder);
-        without_gil([&] { tree_.emplace(std::move(mesh), options); });
-    }
-    const MeshTree& tree() const { return *tree_; }
+std::vector<Pose> poses_of(const py::object& given, const std::string& name) {
+    const Rows<double> rows(given, name, {4, 4});
+    std::vector<Pose> poses;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        poses.push_back(pose_of_matrix(rows.numbers().subspan(16 * i, 16),
+                                       name + ": row " + std::to_string(i)));
+    return poses;
+}
 
-  private:
-    std::optional<MeshTree> tree_;
-};
+PyMesh::PyMesh(const py::object& vertices, const py::object& faces, const std::string& builder) {
+    TriangleMesh mesh = mesh_of(vertices, faces);
+    MeshTreeOptions options;
+    options.builder = make_builder(builder);
+    without_gil([&] { tree_ = std::make_shared<const MeshTree>(std::move(mesh), options); });
+}
+
+namespace {
 
 /// Two meshes, the second seen from the first.
 struct Posed {

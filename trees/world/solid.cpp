@@ -1,59 +1,21 @@
 #include "trees/world/solid.h"
 
 #include "kernels/convex/support.h"
-#include "trees/detail/places.h"
 #include "trees/world/mesh_shape.h"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 
 namespace boxwood {
-namespace {
-
-/// Which vertices hang together: sets that are joined.
-class Joined {
-  public:
-    explicit Joined(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
-    std::uint32_t top_of(std::uint32_t i) {
-        while (parent_[i] != i)
-            i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    void join(std::uint32_t i, std::uint32_t j) { parent_[top_of(i)] = top_of(j); }
-
-  private:
-    std::vector<std::uint32_t> parent_;
-};
-
-} // namespace
 
 Solid::Solid(TriangleMesh mesh, const MeshTreeOptions& options)
     : surface_(mesh, options), sides_(std::move(mesh)) {
     if (const std::size_t open = sides_.open_edges())
         throw std::invalid_argument("the mesh is no solid: " + std::to_string(open) +
                                     " of its edges belong to an odd number of triangles");
-    const TriangleMesh& held = surface_.mesh();
-    const std::vector<std::uint32_t> first = detail::places_of(held.vertices);
-    Joined joined(held.vertices.size());
-    for (const auto& [a, b, c] : held.triangles) {
-        joined.join(first[a], first[b]);
-        joined.join(first[a], first[c]);
-    }
-    std::map<std::uint32_t, std::vector<std::uint32_t>> parts;
-    for (const auto& triangle : held.triangles)
-        for (const std::uint32_t vertex : triangle)
-            parts[joined.top_of(first[vertex])].push_back(first[vertex]);
-    begin_.push_back(0);
-    for (auto& [top, vertices] : parts) {
-        std::ranges::sort(vertices);
-        const auto repeated = std::ranges::unique(vertices);
-        vertices_.insert(vertices_.end(), vertices.begin(), repeated.begin());
-        begin_.push_back(vertices_.size());
-    }
+    parts_ = detail::MeshParts(surface_.mesh());
 }
 
 std::optional<bool> Solid::holds(const Vec3<double>& point, double error) const {
@@ -72,12 +34,12 @@ std::optional<bool> Solid::holds(const Vec3<double>& point, double error) const 
     return std::nullopt;
 }
 
-bool Solid::holds(const Solid& other, std::size_t part, const Pose& other_in_this) const {
+bool Solid::holds(const TriangleMesh& other, std::span<const std::uint32_t> vertices,
+                  const Pose& other_in_this) const {
     const Vec3<double>& t = other_in_this.translation;
     const double error = 0x1p-46 * (std::abs(t.x) + std::abs(t.y) + std::abs(t.z));
-    for (const std::uint32_t vertex : other.vertices_of(part))
-        if (const auto inside =
-                holds(other_in_this(Vec3<double>(other.surface_.mesh().vertices[vertex])), error))
+    for (const std::uint32_t vertex : vertices)
+        if (const auto inside = holds(other_in_this(Vec3<double>(other.vertices[vertex])), error))
             return *inside;
     return !surface_.empty();
 }

@@ -1,15 +1,9 @@
-#include "bench/stages/ledger.h"
+#include "trees/world/bodies/ledger.h"
 
 #include <algorithm>
 #include <stdexcept>
 
-namespace boxwood::bench {
-
-Ledger::Ledger(std::span<const PlannedStage> plan) {
-    for (const PlannedStage& stage : plan)
-        rows_.push_back(
-            {.stage = stage.name, .effect = stage.effect, .is_required = stage.is_required});
-}
+namespace boxwood {
 
 std::size_t Ledger::index_of(std::string_view stage) const {
     const auto found = std::ranges::find(rows_, stage, &LedgerRow::stage);
@@ -17,8 +11,6 @@ std::size_t Ledger::index_of(std::string_view stage) const {
         throw std::logic_error("no stage " + std::string(stage) + " in the ledger");
     return static_cast<std::size_t>(found - rows_.begin());
 }
-
-const LedgerRow& Ledger::row(std::string_view stage) const { return rows_[index_of(stage)]; }
 
 double Ledger::total_ns() const {
     double sum = 0;
@@ -34,4 +26,4 @@ void Ledger::clear() {
     }
 }
 
-} // namespace boxwood::bench
+} // namespace boxwood

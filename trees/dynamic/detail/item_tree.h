@@ -1,6 +1,6 @@
 #pragma once
 
-#include "trees/adapters/detail/changed_items.h"
+#include "trees/dynamic/detail/changed_items.h"
 #include "trees/dynamic/detail/moving_tree.h"
 
 #include <cstddef>

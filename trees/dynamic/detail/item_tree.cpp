@@ -1,4 +1,4 @@
-#include "trees/adapters/detail/item_tree.h"
+#include "trees/dynamic/detail/item_tree.h"
 
 #include <algorithm>
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "trees/dynamic/detail/lane_groups.h"
 #include "trees/function_ref.h"
+#include "trees/inspect/work.h"
 #include "trees/layouts/packed.h"
 
 #include <algorithm>
@@ -31,8 +33,12 @@ class NearestFirst {
                                : std::numeric_limits<float>::infinity();
     }
 
-    /// `limit` is read after each decision: squared_limit of the least distance so far.
-    explicit NearestFirst(const float& limit) : limit_(limit) {}
+    /// `limit` is read after each decision: squared_limit of the least distance so far. groups: of
+    /// the tree of self_pairs; those that may not meet are not decided about, nor blocks of such
+    /// opened. `work`, if given, is added to.
+    explicit NearestFirst(const float& limit, const LaneGroups* groups = nullptr,
+                          Work* work = nullptr)
+        : limit_(limit), groups_(groups), work_(work) {}
 
     /// Items by their distance to a box; the second item handed on is 0.
     bool near_box(const PackedLayout& tree, const Box& box, Decide decide) const;
@@ -40,8 +46,14 @@ class NearestFirst {
     bool self_pairs(const PackedLayout& tree, Decide decide) const;
     bool tree_pairs(const PackedLayout& a, const PackedLayout& b, Decide decide) const;
 
+    /// Every two items of one tree once whose boxes are at the limit or nearer, which stays: 0 of
+    /// those that overlap. In an order that depends on the tree alone.
+    bool all_self_pairs(const PackedLayout& tree, Decide decide) const;
+
   private:
     const float& limit_;
+    const LaneGroups* groups_;
+    Work* work_;
 };
 
 } // namespace boxwood::detail
