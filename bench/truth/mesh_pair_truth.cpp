@@ -1,11 +1,8 @@
 #include "bench/truth/mesh_pair_truth.h"
 
-#include "bench/tasks/detail/mesh_pair_task.h"
-#include "bench/truth/column_sweep.h"
-#include "bench/truth/nearest_triangles.h"
-#include "kernels/arithmetic/rounding.h"
+#include "bench/tasks/detail/mesh_pair_answers.h"
+#include "bench/truth/posed_triangles.h"
 #include "kernels/oracle/nearest.h"
-#include "kernels/oracle/oracle.h"
 
 #include <fmt/format.h>
 
@@ -15,49 +12,13 @@
 namespace boxwood::bench {
 namespace {
 
-using Triangles = std::vector<Triangle<double>>;
-
-Triangle<double> posed(const TriangleMesh& mesh, std::size_t i, const Pose& pose) {
-    const Triangle<float> t = mesh.triangle(i);
-    return {pose(Vec3<double>(t.a)), pose(Vec3<double>(t.b)), pose(Vec3<double>(t.c))};
-}
-
-Triangles triangles_at(const TriangleMesh& mesh, const Pose& pose) {
-    Triangles all;
-    all.reserve(mesh.triangles.size());
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-        all.push_back(posed(mesh, i, pose));
-    return all;
-}
-
-/// The pairs of triangles of two sides that share a point, ascending.
-std::vector<Pair> touching(const Triangles& a, const Triangles& b, unsigned threads) {
-    std::vector<Aabb<float>> boxes;
-    for (const Triangles* side : {&a, &b})
-        for (const Triangle<double>& t : *side)
-            boxes.push_back(round_outward(t.bounds()));
-    std::vector<Pair> candidates = ColumnSweep(boxes, threads).pairs();
-    std::erase_if(candidates, [&](Pair p) { return p.a >= a.size() || p.b < a.size(); });
-    std::vector<std::uint8_t> touch(candidates.size());
-    make_executor("tbb", threads)->for_each(candidates.size(), [&](std::size_t i) {
-        const Pair p = candidates[i];
-        touch[i] = oracle::intersect(a[p.a], b[p.b - a.size()]);
-    });
-    std::vector<Pair> found;
-    for (std::size_t i = 0; i < candidates.size(); ++i)
-        if (touch[i])
-            found.push_back(
-                {candidates[i].a, static_cast<std::uint32_t>(candidates[i].b - a.size())});
-    return found;
-}
-
 class TouchTruth final : public Truth {
   public:
     TouchTruth(const Scene& scene, bool wants_pairs, unsigned threads) : wants_pairs_(wants_pairs) {
-        const Triangles mesh = triangles_at(scene.mesh, {});
+        const PosedTriangles mesh = triangles_at(scene.mesh, {});
         for (std::uint32_t i = 0; i < scene.poses.size(); ++i) {
             const std::vector<Pair> pairs =
-                touching(mesh, triangles_at(scene.mesh, scene.poses[i]), threads);
+                touching_pairs(mesh, triangles_at(scene.mesh, scene.poses[i]), threads);
             touches_.push_back(!pairs.empty());
             for (const Pair pair : pairs)
                 pairs_.push_back({i, pair.a, pair.b});
@@ -118,17 +79,8 @@ class TouchTruth final : public Truth {
 class MeshDistanceTruth final : public Truth {
   public:
     MeshDistanceTruth(const Scene& scene, unsigned threads)
-        : scene_(scene), mesh_(triangles_at(scene.mesh, {})), least_(scene.poses.size()) {
-        const NearestTriangles still(mesh_);
-        make_executor("tbb", threads)->for_each(least_.size(), [&](std::size_t i) {
-            NearestTriangles copy = still;
-            copy.move(triangles_at(scene.mesh, scene.poses[i]));
-            least_[i] = still.to(copy);
-        });
-        for (const Triangle<double>& t : mesh_)
-            for (const Vec3<double> p : {t.a, t.b, t.c})
-                size_ = std::max({size_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    }
+        : scene_(scene), mesh_(triangles_at(scene.mesh, {})),
+          least_(least_distances(scene, threads)), size_(size_of(mesh_)) {}
 
     Judgement judge(const Answers& answers, const ContenderEntry& contender) override {
         Judgement judgement;
@@ -162,7 +114,7 @@ class MeshDistanceTruth final : public Truth {
         };
         if (got.triangles.a >= mesh_.size() || got.triangles.b >= mesh_.size())
             return complain(check.missing, "no triangles are named");
-        const Triangle<double> b = posed(scene_.mesh, got.triangles.b, scene_.poses[i]);
+        const Triangle<double> b = triangle_at(scene_.mesh, got.triangles.b, scene_.poses[i]);
         const double named =
             std::sqrt(oracle::nearest(mesh_[got.triangles.a], b).squared.get_d());
         const auto [truth, lo] = least_[i];
@@ -185,9 +137,50 @@ class MeshDistanceTruth final : public Truth {
     }
 
     const Scene& scene_;
-    Triangles mesh_;
+    PosedTriangles mesh_;
     std::vector<NearestTriangles::Least> least_; ///< by pose
-    double size_ = 0;                            ///< the mesh's greatest |coordinate|
+    double size_;
+};
+
+/// Of the poses: on which side of a tolerance. Nearer to it than 2^-30 of it both answers are right.
+class WithinTruth final : public Truth {
+  public:
+    WithinTruth(const Scene& scene, double tolerance, unsigned threads)
+        : tolerance_(tolerance), least_(least_distances(scene, threads)) {}
+
+    Judgement judge(const Answers& answers, const ContenderEntry&) override {
+        Judgement judgement;
+        results::Check& check = judgement.check;
+        check.oracle = "rational";
+        const std::vector<std::uint8_t>& got = list_of<std::uint8_t>(answers);
+        check.n_checked = check.n_expected = least_.size();
+        check.n_got = got.size();
+        if (got.size() != least_.size()) {
+            check.missing = least_.size();
+            check.witness = fmt::format("{} answers for {} poses", got.size(), least_.size());
+        } else {
+            for (std::size_t i = 0; i < got.size(); ++i)
+                judge_pose(i, got[i] != 0, check);
+        }
+        judgement.conclude(true);
+        return judgement;
+    }
+
+  private:
+    void judge_pose(std::size_t i, bool is_near, results::Check& check) const {
+        const auto [distance, lo] = least_[i];
+        const bool must = distance <= tolerance_ * (1 - 0x1p-30);
+        const bool must_not = lo > tolerance_ * (1 + 0x1p-30);
+        if (is_near ? !must_not : !must)
+            return;
+        ++(is_near ? check.extra : check.missing);
+        if (check.witness.empty())
+            check.witness = fmt::format("pose {}: said to be {} {} apart, and they are {}", i,
+                                        is_near ? "at most" : "more than", tolerance_, distance);
+    }
+
+    double tolerance_;
+    std::vector<NearestTriangles::Least> least_; ///< by pose
 };
 
 } // namespace
@@ -200,6 +193,9 @@ std::unique_ptr<Truth> make_touching_truth(const Scene& scene, unsigned threads)
 }
 std::unique_ptr<Truth> make_mesh_distance_truth(const Scene& scene, unsigned threads) {
     return std::make_unique<MeshDistanceTruth>(scene, threads);
+}
+std::unique_ptr<Truth> make_within_truth(const Scene& scene, double tolerance, unsigned threads) {
+    return std::make_unique<WithinTruth>(scene, tolerance, threads);
 }
 
 } // namespace boxwood::bench

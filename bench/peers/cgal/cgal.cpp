@@ -2,6 +2,7 @@
 #define CGAL_LINKED_WITH_TBB
 #include "bench/peers/answering.h"
 #include "bench/peers/kernel_peers.h"
+#include "bench/peers/mesh_peers.h"
 #include "bench/peers/point_peers.h"
 #include "scenes/moving/frames.h"
 
@@ -140,6 +141,8 @@ Peer cgal_peer() {
                   cutoff, {answering<BoxIntersection>("tree_pairs", Sides::two_halves, cutoff)}));
     }
     for (ContenderEntry& e : cgal_points())
+        peer.contenders.push_back(std::move(e));
+    for (ContenderEntry& e : cgal_meshes())
         peer.contenders.push_back(std::move(e));
     for (ContenderEntry& e : cgal_kernels())
         peer.contenders.push_back(std::move(e));

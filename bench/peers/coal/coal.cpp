@@ -1,5 +1,6 @@
 #include "bench/peers/coal/module.h"
 #include "bench/peers/comers.h"
+#include "bench/tasks/detail/median_distance.h"
 #include "bench/tasks/moving_pairs.h"
 
 #include <dlfcn.h>
@@ -104,6 +105,65 @@ ContenderEntry kernel(std::string name, std::string task, std::string summary, s
     return e;
 }
 
+struct MeshRow {
+    const char* name;
+    const char* task;
+    const char* how;
+    CoalVolume volume;
+    CoalMeshQuery query;
+};
+constexpr MeshRow mesh_rows[] = {
+    {"obbrss", "collide", "collide for one contact, enable_contact off", CoalVolume::obbrss,
+     CoalMeshQuery::first_touch},
+    {"obbrss.contact", "collide", "collide for one contact, enable_contact on, its default",
+     CoalVolume::obbrss, CoalMeshQuery::first_contact},
+    {"obb", "collide", "collide for one contact, enable_contact off", CoalVolume::obb,
+     CoalMeshQuery::first_touch},
+    {"obbrss.all", "collide_all", "collide for all contacts, enable_contact off",
+     CoalVolume::obbrss, CoalMeshQuery::all_touches},
+    {"obb.all", "collide_all", "collide for all contacts, enable_contact off", CoalVolume::obb,
+     CoalMeshQuery::all_touches},
+    {"obbrss.contacts", "contacts",
+     "collide for all contacts, enable_contact on, and a sort by depth", CoalVolume::obbrss,
+     CoalMeshQuery::all_contacts},
+    {"obb.contacts", "contacts", "collide for all contacts, enable_contact on, and a sort by depth",
+     CoalVolume::obb, CoalMeshQuery::all_contacts},
+    {"obbrss.distance", "distance", "distance, not signed", CoalVolume::obbrss,
+     CoalMeshQuery::least_distance},
+    {"rss.distance", "distance", "distance, not signed", CoalVolume::rss,
+     CoalMeshQuery::least_distance},
+    {"obbrss.tolerance", "tolerance",
+     "collide for one contact, enable_contact off, where the tolerance is the security margin: it "
+     "ends at the first pair of triangles that is near enough",
+     CoalVolume::obbrss, CoalMeshQuery::within_margin},
+    {"obb.tolerance", "tolerance",
+     "collide for one contact, enable_contact off, where the tolerance is the security margin: it "
+     "ends at the first pair of triangles that is near enough",
+     CoalVolume::obb, CoalMeshQuery::within_margin},
+};
+
+ContenderEntry meshes(const MeshRow& of) {
+    constexpr const char* volumes[] = {"OBBRSS", "OBB", "RSS"};
+    const bool is_distance = of.query == CoalMeshQuery::least_distance;
+    ContenderEntry e = row(
+        of.name,
+        fmt::format("BVHModel of {}, {}", volumes[static_cast<std::size_t>(of.volume)], of.how),
+        fmt::format("build = one model, which stands for the mesh and for its copy; query = {}, "
+                    "pose after pose, at the same model; {}; doubles, equal to the scene's floats; "
+                    "one thread",
+                    of.how,
+                    is_distance ? "triangles by PQP's distance"
+                                : "triangles by GJK; break_distance 0, as nobody reads the "
+                                  "distance that its default of 1e-3 is for"));
+    e.answers = {{of.task, [of](const Job& job) {
+                      const bool needs_tolerance = of.query == CoalMeshQuery::within_margin;
+                      return module().meshes(
+                          job, of.volume, of.query,
+                          needs_tolerance ? median_distance(*job.scene) : 0);
+                  }}};
+    return e;
+}
+
 } // namespace
 
 Peer coal_peer() {
@@ -114,6 +174,8 @@ Peer coal_peer() {
     peer.version = BOXWOOD_COAL_VERSION;
     peer.build = "the package index's library: double precision, SSE2";
     peer.contenders = managers();
+    for (const MeshRow& of : mesh_rows)
+        peer.contenders.push_back(meshes(of));
     const std::string shapes = "on two TriangleP, enable_contact ";
     peer.contenders.push_back(kernel("collide", "triangle_triangle",
                                      "ComputeCollision " + shapes + "off",

@@ -159,4 +159,5 @@ std::unique_ptr<Contender> make_kernel(const Job& job, CoalKernel kernel) {
 
 extern "C" [[gnu::visibility("default")]] const boxwood::bench::CoalModule boxwood_coal;
 const boxwood::bench::CoalModule boxwood_coal{boxwood::bench::make_manager,
-                                              boxwood::bench::make_kernel};
+                                              boxwood::bench::make_kernel,
+                                              boxwood::bench::make_coal_meshes};

@@ -1,7 +1,7 @@
 #include "bench/peers/answering.h"
 #include "bench/peers/comers.h"
 #include "bench/peers/fcl/fcl_bounds.h"
-#include "bench/peers/fcl/mesh_peers.h"
+#include "bench/peers/mesh_peers.h"
 #include "bench/peers/kernel_peers.h"
 #include "bench/peers/point_peers.h"
 #include "bench/tasks/moving_pairs.h"
