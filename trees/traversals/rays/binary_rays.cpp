@@ -1,8 +1,8 @@
 #include "kernels/arithmetic/rounding.h"
 #include "kernels/ray_box/slabs.h"
 #include "trees/layouts/binary.h"
-#include "trees/traversals/ray_traversal.h"
-#include "trees/traversals/ray_tree.h"
+#include "trees/traversals/rays/ray_traversal.h"
+#include "trees/traversals/rays/ray_tree.h"
 
 namespace boxwood::detail {
 namespace {

@@ -7,7 +7,7 @@
 #endif
 
 #include "trees/queries/single_rays.h"
-#include "trees/traversals/ray_wave-inl.h"
+#include "trees/traversals/rays/ray_wave-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::detail::HWY_NAMESPACE {

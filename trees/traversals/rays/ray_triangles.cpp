@@ -1,6 +1,6 @@
 #include "kernels/arithmetic/rounding.h"
 #include "trees/queries/rays.h"
-#include "trees/traversals/ray_tree.h"
+#include "trees/traversals/rays/ray_tree.h"
 
 #include <stdexcept>
 #include <vector>

@@ -9,7 +9,7 @@
 #include <hwy/highway.h>
 
 #include "kernels/ray_box/fused_slabs.h"
-#include "trees/traversals/ray_tree.h"
+#include "trees/traversals/rays/ray_tree.h"
 
 #include <algorithm>
 #include <array>

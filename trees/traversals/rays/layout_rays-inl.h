@@ -5,9 +5,9 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
-#include "trees/traversals/node_rays-inl.h"
-#include "trees/traversals/ray_traversal.h"
-#include "trees/traversals/single_rays-inl.h"
+#include "trees/traversals/rays/node_rays-inl.h"
+#include "trees/traversals/rays/ray_traversal.h"
+#include "trees/traversals/rays/single_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::detail::HWY_NAMESPACE {

@@ -5,7 +5,7 @@
 #include "trees/layouts/packed.h"
 #include "trees/layouts/quantised8.h"
 #include "trees/layouts/wide.h"
-#include "trees/traversals/ray_range.h"
+#include "trees/traversals/rays/ray_range.h"
 
 #include <type_traits>
 

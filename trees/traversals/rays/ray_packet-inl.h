@@ -8,8 +8,8 @@
 
 #include <hwy/cache_control.h>
 
-#include "trees/traversals/coherent_rays.h"
-#include "trees/traversals/ray_steps-inl.h"
+#include "trees/traversals/rays/coherent_rays.h"
+#include "trees/traversals/rays/ray_steps-inl.h"
 
 #include <algorithm>
 #include <array>

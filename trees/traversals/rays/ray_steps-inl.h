@@ -9,8 +9,8 @@
 #include "kernels/simd/moller_trumbore_block-inl.h"
 #include "kernels/simd/watertight_block-inl.h"
 #include "trees/traversals/compress-inl.h"
-#include "trees/traversals/node_clip-inl.h"
-#include "trees/traversals/ray_traversal.h"
+#include "trees/traversals/rays/node_clip-inl.h"
+#include "trees/traversals/rays/ray_traversal.h"
 
 #include <bit>
 #include <type_traits>

@@ -6,8 +6,8 @@
 #define BOXWOOD_NODE_RAYS_INL_H
 #endif
 
-#include "trees/traversals/ray_packet-inl.h"
-#include "trees/traversals/ray_wave-inl.h"
+#include "trees/traversals/rays/ray_packet-inl.h"
+#include "trees/traversals/rays/ray_wave-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::detail::HWY_NAMESPACE {

@@ -1,7 +1,7 @@
 #include "trees/queries/rays.h"
 #include "trees/layouts/binary.h"
-#include "trees/traversals/ray_traversal.h"
-#include "trees/traversals/ray_tree.h"
+#include "trees/traversals/rays/ray_traversal.h"
+#include "trees/traversals/rays/ray_tree.h"
 
 namespace boxwood::detail {
 

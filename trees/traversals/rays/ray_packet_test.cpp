@@ -6,7 +6,7 @@
 #include "trees/testing/layouts_answering.h"
 #include "trees/testing/ray_scenes.h"
 #include "trees/testing/triangle_soup.h"
-#include "trees/traversals/coherent_rays.h"
+#include "trees/traversals/rays/coherent_rays.h"
 
 #include <gtest/gtest.h>
 

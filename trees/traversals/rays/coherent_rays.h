@@ -2,7 +2,7 @@
 
 #include "kernels/primitives/ray.h"
 #include "kernels/ray_box/fused_slabs.h"
-#include "trees/traversals/ray_traversal.h"
+#include "trees/traversals/rays/ray_traversal.h"
 
 #include <algorithm>
 #include <cmath>
