@@ -87,21 +87,14 @@ Pose read_pose(const std::string& text, const std::string& option) {
     }
     if (!row.empty() && row.back() == ',')
         row.pop_back();
-    Pose pose;
+    std::vector<double> matrix;
     const auto take_matrix = [&](std::span<const double> m, std::size_t) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            pose.rotation[i] = {m[4 * i], m[4 * i + 1], m[4 * i + 2]};
-            pose.translation[static_cast<int>(i)] = m[4 * i + 3];
-        }
-        if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1)
-            throw BadInput(fmt::format("{}: the last row is {},{},{},{}; that of a rigid "
-                                       "transform is 0,0,0,1 (the numbers go row by row)",
-                                       option, m[12], m[13], m[14], m[15]));
+        matrix.assign(m.begin(), m.end());
     };
     if (read_csv(row, option, {"16 numbers, a 4 x 4 matrix row by row", 16, 16}, take_matrix) == 0)
         throw BadInput(option + " is empty; it takes 16 numbers, a 4 x 4 matrix row by row");
     try {
-        return checked_pose(pose);
+        return pose_of_matrix(std::span(matrix).first<16>());
     } catch (const std::invalid_argument& error) {
         throw BadInput(fmt::format("{}: {}", option, error.what()));
     }

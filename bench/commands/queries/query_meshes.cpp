@@ -33,9 +33,7 @@ class Bodies {
     const Pose& b_in_a() const { return b_in_a_; }
     /// In world coordinates.
     Vec3<double> point(const Vec3<double>& in_a) const { return pose_a_(in_a); }
-    Vec3<double> direction(const Vec3<double>& in_a) const {
-        return pose_a_(in_a) - pose_a_.translation;
-    }
+    Vec3<double> direction(const Vec3<double>& in_a) const { return pose_a_.rotated(in_a); }
 
   private:
     Pose pose_a_, b_in_a_;
