@@ -36,7 +36,7 @@ def files(tmp_path):
         (("--boxes", "boxes.csv", "--task", "moving"), "--task moving is for --scene"),
         (("--boxes", "empty.obj"), "empty.obj: it holds no rows of min_x"),
         (("--scene", "warehous"), "unknown scene 'warehous'; did you mean 'warehouse'?"),
-        (("--scene", "absent.toml"), "absent.toml: cannot read it"),
+        (("--scene", "absent.toml"), "absent.toml: no such file"),
         (("--scene", "sphere_mesh"), "unknown scene 'sphere_mesh'"),
         (("--motion", "absent.csv"), "absent.csv"),
     ],
