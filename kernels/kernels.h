@@ -88,5 +88,6 @@
 #include "kernels/convex/first_contact.h"   // when two in motion first touch, between bounds
 #include "kernels/convex/motion.h"          // rigid, along lines and screws
 #include "kernels/convex/shapes.h"          // spheres, boxes, ... hulls; one of any kind
+#include "kernels/convex/shared_point.h"    // of a triangle and a shape that touch
 #include "kernels/convex/signed_distance.h" // distance or depth between bounds; yes or no
 #include "kernels/convex/support.h"         // farthest points, extents, boxes of posed shapes

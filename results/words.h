@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string_view>
 
 /// What has few values: enums in the program, words on disk.
@@ -97,14 +96,6 @@ concept Worded = requires {
 
 template <Worded Enum> constexpr std::string_view to_string(Enum value) {
     return Words<Enum>::all[static_cast<std::size_t>(value)];
-}
-
-/// Nothing for a word that is not one of them.
-template <Worded Enum> constexpr std::optional<Enum> from_string(std::string_view word) {
-    for (std::size_t i = 0; i < Words<Enum>::all.size(); ++i)
-        if (Words<Enum>::all[i] == word)
-            return static_cast<Enum>(i);
-    return std::nullopt;
 }
 
 } // namespace boxwood::results

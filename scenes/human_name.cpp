@@ -95,6 +95,8 @@ std::string human_name(const SceneSpec& spec) {
     if (!spec.poses.empty())
         text += fmt::format(", {} of a copy, {}", counted(spec.n_poses, "pose", "poses"),
                             spaced(spec.poses));
+    if (!spec.motion.empty())
+        text += fmt::format(", {} motion", spaced(spec.motion));
     if (spec.k && spec.n_points != 0)
         text += fmt::format(", {} nearest each", *spec.k);
     return text;

@@ -178,6 +178,13 @@ const SceneEntry& checked(const SceneSpec& spec) {
             throw std::invalid_argument(
                 fmt::format("scene {}: poses are wanted, but n_poses is 0", entry.name));
     }
+    if (!spec.motion.empty()) {
+        check_motion_path(spec.motion);
+        if (spec.poses.empty() || spec.n_poses < 2)
+            throw std::invalid_argument(fmt::format(
+                "scene {}: a {} motion is from pose to pose; give poses, and n_poses of at least 2",
+                entry.name, spec.motion));
+    }
     return entry;
 }
 
@@ -203,6 +210,8 @@ std::string scene_name(const SceneSpec& spec) {
         name += spec.regions.empty() ? "_points" : '_' + spec.regions;
     if (!spec.poses.empty())
         name += '_' + spec.poses;
+    if (!spec.motion.empty())
+        name += '_' + spec.motion;
     if (spec.k && *spec.k != 1)
         name += signed_atom("k", *spec.k);
     return name;
@@ -268,6 +277,8 @@ Scene make_scene(const SceneSpec& spec) {
         scene.poses = make_poses(spec.poses, scene.mesh, spec.n_poses, spec.seed);
         add_params(scene, fmt::format(R"("poses":"{}","n_poses":{})", spec.poses, spec.n_poses));
     }
+    if (!spec.motion.empty())
+        add_params(scene, fmt::format(R"("motion":"{}")", spec.motion));
     lay_queries(scene, spec);
     scene.content_hash = hash_of(scene);
     return scene;

@@ -35,6 +35,7 @@ struct SceneSpec {
     std::string regions{};             ///< a name of `region_kinds()`, or empty for no regions
     std::string poses{};     ///< a name of `pose_kinds()`, or empty for no poses (mesh scenes)
     std::size_t n_poses = 0; ///< number of poses
+    std::string motion{};    ///< a name of `motion_paths()` from pose to pose, or empty for none
     /// A scene that moves, instead of a generator's: its n and seed are those of the spec, and
     /// what is made is its frame 0.
     std::shared_ptr<const SceneFile> moving{};

@@ -89,7 +89,7 @@ std::span<const UpdateEntry> updates() {
 }
 
 std::span<const TraversalEntry> traversals() {
-    static constexpr std::array<TraversalEntry, 9> entries{{
+    static constexpr std::array<TraversalEntry, 10> entries{{
         // in the order of `Query`
         {"self_pairs", "every unordered pair of overlapping items of one tree, once"},
         {"tree_pairs", "every overlapping pair between the items of two trees, once"},
@@ -100,6 +100,7 @@ std::span<const TraversalEntry> traversals() {
         {"closest_points", "for each point the nearest point of a mesh"},
         // further ways to answer rays
         {"sorted_rays", "rays of a batch taken by direction and place, answers put back"},
+        {"tiled_rays", "rays of a picture taken by tiles of 4 x 4 pixels, answers put back"},
         {"single_rays", "one ray in a call, as fast alone as it can be"},
     }};
     return entries;

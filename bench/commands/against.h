@@ -7,13 +7,8 @@
 
 namespace boxwood::bench {
 
-/// Where the results of the other program go: FILE.base.h5 beside FILE.h5.
-std::filesystem::path base_file_of(const std::filesystem::path& out);
-
-/// `boxwood sweep --against PROGRAM`: the rounds of this program and of an older or newer one take
-/// turns, so that what the machine does meets both alike; then their files are compared. Both are
-/// ordinary sweeps, which go on where they were interrupted. Gives compare's exit code; throws
-/// BadInput if a program cannot do the sweep.
+/// `boxwood sweep --against PROGRAM`: sweep_in_turns; then both files are compared. Gives compare's
+/// exit code, or exit_interrupted. Throws BadInput if a program cannot do the sweep.
 int run_against(const std::filesystem::path& program, const SweepOptions& options,
                 const FileOptions& compared);
 

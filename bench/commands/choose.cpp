@@ -1,4 +1,5 @@
 #include "bench/advice/advice.h"
+#include "bench/advice/candidates.h"
 #include "bench/advice/policies.h"
 #include "bench/commands/command.h"
 #include "bench/io/read_results.h"
@@ -144,10 +145,11 @@ class Chooser {
         const std::string first = std::string(question_.layout);
         const fs::path once = sweep_.folder() / "first.h5";
         if (const int code = sweep_.run(block(builders_to_try(), {first}, false) +
-                                            block({"binned_sah"}, layouts_to_try(), false),
+                                            block({tried_builder}, layouts_to_try(), false),
                                         once, 0))
             return code;
-        const auto [builders, layouts] = survivors(read_results(once));
+        const auto [builders, layouts] =
+            candidates_of(advise(read_results(once)), question_.layout, tried_builder);
         const double spent =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         say(fmt::format("timing {} x {}, and the peers\n", fmt::join(builders, ", "),
@@ -168,6 +170,8 @@ class Chooser {
     }
 
   private:
+    static constexpr const char* tried_builder = "binned_sah"; ///< that layouts are tried under
+
     std::vector<std::string> layouts_to_try() const {
         std::vector<std::string> all;
         for (const LayoutEntry& layout : layouts())
@@ -182,43 +186,6 @@ class Chooser {
                            options_.mesh.empty() ? "boxes" : "mesh", question_.block,
                            quoted_list(builders), quoted_list(layouts),
                            with_peers ? fmt::format("peers = [{}]\n", question_.peers) : "");
-    }
-
-    /// Those that may be best for some number of queries: within 1.2 times the least time there is
-    /// for it, and no other is better in both. Of builders in one layout, of layouts under one
-    /// builder.
-    std::pair<std::vector<std::string>, std::vector<std::string>>
-    survivors(const results::Results& results) const {
-        const Advice once = advise(results);
-        std::vector<std::string> builders, layouts;
-        const auto is_bettered = [&](const Way& way) {
-            return std::ranges::any_of(once.ways, [&](const Way& other) {
-                const bool is_like = other.layout == way.layout || other.builder == way.builder;
-                return is_like && other.build_ns < .9 * way.build_ns &&
-                       other.query_ns < .95 * way.query_ns;
-            });
-        };
-        const auto keep = [&](const auto& is_meant, const auto& name,
-                              std::vector<std::string>& to) {
-            for (double queries = 1; queries < 1e12; queries *= 2) {
-                const auto total = [&](const Way& way) {
-                    return way.build_ns + queries / once.n_queries * way.query_ns;
-                };
-                double least = std::numeric_limits<double>::infinity();
-                for (const Way& way : once.ways)
-                    if (is_meant(way))
-                        least = std::min(least, total(way));
-                for (const Way& way : once.ways)
-                    if (is_meant(way) && total(way) <= 1.2 * least && !is_bettered(way) &&
-                        std::ranges::find(to, name(way)) == to.end())
-                        to.push_back(name(way));
-            }
-        };
-        keep([&](const Way& way) { return way.layout == question_.layout; },
-             [](const Way& way) { return way.builder; }, builders);
-        keep([](const Way& way) { return way.builder == "binned_sah"; },
-             [](const Way& way) { return way.layout; }, layouts);
-        return {builders, layouts};
     }
 
     const ChooseOptions& options_;

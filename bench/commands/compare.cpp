@@ -164,10 +164,9 @@ std::string_view gate_word(Gate gate) {
 std::string file_text(std::string_view which, const Results& results) {
     std::string text;
     for (const auto& env : results.env)
-        text += fmt::format("{}{}{} on {}, {}", text.empty() ? "" : "; ",
-                            env.git_commit.empty() ? "?" : env.git_commit.substr(0, 12),
-                            env.git_dirty ? " with changes" : "", env.host.empty() ? "?" : env.host,
-                            env.cpu.empty() ? "?" : env.cpu);
+        text += fmt::format(
+            "{}{}{} on {}, {}", text.empty() ? "" : "; ", or_unknown(env.git_commit.substr(0, 12)),
+            env.git_dirty ? " with changes" : "", or_unknown(env.host), or_unknown(env.cpu));
     return fmt::format("{}: {}{}\n", which, text.empty() ? "no machine named" : text,
                        results.is_sealed
                            ? ""

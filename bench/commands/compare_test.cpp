@@ -139,10 +139,10 @@ TEST(CompareCommand, OnAnotherProcessorTimesSayNothing) {
     EXPECT_THAT(text, StartsWith("CAN'T TELL: the processors differ, and so do times for that "
                                  "alone (--any-processor compares all the same); "));
     EXPECT_THAT(text, Not(HasSubstr("head is"))); // no table
-    FileOptions told;
-    told.any_processor = true;
-    EXPECT_EQ(compare_files(timed(100), head, told).gate, Gate::fails);
-    EXPECT_THAT(comparison_text(timed(100), head, compare_files(timed(100), head, told), told),
+    FileOptions forced;
+    forced.any_processor = true;
+    EXPECT_EQ(compare_files(timed(100), head, forced).gate, Gate::fails);
+    EXPECT_THAT(comparison_text(timed(100), head, compare_files(timed(100), head, forced), forced),
                 StartsWith("REGRESSION: 1 of 1 timings slower"));
     head.checks[0].status = results::Status::wrong;
     analyse(head);

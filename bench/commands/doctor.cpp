@@ -3,6 +3,7 @@
 #include "bench/commands/command.h"
 #include "bench/commands/devices.h"
 #include "bench/io/json.h"
+#include "bench/io/text_table.h"
 #include "bench/machine/environment.h"
 #include "bench/tasks/contender.h"
 #include "bench/tasks/instruction_sets.h"
@@ -25,10 +26,7 @@ std::string_view to_string(Level level) {
 }
 
 std::string size_text(std::optional<std::uint64_t> bytes) {
-    if (!bytes)
-        return "unknown";
-    return *bytes >= (1u << 20) ? fmt::format("{} MiB", *bytes >> 20)
-                                : fmt::format("{} KiB", *bytes >> 10);
+    return bytes ? bytes_text(*bytes) : "unknown";
 }
 
 Finding cores(const Machine& m) {

@@ -138,7 +138,7 @@ void add_explain(CLI::App& app, int&) {
     ray->add_option("item", of_one->items, "which ray of --rays, from 0")->expected(0, 1);
     ray->add_option("--mesh", of_one->mesh, "a mesh (OBJ, PLY, STL, ...)")->required();
     CLI::Option* const from_file =
-        ray->add_option("--rays", of_one->rays, "rays (CSV, ox,oy,oz,dx,dy,dz[,t_max])");
+        ray->add_option("--rays", of_one->rays, "rays (CSV, ox,oy,oz,dx,dy,dz[,tmax])");
     ray->add_option("--ray", of_one->ray, "ox,oy,oz,dx,dy,dz")
         ->delimiter(',')
         ->expected(6)

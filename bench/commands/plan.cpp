@@ -147,7 +147,7 @@ std::string played_text(const SceneFile& file, std::size_t frames, const Executo
         return fmt::format("{:.1f} %", of.total_ns() > 0 ? 100 * ns / of.total_ns() : 0);
     };
     for (const LedgerRow& b : all.rows()) {
-        const LedgerRow a = b.is_crossing() ? LedgerRow{b.stage, ""} : one.row(b.stage);
+        const LedgerRow a = b.is_crossing() ? LedgerRow{.stage = b.stage} : one.row(b.stage);
         if (a.calls == 0 && b.calls == 0)
             continue;
         table.add({a.stage, b.is_required ? "yes" : "-", fmt::format("{}", a.calls),

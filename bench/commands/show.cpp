@@ -34,14 +34,6 @@ using results::Median;
 using results::Phase;
 using results::Results;
 
-std::string bytes_text(std::uint64_t bytes) {
-    return bytes == results::no_count ? "?"
-           : bytes < (1u << 20)       ? fmt::format("{} KiB", bytes >> 10)
-                                      : fmt::format("{} MiB", bytes >> 20);
-}
-
-std::string or_unknown(const std::string& text) { return text.empty() ? "?" : text; }
-
 std::string machine_text(const Results& results, const results::Env& env, std::size_t rounds) {
     std::string text =
         fmt::format("machine {}: {}, {} processors, L1d {}, L2 {}, L3 {}, {} rounds\n",

@@ -133,6 +133,15 @@ TEST(TextTable, AlignsAndEscapes) {
     EXPECT_EQ(table.markdown(), "| name | n |\n| --- | ---: |\n| a\\|b | 1 |\n| \u00b5 | 234 |\n");
 }
 
+TEST(TextTable, BytesAndWhatIsNotKnown) {
+    EXPECT_EQ(bytes_text(48 << 10), "48 KiB");
+    EXPECT_EQ(bytes_text((1u << 20) - 1), "1023 KiB");
+    EXPECT_EQ(bytes_text(std::uint64_t{3} << 20), "3 MiB");
+    EXPECT_EQ(bytes_text(results::no_count), "?");
+    EXPECT_EQ(or_unknown(""), "?");
+    EXPECT_EQ(or_unknown("host"), "host");
+}
+
 /// The table of examples that the Python scripts are held to as well.
 TEST(TextTable, NumbersAreAsTheTableSays) {
     std::ifstream table("scripts/tests/numbers.csv");

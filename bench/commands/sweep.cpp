@@ -34,7 +34,7 @@ void add_plan_options(CLI::App& command, std::filesystem::path& config, Override
         ->allow_extra_args(false);
     command
         .add_option("--rays", overrides.rays,
-                    "rays of your own (CSV, ox,oy,oz,dx,dy,dz[,t_max] a line), cast at each --mesh "
+                    "rays of your own (CSV, ox,oy,oz,dx,dy,dz[,tmax] a line), cast at each --mesh "
                     "instead of generated ones; may be given more than once")
         ->allow_extra_args(false);
     command

@@ -16,7 +16,7 @@ std::string point_text(Vec3<float> p) {
     return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
 }
 
-constexpr std::size_t max_told = 60; ///< steps
+constexpr std::size_t max_reported = 60; ///< steps
 
 } // namespace
 
@@ -33,13 +33,13 @@ Explanation explain_ray(const Tree& tree, const TriangleMesh& mesh, const Ray<fl
     };
     std::vector<Waiting> waiting;
     RayHit nearest;
-    std::size_t entered = 0, missed = 0, behind = 0, tested = 0, told = 0;
+    std::size_t entered = 0, missed = 0, behind = 0, tested = 0, reported = 0;
     Drawing drawing(fmt::format("a ray at {} triangles", mesh.triangles.size()));
-    const auto tell = [&](std::size_t depth, const std::string& what) {
-        if (++told <= max_told)
+    const auto report = [&](std::size_t depth, const std::string& what) {
+        if (++reported <= max_reported)
             answer.text +=
                 fmt::format("{:{}}{}\n", "", 2 + 2 * std::min<std::size_t>(depth, 20), what);
-        else if (told == max_told + 1)
+        else if (reported == max_reported + 1)
             answer.text += "  ... (more of the same)\n";
     };
     const auto clip = [&](std::size_t node, float& entry) {
@@ -57,9 +57,10 @@ Explanation explain_ray(const Tree& tree, const TriangleMesh& mesh, const Ray<fl
         waiting.pop_back();
         if (nearest.hit() && now.entry > nearest.t) {
             ++behind;
-            tell(now.depth, fmt::format("node {} is left: it begins at t = {:.6g}, behind the hit "
-                                        "at {:.6g}",
-                                        now.node, now.entry, nearest.t));
+            report(now.depth,
+                   fmt::format("node {} is left: it begins at t = {:.6g}, behind the hit "
+                               "at {:.6g}",
+                               now.node, now.entry, nearest.t));
             continue;
         }
         if (tree.is_leaf(now.node)) {
@@ -68,22 +69,23 @@ Explanation explain_ray(const Tree& tree, const TriangleMesh& mesh, const Ray<fl
             ++tested;
             const float limit = nearest.hit() ? nearest.t : ray.t_max;
             if (Watertight::intersect(prepared, ray, mesh.triangle(item), limit, hit)) {
-                tell(now.depth, fmt::format("triangle {} is hit at t = {:.6g} (u {:.4g}, v {:.4g})",
-                                            item, hit.t, hit.u, hit.v));
+                report(now.depth,
+                       fmt::format("triangle {} is hit at t = {:.6g} (u {:.4g}, v {:.4g})", item,
+                                   hit.t, hit.u, hit.v));
                 if (!nearest.hit() || hit.t < nearest.t ||
                     (hit.t == nearest.t && item < nearest.triangle)) {
                     nearest = hit;
                     nearest.triangle = item;
                 }
             } else {
-                tell(now.depth, fmt::format("triangle {} is missed", item));
+                report(now.depth, fmt::format("triangle {} is missed", item));
             }
             continue;
         }
         ++entered;
         drawing.box(tree.bounds(now.node), "node");
-        tell(now.depth, fmt::format("node {} ({} triangles) is entered at t = {:.6g}", now.node,
-                                    tree.nodes[now.node].count, now.entry));
+        report(now.depth, fmt::format("node {} ({} triangles) is entered at t = {:.6g}", now.node,
+                                      tree.nodes[now.node].count, now.entry));
         const std::size_t children[2] = {Tree::left(now.node), tree.right(now.node)};
         std::vector<Waiting> below;
         for (const std::size_t child : children) {
@@ -91,8 +93,8 @@ Explanation explain_ray(const Tree& tree, const TriangleMesh& mesh, const Ray<fl
                 below.push_back({child, now.depth + 1, entry});
             else {
                 ++missed;
-                tell(now.depth + 1,
-                     fmt::format("passes by node {} {}", child, box_text(tree.bounds(child))));
+                report(now.depth + 1,
+                       fmt::format("passes by node {} {}", child, box_text(tree.bounds(child))));
             }
         }
         std::ranges::sort(below,

@@ -35,7 +35,7 @@ double surface_within(const Box& item, const Box& node) {
 }
 
 /// Calls meets(box) for the root and for what is below each node that is met.
-template <class Meets> Grade::Counted walk(const NodeTable& tree, const Meets& meets) {
+template <class Meets> Grade::Counted traverse(const NodeTable& tree, const Meets& meets) {
     Grade::Counted counted;
     std::vector<std::uint32_t> waiting;
     ++counted.tests;
@@ -147,17 +147,18 @@ class Grader {
         };
         const std::vector<std::uint32_t> items = some_items();
         for (const std::uint32_t item : items)
-            add(grade_.pairs,
-                walk(tree_, [&](const Box& box) { return overlaps(box, tree_.boxes()[item]); }));
+            add(grade_.pairs, traverse(tree_, [&](const Box& box) {
+                    return overlaps(box, tree_.boxes()[item]);
+                }));
         mean(grade_.pairs, items.size());
         for (std::size_t i = 0; i < n_queries; ++i) {
             const Vec3<float> p = point(2 * i), q = point(2 * i + 1);
-            add(grade_.points, walk(tree_, [&](const Box& box) { return box.contains(p); }));
+            add(grade_.points, traverse(tree_, [&](const Box& box) { return box.contains(p); }));
             Ray<float> ray{p, q - p};
             if (ray.direction == Vec3<float>{})
                 ray.direction = {1, 0, 0};
             const RaySlabs slabs(ray);
-            add(grade_.rays, walk(tree_, [&](const Box& box) {
+            add(grade_.rays, traverse(tree_, [&](const Box& box) {
                     return clip(slabs, box, 0, std::numeric_limits<float>::max()).hit();
                 }));
         }

@@ -2,7 +2,7 @@
 
 #include "bench/io/bad_input.h"
 #include "results/columns.h"
-#include "scenes/rows.h"
+#include "scenes/text/rows.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -144,8 +144,9 @@ NodeTable from_hdf5(const std::filesystem::path& file, const std::string& table)
 
 NodeTable from_csv(const std::filesystem::path& file) {
     std::vector<NodeTable::Row> rows;
-    read_rows(file, fmt::format("{}", fmt::join(node_columns, ",")), node_columns.size(),
-              node_columns.size(), [&](std::span<const double> numbers, const std::string& place) {
+    const std::string columns = fmt::format("{}", fmt::join(node_columns, ","));
+    read_rows(file, {columns, node_columns.size(), node_columns.size()},
+              [&](std::span<const double> numbers, const std::string& place) {
                   rows.push_back(row_of(numbers, place));
                   rows.back().number = std::stoull(place.substr(place.rfind(':') + 1));
               });

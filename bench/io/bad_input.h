@@ -1,13 +1,12 @@
 #pragma once
 
+#include "scenes/text/bad_input.h"
+
 #include <stdexcept>
 
 namespace boxwood::bench {
 
-/// Bad usage or bad input: the message says what, where and how to fix it. Exit code 2.
-class BadInput : public std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
+using boxwood::BadInput; // exit code 2
 
 /// Ctrl-C: the message says what was done by then. Exit code 130.
 class Interrupted : public std::runtime_error {

@@ -1,9 +1,9 @@
 #include "bench/io/ccd_file.h"
 
 #include "bench/io/csv.h"
-#include "bench/io/fields.h"
 #include "kernels/oracle/exact_vector.h"
 #include "kernels/oracle/roots.h"
+#include "scenes/text/fields.h"
 
 #include <fmt/format.h>
 
@@ -32,7 +32,7 @@ mpz_class integer(std::string_view text, std::size_t column, const Row& row) {
     if (digits.empty() || !std::ranges::all_of(digits, [](char c) { return c >= '0' && c <= '9'; }))
         row.refuse(fmt::format("{} is {}; rows are integers {} (write 0.5 as 1,2; put # before "
                                "a header line)",
-                               names[column], text.empty() ? "empty" : bench::quoted(text),
+                               names[column], text.empty() ? "empty" : boxwood::quoted(text),
                                columns));
     mpz_class n(std::string(digits), 10);
     return text.front() == '-' ? mpz_class(-n) : n;
@@ -62,7 +62,7 @@ Content parse(std::string_view text, const Row& row) {
     const mpz_class& truth = numbers.back();
     if (truth != 0 && truth != 1)
         row.refuse(fmt::format("truth is {}; it must be 0 (they never touch) or 1 (they do)",
-                               bench::quoted(truth.get_str())));
+                               boxwood::quoted(truth.get_str())));
     content.touches = truth == 1;
     return content;
 }
@@ -112,7 +112,7 @@ LinearMotion exact_doubles(const CcdFileQuery& query, const std::string& source)
                 throw_bad_row(source, query.lines[i],
                               fmt::format("{} = {} is not exactly a double, and this kernel reads "
                                           "doubles; use --kernel exact",
-                                          "xyz"[axis], bench::quoted(x.get_str())));
+                                          "xyz"[axis], boxwood::quoted(x.get_str())));
             (i < 4 ? motion.start : motion.end)[i % 4][axis] = nearest;
         }
     return motion;

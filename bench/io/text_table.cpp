@@ -1,5 +1,7 @@
 #include "bench/io/text_table.h"
 
+#include "results/measured_rows.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -100,6 +102,14 @@ std::string time_text(double ns) {
     const int digits = value >= 99.95 ? 0 : value >= 9.995 ? 1 : 2;
     return fmt::format("{:.{}f} {}", value, digits, unit->name);
 }
+
+std::string bytes_text(std::uint64_t bytes) {
+    return bytes == results::no_count ? "?"
+           : bytes < (1u << 20)       ? fmt::format("{} KiB", bytes >> 10)
+                                      : fmt::format("{} MiB", bytes >> 20);
+}
+
+std::string or_unknown(std::string text) { return text.empty() ? "?" : text; }
 
 std::string spaced(std::string_view name) {
     std::string words(name);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,7 +32,13 @@ std::string ratio_text(double ratio);
 /// A name as words: blanks for underscores.
 std::string spaced(std::string_view name);
 
-// scripts/boxwood_results/words.py has the same rules; scripts/tests/numbers.csv is the test of
+// python/boxwood/results/words.py has the same rules; scripts/tests/numbers.csv is the test of
 // both.
+
+/// Whole KiB or MiB, rounded down; "?" for results::no_count.
+std::string bytes_text(std::uint64_t bytes);
+
+/// "?" for an empty text.
+std::string or_unknown(std::string text);
 
 } // namespace boxwood::bench

@@ -29,7 +29,6 @@ class QuietWait {
     /// Gives what `watch` said last. `busy` is called before each pause of a second, and ends the
     /// waiting if it gives false.
     double wait(const std::function<bool(double cores)>& busy);
-    double waited_s() const { return waited_s_; }
     bool may_wait() const { return waited_s_ < limit_s_; }
 
   private:

@@ -79,7 +79,7 @@ if(NOT coal_why)
     file(STRINGS ${coal_folder}/include/coal/config.hh coal_version REGEX "define COAL_VERSION ")
     string(REGEX REPLACE ".*\"(.*)\".*" "\\1" coal_version "${coal_version}")
     # Its CMake package would bring in another Boost and another assimp.
-    add_library(boxwood_coal MODULE peers/coal/module.cpp)
+    add_library(boxwood_coal MODULE peers/coal/module.cpp peers/coal/meshes.cpp)
     target_include_directories(boxwood_coal SYSTEM PRIVATE ${coal_folder}/include ${EIGEN3_INCLUDE_DIRS})
     target_compile_definitions(boxwood_coal PRIVATE COAL_HAS_OCTOMAP COAL_HAVE_OCTOMAP
         OCTOMAP_MAJOR_VERSION=1 OCTOMAP_MINOR_VERSION=10 OCTOMAP_PATCH_VERSION=0)

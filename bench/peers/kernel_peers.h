@@ -5,7 +5,7 @@
 #include <vector>
 
 /// The peers' kernels: what each library offers for one pair of primitives, beside its trees. Each
-/// is made in peers/NAME_kernels.cpp and appended to the contenders of its peer.
+/// is made in peers/NAME/NAME_kernels.cpp and appended to the contenders of its peer.
 namespace boxwood::bench {
 
 std::vector<ContenderEntry> fcl_kernels();

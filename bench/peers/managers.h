@@ -11,8 +11,8 @@
 
 namespace boxwood::bench {
 
-/// What a frame tells a manager.
-enum class Told : std::uint8_t {
+/// What a frame reports to a manager.
+enum class Reported : std::uint8_t {
     all_may_have_moved, ///< update()
     which_moved         ///< update(moved)
 };
@@ -35,7 +35,7 @@ std::unique_ptr<Object> object_for(std::shared_ptr<Bounds> bounds, std::size_t i
 ///
 ///     using Object, Manager;
 ///     using Bounds;                  // a geometry that is nothing but its bounds; take(box)
-///     Told told;
+///     Reported reported;
 ///     std::unique_ptr<Manager> make(boxes) const;      // an empty one for a scene of these boxes
 ///     void collide(Manager&, std::vector<Pair>&) const;
 ///     void collide(Manager&, Manager&, std::vector<Pair>&) const;
@@ -94,7 +94,7 @@ template <class Kind> class ManagerContender final : public Contender {
             else
                 rest_manager_->registerObject(object);
         }
-        if (kind_.told == Told::which_moved)
+        if (kind_.reported == Reported::which_moved)
             rest_manager_->update(changed_);
         else
             rest_manager_->update();

@@ -11,8 +11,8 @@
 
 #include <vector>
 
-/// What the peers offer for points and regions. Each is made in peers/NAME_points.cpp and appended
-/// to the contenders of its peer.
+/// What the peers offer for points and regions. Each is made in peers/NAME/NAME_points.cpp and
+/// appended to the contenders of its peer.
 namespace boxwood::bench {
 
 std::vector<ContenderEntry> fcl_points();

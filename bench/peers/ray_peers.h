@@ -9,7 +9,7 @@
 namespace boxwood::bench {
 
 /// Embree's rays: one at a time, in packets of 8 and 16, in streams, and every hit; made in
-/// peers/embree_rays.cpp.
+/// peers/embree/embree_rays.cpp.
 std::vector<ContenderEntry> embree_rays();
 
 /// Why a peer that is compiled for AVX2 and FMA cannot run here, if so.

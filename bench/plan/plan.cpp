@@ -9,6 +9,7 @@
 #include "scenes/sampling/rays.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <xxhash.h>
 
 #include <algorithm>
@@ -126,8 +127,14 @@ void keep_only(const std::string& pattern, std::vector<PlannedCell>& cells) {
 
 } // namespace
 
-std::vector<std::string> Overrides::own_files() const {
+std::vector<std::string> Overrides::arguments() const {
     std::vector<std::string> words;
+    if (!threads.empty())
+        words.insert(words.end(), {"--threads", fmt::format("{}", fmt::join(threads, ","))});
+    if (!only.empty())
+        words.insert(words.end(), {"--only", only});
+    if (seed)
+        words.insert(words.end(), {"--seed", std::to_string(*seed)});
     for (const OwnOption& own : own_options)
         for (const std::filesystem::path& file : this->*own.files)
             words.insert(words.end(), {std::string(own.option), file.string()});

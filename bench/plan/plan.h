@@ -19,8 +19,8 @@ struct Overrides {
     /// The user's own, for blocks of such scenes; rays for those of meshes.
     std::vector<std::filesystem::path> meshes, boxes, motions, rays;
 
-    /// As the command line says it: {"--mesh", FILE, ...}.
-    std::vector<std::string> own_files() const;
+    /// As the command line says it, but for the rounds: {"--threads", "1,2", "--mesh", FILE, ...}.
+    std::vector<std::string> arguments() const;
 };
 
 /// One thing to time: a contender that does a task on a scene.

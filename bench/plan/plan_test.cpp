@@ -213,7 +213,7 @@ TEST(Plan, FilesOfTheUsersAreAsManyScenes) {
     ASSERT_EQ(plan.cells.size(), 2u);
     EXPECT_THAT(plan.cells[0].name, StartsWith("boxes_boxwood_first/n2-s1/pairs/"));
     EXPECT_THAT(plan.cells[1].name, StartsWith("boxes_boxwood_second/n1-s1/pairs/"));
-    EXPECT_EQ(overrides.own_files(),
+    EXPECT_EQ(overrides.arguments(),
               (std::vector<std::string>{"--boxes", first.string(), "--boxes", second.string()}));
     EXPECT_EQ(make_scene(plan.cells[0].scene).boxes[1].max[2], 2);
     for (const char* bad : {"1,2,3,4,5\n", "1,2,3,4,5,6,7\n", "1,1,1,0,2,2\n", "1,1,nan,2,2,2\n",
@@ -250,9 +250,14 @@ TEST(Plan, RaysAndMotionsOfTheUsersAreScenesToo) {
     EXPECT_THAT(plan.cells[1].name, StartsWith("motion_boxwood_own_motion/n2-s1/moving_pairs/"));
     EXPECT_EQ(plan.cells[1].scene.moving->frames, 1u);
     EXPECT_EQ(make_scene(plan.cells[1].scene).boxes.size(), 2u);
-    EXPECT_EQ(overrides.own_files(),
-              (std::vector<std::string>{"--mesh", mesh.string(), "--motion", motion.string(),
+    overrides.threads = {1, 2};
+    overrides.only = "a b";
+    overrides.seed = 7;
+    EXPECT_EQ(overrides.arguments(),
+              (std::vector<std::string>{"--threads", "1,2", "--only", "a b", "--seed", "7",
+                                        "--mesh", mesh.string(), "--motion", motion.string(),
                                         "--rays", rays.string()}));
+    overrides.only.clear();
     const std::string played = "[[cells]]\nscene = \"motion\"\ntask = \"scene_queries\"\n"
                                "stages = \"required\"\n";
     EXPECT_THROW(plan_of(blocks + played, overrides), BadInput);
@@ -272,7 +277,7 @@ TEST(Plan, RefusesAPatternThatIsNoneOrLeavesNothing) {
 
 TEST(Plan, ShippedSweepFilesAreGood) {
     for (const char* name : {"quick", "default", "pairs", "builders", "rays", "dynamic", "effects",
-                             "queries", "accuracy", "counts"}) {
+                             "queries", "accuracy", "counts", "narrow"}) {
         const std::string file = std::string("bench/configs/") + name + ".toml";
         const Plan plan = make_plan(read_text(file), file, {});
         EXPECT_GE(plan.rounds, 9u);

@@ -2,7 +2,8 @@
 
 #include "bench/machine/usage.h"
 #include "bench/running/prepare.h"
-#include "bench/stages/ledger.h"
+#include "bench/stages/plan_stages.h"
+#include "trees/world/bodies/ledger.h"
 
 #include <algorithm>
 #include <chrono>
@@ -21,7 +22,7 @@ void accumulate(std::vector<results::EffectRow>& rows, const Ledger& ledger) {
         for (const LedgerRow& stage : ledger.rows()) {
             results::EffectRow& row = rows.emplace_back();
             row.stage = stage.stage;
-            row.effect = stage.effect;
+            row.effect = advanced_effect(stage.stage);
             row.required = stage.is_required;
             row.calls = stage.calls;
             row.items = stage.items;

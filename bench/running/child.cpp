@@ -1,9 +1,12 @@
 #include "bench/running/child.h"
 
+#include "bench/io/bad_input.h"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/prctl.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -121,12 +124,16 @@ Heard listen(int pipe, Interrupt& interrupt, Conversation& conversation, double 
     }
 }
 
-[[noreturn]] void become_child(pid_t parent, const sigset_t& mask, const char* program,
-                               char* const* arguments, char* const* variables) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
+/// Only the parent answers Ctrl-C, which goes to the whole group.
+void ignore_ctrl_c() { signal(SIGINT, SIG_IGN); }
+
+/// `at_end_of_parent`: the signal that the child then gets.
+[[noreturn]] void become_child(pid_t parent, int at_end_of_parent, const sigset_t& mask,
+                               const char* program, char* const* arguments,
+                               char* const* variables) {
+    prctl(PR_SET_PDEATHSIG, at_end_of_parent);
     if (getppid() != parent) // it died before the line above
         _exit(127);
-    signal(SIGINT, SIG_IGN); // Ctrl-C goes to the whole group; only the parent answers it
     pthread_sigmask(SIG_SETMASK, &mask, nullptr);
     execvpe(program, arguments, variables);
     _exit(127);
@@ -165,7 +172,8 @@ ChildEnd run_child(std::vector<std::string> arguments, unsigned max_threads, std
         throw std::system_error(errno, std::generic_category(), "fork");
     if (child == 0) {
         fcntl(ends[1], F_SETFD, 0); // the one descriptor that outlives exec
-        become_child(parent, interrupt.mask_before(), program, argument_pointers.data(),
+        ignore_ctrl_c();
+        become_child(parent, SIGKILL, interrupt.mask_before(), program, argument_pointers.data(),
                      variable_pointers.data());
     }
     close(ends[1]);
@@ -203,7 +211,8 @@ std::string output_of_child(std::vector<std::string> arguments) {
         throw std::system_error(errno, std::generic_category(), "fork");
     if (child == 0) {
         dup2(ends[1], STDOUT_FILENO);
-        become_child(parent, mask, own_program, pointers.data(), environ);
+        ignore_ctrl_c();
+        become_child(parent, SIGKILL, mask, own_program, pointers.data(), environ);
     }
     close(ends[1]);
     std::string output;
@@ -219,6 +228,38 @@ std::string output_of_child(std::vector<std::string> arguments) {
         throw std::runtime_error(
             fmt::format("a process of its own ended by {}: {}", cause, output));
     return output;
+}
+
+int run_logged(const std::filesystem::path& program, std::vector<std::string> arguments,
+               const std::filesystem::path& log, Interrupt& interrupt) {
+    const std::vector<char*> pointers = pointers_to(arguments);
+    const std::filesystem::path executable = std::filesystem::absolute(program); // not of the PATH
+    const pid_t parent = getpid();
+    const pid_t child = fork();
+    if (child < 0)
+        throw std::system_error(errno, std::generic_category(), "fork");
+    if (child == 0) {
+        const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+        dup2(file, STDOUT_FILENO);
+        dup2(file, STDERR_FILENO);
+        become_child(parent, SIGTERM, interrupt.mask_before(), executable.c_str(), pointers.data(),
+                     environ);
+    }
+    const int end_of_child = static_cast<int>(syscall(SYS_pidfd_open, child, 0));
+    std::array<pollfd, 2> waiting{pollfd{end_of_child, POLLIN, 0},
+                                  pollfd{interrupt.descriptor(), POLLIN, 0}};
+    while (poll(waiting.data(), waiting.size(), -1) < 0 && errno == EINTR) {
+    }
+    if (interrupt.requested())
+        kill(child, SIGTERM);
+    close(end_of_child);
+    const int status = wait_for(child);
+    if (interrupt.requested())
+        return exit_interrupted;
+    if (WIFEXITED(status))
+        return WEXITSTATUS(status);
+    throw BadInput(fmt::format("{} ended by signal {}; its words are in {}", program.string(),
+                               WTERMSIG(status), log.string()));
 }
 
 std::size_t own_padding() {

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <exception>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,13 @@ std::size_t own_padding();
 /// stdout. It dies with this process. Throws std::runtime_error unless it exits with 0, and
 /// std::system_error if no process can be started.
 std::string output_of_child(std::vector<std::string> arguments);
+
+/// Runs a program in this environment, what it prints goes to the file `log`, and waits for its
+/// end. A Ctrl-C, and the end of this process, is SIGTERM for it, so that it can keep what it has.
+/// Gives its exit code, exit_interrupted after a Ctrl-C. Throws BadInput if a signal ends it, and
+/// std::system_error if no process can be started.
+int run_logged(const std::filesystem::path& program, std::vector<std::string> arguments,
+               const std::filesystem::path& log, Interrupt& interrupt);
 
 /// The child's side.
 class ChildReport {

@@ -24,6 +24,7 @@
 #include <chrono>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <optional>
 
@@ -323,19 +324,12 @@ class Sweep {
     }
 
     std::vector<std::string> child_arguments(const fs::path& out) const {
-        const Overrides& o = options_.overrides;
-        std::vector<std::string> arguments{"boxwood",      "round",
-                                           "--config",     shards_.sweep_file().string(),
-                                           "--sweep-hash", plan_.sweep_hash,
-                                           "--shard-out",  out.string(),
-                                           "--seed",       std::to_string(plan_.seed)};
-        if (!o.threads.empty())
-            arguments.insert(arguments.end(),
-                             {"--threads", fmt::format("{}", fmt::join(o.threads, ","))});
-        if (!o.only.empty())
-            arguments.insert(arguments.end(), {"--only", o.only});
-        for (const std::string& word : o.own_files())
-            arguments.push_back(word);
+        std::vector<std::string> arguments{
+            "boxwood",      "round",          "--config",    shards_.sweep_file().string(),
+            "--sweep-hash", plan_.sweep_hash, "--shard-out", out.string()};
+        Overrides overrides = options_.overrides;
+        overrides.seed = plan_.seed;
+        std::ranges::move(overrides.arguments(), std::back_inserter(arguments));
         return arguments;
     }
 

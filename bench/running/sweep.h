@@ -33,6 +33,14 @@ void list_cells(const SweepOptions& options);
 /// code; throws BadInput for bad input and for a place that takes no data.
 int run_sweep(const SweepOptions& options);
 
+/// Where sweep_in_turns puts the results of the other program: FILE.base.h5 beside FILE.h5.
+std::filesystem::path base_file_of(const std::filesystem::path& out);
+
+/// The rounds of this program and of another one take turns, so that what the machine does meets
+/// both alike. Both are ordinary sweeps, which go on where they were interrupted. False if they
+/// were; throws BadInput if a program cannot do the sweep.
+bool sweep_in_turns(const std::filesystem::path& program, const SweepOptions& options);
+
 /// What one child process does: the preparation, one round, or the count of instructions.
 struct ChildOptions {
     std::filesystem::path config, prepared, out, dumps; ///< dumps: of callgrind, if it counts

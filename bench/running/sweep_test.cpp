@@ -65,6 +65,14 @@ TEST_F(SweepTest, AgainstAnotherProgramTakesTurns) {
     EXPECT_FALSE(fs::exists(folder / "out.log"));
 
     fs::remove(base);
+    const fs::path other = folder / "other", heard = folder / "heard";
+    std::ofstream(other) << "#!/bin/sh\necho \"$*\" >" << heard.string() << "\nexit 2\n";
+    fs::permissions(other, fs::perms::owner_all);
+    EXPECT_EQ(sweep({"--against", other, "--threads", "1"}), 2);
+    EXPECT_THAT(text_of(heard), testing::EndsWith("--rounds 1 --threads 1\n"));
+    EXPECT_EQ(sweep({"--against", other, "--wait", "0s", "--give-up", "2min"}), 2);
+    EXPECT_THAT(text_of(heard), testing::EndsWith("--rounds 1 --wait 0s --give-up 120s\n"));
+
     EXPECT_EQ(sweep({"--against", "/bin/false"}), 2);
     EXPECT_THAT(text_of(log()), HasSubstr("/bin/false"));
     EXPECT_EQ(sweep({"--against", folder}), 2);

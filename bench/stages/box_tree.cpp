@@ -15,7 +15,7 @@ class BoxTree final : public SceneStage {
   public:
     std::size_t start(Playing& playing) override {
         playing.box_tree = &layout_;
-        order_anew(playing);
+        order_again(playing);
         return layout_.size();
     }
     std::size_t run(Playing& playing) override {
@@ -45,7 +45,7 @@ class BoxTree final : public SceneStage {
     static constexpr double patience = .4;
 
     /// Bodies that are absent have the place in the order of where they would be, and no box.
-    void order_anew(Playing& playing) {
+    void order_again(Playing& playing) {
         const Bodies& bodies = playing.scene.bodies();
         const std::vector<Box>* boxes = &playing.boxes;
         std::vector<Box> placed;
@@ -76,7 +76,7 @@ class BoxTree final : public SceneStage {
         moved_ = 0;
         frames_ = 0;
         if (!(excess_ < patience))
-            order_anew(playing);
+            order_again(playing);
     }
     void note_slots() {
         if (!slot_of_.empty())

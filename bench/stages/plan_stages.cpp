@@ -8,6 +8,8 @@
 namespace boxwood::bench {
 namespace {
 
+constexpr std::string_view advance = "advance_"; ///< and an effect: the name of its stage
+
 /// What the plan is made from.
 struct Wants {
     explicit Wants(const MovingScene& scene) {
@@ -63,11 +65,11 @@ class Plan {
   private:
     /// A stage that the extent all_stages runs all the same.
     void add(std::string_view name, bool required, std::string why) {
-        stages_.push_back({std::string(name), "", required, required || all_, std::move(why)});
+        stages_.push_back({{std::string(name), required, std::move(why)}, "", required || all_});
     }
     /// One that cannot run unless it is required.
     void add_only(std::string_view name, bool required, std::string why) {
-        stages_.push_back({std::string(name), "", required, required, std::move(why)});
+        stages_.push_back({{std::string(name), required, std::move(why)}, "", required});
     }
 
     static bool is_of_trees(std::string_view stage) {
@@ -91,7 +93,7 @@ class Plan {
             for (const MovingScene::Laid& laid : scene_.effects())
                 if (laid.entry->name == effect.name)
                     chosen += laid.chosen.size();
-            add_only(fmt::format("advance_{}", effect.name), chosen > 0,
+            add_only(fmt::format("{}{}", advance, effect.name), chosen > 0,
                      chosen > 0 ? fmt::format("laid on {} of {} bodies", chosen, wants_.n)
                                 : "no body has this effect");
             stages_.back().effect = effect.name;
@@ -208,6 +210,10 @@ std::optional<std::string> why_not(const MovingScene& scene, Extent extent, Wher
             (where == Where::resident || stage.name == "tree"))
             return fmt::format("stage {} {}", stage.name, stage.host_only);
     return std::nullopt;
+}
+
+std::string_view advanced_effect(std::string_view stage) {
+    return stage.starts_with(advance) ? stage.substr(advance.size()) : std::string_view();
 }
 
 const PlannedStage& stage_of(std::span<const PlannedStage> plan, std::string_view name) {

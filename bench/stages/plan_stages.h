@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scenes/moving/moving_scene.h"
+#include "trees/world/bodies/ledger.h"
 
 #include <cstdint>
 #include <optional>
@@ -24,13 +25,10 @@ enum class Where : std::uint8_t {
     resident ///< all on a device: the bodies stay there, and only pairs come down
 };
 
-/// One stage of the plan of a scene.
-struct PlannedStage {
-    std::string name;
-    std::string effect{};     ///< that the stage advances; empty for the others
-    bool is_required = false; ///< by the scene, whatever the extent
-    bool runs = false;        ///< in this extent; what does not run is not made and has no memory
-    std::string why;          ///< required, or not: one clause of plain English
+/// One stage of the plan of a scene, which requires it or not whatever the extent.
+struct PlannedStage : boxwood::PlannedStage {
+    std::string effect{}; ///< that the stage advances; empty for the others
+    bool runs = false;    ///< in this extent; what does not run is not made and has no memory
     /// "has no device form where ...", or empty: it has one.
     std::string host_only{};
     bool on_device = false; ///< it runs there
@@ -45,6 +43,9 @@ std::vector<PlannedStage> plan_stages(const MovingScene& scene, Extent extent,
 
 /// Why the scene cannot be played there, if so: "stage advance_orbit has no device form".
 std::optional<std::string> why_not(const MovingScene& scene, Extent extent, Where where);
+
+/// The effect that the stage of this name advances; empty for the others.
+std::string_view advanced_effect(std::string_view stage);
 
 /// The stage of this name; there must be one.
 const PlannedStage& stage_of(std::span<const PlannedStage> plan, std::string_view name);

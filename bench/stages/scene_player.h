@@ -1,10 +1,10 @@
 #pragma once
 
 #include "bench/stages/frame_answers.h"
-#include "bench/stages/ledger.h"
 #include "bench/stages/plan_stages.h"
 #include "trees/device_memory.h"
 #include "trees/executor.h"
+#include "trees/world/bodies/ledger.h"
 
 #include <memory>
 #include <optional>

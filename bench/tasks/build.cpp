@@ -114,9 +114,7 @@ class Build final : public TreeTask {
         entry.layout.clear();
         entry.traversal.clear();
         entry.precision = "f32";
-        entry.summary =
-            find_builder(std::string_view(choice.builder).substr(0, choice.builder.find('+')))
-                .summary;
+        entry.summary = builder_of(choice).summary;
         entry.notes = "build: boxes to the canonical tree, after the one before it is freed; the "
                       "same tree for any number of threads";
         return entry;

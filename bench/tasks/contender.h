@@ -18,12 +18,12 @@
 #include <vector>
 
 namespace boxwood {
+class Ledger; // trees/world/bodies/ledger.h
 struct Frame; // scenes/moving/frames.h
-}
+} // namespace boxwood
 
 namespace boxwood::bench {
 
-class Ledger;
 class Task;
 
 /// Where a contender may run beside executors(): on a device, from host memory to host memory, or

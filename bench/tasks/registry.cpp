@@ -24,6 +24,9 @@
     X(collide)                                                                                     \
     X(collide_all)                                                                                 \
     X(distance)                                                                                    \
+    X(tolerance)                                                                                   \
+    X(contacts)                                                                                    \
+    X(continuous)                                                                                  \
     X(scene_queries)                                                                               \
     X(triangle_triangle)                                                                           \
     X(triangle_distance)                                                                           \

@@ -40,7 +40,7 @@ struct Choice {
     Settings settings;                  ///< of the builder and the optimizer
     std::string layout = "wide8";
     std::string kernel = "watertight"; ///< where the task takes one
-    std::string ray_order = "given";   ///< or "sorted", "single" (of points, too); of one hit
+    std::string ray_order = "given";   ///< of one hit, and points: ray_orders()
     bool by_front_door = false;        ///< Bvh or MeshBvh (trees/bvh.h) around the same parts
 };
 

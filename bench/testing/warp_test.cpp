@@ -1,5 +1,5 @@
-/// The peer warp on the host's model of a device: our kernels walk the trees that Warp's library
-/// makes in the host's memory, by Warp's own functions.
+/// The peer warp on the host's model of a device: our kernels traverse the trees that Warp's
+/// library makes in the host's memory, by Warp's own functions.
 
 #include <gtest/gtest.h>
 

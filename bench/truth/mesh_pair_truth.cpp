@@ -1,62 +1,24 @@
 #include "bench/truth/mesh_pair_truth.h"
 
-#include "bench/tasks/detail/mesh_pair_task.h"
-#include "bench/truth/column_sweep.h"
-#include "bench/truth/sample.h"
-#include "kernels/arithmetic/rounding.h"
+#include "bench/tasks/detail/mesh_pair_answers.h"
+#include "bench/truth/posed_triangles.h"
 #include "kernels/oracle/nearest.h"
-#include "kernels/oracle/oracle.h"
-#include "kernels/triangle_distance/certified.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 
 namespace boxwood::bench {
 namespace {
 
-using Triangles = std::vector<Triangle<double>>;
-
-Triangles triangles_at(const TriangleMesh& mesh, const Pose& pose) {
-    Triangles all;
-    all.reserve(mesh.triangles.size());
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const Triangle<float> t = mesh.triangle(i);
-        all.push_back({pose(Vec3<double>(t.a)), pose(Vec3<double>(t.b)), pose(Vec3<double>(t.c))});
-    }
-    return all;
-}
-
-/// The pairs of triangles of two sides that share a point, ascending.
-std::vector<Pair> touching(const Triangles& a, const Triangles& b, unsigned threads) {
-    std::vector<Aabb<float>> boxes;
-    for (const Triangles* side : {&a, &b})
-        for (const Triangle<double>& t : *side)
-            boxes.push_back(round_outward(t.bounds()));
-    std::vector<Pair> candidates = ColumnSweep(boxes, threads).pairs();
-    std::erase_if(candidates, [&](Pair p) { return p.a >= a.size() || p.b < a.size(); });
-    std::vector<std::uint8_t> touch(candidates.size());
-    make_executor("tbb", threads)->for_each(candidates.size(), [&](std::size_t i) {
-        const Pair p = candidates[i];
-        touch[i] = oracle::intersect(a[p.a], b[p.b - a.size()]);
-    });
-    std::vector<Pair> found;
-    for (std::size_t i = 0; i < candidates.size(); ++i)
-        if (touch[i])
-            found.push_back(
-                {candidates[i].a, static_cast<std::uint32_t>(candidates[i].b - a.size())});
-    return found;
-}
-
 class TouchTruth final : public Truth {
   public:
     TouchTruth(const Scene& scene, bool wants_pairs, unsigned threads) : wants_pairs_(wants_pairs) {
-        const Triangles mesh = triangles_at(scene.mesh, {});
+        const PosedTriangles mesh = triangles_at(scene.mesh, {});
         for (std::uint32_t i = 0; i < scene.poses.size(); ++i) {
             const std::vector<Pair> pairs =
-                touching(mesh, triangles_at(scene.mesh, scene.poses[i]), threads);
+                touching_pairs(mesh, triangles_at(scene.mesh, scene.poses[i]), threads);
             touches_.push_back(!pairs.empty());
             for (const Pair pair : pairs)
                 pairs_.push_back({i, pair.a, pair.b});
@@ -114,25 +76,11 @@ class TouchTruth final : public Truth {
     std::vector<PosedPair> pairs_; ///< ascending
 };
 
-/// The distance of two boxes, a little less than it is.
-double box_distance(const Aabb<double>& a, const Aabb<double>& b) {
-    double squared = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double gap = std::max({0.0, a.min[axis] - b.max[axis], b.min[axis] - a.max[axis]});
-        squared += gap * gap;
-    }
-    return std::sqrt(squared) * (1 - 0x1p-40);
-}
-
 class MeshDistanceTruth final : public Truth {
   public:
     MeshDistanceTruth(const Scene& scene, unsigned threads)
-        : scene_(scene), threads_(threads), mesh_(triangles_at(scene.mesh, {})) {
-        const std::size_t n = mesh_.size();
-        constexpr std::size_t all = 2048, some = 256;
-        sample_ = sampled_queries(n, n <= all ? n : some, scene.spec.seed);
-        least_.resize(scene.poses.size(), std::numeric_limits<double>::infinity());
-    }
+        : scene_(scene), mesh_(triangles_at(scene.mesh, {})),
+          least_(least_distances(scene, threads)), size_(size_of(mesh_)) {}
 
     Judgement judge(const Answers& answers, const ContenderEntry& contender) override {
         Judgement judgement;
@@ -164,13 +112,12 @@ class MeshDistanceTruth final : public Truth {
             if (check.witness.empty())
                 check.witness = fmt::format("pose {}: {}", i, what);
         };
-        const Triangles copy = triangles_at(scene_.mesh, scene_.poses[i]);
-        if (got.triangles.a >= mesh_.size() || got.triangles.b >= copy.size())
+        if (got.triangles.a >= mesh_.size() || got.triangles.b >= mesh_.size())
             return complain(check.missing, "no triangles are named");
-        const double named = std::sqrt(
-            oracle::nearest(mesh_[got.triangles.a], copy[got.triangles.b]).squared.get_d());
-        look_for_nearer(i, copy, named);
-        const double truth = least_[i];
+        const Triangle<double> b = triangle_at(scene_.mesh, got.triangles.b, scene_.poses[i]);
+        const double named =
+            std::sqrt(oracle::nearest(mesh_[got.triangles.a], b).squared.get_d());
+        const auto [truth, lo] = least_[i];
         const double error = std::abs(got.distance - truth);
         check.max_abs_err = std::max(check.max_abs_err, error);
         if (truth > 0)
@@ -183,48 +130,57 @@ class MeshDistanceTruth final : public Truth {
         else if (named > got.distance + slack)
             complain(check.extra, fmt::format("said to be {} apart by triangles that are {} apart",
                                               got.distance, named));
-        if (is_certified && (got.lo > truth * (1 + 0x1p-50) || got.hi < truth * (1 - 0x1p-50))) {
-            ++check.extra;
-            complain(check.bound_violations,
-                     fmt::format("[{}, {}] does not hold {}", got.lo, got.hi, truth));
+        else if (is_certified && (got.lo > truth * (1 + 0x1p-50) || got.hi < lo * (1 - 0x1p-50))) {
+            ++check.bound_violations;
+            complain(check.extra, fmt::format("[{}, {}] does not hold {}", got.lo, got.hi, truth));
         }
     }
 
-    /// Lowers the least that is known of pose i to `bound` and to what the sample knows.
-    void look_for_nearer(std::size_t i, const Triangles& copy, double bound) {
-        if (bound >= least_[i])
-            return;
-        least_[i] = bound;
-        std::vector<Aabb<double>> boxes[2];
-        for (const Triangle<double>& t : mesh_)
-            boxes[0].push_back(t.bounds());
-        for (const Triangle<double>& t : copy)
-            boxes[1].push_back(t.bounds());
-        size_ = 0;
-        for (const Aabb<double>& box : boxes[0])
-            for (int axis = 0; axis < 3; ++axis)
-                size_ = std::max({size_, std::abs(box.min[axis]), std::abs(box.max[axis])});
-        std::mutex lowering;
-        make_executor("tbb", threads_)->for_each(sample_.size(), [&](std::size_t s) {
-            const std::size_t k = sample_[s];
-            double least = bound;
-            for (std::size_t j = 0; j < mesh_.size(); ++j) {
-                if (box_distance(boxes[0][k], boxes[1][j]) < least)
-                    least = std::min(least, CertifiedDistance::distance(mesh_[k], copy[j]).hi);
-                if (box_distance(boxes[0][j], boxes[1][k]) < least)
-                    least = std::min(least, CertifiedDistance::distance(mesh_[j], copy[k]).hi);
-            }
-            const std::scoped_lock lock(lowering);
-            least_[i] = std::min(least_[i], least);
-        });
+    const Scene& scene_;
+    PosedTriangles mesh_;
+    std::vector<NearestTriangles::Least> least_; ///< by pose
+    double size_;
+};
+
+/// Of the poses: on which side of a tolerance. Nearer to it than 2^-30 of it both answers are right.
+class WithinTruth final : public Truth {
+  public:
+    WithinTruth(const Scene& scene, double tolerance, unsigned threads)
+        : tolerance_(tolerance), least_(least_distances(scene, threads)) {}
+
+    Judgement judge(const Answers& answers, const ContenderEntry&) override {
+        Judgement judgement;
+        results::Check& check = judgement.check;
+        check.oracle = "rational";
+        const std::vector<std::uint8_t>& got = list_of<std::uint8_t>(answers);
+        check.n_checked = check.n_expected = least_.size();
+        check.n_got = got.size();
+        if (got.size() != least_.size()) {
+            check.missing = least_.size();
+            check.witness = fmt::format("{} answers for {} poses", got.size(), least_.size());
+        } else {
+            for (std::size_t i = 0; i < got.size(); ++i)
+                judge_pose(i, got[i] != 0, check);
+        }
+        judgement.conclude(true);
+        return judgement;
     }
 
-    const Scene& scene_;
-    unsigned threads_;
-    Triangles mesh_;
-    std::vector<std::size_t> sample_;
-    std::vector<double> least_; ///< by pose: of all that was ever named, or is in the sample
-    double size_ = 0;           ///< the mesh's greatest |coordinate|
+  private:
+    void judge_pose(std::size_t i, bool is_near, results::Check& check) const {
+        const auto [distance, lo] = least_[i];
+        const bool must = distance <= tolerance_ * (1 - 0x1p-30);
+        const bool must_not = lo > tolerance_ * (1 + 0x1p-30);
+        if (is_near ? !must_not : !must)
+            return;
+        ++(is_near ? check.extra : check.missing);
+        if (check.witness.empty())
+            check.witness = fmt::format("pose {}: said to be {} {} apart, and they are {}", i,
+                                        is_near ? "at most" : "more than", tolerance_, distance);
+    }
+
+    double tolerance_;
+    std::vector<NearestTriangles::Least> least_; ///< by pose
 };
 
 } // namespace
@@ -237,6 +193,9 @@ std::unique_ptr<Truth> make_touching_truth(const Scene& scene, unsigned threads)
 }
 std::unique_ptr<Truth> make_mesh_distance_truth(const Scene& scene, unsigned threads) {
     return std::make_unique<MeshDistanceTruth>(scene, threads);
+}
+std::unique_ptr<Truth> make_within_truth(const Scene& scene, double tolerance, unsigned threads) {
+    return std::make_unique<WithinTruth>(scene, tolerance, threads);
 }
 
 } // namespace boxwood::bench

@@ -12,9 +12,16 @@ std::unique_ptr<Truth> make_touch_truth(const Scene& scene, unsigned threads);
 std::unique_ptr<Truth> make_touching_truth(const Scene& scene, unsigned threads);
 
 /// How far they are apart: the distance of the triangles that were named, in rational arithmetic,
-/// and whether any pair is nearer: of all, up to 2,048 triangles, else of 256 of each side with all
-/// of the other, by the certified kernel. Of more triangles, what one contender named counts for
-/// those that are judged after it alone.
+/// and whether any pair is nearer (nearest_triangles.h).
 std::unique_ptr<Truth> make_mesh_distance_truth(const Scene& scene, unsigned threads);
+/// Whether they are at most a tolerance apart.
+std::unique_ptr<Truth> make_within_truth(const Scene& scene, double tolerance, unsigned threads);
+
+/// Where they touch: every touching pair of triangles, more than once if need be, and no other; the
+/// deepest first; each point no farther from one of the two than the depth; each normal of length
+/// 1; and moved by depth * normal the copy's triangle is off the other one or only touches it, but
+/// no farther off along the normal. Lengths to 2^-30 of the mesh's size, as depths are rounded; of
+/// peers, which search for them, to 2^-19.
+std::unique_ptr<Truth> make_contact_truth(const Scene& scene, unsigned threads);
 
 } // namespace boxwood::bench

@@ -14,9 +14,10 @@ template <class Real> struct RigidTransform {
     constexpr bool operator==(const RigidTransform&) const = default;
 
     /// The image of p, rounded.
-    constexpr Vec3<Real> operator()(Vec3<Real> p) const {
-        return Vec3<Real>{dot(rotation[0], p), dot(rotation[1], p), dot(rotation[2], p)} +
-               translation;
+    constexpr Vec3<Real> operator()(Vec3<Real> p) const { return rotated(p) + translation; }
+    /// That of a direction.
+    constexpr Vec3<Real> rotated(Vec3<Real> v) const {
+        return {dot(rotation[0], v), dot(rotation[1], v), dot(rotation[2], v)};
     }
 };
 

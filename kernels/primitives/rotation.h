@@ -10,6 +10,14 @@ namespace boxwood {
 /// The rows of a 3 x 3 matrix.
 using Rotation = std::array<Vec3<double>, 3>;
 
+/// The matrix times v, rounded; and the transposed one.
+inline Vec3<double> times(const Rotation& m, Vec3<double> v) {
+    return {dot(m[0], v), dot(m[1], v), dot(m[2], v)};
+}
+inline Vec3<double> transposed_times(const Rotation& m, Vec3<double> v) {
+    return v.x * m[0] + v.y * m[1] + v.z * m[2];
+}
+
 /// The matrix product a b, rounded.
 inline Rotation product(const Rotation& a, const Rotation& b) {
     Rotation out;

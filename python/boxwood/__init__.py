@@ -12,12 +12,14 @@ casts rays for trimesh.
 
 import importlib
 
-from ._answers import ClosestPoints, Contacts, Distances, Hits, Items, MeshDistance, Nearest
+from ._answers import (BodyContacts, BodyDistance, BodyDistances, ClosestPoints, Contacts, Distances, FirstContacts, Hits,
+                       Items, MeshDistance, Nearest)
 
-__all__ = ["Bvh", "ClosestPoints", "Contacts", "Distances", "Hits", "Items", "Mesh", "MeshBvh", "MeshDistance", "Nearest",
-           "results", "triangle_distances", "triangles_intersect"]
+__all__ = ["BodyContacts", "BodyDistance", "BodyDistances", "Bvh", "ClosestPoints", "Contacts", "Distances",
+           "FirstContacts", "Hits", "Items", "Mesh", "MeshBvh", "MeshDistance", "Nearest", "Shape", "World", "results",
+           "triangle_distances", "triangles_intersect"]
 
-_CORE = {"Bvh", "Mesh", "MeshBvh", "triangle_distances", "triangles_intersect", "__version__"}
+_CORE = {"Bvh", "Mesh", "MeshBvh", "Shape", "World", "triangle_distances", "triangles_intersect", "__version__"}
 
 
 def __getattr__(name):

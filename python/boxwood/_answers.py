@@ -63,3 +63,49 @@ class Contacts(NamedTuple):
     normals: np.ndarray  # (n, 3) float64, of length 1
     depths: np.ndarray  # (n,) float64
     triangles: np.ndarray  # (n, 2) uint32
+
+
+class BodyDistance(NamedTuple):
+    """How far two bodies are apart, their margins taken in: the true distance is between lo and hi; parts: triangles or
+    points, -1 of what has none."""
+
+    body_a: int
+    body_b: int
+    distance: float
+    lo: float
+    hi: float
+    point_a: np.ndarray  # (3,) float64, in the world, on the shape without its margin
+    point_b: np.ndarray  # (3,) float64
+    part_a: int
+    part_b: int
+
+
+class BodyDistances(NamedTuple):
+    """The same of n pairs."""
+
+    bodies: np.ndarray  # (n, 2) uint32
+    distance: np.ndarray  # (n,) float64
+    lo: np.ndarray  # (n,) float64
+    hi: np.ndarray  # (n,) float64
+    points_a: np.ndarray  # (n, 3) float64
+    points_b: np.ndarray  # (n, 3) float64
+    parts: np.ndarray  # (n, 2) int32
+
+
+class BodyContacts(NamedTuple):
+    """Where bodies meet: by depth * normal the second one has to move for the two parts there only to touch."""
+
+    bodies: np.ndarray  # (n, 2) uint32
+    points: np.ndarray  # (n, 3) float64, in the world
+    normals: np.ndarray  # (n, 3) float64, of length 1, from the first to the second
+    depths: np.ndarray  # (n,) float64
+    parts: np.ndarray  # (n, 2) int32
+
+
+class FirstContacts(NamedTuple):
+    """When bodies on their way first meet: not before t_free, and by t_hit if is_certain."""
+
+    bodies: np.ndarray  # (n, 2) uint32
+    t_free: np.ndarray  # (n,) float64
+    t_hit: np.ndarray  # (n,) float64
+    is_certain: np.ndarray  # (n,) bool

@@ -1,5 +1,6 @@
 #include "arrays.h"
 #include "core.h"
+#include "poses.h"
 
 #include "trees/world/mesh_contacts.h"
 
@@ -10,7 +11,17 @@
 namespace boxwood::python {
 namespace {
 
-/// A 4 x 4 matrix, or None for no motion.
+/// 16 numbers, row by row.
+Pose named_pose(std::span<const double> m, const std::string& name) {
+    try {
+        return pose_of_matrix(m.first<16>());
+    } catch (const std::invalid_argument& error) {
+        throw py::value_error(name + ": " + error.what());
+    }
+}
+
+} // namespace
+
 Pose pose_of(const py::object& given, const std::string& name) {
     if (given.is_none())
         return {};
@@ -18,38 +29,26 @@ Pose pose_of(const py::object& given, const std::string& name) {
     if (rows.size() != 4)
         throw py::value_error(name + ": an array of shape (4, 4) is wanted, not (" +
                               std::to_string(rows.size()) + ", 4)");
-    const std::span<const double> m = rows.numbers();
-    if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1)
-        throw py::value_error(name + ": the last row is to be 0, 0, 0, 1");
-    Pose pose;
-    for (std::size_t i = 0; i < 3; ++i) {
-        pose.rotation[i] = {m[4 * i], m[4 * i + 1], m[4 * i + 2]};
-        pose.translation[static_cast<int>(i)] = m[4 * i + 3];
-    }
-    try {
-        return checked_pose(pose);
-    } catch (const std::invalid_argument& error) {
-        throw py::value_error(name + ": " + error.what());
-    }
+    return named_pose(rows.numbers(), name);
 }
 
-py::array point_of(const Vec3<double>& p) {
-    return array_of<double>(std::vector<double>{p.x, p.y, p.z});
+std::vector<Pose> poses_of(const py::object& given, const std::string& name) {
+    const Rows<double> rows(given, name, {4, 4});
+    std::vector<Pose> poses;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        poses.push_back(named_pose(rows.numbers().subspan(16 * i, 16),
+                                       name + ": row " + std::to_string(i)));
+    return poses;
 }
 
-class PyMesh {
-  public:
-    PyMesh(const py::object& vertices, const py::object& faces, const std::string& builder) {
-        TriangleMesh mesh = mesh_of(vertices, faces);
-        MeshTreeOptions options;
-        options.builder = make_builder(builder);
-        without_gil([&] { tree_.emplace(std::move(mesh), options); });
-    }
-    const MeshTree& tree() const { return *tree_; }
+PyMesh::PyMesh(const py::object& vertices, const py::object& faces, const std::string& builder) {
+    TriangleMesh mesh = mesh_of(vertices, faces);
+    MeshTreeOptions options;
+    options.builder = make_builder(builder);
+    without_gil([&] { tree_ = std::make_shared<const MeshTree>(std::move(mesh), options); });
+}
 
-  private:
-    std::optional<MeshTree> tree_;
-};
+namespace {
 
 /// Two meshes, the second seen from the first.
 struct Posed {
@@ -57,7 +56,7 @@ struct Posed {
           const py::object& other_pose)
         : a(mesh.tree()), b(other_mesh.tree()), at(pose_of(pose, "pose")),
           b_in_a(relative_pose(at, pose_of(other_pose, "other_pose"))) {}
-    Vec3<double> direction(const Vec3<double>& v) const { return at(v) - at.translation; }
+    Vec3<double> direction(const Vec3<double>& v) const { return at.rotated(v); }
 
     const MeshTree &a, &b;
     Pose at, b_in_a;

@@ -65,4 +65,5 @@ PYBIND11_MODULE(_core, module) {
     add_meshes(module);
     add_mesh_pairs(module);
     add_triangles(module);
+    add_worlds(module);
 }

@@ -1,5 +1,5 @@
 #include "scenes/registry.h"
-#include "scenes/rows.h"
+#include "scenes/text/rows.h"
 
 namespace boxwood {
 namespace {
@@ -14,7 +14,7 @@ struct OwnBoxes {
 
     static Scene generate(const SceneSpec& spec) {
         Scene scene;
-        read_rows(spec.file, "min_x,min_y,min_z,max_x,max_y,max_z", 6, 6,
+        read_rows(spec.file, {"min_x,min_y,min_z,max_x,max_y,max_z", 6, 6},
                   [&](std::span<const double> row, const std::string& place) {
                       scene.boxes.push_back(box_of(row.first<6>(), place));
                   });

@@ -1,6 +1,7 @@
 #include "scenes/meshes/mesh_file.h"
 
 #include "scenes/meshes/mesh_scan.h"
+#include "scenes/text/read_file.h"
 
 #include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
@@ -8,9 +9,6 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <unordered_map>
 
 namespace boxwood {
@@ -18,20 +16,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Not of a pipe, which assimp could not read a second time.
 std::string read_bytes(const fs::path& file) {
     std::error_code error;
     const fs::file_status status = fs::status(file, error);
-    if (status.type() == fs::file_type::not_found)
-        throw MeshError("no such file");
-    if (fs::is_directory(status))
-        throw MeshError("is a folder; name a mesh file in it");
-    if (!fs::is_regular_file(status))
-        throw MeshError(error ? "cannot be read: " + error.message() : "is not a regular file");
-    errno = 0;
-    std::ifstream stream(file, std::ios::binary);
-    std::string bytes(fs::file_size(file), '\0');
-    if (!stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
-        throw MeshError(fmt::format("cannot be read: {}", std::strerror(errno ? errno : EIO)));
+    if (!error && !fs::is_regular_file(status) && !fs::is_directory(status))
+        throw MeshError("is not a regular file");
+    std::string bytes = read_file(file, "mesh");
     if (bytes.empty())
         throw MeshError("is empty");
     return bytes;

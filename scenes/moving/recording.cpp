@@ -1,6 +1,6 @@
 #include "scenes/moving/recording.h"
 
-#include "scenes/rows.h"
+#include "scenes/text/rows.h"
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ std::size_t whole(double number, std::string_view what, const std::string& place
 Recording read_recording(const std::filesystem::path& file) {
     Recording frames(1);
     std::vector<bool> has_begun; // by body, in frame 0
-    read_rows(file, "frame,body,min_x,min_y,min_z,max_x,max_y,max_z", 8, 8,
+    read_rows(file, {"frame,body,min_x,min_y,min_z,max_x,max_y,max_z", 8, 8},
               [&](std::span<const double> row, const std::string& place) {
                   const std::size_t frame = whole(row[0], "frame", place);
                   const std::size_t body = whole(row[1], "body", place);

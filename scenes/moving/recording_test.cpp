@@ -1,42 +1,14 @@
 #include "scenes/moving/recording.h"
 
+#include "kernels/testing/complaint.h"
 #include "scenes/moving/frames.h"
-#include "scenes/sampling/rays.h"
+#include "scenes/text/testing/file_of.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-#include <unistd.h>
-
 namespace boxwood {
 namespace {
-
-/// A file with this text, gone with the test.
-class FileOf {
-  public:
-    explicit FileOf(const std::string& text)
-        : path_(std::filesystem::temp_directory_path() /
-                ("boxwood_rows_" + std::to_string(getpid()) + ".csv")) {
-        std::ofstream(path_) << text;
-    }
-    ~FileOf() { std::filesystem::remove(path_); }
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
-
-template <class Read> std::string refusal(const std::string& text, const Read& read) {
-    const FileOf file(text);
-    try {
-        read(file.path());
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "none";
-}
 
 const std::string two_bodies = "# two bodies\n0,0, 0,0,0,1,1,1\n0,1, 5,5,5,6,6,6\n";
 
@@ -69,7 +41,10 @@ TEST(Recording, IsPlayedFrameByFrame) {
 }
 
 TEST(Recording, RefusesWhatIsNoMotionAndNamesTheLine) {
-    const auto of = [](const std::string& text) { return refusal(text, read_recording); };
+    const auto of = [](const std::string& text) {
+        const FileOf file(text);
+        return complaint_of<std::runtime_error>([&] { read_recording(file.path()); });
+    };
     using ::testing::HasSubstr;
     EXPECT_THAT(of(two_bodies), HasSubstr("one frame"));
     EXPECT_THAT(of(two_bodies + "1,2,0,0,0,1,1,1\n"), HasSubstr(":4: frame 0 has no body 2"));
@@ -77,28 +52,14 @@ TEST(Recording, RefusesWhatIsNoMotionAndNamesTheLine) {
                 HasSubstr(":2: frame 0 has no box of body 0"));
     EXPECT_THAT(of(two_bodies + "2,0,0,0,0,1,1,1\n1,0,0,0,0,1,1,1\n"),
                 HasSubstr(":5: frame 1 comes after"));
-    EXPECT_THAT(of(two_bodies + "1,0,0,0,0,1,1\n"), HasSubstr(":4: a row is frame,body,"));
+    EXPECT_THAT(of(two_bodies + "1,0,0,0,0,1,1\n"),
+                HasSubstr(":4: 7 columns, expected 8: frame,body,"));
     EXPECT_THAT(of(two_bodies + "1.5,0,0,0,0,1,1,1\n"), HasSubstr("whole numbers"));
     EXPECT_THAT(of(two_bodies + "1,0,2,0,0,1,1,1\n"), HasSubstr("min 2 is above max 1"));
     EXPECT_THAT(of(two_bodies + "1,0,0,0,0,nan,1,1\n"), HasSubstr("a float holds"));
-    EXPECT_THAT(of(""), HasSubstr("cannot read it"));
+    EXPECT_THAT(of(""), HasSubstr("it holds no rows of frame,body,"));
+    EXPECT_THAT(of(two_bodies + "1,0,x,0,0,0,1,1\n"), HasSubstr(":4: column 3 is 'x'"));
     EXPECT_THAT(of("# nothing\n"), HasSubstr("no rows"));
-}
-
-TEST(OwnRays, AreReadAndRefused) {
-    const FileOf file("0,0,0,1,0,0\n1,2,3,0,0,-2,7.5\n");
-    const std::vector<Ray<float>> rays = read_rays(file.path());
-    ASSERT_EQ(rays.size(), 2u);
-    EXPECT_EQ(rays[0].t_max, std::numeric_limits<float>::infinity());
-    EXPECT_EQ(rays[1].origin, (Vec3<float>{1, 2, 3}));
-    EXPECT_EQ(rays[1].direction, (Vec3<float>{0, 0, -2}));
-    EXPECT_EQ(rays[1].t_max, 7.5f);
-    const auto of = [](const std::string& text) { return refusal(text, read_rays); };
-    using ::testing::HasSubstr;
-    EXPECT_THAT(of("0,0,0,0,0,0\n"), HasSubstr(":1: the direction is zero"));
-    EXPECT_THAT(of("0,0,0,1,0\n"), HasSubstr(":1: a row is ox,oy,oz,dx,dy,dz[,t_max]"));
-    EXPECT_THAT(of("0,0,1e38,1,0,0\n"), HasSubstr("2^126"));
-    EXPECT_THAT(of("0,0,1,1,0,0,-1\n"), HasSubstr("t_max is below 0"));
 }
 
 } // namespace

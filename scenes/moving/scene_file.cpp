@@ -4,13 +4,12 @@
 #include "scenes/effects/read_effect.h"
 #include "scenes/moving/toml_reader.h"
 #include "scenes/scene.h"
+#include "scenes/text/read_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 
 namespace boxwood {
@@ -184,13 +183,7 @@ SceneFile load_scene(const std::string& name_or_path) {
         throw std::invalid_argument(
             unknown_name("scene", name_or_path, names_of(built_in_scenes())) +
             "; a scene file of your own ends in .toml");
-    std::ifstream in(name_or_path, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    if (!in || !text)
-        throw std::runtime_error(
-            fmt::format("{}: cannot read it: does the file exist?", name_or_path));
-    return parse_scene_file(text.str(), name_or_path);
+    return parse_scene_file(read_file(name_or_path), name_or_path);
 }
 
 } // namespace boxwood

@@ -1,6 +1,7 @@
 #include "scenes/robots/srdf.h"
 
 #include "scenes/robots/xml_reader.h"
+#include "scenes/text/read_file.h"
 
 #include <fmt/format.h>
 

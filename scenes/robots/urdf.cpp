@@ -8,6 +8,7 @@
 #include "scenes/meshes/mesh_file.h"
 #include "scenes/robots/mesh_path.h"
 #include "scenes/robots/urdf_scan.h"
+#include "scenes/text/read_file.h"
 
 #include <console_bridge/console.h>
 #include <fmt/format.h>

@@ -173,6 +173,10 @@ TEST(Urdf, ErrorsNameTheLineAndTheWayOut) {
     EXPECT_THAT(with("axis xyz=\"0 0 2\"", "axis xyz=\"0 0 1e999\""),
                 HasSubstr("beyond the range"));
     EXPECT_THAT(with("axis xyz=\"0 0 2\"", "axis xyz=\"0 0 2m\""), HasSubstr("'2m' is no number"));
+    EXPECT_THAT(with("axis xyz=\"0 0 2\"", "axis xyz=\"0 0 0x2\""),
+                HasSubstr("'0x2' is no number"));
+    EXPECT_THAT(with("axis xyz=\"0 0 2\"", "axis xyz=\"0 0 +-2\""),
+                HasSubstr("'+-2' is no number"));
     EXPECT_THAT(with("radius=\"0.05\"", "radius=\"-0.05\""),
                 HasSubstr("arm.urdf:6: <sphere radius=\"-0.05\">: it must not be negative"));
     EXPECT_THAT(with("radius=\"0.05\"", ""), HasSubstr("<sphere> needs an attribute radius"));

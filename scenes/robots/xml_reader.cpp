@@ -1,21 +1,16 @@
 #include "scenes/robots/xml_reader.h"
 
 #include "kernels/suggest.h"
+#include "scenes/text/number.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <charconv>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 
 namespace boxwood {
 namespace {
 
-namespace fs = std::filesystem;
 using Element = tinyxml2::XMLElement;
 
 constexpr std::string_view blanks = " \t\r\n";
@@ -37,13 +32,16 @@ std::string take_number(std::string_view& text, double& number) {
     const std::string_view token = text.substr(0, end);
     text.remove_prefix(end);
     text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
-    const std::string_view digits = token.substr(token.starts_with('+') ? 1 : 0);
-    const auto [last, error] =
-        std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    if (error == std::errc::result_out_of_range)
+    const bool is_hex =
+        token.find_first_of("xX") != std::string_view::npos; // liburdfdom reads none
+    switch (is_hex ? NumberFault::not_a_number : parse_number(token, number)) {
+    case NumberFault::none:
+        break;
+    case NumberFault::too_large:
         return fmt::format("'{}' is beyond the range of a double", token);
-    if (error != std::errc{} || last != digits.data() + digits.size())
+    case NumberFault::not_a_number:
         return fmt::format("'{}' is no number", token);
+    }
     if (!std::isfinite(number))
         return fmt::format("'{}' is not finite", token);
     return {};
@@ -153,24 +151,6 @@ std::size_t XmlReader::index(const Element& of, const char* attribute, std::stri
         fail(of,
              fmt::format("<{} {}=...>: {}", of.Name(), attribute, unknown_name(what, name, known)));
     return static_cast<std::size_t>(found - known.begin());
-}
-
-std::string read_file(const fs::path& file, std::string_view kind) {
-    const auto refuse = [&](const std::string& what) {
-        throw std::runtime_error(fmt::format("{} {}: {}", kind, file.string(), what));
-    };
-    std::error_code error;
-    const fs::file_status status = fs::status(file, error);
-    if (status.type() == fs::file_type::not_found)
-        refuse("no such file");
-    if (fs::is_directory(status))
-        refuse("is a folder; name a file in it");
-    errno = 0;
-    std::ifstream in(file, std::ios::binary);
-    std::string bytes((std::istreambuf_iterator<char>(in)), {});
-    if (!in.is_open() || in.bad())
-        refuse(fmt::format("cannot be read: {}", std::strerror(errno ? errno : EIO)));
-    return bytes;
 }
 
 } // namespace boxwood

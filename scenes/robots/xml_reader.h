@@ -4,7 +4,6 @@
 
 #include <tinyxml2.h>
 
-#include <filesystem>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -51,9 +50,5 @@ void for_each_child(const tinyxml2::XMLElement& of, const char* name, Take take)
     for (const auto* e = of.FirstChildElement(name); e; e = e->NextSiblingElement(name))
         take(*e);
 }
-
-/// The bytes of a file. Throws std::runtime_error, "URDF file: ...", for one that is not there, is
-/// no file or cannot be read.
-std::string read_file(const std::filesystem::path& file, std::string_view kind);
 
 } // namespace boxwood

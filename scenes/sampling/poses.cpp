@@ -26,6 +26,11 @@ constexpr PoseKind kinds[] = {
     {"deep", "overlapping by half its width", -.5},
 };
 
+constexpr PoseKindEntry paths[] = {
+    {"linear", "its origin on a straight line, while it turns by the smaller angle"},
+    {"screw", "a turn about one axis of space and a slide along it"},
+};
+
 /// A rotation from four numbers, uniform over all: a point in the ball of four dimensions.
 std::array<Vec, 3> rotation_of(Draws& draws) {
     for (;;) {
@@ -81,6 +86,12 @@ std::span<const PoseKindEntry> pose_kinds() {
 }
 
 void check_pose_kind(std::string_view kind) { entry_named(kind, pose_kinds(), "kind of poses"); }
+
+std::span<const PoseKindEntry> motion_paths() { return paths; }
+
+void check_motion_path(std::string_view path) {
+    entry_named(path, motion_paths(), "path of a motion");
+}
 
 std::vector<RigidTransform<double>> make_poses(std::string_view kind, const TriangleMesh& mesh,
                                                std::size_t n, std::uint64_t seed) {

@@ -20,6 +20,11 @@ std::span<const PoseKindEntry> pose_kinds();
 /// Throws std::invalid_argument, with a suggestion, unless `kind` is a name of `pose_kinds()`.
 void check_pose_kind(std::string_view kind);
 
+/// How a copy goes from one pose to the next while t goes from 0 to 1.
+std::span<const PoseKindEntry> motion_paths();
+/// Throws as check_pose_kind.
+void check_motion_path(std::string_view path);
+
 /// n poses of a copy of the mesh in the mesh's frame: any rotation, set off in any direction so far
 /// that the two, seen along it, are a part of the mesh's width apart, or overlap by that. The same
 /// bits on every machine; pose i depends on the mesh, the seed and i.

@@ -40,6 +40,23 @@ TEST(ScenePoses, DependOnSeedAndNumberAlone) {
     EXPECT_THROW(make_poses("near", {}, 1, 1), std::invalid_argument);
 }
 
+TEST(ScenePoses, AreJoinedByMotionsByName) {
+    SceneSpec spec{.generator = "sphere_mesh", .n = 100, .poses = "apart", .n_poses = 3};
+    const Scene still = make_scene(spec);
+    spec.motion = "screw";
+    const Scene moving = make_scene(spec);
+    EXPECT_EQ(moving.name, "sphere_mesh_apart_screw");
+    EXPECT_EQ(moving.poses, still.poses);
+    EXPECT_NE(moving.params_json.find("\"motion\":\"screw\""), std::string::npos);
+    spec.motion = "screwed";
+    EXPECT_THROW(make_scene(spec), std::invalid_argument);
+    spec.motion = "screw";
+    spec.n_poses = 1;
+    EXPECT_THROW(make_scene(spec), std::invalid_argument);
+    spec.poses.clear();
+    EXPECT_THROW(make_scene(spec), std::invalid_argument);
+}
+
 TEST(ScenePoses, ArePartOfASceneByName) {
     const SceneSpec spec{.generator = "sphere_mesh", .n = 100, .poses = "deep", .n_poses = 7};
     const Scene scene = make_scene(spec);

@@ -1,11 +1,16 @@
 #include "scenes/sampling/rays.h"
 
+#include "kernels/arithmetic/rounding.h"
 #include "kernels/suggest.h"
-#include "scenes/rows.h"
 #include "scenes/sampling/random.h"
 #include "scenes/scene.h"
+#include "scenes/text/csv.h"
+#include "scenes/text/read_file.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -209,26 +214,38 @@ std::vector<Ray<float>> make_rays(std::string_view kind, const TriangleMesh& mes
     return rays;
 }
 
-std::vector<Ray<float>> read_rays(const std::filesystem::path& file) {
+std::vector<Ray<float>> parse_rays(std::string_view text, const std::string& source) {
+    constexpr std::array names{"ox", "oy", "oz", "dx", "dy", "dz"};
     std::vector<Ray<float>> rays;
-    read_rows(file, "ox,oy,oz,dx,dy,dz[,t_max]", 6, 7,
-              [&](std::span<const double> row, const std::string& place) {
-                  float numbers[7] = {};
-                  for (std::size_t i = 0; i < row.size(); ++i)
-                      if (numbers[i] = as_float(row[i], place);
-                          std::abs(numbers[i]) >= max_ray_coordinate)
-                          throw std::runtime_error(
-                              place + ": rays have numbers below 2^126; scale the scene");
-                  Ray<float> ray{{numbers[0], numbers[1], numbers[2]},
-                                 {numbers[3], numbers[4], numbers[5]}};
-                  if (ray.direction == Vec3<float>{})
-                      throw std::runtime_error(place + ": the direction is zero");
-                  if (row.size() == 7)
-                      ray.t_max = numbers[6];
-                  if (ray.t_max < 0)
-                      throw std::runtime_error(place + ": t_max is below 0");
-                  rays.push_back(ray);
-              });
+    const auto take = [&](std::span<const double> v, std::size_t line) {
+        for (std::size_t i = 0; i < 6; ++i)
+            if (!(std::abs(static_cast<float>(v[i])) < max_ray_coordinate))
+                throw_bad_row(source, line,
+                              fmt::format("{} is {}; a ray needs finite numbers below 2^126 "
+                                          "(8.5e37) in size",
+                                          names[i], v[i]));
+        Ray<float> ray = to_float({v[0], v[1], v[2]}, {v[3], v[4], v[5]});
+        if (ray.direction == Vec3<float>{})
+            throw_bad_row(source, line,
+                          "the direction dx,dy,dz is zero as floats; a ray needs one, of any "
+                          "length above 1e-45");
+        if (v.size() == 7) {
+            if (!(v[6] >= 0))
+                throw_bad_row(
+                    source, line,
+                    fmt::format("tmax is {}; it must be 0 or more (or be left out)", v[6]));
+            ray.t_max = round_down(v[6]);
+        }
+        rays.push_back(ray);
+    };
+    read_csv(text, source, {ray_columns, 6, 7}, take);
+    return rays;
+}
+
+std::vector<Ray<float>> read_rays(const std::filesystem::path& file) {
+    std::vector<Ray<float>> rays = parse_rays(read_file(file), file.string());
+    if (rays.empty())
+        throw BadInput(fmt::format("{}: it holds no rows of {}", file.string(), ray_columns));
     return rays;
 }
 

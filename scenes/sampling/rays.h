@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -24,8 +25,17 @@ std::vector<Ray<float>> make_rays(std::string_view kind, const TriangleMesh& mes
 /// What SceneSpec::rays is of rays that the user has.
 inline constexpr std::string_view own_rays = "own";
 
-/// From a CSV file with rows of ox,oy,oz,dx,dy,dz[,t_max]. Throws std::runtime_error, "file:line:
-/// ...", for anything else, a direction of zero, t_max < 0, or a number of 2^126 or more.
+/// From CSV text with rows of ox,oy,oz,dx,dy,dz[,tmax], rounded to floats, to nearest, but for
+/// tmax, which is rounded down: no hit lies beyond what was written. tmax may be inf. Throws
+/// BadInput, "source:line: ...", for anything else: a direction that is zero as floats, tmax < 0,
+/// or another number that is not below 2^126 in size.
+std::vector<Ray<float>> parse_rays(std::string_view text, const std::string& source);
+
+/// What parse_rays calls the columns.
+inline constexpr std::string_view ray_columns = "ox,oy,oz,dx,dy,dz[,tmax]";
+
+/// The rays of a CSV file. Throws BadInput as parse_rays does, and for a file that cannot be read
+/// or has no row.
 std::vector<Ray<float>> read_rays(const std::filesystem::path& file);
 
 /// Pixels in a row of the picture that n rays of a kind are, whose last row may be in part; 0 if

@@ -1,12 +1,16 @@
 #include "scenes/sampling/rays.h"
 
+#include "kernels/testing/complaint.h"
 #include "scenes/scene.h"
+#include "scenes/text/bad_input.h"
+#include "scenes/text/testing/file_of.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace boxwood {
@@ -130,6 +134,35 @@ TEST(Rays, OddMeshesGiveFiniteRaysOrAnError) {
     }
     for (const Ray<float>& ray : make_rays("ambient", far, 50, 1))
         EXPECT_GT(ray.origin.z, 0); // off the surface in spite of the far origin
+}
+
+TEST(OwnRays, TmaxIsRoundedDownAndMayBeInfinite) {
+    const std::vector<Ray<float>> rays =
+        parse_rays("0,0,0,1,0,0\n1,2,3,0,0,-2,7.5\n.2,.2,1,0,0,-1,0.99999999\n"
+                   "0,0,0,1,0,0,inf\n0,0,0,1,0,0,1e300\n",
+                   "rays.csv");
+    ASSERT_EQ(rays.size(), 5u);
+    EXPECT_EQ(rays[0].t_max, std::numeric_limits<float>::infinity());
+    EXPECT_EQ(rays[1].origin, (Vec3<float>{1, 2, 3}));
+    EXPECT_EQ(rays[1].direction, (Vec3<float>{0, 0, -2}));
+    EXPECT_EQ(rays[1].t_max, 7.5f);
+    EXPECT_EQ(rays[2].t_max, std::nextafter(1.0f, 0.0f)); // its nearest float is 1
+    EXPECT_EQ(rays[3].t_max, std::numeric_limits<float>::infinity());
+    EXPECT_EQ(rays[4].t_max, std::numeric_limits<float>::max());
+}
+
+TEST(OwnRays, BadRowsAndFilesWithoutRowsAreNamed) {
+    const auto of = [](const std::string& text) {
+        return complaint_of<BadInput>([&] { parse_rays(text, "rays.csv"); });
+    };
+    EXPECT_THAT(of("0,0,0,0,0,0\n"), HasSubstr("rays.csv:1: the direction dx,dy,dz is zero"));
+    EXPECT_THAT(of("0,0,0,1,0\n"), HasSubstr(":1: 5 columns, expected 6 to 7: ox,oy,oz,dx,"));
+    EXPECT_THAT(of("0,0,1e38,1,0,0\n"), HasSubstr("oz is 1e+38; a ray needs finite numbers"));
+    EXPECT_THAT(of("0,0,1,1,0,0,-1\n"), HasSubstr("tmax is -1"));
+    EXPECT_TRUE(parse_rays("# none\n", "rays.csv").empty());
+    const FileOf none("# none\n"), one("0,0,0,1,0,0\n");
+    EXPECT_EQ(read_rays(one.path()).size(), 1u);
+    EXPECT_THAT(complaint_of<BadInput>([&] { read_rays(none.path()); }), HasSubstr("no rows of"));
 }
 
 } // namespace

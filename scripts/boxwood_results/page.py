@@ -8,6 +8,7 @@ from .findings import comparison_rows
 from .inline_svg import InlineSvgs
 from .picture import cell_text, svgs_of_panels
 from .selection import wrong_text
+from boxwood.results.reader import NO_COUNT, NO_ID
 from boxwood.results.words import time_text
 
 STYLE = """
@@ -41,12 +42,11 @@ summary { cursor: pointer; font-size: .88rem; color: var(--link); }
                .scroll, details .scroll { max-height: none; overflow: visible; } }
 """
 MAX_ROWS = 150  # of a table: the rest is in the file
-MISSING = (2**32 - 1, 2**64 - 1)
 
 
 def shown(value):
     """(text, is number) of a table cell, numbers short enough to read."""
-    if value is None or value != value or value in MISSING:
+    if value is None or value != value or value in (NO_ID, NO_COUNT):
         return "", False
     if isinstance(value, float):
         return f"{value:.4g}" if abs(value) < 1e5 else f"{value:,.0f}", True

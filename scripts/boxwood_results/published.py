@@ -210,9 +210,15 @@ def draw(one, root, folder):
 def problems(root):
     """What does not fit together, as lines of text; none if all does."""
     found, machines, commits = [], set(), set()
+    frozen_tracks = tracks(root)
     for sweep in sorted({one.sweep for one in ALL}):
         file = root / "results" / "published" / f"{sweep}.h5"
+        version, frozen = frozen_tracks.get(sweep, (0, ""))
         if not file.exists():
+            if version:
+                one = next(one for one in ALL if one.sweep == sweep)
+                found.append(f"{file}: track {sweep}-{version} is frozen in tracks.csv, and its file is not there; "
+                             f"`{command_of(one)} --publish` measures it")
             continue
         run = read(file)
         machines |= {(row["host"], row["cpu"]) for row in run.source["env"]}
@@ -221,7 +227,6 @@ def problems(root):
             found.append(f"{file}: {file.stat().st_size:,} bytes; at most {MAX_BYTES:,}")
         if any(row["git_dirty"] for row in run.source["env"]):
             found.append(f"{file}: measured with changes that are in no commit")
-        version, frozen = tracks(root).get(sweep, (0, ""))
         if scenes_of(run) != frozen:
             found.append(f"{file}: its scenes are not those of track {sweep}-{version}; scripts/published --freeze raises the version")
         if run.noise_floor != run.noise_floor:

@@ -23,6 +23,8 @@ OUR_LOOK = ("#0072B2", "o")  # of all of ours, where names tell them apart
 OTHER_MARKERS = ("<", ">", "p", "h", "d", "H", "8")
 THIN = {"*": 1.7, "P": 1.25, "<": 1.15, ">": 1.15}  # markers that show too little at the size of the others
 INK, FAINT = "#222222", "#B8B8B8"
+ROW = 0.23  # inches of a row of ratios
+TALL = 8  # inches from which the axis of the rows stands at the top, too
 
 plt.rcParams.update(
     {
@@ -148,6 +150,41 @@ def time_axis(axis, low, high, room=0.06):
 
 def count_axis(axis, low, high, room=0.06):
     log_axis(axis, low, high, count_text, room)
+
+
+def draw_marks(ax, marks, floor):
+    """Ratios in rows: of each (ratio, height, (colour, marker), strength) a mark and the bar of its interval; the line at 1,
+    and the band of the noise floor, within which nothing is claimed."""
+    if not math.isnan(floor):
+        ax.axvspan(1 / (1 + floor), 1 + floor, color="#DDDDDD", zorder=0)
+    ax.axvline(1, color="#555555", linewidth=1, zorder=1)
+    for ratio, height, (colour, marker), strength in marks:
+        if ratio.known:
+            ax.plot([ratio.lo, ratio.hi], [height, height], color=colour, linewidth=1.8, alpha=strength, zorder=3)
+        ax.plot([ratio.mid], [height], marker=marker, markersize=6.5, color=colour, alpha=strength,
+                markeredgecolor="white", markeredgewidth=0.6, zorder=4)
+
+
+def row_heading(ax, x, height, text, size):
+    """Above rows, over their grid; x in widths of the panel."""
+    ax.text(x, height, text, transform=ax.get_yaxis_transform(), va="center", fontsize=size, weight="bold",
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5})
+
+
+def row_texts(ax, height, name, said, name_colour=INK, said_colour=INK):
+    """What stands left and right of a row."""
+    where = {"transform": ax.get_yaxis_transform(), "va": "center"}
+    ax.text(-0.03, height, name, ha="right", fontsize=8, color=name_colour, **where)
+    ax.text(1.03, height, said, fontsize=7.5, color=said_colour, **where)
+
+
+def ratio_axis(ax, low, high, label, room):
+    """Below rows of ratios."""
+    log_axis(ax.xaxis, low, high, lambda value: f"{value:g}x", room)
+    ax.set_xlabel(label)
+    ax.set_yticks([])
+    ax.grid(axis="y", visible=False)
+    ax.spines["left"].set_visible(False)
 
 
 def pair_of_panels(crowded):

@@ -45,6 +45,11 @@ def plant(root, name, text):
         ("bench/a.h", "#include <CLI/CLI.hpp>\n", "a.h:1: only bench/commands/ includes CLI11"),
         ("trees/a.h", '#include "kernels/testing/thinned.h"\n', "a.h:1: only tests include what is in"),
         ("trees/mesh_utils.h", "", "'mesh_utils' says nothing"),
+        ("scripts/pyflakes-4.1.0-py2.py3-none-any.whl", "PK", "any.whl: no kind of file that a module holds"),
+        ("bench/boxwood", "ELF", "bench/boxwood: no kind of file that a module holds"),
+        ("trees/a.h", "\nvoid walk_tree();\n", "a.h:2: 'walk' has a name of its own here: traversal"),
+        ("bench/a.cpp", "// NaN is passed over.\n", "a.cpp:1: 'passed over' has a name of its own here: skipped"),
+        ("bench/a.h", "enum class Told {};\n", "a.h:1: 'Told' has a name of its own here: reported"),
         ("trees/a.cpp", "//\n" * 451, "451 lines; at most 450"),
         ("trees/README.md", "line\n" * 41, "41 lines; at most 40"),
     ],
@@ -68,6 +73,10 @@ def test_what_is_allowed_passes(tmp_path):
     for file in ("kernels/oracle/a.cpp", "kernels/b_test.cpp", "kernels/testing/pairs.h",
                  "bench/b.cpp", "trees/b_test.cpp"):
         plant(tmp_path, file, needs_oracle)
+    plant(tmp_path, "bench/fuzz/corpus/urdf/one.link", "")
+    plant(tmp_path, "scripts/Snakefile", "")
+    plant(tmp_path, "trees/f.cpp", "// sidewalks are not told apart at a boardwalk\n")
+    plant(tmp_path, "scripts/run", "#!/bin/sh\n")
     plant(tmp_path, "build/utils.h", '#include "scenes/scene.h"\n')
     assert check(tmp_path)[0] == 0
 

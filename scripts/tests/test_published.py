@@ -27,9 +27,24 @@ def test_each_table_has_its_markers_and_its_sweep():
         sorted(published.BY_NAME)
     for one in published.ALL:
         assert (ROOT / one.config).exists()
-    # What is measured stands between markers: elsewhere README has no ratio and no time of a run.
-    rest = published.MARKED.sub("", README)
-    assert not re.findall(r"\b\d+(?:\.\d+)? times as|\b\d+(?:\.\d+)?x\b|\d (?:ms|us|ns)\b", rest)
+
+
+MEASURED = re.compile(r"\b\d+ times (?:as|the)\b|\b\d+\.\d+ times\b|\b\d+(?:\.\d+)?x\b|(?<!above )\b\d+(?:\.\d+)? (?:ms|us|ns)\b")
+
+
+def documents():
+    """The project's pages, but for the log of its changes, as text that no script writes."""
+    paths = subprocess.run(["git", "ls-files", "*.md"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()
+    return {path: published.MARKED.sub("", (ROOT / path).read_text()) for path in paths if path != "CHANGELOG.md"}
+
+
+def test_what_is_measured_stands_between_markers():
+    """Elsewhere there is no ratio and no time of a run, which would have no file behind it."""
+    for said in ("140 times as long", "0.8 times the time", "1.28 times;", "99.9x (99", "warm 4.3 ms)", "10 us"):
+        assert MEASURED.search(said), said
+    assert not MEASURED.search("share of the frames above 1 ms") and not MEASURED.search("a sweep 100 times at a random moment")
+    found = {path: MEASURED.findall(text) for path, text in documents().items()}
+    assert len(found) > 10 and not {path: ratios for path, ratios in found.items() if ratios}
 
 
 def file_of(root, sweep, made, toml=None, **env):
@@ -101,6 +116,15 @@ def test_a_track_whose_scenes_change_has_another_version(root):
         tables["scenes"][:] = rows
     assert any("not those of track effects-1" in line for line in published.problems(root))
     assert published.freeze(root) == ["effects-2"]
+
+
+def test_a_frozen_track_without_its_file_is_said(root):
+    file = file_of(root, "effects", synthetic.full())
+    published.freeze(root)
+    file.unlink()
+    published.write(root)
+    (problem,) = published.problems(root)
+    assert f"{file}: track effects-1 is frozen" in problem and "scripts/reproduce effects --publish" in problem
 
 
 def test_a_stray_file_is_said(root):

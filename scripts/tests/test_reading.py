@@ -188,6 +188,26 @@ def edited(table, column, value, row=0, made=None):
     return make
 
 
+def without_minor_version(*tables):
+    """A file that does not say its minor version, and lacks these tables."""
+
+    def make(path):
+        synthetic.small().write(path)
+        with h5py.File(path, "a") as file:
+            del file.attrs["schema_minor"]
+            for name in tables:
+                del file[name]
+
+    return make
+
+
+def test_a_file_without_a_minor_version_is_taken_for_the_newest(tmp_path):
+    path = tmp_path / "a.h5"
+    without_minor_version()(path)
+    assert len(run.read(path).source["device_gains"]) == 0
+    assert synthetic.answer("show", path).returncode == 0
+
+
 DERIVES = "bad.h5 --out NEW.h5` derives it"
 ELSE = "use another copy, or measure again"
 @pytest.mark.parametrize(
@@ -209,6 +229,7 @@ ELSE = "use another copy, or measure again"
         (dropped("samples.phase"), f"column samples.phase is missing; {ELSE}"),
         *((dropped(column), DERIVES) for column in sorted(reader.DERIVED_COLUMNS)),
         (dropped("medians.times_limit"), DERIVES),
+        (without_minor_version("device_gains"), DERIVES),
         (edited("compare", "verdict", b"quicker"), f'column compare.verdict holds the unknown word "quicker"; {ELSE}'),
         (edited("compare", "reason", b"moody"), f'column compare.reason holds the unknown word "moody"; {ELSE}'),
         (edited("compare", "family", b"foes"), f'column compare.family holds the unknown word "foes"; {ELSE}'),

@@ -4,8 +4,8 @@
 /// by whoever includes it and has FCL 0.7; libboxwood knows nothing of FCL. Not part of trees.h.
 
 #include "trees/adapters/detail/fcl_bounds.h"
-#include "trees/adapters/detail/item_tree.h"
-#include "trees/adapters/detail/nearest_first.h"
+#include "trees/dynamic/detail/item_tree.h"
+#include "trees/dynamic/detail/nearest_first.h"
 #include "trees/queries/filters.h"
 #include "trees/queries/regions.h"
 #include "trees/queries/self_pairs.h"

@@ -59,7 +59,7 @@ TEST(Churn, TheDynamicTreeStaysRightGoodAndSmall) {
         }
         if (change % checkpoint != 0)
             continue;
-        // The items in their order, without gaps: as a tree of their own, and as one made anew.
+        // The items in their order, without gaps: as a tree of their own, and as one made again.
         std::vector<Box> present;
         std::vector<std::uint32_t> rank(n);
         DynamicTree fresh;

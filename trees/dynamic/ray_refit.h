@@ -2,7 +2,7 @@
 
 #include "kernels/primitives/triangle.h"
 #include "trees/queries/rays.h"
-#include "trees/traversals/ray_tree.h"
+#include "trees/traversals/rays/ray_tree.h"
 
 #include <cstddef>
 #include <cstdint>

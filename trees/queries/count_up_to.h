@@ -22,7 +22,6 @@ class CountPairsUpTo final : public PairSink {
     /// All pairs, if they are no more than the limit; else some number above it. May be read while
     /// the traversal is under way.
     std::uint64_t count() const { return count_; }
-    bool exceeded() const { return count_ > limit_; }
 
   private:
     std::uint64_t limit_;

@@ -13,7 +13,7 @@
 #include <span>
 #include <string_view>
 
-/// Rays at a mesh, over any layout. Those of a batch take turns (traversals/ray_wave-inl.h), so
+/// Rays at a mesh, over any layout. Those of a batch take turns (traversals/rays/ray_wave-inl.h), so
 /// they are best handed over many at a time; single_rays.h is for who has one.
 namespace boxwood {
 
@@ -23,7 +23,7 @@ enum class RayQuery : std::uint8_t {
 };
 
 /// What rays read of a layout: the triangles of a mesh in blocks of four or eight, and above them a
-/// copy of the inner nodes that knows where those are (traversals/ray_tree.h).
+/// copy of the inner nodes that knows where those are (traversals/rays/ray_tree.h).
 struct TriangleBlocks {
     Buffer<std::byte> nodes, blocks;
     std::uint32_t root = 0;

@@ -1,11 +1,15 @@
 #include "trees/world/continuous.h"
 
+#include "kernels/primitives/rotation.h"
+#include "trees/testing/shapes_at_random.h"
 #include "trees/testing/test_meshes.h"
+#include "trees/world/mesh_shape.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
+#include <string>
 
 namespace boxwood {
 namespace {
@@ -134,6 +138,74 @@ TEST(FirstContact, OfNothingNever) {
     EXPECT_EQ(first_contact(MeshTree(), Motion(), cube, Motion()).hit, Answer::no);
     EXPECT_THROW(first_contact(cube, Motion(), cube, Motion(), {.tolerance = -1}),
                  std::invalid_argument);
+}
+
+TEST(FirstContactWithAShape, OfAThinPlateIsNotMissed) {
+    const MeshTree thin(plate(3, 0));
+    for (const convex::Shape& shape :
+         {convex::Shape(convex::Sphere{.05}), convex::Shape(convex::Box{{.05, .05, .05}}),
+          convex::Shape(convex::Cylinder{.01, .05})}) {
+        const Motion flight(moved(.5, .5, -10), moved(.5, .5, 10));
+        const FirstContact hit = first_contact(thin, Motion(), shape, flight);
+        EXPECT_EQ(hit.hit, Answer::yes);
+        EXPECT_NEAR(hit.t_free, (10 - .05) / 20, 1e-8);
+        EXPECT_NEAR(hit.t_hit, hit.t_free, 1e-8);
+        const FirstContact beside =
+            first_contact(thin, Motion(), shape, Motion(moved(2, .5, -10), moved(2, .5, 10)));
+        EXPECT_EQ(beside.hit, Answer::no);
+        EXPECT_EQ(beside.t_free, 1);
+    }
+}
+
+TEST(FirstContactWithAShape, OfAFloorThatRisesOrTurns) {
+    const MeshTree cube(cube_mesh(1));
+    const convex::HalfSpace floor{{0, 0, 1}, 0};
+    const FirstContact rising =
+        first_contact(cube, Motion(), floor, Motion(moved(50, 9, -5), moved(50, 9, 0)));
+    EXPECT_EQ(rising.hit, Answer::yes);
+    EXPECT_NEAR(rising.t_hit, .8, 1e-9);
+    // About an axis at x = 4: the far edge, 5 away, is met when it has risen by 1.
+    Pose turned = moved(4, 0, -1);
+    const double angle = std::acos(-1.0) / 4;
+    turned.rotation = rotation_about({0, 1, 0}, angle);
+    const FirstContact turning = first_contact(cube, Motion(), convex::Plane{{0, 0, 1}, -1},
+                                               Motion(moved(4, 0, -1), turned));
+    EXPECT_EQ(turning.hit, Answer::yes);
+    EXPECT_NEAR(turning.t_hit, std::asin(.2) / angle, 1e-9);
+}
+
+/// Whatever a fine sampling of the motion finds touching, the answer is not later; and at its time
+/// they are as good as in touch.
+TEST(FirstContactWithAShape, IsNotAfterWhatSamplesFind) {
+    ShapesAtRandom shapes(9);
+    const MeshTree tree(noisy_sphere(6, 7, .3, 1));
+    std::size_t hits = 0, misses = 0;
+    for (const convex::ShapeKind kind : all_shape_kinds())
+        for (int k = 0; k < 4; ++k) {
+            SCOPED_TRACE(std::string(to_string(kind)));
+            const convex::Shape shape = shapes.shape(kind);
+            const MotionPath path = k % 2 == 0 ? MotionPath::linear : MotionPath::screw;
+            const Motion motion(shapes.pose(2), shapes.pose(2), path);
+            const Motion of_shape(shapes.pose(4), shapes.pose(4), path);
+            const FirstContact first = first_contact(tree, motion, shape, of_shape);
+            EXPECT_NE(first.hit, Answer::maybe);
+            (first.hit == Answer::yes ? hits : misses)++;
+            for (int i = 0; i <= 200; ++i) {
+                const double t = i / 200.0;
+                if (t < first.t_free || first.hit == Answer::no) {
+                    EXPECT_NE(
+                        collide(tree, shape, relative_pose(motion.at(t), of_shape.at(t))).answer,
+                        Answer::yes)
+                        << t;
+                }
+            }
+            if (first.hit == Answer::yes) {
+                const Pose there = relative_pose(motion.at(first.t_hit), of_shape.at(first.t_hit));
+                EXPECT_LT(distance(tree, shape, there).lo, 1e-9);
+            }
+        }
+    EXPECT_GT(hits, 10u);
+    EXPECT_GT(misses, 3u);
 }
 
 } // namespace

@@ -3,7 +3,7 @@
 /// A step takes a pair of blocks and opens both at once. B's eight boxes are moved into A's frame
 /// and tested against the box around A's block; each that is left against A's eight boxes. Pairs of
 /// leaves: B's corners are moved in doubles, boxes of triangles are compared, and what is left goes
-/// to the exact kernel, 64 pairs at a time, or at once where the first hit will do.
+/// to the exact kernel, 64 pairs at a time, or eight where the first hit will do.
 
 // Compiled once per instruction set; the best one is chosen at run time.
 #undef HWY_TARGET_INCLUDE
@@ -19,8 +19,10 @@
 #include "trees/world/detail/obb_lanes-inl.h"
 #include "trees/world/mesh_pairs.h"
 
+#include <algorithm>
 #include <bit>
 #include <limits>
+#include <utility>
 
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::detail::HWY_NAMESPACE {
@@ -50,26 +52,54 @@ template <bool first_hit, bool counted> class Collision {
         : a_(a), b_(b), frame_(a, b, pose), stack_(most_entries(a.depth(), b.depth())),
           limit_(limit), pairs_(pairs), work_(work) {}
 
-    bool run() {
-        stack_.push({a_.root(), b_.root()});
+    bool run() { return run({a_.root(), b_.root()}) || finish(); }
+
+    /// From these blocks down. True once enough is known.
+    bool run(Pair from) {
+        stack_.push(from);
         while (!stack_.empty()) {
-            const Pair open = stack_.pop();
-            count_visit();
-            if (is_leaf(open.a) && is_leaf(open.b) && compare_leaves(open))
+            const Pair pair = stack_.pop();
+            if (!are_leaves(pair))
+                open(pair);
+            else if (count_visit(); compare_leaves(pair))
                 return true;
-            if (is_leaf(open.a) && is_leaf(open.b))
-                continue;
-            if (is_leaf(open.a))
-                open_b(open);
-            else if (is_leaf(open.b))
-                open_a(open);
-            else
-                open_both(open);
         }
-        return queue_.size() > 0 && decide();
+        return false;
+    }
+    bool finish() { return queue_.size() > 0 && decide(); }
+
+    /// Pairs of blocks, at least `enough` of them if there are, below which is all that touches.
+    std::vector<Pair> front(std::size_t enough) {
+        std::vector<Pair> front{{a_.root(), b_.root()}};
+        while (front.size() < enough && !std::ranges::all_of(front, are_leaves)) {
+            std::vector<Pair> next;
+            for (const Pair pair : front) {
+                if (are_leaves(pair)) {
+                    next.push_back(pair);
+                    continue;
+                }
+                open(pair);
+                next.insert(next.end(), stack_.from(0), stack_.from(stack_.size()));
+                stack_.clear();
+            }
+            front = std::move(next);
+        }
+        return front;
     }
 
   private:
+    static bool are_leaves(Pair pair) { return is_leaf(pair.a) && is_leaf(pair.b); }
+
+    /// Not two leaves.
+    HWY_INLINE void open(Pair pair) {
+        count_visit();
+        if (is_leaf(pair.a))
+            open_b(pair);
+        else if (is_leaf(pair.b))
+            open_a(pair);
+        else
+            open_both(pair);
+    }
     HWY_INLINE void open_both(Pair open) {
         const ObbBlock& a = a_.block(open.a);
         const ObbBlock& b = b_.block(open.b);
@@ -132,8 +162,8 @@ template <bool first_hit, bool counted> class Collision {
         const TriangleLeaf& a = a_.leaf(open.a);
         const TriangleLeaf& b = b_.leaf(open.b);
         const MovedLeaf moved(b, frame_.pose);
-        const NearBoxes boxes_a(NearCorners(a, a.own.centre));
-        const NearBoxes boxes_b(NearCorners(moved, a.own.centre));
+        const NearCorners near_a(a, a.own.centre), near_b(moved, a.own.centre);
+        const NearBoxes boxes_a(near_a), boxes_b(near_b);
         const std::uint32_t used = (1u << b.count) - 1;
         for (std::size_t i = 0; i < a.count; ++i) {
             std::uint32_t near = 0;
@@ -152,8 +182,8 @@ template <bool first_hit, bool counted> class Collision {
             for (near &= used; near != 0; near &= near - 1)
                 queue_.add(a, i, b, moved, static_cast<std::size_t>(std::countr_zero(near)));
         }
-        // A leaf pair adds up to 64.
-        return (first_hit ? queue_.size() > 0 : !queue_.has_room_for(64)) && decide();
+        // A leaf pair adds up to 64. A block of eight takes no longer than one pair.
+        return (first_hit ? queue_.size() >= 8 : !queue_.has_room_for(64)) && decide();
     }
 
     HWY_NOINLINE bool decide() {
@@ -212,6 +242,26 @@ void all_touches(const MeshTree& a, const MeshTree& b, const Pose& pose, std::si
         Collision<false, false>(a, b, pose, limit, &pairs, nullptr).run();
 }
 
+void all_touches_by(const MeshTree& a, const MeshTree& b, const Pose& pose,
+                    const Executor& executor, std::vector<Pair>& pairs) {
+    constexpr std::size_t enough = 256, in_task = 8;
+    constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
+    using AllTouches = Collision<false, false>;
+    const std::vector<Pair> front = AllTouches(a, b, pose, all, nullptr, nullptr).front(enough);
+    std::vector<std::vector<Pair>> found((front.size() + in_task - 1) / in_task);
+    executor.for_each(found.size(), [&](std::size_t task) {
+        without_flushing([&] {
+            AllTouches below(a, b, pose, all, &found[task], nullptr);
+            const std::size_t end = std::min(front.size(), (task + 1) * in_task);
+            for (std::size_t i = task * in_task; i < end; ++i)
+                below.run(front[i]);
+            below.finish();
+        });
+    });
+    for (const std::vector<Pair>& some : found)
+        pairs.insert(pairs.end(), some.begin(), some.end());
+}
+
 } // namespace
 } // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -221,6 +271,7 @@ namespace boxwood {
 namespace detail {
 HWY_EXPORT(first_touch);
 HWY_EXPORT(all_touches);
+HWY_EXPORT(all_touches_by);
 } // namespace detail
 
 bool collide(const MeshTree& a, const MeshTree& b, const Pose& b_in_a, Work* work) {
@@ -247,6 +298,16 @@ std::vector<Pair> touching_triangles(const MeshTree& a, const MeshTree& b, const
                                      std::size_t limit, Work* work) {
     std::vector<Pair> pairs;
     touching_triangles(a, b, b_in_a, limit, pairs, work);
+    return pairs;
+}
+
+std::vector<Pair> touching_triangles(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
+                                     const Executor& executor) {
+    std::vector<Pair> pairs;
+    if (a.empty() || b.empty())
+        return pairs;
+    using namespace detail;
+    HWY_DYNAMIC_DISPATCH(all_touches_by)(a, b, b_in_a, executor, pairs);
     return pairs;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 namespace boxwood {
 namespace {
@@ -152,14 +153,18 @@ std::vector<Contact> contacts(const MeshTree& a, const MeshTree& b, const Pose& 
         found.push_back(contact_of(a.triangle(pair.a, Pose{}), b.triangle(pair.b, b_in_a)));
         found.back().triangles = pair;
     }
-    std::ranges::sort(found, deeper);
+    return deepest_first(std::move(found), options);
+}
+
+std::vector<Contact> deepest_first(std::vector<Contact> contacts, const ContactOptions& options) {
+    std::ranges::sort(contacts, deeper);
     if (options.max_contacts == 0)
         return {};
-    if (found.size() > options.max_contacts) {
-        found = spread(found, options.max_contacts);
-        std::ranges::sort(found, deeper);
+    if (contacts.size() > options.max_contacts) {
+        contacts = spread(contacts, options.max_contacts);
+        std::ranges::sort(contacts, deeper);
     }
-    return found;
+    return contacts;
 }
 
 } // namespace boxwood

@@ -34,4 +34,7 @@ std::vector<Contact> contacts(const MeshTree& a, const MeshTree& b, const Pose& 
 /// Of one pair of triangles that touch.
 Contact contact_of(const Triangle<double>& a, const Triangle<double>& b);
 
+/// The deepest first and then by triangles, max_contacts of them at most.
+std::vector<Contact> deepest_first(std::vector<Contact> contacts, const ContactOptions& options);
+
 } // namespace boxwood

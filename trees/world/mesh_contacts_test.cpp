@@ -1,6 +1,7 @@
 #include "trees/world/mesh_contacts.h"
 
 #include "trees/testing/test_meshes.h"
+#include "trees/world/mesh_shape.h"
 #include "trees/world/solid.h"
 
 #include <gtest/gtest.h>
@@ -123,6 +124,27 @@ TEST(Solids, MustBeClosed) {
     TriangleMesh open = cube_mesh(1);
     open.triangles.pop_back();
     EXPECT_THROW(Solid{open}, std::invalid_argument);
+}
+
+TEST(Solids, HoldConvexShapes) {
+    const Solid cube(cube_mesh(1));
+    Pose aside;
+    aside.translation = {.3, -.2, .1};
+    const std::vector<Vec3<double>> points{{.1, 0, 0}, {0, .1, 0}, {0, 0, .1}, {0, 0, 0}};
+    for (const convex::Shape& shape :
+         {convex::Shape(convex::Sphere{.1}), convex::Shape(convex::Capsule{.1, .2}),
+          convex::Shape(convex::Hull(points)), convex::Shape(convex::Cone{.1, .1})}) {
+        aside.translation.x = .3;
+        EXPECT_EQ(collide(cube.surface(), shape, aside).answer, Answer::no);
+        EXPECT_EQ(collide(cube, shape, aside).answer, Answer::yes);
+        aside.translation.x = .95; // through the surface
+        EXPECT_EQ(collide(cube, shape, aside).answer, Answer::yes);
+        aside.translation.x = 1.5;
+        EXPECT_EQ(collide(cube, shape, aside).answer, Answer::no);
+    }
+    EXPECT_EQ(collide(cube, convex::Sphere{9}, aside).answer, Answer::yes); // it holds the cube
+    EXPECT_EQ(collide(cube, convex::Plane{{0, 0, 1}, 3}, Pose{}).answer, Answer::no);
+    EXPECT_EQ(collide(cube, convex::Plane{{0, 0, 1}, .5}, Pose{}).answer, Answer::yes);
 }
 
 } // namespace

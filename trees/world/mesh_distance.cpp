@@ -1,6 +1,7 @@
 /// How far two meshes are apart.
 ///
-/// Depth first, the nearest pair of blocks on top. A step opens both blocks at once: bounds of the
+/// First a few times straight down to the nearest leaves, for an upper bound. Then depth first, the
+/// nearest pair of blocks on top. A step opens both blocks at once: bounds of the
 /// distances of boxes in floats, eight at a time; where a bound is just below what is wanted, the
 /// gap in doubles. Pairs of leaves: bounds of the distances of triangles by their boxes and along
 /// their normals; what is left is gathered and measured eight pairs at a time. Each measured pair
@@ -52,6 +53,8 @@ template <bool counted> class Search {
           stack_(most_entries(a.depth(), b.depth())), work_(work) {
         if (goal.options.start)
             measure_start(*goal.options.start);
+        else
+            descend();
     }
 
     MeshDistance run() {
@@ -60,10 +63,7 @@ template <bool counted> class Search {
             const NearEntry open = stack_.pop();
             if (open.bound >= nearest_.wanted_f32())
                 continue;
-            if constexpr (counted) {
-                ++work_->node_visits;
-                work_->stack_max = std::max<std::uint64_t>(work_->stack_max, stack_.size() + 1);
-            }
+            count_visit(stack_.size() + 1);
             if (is_leaf(open.a) && is_leaf(open.b))
                 compare_leaves(open);
             else if (is_leaf(open.a))
@@ -78,6 +78,95 @@ template <bool counted> class Search {
     }
 
   private:
+    // The descents.
+
+    static constexpr int descents = 4;
+
+    void descend() {
+        std::uint32_t tried = 0; // lanes of a root
+        Pair last{~0u, ~0u};
+        for (int i = 0; i < descents && !nearest_.is_done(); ++i) {
+            Pair at{a_.root(), b_.root()};
+            for (bool is_root = true; !is_leaf(at.a) || !is_leaf(at.b); is_root = false) {
+                count_visit(0);
+                if (!to_nearest_children(at, is_root ? &tried : nullptr))
+                    return;
+            }
+            if (at == last)
+                continue;
+            count_visit(0);
+            compare_leaves({0, 0, at.a, at.b});
+            measure_queue();
+            last = at;
+        }
+    }
+
+    /// To the lane of B whose centre is nearest to A's, if B is no leaf, then to the lane of A that
+    /// is nearest to that. tried: lanes of the first of the two choices that were taken before; no
+    /// if there is none left.
+    bool to_nearest_children(Pair& at, std::uint32_t* tried) {
+        Vec3<double> from_b; // in A's frame
+        if (is_leaf(at.b)) {
+            const double(&c)[3] = b_.leaf(at.b).own.centre;
+            from_b = frame_.pose(Vec3<double>{c[0], c[1], c[2]});
+        } else {
+            const ObbBlock& b = b_.block(at.b);
+            const double(&a)[3] =
+                is_leaf(at.a) ? a_.leaf(at.a).own.centre : a_.block(at.a).own.centre;
+            // A's centre in B's frame: the inverse of the pose.
+            const Vec3<double> t = Vec3<double>{a[0], a[1], a[2]} - frame_.pose.translation;
+            const auto& r = frame_.pose.rotation;
+            const std::size_t lane = nearest_lane(b, t.x * r[0] + t.y * r[1] + t.z * r[2], tried);
+            if (lane == ObbBlock::width)
+                return false;
+            tried = nullptr;
+            from_b = frame_.pose(
+                Vec3<double>{b.centre_f64[0][lane], b.centre_f64[1][lane], b.centre_f64[2][lane]});
+            at.b = b.ref[lane];
+        }
+        if (is_leaf(at.a))
+            return true;
+        const ObbBlock& a = a_.block(at.a);
+        const std::size_t lane = nearest_lane(a, from_b, tried);
+        if (lane == ObbBlock::width)
+            return false;
+        at.a = a.ref[lane];
+        return true;
+    }
+
+    /// The lane whose centre is nearest to a point of the block's frame, but for those tried;
+    /// ObbBlock::width if there is none.
+    HWY_INLINE std::size_t nearest_lane(const ObbBlock& block, const Vec3<double>& p,
+                                        std::uint32_t* tried) {
+        const F8 x = hn::Set(d8, static_cast<float>(p.x - block.own.centre[0])),
+                 y = hn::Set(d8, static_cast<float>(p.y - block.own.centre[1])),
+                 z = hn::Set(d8, static_cast<float>(p.z - block.own.centre[2]));
+        alignas(64) float squared[8];
+        for (std::size_t i = 0; i < 8; i += hn::Lanes(d8)) {
+            const F8 dx = hn::Sub(hn::Load(d8, block.centre[0] + i), x);
+            const F8 dy = hn::Sub(hn::Load(d8, block.centre[1] + i), y);
+            const F8 dz = hn::Sub(hn::Load(d8, block.centre[2] + i), z);
+            hn::Store(dot3(dx, dy, dz, dx, dy, dz), d8, squared + i);
+        }
+        std::size_t best = ObbBlock::width;
+        float least = std::numeric_limits<float>::infinity();
+        for (std::size_t i = 0; i < block.count; ++i)
+            if (!(tried && *tried >> i & 1) && squared[i] < least) {
+                least = squared[i];
+                best = i;
+            }
+        if (tried && best < ObbBlock::width)
+            *tried |= 1u << best;
+        return best;
+    }
+
+    HWY_INLINE void count_visit(std::size_t waiting) {
+        if constexpr (counted) {
+            ++work_->node_visits;
+            work_->stack_max = std::max<std::uint64_t>(work_->stack_max, waiting);
+        }
+    }
+
     // A step.
 
     template <class Centre>
@@ -329,21 +418,12 @@ MeshDistance search(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
 
 MeshDistance distance(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
                       const DistanceOptions& options, Work* work) {
-    if (!(options.relative >= 0 && options.relative < 1) || !(options.absolute >= 0) ||
-        !(options.limit >= 0))
-        throw std::invalid_argument("a relative tolerance must be in [0, 1), an absolute one and a "
-                                    "limit at least 0");
-    return search(a, b, b_in_a, {options, 0}, work);
+    return search(a, b, b_in_a, detail::goal_of(options), work);
 }
 
 MeshWithin within(const MeshTree& a, const MeshTree& b, const Pose& b_in_a, double tolerance,
                   Work* work) {
-    if (!(tolerance >= 0))
-        throw std::invalid_argument("a tolerance must be at least 0");
-    DistanceOptions options;
-    options.limit = tolerance * (1 + 0x1p-31) + std::numeric_limits<double>::denorm_min();
-    const MeshDistance found = search(a, b, b_in_a, {options, tolerance}, work);
-    return {found.found() && found.lo <= tolerance, found.lo, found.hi};
+    return detail::within_by(search(a, b, b_in_a, detail::goal_within(tolerance), work), tolerance);
 }
 
 } // namespace boxwood

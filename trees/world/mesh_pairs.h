@@ -31,6 +31,10 @@ std::vector<Pair> touching_triangles(const MeshTree& a, const MeshTree& b, const
 void touching_triangles(const MeshTree& a, const MeshTree& b, const Pose& b_in_a, std::size_t limit,
                         std::vector<Pair>& pairs, Work* work = nullptr);
 
+/// All of them by several threads, in an order that does not depend on how many.
+std::vector<Pair> touching_triangles(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
+                                     const Executor& executor);
+
 struct DistanceOptions {
     /// The answer may be farther than the least distance: hi <= (lo + absolute) / (1 - relative),
     /// up to 2^-32 of it.

@@ -3,6 +3,7 @@
 #include "kernels/oracle/oracle.h"
 #include "kernels/triangle_distance/certified.h"
 #include "trees/builders/lbvh.h"
+#include "trees/testing/every_executor.h"
 #include "trees/testing/test_meshes.h"
 #include "trees/testing/triangle_soup.h"
 
@@ -85,6 +86,26 @@ TEST_P(RandomPoses, TouchAsRationalsSay) {
         }
     }
     EXPECT_GT(hits, 500u);
+}
+
+TEST(MeshPairs, TouchTheSameForAnyNumberOfThreads) {
+    const MeshTree a(noisy_sphere(40, 40, .1, 1)), b(noisy_sphere(35, 30, .1, 2));
+    const MeshTree one(triangle_soup(1)), none;
+    for (const double x : {0., .3, 1.2, 9.}) {
+        Pose pose;
+        pose.translation = {x, .1, -.2};
+        for (const MeshTree* other : {&b, &one, &none}) {
+            std::vector<Pair> expected = touching_triangles(a, *other, pose);
+            std::ranges::sort(expected);
+            const std::vector<Pair> serially = touching_triangles(a, *other, pose, serial());
+            for (const auto& [name, executor] : every_executor())
+                EXPECT_EQ(touching_triangles(a, *other, pose, *executor), serially) << name;
+            std::vector<Pair> sorted = serially;
+            std::ranges::sort(sorted);
+            EXPECT_EQ(sorted, expected);
+        }
+    }
+    EXPECT_GT(touching_triangles(a, b, Pose{}, serial()).size(), 100u);
 }
 
 TEST_P(RandomPoses, AreAsFarApartAsTheirTriangles) {

@@ -77,32 +77,6 @@ class Corners {
     Buffer<float> floats_;
 };
 
-/// Area, its first and its second moments about a point, of some triangles.
-struct Moments {
-    double area = 0, first[3] = {}, second[6] = {};
-
-    void add(const Moments& other) {
-        area += other.area;
-        for (std::size_t k = 0; k < 3; ++k)
-            first[k] += other.first[k];
-        for (std::size_t k = 0; k < 6; ++k)
-            second[k] += other.second[k];
-    }
-    /// The integral of x x^T over a triangle is area / 12 (s s^T + a a^T + b b^T + c c^T), s = a +
-    /// b + c.
-    void add(const Vec3<double>& a, const Vec3<double>& b, const Vec3<double>& c) {
-        const Vec3<double> n = cross(b - a, c - a), s = a + b + c;
-        const double weight = length(n) / 2, part = weight / 12;
-        area += weight;
-        std::size_t at = 0;
-        for (int i = 0; i < 3; ++i) {
-            first[i] += weight / 3 * s[i];
-            for (int j = i; j < 3; ++j)
-                second[at++] += part * (s[i] * s[j] + a[i] * a[j] + b[i] * b[j] + c[i] * c[j]);
-        }
-    }
-};
-
 /// The boxes of all blocks of a collapsed tree, by the number of the block.
 class Fitting {
   public:
@@ -161,23 +135,15 @@ class Fitting {
         const Vec3<double> centre = 0.5 * (Vec3<double>(box.min) + Vec3<double>(box.max));
         const Vec3<double> sides = Vec3<double>(box.max) - Vec3<double>(box.min);
         const double largest = std::max({sides.x, sides.y, sides.z});
-        const double scale = largest > 0 ? 1 / largest : 1;
+        const double scale = largest > 0x1p-100 ? 1 / largest : 1;
+        const CornerRows rows = corners_.rows();
         Buffer<Moments> moments(blocks_.size());
         for_each_block([&](std::size_t i) {
             moments[i] = {};
             if (blocks_[i].count > 0)
                 return;
             const TreeNode& node = tree_.nodes[blocks_[i].node];
-            for (std::size_t slot = node.first; slot < std::size_t{node.first} + node.count;
-                 ++slot) {
-                Vec3<double> corner[3];
-                for (std::size_t k = 0; k < 3; ++k)
-                    for (std::size_t axis = 0; axis < 3; ++axis)
-                        corner[k][static_cast<int>(axis)] =
-                            (double{corners_.row(k, axis)[slot]} - centre[static_cast<int>(axis)]) *
-                            scale;
-                moments[i].add(corner[0], corner[1], corner[2]);
-            }
+            moments[i] = moments_of(rows, node.first, node.count, centre, scale);
         });
         for (std::size_t i = blocks_.size(); i-- > 0;) // children have higher numbers
             for (std::uint32_t k = 0; k < blocks_[i].count; ++k)

@@ -6,10 +6,6 @@
 namespace boxwood {
 namespace {
 
-Vec3<double> times(const Rotation& r, const Vec3<double>& v) {
-    return {dot(r[0], v), dot(r[1], v), dot(r[2], v)};
-}
-
 struct AxisAngle {
     Vec3<double> axis{0, 0, 1};
     double angle = 0; ///< 0 to pi

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 
 namespace boxwood {
@@ -25,6 +26,21 @@ Pose checked_pose(const Pose& pose) {
     for (int step = 0; step < 4 && distance_from_orthonormal(r) > 0x1p-51; ++step)
         r = orthonormalised(r);
     return checked;
+}
+
+Pose pose_of_matrix(std::span<const double, 16> m) {
+    if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1) {
+        std::ostringstream what;
+        what << "the last row is " << m[12] << "," << m[13] << "," << m[14] << "," << m[15]
+             << "; that of a rigid transform is 0,0,0,1 (the numbers go row by row)";
+        throw std::invalid_argument(what.str());
+    }
+    Pose pose;
+    for (std::size_t i = 0; i < 3; ++i) {
+        pose.rotation[i] = {m[4 * i], m[4 * i + 1], m[4 * i + 2]};
+        pose.translation[static_cast<int>(i)] = m[4 * i + 3];
+    }
+    return checked_pose(pose);
 }
 
 Pose relative_pose(const Pose& a, const Pose& b) {

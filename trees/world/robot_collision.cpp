@@ -1,26 +1,13 @@
 #include "trees/world/robot_collision.h"
 
+#include "trees/world/detail/aabb_gap.h"
+
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <stdexcept>
 #include <string>
 
 namespace boxwood {
-namespace {
-
-/// At most the distance of two boxes: three differences, their squares, sum and root round eight
-/// times in all, each by 2^-53 of the result at most. Squares below 2^-1022 may be lost: then it is
-/// 0, as for boxes that overlap.
-double gap_below(const Aabb<double>& a, const Aabb<double>& b) {
-    Vec3<double> apart;
-    for (int axis = 0; axis < 3; ++axis)
-        apart[axis] = std::max({0.0, a.min[axis] - b.max[axis], b.min[axis] - a.max[axis]});
-    const double square = dot(apart, apart);
-    return square < 0x1p-1000 ? 0 : std::sqrt(std::min(square, 0x1p1020)) * (1 - 8 * 0x1p-53);
-}
-
-} // namespace
 
 RobotSelfCollision::RobotSelfCollision(const Robot& robot, const LinkBoxes& boxes,
                                        const AllowedPairs& allowed,
@@ -77,7 +64,7 @@ void RobotSelfCollision::find_least() {
     }
     by_gap_.clear();
     for (const Pair p : pairs_to_test_)
-        by_gap_.push_back({gap_below(boxes_[p.a], boxes_[p.b]), p});
+        by_gap_.push_back({detail::gap_below(boxes_[p.a], boxes_[p.b]), p});
     std::ranges::stable_sort(by_gap_, {}, &Near::gap);
     LinkDistance& least = answer_.least;
     for (const auto& [gap, p] : by_gap_) {

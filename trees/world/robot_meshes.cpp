@@ -1,7 +1,8 @@
 #include "trees/world/robot_meshes.h"
 
-#include "trees/world/box_mesh.h"
+#include "kernels/convex/signed_distance.h"
 #include "trees/world/mesh_pairs.h"
+#include "trees/world/mesh_shape.h"
 
 #include <algorithm>
 #include <map>
@@ -13,11 +14,24 @@
 namespace boxwood {
 namespace {
 
-/// What a shape is called that this narrow phase does not know.
-std::string name_of_shape(const LinkShape& shape) {
-    return std::holds_alternative<LinkSphere>(shape)     ? "sphere"
-           : std::holds_alternative<LinkCylinder>(shape) ? "cylinder"
-                                                         : "capsule";
+/// The solids that links may be.
+struct ShapeOfLink {
+    convex::Shape operator()(const LinkMesh&) const { return {}; }
+    convex::Shape operator()(const LinkBox& b) const { return convex::Box{0.5 * b.sides}; }
+    convex::Shape operator()(const LinkSphere& s) const { return convex::Sphere{s.radius}; }
+    convex::Shape operator()(const LinkCylinder& c) const {
+        return convex::Cylinder{c.radius, c.length / 2};
+    }
+    convex::Shape operator()(const LinkCapsule& c) const {
+        return convex::Capsule{c.radius, c.length / 2};
+    }
+};
+
+/// What is found beyond the limit is nothing.
+LinkDistance before(double limit, double distance, double lo, double hi) {
+    if (!(lo < limit))
+        return {};
+    return {std::max(0.0, distance), std::max(0.0, lo), std::max(0.0, hi)};
 }
 
 } // namespace
@@ -29,7 +43,7 @@ RobotMeshes::RobotMeshes(const Robot& robot, std::span<const TriangleMesh> meshe
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         const LinkDescription& link = robot.links()[i];
         for (const LinkGeometry& geometry : link.geometries) {
-            std::shared_ptr<const MeshTree> tree;
+            Part part{nullptr, std::visit(ShapeOfLink{}, geometry.shape), geometry.origin};
             if (const auto* mesh = std::get_if<LinkMesh>(&geometry.shape)) {
                 if (mesh->mesh >= meshes.size())
                     throw std::invalid_argument("link " + link.name + " names mesh " +
@@ -38,15 +52,9 @@ RobotMeshes::RobotMeshes(const Robot& robot, std::span<const TriangleMesh> meshe
                 auto& shared = trees[{mesh->mesh, mesh->scale.x, mesh->scale.y, mesh->scale.z}];
                 if (!shared)
                     shared = std::make_shared<MeshTree>(scaled(meshes[mesh->mesh], mesh->scale));
-                tree = shared;
-            } else if (const auto* box = std::get_if<LinkBox>(&geometry.shape)) {
-                tree = std::make_shared<MeshTree>(box_mesh(box->sides));
-            } else {
-                throw std::invalid_argument("link " + link.name + " has a " +
-                                            name_of_shape(geometry.shape) +
-                                            ", and only meshes and boxes are tested so far");
+                part.mesh = shared;
             }
-            parts_[i].push_back({std::move(tree), geometry.origin});
+            parts_[i].push_back(std::move(part));
         }
     }
 }
@@ -55,36 +63,60 @@ template <class F>
 void RobotMeshes::for_each_pair(std::uint32_t a, std::uint32_t b,
                                 std::span<const RigidTransform<double>> poses, const F& f) const {
     for (const Part& of_a : parts_[a]) {
-        const Pose pose_a = compose(poses[a], of_a.origin);
+        const Placed placed_a{of_a, compose(poses[a], of_a.origin)};
         for (const Part& of_b : parts_[b])
-            if (f(*of_a.tree, *of_b.tree, relative_pose(pose_a, compose(poses[b], of_b.origin))))
+            if (f(placed_a, Placed{of_b, compose(poses[b], of_b.origin)}))
                 return;
     }
 }
 
+bool RobotMeshes::touch(const Placed& a, const Placed& b) {
+    if (a.part.mesh && b.part.mesh)
+        return boxwood::collide(*a.part.mesh, *b.part.mesh, relative_pose(a.pose, b.pose));
+    if (b.part.mesh)
+        return touch(b, a);
+    const Decision found =
+        a.part.mesh ? boxwood::collide(*a.part.mesh, b.part.shape, relative_pose(a.pose, b.pose))
+                    : convex::collide(a.part.shape, a.pose, b.part.shape, b.pose);
+    return found.answer != Answer::no;
+}
+
+LinkDistance RobotMeshes::distance_of(const Placed& a, const Placed& b, double limit) {
+    if (!a.part.mesh && b.part.mesh)
+        return distance_of(b, a, limit);
+    if (!a.part.mesh) {
+        const convex::SignedDistance d =
+            convex::signed_distance(a.part.shape, a.pose, b.part.shape, b.pose);
+        return before(limit, d.distance, d.lo, d.hi);
+    }
+    DistanceOptions options;
+    options.limit = limit;
+    const Pose b_in_a = relative_pose(a.pose, b.pose);
+    const MeshDistance d = b.part.mesh
+                               ? boxwood::distance(*a.part.mesh, *b.part.mesh, b_in_a, options)
+                               : boxwood::distance(*a.part.mesh, b.part.shape, b_in_a, options);
+    return d.found() ? before(limit, d.distance, d.lo, d.hi) : LinkDistance{};
+}
+
 bool RobotMeshes::collide(std::uint32_t a, std::uint32_t b,
                           std::span<const RigidTransform<double>> poses) const {
-    bool touch = false;
-    for_each_pair(a, b, poses, [&](const MeshTree& of_a, const MeshTree& of_b, const Pose& pose) {
-        return touch = boxwood::collide(of_a, of_b, pose);
+    bool found = false;
+    for_each_pair(a, b, poses, [&](const Placed& of_a, const Placed& of_b) {
+        return found = touch(of_a, of_b);
     });
-    return touch;
+    return found;
 }
 
 LinkDistance RobotMeshes::distance(std::uint32_t a, std::uint32_t b,
                                    std::span<const RigidTransform<double>> poses,
                                    double limit) const {
     LinkDistance least;
-    for_each_pair(a, b, poses, [&](const MeshTree& of_a, const MeshTree& of_b, const Pose& pose) {
-        DistanceOptions options;
-        options.limit = std::min(limit, least.hi);
-        const MeshDistance found = boxwood::distance(of_a, of_b, pose, options);
-        if (found.found()) {
-            least.lo = std::min(least.lo, found.lo);
-            if (found.hi < least.hi) {
-                least.distance = found.distance;
-                least.hi = found.hi;
-            }
+    for_each_pair(a, b, poses, [&](const Placed& of_a, const Placed& of_b) {
+        const LinkDistance found = distance_of(of_a, of_b, std::min(limit, least.hi));
+        least.lo = std::min(least.lo, found.lo);
+        if (found.hi < least.hi) {
+            least.distance = found.distance;
+            least.hi = found.hi;
         }
         return least.hi == 0;
     });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/convex/shapes.h"
 #include "trees/world/mesh_tree.h"
 #include "trees/world/pose.h"
 #include "trees/world/robot_collision.h"
@@ -10,13 +11,15 @@
 
 namespace boxwood {
 
-/// The narrow phase of a robot whose links are meshes and boxes: exact for whether they touch,
-/// certified for distances (mesh_pairs.h). A link is its surface. Links that name one mesh in one
-/// scale share its tree. Immutable; any number of threads may ask it at once.
+/// The narrow phase of a robot. The mesh of a link is its surface; boxes, spheres, cylinders and
+/// capsules are solid, in doubles: what lies in one touches it. Of two meshes it is exact whether
+/// they touch and certified how far they are apart (mesh_pairs.h); of all else certified
+/// (mesh_shape.h, kernels/convex/), and what is within rounding touches. Links that name one mesh
+/// in one scale share its tree. Immutable; any number of threads may ask it at once.
 class RobotMeshes final : public LinkNarrowPhase {
   public:
     /// meshes: those that the links name. Throws std::invalid_argument, naming the link, for a mesh
-    /// that is not there and for a shape that is neither a mesh nor a box; and as MeshTree.
+    /// that is not there; and as MeshTree.
     RobotMeshes(const Robot& robot, std::span<const TriangleMesh> meshes);
 
     bool collide(std::uint32_t a, std::uint32_t b,
@@ -27,9 +30,17 @@ class RobotMeshes final : public LinkNarrowPhase {
 
   private:
     struct Part {
-        std::shared_ptr<const MeshTree> tree;
+        std::shared_ptr<const MeshTree> mesh; ///< none: `shape`
+        convex::Shape shape;
         Pose origin; ///< in the link
     };
+    /// A part where its link is.
+    struct Placed {
+        const Part& part;
+        Pose pose;
+    };
+    static bool touch(const Placed& a, const Placed& b);
+    static LinkDistance distance_of(const Placed& a, const Placed& b, double limit);
     template <class F>
     void for_each_pair(std::uint32_t a, std::uint32_t b,
                        std::span<const RigidTransform<double>> poses, const F& f) const;

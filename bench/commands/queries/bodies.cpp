@@ -1,57 +1,77 @@
 #include "bench/commands/queries/bodies.h"
 
 #include "bench/io/bad_input.h"
-#include "bench/io/csv.h"
 #include "scenes/meshes/mesh_file.h"
+#include "scenes/text/csv.h"
 #include "trees/world/box_mesh.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <optional>
 #include <span>
-#include <stdexcept>
+#include <string_view>
+#include <vector>
 
 namespace boxwood::bench {
 namespace {
 
-/// A primitive in the place of a file: "box:1,1,1", its full side lengths.
-std::optional<TriangleMesh> primitive(const std::string& text) {
-    constexpr std::array kinds{"box", "sphere", "capsule", "cylinder"};
-    const std::size_t colon = text.find(':');
-    const std::string kind = text.substr(0, colon);
-    if (colon == std::string::npos || std::ranges::find(kinds, kind) == kinds.end())
-        return std::nullopt;
-    if (kind != "box")
-        throw BadInput(
-            fmt::format("{}: of primitives only boxes are answered (box:x,y,z, full side "
-                        "lengths); a {} can be given as a mesh file",
-                        text, kind));
-    Vec3<double> lengths;
-    std::size_t rows = 0;
-    read_csv(text.substr(colon + 1), text, {"x,y,z, the full side lengths of the box", 3, 3},
-             [&](std::span<const double> sides, std::size_t) {
-                 ++rows;
-                 for (std::size_t axis = 0; axis < 3; ++axis) {
-                     if (!(sides[axis] >= 0 && sides[axis] < 0x1p60))
-                         throw BadInput(fmt::format("{}: a side is {}; it must be at least 0 and "
-                                                    "finite",
-                                                    text, sides[axis]));
-                     lengths[static_cast<int>(axis)] = sides[axis];
-                 }
-             });
-    if (rows != 1)
-        throw BadInput(fmt::format("{}: a box is box:x,y,z, its full side lengths", text));
-    return box_mesh(lengths);
+/// The numbers of a primitive, all at least 0.
+std::vector<double> numbers_of(const std::string& text, std::string_view numbers, std::size_t count,
+                               std::string_view form) {
+    std::vector<double> found;
+    const auto take = [&](std::span<const double> row, std::size_t) {
+        found.assign(row.begin(), row.end());
+    };
+    if (read_csv(numbers, text, {form, count, count}, take) != 1)
+        throw BadInput(fmt::format("{}: it is {}", text, form));
+    for (const double x : found)
+        if (!(x >= 0 && x < 0x1p60))
+            throw BadInput(
+                fmt::format("{}: a length is {}; it must be at least 0 and finite", text, x));
+    return found;
 }
 
 } // namespace
 
+std::optional<convex::Shape> read_primitive(const std::string& text) {
+    struct Kind {
+        std::string_view name;
+        std::size_t numbers;
+        std::string_view form;
+        convex::Shape (*make)(std::span<const double>);
+    };
+    static constexpr Kind kinds[] = {
+        {"box", 3, "box:x,y,z, its full side lengths",
+         [](std::span<const double> n) -> convex::Shape {
+             return convex::Box{{n[0] / 2, n[1] / 2, n[2] / 2}};
+         }},
+        {"sphere", 1, "sphere:radius",
+         [](std::span<const double> n) -> convex::Shape { return convex::Sphere{n[0]}; }},
+        {"capsule", 2, "capsule:radius,length, the length without the round ends",
+         [](std::span<const double> n) -> convex::Shape {
+             return convex::Capsule{n[0], n[1] / 2};
+         }},
+        {"cylinder", 2, "cylinder:radius,length",
+         [](std::span<const double> n) -> convex::Shape {
+             return convex::Cylinder{n[0], n[1] / 2};
+         }},
+    };
+    const std::size_t colon = text.find(':');
+    const std::string_view name = std::string_view(text).substr(0, colon);
+    const auto kind = std::ranges::find(kinds, name, &Kind::name);
+    if (colon == std::string::npos || kind == std::ranges::end(kinds))
+        return std::nullopt;
+    return kind->make(
+        numbers_of(text, std::string_view(text).substr(colon + 1), kind->numbers, kind->form));
+}
+
 TriangleMesh read_body(const std::string& body) {
-    if (auto mesh = primitive(body))
-        return *mesh;
-    return load_mesh(body);
+    const std::optional<convex::Shape> primitive = read_primitive(body);
+    if (!primitive)
+        return load_mesh(body);
+    if (const auto* box = primitive->get_if<convex::Box>())
+        return box_mesh(2.0 * box->half);
+    throw BadInput(fmt::format("{}: of primitives only boxes are meshes", body));
 }
 
 Pose read_pose(const std::string& text, const std::string& option) {
@@ -67,24 +87,14 @@ Pose read_pose(const std::string& text, const std::string& option) {
     }
     if (!row.empty() && row.back() == ',')
         row.pop_back();
-    Pose pose;
-    std::size_t rows = 0;
-    read_csv(row, option, {"16 numbers, a 4 x 4 matrix row by row", 16, 16},
-             [&](std::span<const double> m, std::size_t) {
-                 ++rows;
-                 for (std::size_t i = 0; i < 3; ++i) {
-                     pose.rotation[i] = {m[4 * i], m[4 * i + 1], m[4 * i + 2]};
-                     pose.translation[static_cast<int>(i)] = m[4 * i + 3];
-                 }
-                 if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1)
-                     throw BadInput(fmt::format("{}: the last row is {},{},{},{}; that of a rigid "
-                                                "transform is 0,0,0,1 (the numbers go row by row)",
-                                                option, m[12], m[13], m[14], m[15]));
-             });
-    if (rows == 0)
+    std::vector<double> matrix;
+    const auto take_matrix = [&](std::span<const double> m, std::size_t) {
+        matrix.assign(m.begin(), m.end());
+    };
+    if (read_csv(row, option, {"16 numbers, a 4 x 4 matrix row by row", 16, 16}, take_matrix) == 0)
         throw BadInput(option + " is empty; it takes 16 numbers, a 4 x 4 matrix row by row");
     try {
-        return checked_pose(pose);
+        return pose_of_matrix(std::span(matrix).first<16>());
     } catch (const std::invalid_argument& error) {
         throw BadInput(fmt::format("{}: {}", option, error.what()));
     }

@@ -1,18 +1,31 @@
 #pragma once
 
 #include "bench/io/bad_input.h"
+#include "kernels/convex/shapes.h"
 #include "kernels/primitives/triangle.h"
 #include "trees/world/pose.h"
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 
 namespace boxwood::bench {
 
-/// The triangles of a mesh file, or of a box: "box:1,1,1", its full side lengths. Throws BadInput,
-/// and as load_mesh.
+/// What a query takes as a body, for its help.
+inline constexpr const char* body_forms =
+    "a mesh file (OBJ, PLY, STL, ...), or box:x,y,z, sphere:radius, capsule:radius,length, "
+    "cylinder:radius,length. A mesh is its surface, and so is a box beside a mesh or a box; what "
+    "is "
+    "round, and a box beside it, is solid";
+
+/// A primitive in the place of a mesh file: "box:x,y,z" (full side lengths), "sphere:radius",
+/// "capsule:radius,length" (of its segment, without the round ends), "cylinder:radius,length", the
+/// last two along z. Nothing of other texts. Throws BadInput for numbers that make no sense.
+std::optional<convex::Shape> read_primitive(const std::string& text);
+
+/// The triangles of a mesh file, or of a box. Throws BadInput, and as load_mesh.
 TriangleMesh read_body(const std::string& body);
 
 /// 16 numbers, row by row, parted by spaces or commas; the identity if empty. Throws BadInput,

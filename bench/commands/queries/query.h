@@ -1,11 +1,10 @@
 #pragma once
 
+#include "bench/commands/queries/robot_case.h"
 #include "trees/builder.h"
 #include "trees/layout.h"
 #include "trees/world/robot_collision.h"
 
-#include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <ostream>
@@ -93,7 +92,7 @@ struct TrianglesQuery {
 void run(const TrianglesQuery& query, std::ostream& out);
 void add_query_triangles(CLI::App& query);
 
-/// Of two meshes: each a file, or box:x,y,z.
+/// Of two bodies: each a mesh file or a primitive (bodies.h).
 struct MeshesQuery {
     enum class Question : std::uint8_t { collide, distance, tolerance, contacts };
     Question question = Question::collide;
@@ -111,7 +110,7 @@ struct MeshesQuery {
 void run(const MeshesQuery& query, std::ostream& out);
 void add_query_meshes(CLI::App& query);
 
-/// Of two meshes that move: each a file, or box:x,y,z.
+/// Of two bodies that move.
 struct ContinuousQuery {
     std::string a, b;
     std::string from_a, to_a, from_b, to_b; ///< 16 numbers each, row by row
@@ -135,20 +134,17 @@ void run(const CcdQuery& query, std::ostream& out);
 void add_query_ccd(CLI::App& query);
 
 struct RobotQuery {
-    std::string urdf;
-    std::optional<std::string> srdf; ///< without it the allowed pairs are proposed
-    std::vector<std::filesystem::path> package_paths;
+    RobotFiles files;
     std::optional<std::string> joints;   ///< "name=value,..."; the others at rest
     std::optional<std::string> state;    ///< a name of the SRDF file
     std::optional<std::uint64_t> random; ///< so many states at random
+    std::optional<std::uint64_t> steps;  ///< from each of them to the next, in so many
+    std::optional<std::string> svg;      ///< the least distance over time, drawn
     std::uint64_t seed = 1;
     std::optional<std::uint64_t> samples; ///< propose pairs by so many
     std::optional<std::string> write_srdf;
     Format format;
 };
-/// What answers about the geometry of the links of a robot with these meshes.
-using MakeLinkNarrowPhase = std::function<std::unique_ptr<LinkNarrowPhase>(
-    const Robot& robot, std::span<const TriangleMesh> meshes)>;
 /// Prints links, joints and allowed pairs of a robot; and for each state the pairs of links whose
 /// boxes overlap, those of them that are tested and that collide, and the least distance.
 void run(const RobotQuery& query, const MakeLinkNarrowPhase& narrow_phase, std::ostream& out);

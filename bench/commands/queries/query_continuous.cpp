@@ -1,10 +1,10 @@
-/// `boxwood query continuous`: when two moving meshes first touch.
+/// `boxwood query continuous`: when two moving meshes or primitives first touch.
 
 #include "bench/commands/command.h"
 #include "bench/commands/queries/bodies.h"
+#include "bench/commands/queries/body_pair.h"
 #include "bench/commands/queries/query.h"
 #include "bench/io/json.h"
-#include "trees/world/continuous.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -15,17 +15,16 @@ namespace boxwood::bench {
 
 void run(const ContinuousQuery& query, std::ostream& out) {
     const MotionPath kind = query.motion == "screw" ? MotionPath::screw : MotionPath::linear;
-    const auto motion = [&](const std::string& from, const std::string& to, const char* side) {
+    const auto path = [&](const std::string& from, const std::string& to, const char* side) {
         const Pose start = read_pose(from, fmt::format("--from-{}", side));
         // A body without an end stays.
-        return Motion(start, to.empty() ? start : read_pose(to, fmt::format("--to-{}", side)),
-                      kind);
+        return BodyPair::Path{start,
+                              to.empty() ? start : read_pose(to, fmt::format("--to-{}", side))};
     };
-    const Motion motion_a = motion(query.from_a, query.to_a, "a");
-    const Motion motion_b = motion(query.from_b, query.to_b, "b");
-    const MeshTree a = named(query.a, [&] { return MeshTree(read_body(query.a)); });
-    const MeshTree b = named(query.b, [&] { return MeshTree(read_body(query.b)); });
-    const FirstContact first = first_contact(a, motion_a, b, motion_b);
+    const BodyPair::Path path_a = path(query.from_a, query.to_a, "a");
+    const BodyPair::Path path_b = path(query.from_b, query.to_b, "b");
+    const FirstContact first =
+        BodyPair(query.a, query.b, false).first_contact(path_a, path_b, kind);
     const bool hit = first.hit != Answer::no; // left open: on the safe side
     if (query.format.json)
         out << fmt::format("{{\"hit\":{},\"t_free\":{},\"t_hit\":{}}}\n", hit ? "true" : "false",
@@ -37,9 +36,9 @@ void run(const ContinuousQuery& query, std::ostream& out) {
 
 void add_query_continuous(CLI::App& query) {
     auto options = std::make_shared<ContinuousQuery>();
-    CLI::App* command = query.add_subcommand("continuous", "when two moving meshes first touch");
-    command->add_option("A", options->a, "a mesh file (OBJ, PLY, STL, ...) or box:x,y,z")
-        ->required();
+    CLI::App* command =
+        query.add_subcommand("continuous", "when two moving meshes or primitives first touch");
+    command->add_option("A", options->a, body_forms)->required();
     command->add_option("B", options->b, "another, or the same")->required();
     command->add_option("--from-a", options->from_a,
                         "where A starts: 16 numbers, a 4 x 4 matrix row by row");

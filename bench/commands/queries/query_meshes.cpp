@@ -1,14 +1,12 @@
-/// `boxwood query collide | distance | tolerance | contacts`: one mesh against another.
+/// `boxwood query collide | distance | tolerance | contacts`: one mesh or primitive against
+/// another.
 
 #include "bench/commands/command.h"
 #include "bench/commands/queries/bodies.h"
+#include "bench/commands/queries/body_pair.h"
 #include "bench/commands/queries/query.h"
 #include "bench/io/json.h"
 #include "kernels/suggest.h"
-#include "kernels/triangle_distance/certified.h"
-#include "kernels/triangle_triangle/guigue_devillers_batch.h"
-#include "trees/world/mesh_contacts.h"
-#include "trees/world/solid.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -17,7 +15,6 @@
 #include <array>
 #include <cmath>
 #include <iostream>
-#include <utility>
 #include <vector>
 
 namespace boxwood::bench {
@@ -29,41 +26,23 @@ using Question = MeshesQuery::Question;
 class Bodies {
   public:
     explicit Bodies(const MeshesQuery& query)
-        : query_(query), pose_a_(read_pose(query.pose_a, "--pose-a")),
-          b_in_a_(relative_pose(pose_a_, read_pose(query.pose_b, "--pose-b"))) {
-        if (query.solid) {
-            solids_.emplace(read_solid(query.a), read_solid(query.b));
-        } else {
-            meshes_.emplace(read_mesh(query.a), read_mesh(query.b));
-        }
-    }
-    const MeshTree& a() const { return solids_ ? solids_->first.surface() : meshes_->first; }
-    const MeshTree& b() const { return solids_ ? solids_->second.surface() : meshes_->second; }
+        : pose_a_(read_pose(query.pose_a, "--pose-a")),
+          b_in_a_(relative_pose(pose_a_, read_pose(query.pose_b, "--pose-b"))),
+          pair_(query.a, query.b, query.solid) {}
+    const BodyPair& pair() const { return pair_; }
     const Pose& b_in_a() const { return b_in_a_; }
-    bool touch() const {
-        return solids_ ? collide(solids_->first, solids_->second, b_in_a_)
-                       : collide(a(), b(), b_in_a_);
-    }
     /// In world coordinates.
     Vec3<double> point(const Vec3<double>& in_a) const { return pose_a_(in_a); }
-    Vec3<double> direction(const Vec3<double>& in_a) const {
-        return pose_a_(in_a) - pose_a_.translation;
-    }
+    Vec3<double> direction(const Vec3<double>& in_a) const { return pose_a_.rotated(in_a); }
 
   private:
-    static MeshTree read_mesh(const std::string& body) {
-        return named(body, [&] { return MeshTree(read_body(body)); });
-    }
-    static Solid read_solid(const std::string& body) {
-        return named(body, [&] { return Solid(read_body(body)); });
-    }
-
-    const MeshesQuery& query_;
     Pose pose_a_, b_in_a_;
-    std::optional<std::pair<Solid, Solid>> solids_;
-    std::optional<std::pair<MeshTree, MeshTree>> meshes_;
+    BodyPair pair_;
 };
 
+std::string json_triangle(std::uint32_t i) {
+    return i == BodyPair::no_triangle ? "null" : fmt::format("{}", i);
+}
 std::string json_point(const Vec3<double>& p) {
     return fmt::format("[{},{},{}]", json_number(p.x), json_number(p.y), json_number(p.z));
 }
@@ -75,57 +54,47 @@ void require_kernel(const std::string& asked, std::string_view known) {
 }
 
 void answer_collide(const Bodies& bodies, const MeshesQuery& query, std::ostream& out) {
-    constexpr std::string_view kernel = GuigueDevillersExactBatch::name;
+    const std::string_view kernel = bodies.pair().touch_kernel();
     require_kernel(query.kernel, kernel);
     if (!query.format.json) {
-        out << (query.format.header ? "collide\n" : "") << (bodies.touch() ? "1\n" : "0\n");
+        out << (query.format.header ? "collide\n" : "")
+            << (bodies.pair().touch(bodies.b_in_a()) ? "1\n" : "0\n");
         return;
     }
-    std::vector<Pair> pairs =
-        touching_triangles(bodies.a(), bodies.b(), bodies.b_in_a(), query.limit);
-    std::ranges::sort(pairs);
+    const std::vector<Pair> pairs = bodies.pair().touching_triangles(bodies.b_in_a(), query.limit);
     BlockWriter text(out);
     text << fmt::format("{{\"collide\":{},\"triangle_pairs\":[",
-                        !pairs.empty() || bodies.touch() ? "true" : "false");
+                        !pairs.empty() || bodies.pair().touch(bodies.b_in_a()) ? "true" : "false");
     for (std::size_t i = 0; i < pairs.size(); ++i)
-        text << fmt::format("{}[{},{}]", i ? "," : "", pairs[i].a, pairs[i].b);
+        text << fmt::format("{}[{},{}]", i ? "," : "", json_triangle(pairs[i].a),
+                            json_triangle(pairs[i].b));
     text << fmt::format("],\"kernel\":{}}}\n", json_string(kernel));
 }
 
-/// Of solids of which one lies in the other 0.
-MeshDistance distance_of(const Bodies& bodies, const MeshesQuery& query) {
-    MeshDistance d = distance(bodies.a(), bodies.b(), bodies.b_in_a());
-    if (query.solid && d.lo > 0 && bodies.touch())
-        d.distance = d.lo = d.hi = 0;
-    return d;
-}
-
 void answer_distance(const Bodies& bodies, const MeshesQuery& query, std::ostream& out) {
-    constexpr std::string_view kernel = CertifiedDistance::name;
+    const std::string_view kernel = bodies.pair().distance_kernel();
     require_kernel(query.kernel, kernel);
-    const MeshDistance d = distance_of(bodies, query);
+    const MeshDistance d = bodies.pair().distance(bodies.b_in_a());
     const Vec3<double> a = bodies.point(d.point_a), b = bodies.point(d.point_b);
     if (query.format.json)
         out << fmt::format("{{\"distance\":{},\"lo\":{},\"hi\":{},\"point_a\":{},\"point_b\":{},"
                            "\"triangle_a\":{},\"triangle_b\":{},\"kernel\":{}}}\n",
                            json_number(d.distance), json_number(d.lo), json_number(d.hi),
-                           json_point(a), json_point(b), d.triangles.a, d.triangles.b,
-                           json_string(kernel));
+                           json_point(a), json_point(b), json_triangle(d.triangles.a),
+                           json_triangle(d.triangles.b), json_string(kernel));
     else
         out << (query.format.header ? "distance,lo,hi\n" : "")
             << fmt::format("{},{},{}\n", d.distance, d.lo, d.hi);
 }
 
 void answer_tolerance(const Bodies& bodies, const MeshesQuery& query, std::ostream& out) {
-    require_kernel(query.kernel, CertifiedDistance::name);
+    require_kernel(query.kernel, bodies.pair().distance_kernel());
     if (!query.tolerance)
         throw BadInput("query tolerance needs --tolerance T: are the two at most T apart?");
     if (!(*query.tolerance >= 0) || !std::isfinite(*query.tolerance))
         throw BadInput(fmt::format("--tolerance is {}; it must be a finite number, at least 0",
                                    *query.tolerance));
-    MeshWithin near = within(bodies.a(), bodies.b(), bodies.b_in_a(), *query.tolerance);
-    if (query.solid && !near.within && bodies.touch())
-        near = {true, 0, 0};
+    const MeshWithin near = bodies.pair().within(bodies.b_in_a(), *query.tolerance);
     if (query.format.json)
         out << fmt::format("{{\"within\":{},\"lo\":{},\"hi\":{}}}\n",
                            near.within ? "true" : "false", json_number(near.lo),
@@ -135,7 +104,7 @@ void answer_tolerance(const Bodies& bodies, const MeshesQuery& query, std::ostre
 }
 
 void answer_contacts(const Bodies& bodies, const MeshesQuery& query, std::ostream& out) {
-    require_kernel(query.kernel, GuigueDevillersExactBatch::name);
+    require_kernel(query.kernel, bodies.pair().touch_kernel());
     ContactOptions options;
     options.max_pairs = query.limit;
     if (query.reduce)
@@ -146,7 +115,7 @@ void answer_contacts(const Bodies& bodies, const MeshesQuery& query, std::ostrea
     else if (query.format.header)
         text << "x,y,z,normal_x,normal_y,normal_z,depth\n";
     bool is_first = true;
-    for (const Contact& c : contacts(bodies.a(), bodies.b(), bodies.b_in_a(), options)) {
+    for (const Contact& c : bodies.pair().contacts(bodies.b_in_a(), options)) {
         const Vec3<double> point = bodies.point(c.point), normal = bodies.direction(c.normal);
         if (query.format.json)
             text << fmt::format("{}{{\"point\":{},\"normal\":{},\"depth\":{}}}",
@@ -182,28 +151,30 @@ void add_query_meshes(CLI::App& query) {
         const char *name, *summary, *footer;
     };
     static constexpr Row rows[] = {
-        {Question::collide, "collide", "whether two meshes touch",
-         "Prints 1 or 0, exactly for the corners as the poses put them (doubles). With --json the "
-         "pairs of triangles, too.\n\nExample:\n  boxwood query collide gripper.stl cup.obj "
+        {Question::collide, "collide", "whether two meshes or primitives touch",
+         "Prints 1 or 0: of two meshes exactly for the corners as the poses put them (doubles), of "
+         "others 1 where\nrounding leaves it open. With --json the pairs of triangles, too.\n\n"
+         "Example:\n  boxwood query collide gripper.stl sphere:.05 "
          "--pose-b \"1 0 0 .1 0 1 0 0 0 0 1 0 0 0 0 1\""},
-        {Question::distance, "distance", "how far two meshes are apart",
+        {Question::distance, "distance", "how far two meshes or primitives are apart",
          "Prints distance,lo,hi: the true distance lies between lo and hi, 2^-32 of it apart; all "
-         "are 0 exactly\nwhere the two touch.\n\nExample:\n  boxwood query distance gripper.stl "
+         "are 0 where the two\ncertainly touch.\n\nExample:\n  boxwood query distance gripper.stl "
          "cup.obj --json"},
-        {Question::tolerance, "tolerance", "whether two meshes are at most so far apart",
+        {Question::tolerance, "tolerance",
+         "whether two meshes or primitives are at most so far apart",
          "Prints 1 or 0.\n\nExample:\n  boxwood query tolerance gripper.stl cup.obj --tolerance "
          "0.02"},
-        {Question::contacts, "contacts", "where two meshes touch, and how deep",
-         "Prints x,y,z,normal_x,normal_y,normal_z,depth of each pair of triangles that touch, the "
-         "deepest first:\nB has to move by depth along the normal for the two to touch at "
+        {Question::contacts, "contacts", "where two meshes or primitives touch, and how deep",
+         "Prints x,y,z,normal_x,normal_y,normal_z,depth of each pair of triangles that touch, of "
+         "each triangle that\ntouches a primitive, or of two primitives, the deepest first: B has "
+         "to move by depth along the normal for\nthe two to touch at "
          "most.\n\nExample:\n  boxwood query contacts gripper.stl cup.obj --reduce"},
     };
     for (const Row& row : rows) {
         auto options = std::make_shared<MeshesQuery>();
         options->question = row.question;
         CLI::App* command = query.add_subcommand(row.name, row.summary);
-        command->add_option("A", options->a, "a mesh file (OBJ, PLY, STL, ...) or box:x,y,z")
-            ->required();
+        command->add_option("A", options->a, body_forms)->required();
         command->add_option("B", options->b, "another, or the same")->required();
         command->add_option("--pose-a", options->pose_a,
                             "where A is: 16 numbers, a 4 x 4 matrix row by row");

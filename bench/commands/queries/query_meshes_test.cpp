@@ -152,8 +152,12 @@ TEST_F(QueryMeshes, BadInputIsSaidWhereItIs) {
     query.pose_b = " ";
     EXPECT_THAT(complaint(query), HasSubstr("--pose-b"));
     query.pose_b = "";
-    query.a = "sphere:1";
-    EXPECT_THAT(complaint(query), HasSubstr("only boxes"));
+    query.a = "sphere:1,2";
+    EXPECT_THAT(complaint(query), HasSubstr("sphere:radius"));
+    query.a = "capsule:1,-2";
+    EXPECT_THAT(complaint(query), HasSubstr("at least 0"));
+    query.a = "cylinder:1,nan";
+    EXPECT_THAT(complaint(query), HasSubstr("cylinder:1,nan"));
     query.a = "box:1,2";
     EXPECT_THAT(complaint(query), HasSubstr("box:1,2"));
     query.a = "box:";
@@ -163,6 +167,107 @@ TEST_F(QueryMeshes, BadInputIsSaidWhereItIs) {
     query.a = "box:1,2,3";
     query.kernel = "moller";
     EXPECT_THAT(complaint(query), HasSubstr("moller"));
+}
+
+/// A square at z = 0 and solids above it, in either order.
+TEST_F(QueryMeshes, PrimitivesAreSolidBesideMeshes) {
+    const std::string square =
+        put("square.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3\nf 1 3 4\n");
+    const auto above = [](const std::string& z) {
+        return "1 0 0 .25 0 1 0 0 0 0 1 " + z + " 0 0 0 1";
+    };
+    for (const char* shape : {"sphere:.5", "capsule:.25,.5", "cylinder:.25,1"}) {
+        MeshesQuery query;
+        query.a = square;
+        query.b = shape;
+        query.pose_b = above("2");
+        query.tolerance = 1.6;
+        query.question = Question::collide;
+        EXPECT_EQ(answer(query), "0\n") << shape;
+        query.question = Question::tolerance;
+        EXPECT_EQ(answer(query), "1\n") << shape;
+        query.question = Question::distance;
+        query.format.json = true;
+        double distance = 0, lo = 0, hi = 0;
+        const std::string text = answer(query);
+        ASSERT_EQ(std::sscanf(text.c_str(), "{\"distance\":%lf,\"lo\":%lf,\"hi\":%lf", &distance,
+                              &lo, &hi),
+                  3)
+            << text;
+        EXPECT_NEAR(distance, 1.5, 1e-9) << shape;
+        EXPECT_LE(lo, 1.5);
+        EXPECT_GE(hi, 1.5);
+        EXPECT_THAT(text, HasSubstr("\"triangle_b\":null,\"kernel\":\"gjk_epa\""));
+        std::swap(query.a, query.b);
+        std::swap(query.pose_a, query.pose_b);
+        EXPECT_THAT(answer(query), HasSubstr("\"triangle_a\":null,\"triangle_b\":"));
+        query.pose_a = above(".375");
+        EXPECT_THAT(answer(query), HasSubstr("{\"distance\":0,\"lo\":0,\"hi\":0,")) << shape;
+        query.question = Question::collide;
+        EXPECT_THAT(answer(query), HasSubstr("{\"collide\":true,\"triangle_pairs\":[[null,"));
+        query.question = Question::contacts;
+        query.format.json = false;
+        double x = 0, y = 0, z = 0, nx = 0, ny = 0, nz = 0, depth = 0;
+        const std::string contact = answer(query);
+        ASSERT_EQ(std::sscanf(contact.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf", &x, &y, &z, &nx, &ny,
+                              &nz, &depth),
+                  7)
+            << contact;
+        EXPECT_NEAR(nz, -1, 1e-3) << shape; // the square has to go down
+        EXPECT_NEAR(depth, .125, 1e-5) << shape;
+    }
+}
+
+TEST_F(QueryMeshes, PrimitivesBesidePrimitives) {
+    MeshesQuery query;
+    query.question = Question::distance;
+    query.a = "sphere:.1";
+    query.b = "sphere:.3";
+    query.pose_b = at("1");
+    double distance = 0, lo = 0, hi = 0;
+    ASSERT_EQ(std::sscanf(answer(query).c_str(), "%lf,%lf,%lf", &distance, &lo, &hi), 3);
+    EXPECT_NEAR(distance, .6, 1e-15);
+    EXPECT_LE(lo, .6);
+    EXPECT_GE(hi, .6);
+    query.b = "box:.2,.2,.2"; // in doubles: a tenth is no float
+    ASSERT_EQ(std::sscanf(answer(query).c_str(), "%lf,%lf,%lf", &distance, &lo, &hi), 3);
+    EXPECT_NEAR(distance, .8, 1e-15);
+    query.format.json = true;
+    EXPECT_THAT(answer(query), HasSubstr("\"kernel\":\"closed_form\""));
+    query.b = "box:9,9,9";
+    query.question = Question::collide;
+    EXPECT_EQ(answer(query),
+              "{\"collide\":true,\"triangle_pairs\":[],\"kernel\":\"closed_form\"}\n");
+    query.question = Question::contacts;
+    EXPECT_THAT(answer(query), HasSubstr("{\"contacts\":[{\"point\":["));
+    query.question = Question::tolerance;
+    query.b = "cylinder:.1,1";
+    query.format.json = false;
+    for (const auto& [tolerance, expected] : {std::pair{.81, "1\n"}, {.79, "0\n"}}) {
+        query.tolerance = tolerance;
+        EXPECT_EQ(answer(query), expected);
+    }
+}
+
+/// A ball inside a closed mesh touches it only as a solid.
+TEST_F(QueryMeshes, SolidsHoldPrimitives) {
+    MeshesQuery query;
+    query.a = put("big.obj", "v -9 -9 -9\nv 30 -9 -9\nv -9 30 -9\nv -9 -9 30\n"
+                             "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    query.b = "sphere:1";
+    for (const bool swapped : {false, true}) {
+        query.solid = false;
+        EXPECT_EQ(answer(query), "0\n");
+        query.solid = true;
+        EXPECT_EQ(answer(query), "1\n");
+        query.question = Question::distance;
+        EXPECT_EQ(answer(query), "0,0,0\n");
+        query.question = Question::collide;
+        if (!swapped)
+            std::swap(query.a, query.b);
+    }
+    query.pose_a = at("-11");
+    EXPECT_EQ(answer(query), "0\n");
 }
 
 /// Pure translation: whichever motion is named, FCL's screw motion says .225, .11875 and .02475.
@@ -183,6 +288,22 @@ TEST_F(QueryMeshes, ContinuousPassesThroughNothingThin) {
             EXPECT_NEAR(t_free, time, 1e-6); // sides are rounded to floats
             EXPECT_NEAR(t_hit, time, 1e-6);
         }
+    for (const auto& [a, b] : {std::pair{"sphere:.05", "box:.1,1,1"},
+                               {"sphere:.05", "cylinder:.05,1"},
+                               {"box:.1,.1,.1", "cylinder:.05,1"}}) {
+        ContinuousQuery query;
+        query.a = a;
+        query.b = b;
+        query.from_a = at("-1");
+        query.to_a = at("1");
+        std::ostringstream out;
+        run(query, out);
+        double hit = 0, t_free = 0, t_hit = 0;
+        ASSERT_EQ(std::sscanf(out.str().c_str(), "%lf,%lf,%lf", &hit, &t_free, &t_hit), 3);
+        EXPECT_EQ(hit, 1) << a << " " << b;
+        EXPECT_NEAR(t_free, .45, 1e-6) << a << " " << b;
+        EXPECT_NEAR(t_hit, .45, 1e-6) << a << " " << b;
+    }
     ContinuousQuery query;
     query.a = query.b = "box:1,1,1";
     query.from_a = at("5");

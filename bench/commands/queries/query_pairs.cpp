@@ -35,7 +35,7 @@ constexpr std::array box_columns{"min_x", "min_y", "min_z", "max_x", "max_y", "m
 std::vector<Aabb<double>> read_boxes(const std::string& path) {
     const std::string source = source_name(path);
     std::vector<Aabb<double>> boxes;
-    read_csv(read_text(path), source, box_format, [&](std::span<const double> v, std::size_t line) {
+    read_csv_input(path, box_format, [&](std::span<const double> v, std::size_t line) {
         for (std::size_t i = 0; i < 6; ++i)
             if (!std::isfinite(v[i]))
                 throw_bad_row(

@@ -4,53 +4,27 @@
 #include "bench/commands/queries/query.h"
 #include "bench/io/csv.h"
 #include "bench/io/ray_range.h"
-#include "kernels/arithmetic/rounding.h"
 #include "kernels/oracle/rational.h"
 #include "kernels/ray_box/slabs.h"
 #include "kernels/registry.h"
 #include "kernels/suggest.h"
 #include "scenes/meshes/mesh_file.h"
+#include "scenes/sampling/rays.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <iostream>
 
 namespace boxwood::bench {
 namespace {
 
-constexpr CsvFormat ray_format{"ox,oy,oz,dx,dy,dz[,tmax]", 6, 7};
-constexpr std::array ray_columns{"ox", "oy", "oz", "dx", "dy", "dz"};
-
-/// Rays are rounded to floats, to nearest, but for tmax: the kernels' own numbers.
-std::vector<Ray<float>> read_rays(const std::string& path) {
+std::vector<Ray<float>> rays_of(const std::string& path) {
     const std::string source = source_name(path);
-    std::vector<Ray<float>> rays;
-    read_csv(read_text(path), source, ray_format, [&](std::span<const double> v, std::size_t line) {
-        for (std::size_t i = 0; i < 6; ++i)
-            if (!(std::abs(static_cast<float>(v[i])) < max_ray_coordinate))
-                throw_bad_row(source, line,
-                              fmt::format("{} is {}; a ray needs finite numbers below 2^126 "
-                                          "(8.5e37) in size",
-                                          ray_columns[i], v[i]));
-        Ray<float> ray;
-        ray.origin = static_cast<Vec3<float>>(Vec3<double>{v[0], v[1], v[2]});
-        ray.direction = static_cast<Vec3<float>>(Vec3<double>{v[3], v[4], v[5]});
-        if (ray.direction == Vec3<float>{})
-            throw_bad_row(source, line,
-                          "the direction dx,dy,dz is zero as floats; a ray needs one, of any "
-                          "length above 1e-45");
-        if (v.size() == 7) {
-            if (!(v[6] >= 0))
-                throw_bad_row(
-                    source, line,
-                    fmt::format("tmax is {}; it must be 0 or more (or be left out)", v[6]));
-            ray.t_max = round_down(v[6]); // no hit beyond what was written
-        }
-        rays.push_back(ray);
-    });
+    std::vector<Ray<float>> rays = parse_rays(read_text(path), source);
+    if (rays.empty())
+        warn_of_no_rows(source, ray_columns);
     return rays;
 }
 
@@ -129,7 +103,7 @@ void run(const RaysQuery& query, std::ostream& out) {
     const std::unique_ptr<Executor> executor = chosen_executor(query.tree);
     require_kernel(query.kernel);
     const TriangleMesh mesh = read_mesh(query.mesh);
-    const std::vector<Ray<float>> rays = read_rays(query.rays);
+    const std::vector<Ray<float>> rays = rays_of(query.rays);
 
     std::vector<Box> boxes(mesh.triangles.size());
     for (std::size_t i = 0; i < boxes.size(); ++i)

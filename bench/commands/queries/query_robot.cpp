@@ -2,13 +2,15 @@
 
 #include "bench/commands/command.h"
 #include "bench/commands/queries/query.h"
+#include "bench/commands/queries/robot_case.h"
+#include "bench/commands/queries/robot_picture.h"
 #include "bench/io/json.h"
 #include "bench/io/say.h"
 #include "kernels/suggest.h"
 #include "scenes/robots/random_values.h"
 #include "scenes/robots/srdf.h"
 #include "scenes/robots/urdf.h"
-#include "scenes/robots/xml_reader.h"
+#include "scenes/text/read_file.h"
 #include "trees/world/propose_pairs.h"
 
 #include <CLI/CLI.hpp>
@@ -22,43 +24,10 @@
 namespace boxwood::bench {
 namespace {
 
-/// The robot of a query, and all that is asked about it.
-struct RobotCase {
-    Robot robot;
-    std::vector<TriangleMesh> meshes;
-    LinkBoxes boxes;
-    AllowedPairs allowed;
-    std::vector<Srdf::State> named_states;
-
-    RobotCase(UrdfRobot read, std::span<const Aabb<float>> mesh_boxes)
-        : robot(std::move(read.description)), meshes(std::move(read.meshes)),
-          boxes(robot, mesh_boxes), allowed(no_allowed_pairs(robot)) {}
-};
-
-std::unique_ptr<RobotCase> read_robot(const RobotQuery& query) {
-    UrdfRobot read = read_urdf(query.urdf, query.package_paths);
-    std::vector<Aabb<float>> mesh_boxes(read.meshes.size());
-    for (std::size_t i = 0; i < read.meshes.size(); ++i)
-        for (std::size_t t = 0; t < read.meshes[i].triangles.size(); ++t)
-            mesh_boxes[i].extend(read.meshes[i].triangle(t).bounds());
-    auto robot = std::make_unique<RobotCase>(std::move(read), mesh_boxes);
-    if (query.srdf) {
-        Srdf srdf = read_srdf(*query.srdf, robot->robot.description());
-        for (AllowedPair& pair : srdf.allowed)
-            robot->allowed.allow(pair.a, pair.b, pair.reason, std::move(pair.note));
-        robot->named_states = std::move(srdf.states);
-    }
-    if (robot->boxes.links().empty())
-        say(fmt::format("boxwood: no link of {} has a <collision> element, and <visual> ones are "
-                        "not read: nothing can collide\n",
-                        query.urdf));
-    return robot;
-}
-
 /// What no SRDF file says: adjacent links, and what samples show.
 void propose_allowed(const RobotQuery& query, const LinkNarrowPhase& narrow_phase,
                      RobotCase& robot) {
-    if (!query.srdf) {
+    if (!query.files.srdf) {
         const std::size_t n = allow_adjacent(robot.robot, robot.allowed);
         say(fmt::format("boxwood: no --srdf: {} pairs of adjacent links are allowed to collide{}\n",
                         n, query.samples ? "" : "; --samples N proposes more"));
@@ -79,7 +48,7 @@ void propose_allowed(const RobotQuery& query, const LinkNarrowPhase& narrow_phas
 }
 
 void write_allowed(const RobotQuery& query, const RobotCase& robot) {
-    const std::string original = query.srdf ? read_file(*query.srdf, "SRDF") : "";
+    const std::string original = query.files.srdf ? read_file(*query.files.srdf, "SRDF") : "";
     std::ofstream file(*query.write_srdf, std::ios::binary);
     file << srdf_text(robot.robot.description(), robot.allowed.pairs(), original);
     file.close();
@@ -128,6 +97,42 @@ std::vector<double> chosen_state(const RobotQuery& query, const RobotCase& robot
     if (query.joints)
         take_joints(robot.robot, *query.joints, values);
     return values;
+}
+
+/// Calls f(i, time) once `values` are those of state i.
+template <class F>
+void for_each_state(const RobotQuery& query, const Robot& robot, std::vector<double>& values,
+                    const F& f) {
+    if (!query.random)
+        return f(std::uint64_t{0}, 0.0);
+    if (!query.steps) {
+        for (std::uint64_t i = 0; i < *query.random; ++i) {
+            random_values(robot.ranges(), query.seed, i, values);
+            f(i, static_cast<double>(i));
+        }
+        return;
+    }
+    std::vector<std::vector<double>> waypoints(*query.random, values);
+    for (std::uint64_t i = 0; i < waypoints.size(); ++i)
+        random_values(robot.ranges(), query.seed, i, waypoints[i]);
+    const JointPath path(robot, std::move(waypoints));
+    const std::uint64_t steps = *query.steps;
+    for (std::uint64_t i = 0; i <= (path.size() - 1) * steps; ++i) {
+        const double time = static_cast<double>(i) / static_cast<double>(steps);
+        path.at(time, values);
+        f(i, time);
+    }
+}
+
+void write_picture(const std::string& name, const std::string& robot,
+                   const std::vector<LeastOfState>& least) {
+    if (least.empty())
+        throw BadInput("--svg: no two links can collide, so there is no distance to draw");
+    std::ofstream file(name, std::ios::binary);
+    file << robot_picture(robot, least);
+    file.close();
+    if (!file)
+        throw BadInput(fmt::format("--svg {}: cannot be written", name));
 }
 
 class RobotPrinter {
@@ -260,9 +265,10 @@ class RobotJson final : public RobotPrinter {
 
 void run(const RobotQuery& query, const MakeLinkNarrowPhase& make_narrow_phase, std::ostream& out) {
     try {
-        if (query.state && !query.srdf)
+        if (query.state && !query.files.srdf)
             throw BadInput("--state names a state of an SRDF file; give one by --srdf");
-        const std::unique_ptr<RobotCase> robot = read_robot(query);
+        const std::unique_ptr<RobotCase> robot =
+            read_robot(query.files);
         const std::unique_ptr<LinkNarrowPhase> narrow_phase =
             make_narrow_phase(robot->robot, robot->meshes);
         propose_allowed(query, *narrow_phase, *robot);
@@ -276,18 +282,18 @@ void run(const RobotQuery& query, const MakeLinkNarrowPhase& make_narrow_phase, 
         else
             printer = std::make_unique<RobotLines>(*robot, query.format.header, out);
         printer->begin();
-        for (std::uint64_t i = 0; i < query.random.value_or(1); ++i) {
-            if (query.random)
-                random_values(robot->robot.ranges(), query.seed, i, values);
-            printer->state(i, values, self.check(values));
-        }
+        std::vector<LeastOfState> least;
+        for_each_state(query, robot->robot, values, [&](std::uint64_t i, double time) {
+            const SelfCollision& found = self.check(values);
+            printer->state(i, values, found);
+            if (query.svg && found.nearest)
+                least.push_back({time, found.least, !found.colliding.empty()});
+        });
         printer->end();
-    } catch (const BadInput&) {
-        throw;
-    } catch (const std::runtime_error& error) { // of the files
-        throw BadInput(error.what());
-    } catch (const std::invalid_argument& error) { // of names
-        throw BadInput(error.what());
+        if (query.svg)
+            write_picture(*query.svg, robot->robot.name(), least);
+    } catch (...) {
+        rethrow_as_bad_input();
     }
 }
 
@@ -295,20 +301,25 @@ void add_query_robot(CLI::App& query, MakeLinkNarrowPhase narrow_phase) {
     auto options = std::make_shared<RobotQuery>();
     CLI::App* robot = query.add_subcommand(
         "robot", "self-collision of a robot: links, candidate pairs, pairs that collide, distance");
-    robot->add_option("URDF", options->urdf, "the robot")->required();
-    robot->add_option("--srdf", options->srdf, "an SRDF file: pairs that may collide, states");
-    robot->add_option("--package-path", options->package_paths,
-                      "a folder that holds the packages of package:// meshes; may be repeated");
+    add_robot_options(*robot, options->files);
     auto* joints = robot->add_option("--joints", options->joints,
                                      "\"NAME=VALUE,...\", radians or metres; the others at rest, "
                                      "which is 0, or as near to it as their limits allow");
     auto* state = robot->add_option("--state", options->state, "a state of the SRDF file");
+    auto* random =
+        robot
+            ->add_option("--random", options->random,
+                         "so many states at random within the limits instead")
+            ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{10'000'000}))
+            ->excludes(joints)
+            ->excludes(state);
     robot
-        ->add_option("--random", options->random,
-                     "so many states at random within the limits instead")
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{10'000'000}))
-        ->excludes(joints)
-        ->excludes(state);
+        ->add_option("--steps", options->steps,
+                     "go from each random state to the next in so many steps, joints in proportion")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000}))
+        ->needs(random);
+    robot->add_option("--svg", options->svg, "draw the least distance over time, with its interval")
+        ->needs(random);
     robot->add_option("--seed", options->seed, "of --random and --samples")->capture_default_str();
     robot
         ->add_option("--samples", options->samples,
@@ -325,7 +336,8 @@ void add_query_robot(CLI::App& query, MakeLinkNarrowPhase narrow_phase) {
         "lies between lo and hi). Without --srdf adjacent links are allowed to collide.\n\n"
         "Examples:\n"
         "  boxwood query robot panda.urdf --srdf panda.srdf --joints \"panda_joint4=-2.3\"\n"
-        "  boxwood query robot z1.urdf --samples 10000 --write-srdf z1.srdf --random 100 --seed 1");
+        "  boxwood query robot z1.urdf --samples 10000 --write-srdf z1.srdf --random 100 --seed 1\n"
+        "  boxwood query robot panda.urdf --random 8 --steps 50 --svg least.svg");
     robot->callback([options, narrow_phase = std::move(narrow_phase)] {
         run(*options, narrow_phase, std::cout);
     });

@@ -1,5 +1,6 @@
 #include "bench/commands/command.h"
 #include "bench/commands/queries/query.h"
+#include "kernels/convex/signed_distance.h"
 #include "kernels/triangle_distance/features.h"
 #include "scenes/robots/random_values.h"
 #include "scenes/robots/urdf.h"
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <random>
 #include <sstream>
 
@@ -71,7 +73,7 @@ class QueryRobot : public ::testing::Test {
         : folder_(fs::temp_directory_path() /
                   ("boxwood_query_robot_" + std::to_string(std::random_device{}()))) {
         fs::create_directories(folder_);
-        query_.urdf = put("balls.urdf", four_balls);
+        query_.files.urdf = put("balls.urdf", four_balls);
     }
     ~QueryRobot() override { fs::remove_all(folder_); }
 
@@ -138,7 +140,7 @@ TEST_F(QueryRobot, JsonHoldsTheSame) {
 }
 
 TEST_F(QueryRobot, AnSrdfFileSaysWhatIsAllowedAndNamesStates) {
-    query_.srdf = put("balls.srdf", "<robot><disable_collisions link1='d' link2='a' "
+    query_.files.srdf = put("balls.srdf", "<robot><disable_collisions link1='d' link2='a' "
                                     "reason='Never'/><group_state name='in'><joint name='bc' "
                                     "value='-1'/><joint name='cd' value='-2'/></group_state>"
                                     "</robot>");
@@ -147,8 +149,34 @@ TEST_F(QueryRobot, AnSrdfFileSaysWhatIsAllowedAndNamesStates) {
                                 HasSubstr("filtered,0,b,c\ncolliding,0,b,c\n")));
     query_.state = "out";
     EXPECT_THAT(complaint(), HasSubstr("unknown state 'out'"));
-    query_.srdf.reset();
+    query_.files.srdf.reset();
     EXPECT_THAT(complaint(), HasSubstr("give one by --srdf"));
+}
+
+TEST_F(QueryRobot, StepsLeadFromEachRandomStateToTheNext) {
+    query_.random = 3;
+    const std::string waypoints = answer();
+    const auto value = [](const std::string& text, int state) {
+        const std::string key = "value," + std::to_string(state) + ",bc,";
+        const std::size_t at = text.find(key);
+        EXPECT_NE(at, std::string::npos) << state;
+        return std::stod(text.substr(at + key.size()));
+    };
+    query_.steps = 4;
+    query_.files.srdf.reset();
+    query_.svg = (folder_ / "least.svg").string();
+    const std::string text = answer();
+    EXPECT_THAT(text, Not(HasSubstr("value,9,")));
+    for (int i = 0; i <= 8; ++i) {
+        const double from = value(waypoints, i / 4), to = value(waypoints, std::min(i / 4 + 1, 2));
+        EXPECT_NEAR(value(text, i), from + (to - from) * (i % 4) / 4, 1e-12) << i;
+    }
+    std::ifstream file(*query_.svg);
+    const std::string drawn((std::istreambuf_iterator<char>(file)), {});
+    EXPECT_THAT(drawn, AllOf(StartsWith("<svg "), HasSubstr("9 states"), HasSubstr("class=\"least\"")));
+    EXPECT_EQ(std::ranges::count(drawn, '<'), std::ranges::count(drawn, '>'));
+    query_.svg = (folder_ / "nowhere" / "least.svg").string();
+    EXPECT_THAT(complaint(), HasSubstr("cannot be written"));
 }
 
 TEST_F(QueryRobot, RandomStatesAreTheSameForASeed) {
@@ -169,7 +197,7 @@ TEST_F(QueryRobot, SamplesProposePairsThatCanBeWritten) {
     query_.write_srdf = (folder_ / "out.srdf").string();
     EXPECT_THAT(answer(), AllOf(HasSubstr("allowed,a,c,sampled"), Not(HasSubstr("allowed,a,d"))));
     query_.samples.reset();
-    query_.srdf = query_.write_srdf;
+    query_.files.srdf = query_.write_srdf;
     query_.write_srdf.reset();
     query_.format.json = true;
     EXPECT_THAT(answer(), HasSubstr("{\"links\":[\"a\",\"c\"],\"reason\":\"sampled\",\"note\":\"in "
@@ -179,12 +207,12 @@ TEST_F(QueryRobot, SamplesProposePairsThatCanBeWritten) {
 }
 
 TEST_F(QueryRobot, BadFilesAreBadInput) {
-    query_.urdf = (folder_ / "none.urdf").string();
+    query_.files.urdf = (folder_ / "none.urdf").string();
     EXPECT_THAT(complaint(), HasSubstr("no such file"));
-    query_.urdf = put("bad.urdf", "<robot>");
+    query_.files.urdf = put("bad.urdf", "<robot>");
     EXPECT_THAT(complaint(), HasSubstr("bad.urdf:1:"));
-    query_.urdf = put("balls.urdf", four_balls);
-    query_.srdf = put("bad.srdf", "<robot><disable_collisions link1='x' link2='a'/></robot>");
+    query_.files.urdf = put("balls.urdf", four_balls);
+    query_.files.srdf = put("bad.srdf", "<robot><disable_collisions link1='x' link2='a'/></robot>");
     EXPECT_THAT(complaint(), HasSubstr("bad.srdf:1:"));
 }
 
@@ -192,8 +220,8 @@ TEST_F(QueryRobot, SharedPandaIsReadWithItsPairs) {
     const fs::path panda = "../shared/data/robots/panda";
     if (!fs::is_directory(panda))
         GTEST_SKIP() << panda << " is not here: the sample robots are no part of the project";
-    query_.urdf = (panda / "panda.urdf").string();
-    query_.srdf = (panda / "panda.srdf").string();
+    query_.files.urdf = (panda / "panda.urdf").string();
+    query_.files.srdf = (panda / "panda.srdf").string();
     query_.state = "ready";
     /// Boxes alone: whatever it is asked about collides.
     class Boxes final : public LinkNarrowPhase {
@@ -225,7 +253,7 @@ TEST_F(QueryRobot, SharedPandaIsReadWithItsPairs) {
                 found.push_back(line);
         return found;
     };
-    query_.srdf.reset();
+    query_.files.srdf.reset();
     query_.state.reset();
     std::ostringstream proposed;
     run(
@@ -278,6 +306,86 @@ TEST(QueryRobotMeshes, AnswerForPandaAsAllItsTrianglesDo) {
             }
     }
     EXPECT_GT(pairs, 100u);
+    EXPECT_LT(touching, pairs / 2);
+}
+
+/// Cylinders and meshes, part by part against all triangles.
+TEST(QueryRobotMeshes, AnswerForZ1AsAllItsTrianglesDo) {
+    const fs::path z1 = "../shared/data/robots/z1";
+    if (!fs::is_directory(z1))
+        GTEST_SKIP() << z1 << " is not here: the sample robots are no part of the project";
+    const UrdfRobot read = read_urdf(z1 / "z1.urdf");
+    const Robot robot(read.description);
+    const RobotMeshes narrow(robot, read.meshes);
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    struct Part {
+        std::vector<Triangle<double>> triangles; ///< none: the cylinder
+        convex::Cylinder cylinder;
+        Pose pose;
+    };
+    // Roughly, and then those that may be the nearest.
+    const auto least_of = [](const Part& a, const Part& b) {
+        if (a.triangles.empty())
+            return convex::signed_distance(a.cylinder, a.pose, b.cylinder, b.pose).distance;
+        const auto measure = [&](const Triangle<double>& t, double relative) {
+            return convex::signed_distance(t, Pose{}, b.cylinder, b.pose, {relative, 0});
+        };
+        std::vector<double> lower;
+        double upper = inf, least = inf;
+        for (const Triangle<double>& t : a.triangles) {
+            const convex::SignedDistance rough = measure(t, 1e-3);
+            lower.push_back(rough.lo);
+            upper = std::min(upper, rough.hi);
+        }
+        for (std::size_t i = 0; i < lower.size(); ++i)
+            if (lower[i] <= upper)
+                least = std::min(least, measure(a.triangles[i], 0x1p-36).distance);
+        return least;
+    };
+    std::vector<Pose> poses(robot.links().size());
+    std::vector<double> values(robot.n_values());
+    std::size_t touching = 0, with_meshes = 0, pairs = 0;
+    for (std::uint64_t state = 0; state < 3; ++state) {
+        random_values(robot.ranges(), 11, state, values);
+        robot.poses(values, poses);
+        std::vector<std::vector<Part>> links(poses.size());
+        for (std::size_t i = 0; i < links.size(); ++i)
+            for (const LinkGeometry& geometry : robot.links()[i].geometries) {
+                Part part;
+                part.pose = compose(poses[i], geometry.origin);
+                if (const auto* mesh = std::get_if<LinkMesh>(&geometry.shape))
+                    for (std::size_t k = 0; k < read.meshes[mesh->mesh].triangles.size(); ++k) {
+                        const Triangle<float> t = read.meshes[mesh->mesh].triangle(k);
+                        part.triangles.push_back({part.pose(Vec3<double>(t.a)),
+                                                  part.pose(Vec3<double>(t.b)),
+                                                  part.pose(Vec3<double>(t.c))});
+                    }
+                else if (const auto* c = std::get_if<LinkCylinder>(&geometry.shape))
+                    part.cylinder = {c->radius, c->length / 2};
+                links[i].push_back(std::move(part));
+            }
+        for (std::uint32_t a = 0; a < links.size(); ++a)
+            for (std::uint32_t b = a + 2; b < links.size(); ++b) {
+                if (links[a].empty() || links[b].empty())
+                    continue;
+                double least = inf;
+                for (const Part& of_a : links[a])
+                    for (const Part& of_b : links[b]) {
+                        ASSERT_TRUE(of_a.triangles.empty() || of_b.triangles.empty());
+                        least = std::min(least, of_b.triangles.empty() ? least_of(of_a, of_b)
+                                                                       : least_of(of_b, of_a));
+                        with_meshes += !of_b.triangles.empty() || !of_a.triangles.empty();
+                    }
+                const LinkDistance found = narrow.distance(a, b, poses, inf);
+                EXPECT_NEAR(found.distance, std::max(0.0, least), 1e-11) << a << " " << b;
+                EXPECT_EQ(narrow.collide(a, b, poses), least <= 0) << a << " " << b;
+                touching += least <= 0;
+                ++pairs;
+            }
+    }
+    EXPECT_GT(pairs, 30u);
+    EXPECT_GT(with_meshes, 10u);
+    EXPECT_GT(touching, 0u);
     EXPECT_LT(touching, pairs / 2);
 }
 

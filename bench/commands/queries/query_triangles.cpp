@@ -36,21 +36,16 @@ using TrianglePair = std::array<Triangle<double>, 2>;
 std::vector<TrianglePair> read_pairs(const std::string& path) {
     const std::string source = source_name(path);
     std::vector<TrianglePair> pairs;
-    read_csv(read_text(path), source, triangle_pair_format,
-             [&](std::span<const double> v, std::size_t line) {
-                 for (std::size_t i = 0; i < v.size(); ++i)
-                     if (!std::isfinite(v[i]))
-                         throw_bad_row(
-                             source, line,
-                             fmt::format("number {} of the row is {}; triangles need finite "
-                                         "numbers",
-                                         i + 1, v[i]));
-                 const auto corner = [&](std::size_t i) {
-                     return Vec3<double>{v[i], v[i + 1], v[i + 2]};
-                 };
-                 pairs.push_back(
-                     {{{corner(0), corner(3), corner(6)}, {corner(9), corner(12), corner(15)}}});
-             });
+    read_csv_input(path, triangle_pair_format, [&](std::span<const double> v, std::size_t line) {
+        for (std::size_t i = 0; i < v.size(); ++i)
+            if (!std::isfinite(v[i]))
+                throw_bad_row(
+                    source, line,
+                    fmt::format("number {} of the row is {}; triangles need finite numbers", i + 1,
+                                v[i]));
+        const auto corner = [&](std::size_t i) { return Vec3<double>{v[i], v[i + 1], v[i + 2]}; };
+        pairs.push_back({{{corner(0), corner(3), corner(6)}, {corner(9), corner(12), corner(15)}}});
+    });
     return pairs;
 }
 

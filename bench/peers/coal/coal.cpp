@@ -1,5 +1,6 @@
 #include "bench/peers/coal/module.h"
 #include "bench/peers/comers.h"
+#include "bench/tasks/detail/median_distance.h"
 #include "bench/tasks/moving_pairs.h"
 
 #include <dlfcn.h>
@@ -34,19 +35,21 @@ ContenderEntry row(std::string name, std::string summary, std::string notes) {
 }
 
 ContenderEntry manager(std::string name, std::string summary, const std::string& build,
-                       CoalManager kind, Told told = Told::all_may_have_moved) {
+                       CoalManager kind, Reported reported = Reported::all_may_have_moved) {
     ContenderEntry e =
         row(std::move(name), std::move(summary),
             fmt::format("{}; query = collide with a callback that appends the pair; boxes in "
                         "double, equal to the scene's floats; one thread; a build also frees what "
                         "was built before; a frame: boxes of the moved, {}; bodies that come and "
                         "go: registerObject, unregisterObject",
-                        build, told == Told::which_moved ? "update(moved)" : "update() of all"));
-    const auto answers = [kind, told](std::string task, Sides sides) {
-        return Answering{std::move(task),
-                         [=](const Job& job) { return module().manager(job, sides, kind, told); }};
+                        build,
+                        reported == Reported::which_moved ? "update(moved)" : "update() of all"));
+    const auto answers = [kind, reported](std::string task, Sides sides) {
+        return Answering{std::move(task), [=](const Job& job) {
+                             return module().manager(job, sides, kind, reported);
+                         }};
     };
-    if (told == Told::all_may_have_moved)
+    if (reported == Reported::all_may_have_moved)
         e.answers = {answers("pairs", Sides::all), answers("tree_pairs", Sides::two_halves)};
     e.answers.push_back(answers("moving_pairs", Sides::all));
     return e;
@@ -60,7 +63,7 @@ std::vector<ContenderEntry> managers() {
         const std::string in_bulk = "build = registerObjects in bulk + setup, " + level;
         all.push_back(manager(name, summary, in_bulk, kind));
         all.push_back(manager(name + ".moved", summary + ", given which objects moved", in_bulk,
-                              kind, Told::which_moved));
+                              kind, Reported::which_moved));
     };
     const std::string tree = "DynamicAABBTreeCollisionManager",
                       array = "DynamicAABBTreeArrayCollisionManager: nodes in one array",
@@ -102,6 +105,65 @@ ContenderEntry kernel(std::string name, std::string task, std::string summary, s
     return e;
 }
 
+struct MeshRow {
+    const char* name;
+    const char* task;
+    const char* how;
+    CoalVolume volume;
+    CoalMeshQuery query;
+};
+constexpr MeshRow mesh_rows[] = {
+    {"obbrss", "collide", "collide for one contact, enable_contact off", CoalVolume::obbrss,
+     CoalMeshQuery::first_touch},
+    {"obbrss.contact", "collide", "collide for one contact, enable_contact on, its default",
+     CoalVolume::obbrss, CoalMeshQuery::first_contact},
+    {"obb", "collide", "collide for one contact, enable_contact off", CoalVolume::obb,
+     CoalMeshQuery::first_touch},
+    {"obbrss.all", "collide_all", "collide for all contacts, enable_contact off",
+     CoalVolume::obbrss, CoalMeshQuery::all_touches},
+    {"obb.all", "collide_all", "collide for all contacts, enable_contact off", CoalVolume::obb,
+     CoalMeshQuery::all_touches},
+    {"obbrss.contacts", "contacts",
+     "collide for all contacts, enable_contact on, and a sort by depth", CoalVolume::obbrss,
+     CoalMeshQuery::all_contacts},
+    {"obb.contacts", "contacts", "collide for all contacts, enable_contact on, and a sort by depth",
+     CoalVolume::obb, CoalMeshQuery::all_contacts},
+    {"obbrss.distance", "distance", "distance, not signed", CoalVolume::obbrss,
+     CoalMeshQuery::least_distance},
+    {"rss.distance", "distance", "distance, not signed", CoalVolume::rss,
+     CoalMeshQuery::least_distance},
+    {"obbrss.tolerance", "tolerance",
+     "collide for one contact, enable_contact off, where the tolerance is the security margin: it "
+     "ends at the first pair of triangles that is near enough",
+     CoalVolume::obbrss, CoalMeshQuery::within_margin},
+    {"obb.tolerance", "tolerance",
+     "collide for one contact, enable_contact off, where the tolerance is the security margin: it "
+     "ends at the first pair of triangles that is near enough",
+     CoalVolume::obb, CoalMeshQuery::within_margin},
+};
+
+ContenderEntry meshes(const MeshRow& of) {
+    constexpr const char* volumes[] = {"OBBRSS", "OBB", "RSS"};
+    const bool is_distance = of.query == CoalMeshQuery::least_distance;
+    ContenderEntry e = row(
+        of.name,
+        fmt::format("BVHModel of {}, {}", volumes[static_cast<std::size_t>(of.volume)], of.how),
+        fmt::format("build = one model, which stands for the mesh and for its copy; query = {}, "
+                    "pose after pose, at the same model; {}; doubles, equal to the scene's floats; "
+                    "one thread",
+                    of.how,
+                    is_distance ? "triangles by PQP's distance"
+                                : "triangles by GJK; break_distance 0, as nobody reads the "
+                                  "distance that its default of 1e-3 is for"));
+    e.answers = {{of.task, [of](const Job& job) {
+                      const bool needs_tolerance = of.query == CoalMeshQuery::within_margin;
+                      return module().meshes(
+                          job, of.volume, of.query,
+                          needs_tolerance ? median_distance(*job.scene) : 0);
+                  }}};
+    return e;
+}
+
 } // namespace
 
 Peer coal_peer() {
@@ -112,6 +174,8 @@ Peer coal_peer() {
     peer.version = BOXWOOD_COAL_VERSION;
     peer.build = "the package index's library: double precision, SSE2";
     peer.contenders = managers();
+    for (const MeshRow& of : mesh_rows)
+        peer.contenders.push_back(meshes(of));
     const std::string shapes = "on two TriangleP, enable_contact ";
     peer.contenders.push_back(kernel("collide", "triangle_triangle",
                                      "ComputeCollision " + shapes + "off",

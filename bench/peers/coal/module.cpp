@@ -62,7 +62,7 @@ struct Kind {
     using Bounds = bench::Bounds;
 
     CoalManager manager;
-    Told told;
+    Reported reported;
 
     std::unique_ptr<Manager> make(const std::vector<Aabb<float>>& boxes) const {
         switch (manager) {
@@ -138,8 +138,8 @@ Distance distance(const Corners& of) {
 }
 
 std::unique_ptr<Contender> make_manager(const Job& job, Sides sides, CoalManager manager,
-                                        Told told) {
-    return std::make_unique<ManagerContender<Kind>>(job, sides, Kind{manager, told});
+                                        Reported reported) {
+    return std::make_unique<ManagerContender<Kind>>(job, sides, Kind{manager, reported});
 }
 
 std::unique_ptr<Contender> make_kernel(const Job& job, CoalKernel kernel) {
@@ -159,4 +159,5 @@ std::unique_ptr<Contender> make_kernel(const Job& job, CoalKernel kernel) {
 
 extern "C" [[gnu::visibility("default")]] const boxwood::bench::CoalModule boxwood_coal;
 const boxwood::bench::CoalModule boxwood_coal{boxwood::bench::make_manager,
-                                              boxwood::bench::make_kernel};
+                                              boxwood::bench::make_kernel,
+                                              boxwood::bench::make_coal_meshes};

@@ -20,12 +20,27 @@ enum class CoalManager : std::uint8_t {
 /// Coal's answers about two triangles.
 enum class CoalKernel : std::uint8_t { collide, collide_with_contact, distance };
 
+/// Coal's models of a mesh, by their volume, and what they answer of it and its copy.
+enum class CoalVolume : std::uint8_t { obbrss, obb, rss };
+enum class CoalMeshQuery : std::uint8_t {
+    first_touch,
+    first_contact, ///< with its point, normal and depth
+    all_touches,
+    all_contacts,
+    least_distance,
+    within_margin ///< the tolerance is a security margin
+};
+/// tolerance: of within_margin, scene units. In meshes.cpp, within the module.
+std::unique_ptr<Contender> make_coal_meshes(const Job& job, CoalVolume volume, CoalMeshQuery query,
+                                            double tolerance);
+
 /// The library behind a door: a module that is opened when a contender is made. In one process with
 /// FCL's package two octomaps would meet under the same names, and the program end in a double
 /// free.
 struct CoalModule {
-    std::unique_ptr<Contender> (*manager)(const Job&, Sides, CoalManager, Told);
+    std::unique_ptr<Contender> (*manager)(const Job&, Sides, CoalManager, Reported);
     std::unique_ptr<Contender> (*kernel)(const Job&, CoalKernel);
+    std::unique_ptr<Contender> (*meshes)(const Job&, CoalVolume, CoalMeshQuery, double);
 };
 
 /// The module has `extern "C" const CoalModule boxwood_coal`.

@@ -1,7 +1,7 @@
 #include "bench/peers/answering.h"
 #include "bench/peers/comers.h"
 #include "bench/peers/fcl/fcl_bounds.h"
-#include "bench/peers/fcl/mesh_peers.h"
+#include "bench/peers/mesh_peers.h"
 #include "bench/peers/kernel_peers.h"
 #include "bench/peers/point_peers.h"
 #include "bench/tasks/moving_pairs.h"
@@ -52,7 +52,7 @@ template <class S> struct Kind {
     using Bounds = FclBounds<S>;
 
     std::unique_ptr<Manager> (*make)(const std::vector<Aabb<float>>& boxes);
-    Told told = Told::all_may_have_moved;
+    Reported reported = Reported::all_may_have_moved;
     fcl::CollisionCallBack<S> callback = append<S>;
 
     void collide(Manager& manager, std::vector<Pair>& pairs) const {
@@ -82,13 +82,14 @@ ContenderEntry entry(std::string name, std::string summary, std::string notes, K
     e.library = "fcl";
     e.summary = "FCL's " + std::move(summary);
     e.precision = std::is_same_v<S, float> ? "f32" : "f64";
-    e.notes = std::move(notes) +
-              fmt::format("query = collide with a callback that appends the pair; boxes in {}; one "
-                          "thread; a build also frees what was built before; a frame: boxes of the "
-                          "moved, {}; bodies that come and go: registerObject, unregisterObject",
-                          e.precision == "f32" ? "float, compiled here"
-                                               : "double, equal to the scene's floats",
-                          kind.told == Told::which_moved ? "update(moved)" : "update() of all");
+    e.notes =
+        std::move(notes) +
+        fmt::format("query = collide with a callback that appends the pair; boxes in {}; one "
+                    "thread; a build also frees what was built before; a frame: boxes of the "
+                    "moved, {}; bodies that come and go: registerObject, unregisterObject",
+                    e.precision == "f32" ? "float, compiled here"
+                                         : "double, equal to the scene's floats",
+                    kind.reported == Reported::which_moved ? "update(moved)" : "update() of all");
     e.runs_on = RunsOn::one_thread;
     e.answers = answering_all_pairs<ManagerContender<Kind<S>>>(kind);
     return e;
@@ -109,7 +110,7 @@ void add_trees(std::vector<ContenderEntry>& all, const std::string& name,
         all.push_back(
             only_for("moving_pairs", entry<S>(name + setting + ".moved",
                                               summary + said + ", given which objects moved", build,
-                                              {make, Told::which_moved})));
+                                              {make, Reported::which_moved})));
     };
     add("", "", "tree_init_level 2 (Morton order: the faster to build)", tree<M, S, 2>);
     add(".median", ", split at the median",
@@ -133,7 +134,7 @@ void add_others(std::vector<ContenderEntry>& all) {
             std::move(name),
             "SaPCollisionManager: sorted end points, and the pairs that they tell, kept",
             build + ", which finds the pairs by a sweep along one axis; ",
-            {plain<Sap, double>, Told::which_moved});
+            {plain<Sap, double>, Reported::which_moved});
         e.answers_from_cache = true;
         return e;
     };
@@ -151,7 +152,7 @@ void add_others(std::vector<ContenderEntry>& all) {
         "spatial_hash", "SpatialHashingCollisionManager: a hash table of cells",
         build + "; cells of the boxes' mean longest side, as many slots as boxes; the callback "
                 "compares the boxes; ",
-        {hash_for, Told::all_may_have_moved, append_overlapping}));
+        {hash_for, Reported::all_may_have_moved, append_overlapping}));
     for (std::size_t i = first; i < all.size(); ++i) {
         all[i].notes += "; may miss pairs that only touch";
         all[i].misses_touching = true;

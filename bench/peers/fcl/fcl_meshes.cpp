@@ -1,62 +1,16 @@
 #include "bench/peers/answering.h"
-#include "bench/peers/fcl/mesh_peers.h"
-#include "bench/tasks/detail/mesh_pair_task.h"
+#include "bench/peers/fcl/mesh_models.h"
+#include "bench/peers/mesh_peers.h"
+#include "bench/tasks/detail/median_distance.h"
 
-#include <fcl/geometry/bvh/BVH_model.h>
-#include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
-#include <memory>
-#include <vector>
 
 namespace boxwood::bench {
 namespace {
-
-/// One model, which stands for the mesh and for its copy.
-template <class Volume> class MeshModels : public Contender {
-  public:
-    explicit MeshModels(const Job& job) : scene_(*job.scene) {
-        for (const Vec3<float>& v : scene_.mesh.vertices)
-            vertices_.emplace_back(static_cast<double>(v.x), static_cast<double>(v.y),
-                                   static_cast<double>(v.z));
-        for (const auto& [a, b, c] : scene_.mesh.triangles)
-            triangles_.emplace_back(a, b, c);
-        for (const Pose& pose : scene_.poses) {
-            fcl::Transform3d& placed = poses_.emplace_back(fcl::Transform3d::Identity());
-            for (int i = 0; i < 3; ++i) {
-                const Vec3<double>& row = pose.rotation[static_cast<std::size_t>(i)];
-                for (int j = 0; j < 3; ++j)
-                    placed.linear()(i, j) = row[j];
-                placed.translation()(i) = pose.translation[i];
-            }
-        }
-    }
-    void build() override {
-        model_.reset();
-        model_ = std::make_unique<fcl::BVHModel<Volume>>();
-        model_->beginModel(static_cast<int>(triangles_.size()), static_cast<int>(vertices_.size()));
-        model_->addSubModel(vertices_, triangles_);
-        model_->endModel();
-    }
-
-  protected:
-    const Scene& scene_;
-    std::vector<fcl::Transform3d> poses_;
-    std::unique_ptr<fcl::BVHModel<Volume>> model_;
-
-    std::size_t collide_at(std::size_t i, const fcl::CollisionRequestd& request) {
-        result_.clear();
-        return fcl::collide<double>(model_.get(), fcl::Transform3d::Identity(), model_.get(),
-                                    poses_[i], request, result_);
-    }
-    fcl::CollisionResultd result_;
-
-  private:
-    std::vector<fcl::Vector3d> vertices_;
-    std::vector<fcl::Triangle> triangles_;
-};
 
 template <class Volume> class FirstTouch final : public MeshModels<Volume> {
   public:
@@ -117,6 +71,52 @@ template <class Volume> class LeastDistance final : public MeshModels<Volume> {
     fcl::DistanceResultd result_;
 };
 
+template <class Volume> class Nearer final : public MeshModels<Volume> {
+  public:
+    using MeshModels<Volume>::MeshModels;
+    void query(Answers& answers) override {
+        std::vector<std::uint8_t>& nearer = list_of<std::uint8_t>(answers);
+        nearer.clear();
+        for (const fcl::Transform3d& pose : this->poses_) {
+            result_.clear();
+            result_.min_distance = tolerance_; // what is not nearer is left out
+            fcl::distance<double>(this->model_.get(), fcl::Transform3d::Identity(),
+                                  this->model_.get(), pose, request_, result_);
+            nearer.push_back(result_.b1 != fcl::DistanceResultd::NONE);
+        }
+    }
+
+  private:
+    double tolerance_ = median_distance(this->scene_);
+    fcl::DistanceRequestd request_{false};
+    fcl::DistanceResultd result_;
+};
+
+template <class Volume> class AllContacts final : public MeshModels<Volume> {
+  public:
+    using MeshModels<Volume>::MeshModels;
+    void query(Answers& answers) override {
+        std::vector<PosedContact>& found = list_of<PosedContact>(answers);
+        found.clear();
+        for (std::size_t i = 0; i < this->poses_.size(); ++i) {
+            this->collide_at(i, request_);
+            const auto first = static_cast<std::ptrdiff_t>(found.size());
+            for (std::size_t k = 0; k < this->result_.numContacts(); ++k) {
+                const fcl::Contactd& c = this->result_.getContact(k);
+                found.push_back({{c.pos.x(), c.pos.y(), c.pos.z()},
+                                 {c.normal.x(), c.normal.y(), c.normal.z()},
+                                 c.penetration_depth,
+                                 {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(c.b1),
+                                  static_cast<std::uint32_t>(c.b2)}});
+            }
+            std::sort(found.begin() + first, found.end(), is_before);
+        }
+    }
+
+  private:
+    fcl::CollisionRequestd request_{std::numeric_limits<int>::max(), true};
+};
+
 ContenderEntry entry_of(const std::string& name, const std::string& what, const std::string& how) {
     ContenderEntry e;
     e.name = "fcl." + name;
@@ -132,8 +132,8 @@ ContenderEntry entry_of(const std::string& name, const std::string& what, const 
 }
 
 template <class Volume>
-void append(std::vector<ContenderEntry>& all, const std::string& volume, const std::string& what,
-            bool has_distance) {
+void append_touches(std::vector<ContenderEntry>& all, const std::string& volume,
+                    const std::string& what) {
     for (const bool with_contact : {false, true}) {
         ContenderEntry& e = all.emplace_back(
             entry_of(volume + (with_contact ? ".contact" : ""), what,
@@ -144,22 +144,36 @@ void append(std::vector<ContenderEntry>& all, const std::string& volume, const s
     ContenderEntry& every = all.emplace_back(
         entry_of(volume + ".all", what, "collide for all contacts, without their points"));
     every.answers = {answering<AllTouches<Volume>>("collide_all")};
-    if (has_distance) {
-        ContenderEntry& e =
-            all.emplace_back(entry_of(volume + ".distance", what, "distance with nearest points"));
-        e.answers = {answering<LeastDistance<Volume>>("distance")};
-    }
+    ContenderEntry& deepest = all.emplace_back(
+        entry_of(volume + ".contacts", what,
+                 "collide for all contacts, with points, normals and depths, and a sort by depth"));
+    deepest.notes += "; up to two contacts of each pair of triangles";
+    deepest.answers = {answering<AllContacts<Volume>>("contacts")};
+}
+
+template <class Volume>
+void append_distances(std::vector<ContenderEntry>& all, const std::string& volume,
+                      const std::string& what) {
+    ContenderEntry& least =
+        all.emplace_back(entry_of(volume + ".distance", what, "distance with nearest points"));
+    least.answers = {answering<LeastDistance<Volume>>("distance")};
+    ContenderEntry& nearer = all.emplace_back(
+        entry_of(volume + ".tolerance", what,
+                 "distance without nearest points, where the result starts at the tolerance, as "
+                 "MoveIt does: what is farther is left out, and a nearer pair does not end it"));
+    nearer.answers = {answering<Nearer<Volume>>("tolerance")};
 }
 
 } // namespace
 
 std::vector<ContenderEntry> fcl_meshes() {
     std::vector<ContenderEntry> all;
-    append<fcl::OBBRSSd>(all, "obbrss", "OBBRSS", true);
-    append<fcl::OBBd>(all, "obb", "OBB", false);
-    ContenderEntry& rss =
-        all.emplace_back(entry_of("rss.distance", "RSS", "distance with nearest points"));
-    rss.answers = {answering<LeastDistance<fcl::RSSd>>("distance")};
+    append_touches<fcl::OBBRSSd>(all, "obbrss", "OBBRSS");
+    append_touches<fcl::OBBd>(all, "obb", "OBB");
+    append_distances<fcl::OBBRSSd>(all, "obbrss", "OBBRSS");
+    append_distances<fcl::RSSd>(all, "rss", "RSS");
+    for (ContenderEntry& e : fcl_motions())
+        all.push_back(std::move(e));
     return all;
 }
 

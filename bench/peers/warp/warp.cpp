@@ -188,7 +188,7 @@ struct Builder {
     std::string name, title, build;
 };
 
-const std::string walked =
+const std::string traversed =
     "; leaves of one box; query = bvh_query_aabb and bvh_query_next of its headers, a thread per "
     "box, pairs into room in any order in one pass; ";
 
@@ -201,7 +201,7 @@ std::vector<ContenderEntry> of(const Builder& by) {
     std::vector<Answering> answers{
         there<BoxQueries>("pairs", Asked::self_pairs, b, WarpOrder::of_the_tree),
         there<BoxQueries>("tree_pairs", Asked::tree_pairs, b, WarpOrder::as_given)};
-    std::string notes = by.build + walked +
+    std::string notes = by.build + traversed +
                         "self pairs: threads in the order of the tree's leaves, which its Python "
                         "does not show; other queries in the order given";
     if (!on_host) { // its rebuild would make an lbvh
@@ -217,10 +217,10 @@ std::vector<ContenderEntry> of(const Builder& by) {
     if (b == WarpBuilder::lbvh)
         all.push_back(
             entry(by.name + ".as_given", "the same, boxes as they come",
-                  by.build + walked + "threads in the order of the boxes",
+                  by.build + traversed + "threads in the order of the boxes",
                   {there<BoxQueries>("pairs", Asked::self_pairs, b, WarpOrder::as_given)}));
     all.push_back(entry(by.name + ".refit", "Warp's wp.Bvh, " + by.title + ", refitted",
-                        by.build + walked + "a frame: all boxes uploaded, wp_bvh_refit_device",
+                        by.build + traversed + "a frame: all boxes uploaded, wp_bvh_refit_device",
                         {there<Follower>("moving_pairs", b, true)}));
     for (ContenderEntry& e : all)
         e.cannot = [on_host, drops_empty = b == WarpBuilder::cubql](

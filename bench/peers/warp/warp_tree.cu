@@ -27,8 +27,9 @@ struct Room {
     unsigned long long room;
 };
 
-/// A thread per query walks the tree by Warp's own functions. It holds its pairs back, so that a
-/// warp takes the places of all of them at once; only of more than `most` some are written before.
+/// A thread per query traverses the tree by Warp's own functions. It holds its pairs back, so that
+/// a warp takes the places of all of them at once; only of more than `most` some are written
+/// before.
 template <bool is_self>
 __global__ void __launch_bounds__(n_threads)
     warp_pairs(std::uint64_t tree, Queries queries, WarpOrder order, Room to) {
@@ -45,9 +46,9 @@ __global__ void __launch_bounds__(n_threads)
         if (is_self && order == WarpOrder::of_the_tree)
             query = static_cast<std::uint32_t>(
                 reinterpret_cast<const wp::BVH*>(tree)->primitive_indices[query]);
-        wp::bvh_query_t walk =
+        wp::bvh_query_t traversal =
             wp::bvh_query_aabb(tree, queries.lowers[query], queries.uppers[query], -1);
-        for (int found; wp::bvh_query_next(walk, found, FLT_MAX);) {
+        for (int found; wp::bvh_query_next(traversal, found, FLT_MAX);) {
             const std::uint32_t item = static_cast<std::uint32_t>(found) + queries.first_item;
             if (is_self && item <= query)
                 continue;
@@ -119,7 +120,7 @@ void* symbol(const char* name) {
                              BOXWOOD_WARP(wp_get_error_string)());
 }
 
-// Tests walk the trees that Warp makes in the host's memory; it makes no lbvh there.
+// Tests traverse the trees that Warp makes in the host's memory; it makes no lbvh there.
 #if defined(__CUDACC__)
 #define BOXWOOD_WARP_HERE(name) BOXWOOD_WARP(name##_device)
 constexpr int number_of(WarpBuilder builder) { return static_cast<int>(builder); }

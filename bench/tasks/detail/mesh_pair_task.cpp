@@ -29,16 +29,20 @@ std::vector<std::string_view> MeshPairTask::keys() const {
     return {"scene", "n", "poses", "n_poses", "builders", "volumes", "threads", "peers"};
 }
 
-void MeshPairTask::expand(const BlockReader& block, AddCell add) const {
+std::vector<SceneSpec> MeshPairTask::posed_scenes(const BlockReader& block) const {
     std::vector<SceneSpec> scenes;
     const std::size_t n_poses = block.integer("n_poses", 1, 100'000).value_or(16);
     for (const SceneSpec& scene : still_scenes(block, "place copies of"))
         for (const std::string& kind :
-             block.names("poses", names_of(pose_kinds()), {"apart", "near", "shallow", "deep"})) {
+             block.names("poses", names_of(pose_kinds()), usual_poses())) {
             scenes.push_back(scene);
             scenes.back().poses = kind;
             scenes.back().n_poses = n_poses;
         }
+    return scenes;
+}
+
+void MeshPairTask::expand(const BlockReader& block, AddCell add) const {
     std::vector<ContenderEntry> ours;
     for (const BuilderChoice& builder : block.builders())
         for (const std::string& volume : block.names("volumes", names_of(volumes), {"obb"})) {
@@ -51,32 +55,25 @@ void MeshPairTask::expand(const BlockReader& block, AddCell add) const {
     const std::vector<ContenderEntry> peers = block.peers(name());
     if (ours.empty() && !block.has("peers"))
         block.fail("[[cells]] needs builders, peers, or both");
-    for (const SceneSpec& scene : scenes)
+    for (const SceneSpec& scene : posed_scenes(block))
         add_cells(block, scene, ours, peers, add);
 }
 
 ContenderEntry MeshPairTask::contender(const Choice& choice) const {
-    const BuilderEntry& builder =
-        entry_named(std::string_view(choice.builder).substr(0, choice.builder.find('+')),
-                    builders(), "builder");
+    const BuilderEntry& builder = builder_of(choice);
     const VolumeRow& volume =
         entry_named(choice.layout, std::span<const VolumeRow>(volumes), "volume");
-    ContenderEntry entry;
-    entry.library = "boxwood";
-    entry.is_peer = false;
+    ContenderEntry entry = entry_of_ours(builder, choice);
     entry.precision = "f64";
-    entry.builder = name_with_settings(choice.builder, choice.settings);
-    entry.place = static_cast<std::size_t>(&builder - builders().data());
-    entry.is_plain = entry.builder == builder.name;
-    entry.is_reference = builder.is_reference && entry.is_plain;
     entry.layout = volume.name;
     entry.traversal = name();
     entry.promise = promise();
     entry.name = fmt::format("{}.{}.{}", entry.builder, entry.layout, entry.traversal);
     entry.summary = fmt::format("{}; {}", builder.summary, volume.summary);
-    entry.notes = "build: one tree, which stands for the mesh and for its copy; query: pose after "
-                  "pose; the copy's corners are moved in doubles, boxes are bounded in floats";
-    entry.params_json = settings_json(choice.settings);
+    entry.notes = fmt::format("build: one tree, which stands for the mesh and for its copy; query: "
+                              "{}; the copy's corners are moved in doubles, boxes are bounded in "
+                              "floats",
+                              query_notes());
     entry.runs_on = RunsOn::one_thread;
     entry.answers = {{std::string(name()),
                       [build = make_builder(choice.builder, choice.settings), kind = volume.volume,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bench/tasks/detail/mesh_pair_answers.h"
 #include "bench/tasks/task.h"
 #include "trees/world/mesh_pairs.h"
 
@@ -11,18 +12,6 @@
 #include <vector>
 
 namespace boxwood::bench {
-
-/// Two triangles that touch in one of the scene's poses.
-struct PosedPair {
-    std::uint32_t pose, a, b;
-    constexpr auto operator<=>(const PosedPair&) const = default;
-};
-
-/// Of one pose: how far apart the two are, in doubles, and by which triangles.
-struct PosedDistance {
-    double distance = 0, lo = 0, hi = 0;
-    Pair triangles{~0u, ~0u};
-};
 
 /// The tree of the scene's mesh, which stands for the mesh and for its copy.
 class MeshPairContender : public Contender {
@@ -71,6 +60,14 @@ class MeshPairTask : public Task {
                                                 MeshVolume volume);
     virtual Make make() const = 0;
     virtual Promise promise() const = 0;
+    /// What a query is of, for the notes.
+    virtual std::string_view query_notes() const { return "pose after pose"; }
+    /// The kinds of poses of a block that names none.
+    virtual std::vector<std::string> usual_poses() const {
+        return {"apart", "near", "shallow", "deep"};
+    }
+    /// The scenes of a block: each that it names, in each kind of poses.
+    virtual std::vector<SceneSpec> posed_scenes(const BlockReader& block) const;
 };
 
 template <class C>

@@ -11,6 +11,7 @@
 #include "trees/mesh_bvh.h"
 #include "trees/queries/single_rays.h"
 #include "trees/queries/sorted_rays.h"
+#include "trees/queries/tiled_rays.h"
 
 #include <fmt/format.h>
 
@@ -20,6 +21,18 @@
 
 namespace boxwood::bench {
 namespace {
+
+/// Of the picture that a scene's rays are; 0 if they are none.
+std::size_t width_of(const Scene& scene) {
+    return picture_width(scene.spec.rays, scene.rays.size());
+}
+
+/// Why a scene's rays have no tiles.
+std::optional<std::string> no_picture(const Scene& scene) {
+    if (width_of(scene) != 0)
+        return std::nullopt;
+    return "traces rays by tiles of a picture, which these are not";
+}
 
 class Hits final : public RayContender {
   public:
@@ -42,6 +55,9 @@ class Hits final : public RayContender {
             one_by_one(hits);
         else if (order_ == "sorted")
             sorted_rays(*layout_, scene_.rays, query_, kernel_, triangles_, *executor_, hits);
+        else if (order_ == "tiled")
+            tiled_rays(*layout_, scene_.rays, width_of(scene_), query_, kernel_, triangles_,
+                       *executor_, hits);
         else
             layout_->rays(scene_.rays, query_, kernel_, triangles_, *executor_, hits);
     }
@@ -194,6 +210,10 @@ const std::array orders{
     RayOrderEntry{"sorted",
                   "a batch by direction and place, answers put back",
                   "sorted_rays",
+                  {ray_class::batches}},
+    RayOrderEntry{"tiled",
+                  "a batch that is a picture, by tiles of 4 x 4 pixels, answers put back",
+                  "tiled_rays",
                   {ray_class::batches}},
     RayOrderEntry{"single",
                   "one ray in a call, answered before the next",
@@ -370,13 +390,14 @@ TreeTask::Way HitTask::way(const Choice& choice) const {
         return std::make_unique<Hits>(job, std::move(build), layout, kernel, query, order);
     };
     TreeTask::Way::Make by_front_door; // which traces rays one by one or as given
-    if (order.name != "sorted")
+    if (order.name == "given" || order.name == "single")
         by_front_door = maker<HitsByFrontDoor>(choice.kernel, query_, order.name == "single");
     return {.traversal = order.traversal,
             .kernel = choice.kernel,
             .promise = kernel.promise,
             .make = make,
             .query = Query::rays,
+            .cannot = order.name == "tiled" ? no_picture : nullptr,
             .classes = ray_class::of_ours(order.classes, choice.kernel),
             .make_on_device = on_device(choice),
             .make_by_front_door = by_front_door};
@@ -384,7 +405,7 @@ TreeTask::Way HitTask::way(const Choice& choice) const {
 
 Answering::Make HitTask::on_device(const Choice& choice) const {
     const std::optional<DeviceMeshBvhOptions> options = device_options(choice);
-    if (!options || choice.ray_order == "single")
+    if (!options || choice.ray_order == "single" || choice.ray_order == "tiled")
         return nullptr;
     return [options = *options, query = query_](const Job& job) {
         return std::make_unique<HitsOnDevice>(job, options, query);

@@ -247,6 +247,23 @@ TEST(RaysBatches, SortedAnswerAsGivenForEveryWay) {
         std::invalid_argument);
 }
 
+TEST(RaysOfAPicture, TiledAnswerAsGivenAndOthersAreRefused) {
+    for (const char* name : {"rays_closest", "rays_any"}) {
+        const Task& task = *find_task(name);
+        Choice choice;
+        const Scene picture = make_scene(small_spec("triangle_soup", "primary"));
+        const auto given = answers_of<RayHit>(task.contender(choice), {&picture, &task});
+        choice.ray_order = "tiled";
+        const ContenderEntry tiled = task.contender(choice);
+        EXPECT_EQ(tiled.name, "binned_sah.wide8.tiled_rays.watertight");
+        const auto answers = answers_of<RayHit>(tiled, {&picture, &task});
+        EXPECT_EQ(task.hash(answers), task.hash(given));
+        EXPECT_FALSE(tiled.cannot({&picture, &task}));
+        const Scene other = make_scene(small_spec("triangle_soup", "random"));
+        EXPECT_TRUE(tiled.cannot({&other, &task}));
+    }
+}
+
 TEST(RaysOneByOne, AnswerAsABatchForEveryWay) {
     against_the_given_order("single", [](const Task& task, const auto& alone, const auto& given) {
         EXPECT_EQ(task.hash(alone), task.hash(given));

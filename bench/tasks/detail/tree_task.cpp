@@ -30,6 +30,23 @@ std::string settings_json(const Settings& settings) {
     return "{" + all + "}";
 }
 
+const BuilderEntry& builder_of(const Choice& choice) {
+    return entry_named(std::string_view(choice.builder).substr(0, choice.builder.find('+')),
+                       builders(), "builder");
+}
+
+ContenderEntry entry_of_ours(const BuilderEntry& builder, const Choice& choice) {
+    ContenderEntry entry;
+    entry.library = "boxwood";
+    entry.is_peer = false;
+    entry.builder = name_with_settings(choice.builder, choice.settings);
+    entry.place = static_cast<std::size_t>(&builder - builders().data());
+    entry.is_plain = entry.builder == builder.name && !choice.by_front_door;
+    entry.is_reference = builder.is_reference && entry.is_plain;
+    entry.params_json = settings_json(choice.settings);
+    return entry;
+}
+
 void add_cells(const BlockReader& block, const SceneSpec& scene,
                const std::vector<ContenderEntry>& ours, const std::vector<ContenderEntry>& peers,
                AddCell add) {
@@ -79,20 +96,12 @@ void TreeTask::expand(const BlockReader& block, AddCell add) const {
 }
 
 ContenderEntry TreeTask::contender(const Choice& choice) const {
-    const BuilderEntry& builder =
-        entry_named(std::string_view(choice.builder).substr(0, choice.builder.find('+')),
-                    builders(), "builder");
+    const BuilderEntry& builder = builder_of(choice);
     const LayoutEntry& layout = entry_named(choice.layout, layouts(), "layout");
     Way way = this->way(choice);
 
-    ContenderEntry entry;
-    entry.library = "boxwood";
-    entry.is_peer = false;
+    ContenderEntry entry = entry_of_ours(builder, choice);
     entry.precision = layout.precision;
-    entry.builder = name_with_settings(choice.builder, choice.settings);
-    entry.place = static_cast<std::size_t>(&builder - builders().data());
-    entry.is_plain = entry.builder == builder.name && !choice.by_front_door;
-    entry.is_reference = builder.is_reference && entry.is_plain;
     entry.layout = choice.layout;
     entry.traversal = way.traversal;
     entry.kernel = way.kernel;
@@ -112,11 +121,13 @@ ContenderEntry TreeTask::contender(const Choice& choice) const {
                   "threads";
     if (choice.by_front_door)
         entry.notes += "; by the front door (trees/bvh.h) around the same parts";
-    entry.params_json = settings_json(choice.settings);
-    entry.cannot = [this, &layout, query = way.query, why_not = std::move(way.why_not_on_device)](
+    entry.cannot = [this, &layout, query = way.query, cannot = std::move(way.cannot),
+                    why_not = std::move(way.why_not_on_device)](
                        const Job& job) -> std::optional<std::string> {
         if (query && !layout.answers(*query))
             return fmt::format("the layout {} does not answer {}", layout.name, to_string(*query));
+        if (auto why = cannot ? cannot(*job.scene) : std::nullopt)
+            return why;
         if (!is_device(job.executor))
             return std::nullopt;
         return why_not.empty() ? missing_on_device(*job.scene)

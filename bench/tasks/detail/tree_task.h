@@ -15,6 +15,13 @@ std::string name_with_settings(std::string text, const Settings& settings);
 /// As one JSON object.
 std::string settings_json(const Settings& settings);
 
+/// The builder that a choice names, with or without an optimizer behind it. Throws
+/// std::invalid_argument, with a suggestion, for an unknown one.
+const BuilderEntry& builder_of(const Choice& choice);
+
+/// What a contender of ours has of its builder and settings alone.
+ContenderEntry entry_of_ours(const BuilderEntry& builder, const Choice& choice);
+
 /// Adds the cells of ours wherever the block says, and those of peers on its threads.
 void add_cells(const BlockReader& block, const SceneSpec& scene,
                const std::vector<ContenderEntry>& ours, const std::vector<ContenderEntry>& peers,
@@ -40,6 +47,7 @@ class TreeTask : public Task {
                                                               const LayoutEntry&)>;
         Make make;
         std::optional<Query> query{}; ///< what a layout must answer for it
+        std::function<std::optional<std::string>(const Scene&)> cannot{}; ///< why, if so
         std::vector<std::string> classes{};
         Answering::Make make_on_device{}; ///< null if it has no form for a device
         Answering::Make make_by_graph{};  ///< or for a graph

@@ -1,20 +1,14 @@
 #pragma once
 
 #include "kernels/convex/support.h"
+#include "kernels/primitives/rotation.h"
 
 #include <array>
 
 namespace boxwood::convex::detail {
 
-using Rows = std::array<Vec3<double>, 3>;
-
-inline Vec3<double> times(const Rows& m, Vec3<double> p) {
-    return {dot(m[0], p), dot(m[1], p), dot(m[2], p)};
-}
-/// The transposed matrix times p.
-inline Vec3<double> transposed_times(const Rows& m, Vec3<double> p) {
-    return p.x * m[0] + p.y * m[1] + p.z * m[2];
-}
+using Rows = Rotation;
+using boxwood::times, boxwood::transposed_times;
 
 inline Vec3<double> third_column(const Rows& m) { return {m[0].z, m[1].z, m[2].z}; }
 

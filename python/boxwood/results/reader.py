@@ -1,5 +1,6 @@
 """A result file as tables: the one place that opens HDF5. What it refuses, the program refuses in the same words."""
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,7 +14,7 @@ from .words import FAMILIES, PHASES, REASONS, STATUSES, TOPICS, VERDICTS
 
 SCHEMA_MAJOR = 2
 AGAIN = "use another copy, or measure again"
-NO_ID = 2**32 - 1
+NO_ID, NO_COUNT = 2**32 - 1, 2**64 - 1  # what stands for none in columns of ids and of counts
 
 # The columns that the figures stand on; other columns and tables are skipped.
 MEASURED = {
@@ -162,11 +163,11 @@ def is_sealed(path):
     return True
 
 
-def read_table(file, path, name, columns):
+def read_table(file, path, name, columns, minor):
     def remedy(is_derived):
         return f"`boxwood merge {path} --out NEW.h5` derives it" if is_derived else AGAIN
 
-    if file.attrs["schema_minor"] < SINCE.get(name, 0):
+    if name not in file and minor < SINCE.get(name, 0):
         return np.zeros(0, dtype=[(column, object) for column in columns])
     if name not in file:
         raise BadFile(path, f"table {name} is missing; {remedy(name in DERIVED)}")
@@ -239,7 +240,8 @@ def load(path):
     with file:
         attrs = {key: as_text(value) for key, value in file.attrs.items()}
         check_header(path, attrs)
-        tables = {name: read_table(file, path, name, columns) for name, columns in {**MEASURED, **DERIVED}.items()}
+        minor = attrs.get("schema_minor", math.inf)  # one that does not say it is taken for the newest
+        tables = {name: read_table(file, path, name, columns, minor) for name, columns in {**MEASURED, **DERIVED}.items()}
         for name, table in tables.items():
             check_words(path, name, table)
         check_ids(path, tables)

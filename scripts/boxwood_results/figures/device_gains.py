@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from .. import labels, style
 from ..metrics import METRICS
 from ..picture import Picture, Skip
+from boxwood.results.reader import NO_COUNT
 from boxwood.results.words import count_text, time_text
 
 NAME = "device_gains"
@@ -92,7 +93,7 @@ def draw_panel(ax, run, key, rows, breaks, names, out):
 
 def size(value):
     """None where there is none."""
-    return None if int(value) == 2**64 - 1 else int(value)
+    return None if int(value) == NO_COUNT else int(value)
 
 
 def draw(run):

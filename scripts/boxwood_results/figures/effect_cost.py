@@ -1,7 +1,5 @@
 """The cost of each effect: a scene with it against the same scene without it."""
 
-import math
-
 from .. import style
 from ..findings import footer
 from ..moving import played_scenes
@@ -16,9 +14,8 @@ HOW_TO_READ = (
     "Bars are the intervals that decided; the shaded band is the A/A noise floor."
 )
 COLUMNS = ("scene", "n", "threads", "what", "with_ns", "without_ns", "ratio", "ratio_lo", "ratio_hi")
-ROW, GAP = 0.23, 0.12  # inches
+GAP = 0.12  # inches above a scene
 EFFECT, ALL = ("#0072B2", "o"), ("#D55E00", "D")
-TALL = 8  # inches from which the axis stands at the top, too
 
 
 def entries_of(scene):
@@ -36,42 +33,29 @@ def draw(run):
     scenes = [(scene, entries) for scene, entries in scenes if entries]
     if not scenes:
         raise Skip("no scene was played with an effect and without it (bench/configs/effects.toml does)")
-    height = sum(GAP + ROW * (1 + len(entries)) for _, entries in scenes) + 0.1
+    height = sum(GAP + style.ROW * (1 + len(entries)) for _, entries in scenes) + 0.1
     left, panel, right, top, bottom = 2.0, 4.0, 3.1, 0.2, 0.6
     size = (left + panel + right, height + top + bottom)
     figure = style.plt.figure(figsize=size)
     ax = figure.add_axes((left / size[0], bottom / size[1], panel / size[0], height / size[1]))
-    if not math.isnan(run.noise_floor):
-        ax.axvspan(1 / (1 + run.noise_floor), 1 + run.noise_floor, color="#DDDDDD", zorder=0)
-    ax.axvline(1, color="#555555", linewidth=1, zorder=1)
-    rows, ends, y = [], [0.9, 1.2], 0.0
+    rows, marks, ends, y = [], [], [0.9, 1.2], 0.0
     for scene, entries in scenes:
         job = scene.job
-        y += GAP + ROW / 2
-        ax.text(-left / panel + 0.02, y, f"{job}".replace(f" · {job.task}", ""), transform=ax.get_yaxis_transform(),
-                va="center", fontsize=8.5, weight="bold",
-                bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5})
-        y += ROW / 2
-        for cost, (colour, marker) in entries:
+        y += GAP + style.ROW / 2
+        style.row_heading(ax, -left / panel + 0.02, y, f"{job}".replace(f" · {job.task}", ""), 8.5)
+        y += style.ROW / 2
+        for cost, look in entries:
             ratio = cost.ratio
-            y += ROW / 2
-            if ratio.known:
-                ax.plot([ratio.lo, ratio.hi], [y, y], color=colour, linewidth=1.8, zorder=3)
-            ax.plot([ratio.mid], [y], marker=marker, markersize=6.5, color=colour, markeredgecolor="white",
-                    markeredgewidth=0.6, zorder=4)
-            ax.text(-0.02, y, cost.what, transform=ax.get_yaxis_transform(), ha="right", va="center", fontsize=8)
-            said = f"{ratio.text}   {cost_text(cost.extra_ns)} a frame"
-            ax.text(1.03, y, said, transform=ax.get_yaxis_transform(), va="center", fontsize=7.5)
+            y += style.ROW / 2
+            marks.append((ratio, y, look, 1.0))
+            style.row_texts(ax, y, cost.what, f"{ratio.text}   {cost_text(cost.extra_ns)} a frame")
             ends += [ratio.lo, ratio.hi] if ratio.known else [ratio.mid]
             rows.append((job.scene, job.n, job.where.column, cost.what, cost.with_ns, cost.without_ns, ratio.mid, ratio.lo,
                          ratio.hi))
-            y += ROW / 2
-    style.log_axis(ax.xaxis, min(ends), max(ends), lambda value: f"{value:g}x", room=0.04)
-    ax.set_xlabel("time of a frame with it / without it (right: it costs time)")
-    ax.tick_params(axis="x", labeltop=height > TALL)
+            y += style.ROW / 2
+    style.draw_marks(ax, marks, run.noise_floor)
+    style.ratio_axis(ax, min(ends), max(ends), "time of a frame with it / without it (right: it costs time)", room=0.04)
+    ax.tick_params(axis="x", labeltop=height > style.TALL)
     ax.set_ylim(height, 0)
-    ax.set_yticks([])
-    ax.grid(axis="y", visible=False)
-    ax.spines["left"].set_visible(False)
     return [Picture(NAME, figure, TITLE, f"Time of a frame with an effect over the time without it, for {len(rows)} effects of scenes.", COLUMNS, rows,
                     [footer(run)])]

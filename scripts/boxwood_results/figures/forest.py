@@ -1,6 +1,5 @@
 """Every peer's time over ours, with intervals, and the band in which nothing is claimed."""
 
-import math
 import re
 from dataclasses import dataclass
 
@@ -20,8 +19,7 @@ HOW_TO_READ = (
 )
 COLUMNS = ("task", "class", "scene", "n", "threads", "ours", "peer", "peer_library", "phase", "rounds",
            "ratio", "ratio_lo", "ratio_hi", "verdict", "reason")
-TALL = 8  # inches from which the axis stands at the top, too
-ROW, GAP = 0.23, 0.36  # inches
+GAP = 0.36  # inches above a block
 NAMES, PANEL, TEXTS, TOP, BOTTOM = 0.95, 2.5, 2.35, 0.35, 0.6
 
 
@@ -100,22 +98,6 @@ def races(run):
     return found
 
 
-def draw_marks(ax, comparisons, heights, floor):
-    if not math.isnan(floor):
-        ax.axvspan(1 / (1 + floor), 1 + floor, color="#DDDDDD", zorder=0)
-    ax.axvline(1, color="#555555", linewidth=1, zorder=1)
-    for comparison, height in zip(comparisons, heights):
-        if comparison is None:
-            continue
-        ratio, peer = comparison.gain, comparison.a
-        strength = 0.45 if comparison.verdict == "cannot_tell" else 1.0
-        colour, marker = style.look(peer)
-        if ratio.known:
-            ax.plot([ratio.lo, ratio.hi], [height, height], color=colour, linewidth=1.8, alpha=strength, zorder=3)
-        ax.plot([ratio.mid], [height], marker=marker, markersize=6.5, color=colour, alpha=strength,
-                markeredgecolor="white", markeredgewidth=0.6, zorder=4)
-
-
 def said_of(comparison):
     words = comparison.verdict_text
     return f"{comparison.b.library_title} {words}" if comparison.verdict in ("faster", "slower") else words
@@ -127,10 +109,7 @@ def ratio_axis(ax, comparisons):
         ratio = comparison.gain
         ends += [ratio.lo, ratio.hi] if ratio.known else [ratio.mid]
     # The same room on both sides of 1 would hide small ratios beside large ones; some is kept.
-    style.log_axis(ax.xaxis, min(min(ends), 0.7), max(max(ends), 1.4), lambda v: f"{v:g}x", room=0.05)
-    ax.set_xlabel(METRICS["ratio"].axis)
-    ax.grid(axis="y", visible=False)
-    ax.spines["left"].set_visible(False)
+    style.ratio_axis(ax, min(min(ends), 0.7), max(max(ends), 1.4), METRICS["ratio"].axis, room=0.05)
 
 
 def draw_column(ax, found, column, floor, rows):
@@ -139,34 +118,30 @@ def draw_column(ax, found, column, floor, rows):
     for block in found:
         y -= GAP
         ours = block.ours(column)
-        ax.text(-NAMES / PANEL, y, f"{block.job.scene} {block.job.n:,}   ours: {ours.label}", fontsize=8, weight="bold",
-                transform=ax.get_yaxis_transform(), va="center", bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5})
+        style.row_heading(ax, -NAMES / PANEL, y, f"{block.job.scene} {block.job.n:,}   ours: {ours.label}", 8)
         known = block.fastest(column)
         for library, peer in block.libraries.items():
-            y -= ROW
+            y -= style.ROW
             comparison = known.get(library)
             entries.append((y, comparison))
-            ax.text(-0.03, y, peer.library_title, transform=ax.get_yaxis_transform(), ha="right", va="center", fontsize=8,
-                    color=style.text_colour(peer))
             said = f"{comparison.text}  {said_of(comparison)}" if comparison else (
                 "no build" if peer.keeps_structure else "the peer has no build")
-            ax.text(1.03, y, said, transform=ax.get_yaxis_transform(), va="center", fontsize=7.5,
-                    color=style.INK if comparison else "#777777")
+            style.row_texts(ax, y, peer.library_title, said, style.text_colour(peer), style.INK if comparison else "#777777")
             if comparison:
                 gain = comparison.gain
                 rows.append((block.job.task, block.finding.contender_class, block.job.scene, block.job.n, block.job.where.column,
                              comparison.b.label, comparison.a.label, library, comparison.phase, comparison.rounds, gain.mid,
                              gain.lo, gain.hi, comparison.verdict, comparison.reason))
-    comparisons = [comparison for _, comparison in entries]
-    draw_marks(ax, comparisons, [height for height, _ in entries], floor)
-    ratio_axis(ax, comparisons)
+    marks = [(comparison.gain, height, style.look(comparison.a), 0.45 if comparison.verdict == "cannot_tell" else 1.0)
+             for height, comparison in entries if comparison]
+    style.draw_marks(ax, marks, floor)
+    ratio_axis(ax, [comparison for _, comparison in entries])
     ax.set_ylim(y - 0.12, 0)
-    ax.set_yticks([])
 
 
 def draw_one(run, task, contender_class, where, found):
     """One picture: a block of rows per scene, a panel for build + query and one for the query."""
-    height = sum(GAP + ROW * len(block.libraries) for block in found) + 0.12
+    height = sum(GAP + style.ROW * len(block.libraries) for block in found) + 0.12
     known = run.tasks[task]
     titles = [known.total_title] if known.in_frames else [known.total_title, "query alone"]
     wide = NAMES + PANEL + TEXTS
@@ -176,7 +151,7 @@ def draw_one(run, task, contender_class, where, found):
     for column, title in enumerate(titles):
         ax = figure.add_axes(((column * wide + NAMES) / size[0], BOTTOM / size[1], PANEL / size[0], height / size[1]))
         draw_column(ax, found, column, run.noise_floor, rows)
-        ax.tick_params(axis="x", labeltop=height > TALL)
+        ax.tick_params(axis="x", labeltop=height > style.TALL)
         ax.set_title(title, fontsize=10, weight="bold")
     jobs = {block.job for block in found}
     notes = [footer(run), *wrong_notes([cell for cell in run.cells if cell.job in jobs])]

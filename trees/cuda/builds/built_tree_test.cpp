@@ -69,12 +69,12 @@ void expect_packed(const BuiltTree& made, const std::vector<Box>& boxes,
 }
 
 /// Checks all boxes of a tree with pointers, and counts its items.
-struct Walked {
+struct Traversed {
     const BuiltTree& made;
     const std::vector<Box>& boxes;
     std::vector<int> items;
 
-    Walked(const BuiltTree& of, const std::vector<Box>& with)
+    Traversed(const BuiltTree& of, const std::vector<Box>& with)
         : made(of), boxes(with), items(with.size()) {
         if (!boxes.empty() && made.form() >= Form::radix_wide8) {
             EXPECT_EQ(wide8(0), *made.bounds());
@@ -125,7 +125,7 @@ void expect_tree(const BuiltTree& made, const std::vector<Box>& boxes) {
             ASSERT_EQ(items[i], i);
         expect_packed(made, boxes, order);
     } else {
-        const Walked walked(made, boxes);
+        const Traversed traversed(made, boxes);
     }
 }
 

@@ -32,26 +32,26 @@ struct MadeHploc {
 };
 
 /// Checks the boxes, and counts each slot and node once.
-struct WalkedHploc {
+struct TraversedHploc {
     const MadeHploc& made;
     std::vector<int> slots, nodes;
 
-    explicit WalkedHploc(const MadeHploc& tree)
+    explicit TraversedHploc(const MadeHploc& tree)
         : made(tree), slots(tree.boxes.size()), nodes(tree.nodes.size()) {
         if (!slots.empty())
-            walk(made.root);
+            traverse(made.root);
         EXPECT_TRUE(std::ranges::all_of(slots, [](int n) { return n == 1; }));
         EXPECT_TRUE(std::ranges::all_of(nodes, [](int n) { return n == 1; }));
     }
-    Box walk(std::uint32_t ref) {
+    Box traverse(std::uint32_t ref) {
         if (RadixTreeView::is_leaf(ref)) {
             ++slots.at(RadixTreeView::slot(ref));
             return made.boxes[made.items[RadixTreeView::slot(ref)]];
         }
         if (++nodes.at(ref) > 1)
             return {};
-        Box box = walk(made.nodes[ref].left);
-        box.extend(walk(made.nodes[ref].right));
+        Box box = traverse(made.nodes[ref].left);
+        box.extend(traverse(made.nodes[ref].right));
         EXPECT_EQ(box, made.nodes[ref].box);
         return box;
     }
@@ -62,7 +62,7 @@ TEST(HplocOnDevice, HoldsEachItemOnceUnderExactBoxesAndIsTheSameEachTime) {
         SCOPED_TRACE(family.name);
         on_host::set_seed(0);
         const MadeHploc first(family.boxes);
-        WalkedHploc{first};
+        TraversedHploc{first};
         const auto bytes = std::as_bytes(std::span(first.nodes));
         for (std::uint64_t seed = 1; seed < seeds_for(family); ++seed) {
             on_host::set_seed(seed);
@@ -89,7 +89,7 @@ TEST(HplocOnDevice, RefitsToNewBoxes) {
             on_host::set_seed(seed);
             made.boxes = random_boxes(n, .3f, static_cast<unsigned>(seed));
             refit_binary_tree(made.view, made.boxes.data(), parents.data(), made.met.data(), {});
-            WalkedHploc{made};
+            TraversedHploc{made};
             ASSERT_FALSE(HasFailure()) << "seed " << seed;
         }
     }

@@ -67,14 +67,14 @@ TEST(RadixTreeOnDevice, RefitsToNewBoxes) {
     expect_subtree(made, *made.view.root, 0, 999);
 }
 
-template <bool is_self, Walk walk>
+template <bool is_self, Traversal traversal>
 std::vector<Pair> counted_and_filled(const RadixTreeView& a, const RadixTreeView& b) {
     std::vector<std::uint64_t> at(a.n, 0);
-    find_radix_pairs<is_self, Pass::count, walk>(a, b, {at.data(), nullptr, 0}, {});
+    find_radix_pairs<is_self, Pass::count, traversal>(a, b, {at.data(), nullptr, 0}, {});
     const std::uint64_t n = std::accumulate(at.begin(), at.end(), std::uint64_t{0});
     std::exclusive_scan(at.begin(), at.end(), at.begin(), std::uint64_t{0});
     Array<Pair> pairs(n, {});
-    find_radix_pairs<is_self, Pass::fill, walk>(a, b, {at.data(), pairs.data(), 0}, {});
+    find_radix_pairs<is_self, Pass::fill, traversal>(a, b, {at.data(), pairs.data(), 0}, {});
     return {pairs.data(), pairs.data() + n};
 }
 
@@ -84,9 +84,9 @@ TEST(RadixPairsOnDevice, AreThoseOfBruteForce) {
         const MadeRadixTree made(family.boxes);
         const std::vector<Pair> wanted = brute_force(family.boxes);
         const std::vector<Pair> by_stack =
-            counted_and_filled<true, Walk::stack>(made.view, made.view);
+            counted_and_filled<true, Traversal::stack>(made.view, made.view);
         ASSERT_EQ(sorted(by_stack), wanted);
-        EXPECT_EQ((counted_and_filled<true, Walk::ropes>(made.view, made.view)), by_stack);
+        EXPECT_EQ((counted_and_filled<true, Traversal::ropes>(made.view, made.view)), by_stack);
     }
 }
 
@@ -99,8 +99,8 @@ TEST(RadixPairsOnDevice, OverflowIsCounted) {
             on_host::set_seed(seed);
             Array<Pair> pairs(room, {});
             std::uint64_t n = 0;
-            find_radix_pairs<true, Pass::capped, Walk::ropes>(made.view, made.view,
-                                                              {&n, pairs.data(), room}, {});
+            find_radix_pairs<true, Pass::capped, Traversal::ropes>(made.view, made.view,
+                                                                   {&n, pairs.data(), room}, {});
             EXPECT_EQ(n, wanted.size());
             const std::vector<Pair> found = sorted({pairs.data(), pairs.data() + room});
             EXPECT_TRUE(std::ranges::includes(wanted, found));
@@ -119,8 +119,10 @@ TEST(RadixPairsOnDevice, OfTwoSets) {
             for (std::uint32_t j = 0; j < b.size(); ++j)
                 if (overlaps(a[i], b[j]))
                     wanted.push_back({i, j});
-        EXPECT_EQ(sorted(counted_and_filled<false, Walk::stack>(on_a.view, on_b.view)), wanted);
-        EXPECT_EQ(sorted(counted_and_filled<false, Walk::ropes>(on_a.view, on_b.view)), wanted);
+        EXPECT_EQ(sorted(counted_and_filled<false, Traversal::stack>(on_a.view, on_b.view)),
+                  wanted);
+        EXPECT_EQ(sorted(counted_and_filled<false, Traversal::ropes>(on_a.view, on_b.view)),
+                  wanted);
     }
 }
 

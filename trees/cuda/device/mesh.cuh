@@ -10,7 +10,7 @@
 #include "trees/cuda/queries/packed_queries.cuh"
 #include "trees/cuda/queries/wide8_rays.cuh"
 #include "trees/detail/device_tree.h"
-#include "trees/traversals/ray_range.h"
+#include "trees/traversals/rays/ray_range.h"
 
 #include <concepts>
 

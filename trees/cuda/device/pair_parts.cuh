@@ -44,7 +44,8 @@ template <bool is_self>
 void fill_leaves(const RadixTreeView& a, const RadixTreeView& b, const PairsTo& to,
                  const PairPart& part, Stream stream) {
     launch(stream, blocks_for(part.end_leaf - part.first_leaf, radix_threads), radix_threads,
-           radix_pairs<is_self, Pass::fill, Walk::stack>, a, b, to, part.first_leaf, part.end_leaf);
+           radix_pairs<is_self, Pass::fill, Traversal::stack>, a, b, to, part.first_leaf,
+           part.end_leaf);
 }
 template <bool is_self>
 void fill_leaves(const BinaryTree& a, const BinaryTree& b, const PairsTo& to, const PairPart& part,

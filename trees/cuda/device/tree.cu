@@ -51,7 +51,7 @@ struct Radix : Binary<RadixTreeView> {
     static std::size_t leaves(const View& view) { return view.n; }
     template <bool is_self, Pass pass>
     static void find(const View& a, const View& b, const PairsTo& to, Stream stream) {
-        find_radix_pairs<is_self, pass, Walk::stack>(a, b, to, stream);
+        find_radix_pairs<is_self, pass, Traversal::stack>(a, b, to, stream);
     }
 };
 struct Hploc : Binary<BinaryTree> {

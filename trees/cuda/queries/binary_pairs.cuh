@@ -5,8 +5,8 @@
 
 namespace boxwood::cuda {
 
-/// A binary tree of any depth, with what a walk needs beside it: the boxes that it was made of, by
-/// item, and parents by find_parents.
+/// A binary tree of any depth, with what a traversal needs beside it: the boxes that it was made
+/// of, by item, and parents by find_parents.
 struct BinaryTree {
     BinaryView view;
     const Box* boxes = nullptr;
@@ -31,12 +31,12 @@ struct BinaryTree {
     }
 };
 
-/// As walk_radix_tree, from the subtree `at` on to the last. What waits is kept on a stack of no
-/// more than these; beyond it, and before it, the parents lead on.
+/// As traverse_radix_tree, from the subtree `at` on to the last. What waits is kept on a stack of
+/// no more than these; beyond it, and before it, the parents lead on.
 constexpr unsigned binary_stack = 32;
 template <class Admits, class Visit>
-__device__ void walk_binary_tree(const BinaryTree& tree, std::uint32_t at, const Admits& admits,
-                                 const Visit& visit) {
+__device__ void traverse_binary_tree(const BinaryTree& tree, std::uint32_t at, const Admits& admits,
+                                     const Visit& visit) {
     std::uint32_t stack[binary_stack]; // a ring: the latest ones
     unsigned top = 0, depth = 0;
     while (at != nobody) {
@@ -65,7 +65,7 @@ __device__ void binary_pairs_of(const BinaryTree& a, const BinaryTree& b, const 
                                 std::uint32_t slot) {
     ThreadAnswers<pass, Pair> answers(to, slot);
     const Box box = a.leaf(slot);
-    walk_binary_tree(
+    traverse_binary_tree(
         b, is_self ? b.next(slot | RadixNode::leaf_bit) : *b.view.root,
         [&](const Box& other) { return overlaps(box, other); },
         [&](std::uint32_t other) {

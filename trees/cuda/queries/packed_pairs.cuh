@@ -1,11 +1,11 @@
 #pragma once
 
-#include "trees/cuda/queries/packed_walk.cuh"
+#include "trees/cuda/queries/packed_traversal.cuh"
 
 namespace boxwood::cuda {
 
-constexpr unsigned pair_threads = walk_threads, pair_warps = walk_warps;
-constexpr unsigned pair_stack = PackedWalk::room;
+constexpr unsigned pair_threads = traversal_threads, pair_warps = traversal_warps;
+constexpr unsigned pair_stack = PackedTraversal::room;
 
 /// One leaf of `a` against `b`, by a warp. Within one layout (is_self) only leaves from the own one
 /// on, each pair once.
@@ -13,11 +13,11 @@ template <bool is_self, Pass pass> class LeafPairs {
   public:
     __device__ LeafPairs(const PackedView& a, const PackedView& b, const PairsTo& to,
                          std::uint32_t leaf, std::uint32_t* stack)
-        : a_(a), b_(b), leaf_(leaf), walk_(b, stack), answers_(to, leaf) {}
+        : a_(a), b_(b), leaf_(leaf), traversal_(b, stack), answers_(to, leaf) {}
 
     __device__ void run() {
         const Box bounds = half_warp_bounds(lane_box(a_.blocks[leaf_], k()));
-        walk_.run(
+        traversal_.run(
             b_.root(), is_self ? leaf_ : 0, [&](const Box& box) { return overlaps(bounds, box); },
             [&](unsigned lanes, std::uint32_t leaf) {
                 while (lanes != 0)
@@ -45,7 +45,7 @@ template <bool is_self, Pass pass> class LeafPairs {
 
     const PackedView &a_, &b_;
     std::uint32_t leaf_;
-    PackedWalk walk_;
+    PackedTraversal traversal_;
     WarpAnswers<pass, Pair> answers_;
 };
 

@@ -3,7 +3,7 @@
 // Few queries and many boxes: a warp per query and part of a packed layout, so that the parts of
 // one query are searched side by side.
 
-#include "trees/cuda/queries/packed_walk.cuh"
+#include "trees/cuda/queries/packed_traversal.cuh"
 #include "trees/cuda/queries/rays.cuh"
 #include "trees/cuda/queries/regions.cuh"
 
@@ -30,7 +30,7 @@ __device__ bool admits_part(const PackedView& tree, unsigned level, std::uint32_
                lane_box(tree.blocks[tree.first[level + 1] + part / tree.width], part % tree.width));
 }
 
-/// Calls test(slot, has) by two leaves at a time, of those that PackedWalk meets.
+/// Calls test(slot, has) by two leaves at a time, of those that PackedTraversal meets.
 template <class Test>
 __device__ void for_slots(const PackedView& tree, unsigned lanes, std::uint32_t leaves,
                           const Test& test) {
@@ -49,9 +49,9 @@ __device__ void for_slots(const PackedView& tree, unsigned lanes, std::uint32_t 
 template <Pass pass, class Region>
 __global__ void packed_regions(PackedView tree, unsigned level, const Region* regions,
                                std::uint32_t n, AnswersTo<RegionAnswer<pass>> to) {
-    __shared__ std::uint32_t stacks[walk_warps][PackedWalk::room];
+    __shared__ std::uint32_t stacks[traversal_warps][PackedTraversal::room];
     const unsigned warp = threadIdx.x / 32;
-    const std::uint64_t place = std::uint64_t{blockIdx.x} * walk_warps + warp;
+    const std::uint64_t place = std::uint64_t{blockIdx.x} * traversal_warps + warp;
     const auto query = static_cast<std::uint32_t>(place / tree.size(level)),
                part = static_cast<std::uint32_t>(place % tree.size(level));
     if (query >= n) // all lanes of the warp or none
@@ -60,7 +60,7 @@ __global__ void packed_regions(PackedView tree, unsigned level, const Region* re
     const auto admits = admits_of(region);
     WarpAnswers<pass, RegionAnswer<pass>> answers(to, place);
     if (holds_any(region) && admits_part(tree, level, part, admits))
-        PackedWalk(tree, stacks[warp])
+        PackedTraversal(tree, stacks[warp])
             .run(tree.first[level] + part, 0, admits, [&](unsigned lanes, std::uint32_t leaves) {
                 for_slots(tree, lanes, leaves, [&](std::uint32_t slot, bool has) {
                     const bool hit =
@@ -77,8 +77,8 @@ template <Pass pass, class Region>
 void find_in_regions(const PackedView& tree, unsigned level, const Region* regions, std::uint32_t n,
                      const AnswersTo<RegionAnswer<pass>>& to, Stream stream) {
     if (tree.n > 0)
-        launch(stream, blocks_for(std::size_t{n} * tree.size(level), walk_warps), walk_threads,
-               packed_regions<pass, Region>, tree, level, regions, n, to);
+        launch(stream, blocks_for(std::size_t{n} * tree.size(level), traversal_warps),
+               traversal_threads, packed_regions<pass, Region>, tree, level, regions, n, to);
 }
 
 /// The closest of the hits of all lanes, or that of the lowest triangle, in all of them.
@@ -95,9 +95,9 @@ __device__ inline RayHit closest_of_warp(RayHit hit) {
 
 /// A warp per ray: the closest hit.
 template <RayKernel K> __global__ void packed_rays(RaysView<PackedView> view, RayHit* hits) {
-    __shared__ std::uint32_t stacks[walk_warps][PackedWalk::room];
+    __shared__ std::uint32_t stacks[traversal_warps][PackedTraversal::room];
     const unsigned warp = threadIdx.x / 32;
-    const std::uint32_t i = blockIdx.x * walk_warps + warp;
+    const std::uint32_t i = blockIdx.x * traversal_warps + warp;
     if (i >= view.n)
         return;
     const Ray<float> ray = view.rays[view.ray(i)];
@@ -109,7 +109,7 @@ template <RayKernel K> __global__ void packed_rays(RaysView<PackedView> view, Ra
         const auto admits = [&](const Box& box) {
             return clip(slabs, box, ray.t_min, best.t).hit();
         };
-        PackedWalk(view.tree, stacks[warp])
+        PackedTraversal(view.tree, stacks[warp])
             .run(view.tree.root(), 0, admits, [&](unsigned lanes, std::uint32_t leaves) {
                 for_slots(view.tree, lanes, leaves, [&](std::uint32_t slot, bool has) {
                     RayHit hit{};
@@ -135,7 +135,8 @@ template <RayKernel K> __global__ void packed_rays(RaysView<PackedView> view, Ra
 /// hits[i] answers rays[i]; triangles by slot of the packed layout.
 template <RayKernel K>
 void find_closest_hits(const RaysView<PackedView>& view, RayHit* hits, Stream stream) {
-    launch(stream, blocks_for(view.n, walk_warps), walk_threads, packed_rays<K>, view, hits);
+    launch(stream, blocks_for(view.n, traversal_warps), traversal_threads, packed_rays<K>, view,
+           hits);
 }
 
 } // namespace boxwood::cuda

@@ -6,7 +6,7 @@
 namespace boxwood::cuda {
 
 /// How a thread finds its way: by a stack of what is left to see, or by the ropes, without memory.
-enum class Walk : std::uint8_t { stack, ropes };
+enum class Traversal : std::uint8_t { stack, ropes };
 
 /// Codes of 63 bits and slots of 30 part at most so often on a path.
 constexpr unsigned radix_depth = 94;
@@ -14,10 +14,10 @@ constexpr unsigned radix_depth = 94;
 /// Calls visit(slot) for each leaf whose box `admits` takes, as it must take all boxes around such
 /// a box, from the subtree `at` on up to slot `end`. Where a subtree ends within them, none reaches
 /// beyond `end`.
-template <Walk walk, class Admits, class Visit>
-__device__ void walk_radix_tree(const RadixTreeView& tree, std::uint32_t at, std::uint32_t end,
-                                const Admits& admits, const Visit& visit) {
-    std::uint32_t stack[walk == Walk::stack ? radix_depth : 1];
+template <Traversal traversal, class Admits, class Visit>
+__device__ void traverse_radix_tree(const RadixTreeView& tree, std::uint32_t at, std::uint32_t end,
+                                    const Admits& admits, const Visit& visit) {
+    std::uint32_t stack[traversal == Traversal::stack ? radix_depth : 1];
     unsigned depth = 0;
     for (;;) {
         std::uint32_t last;
@@ -29,13 +29,13 @@ __device__ void walk_radix_tree(const RadixTreeView& tree, std::uint32_t at, std
             const RadixNode& node = tree.nodes[at];
             last = node.last;
             if (admits(node.box)) {
-                if constexpr (walk == Walk::stack)
+                if constexpr (traversal == Traversal::stack)
                     stack[depth++] = node.right;
                 at = node.left;
                 continue;
             }
         }
-        if (walk == Walk::stack && depth > 0) {
+        if (traversal == Traversal::stack && depth > 0) {
             at = stack[--depth];
         } else {
             if (last + 1 == end)
@@ -47,13 +47,13 @@ __device__ void walk_radix_tree(const RadixTreeView& tree, std::uint32_t at, std
 
 /// One leaf of `a`. Within one tree (is_self) it meets the leaves after its own: from the right
 /// child of its own node on, by ropes.
-template <bool is_self, Pass pass, Walk walk>
+template <bool is_self, Pass pass, Traversal traversal>
 __device__ void radix_pairs_of(const RadixTreeView& a, const RadixTreeView& b, const PairsTo& to,
                                std::uint32_t slot) {
     ThreadAnswers<pass, Pair> answers(to, slot);
     const Box box = a.leaves[slot];
     if (!is_self || slot + 1 < a.n)
-        walk_radix_tree<walk>(
+        traverse_radix_tree<traversal>(
             b, is_self ? b.nodes[slot].right : *b.root, b.n,
             [&](const Box& other) { return overlaps(box, other); },
             [&](std::uint32_t other) {
@@ -63,20 +63,20 @@ __device__ void radix_pairs_of(const RadixTreeView& a, const RadixTreeView& b, c
 }
 
 /// A thread per leaf of `a`, of those from `first` on to `end`.
-template <bool is_self, Pass pass, Walk walk>
+template <bool is_self, Pass pass, Traversal traversal>
 __global__ void radix_pairs(RadixTreeView a, RadixTreeView b, PairsTo to, std::uint32_t first,
                             std::uint32_t end) {
     const std::uint32_t slot = first + blockIdx.x * blockDim.x + threadIdx.x;
     if (slot < end)
-        radix_pairs_of<is_self, pass, walk>(a, b, to, slot);
+        radix_pairs_of<is_self, pass, traversal>(a, b, to, slot);
 }
 
-template <bool is_self, Pass pass, Walk walk>
+template <bool is_self, Pass pass, Traversal traversal>
 void find_radix_pairs(const RadixTreeView& a, const RadixTreeView& b, const PairsTo& to,
                       Stream stream) {
     if (a.n > 0 && b.n > 0)
         launch(stream, blocks_for(a.n, radix_threads), radix_threads,
-               radix_pairs<is_self, pass, walk>, a, b, to, 0u, a.n);
+               radix_pairs<is_self, pass, traversal>, a, b, to, 0u, a.n);
 }
 
 } // namespace boxwood::cuda

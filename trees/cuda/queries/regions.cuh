@@ -61,12 +61,12 @@ __device__ RegionAnswer<pass> region_answer(std::uint32_t query, std::uint32_t i
 
 /// All of a tree.
 template <class Admits, class Visit>
-__device__ void walk_tree(const RadixTreeView& tree, const Admits& admits, const Visit& visit) {
-    walk_radix_tree<Walk::stack>(tree, *tree.root, tree.n, admits, visit);
+__device__ void traverse_tree(const RadixTreeView& tree, const Admits& admits, const Visit& visit) {
+    traverse_radix_tree<Traversal::stack>(tree, *tree.root, tree.n, admits, visit);
 }
 template <class Admits, class Visit>
-__device__ void walk_tree(const BinaryTree& tree, const Admits& admits, const Visit& visit) {
-    walk_binary_tree(tree, *tree.view.root, admits, visit);
+__device__ void traverse_tree(const BinaryTree& tree, const Admits& admits, const Visit& visit) {
+    traverse_binary_tree(tree, *tree.view.root, admits, visit);
 }
 BOXWOOD_BOTH inline const RadixTreeView& view_of(const RadixTreeView& tree) { return tree; }
 BOXWOOD_BOTH inline const BinaryView& view_of(const BinaryTree& tree) { return tree.view; }
@@ -81,7 +81,7 @@ __global__ void regions_of(Tree tree, const Region* regions, std::uint32_t n,
     ThreadAnswers<pass, RegionAnswer<pass>> answers(to, query);
     const Region region = regions[query];
     if (view_of(tree).n > 0 && holds_any(region))
-        walk_tree(tree, admits_of(region), [&](std::uint32_t slot) {
+        traverse_tree(tree, admits_of(region), [&](std::uint32_t slot) {
             answers.add(region_answer<pass>(query, view_of(tree).items[slot]));
         });
     answers.finish();

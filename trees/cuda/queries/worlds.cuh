@@ -85,7 +85,7 @@ __global__ void world_pairs(WorldsView worlds, RadixTreeView tree, PairsTo to) {
     const std::uint32_t end = worlds.first[WorldsView::world(worlds.codes[slot]) + 1];
     const Box box = tree.leaves[slot];
     if (slot + 1 < end)
-        walk_radix_tree<Walk::ropes>(
+        traverse_radix_tree<Traversal::ropes>(
             tree, tree.nodes[slot].right, end,
             [&](const Box& other) { return overlaps(box, other); },
             [&](std::uint32_t other) {

@@ -83,7 +83,7 @@ struct Least {
 };
 constexpr Least no_least{~0ull, ~0ull, ~0u};
 
-/// A thread per candidate; *least is no_least at first. NaN is passed over, as the largest.
+/// A thread per candidate; *least is no_least at first. NaN is skipped, as the largest.
 __global__ void find_least(const Bounds* bounds, Candidates candidates, Least* least) {
     const std::uint32_t i = blockIdx.x * blockDim.x + threadIdx.x;
     Least mine = no_least;

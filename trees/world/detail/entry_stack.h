@@ -21,6 +21,7 @@ template <class Entry> class EntryStack {
     std::size_t size() const { return top_; }
     void push(const Entry& entry) { data_[top_++] = entry; }
     Entry pop() { return data_[--top_]; }
+    void clear() { top_ = 0; }
     /// The entries from `first` on, those pushed last.
     Entry* from(std::size_t first) { return data_ + first; }
 

@@ -51,7 +51,7 @@ struct alignas(64) NearNormals {
         }
     }
     static HWY_INLINE F8 dot(const F8 (&n)[3], const F8 (&p)[3]) {
-        return hn::Add(hn::Add(hn::Mul(n[0], p[0]), hn::Mul(n[1], p[1])), hn::Mul(n[2], p[2]));
+        return dot3(n[0], n[1], n[2], p[0], p[1], p[2]);
     }
 };
 
@@ -164,7 +164,7 @@ class LeafPair {
                 const F8 below = hn::Sub(hn::Set(d8, boxes_a_.low[axis][i]),
                                          hn::Load(d8, boxes_b_.high[axis] + lane));
                 const F8 gap = hn::Max(hn::Max(above, below), zero);
-                squared = hn::Add(squared, hn::Mul(gap, gap));
+                squared = hn::MulAdd(gap, gap, squared);
             }
             F8 bound = hn::Max(hn::Sqrt(squared), hn::Sub(hn::Load(d8, heights_.low_b + lane),
                                                           hn::Set(d8, heights_.high_a[i])));

@@ -4,6 +4,8 @@
 #include "kernels/triangle_distance/certified.h"
 
 #include <algorithm>
+#include <limits>
+#include <stdexcept>
 
 namespace boxwood::detail {
 namespace {
@@ -13,6 +15,22 @@ MeshDistance answer(const Distance& d, Pair triangles) {
 }
 
 } // namespace
+
+DistanceGoal goal_of(const DistanceOptions& options) {
+    if (!(options.relative >= 0 && options.relative < 1) || !(options.absolute >= 0) ||
+        !(options.limit >= 0))
+        throw std::invalid_argument("a relative tolerance must be in [0, 1), an absolute one and a "
+                                    "limit at least 0");
+    return {options, 0};
+}
+
+DistanceGoal goal_within(double tolerance) {
+    if (!(tolerance >= 0))
+        throw std::invalid_argument("a tolerance must be at least 0");
+    DistanceOptions options;
+    options.limit = tolerance * (1 + 0x1p-31) + std::numeric_limits<double>::denorm_min();
+    return {options, tolerance};
+}
 
 NearestCandidates::NearestCandidates(const DistanceGoal& goal, double near_contact)
     : goal_(goal), near_contact_(near_contact), best_(goal.options.limit),

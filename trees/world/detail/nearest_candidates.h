@@ -14,6 +14,14 @@ struct DistanceGoal {
     DistanceOptions options;
     double stop_at = 0;
 };
+/// Throw std::invalid_argument for tolerances and limits that make no sense. goal_within: what
+/// decides whether two are at most so far apart.
+DistanceGoal goal_of(const DistanceOptions& options);
+DistanceGoal goal_within(double tolerance);
+/// What is found with goal_within says.
+inline MeshWithin within_by(const MeshDistance& found, double tolerance) {
+    return {found.found() && found.lo <= tolerance, found.lo, found.hi};
+}
 
 /// The nearest pairs of triangles of a search, measured in plain doubles, each with a bound from
 /// below; at the end those that may be the nearest are certified.

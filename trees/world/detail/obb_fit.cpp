@@ -66,6 +66,56 @@ void axes_of(const SymmetricRows& m, std::size_t n, float* const (&axes)[9]) {
     }
 }
 
+/// The integral of x x^T over a triangle is area / 12 (s s^T + a a^T + b b^T + c c^T), s = a + b + c.
+void moments_about(const float (&origin)[3], float scale, const CornerRows& corners,
+                   std::size_t first, std::size_t n, Moments& sums) {
+    const hn::CappedTag<float, 8> d;
+    using Lanes = hn::Vec<decltype(d)>;
+    const Lanes zero = hn::Zero(d), size = hn::Set(d, scale);
+    Lanes sum[10];
+    for (Lanes& s : sum)
+        s = zero;
+    for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
+        const auto used = hn::FirstN(d, n - i);
+        Lanes p[3][3], s[3];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const Lanes from = hn::Set(d, origin[axis]);
+            for (std::size_t corner = 0; corner < 3; ++corner)
+                p[corner][axis] = hn::Mul(
+                    hn::Sub(hn::LoadU(d, corners.of[corner][axis] + first + i), from), size);
+            s[axis] = hn::Add(hn::Add(p[0][axis], p[1][axis]), p[2][axis]);
+        }
+        Lanes squared = zero;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::size_t y = (axis + 1) % 3, z = (axis + 2) % 3;
+            const Lanes c = hn::Sub(hn::Mul(hn::Sub(p[1][y], p[0][y]), hn::Sub(p[2][z], p[0][z])),
+                                    hn::Mul(hn::Sub(p[1][z], p[0][z]), hn::Sub(p[2][y], p[0][y])));
+            squared = hn::MulAdd(c, c, squared);
+        }
+        const Lanes area =
+            hn::IfThenElseZero(used, hn::Mul(hn::Sqrt(squared), hn::Set(d, 0.5f)));
+        const Lanes third = hn::Mul(area, hn::Set(d, 1.0f / 3)),
+                    twelfth = hn::Mul(area, hn::Set(d, 1.0f / 12));
+        sum[0] = hn::Add(sum[0], area);
+        std::size_t at = 4;
+        for (std::size_t j = 0; j < 3; ++j) {
+            sum[1 + j] = hn::MulAdd(third, s[j], sum[1 + j]);
+            for (std::size_t k = j; k < 3; ++k, ++at) {
+                Lanes product = hn::Mul(s[j], s[k]);
+                for (std::size_t corner = 0; corner < 3; ++corner)
+                    product = hn::MulAdd(p[corner][j], p[corner][k], product);
+                sum[at] = hn::MulAdd(twelfth, product, sum[at]);
+            }
+        }
+    }
+    double total[10];
+    for (std::size_t k = 0; k < 10; ++k)
+        total[k] = double{hn::GetLane(hn::SumOfLanes(d, sum[k]))};
+    sums.area = total[0];
+    std::copy(total + 1, total + 4, sums.first);
+    std::copy(total + 4, total + 10, sums.second);
+}
+
 /// The least and greatest of axis . (corner - centre) over the corners [first, last), by axis.
 void extents_of(const float (&axes)[9], const float (&centre)[3], const CornerRows& corners,
                 std::size_t first, std::size_t last, float (&least)[3], float (&greatest)[3]) {
@@ -108,9 +158,31 @@ HWY_AFTER_NAMESPACE();
 namespace boxwood::detail {
 HWY_EXPORT(axes_of);
 HWY_EXPORT(extents_of);
+HWY_EXPORT(moments_about);
 
 void principal_axes(const SymmetricRows& matrices, std::size_t n, float* const (&axes)[9]) {
     HWY_DYNAMIC_DISPATCH(axes_of)(matrices, n, axes);
+}
+
+Moments moments_of(const CornerRows& corners, std::size_t first, std::size_t n,
+                   const Vec3<double>& centre, double scale) {
+    float origin[3];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        origin[axis] = corners.of[0][axis][first];
+    Moments m;
+    HWY_DYNAMIC_DISPATCH(moments_about)
+    (origin, static_cast<float>(scale), corners, first, n, m);
+    // Seen from the centre: every point moves by the same.
+    double by[3];
+    for (std::size_t k = 0; k < 3; ++k)
+        by[k] = (double{origin[k]} - centre[static_cast<int>(k)]) * scale;
+    std::size_t at = 0;
+    for (std::size_t j = 0; j < 3; ++j)
+        for (std::size_t k = j; k < 3; ++k, ++at)
+            m.second[at] += m.first[j] * by[k] + by[j] * m.first[k] + m.area * by[j] * by[k];
+    for (std::size_t k = 0; k < 3; ++k)
+        m.first[k] += m.area * by[k];
+    return m;
 }
 
 PosedBox box_of(const Aabb<float>& bounds) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/primitives/aabb.h"
+#include "kernels/primitives/vec3.h"
 #include "trees/world/detail/obb_block.h"
 
 #include <cstddef>
@@ -13,6 +14,24 @@ namespace boxwood::detail {
 struct CornerRows {
     const float* of[3][3];
 };
+
+/// Area, its first and its second moments (xx, xy, xz, yy, yz, zz) about a point, of some triangles.
+struct Moments {
+    double area = 0, first[3] = {}, second[6] = {};
+
+    void add(const Moments& other) {
+        area += other.area;
+        for (std::size_t k = 0; k < 3; ++k)
+            first[k] += other.first[k];
+        for (std::size_t k = 0; k < 6; ++k)
+            second[k] += other.second[k];
+    }
+};
+
+/// Of the n triangles from `first` on, their corners seen from `centre` and times `scale`. In floats
+/// about the first corner, good to about 2^-20 of what they span.
+Moments moments_of(const CornerRows& corners, std::size_t first, std::size_t n,
+                   const Vec3<double>& centre, double scale);
 
 /// Symmetric matrices side by side: xx, xy, xz, yy, yz, zz.
 struct SymmetricRows {

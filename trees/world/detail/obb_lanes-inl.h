@@ -35,6 +35,11 @@ struct alignas(64) SeenBoxes {
 constexpr hn::CappedTag<float, 8> d8;
 using F8 = hn::Vec<decltype(d8)>;
 
+/// Fused where there is an instruction for it: bounds allow for more roundings (PairFrame).
+HWY_INLINE F8 dot3(F8 x, F8 y, F8 z, F8 a, F8 b, F8 c) {
+    return hn::MulAdd(z, c, hn::MulAdd(y, b, hn::Mul(x, a)));
+}
+
 /// The lanes of a block of B seen from where t starts.
 HWY_INLINE void see_lanes(const ObbBlock& block, const PairFrame& frame, const Vec3<double>& t,
                           SeenBoxes& seen) {
@@ -45,9 +50,8 @@ HWY_INLINE void see_lanes(const ObbBlock& block, const PairFrame& frame, const V
             const F8 r1 = hn::Set(d8, frame.rotation[row][1]);
             const F8 r2 = hn::Set(d8, frame.rotation[row][2]);
             const auto turned = [&](const float(&v)[3][8]) HWY_ATTR {
-                return hn::Add(hn::Add(hn::Mul(r0, hn::Load(d8, v[0] + i)),
-                                       hn::Mul(r1, hn::Load(d8, v[1] + i))),
-                               hn::Mul(r2, hn::Load(d8, v[2] + i)));
+                return dot3(r0, r1, r2, hn::Load(d8, v[0] + i), hn::Load(d8, v[1] + i),
+                            hn::Load(d8, v[2] + i));
             };
             const F8 from = hn::Set(d8, static_cast<float>(t[static_cast<int>(row)]));
             hn::Store(hn::Add(turned(block.centre), from), d8, seen.centre[row] + i);
@@ -79,22 +83,20 @@ struct SixAxes {
         for (std::size_t k = 0; k < 3; ++k) {
             const F8 nx = hn::Set(d8, one.axis[k][0]), ny = hn::Set(d8, one.axis[k][1]),
                      nz = hn::Set(d8, one.axis[k][2]);
-            apart[k] =
-                hn::Abs(hn::Add(hn::Add(hn::Mul(nx, t[0]), hn::Mul(ny, t[1])), hn::Mul(nz, t[2])));
+            apart[k] = hn::Abs(dot3(nx, ny, nz, t[0], t[1], t[2]));
             sum[k] = ones[k];
             for (std::size_t j = 0; j < 3; ++j) {
                 const F8 cosine =
-                    hn::Abs(hn::Add(hn::Add(hn::Mul(nx, hn::Load(d8, axis[j][0] + i)),
-                                            hn::Mul(ny, hn::Load(d8, axis[j][1] + i))),
-                                    hn::Mul(nz, hn::Load(d8, axis[j][2] + i))));
-                sum[k] = hn::Add(sum[k], hn::Mul(cosine, half_of[j]));
-                own[j] = hn::Add(own[j], hn::Mul(cosine, ones[k]));
+                    hn::Abs(dot3(nx, ny, nz, hn::Load(d8, axis[j][0] + i),
+                                 hn::Load(d8, axis[j][1] + i), hn::Load(d8, axis[j][2] + i)));
+                sum[k] = hn::MulAdd(cosine, half_of[j], sum[k]);
+                own[j] = hn::MulAdd(cosine, ones[k], own[j]);
             }
         }
         for (std::size_t j = 0; j < 3; ++j) {
-            apart[3 + j] = hn::Abs(hn::Add(hn::Add(hn::Mul(hn::Load(d8, axis[j][0] + i), t[0]),
-                                                   hn::Mul(hn::Load(d8, axis[j][1] + i), t[1])),
-                                           hn::Mul(hn::Load(d8, axis[j][2] + i), t[2])));
+            apart[3 + j] =
+                hn::Abs(dot3(hn::Load(d8, axis[j][0] + i), hn::Load(d8, axis[j][1] + i),
+                             hn::Load(d8, axis[j][2] + i), t[0], t[1], t[2]));
             sum[3 + j] = own[j];
         }
     }
@@ -107,9 +109,7 @@ struct SixAxes {
         return gap;
     }
 
-    HWY_INLINE F8 centres_squared() const {
-        return hn::Add(hn::Add(hn::Mul(t[0], t[0]), hn::Mul(t[1], t[1])), hn::Mul(t[2], t[2]));
-    }
+    HWY_INLINE F8 centres_squared() const { return dot3(t[0], t[1], t[2], t[0], t[1], t[2]); }
 
     /// A bound of the distance from below, but for the frame's error: in the one's frame, in the
     /// lane's, and along the line of centres.
@@ -121,18 +121,20 @@ struct SixAxes {
             squared[side] = zero;
             for (std::size_t k = 0; k < 3; ++k) {
                 const F8 gap = hn::Max(hn::Sub(apart[3 * side + k], sum[3 * side + k]), zero);
-                squared[side] = hn::Add(squared[side], hn::Mul(gap, gap));
+                squared[side] = hn::MulAdd(gap, gap, squared[side]);
             }
         }
         const F8 tt = centres_squared();
         F8 left = tt;
         for (std::size_t k = 0; k < 3; ++k) {
-            left = hn::Sub(left, hn::Mul(hn::Set(d8, one.half[k]), apart[k]));
-            left = hn::Sub(left, hn::Mul(hn::Load(d8, half[k] + i), apart[3 + k]));
+            left = hn::NegMulAdd(hn::Set(d8, one.half[k]), apart[k], left);
+            left = hn::NegMulAdd(hn::Load(d8, half[k] + i), apart[3 + k], left);
         }
-        const F8 in_frames = hn::Sqrt(hn::Max(squared[0], squared[1]));
-        const F8 between_centres = hn::Div(left, hn::Max(hn::Sqrt(tt), hn::Set(d8, 0x1p-50f)));
-        return hn::Mul(hn::Max(in_frames, between_centres), hn::Set(d8, 1 - 0x1p-20f));
+        // left / |t|, squared; the quotient first, as left^2 may overflow.
+        left = hn::Max(left, zero);
+        const F8 between = hn::Mul(left, hn::Div(left, hn::Max(tt, hn::Set(d8, 0x1p-100f))));
+        return hn::Mul(hn::Sqrt(hn::Max(hn::Max(squared[0], squared[1]), between)),
+                       hn::Set(d8, 1 - 0x1p-20f));
     }
 };
 

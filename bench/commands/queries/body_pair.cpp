@@ -1,0 +1,221 @@
+#include "bench/commands/queries/body_pair.h"
+
+#include "bench/commands/queries/bodies.h"
+#include "kernels/convex/contact.h"
+#include "kernels/convex/first_contact.h"
+#include "kernels/triangle_distance/certified.h"
+#include "kernels/triangle_triangle/guigue_devillers_batch.h"
+#include "trees/world/mesh_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace boxwood::bench {
+namespace {
+
+using convex::Shape;
+
+bool is_round(const std::string& text) {
+    const std::optional<Shape> primitive = read_primitive(text);
+    return primitive && primitive->kind() != convex::ShapeKind::box;
+}
+
+Pose inverse(const Pose& pose) { return relative_pose(pose, Pose{}); }
+
+/// Whether both cores are points or segments, or one is a point: kernels/convex/signed_distance.h.
+bool has_closed_form(const Shape& a, const Shape& b) {
+    const auto is = [](const Shape& s, convex::ShapeKind kind) { return s.kind() == kind; };
+    return is(a, convex::ShapeKind::sphere) || is(b, convex::ShapeKind::sphere) ||
+           (is(a, convex::ShapeKind::capsule) && is(b, convex::ShapeKind::capsule));
+}
+
+/// What was found of B and A, in B's frame, as of A and B, in A's.
+MeshDistance swapped(MeshDistance d, const Pose& b_in_a) {
+    std::swap(d.point_a, d.point_b);
+    d.point_a = b_in_a(d.point_a);
+    d.point_b = b_in_a(d.point_b);
+    std::swap(d.triangles.a, d.triangles.b);
+    return d;
+}
+
+MeshDistance distance_of_shapes(const Shape& a, const Shape& b, const Pose& b_in_a) {
+    const convex::SignedDistance d = convex::signed_distance(a, Pose{}, b, b_in_a);
+    MeshDistance found{std::max(0.0, d.distance), std::max(0.0, d.lo), std::max(0.0, d.hi),
+                       d.point_a, d.point_b};
+    if (found.hi == 0)
+        found.point_a = found.point_b = 0.5 * (d.point_a + d.point_b);
+    return found;
+}
+
+Contact turned(Contact c, const Pose& b_in_a) {
+    c.point = b_in_a(c.point);
+    const Vec3<double> n = c.normal; // from B to A
+    for (std::size_t k = 0; k < 3; ++k)
+        c.normal[static_cast<int>(k)] = -dot(b_in_a.rotation[k], n);
+    std::swap(c.triangles.a, c.triangles.b);
+    return c;
+}
+
+} // namespace
+
+BodyPair::BodyPair(const std::string& a, const std::string& b, bool solid)
+    : a_(read(a, is_round(b), solid)), b_(read(b, is_round(a), solid)) {}
+
+BodyPair::Body BodyPair::read(const std::string& text, bool beside_round, bool solid) {
+    if (const std::optional<Shape> primitive = read_primitive(text))
+        if (beside_round || primitive->kind() != convex::ShapeKind::box)
+            return *primitive;
+    return named(text, [&]() -> Body {
+        if (solid)
+            return Solid(read_body(text));
+        return MeshTree(read_body(text));
+    });
+}
+
+const MeshTree* BodyPair::mesh(const Body& body) {
+    if (const auto* solid = std::get_if<Solid>(&body))
+        return &solid->surface();
+    return std::get_if<MeshTree>(&body);
+}
+
+std::string_view BodyPair::touch_kernel() const {
+    if (mesh(a_) && mesh(b_))
+        return GuigueDevillersExactBatch::name;
+    return distance_kernel();
+}
+std::string_view BodyPair::distance_kernel() const {
+    if (mesh(a_) && mesh(b_))
+        return CertifiedDistance::name;
+    const bool closed =
+        !mesh(a_) && !mesh(b_) && has_closed_form(std::get<Shape>(a_), std::get<Shape>(b_));
+    return closed ? convex::closed_form_info.name : convex::gjk_epa_info.name;
+}
+
+/// Each body as what it is; a Solid beside a MeshTree does not come about.
+bool BodyPair::touch(const Pose& b_in_a) const {
+    const auto may_touch = [](Decision d) { return d.answer != Answer::no; };
+    const auto* shape_a = std::get_if<Shape>(&a_);
+    const auto* shape_b = std::get_if<Shape>(&b_);
+    const auto* solid_a = std::get_if<Solid>(&a_);
+    const auto* solid_b = std::get_if<Solid>(&b_);
+    if (shape_a && shape_b)
+        return may_touch(convex::collide(*shape_a, Pose{}, *shape_b, b_in_a));
+    if (shape_b)
+        return may_touch(solid_a ? collide(*solid_a, *shape_b, b_in_a)
+                                 : collide(*mesh(a_), *shape_b, b_in_a));
+    if (shape_a)
+        return may_touch(solid_b ? collide(*solid_b, *shape_a, inverse(b_in_a))
+                                 : collide(*mesh(b_), *shape_a, inverse(b_in_a)));
+    if (solid_a && solid_b)
+        return collide(*solid_a, *solid_b, b_in_a);
+    return collide(*mesh(a_), *mesh(b_), b_in_a);
+}
+
+std::vector<Pair> BodyPair::touching_triangles(const Pose& b_in_a, std::size_t limit) const {
+    std::vector<Pair> pairs;
+    if (mesh(a_) && mesh(b_))
+        pairs = boxwood::touching_triangles(*mesh(a_), *mesh(b_), b_in_a, limit);
+    else if (mesh(a_) || mesh(b_))
+        for (const Contact& c : contacts(b_in_a, {.max_pairs = limit}))
+            pairs.push_back(c.triangles);
+    std::ranges::sort(pairs);
+    return pairs;
+}
+
+MeshDistance BodyPair::distance(const Pose& b_in_a) const {
+    const MeshTree *mesh_a = mesh(a_), *mesh_b = mesh(b_);
+    if (!mesh_a && !mesh_b)
+        return distance_of_shapes(std::get<Shape>(a_), std::get<Shape>(b_), b_in_a);
+    MeshDistance d;
+    if (mesh_a && mesh_b)
+        d = boxwood::distance(*mesh_a, *mesh_b, b_in_a);
+    else if (mesh_a)
+        d = boxwood::distance(*mesh_a, std::get<Shape>(b_), b_in_a);
+    else
+        d = swapped(boxwood::distance(*mesh_b, std::get<Shape>(a_), inverse(b_in_a)), b_in_a);
+    if (d.lo > 0 && !is_certainly_apart(b_in_a))
+        d.distance = d.lo = d.hi = 0;
+    if (!mesh_a)
+        d.triangles.a = no_triangle;
+    if (!mesh_b)
+        d.triangles.b = no_triangle;
+    return d;
+}
+
+/// Of bodies whose surfaces are apart.
+bool BodyPair::is_certainly_apart(const Pose& b_in_a) const {
+    const bool has_solid = std::holds_alternative<Solid>(a_) || std::holds_alternative<Solid>(b_);
+    return !has_solid || !touch(b_in_a);
+}
+
+MeshWithin BodyPair::within(const Pose& b_in_a, double tolerance) const {
+    const MeshTree *mesh_a = mesh(a_), *mesh_b = mesh(b_);
+    MeshWithin near;
+    if (!mesh_a && !mesh_b) {
+        const MeshDistance d = distance(b_in_a);
+        near = {d.lo <= tolerance, d.lo, d.hi};
+    } else if (mesh_a && mesh_b) {
+        near = boxwood::within(*mesh_a, *mesh_b, b_in_a, tolerance);
+    } else if (mesh_a) {
+        near = boxwood::within(*mesh_a, std::get<Shape>(b_), b_in_a, tolerance);
+    } else {
+        near = boxwood::within(*mesh_b, std::get<Shape>(a_), inverse(b_in_a), tolerance);
+    }
+    if (!near.within && !is_certainly_apart(b_in_a))
+        near = {true, 0, 0};
+    return near;
+}
+
+std::vector<Contact> BodyPair::contacts(const Pose& b_in_a, const ContactOptions& options) const {
+    const MeshTree *mesh_a = mesh(a_), *mesh_b = mesh(b_);
+    std::vector<Contact> found;
+    if (mesh_a && mesh_b)
+        return boxwood::contacts(*mesh_a, *mesh_b, b_in_a, options);
+    if (mesh_a) {
+        found = boxwood::contacts(*mesh_a, std::get<Shape>(b_), b_in_a, options);
+    } else if (mesh_b) {
+        for (const Contact& c :
+             boxwood::contacts(*mesh_b, std::get<Shape>(a_), inverse(b_in_a), options))
+            found.push_back(turned(c, b_in_a));
+    } else {
+        const convex::Contacts all =
+            convex::contacts(std::get<Shape>(a_), Pose{}, std::get<Shape>(b_), b_in_a);
+        for (int i = 0; i < all.count; ++i) {
+            const convex::ContactPoint& c = all.points[static_cast<std::size_t>(i)];
+            found.push_back({c.point, all.distance.normal, c.depth, {}});
+        }
+    }
+    for (Contact& c : found) {
+        if (!mesh_a)
+            c.triangles.a = no_triangle;
+        if (!mesh_b)
+            c.triangles.b = no_triangle;
+    }
+    return found;
+}
+
+FirstContact BodyPair::first_contact(const Path& a, const Path& b, MotionPath kind) const {
+    const MeshTree *mesh_a = mesh(a_), *mesh_b = mesh(b_);
+    if (!mesh_a && !mesh_b) {
+        const auto motion = [&](const Path& path) {
+            return kind == MotionPath::screw ? convex::screw_motion(path.from, path.to)
+                                             : convex::linear_motion(path.from, path.to);
+        };
+        const convex::FirstContact first =
+            convex::first_contact(std::get<Shape>(a_), motion(a), std::get<Shape>(b_), motion(b));
+        FirstContact found;
+        found.hit = first.answer;
+        found.t_free = first.t_free;
+        found.t_hit = std::isfinite(first.t_hit) ? first.t_hit : 1;
+        return found;
+    }
+    const Motion motion_a(a.from, a.to, kind), motion_b(b.from, b.to, kind);
+    if (mesh_a && mesh_b)
+        return boxwood::first_contact(*mesh_a, motion_a, *mesh_b, motion_b);
+    if (mesh_a)
+        return boxwood::first_contact(*mesh_a, motion_a, std::get<Shape>(b_), motion_b);
+    return boxwood::first_contact(*mesh_b, motion_b, std::get<Shape>(a_), motion_a);
+}
+
+} // namespace boxwood::bench

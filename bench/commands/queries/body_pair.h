@@ -1,0 +1,55 @@
+#pragma once
+
+#include "kernels/convex/shapes.h"
+#include "trees/world/continuous.h"
+#include "trees/world/mesh_contacts.h"
+#include "trees/world/mesh_pairs.h"
+#include "trees/world/solid.h"
+
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace boxwood::bench {
+
+/// Two bodies of a query, each a mesh, as its surface or as a solid, or a primitive, which is
+/// solid. B stands at `b_in_a`, and answers are in A's frame. Triangles of primitives have the
+/// number `no_triangle`.
+class BodyPair {
+  public:
+    static constexpr std::uint32_t no_triangle = ~0u;
+
+    /// Each a mesh file or a primitive (read_primitive). A box is its surface, of 12 triangles, but
+    /// solid beside a sphere, a capsule or a cylinder. solid: closed meshes and boxes are solids.
+    /// Throws BadInput, and as load_mesh.
+    BodyPair(const std::string& a, const std::string& b, bool solid);
+
+    /// What decides whether they touch, and how far apart they are.
+    std::string_view touch_kernel() const;
+    std::string_view distance_kernel() const;
+
+    /// What rounding leaves open touches.
+    bool touch(const Pose& b_in_a) const;
+    /// Sorted; of two primitives none.
+    std::vector<Pair> touching_triangles(const Pose& b_in_a, std::size_t limit) const;
+    /// 0 where they touch; of solids also where one lies in the other.
+    MeshDistance distance(const Pose& b_in_a) const;
+    MeshWithin within(const Pose& b_in_a, double tolerance) const;
+    std::vector<Contact> contacts(const Pose& b_in_a, const ContactOptions& options) const;
+
+    struct Path {
+        Pose from, to;
+    };
+    FirstContact first_contact(const Path& a, const Path& b, MotionPath kind) const;
+
+  private:
+    using Body = std::variant<MeshTree, Solid, convex::Shape>;
+    static Body read(const std::string& text, bool beside_round, bool solid);
+    static const MeshTree* mesh(const Body& body); ///< none: a primitive
+    bool is_certainly_apart(const Pose& b_in_a) const;
+
+    Body a_, b_;
+};
+
+} // namespace boxwood::bench

@@ -1,0 +1,68 @@
+#include "bench/truth/nearest_triangles.h"
+
+#include "kernels/oracle/nearest.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace boxwood::bench {
+namespace {
+
+using Triangles = std::vector<Triangle<double>>;
+
+Triangles soup(std::size_t n, double extent, Vec3<double> at, std::mt19937& random) {
+    std::uniform_real_distribution<double> place(-1, 1);
+    const auto point = [&](double size) {
+        return Vec3<double>{place(random), place(random), place(random)} * size;
+    };
+    Triangles all;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vec3<double> p = at + point(1);
+        all.push_back({p + point(extent), p + point(extent), p + point(extent)});
+    }
+    return all;
+}
+
+double brute_force(const Triangles& a, const Triangles& b) {
+    mpq_class least = -1;
+    for (const Triangle<double>& s : a)
+        for (const Triangle<double>& t : b)
+            if (const mpq_class squared = oracle::nearest(s, t).squared;
+                least < 0 || squared < least)
+                least = squared;
+    return std::sqrt(least.get_d());
+}
+
+TEST(NearestTriangles, AreThoseOfAllPairs) {
+    std::mt19937 random(3);
+    int touching = 0;
+    for (const double extent : {.02, .3})
+        for (const double x : {0., 1.5, 2.3, 9.}) {
+            const Triangles a = soup(40, extent, {}, random);
+            const Triangles b = soup(35, extent, {x, .2, -.1}, random);
+            const double expected = brute_force(a, b);
+            const NearestTriangles::Least least = NearestTriangles(a).to(NearestTriangles(b));
+            EXPECT_LE(std::abs(least.distance - expected), 0x1p-40 * expected);
+            EXPECT_LE(least.lo, expected * (1 + 0x1p-50));
+            EXPECT_GE(least.lo, expected * (1 - 0x1p-39));
+            touching += expected == 0;
+        }
+    EXPECT_GT(touching, 0);
+    EXPECT_LT(touching, 5);
+}
+
+TEST(NearestTriangles, AreThoseOfWhereTheyAreNow) {
+    std::mt19937 random(4);
+    const Triangles a = soup(30, .1, {}, random), b = soup(30, .1, {3, 0, 0}, random);
+    NearestTriangles moving(a);
+    moving.move(b);
+    const double expected = brute_force(a, b);
+    EXPECT_NEAR(NearestTriangles(a).to(moving).distance, expected, 1e-12);
+    EXPECT_EQ(NearestTriangles({}).to(moving).distance, std::numeric_limits<double>::infinity());
+}
+
+} // namespace
+} // namespace boxwood::bench

@@ -1,0 +1,183 @@
+// Once per instruction set: include after <hwy/foreach_target.h>.
+#if defined(BOXWOOD_NODE_CLIP_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BOXWOOD_NODE_CLIP_INL_H
+#undef BOXWOOD_NODE_CLIP_INL_H
+#else
+#define BOXWOOD_NODE_CLIP_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include "kernels/ray_box/fused_slabs.h"
+#include "trees/traversals/rays/ray_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+HWY_BEFORE_NAMESPACE();
+namespace boxwood::detail::HWY_NAMESPACE {
+
+template <class Node> using NodeTag = hwy::HWY_NAMESPACE::CappedTag<float, Node::width>;
+
+/// Lanes [i, i + Lanes(d)) of the plane of this axis that stands `offset` bytes behind the first.
+template <std::size_t W>
+HWY_INLINE hwy::HWY_NAMESPACE::Vec<NodeTag<RayNode<W>>>
+plane_of(const RayNode<W>& node, int /*axis*/, std::size_t offset, std::size_t i) {
+    const auto* planes = reinterpret_cast<const std::byte*>(node.plane);
+    return hwy::HWY_NAMESPACE::Load(NodeTag<RayNode<W>>(),
+                                    reinterpret_cast<const float*>(planes + offset) + i);
+}
+/// `decode` of QuantisedBlock, operation for operation.
+HWY_INLINE hwy::HWY_NAMESPACE::Vec<NodeTag<QuantisedBlock>>
+plane_of(const QuantisedBlock& node, int axis, std::size_t offset, std::size_t i) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    const NodeTag<QuantisedBlock> d;
+    const hn::Rebind<std::uint8_t, decltype(d)> d8;
+    const hn::Rebind<std::int32_t, decltype(d)> d32;
+    const auto steps =
+        hn::ConvertTo(d, hn::PromoteTo(d32, hn::LoadU(d8, node.plane[0] + offset + i)));
+    return hn::Add(hn::Set(d, node.bounds.min[axis]), hn::Mul(steps, hn::Set(d, node.scale[axis])));
+}
+
+/// The lanes that a ray hits, without those that are not in use.
+template <std::size_t W, class M> HWY_INLINE M used_of(const RayNode<W>&, M hits, std::size_t) {
+    return hits; // the empty box is never hit
+}
+template <class M> HWY_INLINE M used_of(const QuantisedBlock& node, M hits, std::size_t i) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    return hn::And(hits,
+                   hn::FirstN(NodeTag<QuantisedBlock>(), node.count > i ? node.count - i : 0));
+}
+
+struct WaitingNode {
+    std::uint32_t ref;
+    float entry;
+};
+static_assert(sizeof(WaitingNode) == 8);
+
+/// FusedSlabs in registers.
+template <class Node> class NodeClip {
+    using D = NodeTag<Node>;
+    using V = hwy::HWY_NAMESPACE::Vec<D>;
+    using M = hwy::HWY_NAMESPACE::Mask<D>;
+
+  public:
+    HWY_INLINE NodeClip(const FusedSlabs& slabs, float t_min)
+        : re0_(everywhere(slabs.entry_rdir[0])), re1_(everywhere(slabs.entry_rdir[1])),
+          re2_(everywhere(slabs.entry_rdir[2])), se0_(everywhere(slabs.entry_shift[0])),
+          se1_(everywhere(slabs.entry_shift[1])), se2_(everywhere(slabs.entry_shift[2])),
+          rx0_(everywhere(slabs.exit_rdir[0])), rx1_(everywhere(slabs.exit_rdir[1])),
+          rx2_(everywhere(slabs.exit_rdir[2])), sx0_(everywhere(slabs.exit_shift[0])),
+          sx1_(everywhere(slabs.exit_shift[1])), sx2_(everywhere(slabs.exit_shift[2])),
+          t_min_(everywhere(t_min)) {
+        near0_ = near(slabs, 0);
+        near1_ = near(slabs, 1);
+        near2_ = near(slabs, 2);
+    }
+
+    /// `clip` for the lanes from i on: which are hit, and where each is entered.
+    HWY_INLINE M hits_of(const Node& node, std::size_t i, V t_max, V& entry) const {
+        namespace hn = hwy::HWY_NAMESPACE;
+        entry = hn::Max(hn::Max(hn::MulSub(plane_of(node, 0, near0_, i), re0_, se0_),
+                                hn::MulSub(plane_of(node, 1, near1_, i), re1_, se1_)),
+                        hn::Max(hn::MulSub(plane_of(node, 2, near2_, i), re2_, se2_), t_min_));
+        const V exit = hn::Min(
+            hn::Min(hn::MulSub(plane_of(node, 0, 3 * plane - near0_, i), rx0_, sx0_),
+                    hn::MulSub(plane_of(node, 1, 5 * plane - near1_, i), rx1_, sx1_)),
+            hn::Min(hn::MulSub(plane_of(node, 2, 7 * plane - near2_, i), rx2_, sx2_), t_max));
+        return used_of(node, hn::Le(entry, exit), i);
+    }
+
+  private:
+    static constexpr std::size_t plane = sizeof(Node::plane) / 6; ///< bytes
+
+    static HWY_INLINE V everywhere(float x) { return hwy::HWY_NAMESPACE::Set(D(), x); }
+    static HWY_INLINE std::size_t near(const FusedSlabs& slabs, std::size_t k) {
+        return plane * (k + 3 * (std::bit_cast<std::uint32_t>(slabs.entry_rdir[k]) >> 31));
+    }
+
+    const V re0_, re1_, re2_, se0_, se1_, se2_, rx0_, rx1_, rx2_, sx0_, sx1_, sx2_, t_min_;
+    std::size_t near0_, near1_, near2_; ///< of `plane_of`; the far planes are the others
+};
+
+/// As lane_bits, for up to 16 lanes.
+template <class D, class M> HWY_INLINE std::uint32_t wide_bits(D d, M m, std::size_t first) {
+    std::uint8_t bytes[8] = {};
+    hwy::HWY_NAMESPACE::StoreMaskBits(d, m, bytes);
+    return (bytes[0] | std::uint32_t{bytes[1]} << 8) << first;
+}
+
+/// The children that are hit: the farthest first on the stack, the nearest on top of it.
+template <class Node>
+HWY_INLINE void push_sorted(const Node& node, std::uint32_t bits, const float* entry,
+                            WaitingNode* stack) {
+    std::size_t top = 0;
+    for (; bits != 0; bits &= bits - 1) {
+        const auto lane = static_cast<std::uint32_t>(std::countr_zero(bits));
+        const WaitingNode other{node.ref[lane], entry[lane]};
+        std::size_t place = top++;
+        for (; place > 0 && stack[place - 1].entry < other.entry; --place)
+            stack[place] = stack[place - 1];
+        stack[place] = other;
+    }
+}
+
+#if HWY_TARGET != HWY_SCALAR && HWY_TARGET <= HWY_AVX2
+/// The lane of the least entry (>= 0) among the lanes of `bits`, of which there is one at least;
+/// entries count as push_sorted_eight rounds them.
+template <class V> HWY_INLINE std::uint32_t nearest_of(V entry, std::uint32_t bits) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    const hn::CappedTag<std::uint32_t, 8> du;
+    const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits)};
+    const auto key =
+        hn::Or(hn::AndNot(hn::Set(du, 7u), hn::BitCast(du, hn::Abs(entry))), hn::Iota(du, 0));
+    auto min_key = hn::IfThenElse(hn::LoadMaskBits(du, bytes), key, hn::Set(du, ~std::uint32_t{0}));
+    min_key = hn::Min(min_key, hn::ConcatLowerUpper(du, min_key, min_key));
+    min_key = hn::Min(min_key, hn::Shuffle1032(min_key));
+    min_key = hn::Min(min_key, hn::Shuffle2301(min_key));
+    return hn::GetLane(min_key) & 7;
+}
+
+/// As push_sorted for the entries (>= 0) of eight lanes in one register, without a branch: a
+/// network of 19 comparisons. Entries are rounded down to multiples of eight ulp, which hold the
+/// lane; eight are written whatever `bits`.
+template <class V>
+HWY_INLINE void push_sorted_eight(const std::uint32_t* refs, std::uint32_t bits, V entry,
+                                  WaitingNode* stack) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    const hn::CappedTag<std::uint32_t, 8> du;
+    const auto lanes = hn::Set(du, 7u);
+    const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits)};
+    const auto hit = hn::LoadMaskBits(du, bytes);
+    auto key = hn::IfThenElseZero(
+        hit, hn::Or(hn::AndNot(lanes, hn::BitCast(du, hn::Abs(entry))), hn::Iota(du, 0)));
+    alignas(32) static constexpr std::uint32_t partner[6][8] = {
+        {2, 3, 0, 1, 6, 7, 4, 5}, {4, 5, 6, 7, 0, 1, 2, 3}, {1, 0, 3, 2, 5, 4, 7, 6},
+        {0, 1, 4, 5, 2, 3, 6, 7}, {0, 4, 2, 6, 1, 5, 3, 7}, {0, 2, 1, 4, 3, 6, 5, 7}};
+    static constexpr std::uint8_t takes_less[6] = {0b11001100, 0b11110000, 0b10101010,
+                                                   0b00110000, 0b01010000, 0b01010100};
+#pragma GCC unroll 6
+    for (int step = 0; step < 6; ++step) {
+        const auto other = hn::TableLookupLanes(key, hn::SetTableIndices(du, partner[step]));
+        key = hn::IfThenElse(hn::LoadMaskBits(du, &takes_less[step]), hn::Min(key, other),
+                             hn::Max(key, other));
+    }
+    const auto sorted =
+        hn::TableLookupLanes(hn::LoadU(du, refs), hn::IndicesFromVec(du, hn::And(key, lanes)));
+    hn::StoreInterleaved2(sorted, hn::AndNot(lanes, key), du,
+                          reinterpret_cast<std::uint32_t*>(stack));
+}
+#endif
+
+/// Whether eight entries stay in one register.
+template <class Node>
+inline constexpr bool in_register =
+    HWY_TARGET != HWY_SCALAR&& HWY_TARGET <= HWY_AVX2&& Node::width == 8;
+
+} // namespace boxwood::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

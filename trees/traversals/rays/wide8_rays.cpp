@@ -1,0 +1,4 @@
+#define BOXWOOD_RAY_NODE RayNode<8>
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "trees/traversals/rays/wide8_rays.cpp"
+#include "trees/traversals/rays/layout_rays-inl.h"

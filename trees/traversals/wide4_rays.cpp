@@ -1,4 +1,0 @@
-#define BOXWOOD_RAY_NODE RayNode<4>
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "trees/traversals/wide4_rays.cpp"
-#include "trees/traversals/layout_rays-inl.h"

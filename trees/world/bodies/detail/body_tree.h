@@ -1,0 +1,58 @@
+#pragma once
+
+#include "trees/dynamic/detail/item_tree.h"
+#include "trees/dynamic/detail/lane_groups.h"
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <span>
+#include <vector>
+
+namespace boxwood::detail {
+
+/// The boxes of bodies in a packed tree, which is brought up to date when it is wanted, and a list
+/// of those that no tree holds well: without bounds, or beyond 1e18.
+/// Threads: any number of them may call const members at the same time.
+class BodyTree {
+  public:
+    /// A new box; the empty one for a body that is none or has no point.
+    void set(std::uint32_t body, const Box& box);
+    void clear();
+    void note_groups() { groups_are_stale_ = true; } ///< those of some body have changed
+
+    bool is_stale() const { return is_stale_; }
+    bool groups_are_stale() const { return groups_are_stale_; }
+    /// Up to date from here on.
+    const PackedLayout& layout() const;
+    /// The groups of its lanes; after layout().
+    const LaneGroups& lane_groups(std::span<const Groups> by_body) const;
+
+    /// By item of the tree: those of bodies, and empty ones.
+    Boxes boxes() const { return tree_.boxes(); }
+    std::span<const std::uint32_t> wide() const { return wide_; } ///< not in the tree
+    std::size_t bytes() const {
+        const std::lock_guard lock(changing_);
+        return tree_.bytes();
+    }
+    std::size_t group_bytes() const {
+        const std::lock_guard lock(changing_);
+        return lane_groups_.bytes();
+    }
+
+    /// Whether a tree does not hold such a box well; an empty one it does.
+    static bool is_wide(const Box& box);
+
+  private:
+    std::vector<std::uint8_t> is_wide_; ///< by body
+    std::vector<std::uint32_t> wide_;
+
+    mutable std::mutex changing_; ///< whoever changes what queries read
+    mutable std::atomic<bool> is_stale_ = false, groups_are_stale_ = true;
+    mutable ItemTree tree_;
+    mutable double lost_ = 0; ///< by queries in the tree as it is, nanoseconds
+    mutable LaneGroups lane_groups_;
+};
+
+} // namespace boxwood::detail

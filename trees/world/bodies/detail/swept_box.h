@@ -1,0 +1,15 @@
+#pragma once
+
+#include "kernels/convex/motion.h"
+#include "trees/world/bodies/shape_pairs.h"
+
+namespace boxwood::detail {
+
+/// The motion as kernels/convex/ has it. Near half a turn it may turn the other way round.
+convex::Motion convex_motion(const MovingShape& of);
+
+/// A box around a bounded shape, its radius and its margin at every t from 0 to 1, whichever way it
+/// turns near half a turn.
+Aabb<double> swept_box(const MovingShape& of);
+
+} // namespace boxwood::detail

@@ -1,0 +1,152 @@
+#include "trees/world/bodies/shape_pairs.h"
+
+#include "kernels/convex/contact.h"
+#include "trees/world/bodies/detail/surface_pairs.h"
+#include "trees/world/mesh_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace boxwood {
+namespace {
+
+using namespace detail;
+
+constexpr std::uint32_t none = ~0u;
+
+/// x - margin as doubles below and above it, at least 0. A difference rounds once.
+double below(double x, double margin) {
+    return margin > 0 ? std::max(0.0, (x - margin) * (1 - 0x1p-51)) : x;
+}
+double above(double x, double margin) {
+    return margin > 0 ? std::max(0.0, (x - margin) * (1 + 0x1p-51)) : x;
+}
+
+BodyDistance grown(BodyDistance d, double margin) {
+    d.lo = below(d.lo, margin);
+    d.hi = above(d.hi, margin);
+    d.distance = std::clamp(d.distance - margin, d.lo, d.hi);
+    return d;
+}
+
+Vec3<double> turned(const Pose& pose, const Vec3<double>& v) {
+    return {dot(pose.rotation[0], v), dot(pose.rotation[1], v), dot(pose.rotation[2], v)};
+}
+
+BodyContact posed(const Contact& contact, const Pose& pose, double margin) {
+    return {{},
+            pose(contact.point),
+            turned(pose, contact.normal),
+            contact.depth + margin,
+            contact.triangles};
+}
+
+/// Those of surfaces that touch; of convex shapes also those that are near enough.
+std::vector<BodyContact> touching(const PosedShape& a, const PosedShape& b, double margin,
+                                  const ContactOptions& options, Work* work) {
+    std::vector<BodyContact> found;
+    if (a.shape.empty() || b.shape.empty())
+        return found;
+    if (is_convex(a) && is_convex(b)) {
+        const convex::Contacts all = convex::contacts(a.shape.convex_shape(), a.pose,
+                                                      b.shape.convex_shape(), b.pose, margin);
+        const auto count =
+            std::min<std::size_t>(static_cast<std::size_t>(all.count), options.max_contacts);
+        for (std::size_t i = 0; i < count; ++i)
+            found.push_back({{},
+                             all.points[i].point,
+                             all.distance.normal,
+                             all.points[i].depth + margin,
+                             {none, none}});
+        return found;
+    }
+    if (is_convex(a)) {
+        found = touching(b, a, margin, options, work);
+        for (BodyContact& contact : found) {
+            contact.normal = -contact.normal;
+            std::swap(contact.parts.a, contact.parts.b);
+        }
+        return found;
+    }
+    const MeshTree& mesh = a.shape.tree();
+    const Pose b_in_a = relative_pose(a.pose, b.pose);
+    const std::vector<Contact> all =
+        is_convex(b) ? contacts(mesh, b.shape.convex_shape(), b_in_a, options, work)
+                     : contacts(mesh, b.shape.tree(), b_in_a, options, work);
+    for (const Contact& contact : all) {
+        found.push_back(posed(contact, a.pose, margin));
+        if (is_convex(b))
+            found.back().parts.b = none;
+    }
+    return found;
+}
+
+/// Between the nearest points of two surfaces; sign: 1 where they are to be kept apart, -1 where
+/// one is within the other.
+BodyContact between(const BodyDistance& d, double sign, double margin) {
+    BodyContact contact;
+    contact.point = 0.5 * (d.point_a + d.point_b);
+    const Vec3<double> apart = sign * (d.point_b - d.point_a);
+    if (const double size = length(apart); size > 0)
+        contact.normal = (1 / size) * apart;
+    contact.depth = margin - sign * d.distance;
+    contact.parts = d.parts;
+    return contact;
+}
+
+} // namespace
+
+Answer within(const PosedShape& a, const PosedShape& b, double tolerance, Work* work) {
+    if (!(tolerance >= 0))
+        throw std::invalid_argument("a tolerance must be at least 0");
+    const Answer near = surfaces_within(a, b, margin_of(a, b) + tolerance, work);
+    if (near == Answer::yes)
+        return near;
+    const Answer in = inside(a, b).answer;
+    return in == Answer::no ? near : in;
+}
+
+Answer collide(const PosedShape& a, const PosedShape& b, Work* work) {
+    return within(a, b, 0, work);
+}
+
+BodyDistance distance(const PosedShape& a, const PosedShape& b, const DistanceOptions& options,
+                      Work* work) {
+    const double margin = margin_of(a, b);
+    DistanceOptions of_surfaces = options;
+    of_surfaces.limit = (options.limit + margin) * (1 + 0x1p-51);
+    BodyDistance found = surface_distance(a, b, of_surfaces, work);
+    const Inside in = found.lo > 0 ? inside(a, b) : Inside{};
+    if (in.answer == Answer::yes)
+        return {{}, 0, 0, 0, in.point, in.point, {none, none}};
+    if (in.answer == Answer::maybe) {
+        if (!found.found())
+            found = surface_distance(a, b, {}, work);
+        found.lo = found.distance = 0;
+    }
+    if (!found.found())
+        return {.lo = std::max(options.limit, found.lo - margin)};
+    return grown(found, margin);
+}
+
+std::vector<BodyContact> contacts(const PosedShape& a, const PosedShape& b,
+                                  const ContactOptions& options, Work* work) {
+    const double margin = margin_of(a, b);
+    std::vector<BodyContact> found = touching(a, b, margin, options, work);
+    if (!found.empty() || options.max_contacts == 0 || options.max_pairs == 0)
+        return found;
+    if (inside(a, b).answer == Answer::yes)
+        return {between(surface_distance(a, b, {}, work), -1, margin)};
+    if (margin > 0) {
+        DistanceOptions near;
+        near.limit = margin * (1 + 0x1p-30);
+        const BodyDistance d = surface_distance(a, b, near, work);
+        if (d.found() && d.lo <= margin)
+            found.push_back(between(d, 1, margin));
+    }
+    return found;
+}
+
+} // namespace boxwood

@@ -1,0 +1,182 @@
+#include "trees/testing/test_bodies.h"
+#include "trees/testing/world_questions.h"
+#include "trees/world/bodies/world.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <thread>
+
+namespace boxwood {
+namespace {
+
+double least_hi(const MirroredWorld& mirror, const std::vector<Pair>& pairs) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Pair p : pairs)
+        least = std::min(least, distance(mirror.posed(p.a), mirror.posed(p.b)).hi);
+    return least;
+}
+
+TEST(World, AnswersAsAllPairsDo) {
+    std::size_t collisions = 0;
+    for (std::uint32_t seed = 0; seed < 4; ++seed) {
+        MirroredWorld mirror(with_unbounded());
+        fill(mirror, seed, 50, 1.5 + seed);
+        expect_all_questions_right(mirror);
+        collisions += mirror.collisions().size();
+    }
+    EXPECT_GT(collisions, 200u);
+}
+
+TEST(World, FindsTheNearestOfAllPairs) {
+    for (std::uint32_t seed = 0; seed < 6; ++seed) {
+        MirroredWorld mirror(seed % 2 == 0 ? with_unbounded() : shapes_of_all_kinds());
+        if (seed % 2 == 0) {
+            fill(mirror, seed, 12, 20);
+            mirror.remove(12); // the half-space, which holds half of them
+        } else {
+            RandomBodies random(seed, mirror.shapes.size(), 12);
+            for (int i = 0; i < 25; ++i)
+                mirror.insert(random.body());
+        }
+        const World& world = mirror.world;
+        const double truth = least_hi(mirror, mirror.may_meet());
+        const auto nearest = world.least_distance();
+        ASSERT_TRUE(nearest);
+        EXPECT_LE(nearest->lo, truth * (1 + 1e-9));
+        EXPECT_GE(nearest->hi, truth * (1 - 1e-9));
+        EXPECT_LE(nearest->hi, truth * (1 + 1e-8) + 1e-12);
+        const Pair p = nearest->bodies;
+        EXPECT_NEAR(nearest->distance, distance(mirror.posed(p.a), mirror.posed(p.b)).distance,
+                    1e-9);
+        EXPECT_FALSE(world.least_distance(truth * .99));
+        EXPECT_TRUE(truth == 0 || world.least_distance(truth * 1.01));
+        for (const std::uint32_t body : world.bodies()) {
+            std::vector<Pair> with_body = mirror.may_meet();
+            std::erase_if(with_body, [&](Pair q) { return q.a != body && q.b != body; });
+            const auto near = world.least_distance_of(body);
+            ASSERT_EQ(near.has_value(), !with_body.empty());
+            if (near) {
+                EXPECT_NEAR(near->hi, least_hi(mirror, with_body), 1e-8);
+            }
+        }
+    }
+}
+
+TEST(World, FindsFirstContactsAsAllPairsDo) {
+    std::size_t hits = 0;
+    for (std::uint32_t seed = 0; seed < 3; ++seed) {
+        MirroredWorld mirror(with_unbounded());
+        fill(mirror, seed, 24, 4);
+        RandomBodies random(seed + 20, mirror.shapes.size(), 4);
+        std::vector<BodyMotion> motions;
+        for (std::uint32_t body = 0; body < 26; ++body) {
+            if (random.below(2) == 0)
+                continue;
+            BodyMotion motion{body, random.pose(),
+                              random.below(2) ? MotionPath::screw : MotionPath::linear};
+            if (!mirror.world.shape(body).is_bounded())
+                motion.to.rotation = mirror.world.pose(body).rotation;
+            motions.push_back(motion);
+        }
+        const auto moved = [&](std::uint32_t body) -> MovingShape {
+            const PosedShape now = mirror.posed(body);
+            for (const BodyMotion& motion : motions)
+                if (motion.body == body)
+                    return {now.shape, now.pose, checked_pose(motion.to), motion.path, now.margin};
+            return {now.shape, now.pose, now.pose, MotionPath::linear, now.margin};
+        };
+        const auto moves = [&](std::uint32_t body) {
+            return std::ranges::find(motions, body, &BodyMotion::body) != motions.end();
+        };
+        std::vector<Pair> expected;
+        for (const Pair p : mirror.may_meet())
+            if ((moves(p.a) || moves(p.b)) &&
+                first_contact(moved(p.a), moved(p.b)).hit != Answer::no)
+                expected.push_back(p);
+        const auto found = mirror.world.first_contacts(motions);
+        std::vector<Pair> pairs;
+        double before = 0;
+        for (const BodyFirstContact& one : found) {
+            pairs.push_back(one.bodies);
+            EXPECT_LE(before, one.contact.t_hit);
+            before = one.contact.t_hit;
+        }
+        EXPECT_EQ(sorted(pairs), expected);
+        hits += expected.size();
+    }
+    EXPECT_GT(hits, 50u);
+}
+
+TEST(World, GroupsSaveTheWayDownTheTree) {
+    constexpr std::uint32_t n = 4000;
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> place(0, 30);
+    World all, grouped;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const Pose pose = pose_at(place(random), place(random), place(random));
+        all.insert(convex::Sphere{1}, pose);
+        // One in fifty moves; the others never meet each other.
+        const bool moves = i % 50 == 0;
+        grouped.insert(convex::Sphere{1}, pose,
+                       {.group = moves ? 1u : 2u, .mask = moves ? 3u : 1u});
+    }
+    const auto counted = [](const World& world, std::vector<Pair>& found) {
+        Work work;
+        AppendPairs sink(found);
+        world.candidates(sink, .001, &work);
+        return work.box_tests;
+    };
+    std::vector<Pair> of_all, of_grouped;
+    const std::uint64_t tests = counted(all, of_all), fewer = counted(grouped, of_grouped);
+    std::erase_if(of_all, [](Pair p) { return p.a % 50 != 0 && p.b % 50 != 0; });
+    EXPECT_EQ(sorted(of_all), sorted(of_grouped));
+    EXPECT_LT(3 * fewer, tests);
+}
+
+TEST(World, GivesTheSameAnswersOnAnyNumberOfThreads) {
+    MirroredWorld one(with_unbounded());
+    fill(one, 3, 60, 2);
+    const auto contact_points = [](const World& world) {
+        std::vector<double> numbers;
+        for (const BodyContact& c : world.contacts({.max_contacts = 4}))
+            numbers.insert(numbers.end(), {c.point.x, c.point.y, c.point.z, c.depth});
+        return numbers;
+    };
+    for (const unsigned threads : {2u, 4u}) {
+        MirroredWorld many(with_unbounded(), {.threads = threads});
+        fill(many, 3, 60, 2);
+        EXPECT_EQ(many.world.collisions(), one.world.collisions());
+        EXPECT_EQ(many.world.within(.2), one.world.within(.2));
+        EXPECT_EQ(contact_points(many.world), contact_points(one.world));
+    }
+}
+
+TEST(World, MayBeAskedByManyThreadsAtOnce) {
+    MirroredWorld mirror(with_unbounded());
+    fill(mirror, 9, 60, 2);
+    const std::vector<Pair> expected = mirror.collisions();
+    // Another one, whose tree and meshes are not there yet.
+    MirroredWorld fresh(with_unbounded());
+    fill(fresh, 9, 60, 2);
+    const World& world = fresh.world;
+    std::vector<std::vector<Pair>> found(4);
+    std::vector<double> least(4);
+    std::vector<std::thread> threads;
+    for (std::size_t i = 0; i < found.size(); ++i)
+        threads.emplace_back([&, i] {
+            found[i] = world.collisions();
+            least[i] = world.least_distance()->hi;
+            (void)world.ledger();
+        });
+    for (std::thread& thread : threads)
+        thread.join();
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_EQ(found[i], expected);
+        EXPECT_EQ(least[i], least[0]);
+    }
+}
+
+} // namespace
+} // namespace boxwood

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "trees/world/continuous.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace boxwood::detail {
+
+inline double size_of(const Aabb<float>& box) {
+    return length(Vec3<double>(box.max) - Vec3<double>(box.min));
+}
+
+/// The greatest |coordinate| that what is in a box comes to in a pose, or more.
+inline double reach_of(const Aabb<float>& box, const Pose& pose) {
+    double reach = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        reach += std::max(std::abs(double{box.min[axis]}), std::abs(double{box.max[axis]})) +
+                 std::abs(pose.translation[axis]);
+    return reach;
+}
+
+/// What bounds two bodies that approach each other.
+struct Approach {
+    double speed; ///< their distance changes by at most this per unit of t
+    double reach; ///< the greatest coordinates of both at the start, together
+    double size;  ///< of both together, for the default of the tolerance
+};
+
+inline void check(const ContinuousOptions& options) {
+    if (!(options.tolerance >= 0))
+        throw std::invalid_argument("a tolerance must be at least 0");
+}
+
+/// Conservative advancement. distance_at(t, options): the MeshDistance of the two at t. Its poses
+/// may be rounded: by 2^-44 of the reach and the way together.
+template <class DistanceAt>
+FirstContact advance(const Approach& approach, const ContinuousOptions& options,
+                     const DistanceAt& distance_at) {
+    FirstContact found;
+    // What a pose may be off by moves corners by as much.
+    const double rounding = 0x1p-44 * (approach.speed + approach.reach);
+    const double tolerance =
+        std::max(options.tolerance > 0 ? options.tolerance : 0x1p-36 * approach.size, 4 * rounding);
+    DistanceOptions near;
+    double t = 0;
+    while (found.steps < options.max_steps) {
+        const MeshDistance d = distance_at(t, near);
+        ++found.steps;
+        if (d.lo <= tolerance && d.hi > tolerance && near.relative > 0) {
+            near.relative = 0; // look again
+            continue;
+        }
+        if (d.hi <= tolerance || d.lo <= 2 * rounding) {
+            found.hit = Answer::yes;
+            found.t_free = found.t_hit = t;
+            found.triangles = d.triangles;
+            return found;
+        }
+        if (t >= 1)
+            return found;
+        // Nearer than the tolerance, so that the end is reached.
+        const double free = std::max(d.lo - 2 * rounding, 0.0);
+        const double step = approach.speed > 0 ? free / approach.speed * (1 - 0x1p-40) : 1;
+        found.t_free = t = std::min(1.0, t + step);
+        near.start = d.triangles;
+        // Far apart a rough distance will do.
+        near.relative = d.lo > 64 * tolerance ? .1 : 0;
+    }
+    found.hit = Answer::maybe;
+    found.t_free = t;
+    return found;
+}
+
+} // namespace boxwood::detail
