@@ -1,6 +1,7 @@
 #include "scenes/human_name.h"
 
 #include "scenes/registry.h"
+#include "scenes/robots/robot_scene.h"
 
 #include <fmt/format.h>
 
@@ -83,6 +84,9 @@ std::string human_name(const SceneSpec& spec) {
         return moving_name(*spec.moving, spec.n);
     if (const HardCaseFamily* family = find_hard_case_family(spec.generator))
         return family_name(*family, spec);
+    if (spec.generator == robot_scene)
+        return fmt::format("robot {}, {} at random", spec.file.stem().string(),
+                           counted(spec.n_poses, "state", "states"));
     std::string text = generator_title(spec, scene_generator(spec.generator));
     replace(text, "{n}", grouped(spec.n));
     if (!spec.rays.empty())

@@ -3,6 +3,7 @@
 #include "scenes/atom.h"
 #include "scenes/moving/frames.h"
 #include "scenes/registry.h"
+#include "scenes/robots/robot_scene.h"
 #include "scenes/sampling/poses.h"
 #include "scenes/sampling/queries.h"
 #include "scenes/sampling/rays.h"
@@ -77,6 +78,16 @@ std::uint64_t hash_of(const Scene& scene) {
     add(*state, scene.regions);
     add(*state, scene.spheres);
     add(*state, scene.poses);
+    if (scene.robot) {
+        for (const TriangleMesh& mesh : scene.robot->robot.meshes) {
+            add(*state, mesh.vertices);
+            add(*state, mesh.triangles);
+        }
+        for (const std::vector<double>& values : scene.robot->states)
+            add(*state, values);
+        for (const AllowedPair& pair : scene.robot->allowed.value_or(std::vector<AllowedPair>()))
+            add(*state, std::vector{pair.a, pair.b});
+    }
     std::visit(CaseHash(*state), scene.cases);
     return XXH3_64bits_digest(state.get());
 }
@@ -197,6 +208,8 @@ std::string scene_name(const SceneSpec& spec) {
         checked(*family, spec);
         return family_scene_name(*family, spec);
     }
+    if (spec.generator == robot_scene)
+        return "robot_" + atom(spec.file.stem().string());
     const SceneEntry& entry = checked(spec);
     std::string name(entry.name);
     if (!spec.file.empty())
@@ -253,11 +266,28 @@ Scene start_of(const SceneSpec& spec) {
     return scene;
 }
 
+Scene robot_of(const SceneSpec& spec) {
+    if (spec.file.empty())
+        throw std::invalid_argument("scene robot: no file is given; name a URDF file");
+    Scene scene;
+    scene.name = scene_name(spec);
+    scene.spec = spec;
+    scene.robot =
+        std::make_shared<const RobotStates>(read_robot_states(spec.file, spec.n_poses, spec.seed));
+    scene.boxes = link_boxes(scene.robot->robot);
+    scene.params_json = fmt::format(R"({{"n_states":{},"srdf":{}}})", spec.n_poses,
+                                    scene.robot->allowed.has_value());
+    scene.content_hash = hash_of(scene);
+    return scene;
+}
+
 } // namespace
 
 Scene make_scene(const SceneSpec& spec) {
     if (spec.moving)
         return start_of(spec);
+    if (spec.generator == robot_scene)
+        return robot_of(spec);
     if (const HardCaseFamily* family = find_hard_case_family(spec.generator))
         return family_scene(*family, spec);
     const SceneEntry& entry = checked(spec);

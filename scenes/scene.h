@@ -19,7 +19,8 @@
 
 namespace boxwood {
 
-struct SceneFile; // scenes/moving/scene_file.h
+struct SceneFile;   // scenes/moving/scene_file.h
+struct RobotStates; // scenes/robots/robot_scene.h
 
 /// What a generator makes. The same spec gives the same bits on every machine.
 struct SceneSpec {
@@ -34,7 +35,7 @@ struct SceneSpec {
     std::size_t n_points = 0;          ///< number of points or regions
     std::string regions{};             ///< a name of `region_kinds()`, or empty for no regions
     std::string poses{};     ///< a name of `pose_kinds()`, or empty for no poses (mesh scenes)
-    std::size_t n_poses = 0; ///< number of poses
+    std::size_t n_poses = 0; ///< number of poses, or of a robot's states
     std::string motion{};    ///< a name of `motion_paths()` from pose to pose, or empty for none
     /// A scene that moves, instead of a generator's: its n and seed are those of the spec, and
     /// what is made is its frame 0.
@@ -57,6 +58,8 @@ struct Scene {
     std::vector<Sphere<float>> spheres;
     /// Of a copy of the mesh, in the mesh's frame.
     std::vector<RigidTransform<double>> poses;
+    /// Of a robot: itself. Box i is that of link i in the link's frame.
+    std::shared_ptr<const RobotStates> robot;
     Cases cases;             ///< of a hard-case family, else none
     std::string params_json; ///< the generator's parameters as one JSON object
     /// XXH3 of boxes, vertices, indices and rays, then of each case number by number, little-endian
@@ -95,8 +98,8 @@ struct RayKindEntry {
 };
 std::span<const RayKindEntry> ray_kinds();
 
-/// Makes the scene: of a generator, the cases of a family (the boxes are a scene's boxes then), or
-/// frame 0 of a moving scene.
+/// Makes the scene: of a generator, the cases of a family (the boxes are a scene's boxes then),
+/// frame 0 of a moving scene, or of "robot" the robot of a URDF file in random states.
 /// Throws std::invalid_argument for a bad spec and std::runtime_error, naming file and place, for a
 /// mesh file that is missing, empty, or holds NaN or indices out of range, or a bad query file.
 Scene make_scene(const SceneSpec& spec);

@@ -18,6 +18,7 @@
 #include "scenes/moving/moving_scene.h"  // bodies and what happens to them, played frame by frame
 #include "scenes/robots/four_link.h"     // the demo's robot: forward kinematics and its boxes
 #include "scenes/robots/random_values.h" // states of a robot at random, within limits
+#include "scenes/robots/robot_scene.h"   // the user's robot in random states, as a scene
 #include "scenes/robots/srdf.h"          // allowed pairs and named states, read and written
 #include "scenes/robots/urdf.h"          // the user's robot and its meshes through liburdfdom
 #include "scenes/sampling/poses.h"       // places of a copy of a mesh beside it

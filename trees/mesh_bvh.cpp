@@ -1,6 +1,7 @@
 #include "trees/mesh_bvh.h"
 
 #include "trees/queries/box_queries.h"
+#include "trees/triangle_boxes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,21 +24,9 @@ TriangleMesh checked(TriangleMesh mesh) {
     return mesh;
 }
 
-/// Of a triangle with a NaN bounds may be finite.
-std::vector<Box> boxes_of(const TriangleMesh& mesh) {
-    std::vector<Box> boxes(mesh.triangles.size());
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-        const Triangle<float> t = mesh.triangle(i);
-        if (!is_finite(t.a) || !is_finite(t.b) || !is_finite(t.c))
-            throw InvalidBox(i, "a corner of the triangle is not finite");
-        boxes[i] = t.bounds();
-    }
-    return boxes;
-}
-
 Tree tree_of(const TriangleMesh& mesh, const BuildFunction& builder, const Executor& executor) {
     return builder.build_of_mesh ? builder.build_of_mesh(mesh, executor)
-                                 : builder(boxes_of(mesh), executor);
+                                 : builder(triangle_boxes(mesh, executor).span(), executor);
 }
 
 /// Chunks come in any order, and in each the rays ascend.
@@ -96,7 +85,7 @@ struct MeshBvh::State {
             if (!layout->answers(Query::regions)) {
                 Tree tree;
                 closed_.boxes = make_layout(layout_entry_of(LayoutName::wide8), BinnedSahBuilder{},
-                                            boxes_of(mesh), serial(), tree);
+                                            triangle_boxes(mesh, serial()).span(), serial(), tree);
             }
         });
         return closed_;

@@ -76,6 +76,7 @@
 #include "trees/queries/touching_pairs.h"
 #include "trees/queries/tree_pairs.h"
 #include "trees/tree.h"
+#include "trees/triangle_boxes.h"
 #include "trees/world/allowed_pairs.h"
 #include "trees/world/bodies/body_shape.h"
 #include "trees/world/bodies/ledger.h"

@@ -44,6 +44,13 @@ void add_plan_options(CLI::App& command, std::filesystem::path& config, Override
                     "\"motion\"; may be given more than once")
         ->allow_extra_args(false);
     command
+        .add_option(
+            "--robot", overrides.robots,
+            "a robot of your own (URDF; with FILE.srdf beside it the pairs of its links "
+            "that may touch, else adjacent ones) for the blocks with scene = \"robot\"; may "
+            "be given more than once")
+        ->allow_extra_args(false);
+    command
         .add_option("--threads", overrides.threads,
                     "numbers of threads, such as 1,2, instead of those of the sweep file")
         ->delimiter(',')

@@ -10,6 +10,7 @@ namespace boxwood::bench {
 
 std::vector<ContenderEntry> fcl_meshes();
 std::vector<ContenderEntry> fcl_motions(); ///< of meshes that move
+std::vector<ContenderEntry> fcl_robots();  ///< self-collision
 std::vector<ContenderEntry> cgal_meshes();
 
 } // namespace boxwood::bench

@@ -6,6 +6,7 @@
 #include "bench/plan/cell_name.h"
 #include "bench/plan/config.h"
 #include "scenes/moving/recording.h"
+#include "scenes/robots/robot_scene.h"
 #include "scenes/sampling/rays.h"
 
 #include <fmt/format.h>
@@ -79,6 +80,7 @@ struct OwnOption {
 constexpr OwnOption own_options[] = {{"--mesh", "mesh", &Overrides::meshes},
                                      {"--boxes", "boxes", &Overrides::boxes},
                                      {"--motion", motion_scene, &Overrides::motions},
+                                     {"--robot", robot_scene, &Overrides::robots},
                                      {"--rays", "mesh", &Overrides::rays}};
 
 /// The number of items of a file, so that cell names can say it.
@@ -174,9 +176,11 @@ Plan make_plan(const std::string& config_text, const std::string& config_file,
     if (plan.cells.empty())
         throw BadInput(
             overrides.only.empty()
-                ? fmt::format("{}: no cell to measure; blocks of scene \"mesh\" need "
-                              "--mesh FILE, of \"boxes\" --boxes FILE, of \"motion\" --motion FILE",
-                              config_file)
+                ? fmt::format(
+                      "{}: no cell to measure; blocks of scene \"mesh\" need "
+                      "--mesh FILE, of \"boxes\" --boxes FILE, of \"motion\" --motion FILE, "
+                      "of \"robot\" --robot FILE",
+                      config_file)
                 : fmt::format("--only \"{}\" leaves no cell of {}; --dry-run without "
                               "it lists all",
                               overrides.only, config_file));

@@ -17,7 +17,7 @@ struct Overrides {
     std::optional<std::uint64_t> seed;
     std::string only; ///< regular expression searched for in cell names
     /// The user's own, for blocks of such scenes; rays for those of meshes.
-    std::vector<std::filesystem::path> meshes, boxes, motions, rays;
+    std::vector<std::filesystem::path> meshes, boxes, motions, rays, robots;
 
     /// As the command line says it, but for the rounds: {"--threads", "1,2", "--mesh", FILE, ...}.
     std::vector<std::string> arguments() const;

@@ -14,6 +14,7 @@ class NearestOnMesh final : public PointContender {
     using PointContender::PointContender;
 
   private:
+    bool is_of_mesh() const override { return true; }
     void run(Answers& answers, const Executor& executor, Work* work) override {
         std::vector<SurfacePoint>& nearest = list_of<SurfacePoint>(answers);
         nearest.resize(scene_.points.size());

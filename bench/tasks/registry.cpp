@@ -27,6 +27,7 @@
     X(tolerance)                                                                                   \
     X(contacts)                                                                                    \
     X(continuous)                                                                                  \
+    X(robot_self)                                                                                  \
     X(scene_queries)                                                                               \
     X(triangle_triangle)                                                                           \
     X(triangle_distance)                                                                           \

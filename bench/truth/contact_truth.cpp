@@ -82,9 +82,7 @@ class ContactTruth final : public Truth {
                 fmt::format("pose {}: triangles {} and {}: {}", of.pose, of.a, of.b, what);
     }
 
-    bool touch(const PosedPair& pair) const {
-        return std::ranges::binary_search(touching_, pair);
-    }
+    bool touch(const PosedPair& pair) const { return std::ranges::binary_search(touching_, pair); }
 
     void judge_pairs(const std::vector<PosedContact>& got, results::Check& check) const {
         std::vector<PosedPair> named;

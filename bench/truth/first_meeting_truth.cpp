@@ -111,8 +111,7 @@ class Motions {
     explicit Motions(const Scene& scene)
         : scene_(scene), mesh_(triangles_at(scene.mesh, {})), still_(mesh_) {
         for (std::size_t i = 0; i < scene.poses.size(); ++i)
-            ways_.emplace_back(scene.poses[i],
-                               scene.poses[next_pose(i, scene.poses.size())],
+            ways_.emplace_back(scene.poses[i], scene.poses[next_pose(i, scene.poses.size())],
                                scene.spec.motion == "screw");
     }
 
@@ -148,8 +147,7 @@ class FirstMeetingTruth final : public Truth {
         check.n_got = got.size();
         if (got.size() != motions_.size()) {
             check.missing = motions_.size();
-            check.witness =
-                fmt::format("{} answers for {} motions", got.size(), motions_.size());
+            check.witness = fmt::format("{} answers for {} motions", got.size(), motions_.size());
             judgement.conclude(false);
             return judgement;
         }
@@ -211,8 +209,8 @@ class FirstMeetingTruth final : public Truth {
             return {false, fmt::format("said never to meet, but free only until {}", got.t_free)};
         if (got.meets == Meets::yes)
             if (const double apart = motions_.least(i, got.t_hit).distance; apart > 8 * tolerance_)
-                return {false, fmt::format("said to meet at {}, where they are {} apart",
-                                           got.t_hit, apart)};
+                return {false, fmt::format("said to meet at {}, where they are {} apart", got.t_hit,
+                                           apart)};
         if (got.t_free > free_until_[i])
             if (const auto t = touch_before(i, got.t_free))
                 return {true, fmt::format("said to be free until {}, and at {} they touch",

@@ -115,8 +115,7 @@ class MeshDistanceTruth final : public Truth {
         if (got.triangles.a >= mesh_.size() || got.triangles.b >= mesh_.size())
             return complain(check.missing, "no triangles are named");
         const Triangle<double> b = triangle_at(scene_.mesh, got.triangles.b, scene_.poses[i]);
-        const double named =
-            std::sqrt(oracle::nearest(mesh_[got.triangles.a], b).squared.get_d());
+        const double named = std::sqrt(oracle::nearest(mesh_[got.triangles.a], b).squared.get_d());
         const auto [truth, lo] = least_[i];
         const double error = std::abs(got.distance - truth);
         check.max_abs_err = std::max(check.max_abs_err, error);
@@ -142,7 +141,8 @@ class MeshDistanceTruth final : public Truth {
     double size_;
 };
 
-/// Of the poses: on which side of a tolerance. Nearer to it than 2^-30 of it both answers are right.
+/// Of the poses: on which side of a tolerance. Nearer to it than 2^-30 of it both answers are
+/// right.
 class WithinTruth final : public Truth {
   public:
     WithinTruth(const Scene& scene, double tolerance, unsigned threads)

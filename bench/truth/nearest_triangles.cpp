@@ -109,7 +109,8 @@ class NearestTriangles::Search {
   private:
     /// No pair of the two is nearer.
     template <class A, class B>
-    double bound(const A& a, const B& b, const Aabb<double>& box_a, const Aabb<double>& box_b) const {
+    double bound(const A& a, const B& b, const Aabb<double>& box_a,
+                 const Aabb<double>& box_b) const {
         double squared = 0;
         for (int axis = 0; axis < 3; ++axis) {
             const double d = std::max(
@@ -172,8 +173,8 @@ class NearestTriangles::Search {
     }
 
     const NearestTriangles &a_, &b_;
-    double rounding_;              ///< of a gap along a direction
-    Vec3<double> direction_{};     ///< shorter than 1, so that a gap along it is a bound
+    double rounding_;          ///< of a gap along a direction
+    Vec3<double> direction_{}; ///< shorter than 1, so that a gap along it is a bound
     double least_ = infinity, skipped_ = infinity;
 };
 

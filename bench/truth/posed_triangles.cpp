@@ -24,7 +24,8 @@ PosedTriangles triangles_at(const TriangleMesh& mesh, const RigidTransform<doubl
     return all;
 }
 
-std::vector<Pair> touching_pairs(const PosedTriangles& a, const PosedTriangles& b, unsigned threads) {
+std::vector<Pair> touching_pairs(const PosedTriangles& a, const PosedTriangles& b,
+                                 unsigned threads) {
     std::vector<Aabb<float>> boxes;
     for (const PosedTriangles* side : {&a, &b})
         for (const Triangle<double>& t : *side)

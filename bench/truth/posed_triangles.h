@@ -20,7 +20,8 @@ PosedTriangles triangles_at(const TriangleMesh& mesh, const RigidTransform<doubl
 
 /// The pairs of triangles of two sides that share a point, ascending, by rational arithmetic on all
 /// whose boxes overlap, which a sweep finds without a tree.
-std::vector<Pair> touching_pairs(const PosedTriangles& a, const PosedTriangles& b, unsigned threads);
+std::vector<Pair> touching_pairs(const PosedTriangles& a, const PosedTriangles& b,
+                                 unsigned threads);
 
 /// The least distance in each pose of the scene.
 std::vector<NearestTriangles::Least> least_distances(const Scene& scene, unsigned threads);

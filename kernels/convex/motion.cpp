@@ -8,21 +8,6 @@ namespace {
 using namespace detail;
 using V = Vec3<double>;
 
-/// The rotation by the angle about the unit axis (Rodrigues).
-Rows rotation_about(V axis, double angle) {
-    const double s = std::sin(angle), half = std::sin(angle / 2), c = 2 * half * half; // 1 - cos
-    const double x = axis.x, y = axis.y, z = axis.z;
-    return {{{1 - c * (y * y + z * z), c * x * y - s * z, c * x * z + s * y},
-             {c * x * y + s * z, 1 - c * (x * x + z * z), c * y * z - s * x},
-             {c * x * z - s * y, c * y * z + s * x, 1 - c * (x * x + y * y)}}};
-}
-Rows product(const Rows& a, const Rows& b) {
-    Rows m;
-    for (std::size_t i = 0; i < 3; ++i)
-        m[i] = transposed_times(b, a[i]);
-    return m;
-}
-
 /// Axis times angle of the rotation that turns the first into the second.
 V turn_between(const Rows& from, const Rows& to) {
     const Rows m = product(to, {{{from[0].x, from[1].x, from[2].x},

@@ -36,8 +36,8 @@ std::vector<Pose> poses_of(const py::object& given, const std::string& name) {
     const Rows<double> rows(given, name, {4, 4});
     std::vector<Pose> poses;
     for (std::size_t i = 0; i < rows.size(); ++i)
-        poses.push_back(named_pose(rows.numbers().subspan(16 * i, 16),
-                                       name + ": row " + std::to_string(i)));
+        poses.push_back(
+            named_pose(rows.numbers().subspan(16 * i, 16), name + ": row " + std::to_string(i)));
     return poses;
 }
 

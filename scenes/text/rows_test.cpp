@@ -40,7 +40,9 @@ TEST(Rows, BadBoxesAreNamedByLineAndColumn) {
 }
 
 TEST(ReadFile, GivesAllBytesOrSaysWhyNot) {
-    const std::string bytes = std::string(3'000'001, 'x') + '\0' + "\r\n";
+    std::string bytes(3'000'001, 'x');
+    bytes.push_back('\0');
+    bytes += "\r\n";
     std::filesystem::path gone;
     {
         const FileOf file(bytes);

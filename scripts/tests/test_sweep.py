@@ -91,7 +91,7 @@ def rounds_there(out):
 def stopped_sweep(config, out, signal_number, rounds):
     """Starts a long sweep, sends it and its children the signal in the middle of a round after
     `rounds` of them, and gives its exit code and what it said."""
-    command = [PROGRAM, "sweep", "--config", config, "--out", out, "--rounds", "1000"]
+    command = [PROGRAM, "sweep", "--config", config, "--out", out, "--rounds", "1000", "--wait", "0s"]
     with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True) as process:
         deadline = time.monotonic() + 60
         while rounds_there(out) < rounds and time.monotonic() < deadline:
@@ -107,7 +107,7 @@ def test_a_killed_sweep_goes_on_from_its_finished_rounds(config, tmp_path):
     there = rounds_there(out)
     assert code == -signal.SIGKILL and 3 <= there < 1000 and not out.exists()
 
-    done = sweep("--config", config, "--out", out, "--rounds", there + 2)
+    done = sweep("--config", config, "--out", out, "--rounds", there + 2, "--wait", "0s")
     assert done.returncode == 0, done.stderr
     assert f"{there} rounds are there from an earlier start; 2 to go" in done.stderr
     assert run.read(out).rounds == there + 2

@@ -13,8 +13,8 @@
 #include <span>
 #include <string_view>
 
-/// Rays at a mesh, over any layout. Those of a batch take turns (traversals/rays/ray_wave-inl.h), so
-/// they are best handed over many at a time; single_rays.h is for who has one.
+/// Rays at a mesh, over any layout. Those of a batch take turns (traversals/rays/ray_wave-inl.h),
+/// so they are best handed over many at a time; single_rays.h is for who has one.
 namespace boxwood {
 
 enum class RayQuery : std::uint8_t {

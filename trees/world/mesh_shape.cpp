@@ -16,6 +16,7 @@
 #include "trees/world/detail/shape_bounds.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -190,6 +191,8 @@ class NearestTriangle {
 
     bool wants(double bound) const { return !(bound > 0) || bound < wanted_; }
     bool take(std::uint32_t i, const Triangle<double>& t) {
+        if (!wants(gap_along_normal(t)))
+            return false;
         const PlacedTriangle placed(t);
         convex::SignedDistance d = shape_.measure(placed, rough_);
         if (d.lo > 0 && d.lo < wanted_ && d.hi > goal_.stop_at &&
@@ -207,6 +210,8 @@ class NearestTriangle {
         if (d.hi < best_.hi) {
             const DistanceOptions& o = goal_.options;
             best_ = {d.distance, d.lo, d.hi, d.point_a, d.point_b, {i, 0}};
+            normal_ = d.normal;
+            shape_begins_ = convex::extent_along(shape_.shape, shape_.pose, normal_).least;
             // What is beyond the best one's own lo cannot make the answer's less.
             wanted_ =
                 std::max(0.0, std::min({wanted_, d.lo, d.hi * (1 - o.relative) - o.absolute}));
@@ -224,9 +229,22 @@ class NearestTriangle {
     }
 
   private:
+    /// A bound of the distance: the gap along the normal of the best so far. A height is off by 4u
+    /// of the corner's |coordinates|, and the normal is of length 1 to 2^-40.
+    double gap_along_normal(const Triangle<double>& t) const {
+        double high = -std::numeric_limits<double>::infinity(), size = std::abs(shape_begins_);
+        for (const Vec3<double>& p : {t.a, t.b, t.c}) {
+            high = std::max(high, dot(normal_, p));
+            size = std::max(size, std::abs(p.x) + std::abs(p.y) + std::abs(p.z));
+        }
+        return (shape_begins_ - high) * (1 - 0x1p-40) - 0x1p-49 * size;
+    }
+
     PlacedShape shape_;
     DistanceGoal goal_;
     convex::Tolerance rough_, fine_;
+    Vec3<double> normal_{}; ///< from the nearest triangle so far to the shape
+    double shape_begins_ = -std::numeric_limits<double>::infinity(); ///< along the normal
     double wanted_; ///< what is nearer is looked for
     double least_lo_ = std::numeric_limits<double>::infinity();
     MeshDistance best_;

@@ -30,16 +30,16 @@ std::vector<convex::SignedDistance> distances_by_force(const TriangleMesh& mesh,
 
 /// What the kernels' bounds may be off by at most, of sizes about 4.
 constexpr double kernel_width = 1e-12;
-/// The same of depths of round shapes.
-constexpr double depth_width = 1e-4;
+/// The same of distances and of depths of round shapes, whose nearest points are many nearly alike.
+constexpr double round_width = 1e-7, depth_width = 1e-4;
 
 bool is_on_triangle(const Vec3<double>& p, const Triangle<double>& t) {
     return CertifiedDistance::distance({p, p, p}, t).hi < kernel_width;
 }
-bool is_in_shape(const Vec3<double>& p, const Shape& shape, const Pose& pose) {
+bool is_in_shape(const Vec3<double>& p, const Shape& shape, const Pose& pose, double width) {
     Pose at;
     at.translation = p;
-    return convex::signed_distance(convex::Sphere{0}, at, shape, pose).lo < kernel_width;
+    return convex::signed_distance(convex::Sphere{0}, at, shape, pose).lo < width;
 }
 
 /// One mesh and one shape in one pose, held against all its triangles.
@@ -62,11 +62,11 @@ class MeshAndShape {
         EXPECT_LE(d.lo, d.distance);
         EXPECT_LE(d.distance, d.hi);
         EXPECT_LE(d.hi * (1 - options.relative) - options.absolute,
-                  d.lo + d.hi * 0x1p-34 + kernel_width);
+                  d.lo + d.hi * 0x1p-34 + round_width);
         ASSERT_LT(d.triangles.a, tree_.size());
         EXPECT_EQ(d.triangles.b, 0u);
         EXPECT_TRUE(is_on_triangle(d.point_a, triangle_at(mesh_, d.triangles.a)));
-        EXPECT_TRUE(is_in_shape(d.point_b, shape_, pose_));
+        EXPECT_TRUE(is_in_shape(d.point_b, shape_, pose_, d.hi == 0 ? round_width : kernel_width));
         if (hi < -kernel_width) {
             EXPECT_EQ(d.hi, 0);
         }
@@ -207,7 +207,7 @@ TEST(MeshShape, LeavesMostTrianglesOut) {
             ++queries;
             EXPECT_NE(touch, Answer::maybe);
         }
-        EXPECT_LT(of_distance.triangle_tests, queries * mesh.triangles.size() / 100);
+        EXPECT_LT(of_distance.triangle_tests, queries * mesh.triangles.size() / 30);
         EXPECT_LT(of_collide.triangle_tests, queries * mesh.triangles.size() / 200);
         EXPECT_LT(of_distance.box_tests, queries * mesh.triangles.size() / 10);
         EXPECT_GT(of_distance.node_visits, 0u);

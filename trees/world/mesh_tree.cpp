@@ -6,6 +6,7 @@
 
 #include "kernels/arithmetic/rounding.h"
 #include "trees/layouts/detail/collapse.h"
+#include "trees/triangle_boxes.h"
 #include "trees/world/detail/obb_fit.h"
 
 #include <algorithm>
@@ -23,23 +24,12 @@ using namespace detail;
 
 constexpr std::size_t chunk = 64; // blocks to a task
 
-Buffer<Box> boxes_of(const TriangleMesh& mesh) {
+void require_range(const Buffer<Box>& boxes) {
     constexpr float largest = 0x1p60f;
-    Buffer<Box> boxes(mesh.triangles.size());
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-        for (const std::uint32_t vertex : mesh.triangles[i]) {
-            if (vertex >= mesh.vertices.size())
-                throw std::invalid_argument("triangle " + std::to_string(i) + " has vertex " +
-                                            std::to_string(vertex) + ", and there are " +
-                                            std::to_string(mesh.vertices.size()));
-            const Vec3<float>& p = mesh.vertices[vertex];
-            if (!is_finite(p) || std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) >= largest)
-                throw InvalidBox(i, "its triangle has a coordinate that is not finite or beyond "
-                                    "2^60");
-        }
-        boxes[i] = mesh.triangle(i).bounds();
-    }
-    return boxes;
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        for (int axis = 0; axis < 3; ++axis)
+            if (!(boxes[i].min[axis] > -largest && boxes[i].max[axis] < largest))
+                throw InvalidBox(i, "its triangle has a coordinate beyond 2^60");
 }
 
 /// The corners of all triangles in the order of the tree's leaves.
@@ -194,9 +184,10 @@ void set_lane(ObbBlock& block, std::size_t lane, const PosedBox& box, std::uint3
 
 MeshTree::MeshTree(TriangleMesh mesh, const MeshTreeOptions& options) : mesh_(std::move(mesh)) {
     const Executor& executor = options.executor ? *options.executor : serial();
-    const Buffer<Box> boxes = boxes_of(mesh_);
+    const Buffer<Box> boxes = triangle_boxes(mesh_, executor);
     if (empty())
         return;
+    require_range(boxes);
     const Tree tree = options.builder(boxes.span(), executor);
     if (tree.is_split)
         throw std::invalid_argument("a tree of parts of triangles is for rays, not for pairs");

@@ -44,6 +44,26 @@ bool Solid::holds(const TriangleMesh& other, std::span<const std::uint32_t> vert
     return !surface_.empty();
 }
 
+/// As it does not meet the surface, it is where any of its points is.
+Answer Solid::holds(const convex::Shape& shape, const Pose& shape_in_this) const {
+    const Vec3<double>& t = shape_in_this.translation;
+    return shape.visit([&]<class S>(const S& s) {
+        if constexpr (convex::BoundedShape<S>) {
+            constexpr Vec3<double> ways[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+            for (const Vec3<double>& way : ways) {
+                const Vec3<double> at = convex::support(s, way);
+                const double error = 0x1p-44 * (std::abs(t.x) + std::abs(t.y) + std::abs(t.z) +
+                                                std::abs(at.x) + std::abs(at.y) + std::abs(at.z));
+                if (const auto inside = holds(shape_in_this(at), error))
+                    return *inside ? Answer::yes : Answer::no;
+            }
+            return Answer::maybe;
+        } else {
+            return Answer::no; // it has no end, and this has
+        }
+    });
+}
+
 bool collide(const Solid& a, const Solid& b, const Pose& b_in_a, Work* work) {
     if (collide(a.surface(), b.surface(), b_in_a, work))
         return true;
@@ -60,25 +80,7 @@ bool collide(const Solid& a, const Solid& b, const Pose& b_in_a, Work* work) {
 Decision collide(const Solid& solid, const convex::Shape& shape, const Pose& shape_in_solid,
                  Work* work) {
     const Decision touch = collide(solid.surface(), shape, shape_in_solid, work);
-    if (touch.answer != Answer::no)
-        return touch;
-    // The shape does not meet the surface: it is where any of its points is.
-    const Vec3<double>& t = shape_in_solid.translation;
-    return shape.visit([&]<class S>(const S& s) -> Decision {
-        if constexpr (convex::BoundedShape<S>) {
-            constexpr Vec3<double> ways[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-            for (const Vec3<double>& way : ways) {
-                const Vec3<double> at = convex::support(s, way);
-                const double error = 0x1p-44 * (std::abs(t.x) + std::abs(t.y) + std::abs(t.z) +
-                                                std::abs(at.x) + std::abs(at.y) + std::abs(at.z));
-                if (const auto inside = solid.holds(shape_in_solid(at), error))
-                    return {*inside ? Answer::yes : Answer::no, 0};
-            }
-            return {Answer::maybe, 0};
-        } else {
-            return touch; // it has no end, and the solid has
-        }
-    });
+    return touch.answer != Answer::no ? touch : Decision{solid.holds(shape, shape_in_solid), 0};
 }
 
 } // namespace boxwood

@@ -38,6 +38,8 @@ class Solid {
     /// The same of some vertices of a mesh that hang together.
     bool holds(const TriangleMesh& other, std::span<const std::uint32_t> vertices,
                const Pose& other_in_this) const;
+    /// The same of a convex shape; maybe: so near to the surface that floats do not tell.
+    Answer holds(const convex::Shape& shape, const Pose& shape_in_this) const;
 
   private:
     MeshTree surface_;

@@ -1,6 +1,6 @@
+#include "scenes/robots/four_link.h"
 #include "bench/commands/demos/demo.h"
 #include "bench/commands/demos/watched_traversal.h"
-#include "scenes/robots/four_link.h"
 #include "scenes/scene.h"
 #include "trees/builder.h"
 #include "trees/inspect/draw.h"
@@ -116,8 +116,9 @@ std::string four_link_demo() {
         "   is everything inside them: all pairs across are pruned by that one test.\n\n"
         "{}\n   Pairs found: {}.\n   {} box tests instead of {}; {} of {} pairs were never looked "
         "at.\n{}\n",
-        traversal.text(), pair_names(traversal.pairs, link_names), traversal.lines.size(), all_pairs,
-        all_pairs - std::min(all_pairs, traversal.lines.size()), all_pairs, large_case());
+        traversal.text(), pair_names(traversal.pairs, link_names), traversal.lines.size(),
+        all_pairs, all_pairs - std::min(all_pairs, traversal.lines.size()), all_pairs,
+        large_case());
 
     const AllowedCollisions allowed = allow_neighbours(n);
     std::vector<Pair> filtered;

@@ -25,10 +25,9 @@ constexpr std::size_t shown_tests = 24, shown_joints = 12;
 class Lesson {
   public:
     Lesson(const RobotCase& robot, const AllowedPairs& allowed, const LinkNarrowPhase& narrow_phase)
-        : robot_(robot), allowed_(allowed),
-          self_(robot.robot, robot.boxes, allowed, narrow_phase), narrow_phase_(narrow_phase),
-          links_(robot.boxes.links().begin(), robot.boxes.links().end()),
-          matrix_(links_.size()) {
+        : robot_(robot), allowed_(allowed), self_(robot.robot, robot.boxes, allowed, narrow_phase),
+          narrow_phase_(narrow_phase),
+          links_(robot.boxes.links().begin(), robot.boxes.links().end()), matrix_(links_.size()) {
         for (std::uint32_t i = 0; i < links_.size(); ++i) {
             names_.push_back(robot.robot.links()[links_[i]].name);
             for (std::uint32_t j = 0; j < i; ++j)
@@ -81,8 +80,8 @@ class Lesson {
         std::string text;
         for (const Pair p : left) {
             const std::uint32_t a = links_[p.a], b = links_[p.b];
-            const bool touch = std::ranges::find(found_->colliding, Pair{a, b}) !=
-                               found_->colliding.end();
+            const bool touch =
+                std::ranges::find(found_->colliding, Pair{a, b}) != found_->colliding.end();
             text += fmt::format("     {} and {}: boxes overlap; ", names_[p.a], names_[p.b]);
             if (touch) {
                 text += "the links TOUCH\n";
@@ -141,13 +140,12 @@ std::uint64_t state_to_show(const Robot& robot, RobotSelfCollision& self, std::u
 std::string pairs_text(const Lesson& lesson, const Tree& tree) {
     const WatchedTraversal traversal = watched_traversal(tree, lesson.names());
     const std::vector<Pair> left = reported_pairs(tree, lesson.matrix());
-    return fmt::format(
-        "{}\n   {} box tests instead of {}; {} pairs overlap, {} of them are allowed, {} {} left:\n"
-        "   {}.\n\n{}",
-        traversal.text(shown_tests), traversal.lines.size(), lesson.all_pairs(),
-        traversal.pairs.size(), traversal.pairs.size() - left.size(), left.size(),
-        left.size() == 1 ? "is" : "are", pair_names(left, lesson.names()),
-        lesson.narrow_text(left));
+    return fmt::format("{}\n   Box tests: {} instead of {}. Pairs that overlap: {}; of them "
+                       "allowed: {}; left: {}:\n"
+                       "   {}.\n\n{}",
+                       traversal.text(shown_tests), traversal.lines.size(), lesson.all_pairs(),
+                       traversal.pairs.size(), traversal.pairs.size() - left.size(), left.size(),
+                       pair_names(left, lesson.names()), lesson.narrow_text(left));
 }
 
 std::string lesson_of(const RobotDemo& demo, const RobotCase& robot,
@@ -163,10 +161,10 @@ std::string lesson_of(const RobotDemo& demo, const RobotCase& robot,
     std::string text = fmt::format(
         "The robot {}: which of its links may collide?\n\n"
         "1. The links and their boxes\n"
-        "   {} links, of which {} have geometry for collisions, and {} joints with a value of\n"
-        "   their own. Around each link we put an axis-aligned box: links can only touch where\n"
-        "   their boxes overlap, and six comparisons tell whether two boxes do. At rest, in\n"
-        "   metres:\n\n{}\n",
+        "   Links: {}; with geometry for collisions: {}; values of joints: {}. Around each link "
+        "we\n"
+        "   put an axis-aligned box: links can only touch where their boxes overlap, and six\n"
+        "   comparisons tell whether two boxes do. At rest, in metres:\n\n{}\n",
         robot.robot.name(), robot.robot.links().size(), lesson.n(), robot.robot.n_values(),
         lesson.box_lines());
     text += fmt::format("2. Without a tree\n"
@@ -184,8 +182,8 @@ std::string lesson_of(const RobotDemo& demo, const RobotCase& robot,
         "   so is everything inside them. Of the pairs that are found those that are allowed to\n"
         "   collide are dropped ({}, {}). The rest are looked at triangle\n"
         "   by triangle: only that tells whether links touch, and how far apart they are.\n\n{}\n",
-        lesson.allowed_text(),
-        proposed ? "as there is no --srdf" : "as the SRDF file says", pairs_text(lesson, tree));
+        lesson.allowed_text(), proposed ? "as there is no --srdf" : "as the SRDF file says",
+        pairs_text(lesson, tree));
 
     RobotSelfCollision probe(robot.robot, robot.boxes, allowed, narrow_phase);
     const std::uint64_t number = state_to_show(robot.robot, probe, demo.seed, values);
@@ -193,7 +191,8 @@ std::string lesson_of(const RobotDemo& demo, const RobotCase& robot,
     text += fmt::format(
         "5. The joints move, and the tree is refitted\n"
         "   Random state {} of seed {}, {}: {}.\n"
-        "   Forward kinematics moves the links and gives each a new box. The tree keeps its shape:\n"
+        "   Forward kinematics moves the links and gives each a new box. The tree keeps its "
+        "shape:\n"
         "   refitting gives each leaf its new box, then each parent the box of its two children.\n",
         number, demo.seed,
         lesson.any_collide() ? "the first in which links collide" : "none of 1,000 collides",

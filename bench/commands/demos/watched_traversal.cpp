@@ -43,8 +43,7 @@ class Watcher {
         };
         if (!overlaps(x.box, y.box)) {
             seen_.pruned += below;
-            say(below == 1 ? "apart"
-                           : fmt::format("apart -> {} pairs pruned by one test", below));
+            say(below == 1 ? "apart" : fmt::format("apart -> {} pairs pruned by one test", below));
         } else if (below == 1) {
             const std::uint32_t i = tree_.item(a), j = tree_.item(b);
             seen_.pairs.push_back({std::min(i, j), std::max(i, j)});
@@ -88,10 +87,11 @@ std::string WatchedTraversal::text(std::size_t max_lines) const {
     if (lines.size() <= max_lines)
         return fmt::format("{}", fmt::join(lines, ""));
     const std::size_t first = max_lines / 2, last = lines.size() - (max_lines - first);
-    return fmt::format("{}     ... {} tests more ...\n{}",
-                       fmt::join(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(first), ""),
-                       last - first,
-                       fmt::join(lines.begin() + static_cast<std::ptrdiff_t>(last), lines.end(), ""));
+    return fmt::format(
+        "{}     ... {} tests more ...\n{}",
+        fmt::join(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(first), ""),
+        last - first,
+        fmt::join(lines.begin() + static_cast<std::ptrdiff_t>(last), lines.end(), ""));
 }
 
 WatchedTraversal watched_traversal(const Tree& tree, std::span<const std::string> names) {
@@ -101,7 +101,8 @@ WatchedTraversal watched_traversal(const Tree& tree, std::span<const std::string
     std::ranges::sort(seen.pairs);
     if (const std::vector<Pair> found = sorted_pairs(tree, nullptr); found != seen.pairs)
         throw std::logic_error(fmt::format("demo: the traversal shown finds {}, self_pairs {}",
-                                           pair_names(seen.pairs, names), pair_names(found, names)));
+                                           pair_names(seen.pairs, names),
+                                           pair_names(found, names)));
     return seen;
 }
 
@@ -126,8 +127,7 @@ std::string refit_text(Tree& tree, Boxes boxes, std::span<const std::string> nam
     std::vector<std::string> changed, unchanged;
     for (std::size_t i = tree.nodes.size();
          i-- > 0;) // children before their parents, as refit goes
-        (tree.nodes[i].box == before[i] ? unchanged : changed)
-            .push_back(describe(tree, i, names));
+        (tree.nodes[i].box == before[i] ? unchanged : changed).push_back(describe(tree, i, names));
     return fmt::format("   {} of {} nodes changed, bottom-up: {}.\n   As before: {}.\n",
                        changed.size(), tree.nodes.size(), fmt::join(changed, ", "),
                        unchanged.empty() ? "none" : fmt::format("{}", fmt::join(unchanged, ", ")));

@@ -267,8 +267,7 @@ void run(const RobotQuery& query, const MakeLinkNarrowPhase& make_narrow_phase, 
     try {
         if (query.state && !query.files.srdf)
             throw BadInput("--state names a state of an SRDF file; give one by --srdf");
-        const std::unique_ptr<RobotCase> robot =
-            read_robot(query.files);
+        const std::unique_ptr<RobotCase> robot = read_robot(query.files);
         const std::unique_ptr<LinkNarrowPhase> narrow_phase =
             make_narrow_phase(robot->robot, robot->meshes);
         propose_allowed(query, *narrow_phase, *robot);
@@ -306,13 +305,12 @@ void add_query_robot(CLI::App& query, MakeLinkNarrowPhase narrow_phase) {
                                      "\"NAME=VALUE,...\", radians or metres; the others at rest, "
                                      "which is 0, or as near to it as their limits allow");
     auto* state = robot->add_option("--state", options->state, "a state of the SRDF file");
-    auto* random =
-        robot
-            ->add_option("--random", options->random,
-                         "so many states at random within the limits instead")
-            ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{10'000'000}))
-            ->excludes(joints)
-            ->excludes(state);
+    auto* random = robot
+                       ->add_option("--random", options->random,
+                                    "so many states at random within the limits instead")
+                       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{10'000'000}))
+                       ->excludes(joints)
+                       ->excludes(state);
     robot
         ->add_option("--steps", options->steps,
                      "go from each random state to the next in so many steps, joints in proportion")

@@ -58,8 +58,10 @@ class Picture {
                    ".hit{{fill:#f0935a}}}}</style>\n"
                    "<rect width=\"100%\" height=\"100%\" class=\"page\"/>\n"
                    "<text x=\"{3:.0f}\" y=\"22\" font-weight=\"bold\">{2}: least distance of its "
-                   "links</text>\n<text x=\"{3:.0f}\" y=\"40\" font-size=\"12\">{4} states; nearest "
-                   "{5:.4g} m at {6:.3g}; {7} collide (shaded); interval lo to hi as a band</text>\n",
+                   "links</text>\n<text x=\"{3:.0f}\" y=\"40\" font-size=\"12\">{4} states; "
+                   "nearest "
+                   "{5:.4g} m at {6:.3g}; {7} collide (shaded); interval lo to hi as a "
+                   "band</text>\n",
                    width, height, escaped(robot), left, states_.size(), nearest->least.distance,
                    nearest->time, n) +
                body_ + "</svg>\n";
@@ -70,7 +72,8 @@ class Picture {
         return left + (width - left - right) * (time - begin_) / (end_ - begin_);
     }
     double y(double distance) const {
-        return height - bottom - (height - top - bottom) * std::min(distance, farthest_) / farthest_;
+        return height - bottom -
+               (height - top - bottom) * std::min(distance, farthest_) / farthest_;
     }
 
     void axes() {
@@ -81,9 +84,10 @@ class Picture {
                                  left, y(d), width - right, left - 8, y(d) + 4, d);
         const double step = std::max(1.0, tick_of(end_ - begin_));
         for (double t = begin_; t <= end_; t += step)
-            body_ += fmt::format("<path d=\"M{0:.1f} {1:.0f}V{2:.0f}\" class=\"grid\"/><text "
-                                 "x=\"{0:.1f}\" y=\"{3:.0f}\" text-anchor=\"middle\">{4:g}</text>\n",
-                                 x(t), top, height - bottom, height - bottom + 18, t);
+            body_ +=
+                fmt::format("<path d=\"M{0:.1f} {1:.0f}V{2:.0f}\" class=\"grid\"/><text "
+                            "x=\"{0:.1f}\" y=\"{3:.0f}\" text-anchor=\"middle\">{4:g}</text>\n",
+                            x(t), top, height - bottom, height - bottom + 18, t);
         body_ += fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\" text-anchor=\"middle\">time, in "
                              "waypoints</text>\n",
                              (left + width - right) / 2, height - 10);
@@ -101,10 +105,12 @@ class Picture {
                 return (states_[a].time + states_[b].time) / 2;
             };
             const double from = i == 0 ? states_[i].time : half(i - 1, i);
-            const double to = last + 1 == states_.size() ? states_[last].time : half(last, last + 1);
-            body_ += fmt::format("<rect x=\"{:.1f}\" y=\"{:.0f}\" width=\"{:.1f}\" height=\"{:.0f}\" "
-                                 "class=\"hit\"/>\n",
-                                 x(from), top, std::max(1.0, x(to) - x(from)), height - top - bottom);
+            const double to =
+                last + 1 == states_.size() ? states_[last].time : half(last, last + 1);
+            body_ +=
+                fmt::format("<rect x=\"{:.1f}\" y=\"{:.0f}\" width=\"{:.1f}\" height=\"{:.0f}\" "
+                            "class=\"hit\"/>\n",
+                            x(from), top, std::max(1.0, x(to) - x(from)), height - top - bottom);
             i = last;
         }
     }

@@ -1,6 +1,7 @@
 #include "bench/peers/coal/module.h"
 #include "bench/peers/comers.h"
 #include "bench/tasks/detail/median_distance.h"
+#include "bench/tasks/detail/mesh_pair_answers.h"
 #include "bench/tasks/moving_pairs.h"
 
 #include <dlfcn.h>
@@ -157,10 +158,11 @@ ContenderEntry meshes(const MeshRow& of) {
                                   "distance that its default of 1e-3 is for"));
     e.answers = {{of.task, [of](const Job& job) {
                       const bool needs_tolerance = of.query == CoalMeshQuery::within_margin;
-                      return module().meshes(
-                          job, of.volume, of.query,
-                          needs_tolerance ? median_distance(*job.scene) : 0);
+                      return module().meshes(job, of.volume, of.query,
+                                             needs_tolerance ? median_distance(*job.scene) : 0);
                   }}};
+    if (of.query == CoalMeshQuery::first_contact)
+        e.classes = {with_contact_class};
     return e;
 }
 

@@ -158,6 +158,5 @@ std::unique_ptr<Contender> make_kernel(const Job& job, CoalKernel kernel) {
 } // namespace boxwood::bench
 
 extern "C" [[gnu::visibility("default")]] const boxwood::bench::CoalModule boxwood_coal;
-const boxwood::bench::CoalModule boxwood_coal{boxwood::bench::make_manager,
-                                              boxwood::bench::make_kernel,
-                                              boxwood::bench::make_coal_meshes};
+const boxwood::bench::CoalModule boxwood_coal{
+    boxwood::bench::make_manager, boxwood::bench::make_kernel, boxwood::bench::make_coal_meshes};

@@ -1,8 +1,8 @@
 #include "bench/peers/answering.h"
 #include "bench/peers/comers.h"
 #include "bench/peers/fcl/fcl_bounds.h"
-#include "bench/peers/mesh_peers.h"
 #include "bench/peers/kernel_peers.h"
+#include "bench/peers/mesh_peers.h"
 #include "bench/peers/point_peers.h"
 #include "bench/tasks/moving_pairs.h"
 
@@ -183,8 +183,9 @@ Peer fcl_peer() {
     add_others(all);
     for (ContenderEntry& e : fcl_points())
         all.push_back(std::move(e));
-    for (ContenderEntry& e : fcl_meshes())
-        all.push_back(std::move(e));
+    for (const auto more : {fcl_meshes, fcl_motions, fcl_robots})
+        for (ContenderEntry& e : more())
+            all.push_back(std::move(e));
     for (ContenderEntry& e : fcl_kernels())
         all.push_back(std::move(e));
     return peer;

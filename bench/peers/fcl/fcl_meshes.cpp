@@ -140,6 +140,8 @@ void append_touches(std::vector<ContenderEntry>& all, const std::string& volume,
                      with_contact ? "collide for one contact, with its point and normal"
                                   : "collide for one contact, without its point"));
         e.answers = {answering<FirstTouch<Volume>>("collide", with_contact)};
+        if (with_contact)
+            e.classes = {with_contact_class};
     }
     ContenderEntry& every = all.emplace_back(
         entry_of(volume + ".all", what, "collide for all contacts, without their points"));
@@ -172,8 +174,6 @@ std::vector<ContenderEntry> fcl_meshes() {
     append_touches<fcl::OBBd>(all, "obb", "OBB");
     append_distances<fcl::OBBRSSd>(all, "obbrss", "OBBRSS");
     append_distances<fcl::RSSd>(all, "rss", "RSS");
-    for (ContenderEntry& e : fcl_motions())
-        all.push_back(std::move(e));
     return all;
 }
 

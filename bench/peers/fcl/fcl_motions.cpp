@@ -1,15 +1,19 @@
 #include "bench/peers/answering.h"
 #include "bench/peers/fcl/mesh_models.h"
 #include "bench/peers/mesh_peers.h"
+#include "bench/truth/first_meeting_truth.h"
+#include "trees/world/motion.h"
 
 #include <fcl/math/motion/interp_motion.h>
 #include <fcl/math/motion/screw_motion.h>
 #include <fcl/math/motion/translation_motion.h>
 #include <fcl/narrowphase/continuous_collision.h>
+#include <fcl/narrowphase/distance.h>
 #include <fmt/format.h>
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace boxwood::bench {
 namespace {
@@ -19,8 +23,8 @@ std::unique_ptr<fcl::MotionBased> motion_between(const fcl::Transform3d& from,
                                                  const fcl::Transform3d& to, bool is_screw) {
     if (is_screw)
         return std::make_unique<fcl::ScrewMotion<double>>(from, to);
-    return std::make_unique<fcl::InterpMotion<double>>(from.linear(), from.translation(), to.linear(),
-                                                to.translation(), fcl::Vector3d::Zero());
+    return std::make_unique<fcl::InterpMotion<double>>(
+        from.linear(), from.translation(), to.linear(), to.translation(), fcl::Vector3d::Zero());
 }
 
 template <class Volume> class FirstMeetings final : public MeshModels<Volume> {
@@ -53,38 +57,94 @@ template <class Volume> class FirstMeetings final : public MeshModels<Volume> {
     fcl::ContinuousCollisionRequestd request_;
 };
 
-template <class Volume>
-ContenderEntry meetings_of(const std::string& name, const std::string& volume,
-                           fcl::CCDSolverType solver, std::size_t samples, const std::string& how) {
+/// Conservative advancement as a user writes it on FCL's distance: no step is longer than the
+/// distance takes at the greatest speed, until the two are within the task's tolerance.
+template <class Volume> class SteppedMeetings final : public MeshModels<Volume> {
+  public:
+    explicit SteppedMeetings(const Job& job)
+        : MeshModels<Volume>(job),
+          path_(job.scene->spec.motion == "screw" ? MotionPath::screw : MotionPath::linear),
+          tolerance_(meeting_tolerance(job.scene->mesh)) {
+        for (const Aabb<float>& box : job.scene->boxes)
+            box_.extend(box);
+    }
+    void query(Answers& answers) override {
+        std::vector<FirstMeeting>& meetings = list_of<FirstMeeting>(answers);
+        meetings.clear();
+        const auto& poses = this->scene_.poses;
+        for (std::size_t i = 0; i < poses.size(); ++i)
+            meetings.push_back(
+                meeting_of(boxwood::Motion(poses[i], poses[next_pose(i, poses.size())], path_)));
+    }
+
+  private:
+    FirstMeeting meeting_of(const boxwood::Motion& motion) {
+        const double speed = motion.longest_way(box_);
+        double t = 0;
+        while (t < 1) {
+            result_.clear();
+            const double apart = fcl::distance<double>(
+                this->model_.get(), fcl::Transform3d::Identity(), this->model_.get(),
+                transform_of(motion.at(t)), request_, result_);
+            if (!(apart > tolerance_))
+                return {t, t, Meets::yes};
+            t = speed > 0 ? t + apart / speed : 1;
+        }
+        return {};
+    }
+
+    MotionPath path_;
+    double tolerance_;
+    Aabb<float> box_; ///< of the mesh
+    fcl::DistanceRequestd request_{false};
+    fcl::DistanceResultd result_;
+};
+
+ContenderEntry entry_of_motions(const std::string& name, const std::string& volume,
+                                const std::string& how) {
     ContenderEntry e;
     e.name = "fcl." + name;
     e.library = "fcl";
-    e.summary = fmt::format("FCL's BVHModel of {}, continuousCollide by {}", volume, how);
+    e.summary = fmt::format("FCL's BVHModel of {}, {}", volume, how);
     e.notes = fmt::format("build = one model, which stands for the mesh and for its copy; query = "
-                          "motion after motion, made from its two poses in the query; "
-                          "CCDM_LINEAR's point that goes straight is the copy's origin; {}; "
-                          "doubles; one thread",
+                          "motion after motion, made from its two poses in the query; {}; doubles; "
+                          "one thread",
                           how);
     e.precision = "f64";
     e.runs_on = RunsOn::one_thread;
-    e.answers = {answering<FirstMeetings<Volume>>("continuous", solver, samples)};
     return e;
+}
+
+template <class Volume>
+void append_motions(std::vector<ContenderEntry>& all, const std::string& name,
+                    const std::string& volume) {
+    ContenderEntry& continuous = all.emplace_back(entry_of_motions(
+        name + ".continuous", volume,
+        "continuousCollide by conservative advancement, which ends where a step is 1e-5 of the "
+        "motion: that is fixed, toc_err and num_max_iterations are not read; it passes through "
+        "meshes, and meets them where they are not"));
+    continuous.answers = {answering<FirstMeetings<Volume>>(
+        "continuous", fcl::CCDC_CONSERVATIVE_ADVANCEMENT, std::size_t{10})};
+    ContenderEntry& stepped = all.emplace_back(entry_of_motions(
+        name + ".stepped", volume,
+        "conservative advancement around its distance, with our motions and their bound of the "
+        "speed, as continuousCollide errs; until nearer than 1e-5 of the mesh's diagonal"));
+    stepped.answers = {answering<SteppedMeetings<Volume>>("continuous")};
 }
 
 } // namespace
 
 std::vector<ContenderEntry> fcl_motions() {
-    const std::string advancement =
-        "conservative advancement, which ends where a step is 1e-5 of the motion: that is fixed, "
-        "toc_err and num_max_iterations are not read";
-    const std::string samples =
-        "100 samples, its default way with ten times its number of samples: what is between two "
-        "of them is passed through, and a contact is found too late";
-    return {meetings_of<fcl::OBBRSSd>("obbrss.continuous", "OBBRSS",
-                                      fcl::CCDC_CONSERVATIVE_ADVANCEMENT, 10, advancement),
-            meetings_of<fcl::RSSd>("rss.continuous", "RSS", fcl::CCDC_CONSERVATIVE_ADVANCEMENT, 10,
-                                   advancement),
-            meetings_of<fcl::OBBRSSd>("obbrss.sampled", "OBBRSS", fcl::CCDC_NAIVE, 100, samples)};
+    std::vector<ContenderEntry> all;
+    append_motions<fcl::OBBRSSd>(all, "obbrss", "OBBRSS");
+    append_motions<fcl::RSSd>(all, "rss", "RSS");
+    ContenderEntry& sampled = all.emplace_back(entry_of_motions(
+        "obbrss.sampled", "OBBRSS",
+        "continuousCollide by 100 samples, its default way with ten times its number of samples: "
+        "what is between two of them is passed through, and a contact is found too late"));
+    sampled.answers = {
+        answering<FirstMeetings<fcl::OBBRSSd>>("continuous", fcl::CCDC_NAIVE, std::size_t{100})};
+    return all;
 }
 
 } // namespace boxwood::bench

@@ -11,31 +11,48 @@
 
 namespace boxwood::bench {
 
+inline fcl::Transform3d transform_of(const RigidTransform<double>& pose) {
+    fcl::Transform3d transform = fcl::Transform3d::Identity();
+    for (int i = 0; i < 3; ++i) {
+        const Vec3<double>& row = pose.rotation[static_cast<std::size_t>(i)];
+        for (int j = 0; j < 3; ++j)
+            transform.linear()(i, j) = row[j];
+        transform.translation()(i) = pose.translation[i];
+    }
+    return transform;
+}
+
+/// A mesh in FCL's own types.
+struct MeshOfFcl {
+    std::vector<fcl::Vector3d> vertices;
+    std::vector<fcl::Triangle> triangles;
+
+    explicit MeshOfFcl(const TriangleMesh& mesh) {
+        for (const Vec3<float>& v : mesh.vertices)
+            vertices.emplace_back(static_cast<double>(v.x), static_cast<double>(v.y),
+                                  static_cast<double>(v.z));
+        for (const auto& [a, b, c] : mesh.triangles)
+            triangles.emplace_back(a, b, c);
+    }
+    /// Makes an empty model this mesh's, split at the mean, the default.
+    template <class Volume> void build(fcl::BVHModel<Volume>& model) const {
+        model.beginModel(static_cast<int>(triangles.size()), static_cast<int>(vertices.size()));
+        model.addSubModel(vertices, triangles);
+        model.endModel();
+    }
+};
+
 /// FCL's model of the scene's mesh, which stands for the mesh and for its copy.
 template <class Volume> class MeshModels : public Contender {
   public:
-    explicit MeshModels(const Job& job) : scene_(*job.scene) {
-        for (const Vec3<float>& v : scene_.mesh.vertices)
-            vertices_.emplace_back(static_cast<double>(v.x), static_cast<double>(v.y),
-                                   static_cast<double>(v.z));
-        for (const auto& [a, b, c] : scene_.mesh.triangles)
-            triangles_.emplace_back(a, b, c);
-        for (const RigidTransform<double>& pose : scene_.poses) {
-            fcl::Transform3d& placed = poses_.emplace_back(fcl::Transform3d::Identity());
-            for (int i = 0; i < 3; ++i) {
-                const Vec3<double>& row = pose.rotation[static_cast<std::size_t>(i)];
-                for (int j = 0; j < 3; ++j)
-                    placed.linear()(i, j) = row[j];
-                placed.translation()(i) = pose.translation[i];
-            }
-        }
+    explicit MeshModels(const Job& job) : scene_(*job.scene), mesh_(scene_.mesh) {
+        for (const RigidTransform<double>& pose : scene_.poses)
+            poses_.push_back(transform_of(pose));
     }
     void build() override {
         model_.reset();
         model_ = std::make_unique<fcl::BVHModel<Volume>>();
-        model_->beginModel(static_cast<int>(triangles_.size()), static_cast<int>(vertices_.size()));
-        model_->addSubModel(vertices_, triangles_);
-        model_->endModel();
+        mesh_.build(*model_);
     }
 
   protected:
@@ -51,8 +68,7 @@ template <class Volume> class MeshModels : public Contender {
     fcl::CollisionResultd result_;
 
   private:
-    std::vector<fcl::Vector3d> vertices_;
-    std::vector<fcl::Triangle> triangles_;
+    MeshOfFcl mesh_;
 };
 
 } // namespace boxwood::bench

@@ -6,6 +6,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 /// What tasks about a mesh and a copy of it are answered with.
 namespace boxwood::bench {
@@ -21,6 +22,9 @@ struct PosedDistance {
     double distance = 0, lo = 0, hi = 0;
     Pair triangles{~0u, ~0u};
 };
+
+/// The class of contenders of `collide` that also give the contact's point, normal and depth.
+inline const std::string with_contact_class = "with a contact";
 
 /// Where two triangles meet in one of the scene's poses: the copy leaves the mesh there if it is
 /// moved by depth * normal. In the mesh's frame; the normal is of length 1.

@@ -45,9 +45,12 @@ std::unique_ptr<Answers> right_answers(const Task& task, const Scene& scene) {
 }
 
 /// FCL's distances and Coal's, of triangles that touch too, are wrong where two meshes touch
-/// (hard-cases.md).
+/// (hard-cases.md). FCL's continuousCollide passes through meshes, by each of its ways.
 bool is_known_to_err(const ContenderEntry& entry, std::string_view task, std::string_view kind) {
-    return entry.is_peer && task == "distance" && (kind == "deep" || kind == "shallow");
+    if (!entry.is_peer)
+        return false;
+    return task == "distance" ? kind == "deep" || kind == "shallow"
+                              : task == "continuous" && !entry.name.ends_with(".stepped");
 }
 
 void expect_right_answers(const Task& task, const Scene& scene, std::string_view kind) {
@@ -147,9 +150,10 @@ TEST(MeshPairTasks, TheTruthSeesThatAnotherPairIsNearer) {
                 return scene.poses[i](Vec3<double>(k == 0 ? t.a : k == 1 ? t.b : t.c));
             };
             const auto distance_to = [&](std::uint32_t b) {
-                return std::sqrt(oracle::nearest({Vec3<double>(a.a), Vec3<double>(a.b), Vec3<double>(a.c)},
-                                                 {corner(b, 0), corner(b, 1), corner(b, 2)})
-                                     .squared.get_d());
+                return std::sqrt(
+                    oracle::nearest({Vec3<double>(a.a), Vec3<double>(a.b), Vec3<double>(a.c)},
+                                    {corner(b, 0), corner(b, 1), corner(b, 2)})
+                        .squared.get_d());
             };
             // The next one in the mesh that does not share the nearest point.
             std::uint32_t other = got.triangles.b;

@@ -397,10 +397,10 @@ TreeTask::Way HitTask::way(const Choice& choice) const {
             .promise = kernel.promise,
             .make = make,
             .query = Query::rays,
-            .cannot = order.name == "tiled" ? no_picture : nullptr,
             .classes = ray_class::of_ours(order.classes, choice.kernel),
             .make_on_device = on_device(choice),
-            .make_by_front_door = by_front_door};
+            .make_by_front_door = by_front_door,
+            .cannot = order.name == "tiled" ? no_picture : nullptr};
 }
 
 Answering::Make HitTask::on_device(const Choice& choice) const {

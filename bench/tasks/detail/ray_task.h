@@ -33,6 +33,8 @@ class RayContender : public TreeContender {
     }
 
   protected:
+    bool is_of_mesh() const override { return true; }
+
     std::string kernel_;
     TriangleBlocks triangles_;
 };

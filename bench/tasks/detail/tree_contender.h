@@ -3,6 +3,7 @@
 #include "bench/tasks/contender.h"
 #include "trees/builder.h"
 #include "trees/layout.h"
+#include "trees/triangle_boxes.h"
 
 #include <memory>
 #include <optional>
@@ -11,7 +12,7 @@
 
 namespace boxwood::bench {
 
-/// What our contenders share that answer from one tree: boxes to tree to layout.
+/// What our contenders share that answer from one tree: boxes, or triangles, to tree to layout.
 class TreeContender : public Contender {
   public:
     TreeContender(const Job& job, BuildFunction build, const LayoutEntry& layout)
@@ -20,13 +21,21 @@ class TreeContender : public Contender {
 
     void build() override {
         layout_.reset();
-        layout_ = make_layout(layout_entry_, build_, scene_.boxes, *executor_, tree_);
+        if (is_of_mesh()) {
+            const Buffer<Box> boxes = triangle_boxes(scene_.mesh, *executor_);
+            layout_ = make_layout(layout_entry_, build_, boxes.span(), *executor_, tree_);
+        } else {
+            layout_ = make_layout(layout_entry_, build_, scene_.boxes, *executor_, tree_);
+        }
     }
     std::optional<StructureInfo> structure() const override {
         return StructureInfo{layout_->bytes(), &tree_};
     }
 
   protected:
+    /// Whether it is given triangles, as peers are, and makes their boxes itself.
+    virtual bool is_of_mesh() const { return false; }
+
     const Scene& scene_;
     std::unique_ptr<Executor> executor_;
     BuildFunction build_;

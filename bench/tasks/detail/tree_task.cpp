@@ -117,13 +117,15 @@ ContenderEntry TreeTask::contender(const Choice& choice) const {
         way.why_not_on_device = "trees/bvh.h is for the host";
     }
     entry.summary = fmt::format("{}; {}", builder.summary, layout.summary);
-    entry.notes = "build: boxes to tree to layout; answers in the same order for any number of "
-                  "threads";
+    entry.notes =
+        "build: from boxes, or from triangles where rays or surface points are wanted, to tree to "
+        "layout; answers in the same order for any number of "
+        "threads";
     if (choice.by_front_door)
         entry.notes += "; by the front door (trees/bvh.h) around the same parts";
-    entry.cannot = [this, &layout, query = way.query, cannot = std::move(way.cannot),
-                    why_not = std::move(way.why_not_on_device)](
-                       const Job& job) -> std::optional<std::string> {
+    entry.cannot =
+        [this, &layout, query = way.query, cannot = std::move(way.cannot),
+         why_not = std::move(way.why_not_on_device)](const Job& job) -> std::optional<std::string> {
         if (query && !layout.answers(*query))
             return fmt::format("the layout {} does not answer {}", layout.name, to_string(*query));
         if (auto why = cannot ? cannot(*job.scene) : std::nullopt)

@@ -47,12 +47,12 @@ class TreeTask : public Task {
                                                               const LayoutEntry&)>;
         Make make;
         std::optional<Query> query{}; ///< what a layout must answer for it
-        std::function<std::optional<std::string>(const Scene&)> cannot{}; ///< why, if so
         std::vector<std::string> classes{};
         Answering::Make make_on_device{}; ///< null if it has no form for a device
         Answering::Make make_by_graph{};  ///< or for a graph
         std::string why_not_on_device{};  ///< if there is a reason to tell
         Make make_by_front_door{}; ///< by Bvh or MeshBvh, where the task has the key front_door
+        std::function<std::optional<std::string>(const Scene&)> cannot{}; ///< why, if so
     };
     virtual Way way(const Choice& choice) const = 0;
     /// Why a contender that has a form for a device cannot take this scene there.

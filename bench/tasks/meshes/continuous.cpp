@@ -1,11 +1,11 @@
 /// When a copy of a mesh that moves from pose to pose first touches it.
 
+#include "trees/world/continuous.h"
 #include "bench/plan/block_reader.h"
 #include "bench/tasks/detail/mesh_pair_task.h"
 #include "bench/truth/first_meeting_truth.h"
 #include "kernels/suggest.h"
 #include "scenes/sampling/poses.h"
-#include "trees/world/continuous.h"
 
 #include <xxhash.h>
 

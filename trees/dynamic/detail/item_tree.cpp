@@ -53,6 +53,7 @@ void ItemTree::reorder() {
     changed_.clear();
     ratio_ = 1;
     unmeasured_ = 0;
+    ++orders_;
 }
 
 } // namespace boxwood::detail

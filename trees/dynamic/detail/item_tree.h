@@ -39,6 +39,10 @@ class ItemTree {
 
     const PackedLayout& layout() const { return tree_.layout(); }
     const Box& box(std::uint32_t item) const { return boxes_[item]; }
+    Boxes boxes() const { return boxes_; }
+    std::size_t bytes() const { return tree_.bytes() + boxes_.capacity() * sizeof(Box); }
+    /// How often all items were ordered again.
+    std::size_t orders() const { return orders_; }
 
   private:
     static constexpr double per_order = 25; ///< nanoseconds for each item
@@ -50,6 +54,7 @@ class ItemTree {
     MovingTree tree_;
     double ratio_ = 1;           ///< of areas, as it was when last measured
     std::size_t unmeasured_ = 0; ///< items that changed since then
+    std::size_t orders_ = 0;
 };
 
 } // namespace boxwood::detail

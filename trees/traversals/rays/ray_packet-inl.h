@@ -69,8 +69,7 @@ class PacketSlabs {
                 entry_high = hn::Min(entry_high, hn::MulSub(high, er, es));
                 exit_low = hn::Max(exit_low, hn::MulSub(low, xr, xs));
                 exit_high = hn::Max(exit_high, hn::MulSub(high, xr, xs));
-                entry_size =
-                    hn::Max(entry_size, hn::MulAdd(hn::Abs(er), widest, hn::Abs(es)));
+                entry_size = hn::Max(entry_size, hn::MulAdd(hn::Abs(er), widest, hn::Abs(es)));
                 exit_size = hn::Max(exit_size, hn::MulAdd(hn::Abs(xr), widest, hn::Abs(xs)));
             }
             const bool one_sign = negative == 0 || negative == n;
@@ -78,11 +77,11 @@ class PacketSlabs {
             // Lines of both signs have no such bound: the axis says nothing.
             const float beyond = one_sign ? 0 : no_bound;
             const BoundingLine entry =
-                line_below({bounds.min[axis], bounds.max[axis], least(entry_low),
-                            least(entry_high), greatest(entry_size) + beyond, entry_rdir_[axis][0]});
-            const BoundingLine exit =
-                line_above({bounds.min[axis], bounds.max[axis], greatest(exit_low),
-                            greatest(exit_high), greatest(exit_size) + beyond, exit_rdir_[axis][0]});
+                line_below({bounds.min[axis], bounds.max[axis], least(entry_low), least(entry_high),
+                            greatest(entry_size) + beyond, entry_rdir_[axis][0]});
+            const BoundingLine exit = line_above(
+                {bounds.min[axis], bounds.max[axis], greatest(exit_low), greatest(exit_high),
+                 greatest(exit_size) + beyond, exit_rdir_[axis][0]});
             front.entry_rdir[axis] = entry.rdir;
             front.entry_shift[axis] = entry.shift;
             front.exit_rdir[axis] = exit.rdir;
@@ -92,7 +91,8 @@ class PacketSlabs {
     }
 
     /// Which rays hit this child, each as NodeClip::hits_of has it.
-    template <class Node> HWY_INLINE std::uint32_t hits_of(const Node& node, std::size_t child) const {
+    template <class Node>
+    HWY_INLINE std::uint32_t hits_of(const Node& node, std::size_t child) const {
         return is_mixed_ ? hits<true>(node, child) : hits<false>(node, child);
     }
 
@@ -148,8 +148,7 @@ class PacketSlabs {
                     near = hn::Set(d, node.plane[axis + (negative ? 3 : 0)][child]);
                     far = hn::Set(d, node.plane[axis + (negative ? 0 : 3)][child]);
                 }
-                entry = hn::Max(entry, hn::MulSub(near, rdir,
-                                                  hn::Load(d, entry_shift_[axis] + i)));
+                entry = hn::Max(entry, hn::MulSub(near, rdir, hn::Load(d, entry_shift_[axis] + i)));
                 exit = hn::Min(exit, hn::MulSub(far, hn::Load(d, exit_rdir_[axis] + i),
                                                 hn::Load(d, exit_shift_[axis] + i)));
             }

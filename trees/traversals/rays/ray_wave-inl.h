@@ -20,8 +20,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::detail::HWY_NAMESPACE {
 
-/// The closest, any or all hits of a job's rays, many rays at a time, each with a stack of its own. A
-/// step takes one ray through one node or one leaf and fetches what its next step will read; then
+/// The closest, any or all hits of a job's rays, many rays at a time, each with a stack of its own.
+/// A step takes one ray through one node or one leaf and fetches what its next step will read; then
 /// the other rays have theirs, so that a ray waits neither for memory nor for its own last step.
 /// All rays at nodes have their step, then all at leaves: nothing is left to predict but whether
 /// triangles are hit and how many waiting nodes are too far. Each ray visits what it would alone.
@@ -36,8 +36,9 @@ template <class Node, RayKernel K, RayMode mode, bool Counted> class RayWave {
 
     /// But for the rays of the packets that are answered.
     RayWave(const RayJob& job, const SlabBounds& bounds, PacketSet answered)
-        : job_(job), bounds_(bounds), answered_(answered), places_{{{job.triangles.nodes.data(), sizeof(Node)},
-                                    {job.triangles.blocks.data(), sizeof(RayBlock<Node>)}}} {}
+        : job_(job), bounds_(bounds),
+          answered_(answered), places_{{{job.triangles.nodes.data(), sizeof(Node)},
+                                        {job.triangles.blocks.data(), sizeof(RayBlock<Node>)}}} {}
 
     void run() {
         const std::size_t room = room_for<Node>(job_.depth);
@@ -126,9 +127,9 @@ template <class Node, RayKernel K, RayMode mode, bool Counted> class RayWave {
     void hand_over() {
         for (std::size_t i = 0; i < in_all_.size(); ++i) {
             const auto [begin, end] = in_all_[i];
-            if (begin < end && !job_.sink->take(job_.chunk,
-                                                static_cast<std::uint32_t>(job_.first_ray + i),
-                                                std::span(all_).subspan(begin, end - begin))) {
+            if (begin < end &&
+                !job_.sink->take(job_.chunk, static_cast<std::uint32_t>(job_.first_ray + i),
+                                 std::span(all_).subspan(begin, end - begin))) {
                 *job_.stop = true;
                 return;
             }
@@ -172,8 +173,8 @@ template <class Node, RayKernel K, RayMode mode, bool Counted> class RayWave {
     HWY_INLINE void open(WaveRay& own) {
         const Node& node = *reinterpret_cast<const Node*>(own.place);
         own.state->count(Node::width, static_cast<std::size_t>(own.top - own.bottom));
-        own.top = push_hit_children<closest>(
-            node, NodeClip<Node>(own.slabs, own.state->t_min()), own.state->t_max(), own.top);
+        own.top = push_hit_children<closest>(node, NodeClip<Node>(own.slabs, own.state->t_min()),
+                                             own.state->t_max(), own.top);
     }
 
     HWY_INLINE void test(WaveRay& own) {

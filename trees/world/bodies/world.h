@@ -127,8 +127,9 @@ class World {
 
     std::vector<Pair> candidates(double tolerance = 0) const;
     std::vector<std::uint32_t> candidates_of(std::uint32_t body, double tolerance = 0) const;
-    /// Into a sink, in no order, as one chunk; boxes and masks are tested together on the way down
-    /// the tree. `work`, if given, is added to.
+    /// Into a sink, in no order, as one chunk. What is allowed is left out where leaves meet; masks
+    /// are tested with the boxes on the way down the tree where they keep most pairs apart.
+    /// `work`, if given, is added to.
     void candidates(PairSink& sink, double tolerance = 0, Work* work = nullptr) const;
 
     // Two bodies, whether or not they may meet. Of b and a the answer is that of a and b.
@@ -197,6 +198,7 @@ class World {
     Body& at(std::uint32_t body) { return const_cast<Body&>(std::as_const(*this).at(body)); }
     PosedShape posed(std::uint32_t body) const;
     void place(std::uint32_t body);
+    static void require_tolerance(double tolerance);
     Search search() const;
     bool boxes_are_near(const Search& where, Pair pair, double tolerance) const;
     bool are_near(const Search& where, Pair pair, double tolerance) const;

@@ -16,8 +16,7 @@ using detail::StageCounts;
 
 std::vector<BodyFirstContact> World::first_contacts(std::span<const BodyMotion> motions,
                                                     const ContinuousOptions& options) const {
-    if (!(options.tolerance >= 0))
-        throw std::invalid_argument("a tolerance must be at least 0");
+    require_tolerance(options.tolerance);
     std::vector<std::uint8_t> moving(bodies_.size());
     std::vector<BodyMotion> ways(bodies_.size());
     for (const BodyMotion& motion : motions) {
@@ -57,11 +56,12 @@ std::vector<BodyFirstContact> World::first_contacts(std::span<const BodyMotion> 
                 in_tree[body] = swept[body];
         const PackedLayout layout =
             PackedLayout::of_order(in_tree, still.layout.items().first(in_tree.size()), serial());
-        each_pair({layout, still.groups, wide, swept, moving}, 0, nullptr, [&](Pair pair) {
-            if ((moving[pair.a] | moving[pair.b]) != 0)
-                pairs.push_back(pair);
-            return true;
-        });
+        each_pair({layout, still.groups, wide, swept, moving}, options.tolerance, nullptr,
+                  [&](Pair pair) {
+                      if ((moving[pair.a] | moving[pair.b]) != 0)
+                          pairs.push_back(pair);
+                      return true;
+                  });
         std::ranges::sort(pairs);
         call.items = pairs.size();
     }

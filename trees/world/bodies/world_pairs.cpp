@@ -17,12 +17,6 @@ namespace {
 using detail::Stage;
 using detail::StageCounts;
 
-void require_tolerance(double tolerance) {
-    if (!(tolerance >= 0 && tolerance < 0x1p60))
-        throw std::invalid_argument("a tolerance must be at least 0 and below 2^60, not " +
-                                    std::to_string(tolerance));
-}
-
 /// Wider by a tolerance, rounded outwards.
 Box wider(const Box& box, double by) {
     const double most = by * (1 + 0x1p-50);
@@ -53,6 +47,12 @@ bool reaches(const PosedShape& unbounded, const Box& box, double tolerance) {
 }
 
 } // namespace
+
+void World::require_tolerance(double tolerance) {
+    if (!(tolerance >= 0 && tolerance < 0x1p60))
+        throw std::invalid_argument("a tolerance must be at least 0 and below 2^60, not " +
+                                    std::to_string(tolerance));
+}
 
 World::Search World::search() const {
     State& state = *state_;

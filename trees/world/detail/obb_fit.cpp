@@ -66,7 +66,8 @@ void axes_of(const SymmetricRows& m, std::size_t n, float* const (&axes)[9]) {
     }
 }
 
-/// The integral of x x^T over a triangle is area / 12 (s s^T + a a^T + b b^T + c c^T), s = a + b + c.
+/// The integral of x x^T over a triangle is area / 12 (s s^T + a a^T + b b^T + c c^T), s = a + b +
+/// c.
 void moments_about(const float (&origin)[3], float scale, const CornerRows& corners,
                    std::size_t first, std::size_t n, Moments& sums) {
     const hn::CappedTag<float, 8> d;
@@ -92,8 +93,7 @@ void moments_about(const float (&origin)[3], float scale, const CornerRows& corn
                                     hn::Mul(hn::Sub(p[1][z], p[0][z]), hn::Sub(p[2][y], p[0][y])));
             squared = hn::MulAdd(c, c, squared);
         }
-        const Lanes area =
-            hn::IfThenElseZero(used, hn::Mul(hn::Sqrt(squared), hn::Set(d, 0.5f)));
+        const Lanes area = hn::IfThenElseZero(used, hn::Mul(hn::Sqrt(squared), hn::Set(d, 0.5f)));
         const Lanes third = hn::Mul(area, hn::Set(d, 1.0f / 3)),
                     twelfth = hn::Mul(area, hn::Set(d, 1.0f / 12));
         sum[0] = hn::Add(sum[0], area);

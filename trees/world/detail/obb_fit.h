@@ -15,7 +15,8 @@ struct CornerRows {
     const float* of[3][3];
 };
 
-/// Area, its first and its second moments (xx, xy, xz, yy, yz, zz) about a point, of some triangles.
+/// Area, its first and its second moments (xx, xy, xz, yy, yz, zz) about a point, of some
+/// triangles.
 struct Moments {
     double area = 0, first[3] = {}, second[6] = {};
 
@@ -28,8 +29,8 @@ struct Moments {
     }
 };
 
-/// Of the n triangles from `first` on, their corners seen from `centre` and times `scale`. In floats
-/// about the first corner, good to about 2^-20 of what they span.
+/// Of the n triangles from `first` on, their corners seen from `centre` and times `scale`. In
+/// floats about the first corner, good to about 2^-20 of what they span.
 Moments moments_of(const CornerRows& corners, std::size_t first, std::size_t n,
                    const Vec3<double>& centre, double scale);
 

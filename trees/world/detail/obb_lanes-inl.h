@@ -94,9 +94,8 @@ struct SixAxes {
             }
         }
         for (std::size_t j = 0; j < 3; ++j) {
-            apart[3 + j] =
-                hn::Abs(dot3(hn::Load(d8, axis[j][0] + i), hn::Load(d8, axis[j][1] + i),
-                             hn::Load(d8, axis[j][2] + i), t[0], t[1], t[2]));
+            apart[3 + j] = hn::Abs(dot3(hn::Load(d8, axis[j][0] + i), hn::Load(d8, axis[j][1] + i),
+                                        hn::Load(d8, axis[j][2] + i), t[0], t[1], t[2]));
             sum[3 + j] = own[j];
         }
     }

@@ -44,18 +44,44 @@ HWY_INLINE D8 dot(const D8 (&n)[3], const D8 (&p)[3]) {
 HWY_INLINE D8 least(const D8 (&x)[3]) { return hn::Min(hn::Min(x[0], x[1]), x[2]); }
 HWY_INLINE D8 greatest(const D8 (&x)[3]) { return hn::Max(hn::Max(x[0], x[1]), x[2]); }
 
-/// How far the envelope, without its radius, reaches along n from its middle, times |n|; n in its
-/// frame.
-HWY_INLINE D8 reach(const Envelope& e, const D8 (&n)[3]) {
-    const D8 x = hn::Mul(hn::Set(d8, e.half[0]), n[0]), y = hn::Mul(hn::Set(d8, e.half[1]), n[1]),
-             z = hn::Mul(hn::Set(d8, e.half[2]), n[2]);
-    if (e.form == Envelope::Form::box)
-        return hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), hn::Abs(z));
-    const D8 across = hn::Add(hn::Mul(x, x), hn::Mul(y, y));
-    if (e.form == Envelope::Form::round)
-        return hn::Add(hn::Sqrt(across), hn::Abs(z));
-    return hn::Sqrt(hn::Add(across, hn::Mul(z, z)));
-}
+/// How far the envelope, without its radius, reaches from its middle along n and against it, times
+/// |n|; n in its frame.
+struct Reach {
+    D8 forwards, backwards;
+
+    HWY_INLINE Reach(const Envelope& e, const D8 (&n)[3]) {
+        if (e.form == Envelope::Form::points) {
+            forwards = backwards = hn::Set(d8, -0x1p1000);
+            for (const Vec3<double>& p : e.points) {
+                const D8 along = dot(p + e.shift, n);
+                forwards = hn::Max(forwards, along);
+                backwards = hn::Max(backwards, hn::Neg(along));
+            }
+            return;
+        }
+        const D8 x = hn::Mul(hn::Set(d8, e.half[0]), n[0]),
+                 y = hn::Mul(hn::Set(d8, e.half[1]), n[1]),
+                 z = hn::Mul(hn::Set(d8, e.half[2]), n[2]);
+        if (e.form == Envelope::Form::box) {
+            forwards = backwards = hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), hn::Abs(z));
+            return;
+        }
+        const D8 across = hn::Add(hn::Mul(x, x), hn::Mul(y, y));
+        if (e.form == Envelope::Form::cylinder) {
+            forwards = backwards = hn::Add(hn::Sqrt(across), hn::Abs(z));
+        } else if (e.form == Envelope::Form::cone) { // its apex, or its base
+            const D8 base = hn::Sqrt(across);
+            forwards = hn::Max(z, hn::Sub(base, z));
+            backwards = hn::Max(hn::Neg(z), hn::Add(base, z));
+        } else {
+            forwards = backwards = hn::Sqrt(hn::Add(across, hn::Mul(z, z)));
+        }
+    }
+    /// The gap to what lies from low to high along n.
+    HWY_INLINE D8 gap_to(D8 low, D8 high) const {
+        return hn::Max(hn::Sub(low, forwards), hn::Sub(hn::Neg(high), backwards));
+    }
+};
 
 /// height / |n|; of short directions nearer to 0.
 HWY_INLINE D8 over_length(D8 height, const D8 (&n)[3]) {
@@ -77,6 +103,10 @@ struct Gaps {
 HWY_INLINE D8 bound_of(const Gaps& gaps) {
     const D8 root = hn::Sqrt(gaps.squares);
     return hn::IfThenElse(hn::Gt(root, hn::Zero(d8)), hn::Max(root, gaps.greatest), gaps.greatest);
+}
+
+bool is_round(const Envelope& e) {
+    return e.form == Envelope::Form::cylinder || e.form == Envelope::Form::cone;
 }
 
 double error_of(const Envelope& e, const PosedBox& own, double around) {
@@ -121,26 +151,41 @@ struct Boxes {
                 cosine[j][k] = dot(e.axis[k], axis[j]);
         }
         Gaps of_shape, of_boxes;
+        D8 along_z = hn::Zero(d8);
         for (std::size_t k = 0; k < 3; ++k) {
             D8 around = hn::Add(slack, hn::Set(d8, e.half[k]));
             for (std::size_t j = 0; j < 3; ++j)
                 around = hn::Add(around, hn::Mul(hn::Abs(cosine[j][k]), half[j]));
-            of_shape.add_square(hn::Sub(hn::Abs(way[k]), around));
+            along_z = hn::Sub(hn::Abs(way[k]), around); // at last
+            of_shape.add_square(along_z);
+        }
+        if (is_round(e)) {
+            const D8 out[3] = {way[0], way[1], hn::Zero(d8)};
+            D8 height = dot(out, out);
+            for (std::size_t j = 0; j < 3; ++j)
+                height = hn::Sub(height, hn::Mul(hn::Abs(dot(out, cosine[j])), half[j]));
+            Gaps of_rounding;
+            of_rounding.add_square(along_z);
+            of_rounding.add_square(
+                hn::Sub(over_length(height, out), hn::Add(slack, hn::Set(d8, e.half[0]))));
+            of_shape.squares = hn::Max(of_shape.squares, of_rounding.squares);
+            of_shape.add(of_rounding.greatest);
         }
         D8 between = dot(apart, apart);
         for (std::size_t j = 0; j < 3; ++j) {
-            const D8 along = hn::Abs(dot(axis[j], apart));
-            const D8 gap = hn::Sub(hn::Sub(along, half[j]), reach(e, cosine[j]));
+            const D8 along = dot(axis[j], apart);
+            const D8 gap =
+                Reach(e, cosine[j]).gap_to(hn::Sub(along, half[j]), hn::Add(along, half[j]));
             // Over the axis' length: with e = |axis|^2 - 1, less than 2^-21, 1 - e / 2 is below
             // 1 / |axis| by at most 3/8 e^2.
             const D8 squared = dot(axis[j], axis[j]);
             of_boxes.add_square(
                 hn::Mul(gap, hn::Sub(hn::Set(d8, 1.5), hn::Mul(hn::Set(d8, 0.5), squared))));
-            between = hn::Sub(between, hn::Mul(half[j], along));
+            between = hn::Sub(between, hn::Mul(half[j], hn::Abs(along)));
         }
         // Axes of floats are at right angles to 3 * 3.5 * 2^-24.
         of_boxes.squares = hn::Mul(of_boxes.squares, hn::Set(d8, 1 - 0x1p-19));
-        of_boxes.add(hn::Sub(over_length(hn::Sub(between, reach(e, way)), apart), slack));
+        of_boxes.add(hn::Sub(over_length(hn::Sub(between, Reach(e, way).forwards), apart), slack));
         return hn::Sub(hn::Max(bound_of(of_shape), bound_of(of_boxes)), hn::Set(d8, e.radius));
     }
 };
@@ -174,14 +219,17 @@ struct Triangles {
 
     HWY_INLINE D8 bounded(const Envelope& e) const {
         D8 p[3][3]; // corners along the shape's axes
-        Gaps gaps;
+        Gaps gaps, of_rounding;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             D8 along[3];
             for (std::size_t k = 0; k < 3; ++k)
                 p[k][axis] = along[k] = dot(e.axis[axis], corner[k]);
             const D8 half = hn::Set(d8, e.half[axis]);
-            gaps.add_square(
-                hn::Max(hn::Sub(least(along), half), hn::Sub(hn::Neg(greatest(along)), half)));
+            const D8 gap =
+                hn::Max(hn::Sub(least(along), half), hn::Sub(hn::Neg(greatest(along)), half));
+            gaps.add_square(gap);
+            if (axis == 2)
+                of_rounding.add_square(gap);
         }
         D8 edge[2][3], normal[3], middle[3];
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -195,10 +243,17 @@ struct Triangles {
                 hn::Sub(hn::Mul(edge[0][y], edge[1][z]), hn::Mul(edge[0][z], edge[1][y]));
         }
         const D8 square[3] = {dot(normal, p[0]), dot(normal, p[1]), dot(normal, p[2])};
-        gaps.add(over_length(
-            hn::Sub(hn::Max(least(square), hn::Neg(greatest(square))), reach(e, normal)), normal));
+        gaps.add(over_length(Reach(e, normal).gap_to(least(square), greatest(square)), normal));
         const D8 towards[3] = {dot(middle, p[0]), dot(middle, p[1]), dot(middle, p[2])};
-        gaps.add(over_length(hn::Sub(least(towards), reach(e, middle)), middle));
+        gaps.add(over_length(hn::Sub(least(towards), Reach(e, middle).forwards), middle));
+        if (is_round(e)) {
+            const D8 out[3] = {middle[0], middle[1], hn::Zero(d8)};
+            const D8 beside[3] = {dot(out, p[0]), dot(out, p[1]), dot(out, p[2])};
+            of_rounding.add_square(
+                hn::Sub(over_length(least(beside), out), hn::Set(d8, e.half[0])));
+            gaps.squares = hn::Max(gaps.squares, of_rounding.squares);
+            gaps.add(of_rounding.greatest);
+        }
         return hn::Sub(bound_of(gaps), hn::Set(d8, e.radius));
     }
 };
@@ -262,7 +317,7 @@ Envelope::Envelope(const convex::Shape& shape, const Pose& pose) : at(pose.trans
             halves = s.half;
         } else if constexpr (std::is_same_v<S, convex::Cylinder> ||
                              std::is_same_v<S, convex::Cone>) {
-            form = Form::round;
+            form = std::is_same_v<S, convex::Cone> ? Form::cone : Form::cylinder;
             halves = {s.radius, s.radius, s.half_length};
         } else if constexpr (std::is_same_v<S, convex::Ellipsoid>) {
             form = Form::ellipsoid;
@@ -273,7 +328,14 @@ Envelope::Envelope(const convex::Shape& shape, const Pose& pose) : at(pose.trans
             offset = s.offset * scale;
             for (int k = 0; k < 3; ++k)
                 normal = normal + (scale * s.normal[k]) * axis[k];
-        } else { // its box
+        } else {
+            form = Form::points;
+            if constexpr (std::is_same_v<S, convex::Hull>) {
+                points = s.points();
+            } else {
+                corners_ = {s.a, s.b, s.c};
+                points = corners_;
+            }
             const Aabb<double> box = convex::bounds(shape, Pose{});
             middle = 0.5 * (box.min + box.max);
             halves = (1 + 0x1p-50) * max(box.max - middle, middle - box.min);
@@ -283,6 +345,7 @@ Envelope::Envelope(const convex::Shape& shape, const Pose& pose) : at(pose.trans
         half[k] = halves[k];
         at = at + middle[k] * axis[k];
     }
+    shift = -middle;
     size = (half[0] + half[1] + half[2] + radius + std::abs(offset)) * (1 + 0x1p-50);
     const bool is_negative = half[0] < 0 || half[1] < 0 || half[2] < 0 || radius < 0;
     const double all =

@@ -29,8 +29,6 @@ class BodyTree {
     /// The groups of its lanes; after layout().
     const LaneGroups& lane_groups(std::span<const Groups> by_body) const;
 
-    /// By item of the tree: those of bodies, and empty ones.
-    Boxes boxes() const { return tree_.boxes(); }
     std::span<const std::uint32_t> wide() const { return wide_; } ///< not in the tree
     std::size_t bytes() const {
         const std::lock_guard lock(changing_);

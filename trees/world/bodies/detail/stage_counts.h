@@ -52,8 +52,8 @@ class StageCounts {
     /// One call of a stage, until it ends.
     class Call {
       public:
-        Call(StageCounts& counts, Stage stage, std::size_t items = 0)
-            : items(items), count_(counts.counts_[static_cast<std::size_t>(stage)]),
+        Call(StageCounts& counts, Stage stage, std::size_t n = 0)
+            : items(n), count_(counts.counts_[static_cast<std::size_t>(stage)]),
               is_timed_(counts.is_timed_) {
             if (is_timed_)
                 start_ = std::chrono::steady_clock::now();

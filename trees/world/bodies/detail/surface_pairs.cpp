@@ -56,11 +56,8 @@ Inside inside_solid(const PosedShape& outer, const PosedShape& inner) {
     const Solid& solid = outer.shape.solid();
     const Pose inner_in_outer = relative_pose(outer.pose, inner.pose);
     if (is_convex(inner)) {
-        const Vec3<double> point = point_of(inner.shape.convex_shape());
-        const Vec3<double>& t = inner_in_outer.translation;
-        const double error = 0x1p-46 * (std::abs(t.x) + std::abs(t.y) + std::abs(t.z));
-        const std::optional<bool> holds = solid.holds(inner_in_outer(point), error);
-        return {!holds ? Answer::maybe : *holds ? Answer::yes : Answer::no, inner.pose(point)};
+        const convex::Shape& shape = inner.shape.convex_shape();
+        return {solid.holds(shape, inner_in_outer), inner.pose(point_of(shape))};
     }
     const TriangleMesh& mesh = inner.shape.tree().mesh();
     const bool is_solid = inner.shape.shape_class() == ShapeClass::solid;
@@ -110,7 +107,7 @@ BodyDistance surface_distance(const PosedShape& a, const PosedShape& b,
             of_mesh.start = Pair{options.start->b, options.start->a};
         return swapped(surface_distance(b, a, of_mesh, work));
     }
-    if (options.start && options.start->a == none)
+    if (options.start && (options.start->a == none || (!is_convex(b) && options.start->b == none)))
         of_mesh.start.reset();
     const MeshTree& mesh = a.shape.tree();
     const Pose b_in_a = relative_pose(a.pose, b.pose);

@@ -48,8 +48,13 @@ Aabb<double> swept_box(const MovingShape& of) {
     const BodyShape& shape = of.shape;
     if (shape.empty())
         return {};
+    // The tolerance of first contacts by default, and some for rounding.
+    const auto& [low, high] = shape.bounds();
+    const double by = of.margin * (1 + 0x1p-50) + 0x1p-35 * length(high - low) +
+                      0x1p-40 * (length(max(-low, high)) + length(of.from.translation) +
+                                 length(of.to.translation));
     if (of.from.rotation == of.to.rotation) // all points go on straight lines
-        return wider(merge(shape.bounds_at(of.from), shape.bounds_at(of.to)), of.margin);
+        return wider(merge(shape.bounds_at(of.from), shape.bounds_at(of.to)), by);
     const Motion motion(of.from, of.to, of.path);
     Aabb<double> box = sampled(
         shape, [&](double t) { return motion.at(t); },
@@ -60,7 +65,7 @@ Aabb<double> swept_box(const MovingShape& of) {
             shape, [&](double t) { return convex::pose_at(other, t); },
             longest_way(other, shape.bounds())));
     }
-    return wider(box, of.margin);
+    return wider(box, by);
 }
 
 } // namespace boxwood::detail

@@ -9,7 +9,7 @@ namespace boxwood::detail {
 convex::Motion convex_motion(const MovingShape& of);
 
 /// A box around a bounded shape, its radius and its margin at every t from 0 to 1, whichever way it
-/// turns near half a turn.
+/// turns near half a turn, and what is nearer than first contacts can tell apart.
 Aabb<double> swept_box(const MovingShape& of);
 
 } // namespace boxwood::detail

@@ -52,7 +52,7 @@ void World::each_pair(const Search& where, double tolerance, Work* work, const V
                 !visit(pair_of(a, b)))
                 return;
         }
-    if (!where.groups && tolerance == 0) {
+    if (tolerance == 0 && !(where.groups && where.groups->keep_most_apart())) {
         ForEachPair all([&](Pair pair) { return !filter.may_meet(pair.a, pair.b) || visit(pair); });
         self_pairs(where.layout, serial(), all, work);
         return;

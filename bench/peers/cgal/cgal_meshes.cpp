@@ -79,8 +79,7 @@ class AllTouches final : public TriangleTree {
                 found_.clear();
                 tree_.all_intersected_primitives(copy[b], std::back_inserter(found_));
                 for (const Corners::const_iterator a : found_)
-                    touching.push_back(
-                        {i, static_cast<std::uint32_t>(a - corners_.cbegin()), b});
+                    touching.push_back({i, static_cast<std::uint32_t>(a - corners_.cbegin()), b});
             }
         }
     }

@@ -1,0 +1,133 @@
+#include "bench/truth/link_solid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <variant>
+
+namespace boxwood::bench {
+namespace {
+
+constexpr int meridians = 32, arcs_of_quarter = 8;
+
+/// Corners of half a cross-section from the lower pole to the upper one: r across, z along.
+struct Corner {
+    double r, z;
+};
+using Profile = std::vector<Corner>;
+
+/// A profile turned about z. The corners' circles lie around the polygons, or in them.
+PosedTriangles turned_about_z(const Profile& profile, bool is_outer) {
+    constexpr double step = 2 * std::numbers::pi / meridians;
+    const double wider = is_outer ? 1 / std::cos(step / 2) : 1;
+    const auto at = [&](const Corner& c, int k) {
+        return Vec3<double>{wider * c.r * std::cos(k * step), wider * c.r * std::sin(k * step),
+                            c.z};
+    };
+    PosedTriangles all;
+    for (std::size_t i = 0; i + 1 < profile.size(); ++i)
+        for (int k = 0; k < meridians; ++k) {
+            const Vec3<double> a = at(profile[i], k), b = at(profile[i], k + 1);
+            const Vec3<double> c = at(profile[i + 1], k + 1), d = at(profile[i + 1], k);
+            if (profile[i].r > 0)
+                all.push_back({a, b, c});
+            if (profile[i + 1].r > 0)
+                all.push_back({a, c, d});
+        }
+    return all;
+}
+
+/// Two half-circles of this radius, `apart` along z: with the corners on them, or with edges that
+/// touch them.
+Profile round_profile(double radius, double apart, bool is_outer) {
+    constexpr double step = std::numbers::pi / 2 / arcs_of_quarter;
+    const double r = is_outer ? radius / std::cos(step / 2) : radius;
+    Profile profile;
+    for (int k = -arcs_of_quarter; k <= 0; ++k)
+        profile.push_back({k == -arcs_of_quarter ? 0 : r * std::cos(k * step),
+                           r * std::sin(k * step) - apart / 2});
+    for (int k = apart > 0 ? 0 : 1; k <= arcs_of_quarter; ++k)
+        profile.push_back({k == arcs_of_quarter ? 0 : r * std::cos(k * step),
+                           r * std::sin(k * step) + apart / 2});
+    return profile;
+}
+
+double part(double x, double of) { return std::abs(x) / of; }
+
+struct SolidOf {
+    const std::vector<TriangleMesh>& meshes;
+
+    /// A mesh in its scale, rounded to floats axis by axis.
+    LinkSolid operator()(const LinkMesh& shape) const {
+        LinkSolid solid;
+        const TriangleMesh& mesh = meshes.at(shape.mesh);
+        const auto corner = [&](std::uint32_t vertex) {
+            const Vec3<double> p(mesh.vertices[vertex]);
+            return Vec3<double>(Vec3<float>(
+                Vec3<double>{p.x * shape.scale.x, p.y * shape.scale.y, p.z * shape.scale.z}));
+        };
+        for (const auto& [a, b, c] : mesh.triangles)
+            solid.inner.push_back({corner(a), corner(b), corner(c)});
+        solid.outer = solid.inner;
+        return solid;
+    }
+    LinkSolid operator()(const LinkBox& shape) const {
+        const Vec3<double> half = .5 * shape.sides;
+        const auto corner = [&](unsigned bits) {
+            return Vec3<double>{bits & 1 ? half.x : -half.x, bits & 2 ? half.y : -half.y,
+                                bits & 4 ? half.z : -half.z};
+        };
+        LinkSolid solid;
+        for (unsigned axis = 0; axis < 3; ++axis)
+            for (const unsigned side : {0u, 1u << axis}) {
+                const unsigned u = 1u << (axis + 1) % 3, v = 1u << (axis + 2) % 3;
+                solid.inner.push_back({corner(side), corner(side | u), corner(side | u | v)});
+                solid.inner.push_back({corner(side), corner(side | u | v), corner(side | v)});
+            }
+        solid.outer = solid.inner;
+        solid.level = [half](Vec3<double> p) {
+            return std::max({part(p.x, half.x), part(p.y, half.y), part(p.z, half.z)});
+        };
+        solid.outer_level = 1 + 0x1p-30;
+        return solid;
+    }
+    LinkSolid operator()(const LinkSphere& shape) const { return capsule(shape.radius, 0); }
+    LinkSolid operator()(const LinkCapsule& shape) const {
+        return capsule(shape.radius, shape.length);
+    }
+    LinkSolid operator()(const LinkCylinder& shape) const {
+        const double r = shape.radius, half = shape.length / 2;
+        const Profile profile{{0, -half}, {r, -half}, {r, half}, {0, half}};
+        LinkSolid solid;
+        solid.inner = turned_about_z(profile, false);
+        solid.outer = turned_about_z(profile, true);
+        solid.level = [r, half](Vec3<double> p) {
+            return std::max(part(std::hypot(p.x, p.y), r), part(p.z, half));
+        };
+        solid.outer_level = 1.005; // 1 / cos(pi / 32) = 1.0048
+        return solid;
+    }
+
+  private:
+    static LinkSolid capsule(double radius, double length) {
+        LinkSolid solid;
+        solid.inner = turned_about_z(round_profile(radius, length, false), false);
+        solid.outer = turned_about_z(round_profile(radius, length, true), true);
+        solid.level = [radius, half = length / 2](Vec3<double> p) {
+            const double beyond = std::max(std::abs(p.z) - half, 0.0);
+            return part(std::hypot(std::hypot(p.x, p.y), beyond), radius);
+        };
+        solid.outer_level = 1.01; // 1 / cos(pi / 32)^2 = 1.0097
+        return solid;
+    }
+};
+
+} // namespace
+
+LinkSolid link_solid(const LinkGeometry& geometry, const std::vector<TriangleMesh>& meshes) {
+    LinkSolid solid = std::visit(SolidOf{meshes}, geometry.shape);
+    solid.origin = geometry.origin;
+    return solid;
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "scenes/robots/urdf.h"
+#include "scenes/scene.h"
+
+#include <optional>
+#include <vector>
+
+namespace boxwood {
+
+/// The scene of a robot of the user's.
+inline constexpr std::string_view robot_scene = "robot";
+
+/// A robot in states at random.
+struct RobotStates {
+    UrdfRobot robot;
+    /// Of the SRDF file of the same name beside the URDF file; none if there is no such file.
+    std::optional<std::vector<AllowedPair>> allowed;
+    std::vector<std::vector<double>> states; ///< a value per joint that has one
+};
+
+/// Reads a URDF file, its meshes and its SRDF file, and draws n states by the seed
+/// (random_values.h). Throws as read_urdf and read_srdf.
+RobotStates read_robot_states(const std::filesystem::path& urdf, std::size_t n, std::uint64_t seed);
+
+/// Around each link's geometry in the link's frame, rounded; empty without geometry.
+std::vector<Aabb<float>> link_boxes(const UrdfRobot& robot);
+
+} // namespace boxwood
