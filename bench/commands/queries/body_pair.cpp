@@ -30,6 +30,20 @@ bool has_closed_form(const Shape& a, const Shape& b) {
            (is(a, convex::ShapeKind::capsule) && is(b, convex::ShapeKind::capsule));
 }
 
+/// The box that is a mesh here, if it is one.
+std::optional<Shape> box_of(const std::string& text, bool is_mesh) {
+    const std::optional<Shape> primitive = is_mesh ? read_primitive(text) : std::nullopt;
+    return primitive && primitive->kind() == convex::ShapeKind::box ? primitive : std::nullopt;
+}
+
+/// How far the corners of its mesh are off (box_mesh), rounded up.
+double rounding_of(const std::optional<Shape>& box) {
+    if (!box)
+        return 0;
+    const Vec3<double>& half = box->get_if<convex::Box>()->half;
+    return length(Vec3<double>(Vec3<float>(half)) - half) * (1 + 0x1p-40);
+}
+
 /// What was found of B and A, in B's frame, as of A and B, in A's.
 MeshDistance swapped(MeshDistance d, const Pose& b_in_a) {
     std::swap(d.point_a, d.point_b);
@@ -48,6 +62,20 @@ MeshDistance distance_of_shapes(const Shape& a, const Shape& b, const Pose& b_in
     return found;
 }
 
+FirstContact first_contact_of_shapes(const Shape& a, const BodyPair::Path& path_a, const Shape& b,
+                                     const BodyPair::Path& path_b, MotionPath kind) {
+    const auto motion = [&](const BodyPair::Path& path) {
+        return kind == MotionPath::screw ? convex::screw_motion(path.from, path.to)
+                                         : convex::linear_motion(path.from, path.to);
+    };
+    const convex::FirstContact first = convex::first_contact(a, motion(path_a), b, motion(path_b));
+    FirstContact found;
+    found.hit = first.answer;
+    found.t_free = first.t_free;
+    found.t_hit = std::isfinite(first.t_hit) ? first.t_hit : 1;
+    return found;
+}
+
 Contact turned(Contact c, const Pose& b_in_a) {
     c.point = b_in_a(c.point);
     const Vec3<double> n = c.normal; // from B to A
@@ -60,7 +88,8 @@ Contact turned(Contact c, const Pose& b_in_a) {
 } // namespace
 
 BodyPair::BodyPair(const std::string& a, const std::string& b, bool solid)
-    : a_(read(a, is_round(b), solid)), b_(read(b, is_round(a), solid)) {}
+    : a_(read(a, is_round(b), solid)), b_(read(b, is_round(a), solid)), box_a_(box_of(a, mesh(a_))),
+      box_b_(box_of(b, mesh(b_))), rounded_(rounding_of(box_a_) + rounding_of(box_b_)) {}
 
 BodyPair::Body BodyPair::read(const std::string& text, bool beside_round, bool solid) {
     if (const std::optional<Shape> primitive = read_primitive(text))
@@ -80,12 +109,12 @@ const MeshTree* BodyPair::mesh(const Body& body) {
 }
 
 std::string_view BodyPair::touch_kernel() const {
-    if (mesh(a_) && mesh(b_))
+    if (mesh(a_) && mesh(b_) && rounded_ == 0)
         return GuigueDevillersExactBatch::name;
     return distance_kernel();
 }
 std::string_view BodyPair::distance_kernel() const {
-    if (mesh(a_) && mesh(b_))
+    if (mesh(a_) && mesh(b_) && rounded_ == 0)
         return CertifiedDistance::name;
     const bool closed =
         !mesh(a_) && !mesh(b_) && has_closed_form(std::get<Shape>(a_), std::get<Shape>(b_));
@@ -107,9 +136,10 @@ bool BodyPair::touch(const Pose& b_in_a) const {
     if (shape_a)
         return may_touch(solid_b ? collide(*solid_b, *shape_a, inverse(b_in_a))
                                  : collide(*mesh(b_), *shape_a, inverse(b_in_a)));
-    if (solid_a && solid_b)
-        return collide(*solid_a, *solid_b, b_in_a);
-    return collide(*mesh(a_), *mesh(b_), b_in_a);
+    if (solid_a && solid_b ? collide(*solid_a, *solid_b, b_in_a)
+                           : collide(*mesh(a_), *mesh(b_), b_in_a))
+        return true;
+    return rounded_ > 0 && distance_of_meshes(b_in_a).lo == 0;
 }
 
 std::vector<Pair> BodyPair::touching_triangles(const Pose& b_in_a, std::size_t limit) const {
@@ -129,7 +159,7 @@ MeshDistance BodyPair::distance(const Pose& b_in_a) const {
         return distance_of_shapes(std::get<Shape>(a_), std::get<Shape>(b_), b_in_a);
     MeshDistance d;
     if (mesh_a && mesh_b)
-        d = boxwood::distance(*mesh_a, *mesh_b, b_in_a);
+        d = distance_of_meshes(b_in_a);
     else if (mesh_a)
         d = boxwood::distance(*mesh_a, std::get<Shape>(b_), b_in_a);
     else
@@ -143,6 +173,28 @@ MeshDistance BodyPair::distance(const Pose& b_in_a) const {
     return d;
 }
 
+/// Of the boxes themselves, as solids, of which one is there at least.
+MeshDistance BodyPair::distance_of_solid_boxes(const Pose& b_in_a) const {
+    if (box_a_ && box_b_)
+        return distance_of_shapes(*box_a_, *box_b_, b_in_a);
+    return box_b_ ? boxwood::distance(*mesh(a_), *box_b_, b_in_a)
+                  : swapped(boxwood::distance(*mesh(b_), *box_a_, inverse(b_in_a)), b_in_a);
+}
+
+/// Where solids are apart, so far apart are their surfaces.
+MeshDistance BodyPair::distance_of_meshes(const Pose& b_in_a) const {
+    MeshDistance d = boxwood::distance(*mesh(a_), *mesh(b_), b_in_a);
+    if (rounded_ == 0)
+        return d;
+    if (MeshDistance solids = distance_of_solid_boxes(b_in_a); solids.lo > 0) {
+        solids.triangles = d.triangles;
+        return solids;
+    }
+    d.lo = std::max(0.0, d.lo - rounded_);
+    d.hi += rounded_;
+    return d;
+}
+
 /// Of bodies whose surfaces are apart.
 bool BodyPair::is_certainly_apart(const Pose& b_in_a) const {
     const bool has_solid = std::holds_alternative<Solid>(a_) || std::holds_alternative<Solid>(b_);
@@ -152,7 +204,7 @@ bool BodyPair::is_certainly_apart(const Pose& b_in_a) const {
 MeshWithin BodyPair::within(const Pose& b_in_a, double tolerance) const {
     const MeshTree *mesh_a = mesh(a_), *mesh_b = mesh(b_);
     MeshWithin near;
-    if (!mesh_a && !mesh_b) {
+    if ((!mesh_a && !mesh_b) || rounded_ > 0) {
         const MeshDistance d = distance(b_in_a);
         near = {d.lo <= tolerance, d.lo, d.hi};
     } else if (mesh_a && mesh_b) {
@@ -196,26 +248,26 @@ std::vector<Contact> BodyPair::contacts(const Pose& b_in_a, const ContactOptions
 }
 
 FirstContact BodyPair::first_contact(const Path& a, const Path& b, MotionPath kind) const {
-    const MeshTree *mesh_a = mesh(a_), *mesh_b = mesh(b_);
-    if (!mesh_a && !mesh_b) {
-        const auto motion = [&](const Path& path) {
-            return kind == MotionPath::screw ? convex::screw_motion(path.from, path.to)
-                                             : convex::linear_motion(path.from, path.to);
-        };
-        const convex::FirstContact first =
-            convex::first_contact(std::get<Shape>(a_), motion(a), std::get<Shape>(b_), motion(b));
-        FirstContact found;
-        found.hit = first.answer;
-        found.t_free = first.t_free;
-        found.t_hit = std::isfinite(first.t_hit) ? first.t_hit : 1;
-        return found;
+    const auto* shape_a = std::get_if<Shape>(&a_);
+    const auto* shape_b = std::get_if<Shape>(&b_);
+    const Pose start = relative_pose(a.from, b.from);
+    // Boxes themselves, unless one begins in the other: then nothing is said of when they are free.
+    const bool is_rounded = rounded_ > 0;
+    if (is_rounded && distance_of_solid_boxes(start).lo > 0) {
+        shape_a = box_a_ ? &*box_a_ : nullptr;
+        shape_b = box_b_ ? &*box_b_ : nullptr;
     }
+    if (shape_a && shape_b)
+        return first_contact_of_shapes(*shape_a, a, *shape_b, b, kind);
     const Motion motion_a(a.from, a.to, kind), motion_b(b.from, b.to, kind);
-    if (mesh_a && mesh_b)
-        return boxwood::first_contact(*mesh_a, motion_a, *mesh_b, motion_b);
-    if (mesh_a)
-        return boxwood::first_contact(*mesh_a, motion_a, std::get<Shape>(b_), motion_b);
-    return boxwood::first_contact(*mesh_b, motion_b, std::get<Shape>(a_), motion_a);
+    if (shape_b)
+        return boxwood::first_contact(*mesh(a_), motion_a, *shape_b, motion_b);
+    if (shape_a)
+        return boxwood::first_contact(*mesh(b_), motion_b, *shape_a, motion_a);
+    FirstContact found = boxwood::first_contact(*mesh(a_), motion_a, *mesh(b_), motion_b);
+    if (is_rounded)
+        found.t_free = 0;
+    return found;
 }
 
 } // namespace boxwood::bench

@@ -6,6 +6,7 @@
 #include "trees/world/mesh_pairs.h"
 #include "trees/world/solid.h"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -15,7 +16,8 @@ namespace boxwood::bench {
 
 /// Two bodies of a query, each a mesh, as its surface or as a solid, or a primitive, which is
 /// solid. B stands at `b_in_a`, and answers are in A's frame. Triangles of primitives have the
-/// number `no_triangle`.
+/// number `no_triangle`. The triangles of a box with half sides that no float is are off by their
+/// rounding: whether and when it touches and how far it is is then said of the box itself.
 class BodyPair {
   public:
     static constexpr std::uint32_t no_triangle = ~0u;
@@ -48,8 +50,12 @@ class BodyPair {
     static Body read(const std::string& text, bool beside_round, bool solid);
     static const MeshTree* mesh(const Body& body); ///< none: a primitive
     bool is_certainly_apart(const Pose& b_in_a) const;
+    MeshDistance distance_of_solid_boxes(const Pose& b_in_a) const;
+    MeshDistance distance_of_meshes(const Pose& b_in_a) const;
 
     Body a_, b_;
+    std::optional<convex::Shape> box_a_, box_b_; ///< those that are meshes here
+    double rounded_ = 0;                         ///< how far their corners are off, together
 };
 
 } // namespace boxwood::bench

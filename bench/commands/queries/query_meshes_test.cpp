@@ -270,6 +270,67 @@ TEST_F(QueryMeshes, SolidsHoldPrimitives) {
     EXPECT_EQ(answer(query), "0\n");
 }
 
+/// Half of .1, .2 or .7 is no float: answers are of the box all the same.
+TEST_F(QueryMeshes, BoxesOfAnySidesAreAnsweredAsTheyAre) {
+    MeshesQuery query;
+    const auto lo_and_hi = [&] {
+        double d = 0, lo = 0, hi = 0;
+        EXPECT_EQ(std::sscanf(answer(query).c_str(), "%lf,%lf,%lf", &d, &lo, &hi), 3);
+        EXPECT_LE(lo, d);
+        EXPECT_LE(d, hi);
+        return std::pair{lo, hi};
+    };
+    // The second one is no box of floats, the first one is, or a mesh, or none either.
+    const std::string cube = put("cube.obj", "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n"
+                                             "v -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+                                             "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\n"
+                                             "f 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\n"
+                                             "f 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 8\n");
+    for (const auto& [first, half] :
+         {std::pair{std::string("box:2,2,2"), 1.}, {cube, 1.}, {"box:.7,.7,.7", .35}})
+        for (const bool swapped : {false, true}) {
+            SCOPED_TRACE(first + (swapped ? " swapped" : ""));
+            query = {};
+            query.a = swapped ? "box:.7,.7,.7" : first;
+            query.b = swapped ? first : "box:.7,.7,.7";
+            query.question = Question::distance;
+            query.pose_b = at("3.1");
+            const double truth = 3.1 - half - .35;
+            const auto [lo, hi] = lo_and_hi();
+            EXPECT_LE(lo, truth + 1e-15);
+            EXPECT_GE(hi, truth - 1e-15);
+            EXPECT_LE(hi - lo, 1e-12);
+            // Side by side they touch, and a little beyond that they do not.
+            query.question = Question::collide;
+            std::ostringstream touching, apart;
+            touching.precision(17);
+            touching << half + .35;
+            query.pose_b = at(touching.str());
+            EXPECT_EQ(answer(query), "1\n");
+            apart.precision(17);
+            apart << half + .35 + 1e-11;
+            query.pose_b = at(apart.str());
+            EXPECT_EQ(answer(query), "0\n");
+            query.question = Question::tolerance;
+            query.tolerance = 2e-11;
+            EXPECT_EQ(answer(query), "1\n");
+            query.tolerance = 5e-12;
+            EXPECT_EQ(answer(query), "0\n");
+        }
+    ContinuousQuery motion;
+    motion.a = "box:.7,.7,.7";
+    motion.b = "box:.2,.2,.2";
+    motion.from_a = at("-2");
+    motion.to_a = at("2");
+    std::ostringstream out;
+    run(motion, out);
+    double hit = 0, t_free = 0, t_hit = 0;
+    ASSERT_EQ(std::sscanf(out.str().c_str(), "%lf,%lf,%lf", &hit, &t_free, &t_hit), 3);
+    EXPECT_LE(t_free, (2 - .45) / 4);
+    EXPECT_GE(t_hit, (2 - .45) / 4 - 1e-15);
+    EXPECT_LE(t_hit - t_free, 1e-9);
+}
+
 /// Pure translation: whichever motion is named, FCL's screw motion says .225, .11875 and .02475.
 TEST_F(QueryMeshes, ContinuousPassesThroughNothingThin) {
     for (const auto& [length, time] : {std::pair{1.0, .45}, {2.0, .475}, {10.0, .495}})
