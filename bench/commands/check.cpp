@@ -68,7 +68,7 @@ void add_check(CLI::App& app, int& exit_code) {
     auto out = std::make_shared<std::filesystem::path>();
     auto n = std::make_shared<std::optional<std::size_t>>();
     CLI::App* check = app.add_subcommand(
-        "check", "test every kernel, ours and the peers', against the truth on hard cases");
+        "check", "test the kernels, ours and the peers', against the truth on hard cases");
     check->add_option("--only", options->only,
                       "only what this regular expression is found in: family/task/kernel");
     check->add_option("--out", *out, "a result file to write (HDF5), for scripts/plot");

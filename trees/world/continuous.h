@@ -16,7 +16,9 @@ struct ContinuousOptions {
 
 /// When two moving meshes first touch. From 0 to t_free they do not, which is certain: no step is
 /// longer than the least distance between bounds takes at the greatest speed, so that nothing thin
-/// is passed through. At t_hit they are within the tolerance. Both are 1 where they never touch.
+/// is passed through. At t_hit they are within the tolerance, or their distance has a lower bound
+/// of no more than the rounding of their poses (curved shapes, whose bounds are wide near contact).
+/// Both are 1 where they never touch.
 struct FirstContact {
     Answer hit = Answer::no; ///< maybe: after max_steps; then t_hit is 1
     double t_free = 1, t_hit = 1;

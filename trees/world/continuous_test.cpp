@@ -126,7 +126,7 @@ TEST(FirstContact, IsNotAfterWhatSamplesFind) {
         if (first.hit == Answer::yes) {
             ++hits;
             const Pose there = relative_pose(motion_a.at(first.t_hit), motion_b.at(first.t_hit));
-            EXPECT_LT(distance(a, b, there).lo, 1e-9);
+            EXPECT_LT(distance(a, b, there).hi, 1e-9);
         }
     }
     EXPECT_GT(hits, 10u);

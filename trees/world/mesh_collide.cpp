@@ -49,7 +49,7 @@ template <bool first_hit, bool counted> class Collision {
   public:
     Collision(const MeshTree& a, const MeshTree& b, const Pose& pose, std::size_t limit,
               std::vector<Pair>* pairs, Work* work)
-        : a_(a), b_(b), frame_(a, b, pose), stack_(most_entries(a.depth(), b.depth())),
+        : a_(a), b_(b), frame_(a, b, pose), stack_(max_entries(a.depth(), b.depth())),
           limit_(limit), pairs_(pairs), work_(work) {}
 
     bool run() { return run({a_.root(), b_.root()}) || finish(); }

@@ -50,7 +50,7 @@ template <bool counted> class Search {
     Search(const MeshTree& a, const MeshTree& b, const Pose& pose, const DistanceGoal& goal,
            Work* work)
         : a_(a), b_(b), frame_(a, b, pose), nearest_(goal, 0x1p18 * frame_.moved),
-          stack_(most_entries(a.depth(), b.depth())), work_(work) {
+          stack_(max_entries(a.depth(), b.depth())), work_(work) {
         if (goal.options.start)
             measure_start(*goal.options.start);
         else

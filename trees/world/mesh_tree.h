@@ -48,7 +48,7 @@ class MeshTree {
     /// Of all triangles, in the mesh's frame; the mesh must not be empty.
     const Aabb<float>& bounds() const { return bounds_; }
 
-    /// The parts beneath, for who walks the tree.
+    /// The parts beneath, for traversals.
     std::uint32_t root() const { return root_; }
     std::size_t depth() const { return depth_; } ///< most blocks on a path from the root to a leaf
     std::span<const detail::ObbBlock> blocks() const { return blocks_.span(); }

@@ -11,7 +11,8 @@
 
 namespace boxwood {
 
-/// The true distance lies between lo and hi; all three infinite: at least the limit.
+/// The true distance lies between lo and hi; hi infinite: it is at least lo, and lo the limit or
+/// more.
 struct LinkDistance {
     double distance = std::numeric_limits<double>::infinity();
     double lo = std::numeric_limits<double>::infinity();
@@ -52,7 +53,8 @@ class RobotSelfCollision {
                        const LinkNarrowPhase& narrow_phase);
 
     /// Whether a pair that is not allowed shares a point; stops at the first. The values are those
-    /// of Robot::poses, which says what is refused. Allocates nothing.
+    /// of Robot::poses, which says what is refused. Allocates nothing but what the narrow phase
+    /// does.
     bool collides(std::span<const double> values);
 
     /// Everything. The answer stays until the next call.

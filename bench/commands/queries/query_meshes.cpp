@@ -157,8 +157,9 @@ void add_query_meshes(CLI::App& query) {
          "Example:\n  boxwood query collide gripper.stl sphere:.05 "
          "--pose-b \"1 0 0 .1 0 1 0 0 0 0 1 0 0 0 0 1\""},
         {Question::distance, "distance", "how far two meshes or primitives are apart",
-         "Prints distance,lo,hi: the true distance lies between lo and hi, 2^-32 of it apart; all "
-         "are 0 where the two\ncertainly touch.\n\nExample:\n  boxwood query distance gripper.stl "
+         "Prints distance,lo,hi: the true distance lies between lo and hi, of meshes 2^-32 of it "
+         "apart; all are 0 where the two\ncertainly touch.\n\nExample:\n  boxwood query distance "
+         "gripper.stl "
          "cup.obj --json"},
         {Question::tolerance, "tolerance",
          "whether two meshes or primitives are at most so far apart",

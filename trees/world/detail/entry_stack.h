@@ -7,13 +7,14 @@
 
 namespace boxwood::detail {
 
-/// A stack with room for `most` entries, on the caller's own stack where they are few.
+/// A stack with room for `max_entries`, on the caller's own stack where they are few.
 template <class Entry> class EntryStack {
   public:
     static constexpr std::size_t few = 1024;
 
-    explicit EntryStack(std::size_t most)
-        : large_(most > few ? most : 0), data_(most > few ? large_.data() : own_) {}
+    explicit EntryStack(std::size_t max_entries)
+        : large_(max_entries > few ? max_entries : 0),
+          data_(max_entries > few ? large_.data() : own_) {}
     EntryStack(const EntryStack&) = delete;
     EntryStack& operator=(const EntryStack&) = delete;
 
@@ -32,9 +33,9 @@ template <class Entry> class EntryStack {
     std::size_t top_ = 0;
 };
 
-/// The most entries of a walk that opens two trees at once: each step takes one and leaves up to
-/// 64.
-constexpr std::size_t most_entries(std::size_t depth_a, std::size_t depth_b) {
+/// The most entries of a traversal that opens two trees at once: each step takes one and leaves up
+/// to 64.
+constexpr std::size_t max_entries(std::size_t depth_a, std::size_t depth_b) {
     return 64 * (depth_a + depth_b + 2);
 }
 
