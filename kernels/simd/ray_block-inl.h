@@ -36,12 +36,11 @@ HWY_INLINE std::uint32_t intersect_block(std::type_identity<K>, const typename K
     return bits;
 }
 
-/// The lanes of a mask as bits, from bit `first` on.
-template <class D>
-HWY_INLINE std::uint32_t lane_bits(D d, hwy::HWY_NAMESPACE::Mask<D> m, std::size_t first) {
+/// The lanes of a mask, at most 16, as bits from bit `first` on.
+template <class D, class M> HWY_INLINE std::uint32_t lane_bits(D d, M m, std::size_t first) {
     std::uint8_t bytes[8] = {};
     hwy::HWY_NAMESPACE::StoreMaskBits(d, m, bytes);
-    return std::uint32_t{bytes[0]} << first;
+    return (bytes[0] | std::uint32_t{bytes[1]} << 8) << first;
 }
 
 } // namespace boxwood::HWY_NAMESPACE

@@ -18,6 +18,10 @@
 namespace boxwood::bench {
 namespace {
 
+/// The axes of the world in CGAL's order: it divides along the last one first.
+using AxisOrder = std::array<int, 3>;
+constexpr AxisOrder xyz{0, 1, 2};
+
 struct Box {
     std::array<float, 3> min, max;
     std::uint32_t item;
@@ -39,10 +43,24 @@ struct BoxTraits {
 /// of both.
 constexpr std::ptrdiff_t usual_cutoff = 500;
 
+struct Setting {
+    std::ptrdiff_t cutoff = usual_cutoff;
+    AxisOrder axes = xyz;
+
+    std::string suffix() const {
+        std::string all;
+        if (axes != xyz)
+            all += fmt::format(".{:c}{:c}{:c}", 'x' + axes[0], 'x' + axes[1], 'x' + axes[2]);
+        if (cutoff != usual_cutoff)
+            all += fmt::format(".cutoff{}", cutoff);
+        return all;
+    }
+};
+
 class BoxIntersection final : public Contender {
   public:
-    BoxIntersection(const Job& job, Sides sides, std::ptrdiff_t cutoff)
-        : scene_(*job.scene), between_halves_(sides == Sides::two_halves), cutoff_(cutoff),
+    BoxIntersection(const Job& job, Sides sides, Setting setting)
+        : scene_(*job.scene), between_halves_(sides == Sides::two_halves), setting_(setting),
           parallel_(job.executor == "tbb"), arena_(static_cast<int>(job.threads)) {}
 
     void build() override { take(scene_.boxes); }
@@ -76,7 +94,11 @@ class BoxIntersection final : public Contender {
         boxes_.reserve(boxes.size());
         for (std::uint32_t i = 0; i < boxes.size(); ++i)
             if (const Aabb<float>& b = boxes[i]; !b.is_empty())
-                boxes_.push_back({{b.min.x, b.min.y, b.min.z}, {b.max.x, b.max.y, b.max.z}, i});
+                boxes_.push_back({reordered(b.min), reordered(b.max), i});
+    }
+
+    std::array<float, 3> reordered(const Vec3<float>& p) const {
+        return {p[setting_.axes[0]], p[setting_.axes[1]], p[setting_.axes[2]]};
     }
 
     template <class Tag, class Callback> void intersect(Callback append) {
@@ -85,27 +107,25 @@ class BoxIntersection final : public Contender {
             sorted_.begin() + static_cast<std::ptrdiff_t>(tree_pairs_split(sorted_.size()));
         if (between_halves_)
             CGAL::box_intersection_d<Tag>(sorted_.begin(), middle, middle, sorted_.end(), append,
-                                          BoxTraits(), cutoff_, CLOSED);
+                                          BoxTraits(), setting_.cutoff, CLOSED);
         else
             CGAL::box_self_intersection_d<Tag>(sorted_.begin(), sorted_.end(), append, BoxTraits(),
-                                               cutoff_, CLOSED);
+                                               setting_.cutoff, CLOSED);
     }
 
     const Scene& scene_;
     bool between_halves_;
-    std::ptrdiff_t cutoff_;
+    Setting setting_;
     bool parallel_;
     tbb::task_arena arena_;
     std::vector<Box> boxes_, sorted_;
     tbb::enumerable_thread_specific<std::vector<Pair>> parts_;
 };
 
-ContenderEntry entry(std::string name, std::string summary, std::ptrdiff_t cutoff,
+ContenderEntry entry(const std::string& name, std::string summary, const Setting& setting,
                      std::vector<Answering> answers) {
     ContenderEntry e;
-    e.name = std::move(name);
-    if (cutoff != usual_cutoff)
-        e.name += fmt::format(".cutoff{}", cutoff);
+    e.name = name + setting.suffix();
     e.library = "cgal";
     e.summary = std::move(summary);
     e.notes = fmt::format(
@@ -113,7 +133,7 @@ ContenderEntry entry(std::string name, std::string summary, std::ptrdiff_t cutof
         "it; a frame: the boxes of the bodies that are present copied again; closed boxes, cutoff "
         "{}; with TBB CGAL cuts its input into 4 x 4 parts, whatever the number of threads, and "
         "pairs go to one list per thread that are joined at the end",
-        cutoff);
+        setting.cutoff);
     e.precision = "f32";
     e.keeps_structure = false;
     e.runs_on = RunsOn::tbb;
@@ -130,15 +150,15 @@ Peer cgal_peer() {
     peer.summary = "CGAL: streamed segment tree, without a structure that is kept";
     peer.version = CGAL_VERSION_STR;
     peer.build = "headers compiled here with single-precision boxes and TBB";
-    for (const std::ptrdiff_t cutoff : {usual_cutoff, std::ptrdiff_t{100}, std::ptrdiff_t{2000}}) {
+    for (const Setting& setting :{Setting{}, Setting{.cutoff = 2000}, Setting{.axes = {0,2,1}}, Setting{.cutoff=2000, .axes = {0,2,1}},Setting{.axes = {1,0,2}},Setting{.axes = {1,2,0}},Setting{.cutoff=2000,.axes = {1,2,0}},Setting{.axes = {2,0,1}},Setting{.axes = {2,1,0}}, Setting{.cutoff=2000,.axes={1,0,2}}, Setting{.cutoff=100}, Setting{.cutoff=2000,.axes={2,0,1}}, Setting{.cutoff=2000,.axes={2,1,0}}}) {
         peer.contenders.push_back(
             entry("cgal.box_self_intersection_d",
-                  "CGAL's box_self_intersection_d (Zomorodian and Edelsbrunner)", cutoff,
-                  {answering<BoxIntersection>("pairs", Sides::all, cutoff),
-                   answering<BoxIntersection>("moving_pairs", Sides::all, cutoff)}));
+                  "CGAL's box_self_intersection_d (Zomorodian and Edelsbrunner)", setting,
+                  {answering<BoxIntersection>("pairs", Sides::all, setting),
+                   answering<BoxIntersection>("moving_pairs", Sides::all, setting)}));
         peer.contenders.push_back(
             entry("cgal.box_intersection_d", "CGAL's box_intersection_d between two sets of boxes",
-                  cutoff, {answering<BoxIntersection>("tree_pairs", Sides::two_halves, cutoff)}));
+                  setting, {answering<BoxIntersection>("tree_pairs", Sides::two_halves, setting)}));
     }
     for (ContenderEntry& e : cgal_points())
         peer.contenders.push_back(std::move(e));

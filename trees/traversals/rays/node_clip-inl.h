@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include "kernels/ray_box/fused_slabs.h"
+#include "kernels/simd/ray_block-inl.h"
 #include "trees/traversals/rays/ray_tree.h"
 
 #include <algorithm>
@@ -19,6 +20,8 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::detail::HWY_NAMESPACE {
+
+using boxwood::HWY_NAMESPACE::lane_bits;
 
 template <class Node> using NodeTag = hwy::HWY_NAMESPACE::CappedTag<float, Node::width>;
 
@@ -102,13 +105,6 @@ template <class Node> class NodeClip {
     const V re0_, re1_, re2_, se0_, se1_, se2_, rx0_, rx1_, rx2_, sx0_, sx1_, sx2_, t_min_;
     std::size_t near0_, near1_, near2_; ///< of `plane_of`; the far planes are the others
 };
-
-/// As lane_bits, for up to 16 lanes.
-template <class D, class M> HWY_INLINE std::uint32_t wide_bits(D d, M m, std::size_t first) {
-    std::uint8_t bytes[8] = {};
-    hwy::HWY_NAMESPACE::StoreMaskBits(d, m, bytes);
-    return (bytes[0] | std::uint32_t{bytes[1]} << 8) << first;
-}
 
 /// The children that are hit: the farthest first on the stack, the nearest on top of it.
 template <class Node>

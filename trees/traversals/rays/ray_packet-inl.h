@@ -102,7 +102,7 @@ class PacketSlabs {
         const D d;
         std::uint32_t bits = 0;
         for (std::size_t i = 0; i < n; i += hn::Lanes(d))
-            bits |= wide_bits(d, hn::Ge(hn::Load(d, t_max + i), hn::Set(d, t)), i);
+            bits |= lane_bits(d, hn::Ge(hn::Load(d, t_max + i), hn::Set(d, t)), i);
         return bits;
     }
 
@@ -152,7 +152,7 @@ class PacketSlabs {
                 exit = hn::Min(exit, hn::MulSub(far, hn::Load(d, exit_rdir_[axis] + i),
                                                 hn::Load(d, exit_shift_[axis] + i)));
             }
-            bits |= wide_bits(d, hn::Le(entry, exit), i);
+            bits |= lane_bits(d, hn::Le(entry, exit), i);
         }
         return bits;
     }
@@ -230,7 +230,7 @@ template <class Node, RayKernel K, RayMode mode> class RayPacket {
         std::uint32_t bits = 0;
         for (std::size_t i = 0; i < Node::width; i += hn::Lanes(df)) {
             hn::Vec<decltype(df)> entry;
-            bits |= wide_bits(df, front.hits_of(node, i, t_max, entry), i);
+            bits |= lane_bits(df, front.hits_of(node, i, t_max, entry), i);
             hn::Store(entry, df, entries + i);
         }
         std::size_t n = 0;

@@ -46,7 +46,7 @@ HWY_INLINE Waiting* push_hit_children(const Node& node, const NodeClip<Node>& cl
                        top);
             top += hn::CountTrue(df, hit);
         } else {
-            bits |= wide_bits(df, hit, i);
+            bits |= lane_bits(df, hit, i);
             if constexpr (in_register<Node>)
                 push_sorted_eight(node.ref, bits, entry, top);
             else

@@ -80,7 +80,7 @@ template <class Node, RayKernel K, RayMode mode> class RayAlone {
         V entry;
         for (std::size_t i = 0; i < Node::width; i += hn::Lanes(df)) {
             const auto hit = clip.hits_of(node, i, t_max, entry);
-            bits |= wide_bits(df, hit, i);
+            bits |= lane_bits(df, hit, i);
             if constexpr (!closest) {
                 hn::StoreU(compressed(du, hn::LoadU(du, node.ref + i), hn::RebindMask(du, hit)), du,
                            top_);
