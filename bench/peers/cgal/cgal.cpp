@@ -21,6 +21,8 @@ namespace {
 /// The axes of the world in CGAL's order: it divides along the last one first.
 using AxisOrder = std::array<int, 3>;
 constexpr AxisOrder xyz{0, 1, 2};
+/// For worlds that are flat in z: five times as quick there as xyz, and elsewhere as quick.
+constexpr AxisOrder xzy{0, 2, 1};
 
 struct Box {
     std::array<float, 3> min, max;
@@ -38,9 +40,8 @@ struct BoxTraits {
     static int dimension() { return 3; }
 };
 
-/// Below so many boxes CGAL scans instead of dividing. Of 10 (its default) to 5000, at 5*10^4 and
-/// 2*10^5 boxes, 100 was best for long thin boxes and 2000 or more for cubes; 500 is near the best
-/// of both.
+/// Below so many boxes CGAL scans instead of dividing. Of 10 (its default) to 10,000, at 100,000
+/// boxes, 500 was best in clusters and for bars and 2000 for what is spread evenly.
 constexpr std::ptrdiff_t usual_cutoff = 500;
 
 struct Setting {
@@ -150,7 +151,8 @@ Peer cgal_peer() {
     peer.summary = "CGAL: streamed segment tree, without a structure that is kept";
     peer.version = CGAL_VERSION_STR;
     peer.build = "headers compiled here with single-precision boxes and TBB";
-    for (const Setting& setting :{Setting{}, Setting{.cutoff = 2000}, Setting{.axes = {0,2,1}}, Setting{.cutoff=2000, .axes = {0,2,1}},Setting{.axes = {1,0,2}},Setting{.axes = {1,2,0}},Setting{.cutoff=2000,.axes = {1,2,0}},Setting{.axes = {2,0,1}},Setting{.axes = {2,1,0}}, Setting{.cutoff=2000,.axes={1,0,2}}, Setting{.cutoff=100}, Setting{.cutoff=2000,.axes={2,0,1}}, Setting{.cutoff=2000,.axes={2,1,0}}}) {
+    for (const Setting& setting : {Setting{}, Setting{.cutoff = 2000}, Setting{.axes = xzy},
+                                   Setting{.cutoff = 2000, .axes = xzy}}) {
         peer.contenders.push_back(
             entry("cgal.box_self_intersection_d",
                   "CGAL's box_self_intersection_d (Zomorodian and Edelsbrunner)", setting,
