@@ -61,7 +61,9 @@ class Judge {
         } else {
             Open& open = open_[b.task];
             open.rows.push_back(rows_.size());
-            open.claims.push_back({std::move(logs), floor.value_or(0)});
+            const InputMedians by_input =
+                input_medians(logs, times_.inputs(a.cell_id, b.cell_id, phase));
+            open.claims.push_back({std::move(logs), floor.value_or(0), by_input});
         }
         rows_.push_back(row);
     }

@@ -1,4 +1,5 @@
 #include "bench/analysis/compare_files.h"
+#include "bench/analysis/comparisons.h"
 #include "bench/analysis/status.h"
 #include "bench/testing/maker.h"
 
@@ -67,6 +68,23 @@ TEST(Gate, AShiftOfEveryCellIsTheMachine) {
         EXPECT_EQ(shifted.gate, Gate::open);
         EXPECT_EQ(rows_with(shifted, Gate::open), 8);
     }
+}
+
+TEST(InputMedians, LieInTheIntervalOfAComparison) {
+    Maker maker(15);
+    const auto ours = maker.cell("ours", false), peer = maker.cell("peer", true);
+    for (results::Shard& shard : maker.results.shards)
+        shard.input = shard.round % 5;
+    maker.time(ours, Phase::query, [](std::uint32_t) { return 100.; });
+    maker.time(peer, Phase::query,
+               [](std::uint32_t round) { return round % 5 == 3 ? 110. : 200.; });
+    set_statuses(maker.results);
+    const auto rows = comparisons_of(maker.results, Times(maker.results), default_delta);
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_NEAR(rows[0].ratio, .5, 1e-12);
+    EXPECT_NEAR(rows[0].ci_lo, .5, 1e-12);
+    EXPECT_NEAR(rows[0].ci_hi, 1 / 1.1, 1e-12);
+    EXPECT_EQ(rows[0].verdict, results::Verdict::faster);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 namespace boxwood::bench {
@@ -109,20 +110,48 @@ PairedRatio paired_ratio(std::span<const double> log_ratios, double error) {
     return {logs.n, std::exp(logs.mid), std::exp(logs.lo), std::exp(logs.hi)};
 }
 
+InputMedians input_medians(std::span<const double> log_ratios,
+                           std::span<const std::uint32_t> inputs) {
+    std::map<std::uint32_t, std::vector<double>> of_input;
+    for (std::size_t i = 0; i < log_ratios.size(); ++i)
+        of_input[inputs[i]].push_back(log_ratios[i]);
+    std::erase_if(of_input, [](const auto& input) { return input.second.size() < 3; });
+    InputMedians medians;
+    if (of_input.size() < 2)
+        return medians;
+    for (auto& [input, logs] : of_input) {
+        const double mid = median_interval(std::move(logs)).mid;
+        medians.lo = std::fmin(medians.lo, mid); // the known one of the two
+        medians.hi = std::fmax(medians.hi, mid);
+    }
+    return medians;
+}
+
 namespace {
+
+/// With every input's median inside.
+PairedRatio ratio_of(const Claim& claim, double error) {
+    PairedRatio ratio = paired_ratio(claim.log_ratios, error);
+    if (!std::isnan(ratio.ci_lo)) {
+        ratio.ci_lo = std::fmin(ratio.ci_lo, std::exp(claim.by_input.lo));
+        ratio.ci_hi = std::fmax(ratio.ci_hi, std::exp(claim.by_input.hi));
+    }
+    return ratio;
+}
 
 bool is_within(double value, double band) { return 1 / (1 + band) <= value && value <= 1 + band; }
 
-Ruling decide_one(std::span<const double> logs, double p_adj, double level, double delta,
-                  double floor) {
+Ruling decide_one(const Claim& asked, double p_adj, double level, double delta) {
     using results::Reason, results::Verdict;
-    Ruling claim{paired_ratio(logs), p_adj};
+    const std::size_t n = asked.log_ratios.size();
+    const double floor = asked.floor;
+    Ruling claim{ratio_of(asked, family_error), p_adj};
     const auto open = [&](Reason reason) {
         claim.reason = reason;
         return claim;
     };
     const Reason within_the_floor = floor > max_floor ? Reason::too_noisy : Reason::below_the_floor;
-    if (logs.size() < min_pairs_verdict)
+    if (n < min_pairs_verdict)
         return open(Reason::too_few_rounds);
     if (is_within(claim.ratio.ci_lo, delta) && is_within(claim.ratio.ci_hi, delta)) {
         if (floor > delta)
@@ -130,8 +159,8 @@ Ruling decide_one(std::span<const double> logs, double p_adj, double level, doub
         claim.verdict = Verdict::same;
         return claim;
     }
-    claim.ratio = paired_ratio(logs, level);
-    if (!median_ranks(logs.size(), level))
+    claim.ratio = ratio_of(asked, level);
+    if (!median_ranks(n, level))
         return open(Reason::too_few_rounds);
     if (claim.ratio.ci_lo <= 1 && claim.ratio.ci_hi >= 1)
         return open(Reason::crosses_1);
@@ -150,8 +179,7 @@ std::vector<Ruling> decide(std::span<const Claim> family, double delta) {
     const Corrected together = corrected(p);
     std::vector<Ruling> rulings;
     for (std::size_t i = 0; i < family.size(); ++i)
-        rulings.push_back(decide_one(family[i].log_ratios, together.p_adj[i], together.level, delta,
-                                     family[i].floor));
+        rulings.push_back(decide_one(family[i], together.p_adj[i], together.level, delta));
     return rulings;
 }
 

@@ -3,6 +3,7 @@
 #include "results/words.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
@@ -68,6 +69,15 @@ struct PairedRatio {
 };
 PairedRatio paired_ratio(std::span<const double> log_ratios, double error = 0.05);
 
+/// The least and the greatest of the medians that the inputs of a claim have, each on its own.
+struct InputMedians {
+    double lo = unknown, hi = unknown; ///< log-ratios
+};
+/// log_ratios[i] belongs to input inputs[i]. Unknown for fewer than two inputs of three rounds: two
+/// rounds have no median that one disturbed round leaves alone.
+InputMedians input_medians(std::span<const double> log_ratios,
+                           std::span<const std::uint32_t> inputs);
+
 /// What is said of one claim of a family, with the interval that decided.
 struct Ruling {
     PairedRatio ratio;
@@ -76,12 +86,15 @@ struct Ruling {
     results::Reason reason = results::Reason::none;
 };
 /// The claims of one family, each the log-ratios of b against a by paired round, decided together.
+/// Every interval is as wide as to hold the median of each input, too: rounds of one input are not
+/// independent, and what is said is to hold for other inputs.
 /// "same": the 95 % interval lies within a factor 1 + delta and the noise floor is no wider.
 /// "faster", "slower": the interval at the claim's level within the family excludes 1, and the
 /// ratio is beyond the claim's noise floor. Else "cannot_tell", as for fewer than 9 pairs.
 struct Claim {
     std::vector<double> log_ratios;
     double floor = 0; ///< the A/A noise of its class
+    InputMedians by_input{};
 };
 std::vector<Ruling> decide(std::span<const Claim> family, double delta);
 

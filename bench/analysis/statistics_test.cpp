@@ -159,6 +159,30 @@ TEST(Decide, OneDisturbedRoundOverturnsNothingAtTheDefaults) {
     EXPECT_NEAR(decide_all(family)[3].ratio.ratio, 1.24, 1e-12);
 }
 
+TEST(Decide, IntervalsHoldTheMedianOfEveryInput) {
+    // Five inputs of three rounds, one of which says something else than the four.
+    Logs logs;
+    std::vector<std::uint32_t> inputs;
+    for (std::uint32_t round = 0; round < 15; ++round) {
+        inputs.push_back(round % 5);
+        logs.push_back(std::log(round % 5 == 4 ? .9 : 1.3) + 1e-4 * round);
+    }
+    const InputMedians medians = input_medians(logs, inputs);
+    EXPECT_NEAR(std::exp(medians.lo), .9, 1e-2);
+    EXPECT_NEAR(std::exp(medians.hi), 1.3, 1e-2);
+    const Claim pooled{logs, 0}, by_input{logs, 0, medians};
+    EXPECT_EQ(decide({{pooled}}, .05)[0].verdict, Verdict::slower);
+    const Ruling ruling = decide({{by_input}}, .05)[0];
+    EXPECT_EQ(ruling.reason, Reason::crosses_1);
+    EXPECT_NEAR(ruling.ratio.ci_lo, .9, 1e-2);
+    EXPECT_NEAR(ruling.ratio.ratio, 1.3, 1e-2);
+    // Inputs of two rounds have no say, nor has a single input.
+    inputs[4] = 3;
+    EXPECT_NEAR(std::exp(input_medians(logs, inputs).lo), 1.3, 1e-2);
+    EXPECT_TRUE(std::isnan(input_medians(logs, std::vector<std::uint32_t>(15, 2)).lo));
+    EXPECT_TRUE(std::isnan(input_medians({}, {}).lo));
+}
+
 /// Log-ratios of rounds on a machine whose noise has heavy tails: two per cent on either side, and
 /// in one round of thirty up to a factor of three.
 Logs noisy_rounds(std::size_t n, double ratio, std::mt19937_64& random) {

@@ -14,11 +14,18 @@ using results::Sample;
 using Rounds = Times::Rounds;
 using ByCell = std::map<std::uint32_t, Times::Phases>;
 
+/// By env_id; of those outside `machines` nothing.
+std::map<std::uint32_t, std::string> names_of(const Results& results,
+                                              const std::set<std::string>& machines) {
+    std::map<std::uint32_t, std::string> names;
+    for (const auto& env : results.env)
+        names[env.env_id] = machines.contains(env.env_hash) ? env.env_hash : "";
+    return names;
+}
+
 /// Times that are missing or not positive are left out.
 ByCell times_of(const Results& results, const std::set<std::string>& machines, bool twins) {
-    std::map<std::uint32_t, std::string> machine_of;
-    for (const auto& env : results.env)
-        machine_of[env.env_id] = machines.contains(env.env_hash) ? env.env_hash : "";
+    std::map<std::uint32_t, std::string> machine_of = names_of(results, machines);
     std::map<std::uint32_t, const results::Shard*> shard_of;
     for (const auto& shard : results.shards)
         shard_of[shard.shard_id] = &shard;
@@ -82,6 +89,9 @@ Times::Times(const Results& results) : Times(results, machines_of(results)) {}
 
 Times::Times(const Results& results, const std::set<std::string>& machines)
     : cells_(times_of(results, machines, false)) {
+    std::map<std::uint32_t, std::string> machine_of = names_of(results, machines);
+    for (const results::Shard& shard : results.shards)
+        input_of_[{machine_of[shard.env_id], shard.round}] = shard.input;
     for (auto& [cell, phases] : cells_)
         for (const auto& [first, both] : {std::pair{Phase::build, Phase::build_and_query},
                                           std::pair{Phase::update, Phase::update_and_query}}) {
@@ -107,6 +117,16 @@ const Rounds* Times::rounds(std::uint32_t cell, Phase phase) const {
 std::vector<double> Times::log_ratios(std::uint32_t a, std::uint32_t b, Phase phase) const {
     const Rounds *left = rounds(a, phase), *right = rounds(b, phase);
     return left && right ? bench::log_ratios(*left, *right) : std::vector<double>{};
+}
+
+std::vector<std::uint32_t> Times::inputs(std::uint32_t a, std::uint32_t b, Phase phase) const {
+    std::vector<std::uint32_t> inputs;
+    if (const Rounds* left = rounds(a, phase), *right = rounds(b, phase); left && right)
+        for_each_pair(*left, *right, [&](const RoundKey& key, double, double) {
+            const auto input = input_of_.find(key);
+            inputs.push_back(input == input_of_.end() ? 0 : input->second);
+        });
+    return inputs;
 }
 
 NoiseFloors::NoiseFloors(const Results& results, const Times& times) : times_(times) {

@@ -34,9 +34,12 @@ class Times {
     const Rounds* rounds(std::uint32_t cell, results::Phase phase) const;
     /// Log of the time of b over that of a for every round that both have.
     std::vector<double> log_ratios(std::uint32_t a, std::uint32_t b, results::Phase phase) const;
+    /// The inputs of the same rounds.
+    std::vector<std::uint32_t> inputs(std::uint32_t a, std::uint32_t b, results::Phase phase) const;
 
   private:
     std::map<std::uint32_t, Phases> cells_;
+    std::map<RoundKey, std::uint32_t> input_of_;
 };
 
 std::vector<double> log_ratios(const Times::Rounds& a, const Times::Rounds& b);

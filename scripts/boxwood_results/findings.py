@@ -41,6 +41,7 @@ class Comparison:
     rounds: int
     ratio: Ratio
     p: float
+    floor: float  # the A/A noise of its class; NaN where there is none
     family: str
     verdict: str
     reason: str
@@ -79,8 +80,8 @@ def read_comparisons(table, cells):
     return [
         Comparison(
             cells[row["cell_a"]], cells[row["cell_b"]], row["phase"], row["class"], int(row["n_pairs"]),
-            Ratio(float(row["ratio"]), float(row["ci_lo"]), float(row["ci_hi"])), float(row["p_adj"]), row["family"],
-            row["verdict"], row["reason"], row["words"],
+            Ratio(float(row["ratio"]), float(row["ci_lo"]), float(row["ci_hi"])), float(row["p_adj"]), float(row["floor"]),
+            row["family"], row["verdict"], row["reason"], row["words"],
         )
         for row in table
     ]

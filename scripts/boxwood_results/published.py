@@ -1,5 +1,6 @@
-"""What README.md shows of measured runs: one list of tables and pictures, each with the sweep that it stands on. A sweep is
-a track, which is quoted by name and version: its scenes are frozen by their content in tracks.csv."""
+"""What is shown of measured runs: one list of tables and pictures, each with the sweep that it stands on. README.md has a
+summary and the pictures, results/published/tables.md every row. A sweep is a track, which is quoted by name and version: its
+scenes are frozen by their content in tracks.csv."""
 
 import csv
 import hashlib
@@ -7,16 +8,13 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import picture, registry
-from .figures import forest
-from .findings import PEERS
-from .moving import played_scenes
+from . import picture, published_tables, recomputed, registry
 from .picture import cell_text
+from .published_tables import against_ourselves, against_peers, kernels_of, markdown
+from .run import read
 from boxwood.results.reader import BadFile
-from .run import Where, read
-from boxwood.results.words import count_text, ratio_text, time_text
+from boxwood.results.words import ratio_text
 
-ONE = Where("", 1)
 MAX_BYTES = 2_000_000
 BEGIN, END = "<!-- published: {} -->", "<!-- /published: {} -->"
 MARKED = re.compile(r"<!-- published: (\w+) -->\n(.*?)<!-- /published: \1 -->", re.S)
@@ -24,12 +22,13 @@ MARKED = re.compile(r"<!-- published: (\w+) -->\n(.*?)<!-- /published: \1 -->", 
 
 @dataclass(frozen=True)
 class Published:
-    """A table of README.md and where it comes from. Several may stand on one sweep."""
+    """A table and where it comes from. Several may stand on one sweep."""
 
     name: str
     sweep: str  # results/published/SWEEP.h5, measured by bench/configs/SWEEP.toml as it is shipped
     title: str
     table: object  # run -> [header, row, ...] of texts
+    tasks: tuple = ()  # whose races against peers it holds
     picture: tuple = ()  # (figure, picture's name, file below scripts/pictures)
 
     @property
@@ -40,85 +39,18 @@ class Published:
         return root / "results" / "published" / f"{self.sweep}.h5"
 
 
-def time_of(row):
-    """The time of ours in a comparison, as the file has it."""
-    return time_text(row.b.median(row.phase))
-
-
-COLD = "cold_build+query"
-
-
-def cold(run):
-    """{(job, class): {library: its comparison}} of first builds, by the fastest of ours and of each library."""
-    found = {}
-    for row in sorted(run.family(PEERS, COLD), key=lambda row: row.b.median(COLD)):
-        if row.verdict != "wrong":
-            ours, rows = found.setdefault((row.b.job, row.contender_class), (row.b, []))
-            rows += [row] if row.b is ours else []
-    return {key: forest.fastest(rows) for key, (_, rows) in found.items()}
-
-
-def against_peers(*tasks):
-    """Of each question the ratio to the fastest variant of each library, with its interval."""
-
-    def table(run):
-        found = [block for block in forest.blocks(run) if block.job.task in tasks and block.job.where == ONE]
-        cold_builds, races = cold(run), forest.races(run)
-        libraries = dict(sorted(((library, cell) for block in found for library, cell in block.libraries.items()),
-                                key=lambda item: item[1].place))
-        rows = [["question, one thread", "measured", "ours", *(cell.library_title for cell in libraries.values())]]
-
-        def add(question, words, known):
-            if known:
-                first = next(iter(known.values()))
-                rows.append([question, words, f"{first.b.label} {time_of(first)}",
-                             *(known[library].text if library in known else "" for library in libraries)])
-
-        for block in found:
-            add(block.finding.question, run.tasks[block.job.task].total_title, block.fastest(0))
-            add(block.finding.question, "query alone", block.fastest(1))
-            for race in races:
-                if race.kind == block.kind and race.job.n >= block.job.n:
-                    add(race.finding.question, "first build and query, fresh process",
-                        cold_builds.get((race.job, race.contender_class)))
-        return rows
-
-    return table
-
-
-def against_ourselves(run):
-    """All stages over the required ones: ours against ours."""
-    rows = [["scene", "bodies", "required, a frame", "all stages / required"]]
-    for scene in played_scenes(run):
-        if scene.all_stages_cost:
-            rows.append([scene.job.scene, f"{scene.job.n:,}", time_text(scene.all_stages_cost.without_ns),
-                         scene.all_stages_cost.ratio.text])
-    return rows
-
-
-def kernels_of(task):
-    def table(run):
-        rows = [["input", "kernel", "library", "promise", "a call", "wrong per million"]]
-        for kernel in run.kernel_costs:
-            if kernel.task == task:
-                rate = f"0 (of {count_text(kernel.n)})" if not kernel.wrong else f"{kernel.per_million:,.0f}"
-                rows.append([kernel.panel, kernel.name, kernel.library, kernel.promise, time_text(kernel.ns), rate])
-        return rows
-
-    return table
+def races(name, sweep, title, tasks, picture=()):
+    return Published(name, sweep, f"{title}: a peer's time over ours", against_peers(*tasks), tasks, picture)
 
 
 ALL = (
-    Published("pairs", "pairs", "Overlapping pairs: a peer's time over ours", against_peers("pairs"),
-              ("forest", "forest_pairs_1", "pairs.png")),
-    Published("rays", "rays", "Rays: a peer's time over ours", against_peers("rays_closest", "rays_any", "rays_all")),
-    Published("queries", "queries", "Points, regions and nearest items: a peer's time over ours",
-              against_peers("points", "regions", "nearest", "closest_points")),
-    Published("moving", "dynamic", "Moving boxes, update and query of a frame: a peer's time over ours",
-              against_peers("moving_pairs")),
+    races("pairs", "pairs", "Overlapping pairs", ("pairs",), ("forest", "forest_pairs_1", "pairs.png")),
+    races("rays", "rays", "Rays", ("rays_closest", "rays_any", "rays_all")),
+    races("queries", "queries", "Points, regions and nearest items", ("points", "regions", "nearest", "closest_points")),
+    races("moving", "dynamic", "Moving boxes, update and query of a frame", ("moving_pairs",)),
     Published("effects", "effects", "All stages over the required ones, ours against ourselves", against_ourselves),
     Published("accuracy", "accuracy", "Triangle against triangle: what a call costs and how often it is wrong",
-              kernels_of("triangle_triangle"), ("accuracy", "accuracy_triangle_triangle", "accuracy_triangles.png")),
+              kernels_of("triangle_triangle"), (), ("accuracy", "accuracy_triangle_triangle", "accuracy_triangles.png")),
 )
 BY_NAME = {one.name: one for one in ALL}
 
@@ -160,41 +92,81 @@ def command_of(one):
     return f"scripts/reproduce {one.name}"
 
 
-def source_of(one, run, version):
-    """Which run it was, of which track, how right it was, and how to make it again."""
+def noise_of(one, run):
+    """The noise floors of what a table shows, in words."""
+    floors = [f"{ratio_text(100 * floor)} %" for floor in published_tables.floors(run, one.tasks)]
+    if len(floors) < 2:
+        return f"noise floor {ratio_text(100 * run.noise_floor)} %"
+    return f"noise floors by class {', '.join(floors[:-1])} and {floors[-1]}"
+
+
+def source_of(one, run, version, up):
+    """Which run it was, of which track, how right it was, and how to make it again. up: from the page to the root."""
     env = run.source["env"][0]
     return (f"*Track {one.sweep}-{version}, {run.health['correctness'].split(' (')[0].rstrip('.')}. Run {cell_text(run.source.attrs['run_uuid'])[:8]} of {cell_text(run.source.attrs['created_utc'])[:10]}: "
-            f"[`{one.config}`]({one.config}), {run.rounds} rounds, {env['cpu']}, {env['ncpu']} cores, commit "
-            f"{env['git_commit'][:8]}, noise floor {ratio_text(100 * run.noise_floor)} %; "
-            f"[`{one.sweep}.h5`](results/published/{one.sweep}.h5). Again: `{command_of(one)}`.*")
+            f"[`{one.config}`]({up}{one.config}), {run.rounds} rounds, {env['cpu']}, {env['ncpu']} cores, commit "
+            f"{env['git_commit'][:8]}, {noise_of(one, run)}; "
+            f"[`{one.sweep}.h5`]({up}results/published/{one.sweep}.h5). Again: `{command_of(one)}`.*")
 
 
-def markdown(rows):
-    lines = ["| " + " | ".join(text.replace("|", "/") for text in row) + " |" for row in rows]
-    return "\n".join([lines[0], "|" + " --- |" * len(rows[0]), *lines[1:]])
+PAGES = {"README.md": "", "results/published/tables.md": "../../"}  # and from there to the root
 
 
-def block(one, root):
-    """What stands between the markers of a table."""
+def not_published(one):
+    return f"*{one.title}: not published yet. `{command_of(one)}` measures it.*\n"
+
+
+def table_block(one, root, up):
+    """What stands between the markers of a table: all its rows."""
     if not one.file(root).exists():
-        return f"*{one.title}: not published yet. `{command_of(one)}` measures it.*\n"
+        return not_published(one)
     run = read(one.file(root))
     rows = one.table(run)
     if len(rows) == 1:
-        raise BadFile(one.file(root), f"it holds nothing for the table '{one.name}' of README.md; is it too noisy?")
+        raise BadFile(one.file(root), f"it holds nothing for the table '{one.name}'; is it too noisy?")
     version, _ = tracks(root).get(one.sweep, (0, ""))
-    shown = f"![{one.title}](scripts/pictures/{one.picture[2]})\n\n" if one.picture else ""
-    return f"**{one.title}**\n\n{shown}{markdown(rows)}\n\n{source_of(one, run, version)}\n"
+    return f"**{one.title}**\n\n{markdown(rows)}\n\n{source_of(one, run, version, up)}\n"
 
 
-def rewritten(text, root):
-    """README.md with every table as the files have it. An unknown name is an error."""
+def summary_block(root, up):
+    """A line for each kind of question against peers."""
+    rows, missing = [], []
+    for one in ALL:
+        if one.tasks and one.file(root).exists():
+            rows += published_tables.summary(read(one.file(root)), one.tasks)
+        elif one.tasks:
+            missing.append(not_published(one))
+    table = [markdown([published_tables.SUMMARY, *rows]) + "\n"] if rows else []
+    return "\n".join(table + missing)
+
+
+def picture_block(one, root, up):
+    if not one.file(root).exists():
+        return not_published(one)
+    run = read(one.file(root))
+    version, _ = tracks(root).get(one.sweep, (0, ""))
+    return f"![{one.title}]({up}scripts/pictures/{one.picture[2]})\n\n{source_of(one, run, version, up)}\n"
+
+
+BLOCKS = {  # marker -> (root, up) -> text
+    "summary": summary_block,
+    **{one.name: lambda root, up, one=one: table_block(one, root, up) for one in ALL},
+    **{f"{one.name}_picture": lambda root, up, one=one: picture_block(one, root, up) for one in ALL if one.picture},
+}
+
+
+def rewritten(page, root):
+    """A page with every block as the files have it. An unknown name is an error."""
     def of(match):
-        if match[1] not in BY_NAME:
-            raise KeyError(f"README.md has the marker '{match[1]}', which published.py does not")
-        return f"{BEGIN.format(match[1])}\n{block(BY_NAME[match[1]], root)}{END.format(match[1])}"
+        if match[1] not in BLOCKS:
+            raise KeyError(f"{page} has the marker '{match[1]}', which published.py does not")
+        return f"{BEGIN.format(match[1])}\n{BLOCKS[match[1]](root, PAGES[page])}{END.format(match[1])}"
 
-    return MARKED.sub(of, text)
+    return MARKED.sub(of, text_of(page, root))
+
+
+def text_of(page, root):
+    return (root / page).read_text(encoding="utf-8")
 
 
 def draw(one, root, folder):
@@ -225,6 +197,11 @@ def problems(root):
         commits |= {row["git_commit"] for row in run.source["env"]}
         if file.stat().st_size > MAX_BYTES:
             found.append(f"{file}: {file.stat().st_size:,} bytes; at most {MAX_BYTES:,}")
+        if not run.source.is_sealed:
+            found.append(f"{file}: changed after it was written (its seal is gone)")
+        wrong = recomputed.differences(run.source)
+        if wrong:
+            found.append(f"{file}: {len(wrong)} of its numbers do not follow from its samples; the first: {wrong[0]}")
         if any(row["git_dirty"] for row in run.source["env"]):
             found.append(f"{file}: measured with changes that are in no commit")
         if scenes_of(run) != frozen:
@@ -243,16 +220,15 @@ def problems(root):
         if len(values) > 1:
             found.append(f"results/published: files of more than one {what}: {', '.join(map(str, sorted(values)))}")
     strays = {path.stem for path in (root / "results" / "published").glob("*.h5")} - {one.sweep for one in ALL}
-    found += [f"results/published/{name}.h5: no table of README.md stands on it" for name in sorted(strays)]
-    readme = root / "README.md"
-    if rewritten(readme.read_text(encoding="utf-8"), root) != readme.read_text(encoding="utf-8"):
-        found.append(f"{readme}: a table differs from its file; scripts/published rewrites it")
+    found += [f"results/published/{name}.h5: no table stands on it" for name in sorted(strays)]
+    found += [f"{root / page}: a table differs from its file; scripts/published rewrites it" for page in PAGES
+              if rewritten(page, root) != text_of(page, root)]
     return found
 
 
 def write(root):
-    """README.md and its pictures, from the files; gives what was written."""
-    readme = Path(root) / "README.md"
-    readme.write_text(rewritten(readme.read_text(encoding="utf-8"), root), encoding="utf-8")
+    """The pages and pictures, from the files; gives what was written."""
+    for page in PAGES:
+        (root / page).write_text(rewritten(page, root), encoding="utf-8")
     drawn = [draw(one, root, root / "scripts" / "pictures") for one in ALL if one.picture and one.file(root).exists()]
-    return [readme, *drawn]
+    return [*(root / page for page in PAGES), *drawn]

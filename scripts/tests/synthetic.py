@@ -360,8 +360,7 @@ class Maker:
             file.attrs.update({"format": "boxwood-results", "schema_major": np.uint32(2), "schema_minor": np.uint32(2),
                                "run_uuid": "u", "created_utc": "2025-01-01T00:00:00Z", "sweep_hash": "h",
                                "generator": "synthetic", "complete": np.uint32(1)})
-        with raw.open("rb+") as file:
-            file.write(b"boxwseal" + fnv_1a(file.read()).to_bytes(8, "little"))
+        seal(raw)
         merged(path, raw)
         raw.unlink()
         if not attrs and not drop:
@@ -383,6 +382,12 @@ def answer(*arguments):
     if not PROGRAM.exists():
         pytest.skip(f"{PROGRAM} is not built")
     return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+
+
+def seal(path):
+    """As results/detail/seal.h has it, behind the data of an HDF5 file."""
+    with path.open("rb+") as file:
+        file.write(b"boxwseal" + fnv_1a(file.read()).to_bytes(8, "little"))
 
 
 def merged(path, *parts):

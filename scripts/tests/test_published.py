@@ -10,12 +10,13 @@ import pytest
 import synthetic
 from synthetic import SCRIPTS
 
-from boxwood_results import published
+from boxwood_results import published, published_tables, recomputed
 from boxwood_results.run import Job
 from boxwood_results.selection import fullest
 
 ROOT = SCRIPTS.parent
 README = (ROOT / "README.md").read_text()
+TABLES = "results/published/tables.md"
 
 
 def test_readme_says_what_the_files_say():
@@ -23,8 +24,8 @@ def test_readme_says_what_the_files_say():
 
 
 def test_each_table_has_its_markers_and_its_sweep():
-    assert re.findall(r"<!-- published: (\w+) -->", README) and sorted(re.findall(r"<!-- published: (\w+) -->", README)) == \
-        sorted(published.BY_NAME)
+    shown = [name for page in published.PAGES for name in re.findall(r"<!-- published: (\w+) -->", (ROOT / page).read_text())]
+    assert len(shown) > 5 and sorted(shown) == sorted(published.BLOCKS)
     for one in published.ALL:
         assert (ROOT / one.config).exists()
 
@@ -58,10 +59,9 @@ def root(tmp_path):
     """A repository of which README is all that was published."""
     shutil.copytree(ROOT / "bench" / "configs", tmp_path / "bench" / "configs")
     (tmp_path / "results" / "published").mkdir(parents=True)
-    text = README
-    for one in published.ALL:
-        text = re.sub(rf"(<!-- published: {one.name} -->\n).*?(<!-- /published)", r"\1\2", text, flags=re.S)
-    (tmp_path / "README.md").write_text(text)
+    for page in published.PAGES:
+        text = re.sub(r"(<!-- published: \w+ -->\n).*?(<!-- /published)", r"\1\2", (ROOT / page).read_text(), flags=re.S)
+        (tmp_path / page).write_text(text)
     return tmp_path
 
 
@@ -71,16 +71,18 @@ def test_tables_and_pictures_come_from_the_files(root):
     file_of(root, "accuracy", synthetic.full())
     assert published.freeze(root) == ["accuracy-1", "effects-1", "pairs-1"] and published.freeze(root) == []
     written = published.write(root)
-    assert {path.name for path in written} == {"README.md", "pairs.png", "accuracy_triangles.png"}
+    assert {path.name for path in written} == {"README.md", "tables.md", "pairs.png", "accuracy_triangles.png"}
     assert published.problems(root) == []
-    text = (root / "README.md").read_text()
+    text = (root / TABLES).read_text()
     results = published.read(root / "results" / "published" / "pairs.h5")
     of_pairs = next(c for c in results.comparisons if c.family == "peers" and c.a.library == "embree" and c.b.job.task == "pairs"
                     and c.text in text)
     assert of_pairs and re.search(r"\*Track pairs-1, \d+ answers checked: 1 of ours wrong. Run u of 2025-01-01", text) and "commit abcdef01, noise floor" in text
     assert "| warehouse | 10,000 |" in text and "guigue_devillers_exact" in text and "not published yet" in text
 
-    (root / "README.md").write_text(text.replace(of_pairs.text, "99.9x (99.8 to 99.9)"))
+    summary = (root / "README.md").read_text()
+    assert re.search(r"\| [^|]+ \| [^|]*query[^|]* \| \d+ \| \d+, \d+, \d+ \| \d", summary) and "not published yet" in summary
+    (root / TABLES).write_text(text.replace(of_pairs.text, "99.9x (99.8 to 99.9)"))
     assert any("a table differs" in line for line in published.problems(root))
     published.write(root)
     (root / "scripts" / "pictures" / "pairs.png").unlink()
@@ -118,6 +120,47 @@ def test_a_track_whose_scenes_change_has_another_version(root):
     assert published.freeze(root) == ["effects-2"]
 
 
+def edited(file, table, column, change):
+    """Changes a column as somebody would who wants another result, and seals the file again."""
+    with h5py.File(file, "a") as tables:
+        rows = tables[table][:]
+        rows[column] = change(rows[column])
+        tables[table][:] = rows
+    synthetic.seal(file)
+
+
+@pytest.mark.parametrize("table, column, change, problem", [
+    ("samples", "wall_ns", lambda ns: 3 * ns, "not the median of its samples"),
+    ("medians", "median_ns", lambda ns: 1.01 * ns, "not the median of its samples"),
+    ("compare", "ratio", lambda ratio: 2 * ratio, "not the ratio of its samples"),
+    ("compare", "ci_hi", lambda hi: 0.999 * hi, "not an interval of its samples")])
+def test_numbers_that_do_not_follow_from_the_samples_are_said(root, table, column, change, problem):
+    file = file_of(root, "pairs", synthetic.full())
+    published.freeze(root)
+    published.write(root)
+    assert published.problems(root) == []
+    edited(file, table, column, change)
+    published.write(root)
+    (said,) = published.problems(root)
+    assert "do not follow from its samples" in said and problem in said
+
+
+def test_a_file_without_its_seal_is_said(root):
+    file = file_of(root, "effects", synthetic.full())
+    published.freeze(root)
+    published.write(root)
+    with h5py.File(file, "a") as tables:
+        tables.attrs["note"] = "mine"
+    assert [line for line in published.problems(root) if "its seal is gone" in line]
+
+
+def test_intervals_are_those_of_the_median_and_hold_every_input():
+    assert recomputed.narrowest(5) == 0 and [recomputed.narrowest(n) for n in (6, 9, 12, 15, 20, 30)] == [1, 2, 3, 4, 6, 10]
+    logs, inputs = [float(i) for i in range(15)], [i // 3 for i in range(15)]
+    assert recomputed.intervals(logs, [0] * 15)[0] == (3, 11)
+    assert recomputed.intervals(logs, inputs)[0] == (1, 13)
+
+
 def test_a_frozen_track_without_its_file_is_said(root):
     file = file_of(root, "effects", synthetic.full())
     published.freeze(root)
@@ -130,7 +173,7 @@ def test_a_frozen_track_without_its_file_is_said(root):
 def test_a_stray_file_is_said(root):
     (root / "results" / "published" / "other.h5").write_bytes(b"")
     published.write(root)
-    assert any("no table of README.md stands on it" in line for line in published.problems(root))
+    assert any("no table stands on it" in line for line in published.problems(root))
 
 
 def test_commands(root):
@@ -160,7 +203,7 @@ def test_times_in_readme_agree_with_the_dry_run(config, tmp_path):
 
 
 def entry(n, libraries, contender_class="", scene="uniform", variants=3):
-    return SimpleNamespace(job=Job(scene, n, 1, "pairs", published.ONE), kind=(scene, contender_class), libraries=dict.fromkeys(libraries),
+    return SimpleNamespace(job=Job(scene, n, 1, "pairs", published_tables.ONE), kind=(scene, contender_class), libraries=dict.fromkeys(libraries),
                            variants=range(variants))
 
 
@@ -179,7 +222,7 @@ def test_first_builds_have_a_row_of_their_own(tmp_path):
     cells = {name: number for name, number in made.ids["cells"].items() if "/pairs/" in name and name.endswith("serial-1")}
     job = max((name.split("/pairs/")[0] for name in cells if "embree" in name), key=lambda job: int(re.search(r"/n(\d+)", job)[1]))
     for name, ns in (("median.wide8.self_pairs", 4e6), ("binned_sah.wide8.self_pairs", 5e6), ("embree.rtc_collide.low", 8e6)):
-        made.samples(next(number for cell, number in cells.items() if cell.startswith(f"{job}/pairs/{name}/")), published.COLD, ns)
+        made.samples(next(number for cell, number in cells.items() if cell.startswith(f"{job}/pairs/{name}/")), published_tables.COLD, ns)
     rows = published.BY_NAME["pairs"].table(published.read(made.write(tmp_path / "cold.h5")))
     first = [row for row in rows if row[1] == "first build and query, fresh process"]
     assert len(first) == 1 and first[0][2].startswith("median.wide8 ")
