@@ -11,6 +11,12 @@ casts rays for trimesh.
 """
 
 import importlib
+import sys
+
+try:
+    import numpy as _numpy  # noqa: F401
+except ImportError as cause:
+    raise ImportError(f"boxwood needs numpy, which {sys.executable} does not have") from cause
 
 from ._answers import (BodyContacts, BodyDistance, BodyDistances, ClosestPoints, Contacts, Distances, FirstContacts, Hits,
                        Items, MeshDistance, Nearest)
@@ -22,10 +28,22 @@ __all__ = ["BodyContacts", "BodyDistance", "BodyDistances", "Bvh", "ClosestPoint
 _CORE = {"Bvh", "Mesh", "MeshBvh", "Shape", "World", "triangle_distances", "triangles_intersect", "__version__"}
 
 
+def _compiled():
+    try:
+        return importlib.import_module("boxwood._core")
+    except ModuleNotFoundError as cause:
+        if cause.name != "boxwood._core":
+            raise
+        raise ImportError(
+            f"boxwood's compiled part is not in {__path__[0]} for Python {sys.version_info.major}.{sys.version_info.minor} "
+            f"({sys.executable}): build it with `cmake --build build/release --target boxwood_python` for the Python that "
+            "cmake found, or `pip install .`") from cause
+
+
 def __getattr__(name):
     # Each when it is asked for: results needs h5py, and is read where the rest was not built.
     if name in _CORE:
-        return getattr(importlib.import_module("boxwood._core"), name)
+        return getattr(_compiled(), name)
     if name in ("results", "trimesh"):
         return importlib.import_module(f"boxwood.{name}")
     raise AttributeError(f"module 'boxwood' has no attribute '{name}'")

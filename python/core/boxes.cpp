@@ -138,6 +138,9 @@ class PyBvh {
     }
 
     void update(const py::object& boxes, const std::optional<py::object>& moved) {
+        if (!is_double() && are_doubles(boxes, "boxes"))
+            throw py::value_error("boxes: float64 for a tree of float32, which would round them; "
+                                  "give float32, or make a Bvh of float64");
         std::visit([&](auto& tree) { take(tree, boxes, moved); }, tree_);
     }
 
@@ -265,8 +268,8 @@ built again where that made it too loose; of another number it is built again.
 moved: shape (m,), the items that moved, ascending, if only these did. The
     others' boxes are compared with those held.
 
-Raises ValueError for a bad box, and where an item that is not listed moved;
-the tree then is as before.)")
+Raises ValueError for a bad box, for float64 where the tree holds float32, and
+where an item that is not listed moved; the tree then is as before.)")
         .def("pairs", &PyBvh::pairs, py::arg("other") = py::none(),
              R"(Every two boxes that overlap, once: shape (m, 2), uint32, the lower first.
 With another tree: every overlapping (item here, item of `other`).)")

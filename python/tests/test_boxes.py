@@ -155,6 +155,8 @@ def test_other_bad_input_is_refused():
         bvh.update(boxes_of(10), moved=[99])
     with pytest.raises(TypeError, match="integers"):
         bvh.update(boxes_of(10), moved=[1.5])
+    with pytest.raises(ValueError, match="float64 for a tree of float32"):
+        bvh.update(boxes_of(10, dtype=np.float64))
     assert bvh.overlapping([[1, 0, 0, 0, 1, 1]]).items.size == 0  # min > max: nothing
 
 

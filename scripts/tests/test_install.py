@@ -76,21 +76,22 @@ FetchContent_MakeAvailable(boxwood)
 @pytest.mark.parametrize("inclusion", [f"add_subdirectory({ROOT} boxwood)\n", BY_FETCH_CONTENT],
                          ids=["add_subdirectory", "FetchContent"])  # fmt: skip
 def test_as_a_part_of_another_project(tmp_path, inclusion):
-    """No bench, no tests, and nobody gets our flags."""
+    """No bench, no tests, no device code, optimised whatever the project says, and nobody gets our flags."""
     (tmp_path / "main.cpp").write_text("int main() {}\n")
     (tmp_path / "CMakeLists.txt").write_text(
         "cmake_minimum_required(VERSION 3.25)\nproject(other LANGUAGES CXX)\nset(CMAKE_EXPORT_COMPILE_COMMANDS ON)\n"
         f"{inclusion}add_executable(other main.cpp)\n"
         "target_link_libraries(other PRIVATE boxwood::boxwood boxwood::trees boxwood::kernels)\n"
     )
-    run("cmake", "-S", tmp_path, "-B", tmp_path / "build", "-G", "Ninja", "-DBOXWOOD_CUDA=OFF")
+    run("cmake", "-S", tmp_path, "-B", tmp_path / "build", "-G", "Ninja")
     cache = (tmp_path / "build/CMakeCache.txt").read_text()
     for part in ("BENCH", "TESTS"):
         assert re.search(rf"^BOXWOOD_BUILD_{part}:BOOL=OFF$", cache, re.M)
     commands = {entry["file"]: entry["command"] for entry in json.loads((tmp_path / "build/compile_commands.json").read_text())}
     own = commands[str(tmp_path / "main.cpp")]
     assert "-std=" in own and not re.search(r"-W\w|-f(?!PI)", own)
-    assert "-ffp-contract=off" in commands[str(ROOT / "trees/bvh.cpp")]
+    assert "-ffp-contract=off" in commands[str(ROOT / "trees/bvh.cpp")] and " -O2 " in commands[str(ROOT / "trees/bvh.cpp")]
+    assert not [file for file in commands if file.endswith((".cu", ".c"))]
 
 
 def test_readme_quotes_the_first_example():
