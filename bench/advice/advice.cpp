@@ -36,6 +36,9 @@ std::string as_given(std::string builder) {
     return builder;
 }
 
+/// A way that takes at most so much of the least time may be chosen for other reasons.
+constexpr double nearly = 1.02;
+
 class Adviser {
   public:
     Adviser(const results::Results& results, std::optional<double> wanted)
@@ -48,6 +51,7 @@ class Adviser {
         std::ranges::sort(advice_.ways, {}, &Way::build_ns);
         climb();
         advice_.best = best_for(advice_.wanted.value_or(advice_.n_queries));
+        find_as_good();
         find_rival();
         return std::move(advice_);
     }
@@ -128,8 +132,11 @@ class Adviser {
             for (const std::size_t i : faster_than(at, Phase::query)) {
                 const MedianInterval queries = break_even(at, i);
                 const bool is_sooner = queries.mid < step.queries.mid;
-                const bool is_as_soon = next && queries.mid <= step.queries.hi &&
-                                        advice_.ways[i].query_ns < advice_.ways[*next].query_ns;
+                const bool is_as_soon =
+                    next && queries.mid <= step.queries.hi &&
+                    advice_.ways[i].query_ns < advice_.ways[*next].query_ns &&
+                    total_ns(advice_.ways[i], step.queries.mid) <=
+                        nearly * total_ns(advice_.ways[*next], step.queries.mid);
                 if (!next || is_sooner || is_as_soon) {
                     next = i;
                     step.queries = queries;
@@ -179,21 +186,19 @@ class Adviser {
     double total_ns(const Way& way, double queries) const {
         return way.build_ns + queries / advice_.n_queries * way.query_ns;
     }
+    /// One of the front where that costs next to nothing, so that the rule and this agree.
     std::size_t best_for(double queries) const {
-        std::size_t best = advice_.front.front();
-        for (const std::size_t way : advice_.front)
-            if (total_ns(advice_.ways[way], queries) < total_ns(advice_.ways[best], queries))
+        const auto total = [&](std::size_t way) { return total_ns(advice_.ways[way], queries); };
+        const std::size_t of_front = std::ranges::min(advice_.front, {}, total);
+        std::size_t best = of_front;
+        for (std::size_t way = 0; way < advice_.ways.size(); ++way)
+            if (total(way) < total(best))
                 best = way;
-        return best;
+        return total(of_front) <= nearly * total(best) ? of_front : best;
     }
 
-    void find_rival() {
-        const double queries = advice_.wanted.value_or(advice_.n_queries);
-        for (const Way& way : rivals_)
-            if (!advice_.rival || total_ns(way, queries) < total_ns(*advice_.rival, queries))
-                advice_.rival = way;
-        if (!advice_.rival)
-            return;
+    /// Logs of the time of b over that of a, for a build and so many queries, round by round.
+    std::vector<double> total_logs(std::uint32_t a, std::uint32_t b, double queries) const {
         const auto totals = [&](std::uint32_t cell) {
             std::map<Times::RoundKey, double> all;
             const Times::Rounds& query = *times_.rounds(cell, Phase::query);
@@ -203,12 +208,42 @@ class Adviser {
                         of_round(values) + queries / advice_.n_queries * of_round(query.at(round));
             return all;
         };
-        const auto ours = totals(advice_.ways[advice_.best].cell_id);
-        std::vector<double> ratios;
-        for (const auto& [round, ns] : totals(advice_.rival->cell_id))
-            if (ours.contains(round))
-                ratios.push_back(std::log(ns / ours.at(round)));
-        advice_.rival_ratio = paired_ratio(ratios);
+        const auto of_a = totals(a);
+        std::vector<double> logs;
+        for (const auto& [round, ns] : totals(b))
+            if (of_a.contains(round))
+                logs.push_back(std::log(ns / of_a.at(round)));
+        return logs;
+    }
+
+    bool is_told_apart(const Way& way, double queries) const {
+        const std::uint32_t a = advice_.ways[advice_.best].cell_id, b = way.cell_id;
+        const double floor =
+            floors_.of(index_.cell(a), index_.cell(b), Phase::query).value_or(default_delta);
+        const Claim claim{total_logs(a, b, queries), floor};
+        const results::Verdict verdict = decide({&claim, 1}, default_delta)[0].verdict;
+        return verdict == results::Verdict::faster || verdict == results::Verdict::slower;
+    }
+
+    void find_as_good() {
+        const double queries = advice_.wanted.value_or(advice_.n_queries);
+        for (std::size_t i = 0; i < advice_.ways.size(); ++i)
+            if (i != advice_.best && !is_told_apart(advice_.ways[i], queries))
+                advice_.as_good.push_back(i);
+        std::ranges::sort(advice_.as_good, {},
+                          [&](std::size_t way) { return total_ns(advice_.ways[way], queries); });
+    }
+
+    void find_rival() {
+        const double queries = advice_.wanted.value_or(advice_.n_queries);
+        for (const Way& way : rivals_)
+            if (!advice_.rival || total_ns(way, queries) < total_ns(*advice_.rival, queries))
+                advice_.rival = way;
+        if (!advice_.rival)
+            return;
+        advice_.rival_ratio = paired_ratio(
+            total_logs(advice_.ways[advice_.best].cell_id, advice_.rival->cell_id, queries));
+        advice_.is_rival_told_apart = is_told_apart(*advice_.rival, queries);
     }
 
     const results::Results& results_;

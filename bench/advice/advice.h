@@ -28,15 +28,17 @@ struct Step {
 /// Which way to take, by the number of queries per build.
 struct Advice {
     std::string task, scene;
-    std::string query_word;         ///< "rays"; "queries" where one query answers all
-    double n_queries = 1;           ///< of the words above, as they were timed
-    std::vector<Way> ways;          ///< all right ones of ours, by rising build time
-    std::vector<std::size_t> front; ///< of them, by rising build time: what to take
-    std::vector<Step> steps;        ///< between them
-    std::optional<double> wanted;   ///< queries per build, if they were said
-    std::size_t best = 0;           ///< of `ways`: for the wanted number, else for those timed
-    std::optional<Way> rival;       ///< the best peer for that number
-    PairedRatio rival_ratio;        ///< its time over that of the best
+    std::string query_word;           ///< "rays"; "queries" where one query answers all
+    double n_queries = 1;             ///< of the words above, as they were timed
+    std::vector<Way> ways;            ///< all right ones of ours, by rising build time
+    std::vector<std::size_t> front;   ///< of them, by rising build time: what to take
+    std::vector<Step> steps;          ///< between them
+    std::optional<double> wanted;     ///< queries per build, if they were said
+    std::size_t best = 0;             ///< of `ways`: for the wanted number, else for those timed
+    std::vector<std::size_t> as_good; ///< other ways that are not told apart from it there
+    std::optional<Way> rival;         ///< the best peer for that number
+    PairedRatio rival_ratio;          ///< its time over that of the best
+    bool is_rival_told_apart = false;
 };
 
 /// Ways are told apart only by differences beyond noise: see decide. Of a result with one scene and

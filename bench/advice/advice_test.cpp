@@ -92,6 +92,32 @@ TEST(Advice, IsNeverMadeOfADifferenceThatIsNone) {
     EXPECT_FALSE(advice.rival);
 }
 
+TEST(Advice, TakesTheLeastTotalOfAllAndNamesWhatIsNotToldApart) {
+    // Rounds that jump about: from when on a dearer tree pays lies between wide ends, and whatever
+    // the front is, what is taken costs the least.
+    auto noisy = timed({{"a", "wide8", 1e6, 9e5},
+                        {"b", "wide8", 1.5e6, 7e5},
+                        {"c", "wide8", 3e6, 5.5e5},
+                        {"d", "wide8", 6e6, 5e5}});
+    for (auto& sample : noisy.samples)
+        sample.wall_ns *= 1 + .3 * ((sample.round * 5 + sample.cell_id * 3) % 7) / 7;
+    for (double queries = 500; queries < 1e6; queries *= 1.3) {
+        const Advice advice = advise(noisy, queries);
+        const auto total = [&](const Way& way) {
+            return way.build_ns + queries / 1000 * way.query_ns;
+        };
+        const double least = total(std::ranges::min(advice.ways, {}, total));
+        EXPECT_LE(total(advice.ways[advice.best]), 1.02 * least) << queries;
+    }
+    const Advice alike =
+        advise(timed({{"a", "wide8", 1e6, 5e5}, {"b", "wide8", 1.01e6, 5e5}}, 1.51e6));
+    EXPECT_THAT(advice_text(alike),
+                HasSubstr("Not told apart from it there, beyond noise: b.wide8."));
+    const Advice apart = advise(timed({{"a", "wide8", 1e6, 5e5}, {"b", "wide8", 2e6, 5e5}}, 7.6e5));
+    EXPECT_THAT(advice_text(apart), Not(HasSubstr("ot told apart from it there")));
+    EXPECT_THAT(advice_text(apart), HasSubstr("as long, which is not told apart from it."));
+}
+
 TEST(Advice, LeavesOutWhatErrs) {
     const Advice advice =
         advise(timed({{"a", "wide8", 1e6, 5e5}, {"b", "wide8", 1e5, 1e5, results::Status::wrong}}));

@@ -79,10 +79,20 @@ std::string advice_text(const Advice& advice) {
     text += fmt::format("For {} {} per build: {} ({} to build, {} each).\n", about(queries),
                         advice.query_word, best.name, time_of(best.build_ns),
                         time_of(best.query_ns / advice.n_queries));
+    if (!advice.as_good.empty()) {
+        constexpr std::size_t most = 5;
+        text += "Not told apart from it there, beyond noise: ";
+        for (std::size_t i = 0; i < std::min(most, advice.as_good.size()); ++i)
+            text += (i == 0 ? "" : ", ") + advice.ways[advice.as_good[i]].name;
+        text += advice.as_good.size() > most
+                    ? fmt::format(" and {} more.\n", advice.as_good.size() - most)
+                    : ".\n";
+    }
     if (advice.rival)
-        text += fmt::format("{} would take {} as long.\n", advice.rival->name,
+        text += fmt::format("{} would take {} as long{}.\n", advice.rival->name,
                             interval_text(advice.rival_ratio.ratio, advice.rival_ratio.ci_lo,
-                                          advice.rival_ratio.ci_hi));
+                                          advice.rival_ratio.ci_hi),
+                            advice.is_rival_told_apart ? "" : ", which is not told apart from it");
     text += fmt::format("\nC++:\n{}\nPython:\n{}\n", cpp_lines(advice, best),
                         python_line(advice, best));
     text += fmt::format("\n{:<34} {:>10} {:>12}\n", "timed", "build",
@@ -126,9 +136,11 @@ std::string advice_json(const Advice& advice) {
                            interval(w.query.mid / advice.n_queries, w.query.lo / advice.n_queries,
                                     w.query.hi / advice.n_queries));
     };
-    std::string ways, front, steps;
+    std::string ways, front, steps, as_good;
     for (const Way& w : advice.ways)
         ways += (ways.empty() ? "" : ",") + way(w);
+    for (const std::size_t i : advice.as_good)
+        as_good += (as_good.empty() ? "" : ",") + json_string(advice.ways[i].name);
     for (const std::size_t i : advice.front)
         front += (front.empty() ? "" : ",") + json_string(advice.ways[i].name);
     for (const Step& step : advice.steps)
@@ -137,12 +149,12 @@ std::string advice_json(const Advice& advice) {
                              interval(step.query.ratio, step.query.ci_lo, step.query.ci_hi));
     const Way& best = advice.ways[advice.best];
     return fmt::format(
-        R"({{"task":{},"scene":{},"queries_per_build":{},"best":{},"front":[{}],"steps":[{}],)"
+        R"({{"task":{},"scene":{},"queries_per_build":{},"best":{},"as_good":[{}],"front":[{}],"steps":[{}],)"
         R"("rival":{},"rival_ratio":{},"ways":[{}],"cpp":{},"python":{}}})"
         "\n",
         json_string(advice.task), json_string(advice.scene),
-        json_number(advice.wanted.value_or(advice.n_queries)), json_string(best.name), front, steps,
-        advice.rival ? way(*advice.rival) : "null",
+        json_number(advice.wanted.value_or(advice.n_queries)), json_string(best.name), as_good,
+        front, steps, advice.rival ? way(*advice.rival) : "null",
         interval(advice.rival_ratio.ratio, advice.rival_ratio.ci_lo, advice.rival_ratio.ci_hi),
         ways, json_string(cpp_lines(advice, best)), json_string(python_line(advice, best)));
 }

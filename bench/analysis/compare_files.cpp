@@ -157,6 +157,8 @@ class Sides {
         FileRow& added = rows.emplace_back(FileRow{name, row});
         std::tie(added.base_ns, added.head_ns) = paired_medians(rounds, other->second);
         added.max_ratio = paired_ratio(ratios).ci_hi;
+        added.is_same_samples =
+            !ratios.empty() && std::ranges::all_of(ratios, [](double log) { return log == 0; });
         family.claims.push_back({std::move(ratios), floor.value_or(0)});
     }
 
@@ -175,6 +177,8 @@ Gate gate_of(const FileRow& row, const FileOptions& options, bool times_count) {
     const double floor = std::isnan(c.floor) ? 0 : c.floor;
     if (c.verdict == Verdict::wrong)
         return row.is_newly_wrong ? Gate::fails : Gate::passes;
+    if (row.is_same_samples)
+        return Gate::passes;
     if (!times_count)
         return Gate::open;
     if (c.verdict == Verdict::slower && c.ci_lo > 1 + options.fail_if.value_or(0))

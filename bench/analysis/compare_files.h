@@ -23,7 +23,8 @@ struct FileRow {
     /// The head takes at most so much of the base's time: the high end of the 95 % interval of this
     /// row alone.
     double max_ratio = unknown;
-    bool is_newly_wrong = false; ///< right in the base, wrong in the head
+    bool is_newly_wrong = false;  ///< right in the base, wrong in the head
+    bool is_same_samples = false; ///< times are equal, round by round
     Gate gate = Gate::open;
 };
 /// What the base has of a cell and the head has not, so that nothing can be said of it.
@@ -57,9 +58,9 @@ struct FileOptions {
 /// together, so that one slip among many jobs is found. Needs Cell::status in both.
 /// A row fails if it is newly wrong, or its verdict is slower and the interval that decided lies
 /// above 1 + fail_if (1 without it); it passes if max_ratio is at most 1 + limit and the noise
-/// floor is no higher (or the verdict is faster). All fail if one does; all pass if every row does,
-/// one is timed and nothing is lost. Where the peers moved, or on another processor unless
-/// any_processor, times neither fail nor pass.
+/// floor is no higher (or the verdict is faster), or if all its times are equal. All fail if one
+/// does; all pass if every row does, one is timed and nothing is lost. Where the peers moved, or on
+/// another processor unless any_processor, times neither fail nor pass.
 FileComparison compare_files(const results::Results& base, const results::Results& head,
                              const FileOptions& options = {});
 

@@ -30,7 +30,8 @@ TEST(CompareFiles, AFileWithItselfIsTheSameAfterEnoughRounds) {
         for (const auto& row : same.rows) {
             EXPECT_EQ(row.comparison.verdict, rounds < 9 ? Verdict::cannot_tell : Verdict::same);
             EXPECT_EQ(row.comparison.ratio, 1);
-            EXPECT_EQ(row.gate, rounds < 9 ? Gate::open : Gate::passes);
+            EXPECT_EQ(row.gate, Gate::passes); // whatever the noise: nothing is slower
+            EXPECT_TRUE(row.is_same_samples);
         }
         EXPECT_TRUE(same.is_same_machine);
     }

@@ -69,10 +69,27 @@ std::string summary_text(const FileComparison& comparison) {
     return text + "\n";
 }
 
+/// What to do about timings that are open.
+std::string what_would_tell(const FileComparison& comparison, const FileOptions& options,
+                            std::size_t open) {
+    if (open == 0)
+        return "";
+    std::string text = "To tell: more rounds on a quiet machine; both programs in turns (sweep "
+                       "--against); instructions instead of times (sweep --count)";
+    if (const double floor = 100 * comparison.floor.value_or(0); floor > 100 * options.limit())
+        text += fmt::format("; or --fail-if \"slower>{:.0f}%\", which these files may answer",
+                            std::ceil(floor));
+    return text + ".\n";
+}
+
 /// "REGRESSION: 2 of 120 timings are slower by more than 5 %", with the exit code it stands for.
 std::string verdict_line(const FileComparison& comparison, const FileOptions& options) {
     const Counts counts(comparison);
     const std::string by = fmt::format(" by more than {:g} %", 100 * options.limit());
+    if (comparison.gate == Gate::passes &&
+        std::ranges::all_of(comparison.rows, &FileRow::is_same_samples))
+        return fmt::format("SAME: both files hold the same samples of {} timings\n",
+                           counts.timings);
     if (comparison.gate == Gate::passes)
         return fmt::format("FINE: none of {} timings is slower{}", counts.timings, by) +
                summary_text(comparison);
@@ -106,7 +123,8 @@ std::string verdict_line(const FileComparison& comparison, const FileOptions& op
                                     comparison.lost.size()));
     if (counts.timings == 0)
         parts.push_back("no timing of ours with right answers is in both files");
-    return "CAN'T TELL: " + comma_list(parts) + summary_text(comparison);
+    return "CAN'T TELL: " + comma_list(parts) + summary_text(comparison) +
+           what_would_tell(comparison, options, counts.open);
 }
 
 /// What a reader has to know before the table.

@@ -7,11 +7,29 @@
 
 #include <array>
 #include <cassert>
+#include <utility>
 
 namespace boxwood {
 namespace {
 
 constexpr std::size_t max_columns = 32;
+
+/// Whether a line names the columns, in order, and as many as a row may have.
+bool is_header(std::string_view line, const CsvFormat& format) {
+    std::string names(format.columns);
+    std::erase_if(names, [](char c) { return c == '[' || c == ']'; });
+    std::string_view known = names;
+    std::size_t n = 0;
+    for (bool more = true; more; ++n) {
+        more = line.find(',') != std::string_view::npos;
+        std::string_view field = trimmed(take_until(line, ','));
+        if (field.size() > 1 && field.front() == '"' && field.back() == '"')
+            field = field.substr(1, field.size() - 2);
+        if (known.empty() || field.empty() || field != trimmed(take_until(known, ',')))
+            return false;
+    }
+    return n >= format.min && n <= format.max;
+}
 
 } // namespace
 
@@ -25,9 +43,12 @@ std::size_t read_csv(std::string_view text, const std::string& source, const Csv
     text = without_byte_order_mark(text);
     std::array<double, max_columns> numbers;
     std::size_t n_rows = 0;
+    bool is_first = true;
     for (std::size_t line = 1; !text.empty(); ++line) {
         const std::string_view whole = trimmed(take_until(text, '\n'));
         if (whole.empty() || whole.front() == '#')
+            continue;
+        if (std::exchange(is_first, false) && is_header(whole, format))
             continue;
 
         std::size_t n = 0;
@@ -50,7 +71,7 @@ std::size_t read_csv(std::string_view text, const std::string& source, const Csv
                 throw_bad_row(
                     source, line,
                     fmt::format("column {} is {}; expected numbers {}, with commas "
-                                "between (put # before a header line)",
+                                "between (put # before other header lines)",
                                 n + 1, field.empty() ? "empty" : quoted(field) + ", not a number",
                                 format.columns));
             case NumberFault::too_large:

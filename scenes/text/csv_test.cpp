@@ -95,7 +95,7 @@ TEST(Csv, InfinitiesAndNanArriveForTheCallerToJudge) {
 
 TEST(Csv, WhatIsNoNumberIsNamedWithItsPlace) {
     EXPECT_THAT(complaint("1,2\nmin,max\n", two), HasSubstr("in.csv:2: column 1 is 'min'"));
-    EXPECT_THAT(complaint("1,2\nmin,max\n", two), HasSubstr("put # before a header line"));
+    EXPECT_THAT(complaint("1,2\nmin,max\n", two), HasSubstr("put # before other header lines"));
     for (const char* bad : {"1x", "--1", "+-1", "-+1", "0x", "0x-1", "1e", "1 2", "0x1p", "1_0",
                             "1;2", "\xff", "0x0x1", "e5", "."})
         EXPECT_THAT(complaint(bad, one), HasSubstr("in.csv:1: column 1")) << bad;
@@ -103,6 +103,19 @@ TEST(Csv, WhatIsNoNumberIsNamedWithItsPlace) {
     EXPECT_THAT(complaint("1,2,", {"a,b,c", 3, 3}), HasSubstr("column 3 is empty"));
     EXPECT_THAT(complaint(std::string("1\0,2", 4), two), HasSubstr("'1?'"));
     EXPECT_THAT(complaint(std::string(1000, 'z'), one), HasSubstr("zzz...'"));
+}
+
+TEST(Csv, AFirstLineThatNamesTheColumnsIsNoRow) {
+    // As pandas writes it; once, whole, in order.
+    const CsvFormat format{"min,max[,id]", 2, 3};
+    const auto rows_of = [&](const std::string& text) {
+        return read_csv(text, "in.csv", format, [](auto, std::size_t) {});
+    };
+    for (const std::string header : {"min,max\n", "min, max,id\r\n", "# mine\n\n\"min\",\"max\"\n"})
+        EXPECT_EQ(rows_of(header + "1,2\n"), 1u) << header;
+    for (const std::string bad : {"max,min\n1,2\n", "min\n1,2\n", "min,max\nmin,max\n",
+                                  "min,max,id,more\n", "min,maxx\n", "1,2\nmin,max\n"})
+        EXPECT_THROW(rows_of(bad), BadInput) << bad;
 }
 
 TEST(Csv, TooLargeNumbersAreRefused) {

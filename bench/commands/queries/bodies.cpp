@@ -1,6 +1,7 @@
 #include "bench/commands/queries/bodies.h"
 
 #include "bench/io/bad_input.h"
+#include "kernels/suggest.h"
 #include "scenes/meshes/mesh_file.h"
 #include "scenes/text/csv.h"
 #include "trees/world/box_mesh.h"
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -59,8 +61,15 @@ std::optional<convex::Shape> read_primitive(const std::string& text) {
     const std::size_t colon = text.find(':');
     const std::string_view name = std::string_view(text).substr(0, colon);
     const auto kind = std::ranges::find(kinds, name, &Kind::name);
-    if (colon == std::string::npos || kind == std::ranges::end(kinds))
+    if (colon == std::string::npos)
         return std::nullopt;
+    if (kind == std::ranges::end(kinds)) {
+        const bool is_word = std::ranges::all_of(name, [](char c) { return c >= 'a' && c <= 'z'; });
+        if (is_word && name.size() > 1 && !std::filesystem::exists(text))
+            throw BadInput(fmt::format("{}: no such file, and {}", text,
+                                       unknown_name("shape", name, names_of(kinds))));
+        return std::nullopt;
+    }
     return kind->make(
         numbers_of(text, std::string_view(text).substr(colon + 1), kind->numbers, kind->form));
 }

@@ -96,6 +96,16 @@ std::vector<double> chosen_state(const RobotQuery& query, const RobotCase& robot
         take_named_state(robot, *query.state, values);
     if (query.joints)
         take_joints(robot.robot, *query.joints, values);
+    for (const JointDescription& joint : robot.robot.joints()) {
+        const bool has_limits =
+            joint.kind == JointKind::revolute || joint.kind == JointKind::prismatic;
+        if (!has_limits || joint.mimic)
+            continue;
+        const double value = values[robot.robot.value(joint.name)];
+        if (value < joint.lower || value > joint.upper)
+            fmt::print(stderr, "boxwood: warning: {} is {}, outside its limits {} to {}\n",
+                       joint.name, value, joint.lower, joint.upper);
+    }
     return values;
 }
 
