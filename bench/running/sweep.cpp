@@ -433,6 +433,7 @@ void list_cells(const SweepOptions& options) {
             guessed_cell_s(cell, plan.min_time_ms) *
             (std::min(rounds, cell.rounds.value_or(rounds)) + (has_inputs(cell) ? plan.inputs : 1));
     }
+    std::fflush(stdout); // the time comes last
     say(fmt::format("{} cells, {} rounds, sweep {}: about {} (a guess; the preparation measures)\n",
                     plan.cells.size(), rounds, plan.sweep_hash, duration_text(guess_s)));
 }

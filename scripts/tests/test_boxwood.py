@@ -18,9 +18,9 @@ FOUR_LINK = "".join(f"{x - 0.32},-0.1,-0.1,{x + 0.32},0.1,0.1\n" for x in (0, 0.
 pytestmark = pytest.mark.skipif(not PROGRAM.exists(), reason=f"{PROGRAM} is not built")
 
 
-def boxwood(*arguments, stdin=""):
+def boxwood(*arguments, stdin="", cwd=None):
     return subprocess.run(
-        [PROGRAM, *map(str, arguments)], input=stdin, capture_output=True, text=True, timeout=300
+        [PROGRAM, *map(str, arguments)], input=stdin, capture_output=True, text=True, timeout=300, cwd=cwd
     )
 
 

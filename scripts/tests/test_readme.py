@@ -2,6 +2,7 @@
 
 import json
 import re
+import shlex
 
 import pytest
 from test_boxwood import PROGRAM, ROOT, answer, boxwood, words
@@ -37,6 +38,19 @@ def test_commands_and_their_options_exist():
         assert all(option in said for option in line if option.startswith("--")), line
     for line in [line for line in commands() if line[0].startswith("./scripts/")]:
         assert (ROOT / line[0]).exists(), line
+
+
+@needs_program
+def test_the_first_lines_run_as_they_stand(tmp_path):
+    first = README.split("## The first ten minutes")[1].split("```")[1]
+    lines = [shlex.split(line, comments=True)[1:] for line in first.splitlines()[1:] if line]
+    assert len(lines) > 14
+    used = {path for line in lines for path in line if path.startswith("scenes/examples/")}
+    assert used == {str(path.relative_to(ROOT)) for path in (ROOT / "scenes/examples").iterdir()}
+    for line in [line for line in lines if line[0] not in ("choose", "check", "doctor")]:  # minutes, or the machine's
+        words = [str(ROOT / word) if word in used else word for word in line]
+        done = boxwood(*words, cwd=tmp_path)
+        assert done.returncode == 0 and len(done.stdout) > 1, (line, done.stderr)
 
 
 @needs_program
