@@ -3,6 +3,7 @@
 #include "kernels/ray_box/ray_box_kernel.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -83,11 +84,13 @@ struct FusedSlabs {
   private:
     using Bits = std::int32_t __attribute__((vector_size(16)));
 
+    static Bits bits_of(Float4 x) { return std::bit_cast<Bits>(x); }
+    static Float4 of_bits(Bits x) { return std::bit_cast<Float4>(x); }
     static Float4 all(float x) { return Float4{x, x, x, x}; }
-    static Float4 abs(Float4 x) { return (Float4)((Bits)x & 0x7fffffff); }
+    static Float4 abs(Float4 x) { return of_bits(bits_of(x) & 0x7fffffff); }
     /// x >= 0 with the signs of y.
     static Float4 with_sign(Float4 x, Float4 y) {
-        return (Float4)((Bits)x | ((Bits)y & std::numeric_limits<std::int32_t>::min()));
+        return of_bits(bits_of(x) | (bits_of(y) & std::numeric_limits<std::int32_t>::min()));
     }
     static float largest_of(Float4 x) { return std::max(std::max(x[0], x[1]), x[2]); }
 

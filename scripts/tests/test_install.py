@@ -36,7 +36,7 @@ def installed(tmp_path_factory):
 
 def test_examples_run(installed, tmp_path):
     run("cmake", "-S", EXAMPLES, "-B", tmp_path, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={installed}",
-        "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Wpedantic -Werror")  # fmt: skip
+        "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wold-style-cast -Werror")  # fmt: skip
     run("cmake", "--build", tmp_path)
     tested = run("ctest", "--test-dir", tmp_path, "--output-on-failure")
     has_fcl = not re.search(r"^fcl_DIR:PATH=.*NOTFOUND$", (tmp_path / "CMakeCache.txt").read_text(), re.M)

@@ -8,7 +8,7 @@ namespace boxwood::detail {
 /// A whole number of 64 n bits in two's complement. A sum has the length of its parts, which the
 /// caller must know to be enough; a product that of its factors together, which always is.
 template <int n> struct FixedInteger {
-    std::uint64_t word[n]{};
+    std::uint64_t word[static_cast<unsigned>(n)]{};
 
     BOXWOOD_BOTH bool negative() const { return word[n - 1] >> 63 != 0; }
     BOXWOOD_BOTH int sign() const {
