@@ -1,11 +1,10 @@
 #include "bench/peers/coal/module.h"
-#include "bench/tasks/detail/mesh_pair_answers.h"
+#include "bench/peers/mesh_queries.h"
 
 #include <coal/BVH/BVH_model.h>
 #include <coal/collision.h>
 #include <coal/distance.h>
 
-#include <algorithm>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -13,16 +12,21 @@
 namespace boxwood::bench {
 namespace {
 
-/// Coal's model of the scene's mesh, which stands for the mesh and for its copy.
+/// Coal's model of the scene's mesh, which stands for the mesh and for its copy; as
+/// bench/peers/mesh_queries.h asks of it.
 template <class Volume> class MeshModels : public Contender {
   public:
-    explicit MeshModels(const Job& job) : scene_(*job.scene) {
-        for (const Vec3<float>& v : scene_.mesh.vertices)
+    using CollisionRequest = coal::CollisionRequest;
+    using DistanceRequest = coal::DistanceRequest;
+
+    explicit MeshModels(const Job& job) {
+        const Scene& scene = *job.scene;
+        for (const Vec3<float>& v : scene.mesh.vertices)
             vertices_.emplace_back(static_cast<double>(v.x), static_cast<double>(v.y),
                                    static_cast<double>(v.z));
-        for (const auto& [a, b, c] : scene_.mesh.triangles)
+        for (const auto& [a, b, c] : scene.mesh.triangles)
             triangles_.emplace_back(a, b, c);
-        for (const RigidTransform<double>& pose : scene_.poses) {
+        for (const RigidTransform<double>& pose : scene.poses) {
             coal::Matrix3s rotation;
             for (int i = 0; i < 3; ++i)
                 for (int j = 0; j < 3; ++j)
@@ -41,22 +45,29 @@ template <class Volume> class MeshModels : public Contender {
     }
 
   protected:
-    const Scene& scene_;
-    std::vector<coal::Transform3s> poses_;
-    coal::CollisionResult result_;
-
-    std::size_t collide_at(std::size_t i, const coal::CollisionRequest& request) {
-        result_.clear();
-        return coal::collide(model_.get(), in_place_, model_.get(), poses_[i], request, result_);
+    std::size_t n_poses() const { return poses_.size(); }
+    std::size_t collide_at(std::size_t i, const CollisionRequest& request) {
+        touches_.clear();
+        return coal::collide(model_.get(), in_place_, model_.get(), poses_[i], request, touches_);
     }
-    void distance_at(std::size_t i, const coal::DistanceRequest& request,
-                     coal::DistanceResult& result) const {
-        coal::distance(model_.get(), in_place_, model_.get(), poses_[i], request, result);
+    template <class Visit> void for_each_contact(Visit visit) const {
+        for (const coal::Contact& contact : touches_.getContacts())
+            visit(contact);
+    }
+    /// Coal's depth is a signed distance, below 0 where the two overlap.
+    static double depth_of(const coal::Contact& contact) { return -contact.penetration_depth; }
+    const coal::DistanceResult& distance_at(std::size_t i, const DistanceRequest& request) {
+        nearest_.clear();
+        coal::distance(model_.get(), in_place_, model_.get(), poses_[i], request, nearest_);
+        return nearest_;
     }
 
   private:
     std::vector<coal::Vec3s> vertices_;
     std::vector<coal::Triangle> triangles_;
+    std::vector<coal::Transform3s> poses_;
+    coal::CollisionResult touches_;
+    coal::DistanceResult nearest_;
     std::unique_ptr<coal::BVHModel<Volume>> model_;
     const coal::Transform3s in_place_;
 };
@@ -73,67 +84,6 @@ coal::CollisionRequest request_of(std::size_t max_contacts, bool with_contact, d
 }
 constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
 
-/// Yes or no for each pose: a touch, or nearer than a margin.
-template <class Volume> class FirstTouch final : public MeshModels<Volume> {
-  public:
-    FirstTouch(const Job& job, bool with_contact, double margin = 0)
-        : MeshModels<Volume>(job), request_(request_of(1, with_contact, margin)) {}
-    void query(Answers& answers) override {
-        std::vector<std::uint8_t>& touches = list_of<std::uint8_t>(answers);
-        touches.clear();
-        for (std::size_t i = 0; i < this->poses_.size(); ++i)
-            touches.push_back(this->collide_at(i, request_) > 0);
-    }
-
-  private:
-    coal::CollisionRequest request_;
-};
-
-PosedPair pair_of(std::size_t pose, const coal::Contact& contact) {
-    return {static_cast<std::uint32_t>(pose), static_cast<std::uint32_t>(contact.b1),
-            static_cast<std::uint32_t>(contact.b2)};
-}
-
-template <class Volume> class AllTouches final : public MeshModels<Volume> {
-  public:
-    using MeshModels<Volume>::MeshModels;
-    void query(Answers& answers) override {
-        std::vector<PosedPair>& touching = list_of<PosedPair>(answers);
-        touching.clear();
-        for (std::size_t i = 0; i < this->poses_.size(); ++i) {
-            this->collide_at(i, request_);
-            for (const coal::Contact& contact : this->result_.getContacts())
-                touching.push_back(pair_of(i, contact));
-        }
-    }
-
-  private:
-    coal::CollisionRequest request_ = request_of(no_limit, false);
-};
-
-/// Coal's depth is a signed distance, below 0 where the two overlap.
-template <class Volume> class AllContacts final : public MeshModels<Volume> {
-  public:
-    using MeshModels<Volume>::MeshModels;
-    void query(Answers& answers) override {
-        std::vector<PosedContact>& found = list_of<PosedContact>(answers);
-        found.clear();
-        for (std::size_t i = 0; i < this->poses_.size(); ++i) {
-            this->collide_at(i, request_);
-            const auto first = static_cast<std::ptrdiff_t>(found.size());
-            for (const coal::Contact& c : this->result_.getContacts())
-                found.push_back({{c.pos.x(), c.pos.y(), c.pos.z()},
-                                 {c.normal.x(), c.normal.y(), c.normal.z()},
-                                 -c.penetration_depth,
-                                 pair_of(i, c)});
-            std::sort(found.begin() + first, found.end(), is_before);
-        }
-    }
-
-  private:
-    coal::CollisionRequest request_ = request_of(no_limit, true);
-};
-
 /// Where the two touch a signed distance would be asked for once more.
 coal::DistanceRequest unsigned_distance() {
     coal::DistanceRequest request;
@@ -141,44 +91,22 @@ coal::DistanceRequest unsigned_distance() {
     return request;
 }
 
-template <class Volume> class LeastDistance final : public MeshModels<Volume> {
-  public:
-    using MeshModels<Volume>::MeshModels;
-    void query(Answers& answers) override {
-        std::vector<PosedDistance>& distances = list_of<PosedDistance>(answers);
-        distances.clear();
-        for (std::size_t i = 0; i < this->poses_.size(); ++i) {
-            result_.clear();
-            this->distance_at(i, request_, result_);
-            const double d = result_.min_distance;
-            distances.push_back(
-                {d,
-                 d,
-                 d,
-                 {static_cast<std::uint32_t>(result_.b1), static_cast<std::uint32_t>(result_.b2)}});
-        }
-    }
-
-  private:
-    coal::DistanceRequest request_ = unsigned_distance();
-    coal::DistanceResult result_;
-};
-
 template <class Volume>
 std::unique_ptr<Contender> mesh_contender(const Job& job, CoalMeshQuery query, double tolerance) {
+    using Models = MeshModels<Volume>;
     switch (query) {
     case CoalMeshQuery::first_touch:
-        return std::make_unique<FirstTouch<Volume>>(job, false);
+        return std::make_unique<FirstTouch<Models>>(job, request_of(1, false));
     case CoalMeshQuery::first_contact:
-        return std::make_unique<FirstTouch<Volume>>(job, true);
+        return std::make_unique<FirstTouch<Models>>(job, request_of(1, true));
     case CoalMeshQuery::all_touches:
-        return std::make_unique<AllTouches<Volume>>(job);
+        return std::make_unique<AllTouches<Models>>(job, request_of(no_limit, false));
     case CoalMeshQuery::all_contacts:
-        return std::make_unique<AllContacts<Volume>>(job);
+        return std::make_unique<AllContacts<Models>>(job, request_of(no_limit, true));
     case CoalMeshQuery::least_distance:
-        return std::make_unique<LeastDistance<Volume>>(job);
+        return std::make_unique<LeastDistance<Models>>(job, unsigned_distance());
     case CoalMeshQuery::within_margin:
-        return std::make_unique<FirstTouch<Volume>>(job, false, tolerance);
+        return std::make_unique<FirstTouch<Models>>(job, request_of(1, false, tolerance));
     }
     return nullptr;
 }

@@ -1,6 +1,7 @@
 #include "bench/peers/answering.h"
 #include "bench/peers/fcl/mesh_models.h"
 #include "bench/peers/mesh_peers.h"
+#include "bench/tasks/detail/mesh_pair_answers.h"
 #include "bench/truth/first_meeting_truth.h"
 #include "trees/world/motion.h"
 
@@ -8,8 +9,6 @@
 #include <fcl/math/motion/screw_motion.h>
 #include <fcl/math/motion/translation_motion.h>
 #include <fcl/narrowphase/continuous_collision.h>
-#include <fcl/narrowphase/distance.h>
-#include <fmt/format.h>
 
 #include <memory>
 #include <string>
@@ -19,8 +18,8 @@ namespace boxwood::bench {
 namespace {
 
 /// Not InterpMotion(from, to), which leaves the point unset that goes straight.
-std::unique_ptr<fcl::MotionBased> motion_between(const fcl::Transform3d& from,
-                                                 const fcl::Transform3d& to, bool is_screw) {
+std::unique_ptr<fcl::MotionBase<double>> motion_between(const fcl::Transform3d& from,
+                                                        const fcl::Transform3d& to, bool is_screw) {
     if (is_screw)
         return std::make_unique<fcl::ScrewMotion<double>>(from, to);
     return std::make_unique<fcl::InterpMotion<double>>(
@@ -61,6 +60,7 @@ template <class Volume> class FirstMeetings final : public MeshModels<Volume> {
 /// distance takes at the greatest speed, until the two are within the task's tolerance.
 template <class Volume> class SteppedMeetings final : public MeshModels<Volume> {
   public:
+    using S = typename Volume::S;
     explicit SteppedMeetings(const Job& job)
         : MeshModels<Volume>(job),
           path_(job.scene->spec.motion == "screw" ? MotionPath::screw : MotionPath::linear),
@@ -82,10 +82,8 @@ template <class Volume> class SteppedMeetings final : public MeshModels<Volume> 
         const double speed = motion.longest_way(box_);
         double t = 0;
         while (t < 1) {
-            result_.clear();
-            const double apart = fcl::distance<double>(
-                this->model_.get(), fcl::Transform3d::Identity(), this->model_.get(),
-                transform_of(motion.at(t)), request_, result_);
+            const auto apart = static_cast<double>(
+                this->distance_at(transform_of<S>(motion.at(t)), request_).min_distance);
             if (!(apart > tolerance_))
                 return {t, t, Meets::yes};
             t = speed > 0 ? t + apart / speed : 1;
@@ -96,50 +94,46 @@ template <class Volume> class SteppedMeetings final : public MeshModels<Volume> 
     MotionPath path_;
     double tolerance_;
     Aabb<float> box_; ///< of the mesh
-    fcl::DistanceRequestd request_{false};
-    fcl::DistanceResultd result_;
+    fcl::DistanceRequest<S> request_{false};
 };
 
-ContenderEntry entry_of_motions(const std::string& name, const std::string& volume,
-                                const std::string& how) {
-    ContenderEntry e;
-    e.name = "fcl." + name;
-    e.library = "fcl";
-    e.summary = fmt::format("FCL's BVHModel of {}, {}", volume, how);
-    e.notes = fmt::format("build = one model, which stands for the mesh and for its copy; query = "
-                          "motion after motion, made from its two poses in the query; {}; doubles; "
-                          "one thread",
-                          how);
-    e.precision = "f64";
-    e.runs_on = RunsOn::one_thread;
-    return e;
+template <class Volume>
+ContenderEntry entry_of_motions(const std::string& after, const std::string& how) {
+    return entry_of_models<Volume>(
+        after, how, "motion after motion, made from its two poses in the query; " + how);
 }
 
-template <class Volume>
-void append_motions(std::vector<ContenderEntry>& all, const std::string& name,
-                    const std::string& volume) {
-    ContenderEntry& continuous = all.emplace_back(entry_of_motions(
-        name + ".continuous", volume,
+template <class Volume> void append_stepped(std::vector<ContenderEntry>& all) {
+    ContenderEntry& stepped = all.emplace_back(entry_of_motions<Volume>(
+        ".stepped",
+        "conservative advancement around its distance, with our motions and their bound of the "
+        "speed, as continuousCollide errs; until nearer than 1e-5 of the mesh's diagonal"));
+    stepped.answers = {answering<SteppedMeetings<Volume>>("continuous")};
+}
+
+/// In doubles alone, as its answers are wrong.
+template <class Volume> void append_continuous(std::vector<ContenderEntry>& all) {
+    ContenderEntry& continuous = all.emplace_back(entry_of_motions<Volume>(
+        ".continuous",
         "continuousCollide by conservative advancement, which ends where a step is 1e-5 of the "
         "motion: that is fixed, toc_err and num_max_iterations are not read; it passes through "
         "meshes, and meets them where they are not"));
     continuous.answers = {answering<FirstMeetings<Volume>>(
         "continuous", fcl::CCDC_CONSERVATIVE_ADVANCEMENT, std::size_t{10})};
-    ContenderEntry& stepped = all.emplace_back(entry_of_motions(
-        name + ".stepped", volume,
-        "conservative advancement around its distance, with our motions and their bound of the "
-        "speed, as continuousCollide errs; until nearer than 1e-5 of the mesh's diagonal"));
-    stepped.answers = {answering<SteppedMeetings<Volume>>("continuous")};
 }
 
 } // namespace
 
 std::vector<ContenderEntry> fcl_motions() {
     std::vector<ContenderEntry> all;
-    append_motions<fcl::OBBRSSd>(all, "obbrss", "OBBRSS");
-    append_motions<fcl::RSSd>(all, "rss", "RSS");
-    ContenderEntry& sampled = all.emplace_back(entry_of_motions(
-        "obbrss.sampled", "OBBRSS",
+    append_continuous<fcl::OBBRSSd>(all);
+    append_stepped<fcl::OBBRSSd>(all);
+    append_continuous<fcl::RSSd>(all);
+    append_stepped<fcl::RSSd>(all);
+    append_stepped<fcl::OBBRSSf>(all);
+    append_stepped<fcl::RSSf>(all);
+    ContenderEntry& sampled = all.emplace_back(entry_of_motions<fcl::OBBRSSd>(
+        ".sampled",
         "continuousCollide by 100 samples, its default way with ten times its number of samples: "
         "what is between two of them is passed through, and a contact is found too late"));
     sampled.answers = {

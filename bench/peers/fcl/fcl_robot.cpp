@@ -22,8 +22,6 @@
 namespace boxwood::bench {
 namespace {
 
-using Model = fcl::BVHModel<fcl::OBBRSSd>;
-
 /// Which links may touch, as a table that a callback reads.
 class Allowed {
   public:
@@ -48,8 +46,8 @@ struct Shape {
 };
 
 /// All shapes of a robot; those that name one mesh in one scale share it.
-struct LinkShapes {
-    std::vector<MeshOfFcl> meshes;
+template <class S> struct LinkShapes {
+    std::vector<MeshOfFcl<S>> meshes;
     std::vector<Shape> shapes;
 
     explicit LinkShapes(const RobotInScene& of) {
@@ -71,45 +69,60 @@ struct LinkShapes {
 };
 
 /// FCL's shape for a link's, its frame included.
-struct GeometryOf {
-    const std::shared_ptr<Model>& model; ///< of a mesh
+template <class Volume> struct GeometryOf {
+    using S = typename Volume::S;
+    const std::shared_ptr<fcl::BVHModel<Volume>>& model; ///< of a mesh
 
-    using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
+    using Geometry = std::shared_ptr<fcl::CollisionGeometry<S>>;
     Geometry operator()(const LinkMesh&) const { return model; }
     Geometry operator()(const LinkBox& shape) const {
-        return std::make_shared<fcl::Boxd>(shape.sides.x, shape.sides.y, shape.sides.z);
+        return std::make_shared<fcl::Box<S>>(of(shape.sides.x), of(shape.sides.y),
+                                             of(shape.sides.z));
     }
     Geometry operator()(const LinkSphere& shape) const {
-        return std::make_shared<fcl::Sphered>(shape.radius);
+        return std::make_shared<fcl::Sphere<S>>(of(shape.radius));
     }
     Geometry operator()(const LinkCylinder& shape) const {
-        return std::make_shared<fcl::Cylinderd>(shape.radius, shape.length);
+        return std::make_shared<fcl::Cylinder<S>>(of(shape.radius), of(shape.length));
     }
     Geometry operator()(const LinkCapsule& shape) const {
-        return std::make_shared<fcl::Capsuled>(shape.radius, shape.length);
+        return std::make_shared<fcl::Capsule<S>>(of(shape.radius), of(shape.length));
     }
+
+  private:
+    static S of(double x) { return static_cast<S>(x); }
 };
 
 enum class Pairs : std::uint8_t { by_manager, all };
 
-class SelfCollisions final : public Contender {
+template <class Volume> class SelfCollisions final : public Contender {
   public:
+    using S = typename Volume::S;
+    using Model = fcl::BVHModel<Volume>;
+    using Object = fcl::CollisionObject<S>;
+
     SelfCollisions(const Job& job, Pairs pairs)
         : robot_(*job.scene), shapes_(robot_), allowed_(robot_.allowed),
-          poses_(robot_.robot.links().size()), by_manager_(pairs == Pairs::by_manager) {}
+          poses_(robot_.robot.links().size()), by_manager_(pairs == Pairs::by_manager) {
+        const std::vector<Shape>& shapes = shapes_.shapes;
+        for (std::uint32_t i = 0; i < shapes.size(); ++i)
+            for (std::uint32_t j = i + 1; j < shapes.size(); ++j)
+                if (!allowed_(shapes[i].link, shapes[j].link))
+                    pairs_.push_back({i, j});
+    }
 
     void build() override {
         manager_.clear();
         objects_.clear();
         std::vector<std::shared_ptr<Model>> models;
-        for (const MeshOfFcl& mesh : shapes_.meshes) {
+        for (const MeshOfFcl<S>& mesh : shapes_.meshes) {
             models.push_back(std::make_shared<Model>());
             mesh.build(*models.back());
         }
         models.emplace_back(); // what is no mesh may name it
         for (Shape& shape : shapes_.shapes) {
-            objects_.push_back(std::make_unique<fcl::CollisionObjectd>(
-                std::visit(GeometryOf{models[shape.mesh]}, shape.geometry.shape)));
+            objects_.push_back(std::make_unique<Object>(
+                std::visit(GeometryOf<Volume>{models[shape.mesh]}, shape.geometry.shape)));
             objects_.back()->setUserData(&shape);
             if (by_manager_)
                 manager_.registerObject(objects_.back().get());
@@ -132,71 +145,88 @@ class SelfCollisions final : public Contender {
         for (std::size_t i = 0; i < objects_.size(); ++i) {
             const Shape& shape = shapes_.shapes[i];
             objects_[i]->setTransform(
-                transform_of(compose(poses_[shape.link], shape.geometry.origin)));
+                transform_of<S>(compose(poses_[shape.link], shape.geometry.origin)));
             objects_[i]->computeAABB();
         }
     }
-    static const Shape& shape_of(const fcl::CollisionObjectd& object) {
+    static const Shape& shape_of(const Object& object) {
         return *static_cast<const Shape*>(object.getUserData());
     }
-    bool touch(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b) {
-        if (allowed_(shape_of(*a).link, shape_of(*b).link))
-            return false;
+    bool touch(Object* a, Object* b) {
         result_.clear();
         return fcl::collide(a, b, request_, result_) > 0;
     }
     bool found_by_manager() {
         manager_.update();
         found_ = false;
-        manager_.collide(this, [](fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* self) {
+        manager_.collide(this, [](Object* a, Object* b, void* self) {
             auto& of = *static_cast<SelfCollisions*>(self);
-            return of.found_ = of.touch(a, b); // true ends it
+            return of.found_ = !of.allowed_(shape_of(*a).link, shape_of(*b).link) &&
+                               of.touch(a, b); // true ends it
         });
         return found_;
     }
     bool found_pair_by_pair() {
-        for (std::size_t i = 0; i < objects_.size(); ++i)
-            for (std::size_t j = i + 1; j < objects_.size(); ++j)
-                if (objects_[i]->getAABB().overlap(objects_[j]->getAABB()) &&
-                    touch(objects_[i].get(), objects_[j].get()))
-                    return true;
+        for (const Pair& pair : pairs_)
+            if (objects_[pair.a]->getAABB().overlap(objects_[pair.b]->getAABB()) &&
+                touch(objects_[pair.a].get(), objects_[pair.b].get()))
+                return true;
         return false;
     }
 
     RobotInScene robot_;
-    LinkShapes shapes_;
+    LinkShapes<S> shapes_;
     Allowed allowed_;
+    std::vector<Pair> pairs_;                   ///< of shapes whose links must not touch
     std::vector<RigidTransform<double>> poses_; ///< of the links
     bool by_manager_, found_ = false;
-    std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects_; ///< outlive their manager's use
-    fcl::DynamicAABBTreeCollisionManager<double> manager_;
-    fcl::CollisionRequestd request_{1, false};
-    fcl::CollisionResultd result_;
+    std::vector<std::unique_ptr<Object>> objects_; ///< outlive their manager's use
+    fcl::DynamicAABBTreeCollisionManager<S> manager_;
+    fcl::CollisionRequest<S> request_{1, false};
+    fcl::CollisionResult<S> result_;
 };
 
+template <class Volume>
 ContenderEntry self_collisions(const std::string& name, Pairs pairs, const std::string& how) {
+    using Name = VolumeName<Volume>;
     ContenderEntry e;
     e.name = "fcl.robot." + name;
+    if (Name::word() != "obbrss")
+        e.name += "." + Name::word();
     e.library = "fcl";
-    e.summary =
-        "FCL's BVHModel of OBBRSS for each link's mesh and its shapes for solids, pairs " + how;
+    e.summary = fmt::format("FCL's BVHModel of {} for each link's mesh and its shapes for solids, "
+                            "{}pairs {}",
+                            Name::title(), Name::is_single ? "in floats, " : "", how);
     e.notes = fmt::format("build = a model of each mesh, and objects; query = state after state, "
                           "our forward kinematics, objects placed, pairs {}, until two touch that "
-                          "must not; collide for one contact without its point; which may touch "
-                          "is read from a table of bytes; doubles; one thread",
-                          how);
-    e.precision = "f64";
+                          "must not; collide for one contact without its point; {}; one thread",
+                          how, Name::is_single ? "floats, compiled here" : "doubles");
+    e.precision = Name::is_single ? "f32" : "f64";
     e.runs_on = RunsOn::one_thread;
-    e.answers = {answering<SelfCollisions>("robot_self", pairs)};
+    e.answers = {answering<SelfCollisions<Volume>>("robot_self", pairs)};
     return e;
+}
+
+template <class Volume> void append_robots(std::vector<ContenderEntry>& all) {
+    all.push_back(self_collisions<Volume>(
+        "manager", Pairs::by_manager,
+        "from DynamicAABBTreeCollisionManager after update() of all, less those that a table of "
+        "bytes allows to touch"));
+    all.push_back(self_collisions<Volume>(
+        "pairs", Pairs::all,
+        "of which the boxes overlap, one by one of a list that is made beforehand, without those "
+        "that may touch"));
 }
 
 } // namespace
 
 std::vector<ContenderEntry> fcl_robots() {
-    return {self_collisions("manager", Pairs::by_manager,
-                            "from DynamicAABBTreeCollisionManager after update() of all"),
-            self_collisions("pairs", Pairs::all, "of which the boxes overlap, one by one")};
+    std::vector<ContenderEntry> all;
+    append_robots<fcl::OBBRSSd>(all);
+    append_robots<fcl::OBBd>(all);
+    append_robots<fcl::OBBRSSf>(all);
+    append_robots<fcl::OBBf>(all);
+    return all;
 }
 
 } // namespace boxwood::bench

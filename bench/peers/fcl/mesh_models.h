@@ -1,36 +1,39 @@
 #pragma once
 
 #include "bench/tasks/contender.h"
-#include "bench/tasks/detail/mesh_pair_answers.h"
+#include "scenes/scene.h"
 
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/distance.h>
 
+#include <limits>
 #include <memory>
+#include <string>
+#include <type_traits>
 #include <vector>
 
 namespace boxwood::bench {
 
-inline fcl::Transform3d transform_of(const RigidTransform<double>& pose) {
-    fcl::Transform3d transform = fcl::Transform3d::Identity();
+template <class S> fcl::Transform3<S> transform_of(const RigidTransform<double>& pose) {
+    fcl::Transform3<S> transform = fcl::Transform3<S>::Identity();
     for (int i = 0; i < 3; ++i) {
         const Vec3<double>& row = pose.rotation[static_cast<std::size_t>(i)];
         for (int j = 0; j < 3; ++j)
-            transform.linear()(i, j) = row[j];
-        transform.translation()(i) = pose.translation[i];
+            transform.linear()(i, j) = static_cast<S>(row[j]);
+        transform.translation()(i) = static_cast<S>(pose.translation[i]);
     }
     return transform;
 }
 
 /// A mesh in FCL's own types.
-struct MeshOfFcl {
-    std::vector<fcl::Vector3d> vertices;
+template <class S> struct MeshOfFcl {
+    std::vector<fcl::Vector3<S>> vertices;
     std::vector<fcl::Triangle> triangles;
 
     explicit MeshOfFcl(const TriangleMesh& mesh) {
         for (const Vec3<float>& v : mesh.vertices)
-            vertices.emplace_back(static_cast<double>(v.x), static_cast<double>(v.y),
-                                  static_cast<double>(v.z));
+            vertices.emplace_back(static_cast<S>(v.x), static_cast<S>(v.y), static_cast<S>(v.z));
         for (const auto& [a, b, c] : mesh.triangles)
             triangles.emplace_back(a, b, c);
     }
@@ -42,12 +45,17 @@ struct MeshOfFcl {
     }
 };
 
-/// FCL's model of the scene's mesh, which stands for the mesh and for its copy.
+/// FCL's model of the scene's mesh, which stands for the mesh and for its copy; as
+/// bench/peers/mesh_queries.h asks of it.
 template <class Volume> class MeshModels : public Contender {
   public:
+    using S = typename Volume::S;
+    using CollisionRequest = fcl::CollisionRequest<S>;
+    using DistanceRequest = fcl::DistanceRequest<S>;
+
     explicit MeshModels(const Job& job) : scene_(*job.scene), mesh_(scene_.mesh) {
         for (const RigidTransform<double>& pose : scene_.poses)
-            poses_.push_back(transform_of(pose));
+            poses_.push_back(transform_of<S>(pose));
     }
     void build() override {
         model_.reset();
@@ -57,18 +65,75 @@ template <class Volume> class MeshModels : public Contender {
 
   protected:
     const Scene& scene_;
-    std::vector<fcl::Transform3d> poses_;
+    std::vector<fcl::Transform3<S>> poses_;
     std::unique_ptr<fcl::BVHModel<Volume>> model_;
 
-    std::size_t collide_at(std::size_t i, const fcl::CollisionRequestd& request) {
-        result_.clear();
-        return fcl::collide<double>(model_.get(), fcl::Transform3d::Identity(), model_.get(),
-                                    poses_[i], request, result_);
+    std::size_t n_poses() const { return poses_.size(); }
+    std::size_t collide_at(std::size_t i, const CollisionRequest& request) {
+        touches_.clear();
+        return fcl::collide<S>(model_.get(), fcl::Transform3<S>::Identity(), model_.get(),
+                               poses_[i], request, touches_);
     }
-    fcl::CollisionResultd result_;
+    template <class Visit> void for_each_contact(Visit visit) const {
+        for (std::size_t k = 0; k < touches_.numContacts(); ++k)
+            visit(touches_.getContact(k));
+    }
+    static double depth_of(const fcl::Contact<S>& contact) {
+        return static_cast<double>(contact.penetration_depth);
+    }
+    /// below: what is not nearer is left out of the result.
+    const fcl::DistanceResult<S>& distance_at(const fcl::Transform3<S>& pose,
+                                              const DistanceRequest& request,
+                                              S below = std::numeric_limits<S>::max()) {
+        nearest_.clear();
+        nearest_.min_distance = below;
+        fcl::distance<S>(model_.get(), fcl::Transform3<S>::Identity(), model_.get(), pose, request,
+                         nearest_);
+        return nearest_;
+    }
+    const fcl::DistanceResult<S>& distance_at(std::size_t i, const DistanceRequest& request) {
+        return distance_at(poses_[i], request);
+    }
 
   private:
-    MeshOfFcl mesh_;
+    MeshOfFcl<S> mesh_;
+    fcl::CollisionResult<S> touches_;
+    fcl::DistanceResult<S> nearest_;
 };
+
+/// How a model of these volumes is named.
+template <class Volume> struct VolumeName {
+    using S = typename Volume::S;
+    static constexpr bool is_single = std::is_same_v<S, float>;
+    static constexpr bool is_obb = std::is_same_v<Volume, fcl::OBB<S>>,
+                          is_rss = std::is_same_v<Volume, fcl::RSS<S>>;
+
+    static std::string word() {
+        const std::string name = is_obb ? "obb" : is_rss ? "rss" : "obbrss";
+        return name + (is_single ? "_f32" : "");
+    }
+    static std::string title() { return is_obb ? "OBB" : is_rss ? "RSS" : "OBBRSS"; }
+};
+
+/// The row of a contender by MeshModels<Volume>, called fcl.VOLUME and after; queries: what its
+/// query does, from the word after "query = " on.
+template <class Volume>
+ContenderEntry entry_of_models(const std::string& after, const std::string& how,
+                               const std::string& queries) {
+    using Name = VolumeName<Volume>;
+    ContenderEntry e;
+    e.name = "fcl." + Name::word() + after;
+    e.library = "fcl";
+    e.summary = "FCL's BVHModel of " + Name::title() + (Name::is_single ? " in floats, " : ", ");
+    e.summary += how;
+    e.notes = "build = one model, which stands for the mesh and for its copy, split at the mean, "
+              "the default; query = " +
+              queries +
+              (Name::is_single ? "; floats, compiled here, to which poses are rounded; one thread"
+                               : "; doubles, equal to the scene's floats; one thread");
+    e.precision = Name::is_single ? "f32" : "f64";
+    e.runs_on = RunsOn::one_thread;
+    return e;
+}
 
 } // namespace boxwood::bench

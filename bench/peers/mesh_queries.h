@@ -1,0 +1,104 @@
+#pragma once
+
+#include "bench/tasks/contender.h"
+#include "bench/tasks/detail/mesh_pair_answers.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+/// The tasks of two meshes by the models of a library, M, written once for FCL and Coal. M is a
+/// contender that builds one model, which stands for the mesh and for its copy, and has:
+///     n_poses()
+///     CollisionRequest; collide_at(pose, request) -> number of contacts
+///     for_each_contact(visit): of the last collide_at; contacts with b1, b2, pos, normal
+///     depth_of(contact): above 0 where the two overlap
+///     DistanceRequest; distance_at(pose, request) -> result with min_distance, b1, b2
+namespace boxwood::bench {
+
+/// A library's vector, of floats or doubles.
+template <class V> Vec3<double> as_doubles(const V& v) {
+    return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+}
+
+template <class Contact> PosedPair posed_pair(std::size_t pose, const Contact& contact) {
+    return {static_cast<std::uint32_t>(pose), static_cast<std::uint32_t>(contact.b1),
+            static_cast<std::uint32_t>(contact.b2)};
+}
+
+/// Yes or no for each pose.
+template <class M> class FirstTouch final : public M {
+  public:
+    FirstTouch(const Job& job, typename M::CollisionRequest request)
+        : M(job), request_(std::move(request)) {}
+    void query(Answers& answers) override {
+        std::vector<std::uint8_t>& touches = list_of<std::uint8_t>(answers);
+        touches.clear();
+        for (std::size_t i = 0; i < this->n_poses(); ++i)
+            touches.push_back(this->collide_at(i, request_) > 0);
+    }
+
+  private:
+    typename M::CollisionRequest request_;
+};
+
+template <class M> class AllTouches final : public M {
+  public:
+    AllTouches(const Job& job, typename M::CollisionRequest request)
+        : M(job), request_(std::move(request)) {}
+    void query(Answers& answers) override {
+        std::vector<PosedPair>& touching = list_of<PosedPair>(answers);
+        touching.clear();
+        for (std::size_t i = 0; i < this->n_poses(); ++i) {
+            this->collide_at(i, request_);
+            this->for_each_contact(
+                [&](const auto& contact) { touching.push_back(posed_pair(i, contact)); });
+        }
+    }
+
+  private:
+    typename M::CollisionRequest request_;
+};
+
+template <class M> class AllContacts final : public M {
+  public:
+    AllContacts(const Job& job, typename M::CollisionRequest request)
+        : M(job), request_(std::move(request)) {}
+    void query(Answers& answers) override {
+        std::vector<PosedContact>& found = list_of<PosedContact>(answers);
+        found.clear();
+        for (std::size_t i = 0; i < this->n_poses(); ++i) {
+            this->collide_at(i, request_);
+            const auto first = static_cast<std::ptrdiff_t>(found.size());
+            this->for_each_contact([&](const auto& c) {
+                found.push_back(
+                    {as_doubles(c.pos), as_doubles(c.normal), M::depth_of(c), posed_pair(i, c)});
+            });
+            std::sort(found.begin() + first, found.end(), is_before);
+        }
+    }
+
+  private:
+    typename M::CollisionRequest request_;
+};
+
+template <class M> class LeastDistance final : public M {
+  public:
+    LeastDistance(const Job& job, typename M::DistanceRequest request)
+        : M(job), request_(std::move(request)) {}
+    void query(Answers& answers) override {
+        std::vector<PosedDistance>& distances = list_of<PosedDistance>(answers);
+        distances.clear();
+        for (std::size_t i = 0; i < this->n_poses(); ++i) {
+            const auto& result = this->distance_at(i, request_);
+            const auto d = static_cast<double>(result.min_distance);
+            const PosedPair pair = posed_pair(i, result);
+            distances.push_back({d, d, d, {pair.a, pair.b}});
+        }
+    }
+
+  private:
+    typename M::DistanceRequest request_;
+};
+
+} // namespace boxwood::bench
