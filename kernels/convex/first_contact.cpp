@@ -1,5 +1,6 @@
 #include "kernels/convex/first_contact.h"
 
+#include "kernels/convex/detail/flat.h"
 #include "kernels/convex/detail/relative_pose.h"
 
 namespace boxwood::convex {
@@ -24,7 +25,7 @@ struct Body {
               if constexpr (BoundedShape<S>)
                   return detail::reach(core(x)) + radius_of(x);
               else
-                  return std::abs(x.offset) / length(x.normal);
+                  return std::abs(unit_flat(x).offset);
           })),
           arm((norm1(m.start.translation - m.centre) + reach) * (1 + defect(m.start.rotation))),
           error(motion_error(m, reach)) {}

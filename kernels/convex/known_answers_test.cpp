@@ -32,6 +32,55 @@ TEST(KnownAnswers, BoxesAlongEveryAxis) { // FCL says sqrt(10) for 3, and so on
     expect_distance(signed_distance(unit, at(0, 4, 0), unit, Pose{}), 3);
 }
 
+TEST(KnownAnswers, NormalsOfAnyLength) {
+    for (const double scale :
+         {0x1p-1074, 1e-320, 1e-170, 1e-162, 1e-155, 1., 1.5e154, 1e160, 1e308})
+        for (const double sign : {1., -1.}) {
+            SCOPED_TRACE(sign * scale);
+            // All of x >= 5, or x <= -5, and where the offset says so instead of the pose.
+            const Vec3<double> normal{-sign * scale, 0, 0};
+            const Sphere ball{1};
+            expect_distance(signed_distance(HalfSpace{normal, 0}, at(sign * 5, 0, 0), ball, Pose{}),
+                            4);
+            expect_distance(signed_distance(Plane{normal, 0}, at(sign * 5, 0, 0), ball, Pose{}), 4);
+            EXPECT_EQ(collide(ball, Pose{}, HalfSpace{normal, 0}, at(sign * 5, 0, 0)).answer,
+                      Answer::no);
+            EXPECT_EQ(collide(ball, Pose{}, HalfSpace{normal, 0}, at(sign, 0, 0)).answer,
+                      Answer::maybe);
+            if (scale < 1e307)
+                expect_distance(
+                    signed_distance(HalfSpace{normal, -5 * scale}, Pose{}, Box{{1, 1, 1}}, Pose{}),
+                    4);
+            const SignedDistance flats = signed_distance(HalfSpace{normal, 0}, at(sign * 5, 0, 0),
+                                                         Plane{-normal, 0}, Pose{});
+            EXPECT_NEAR(flats.distance, 5, 1e-14);
+        }
+}
+
+TEST(KnownAnswers, ASphereOnTheAxisOfACapsuleLeavesItSideways) {
+    RandomPoses random(3);
+    for (int i = 0; i < 2000; ++i) {
+        const Capsule rod{.5, 1};
+        Pose pose{random.rotation(), random.vector(i % 2 == 0 ? 0 : 2)};
+        if (i < 2)
+            pose.rotation = {{{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}}}; // along x
+        const Vec3<double> axis{pose.rotation[0].z, pose.rotation[1].z, pose.rotation[2].z};
+        const double along = i < 4 ? 0 : (i % 19 - 9) / 10.;
+        const double off = i % 5 == 0 ? 0x1p-30 : 0;
+        const Sphere ball{.5};
+        Pose at_ball{Pose{}.rotation, pose.translation + axis * along + Vec3<double>{off, off, 0}};
+        const SignedDistance d = signed_distance(ball, at_ball, rod, pose);
+        EXPECT_NEAR(d.distance, -1, 1e-8);
+        // B leaves A along the normal, and A leaves B against it.
+        Pose moved = pose;
+        moved.translation = moved.translation - d.normal * d.distance;
+        EXPECT_GE(signed_distance(ball, at_ball, rod, moved).hi, -1e-12) << i;
+        const SignedDistance other = signed_distance(rod, pose, ball, at_ball);
+        at_ball.translation = at_ball.translation - other.normal * other.distance;
+        EXPECT_GE(signed_distance(rod, pose, ball, at_ball).hi, -1e-12) << i;
+    }
+}
+
 TEST(KnownAnswers, BoxesAcrossEdgesAndCorners) {
     const Box unit{{.5, .5, .5}};
     expect_distance(signed_distance(unit, Pose{}, unit, at(4, 5, 0)), 5);

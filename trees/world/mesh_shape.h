@@ -24,10 +24,11 @@ Decision collide(const MeshTree& mesh, const convex::Shape& shape, const Pose& s
                  Work* work = nullptr);
 
 /// The least distance, between bounds as wide as those of signed_distance: 2^-36 of it and about
-/// 2e-14 of the size of both, or what the options allow. point_a is on the mesh, point_b on the
-/// shape, in the mesh's frame; triangles.a is the triangle, triangles.b 0, as of `start`. 0, and
-/// lo = hi = 0, where they certainly touch: then both points are one that they share, up to
-/// rounding.
+/// 2e-14 of the size of both, or what the options allow; of curved shapes (cylinders, cones,
+/// ellipsoids) in rare cases more, to 2^-19 of it seen, where the search cannot end as it should.
+/// point_a is on the mesh, point_b on the shape, in the mesh's frame; triangles.a is the triangle,
+/// triangles.b 0, as of `start`. 0, and lo = hi = 0, where they certainly touch: then both points
+/// are one that they share, up to rounding.
 MeshDistance distance(const MeshTree& mesh, const convex::Shape& shape, const Pose& shape_in_mesh,
                       const DistanceOptions& options = {}, Work* work = nullptr);
 

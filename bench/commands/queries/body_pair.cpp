@@ -136,6 +136,9 @@ bool BodyPair::touch(const Pose& b_in_a) const {
     if (shape_a)
         return may_touch(solid_b ? collide(*solid_b, *shape_a, inverse(b_in_a))
                                  : collide(*mesh(b_), *shape_a, inverse(b_in_a)));
+    // Boxes whose corners are no floats are asked themselves, before their rounded ones.
+    if (rounded_ > 0 && distance_of_solid_boxes(b_in_a).lo > 0)
+        return false;
     if (solid_a && solid_b ? collide(*solid_a, *solid_b, b_in_a)
                            : collide(*mesh(a_), *mesh(b_), b_in_a))
         return true;
@@ -144,6 +147,8 @@ bool BodyPair::touch(const Pose& b_in_a) const {
 
 std::vector<Pair> BodyPair::touching_triangles(const Pose& b_in_a, std::size_t limit) const {
     std::vector<Pair> pairs;
+    if (rounded_ > 0 && !touch(b_in_a))
+        return pairs;
     if (mesh(a_) && mesh(b_))
         pairs = boxwood::touching_triangles(*mesh(a_), *mesh(b_), b_in_a, limit);
     else if (mesh(a_) || mesh(b_))
@@ -154,6 +159,13 @@ std::vector<Pair> BodyPair::touching_triangles(const Pose& b_in_a, std::size_t l
 }
 
 MeshDistance BodyPair::distance(const Pose& b_in_a) const {
+    MeshDistance d = distance_of_surfaces(b_in_a);
+    if (d.lo > 0 && !is_certainly_apart(b_in_a))
+        d.distance = d.lo = d.hi = 0;
+    return d;
+}
+
+MeshDistance BodyPair::distance_of_surfaces(const Pose& b_in_a) const {
     const MeshTree *mesh_a = mesh(a_), *mesh_b = mesh(b_);
     if (!mesh_a && !mesh_b)
         return distance_of_shapes(std::get<Shape>(a_), std::get<Shape>(b_), b_in_a);
@@ -164,8 +176,6 @@ MeshDistance BodyPair::distance(const Pose& b_in_a) const {
         d = boxwood::distance(*mesh_a, std::get<Shape>(b_), b_in_a);
     else
         d = swapped(boxwood::distance(*mesh_b, std::get<Shape>(a_), inverse(b_in_a)), b_in_a);
-    if (d.lo > 0 && !is_certainly_apart(b_in_a))
-        d.distance = d.lo = d.hi = 0;
     if (!mesh_a)
         d.triangles.a = no_triangle;
     if (!mesh_b)
@@ -220,6 +230,20 @@ MeshWithin BodyPair::within(const Pose& b_in_a, double tolerance) const {
 }
 
 std::vector<Contact> BodyPair::contacts(const Pose& b_in_a, const ContactOptions& options) const {
+    if (rounded_ > 0 && !touch(b_in_a))
+        return {};
+    std::vector<Contact> found = contacts_of_surfaces(b_in_a, options);
+    if (!found.empty() || options.max_pairs == 0 || is_certainly_apart(b_in_a))
+        return found;
+    const MeshDistance d = distance_of_surfaces(b_in_a);
+    const Vec3<double> out = d.point_a - d.point_b;
+    const double size = length(out);
+    const Vec3<double> normal = size > 0 ? (1 / size) * out : Vec3<double>{0, 0, 1};
+    return {{0.5 * (d.point_a + d.point_b), normal, d.distance, d.triangles}};
+}
+
+std::vector<Contact> BodyPair::contacts_of_surfaces(const Pose& b_in_a,
+                                                    const ContactOptions& options) const {
     const MeshTree *mesh_a = mesh(a_), *mesh_b = mesh(b_);
     std::vector<Contact> found;
     if (mesh_a && mesh_b)

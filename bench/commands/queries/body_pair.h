@@ -38,6 +38,8 @@ class BodyPair {
     /// 0 where they touch; of solids also where one lies in the other.
     MeshDistance distance(const Pose& b_in_a) const;
     MeshWithin within(const Pose& b_in_a, double tolerance) const;
+    /// Where the surfaces touch; where one solid lies in the other one at the nearest points, whose
+    /// depth is at most the true one.
     std::vector<Contact> contacts(const Pose& b_in_a, const ContactOptions& options) const;
 
     struct Path {
@@ -50,6 +52,9 @@ class BodyPair {
     static Body read(const std::string& text, bool beside_round, bool solid);
     static const MeshTree* mesh(const Body& body); ///< none: a primitive
     bool is_certainly_apart(const Pose& b_in_a) const;
+    std::vector<Contact> contacts_of_surfaces(const Pose& b_in_a,
+                                              const ContactOptions& options) const;
+    MeshDistance distance_of_surfaces(const Pose& b_in_a) const;
     MeshDistance distance_of_solid_boxes(const Pose& b_in_a) const;
     MeshDistance distance_of_meshes(const Pose& b_in_a) const;
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <iostream>
+#include <limits>
 
 namespace boxwood::bench {
 
@@ -26,12 +27,14 @@ void run(const ContinuousQuery& query, std::ostream& out) {
     const FirstContact first =
         BodyPair(query.a, query.b, false).first_contact(path_a, path_b, kind);
     const bool hit = first.hit != Answer::no; // left open: on the safe side
+    const double t_hit =
+        first.hit == Answer::maybe ? std::numeric_limits<double>::quiet_NaN() : first.t_hit;
     if (query.format.json)
         out << fmt::format("{{\"hit\":{},\"t_free\":{},\"t_hit\":{}}}\n", hit ? "true" : "false",
-                           json_number(first.t_free), json_number(first.t_hit));
+                           json_number(first.t_free), json_number(t_hit));
     else
         out << (query.format.header ? "hit,t_free,t_hit\n" : "")
-            << fmt::format("{},{},{}\n", hit ? 1 : 0, first.t_free, first.t_hit);
+            << fmt::format("{},{},{}\n", hit ? 1 : 0, first.t_free, t_hit);
 }
 
 void add_query_continuous(CLI::App& query) {
@@ -54,8 +57,10 @@ void add_query_continuous(CLI::App& query) {
     add_format_options(*command, options->format);
     command->footer(
         "Prints hit,t_free,t_hit: up to t_free they do not touch, whatever is thin; at t_hit they "
-        "do, "
-        "within 2^-36 of\ntheir size. t goes from 0 to 1.\n\nExample, which prints "
+        "do, within 2^-36 of\ntheir size, or, of cylinders and other curved shapes, within what "
+        "bounds of their distance leave open; nan (JSON: null) where it is left open whether they "
+        "touch "
+        "at all.\nt goes from 0 to 1.\n\nExample, which prints "
         "1,0.45,0.45 but for rounding:\n  boxwood query continuous box:.1,.1,.1 box:.1,1,1 "
         "--from-a "
         "\"1 0 0 -1 0 1 0 0 0 0 1 0 0 0 0 1\" --to-a \"1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1\"");

@@ -117,6 +117,12 @@ TEST_F(QueryMeshes, SolidsHoldWhatIsInside) {
         query.pose_b = at("1.5");
         EXPECT_EQ(answer(query).substr(0, 2), question == Question::distance ? "0." : "0\n");
     }
+    MeshesQuery inner = cubes(Question::contacts);
+    inner.b = "box:.2,.2,.2";
+    inner.pose_b = at(".75");
+    EXPECT_EQ(answer(inner), "");
+    inner.solid = true;
+    EXPECT_THAT(answer(inner), HasSubstr(",1,0,0,0.1499")); // out by the nearest face
     MeshesQuery query = cubes(Question::collide);
     query.a = put("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     query.solid = true;
@@ -271,6 +277,21 @@ TEST_F(QueryMeshes, SolidsHoldPrimitives) {
 }
 
 /// Half of .1, .2 or .7 is no float: answers are of the box all the same.
+TEST_F(QueryMeshes, BoxesThatAreApartDoNotTouchAsTheirFloatsDo) {
+    MeshesQuery query = cubes(Question::collide);
+    query.a = query.b = "box:.2,.2,.2";
+    query.pose_b = at("0.200000002"); // less than what rounding the corners adds
+    EXPECT_EQ(answer(query), "0\n");
+    query.format.json = true;
+    EXPECT_THAT(answer(query), HasSubstr("\"triangle_pairs\":[]"));
+    query = cubes(Question::contacts);
+    query.a = query.b = "box:.2,.2,.2";
+    query.pose_b = at("0.200000002");
+    EXPECT_EQ(answer(query), "");
+    query.pose_b = at("0.1999999");
+    EXPECT_NE(answer(query), "");
+}
+
 TEST_F(QueryMeshes, BoxesOfAnySidesAreAnsweredAsTheyAre) {
     MeshesQuery query;
     const auto lo_and_hi = [&] {

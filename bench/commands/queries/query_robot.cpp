@@ -63,6 +63,8 @@ double joint_value(std::string_view item, std::string_view text) {
         throw BadInput(fmt::format("--joints: '{}' is no NAME=NUMBER; write "
                                    "\"NAME=NUMBER,NAME=NUMBER\", radians or metres",
                                    item));
+    if (!(std::abs(value) < 0x1p60))
+        throw BadInput(fmt::format("--joints: {} is beyond 2^60", item));
     return value;
 }
 

@@ -18,21 +18,20 @@ SignedDistance of_odd_size(double size, double lack, double radius, const Pose& 
 
 SignedDistance flats_distance(const HalfSpace& a, bool a_is_plane, const Pose& pose_a,
                               const HalfSpace& b, bool b_is_plane, const Pose& pose_b) {
-    const double scale_a = 1 / length(a.normal), scale_b = 1 / length(b.normal);
-    const V n = times(pose_a.rotation, a.normal * scale_a);
-    const V m = times(pose_b.rotation, b.normal * scale_b);
+    const UnitFlat unit_a = unit_flat(a), unit_b = unit_flat(b);
+    const V n = times(pose_a.rotation, unit_a.normal);
+    const V m = times(pose_b.rotation, unit_b.normal);
     const double lack = defect(pose_a.rotation) + defect(pose_b.rotation);
     const V between = pose_b.translation - pose_a.translation;
-    const double size =
-        norm1(between) + std::abs(a.offset * scale_a) + std::abs(b.offset * scale_b);
+    const double size = norm1(between) + std::abs(unit_a.offset) + std::abs(unit_b.offset);
     if (!(lack <= max_defect) || !(size < inf) || !std::isfinite(dot(n, m)))
         return no_distance();
     const bool same_way = dot(n, m) >= 0;
     const double sign = same_way ? 1 : -1;
-    const V on_a = pose_a.translation + n * (a.offset * scale_a);
+    const V on_a = pose_a.translation + n * unit_a.offset;
     // b's plane is this far out along n; of the two gaps along n and against it those are finite
     // that neither half-space fills.
-    const double height = dot(n, between) + sign * (b.offset * scale_b) - a.offset * scale_a;
+    const double height = dot(n, between) + sign * unit_b.offset - unit_a.offset;
     const double up = same_way && !b_is_plane ? -inf : height;
     const double down = !a_is_plane || (!same_way && !b_is_plane) ? -inf : -height;
     const double d = std::max(up, down);

@@ -2,6 +2,7 @@
 
 #include "kernels/convex/detail/box_box.h"
 #include "kernels/convex/detail/epa.h"
+#include "kernels/convex/detail/flat.h"
 #include "kernels/convex/detail/foot.h"
 #include "kernels/convex/signed_distance.h"
 #include "kernels/features/segment_segment.h"
@@ -96,9 +97,9 @@ template <class A, class B> struct OnFlat {
     double radius, size, lack, error;
 
     [[gnu::always_inline]] OnFlat(const A& a, const Pose& pose_a, const B& b, const Pose& pose_b) {
-        const double scale = 1 / length(b.normal), offset = b.offset * scale;
+        const auto [unit, offset] = unit_flat(b);
         radius = radius_of(a);
-        normal = times(pose_b.rotation, b.normal * scale);
+        normal = times(pose_b.rotation, unit);
         const V between = pose_a.translation - pose_b.translation;
         local = transposed_times(pose_a.rotation, normal);
         size = norm1(between) + reach(core(a)) + radius + std::abs(offset);

@@ -29,7 +29,8 @@ class PacketSet {
 };
 
 /// Whether rays begin near each other, as measured by the bounds of all that they may meet, and go
-/// much the same way: then they visit much the same nodes. No if one of them is not finite.
+/// much the same way: then they visit much the same nodes. No if one of them is not finite, or an
+/// end of it no number.
 inline bool are_coherent(std::span<const Ray<float>> rays, const SlabBounds& bounds) {
     const Ray<float>& lead = rays[0];
     float size = 0, length = 0;
@@ -39,11 +40,13 @@ inline bool are_coherent(std::span<const Ray<float>> rays, const SlabBounds& bou
     }
     const float near = 0x1p-5f * size, alike = 0x1p-4f * length;
     bool are = std::isfinite(near) && std::isfinite(length);
-    for (const Ray<float>& ray : rays)
+    for (const Ray<float>& ray : rays) {
+        are &= !std::isnan(ray.t_min) && !std::isnan(ray.t_max);
         for (int axis = 0; axis < 3; ++axis) {
             are &= std::abs(ray.direction[axis] - lead.direction[axis]) <= alike;
             are &= std::abs(ray.origin[axis] - lead.origin[axis]) <= near;
         }
+    }
     return are;
 }
 

@@ -138,6 +138,8 @@ TEST(RayPackets, AmongOtherRaysAgreeWithBruteForce) {
     std::copy(others.begin(), others.begin() + 40, rays.begin() + 40);
     rays[5].direction.y = std::numeric_limits<float>::quiet_NaN();
     rays[100].origin.x = std::numeric_limits<float>::infinity();
+    rays[200].t_max = std::numeric_limits<float>::quiet_NaN();
+    rays[300].t_min = std::numeric_limits<float>::quiet_NaN();
     rays.resize(rays.size() - 3);
     const std::size_t packets = coherent_packets(rays, bounds_of(mesh));
     EXPECT_GT(packets, 50u);

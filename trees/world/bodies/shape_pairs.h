@@ -58,7 +58,7 @@ struct BodyContact {
     Pair bodies{};                ///< where they are of a World
     Vec3<double> point{};         ///< in the world; midway between the two surfaces without margins
     Vec3<double> normal{0, 0, 1}; ///< of length 1, in the world, from a to b
-    double depth = 0;             ///< scene units
+    double depth = 0;             ///< scene units; infinite for two flats that no motion parts
     Pair parts{~0u, ~0u};         ///< triangles or points; ~0u of what has none
 };
 /// The deepest first: of meshes one of each pair of parts that touch, of convex shapes at most

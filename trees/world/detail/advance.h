@@ -52,6 +52,11 @@ FirstContact advance(const Approach& approach, const ContinuousOptions& options,
             near.relative = 0; // look again
             continue;
         }
+        if (d.hi > tolerance && d.lo <= 2 * rounding && near.start) {
+            near.start.reset(); // the bound of that pair may be a wide one: look without it
+            near.relative = 0;
+            continue;
+        }
         if (d.hi <= tolerance || d.lo <= 2 * rounding) {
             found.hit = Answer::yes;
             found.t_free = found.t_hit = t;

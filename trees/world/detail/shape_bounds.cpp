@@ -14,6 +14,7 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
+#include "kernels/convex/detail/flat.h"
 #include "kernels/convex/support.h"
 #include "kernels/primitives/rotation.h"
 #include "trees/world/detail/shape_bounds.h"
@@ -324,10 +325,10 @@ Envelope::Envelope(const convex::Shape& shape, const Pose& pose) : at(pose.trans
             halves = s.radii;
         } else if constexpr (!convex::BoundedShape<S>) {
             form = std::is_same_v<S, convex::Plane> ? Form::plane : Form::half_space;
-            const double scale = 1 / length(s.normal);
-            offset = s.offset * scale;
+            const auto flat = convex::detail::unit_flat(s);
+            offset = flat.offset;
             for (int k = 0; k < 3; ++k)
-                normal = normal + (scale * s.normal[k]) * axis[k];
+                normal = normal + flat.normal[k] * axis[k];
         } else {
             form = Form::points;
             if constexpr (std::is_same_v<S, convex::Hull>) {
