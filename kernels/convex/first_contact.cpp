@@ -1,7 +1,7 @@
 #include "kernels/convex/first_contact.h"
 
-#include "kernels/convex/detail/flat.h"
 #include "kernels/convex/detail/relative_pose.h"
+#include "kernels/convex/unit_flat.h"
 
 namespace boxwood::convex {
 namespace {

@@ -2,9 +2,9 @@
 
 #include "kernels/convex/detail/box_box.h"
 #include "kernels/convex/detail/epa.h"
-#include "kernels/convex/detail/flat.h"
 #include "kernels/convex/detail/foot.h"
 #include "kernels/convex/signed_distance.h"
+#include "kernels/convex/unit_flat.h"
 #include "kernels/features/segment_segment.h"
 
 /// What each pair of shapes is answered by: a closed form, or GJK and EPA on the cores.

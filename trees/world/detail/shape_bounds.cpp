@@ -14,8 +14,8 @@
 // After foreach_target.
 #include <hwy/highway.h>
 
-#include "kernels/convex/detail/flat.h"
 #include "kernels/convex/support.h"
+#include "kernels/convex/unit_flat.h"
 #include "kernels/primitives/rotation.h"
 #include "trees/world/detail/shape_bounds.h"
 
@@ -325,7 +325,7 @@ Envelope::Envelope(const convex::Shape& shape, const Pose& pose) : at(pose.trans
             halves = s.radii;
         } else if constexpr (!convex::BoundedShape<S>) {
             form = std::is_same_v<S, convex::Plane> ? Form::plane : Form::half_space;
-            const auto flat = convex::detail::unit_flat(s);
+            const auto flat = convex::unit_flat(s);
             offset = flat.offset;
             for (int k = 0; k < 3; ++k)
                 normal = normal + flat.normal[k] * axis[k];

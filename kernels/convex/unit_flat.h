@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace boxwood::convex::detail {
+namespace boxwood::convex {
 
 /// A half-space or plane by a normal of length 1, up to rounding.
 struct UnitFlat {
@@ -30,4 +30,4 @@ template <class S> UnitFlat unit_flat(const S& flat) {
     return {near_one * scale, std::ldexp(flat.offset, exponent) * scale};
 }
 
-} // namespace boxwood::convex::detail
+} // namespace boxwood::convex
