@@ -27,7 +27,7 @@ TEST(Candidates, AreThoseThatMayBeBestForSomeNumberOfQueries) {
                   way("worse", "wide8", 4e6, 4.3e5), // binned_sah is better in both
                   way("binned_sah", "packed", 2e6, 9e5),
                   way("binned_sah", "binary", 3.4e6, 4.3e5), // wide8 is better in both
-                  way("ploc", "quantised8", 1, 1)};          // another layout
+                  way("ploc", "quantised8", 9e5, 9e5)};      // another layout
     const Candidates found = candidates_of(first, "wide8", "binned_sah");
     EXPECT_THAT(found.builders, ElementsAre("hilbert", "near", "binned_sah"));
     EXPECT_THAT(found.layouts, ElementsAre("packed", "wide8"));
@@ -39,6 +39,10 @@ TEST(Candidates, FewQueriesAndManyCount) {
     EXPECT_THAT(candidates_of(first, "wide8", "a").builders, ElementsAre("a", "b"));
     EXPECT_THAT(candidates_of(first, "wide8", "a").layouts, ElementsAre("wide8"));
     EXPECT_THAT(candidates_of(first, "packed", "c").builders, ElementsAre());
+    // Where another way is far ahead, those of the layout are not asked about.
+    first.n_queries = 1000;
+    first.ways = {way("a", "wide8", 10, 100), way("b", "wide8", 30, 1), way("c", "packed", 4, 40)};
+    EXPECT_THAT(candidates_of(first, "wide8", "a").builders, ElementsAre("b"));
 }
 
 } // namespace

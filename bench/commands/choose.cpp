@@ -323,9 +323,10 @@ void add_choose(CLI::App& app, int& exit_code) {
     command->add_option("--minutes", options->minutes, "how long it may take, about")
         ->check(CLI::Range(0.2, 600.))
         ->capture_default_str();
-    command->add_option(
-        "--queries", options->queries,
-        "how many queries (rays, ...) you make of one tree before you build it again");
+    command->add_option("--queries", options->queries,
+                        "how many queries (rays, ...) you make of one tree before you build it "
+                        "again; else as many as "
+                        "are timed, 20000, of pairs one");
     command->add_option("--threads", options->threads, "of build and query")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();

@@ -192,6 +192,9 @@ void add_sweep(CLI::App& app, int& exit_code) {
         options->command_line = own_command_line();
         if (*is_dry_run)
             return list_cells(*options);
+        if (options->out.empty() && !options->config.empty() &&
+            !std::filesystem::exists(options->config))
+            throw BadInput(options->config.string() + ": no such file");
         if (options->out.empty())
             throw BadInput("sweep: say where the results go: --out FILE.h5");
         if (against->empty()) {

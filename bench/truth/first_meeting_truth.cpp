@@ -207,6 +207,12 @@ class FirstMeetingTruth final : public Truth {
             return {false, fmt::format("[{}, {}] are no times", got.t_free, got.t_hit)};
         if (got.meets == Meets::no && got.t_free < 1)
             return {false, fmt::format("said never to meet, but free only until {}", got.t_free)};
+        // Else nothing would have to be found out.
+        if (got.meets != Meets::no && got.t_free < 1)
+            if (const double apart = motions_.least(i, got.t_free).distance; apart > 8 * tolerance_)
+                return {false,
+                        fmt::format("said to be free until {} alone, where they are {} apart",
+                                    got.t_free, apart)};
         if (got.meets == Meets::yes)
             if (const double apart = motions_.least(i, got.t_hit).distance; apart > 8 * tolerance_)
                 return {false, fmt::format("said to meet at {}, where they are {} apart", got.t_hit,

@@ -33,8 +33,10 @@ TEST(FirstMeetingTruth, KnowsWhenATriangleFallsThroughAnother) {
         scene.spec.motion = motion;
         EXPECT_TRUE(is_right(scene, {.5, .5, Meets::yes}));
         EXPECT_TRUE(is_right(scene, {.499999, .500001, Meets::yes}));
-        EXPECT_TRUE(is_right(scene, {.25, .5, Meets::yes})); // free for longer than said
-        EXPECT_TRUE(is_right(scene, {.3, 1, Meets::left_open}));
+        EXPECT_TRUE(is_right(scene, {.499999, 1, Meets::left_open}));
+        // What says next to nothing is no answer.
+        EXPECT_EQ(judged(scene, {.25, .5, Meets::yes}).extra, 2u);
+        EXPECT_EQ(judged(scene, {0, 1, Meets::left_open}).extra, 2u);
         EXPECT_EQ(judged(scene, {.4, .49, Meets::yes}).extra, 2u);
         EXPECT_EQ(judged(scene, {.25, .2, Meets::yes}).extra, 2u);
     }

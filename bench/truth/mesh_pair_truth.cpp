@@ -116,6 +116,10 @@ class MeshDistanceTruth final : public Truth {
         };
         if (got.triangles.a >= mesh_.size() || got.triangles.b >= mesh_.size())
             return complain(check.missing, "no triangles are named");
+        if (!(std::isfinite(got.distance) && got.lo <= got.distance && got.distance <= got.hi))
+            return complain(check.missing,
+                            fmt::format("{} is no distance between its bounds {} and {}",
+                                        got.distance, got.lo, got.hi));
         const Triangle<double> b = triangle_at(scene_.mesh, got.triangles.b, scene_.poses[i]);
         const double named = std::sqrt(oracle::nearest(mesh_[got.triangles.a], b).squared.get_d());
         const auto [truth, lo] = least_[i];

@@ -125,6 +125,11 @@ TEST(MeshPairTasks, TheTruthSeesWhatIsWrong) {
             const Judgement judged = task.make_truth(apart, 1)->judge(*answers, ours);
             EXPECT_EQ(judged.status, Status::wrong) << factor;
         }
+        contender->query(*answers);
+        for (PosedDistance& d : list_of<PosedDistance>(*answers))
+            d.distance = d.lo = d.hi = std::nan("");
+        const Judgement judged = task.make_truth(apart, 1)->judge(*answers, ours);
+        EXPECT_EQ(judged.check.missing, apart.poses.size());
     }
 }
 

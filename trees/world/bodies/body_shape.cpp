@@ -105,12 +105,14 @@ struct BodyShape::Held {
     bool build() const {
         bool was_to_do = false;
         std::call_once(build_once, [&] {
+            // Of a copy, which is asked for again if this throws.
             if (shape_class == ShapeClass::surface && !tree)
-                tree = std::make_shared<const MeshTree>(std::move(mesh), options);
+                tree = std::make_shared<const MeshTree>(mesh, options);
             else if (shape_class == ShapeClass::solid)
-                solid.emplace(std::move(mesh), options);
+                solid.emplace(mesh, options);
             else
                 return;
+            mesh = {};
             was_to_do = true;
             is_built = true;
         });
