@@ -90,5 +90,5 @@
 #include "kernels/convex/shapes.h"          // spheres, boxes, ... hulls; one of any kind
 #include "kernels/convex/shared_point.h"    // of a triangle and a shape that touch
 #include "kernels/convex/signed_distance.h" // distance or depth between bounds; yes or no
-#include "kernels/convex/support.h"
-#include "kernels/convex/unit_flat.h" // farthest points, extents, boxes of posed shapes
+#include "kernels/convex/support.h"         // farthest points, extents, boxes of posed shapes
+#include "kernels/convex/unit_flat.h"       // half-spaces and planes by a normal of length 1
