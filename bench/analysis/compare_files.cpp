@@ -177,10 +177,10 @@ Gate gate_of(const FileRow& row, const FileOptions& options, bool times_count) {
     const double floor = std::isnan(c.floor) ? 0 : c.floor;
     if (c.verdict == Verdict::wrong)
         return row.is_newly_wrong ? Gate::fails : Gate::passes;
-    if (row.is_same_samples)
-        return Gate::passes;
     if (!times_count)
         return Gate::open;
+    if (row.is_same_samples)
+        return Gate::passes;
     if (c.verdict == Verdict::slower && c.ci_lo > 1 + options.fail_if.value_or(0))
         return Gate::fails;
     const bool may_be_told = c.n_pairs >= min_pairs_verdict &&

@@ -152,7 +152,11 @@ class Chooser {
         if (const int code = sweep_.run(blocks, once, 0))
             return code;
         const Advice tried = advise(read_results(once));
-        const auto [builders, layouts] = candidates_of(tried, question_.layout, tried_builder);
+        auto [builders, layouts] = candidates_of(tried, question_.layout, tried_builder);
+        if (builders.empty())
+            builders = {tried_builder};
+        if (layouts.empty())
+            layouts = {first};
         blocks = block(builders, layouts, true);
         std::vector<std::string> fused;
         if (has_fused) {
@@ -325,8 +329,7 @@ void add_choose(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     command->add_option("--queries", options->queries,
                         "how many queries (rays, ...) you make of one tree before you build it "
-                        "again; else as many as "
-                        "are timed, 20000, of pairs one");
+                        "again; else as many as are timed, 20000, of pairs one");
     command->add_option("--threads", options->threads, "of build and query")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();

@@ -144,6 +144,9 @@ TEST(CompareCommand, OnAnotherProcessorTimesSayNothing) {
     EXPECT_THAT(text, StartsWith("CAN'T TELL: the processors differ, and so do times for that "
                                  "alone (--any-processor compares all the same); "));
     EXPECT_THAT(text, Not(HasSubstr("head is"))); // no table
+    auto renamed = timed(100);                    // a file that somebody changed
+    renamed.env[0].cpu = "another";
+    EXPECT_EQ(exit_of(timed(100), renamed), exit_cannot_tell);
     FileOptions forced;
     forced.any_processor = true;
     EXPECT_EQ(compare_files(timed(100), head, forced).gate, Gate::fails);

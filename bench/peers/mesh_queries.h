@@ -26,79 +26,65 @@ template <class Contact> PosedPair posed_pair(std::size_t pose, const Contact& c
             static_cast<std::uint32_t>(contact.b2)};
 }
 
-/// Yes or no for each pose.
-template <class M> class FirstTouch final : public M {
+/// An M that gives its answers of each pose in turn, by one request.
+template <class M, class Request, class Answer> class PosedQuery : public M {
   public:
-    FirstTouch(const Job& job, typename M::CollisionRequest request)
-        : M(job), request_(std::move(request)) {}
-    void query(Answers& answers) override {
-        std::vector<std::uint8_t>& touches = list_of<std::uint8_t>(answers);
-        touches.clear();
+    PosedQuery(const Job& job, Request request) : M(job), request_(std::move(request)) {}
+    void query(Answers& answers) final {
+        std::vector<Answer>& list = list_of<Answer>(answers);
+        list.clear();
         for (std::size_t i = 0; i < this->n_poses(); ++i)
-            touches.push_back(this->collide_at(i, request_) > 0);
+            append(i, list);
     }
 
-  private:
-    typename M::CollisionRequest request_;
+  protected:
+    virtual void append(std::size_t pose, std::vector<Answer>& list) = 0;
+
+    Request request_;
 };
 
-template <class M> class AllTouches final : public M {
-  public:
-    AllTouches(const Job& job, typename M::CollisionRequest request)
-        : M(job), request_(std::move(request)) {}
-    void query(Answers& answers) override {
-        std::vector<PosedPair>& touching = list_of<PosedPair>(answers);
-        touching.clear();
-        for (std::size_t i = 0; i < this->n_poses(); ++i) {
-            this->collide_at(i, request_);
-            this->for_each_contact(
-                [&](const auto& contact) { touching.push_back(posed_pair(i, contact)); });
-        }
+/// Yes or no.
+template <class M>
+class FirstTouch final : public PosedQuery<M, typename M::CollisionRequest, std::uint8_t> {
+    using PosedQuery<M, typename M::CollisionRequest, std::uint8_t>::PosedQuery;
+    void append(std::size_t i, std::vector<std::uint8_t>& touches) override {
+        touches.push_back(this->collide_at(i, this->request_) > 0);
     }
-
-  private:
-    typename M::CollisionRequest request_;
 };
 
-template <class M> class AllContacts final : public M {
-  public:
-    AllContacts(const Job& job, typename M::CollisionRequest request)
-        : M(job), request_(std::move(request)) {}
-    void query(Answers& answers) override {
-        std::vector<PosedContact>& found = list_of<PosedContact>(answers);
-        found.clear();
-        for (std::size_t i = 0; i < this->n_poses(); ++i) {
-            this->collide_at(i, request_);
-            const auto first = static_cast<std::ptrdiff_t>(found.size());
-            this->for_each_contact([&](const auto& c) {
-                found.push_back(
-                    {as_doubles(c.pos), as_doubles(c.normal), M::depth_of(c), posed_pair(i, c)});
-            });
-            std::sort(found.begin() + first, found.end(), is_before);
-        }
+template <class M>
+class AllTouches final : public PosedQuery<M, typename M::CollisionRequest, PosedPair> {
+    using PosedQuery<M, typename M::CollisionRequest, PosedPair>::PosedQuery;
+    void append(std::size_t i, std::vector<PosedPair>& touching) override {
+        this->collide_at(i, this->request_);
+        this->for_each_contact(
+            [&](const auto& contact) { touching.push_back(posed_pair(i, contact)); });
     }
-
-  private:
-    typename M::CollisionRequest request_;
 };
 
-template <class M> class LeastDistance final : public M {
-  public:
-    LeastDistance(const Job& job, typename M::DistanceRequest request)
-        : M(job), request_(std::move(request)) {}
-    void query(Answers& answers) override {
-        std::vector<PosedDistance>& distances = list_of<PosedDistance>(answers);
-        distances.clear();
-        for (std::size_t i = 0; i < this->n_poses(); ++i) {
-            const auto& result = this->distance_at(i, request_);
-            const auto d = static_cast<double>(result.min_distance);
-            const PosedPair pair = posed_pair(i, result);
-            distances.push_back({d, d, d, {pair.a, pair.b}});
-        }
+template <class M>
+class AllContacts final : public PosedQuery<M, typename M::CollisionRequest, PosedContact> {
+    using PosedQuery<M, typename M::CollisionRequest, PosedContact>::PosedQuery;
+    void append(std::size_t i, std::vector<PosedContact>& found) override {
+        this->collide_at(i, this->request_);
+        const auto first = static_cast<std::ptrdiff_t>(found.size());
+        this->for_each_contact([&](const auto& c) {
+            found.push_back(
+                {as_doubles(c.pos), as_doubles(c.normal), M::depth_of(c), posed_pair(i, c)});
+        });
+        std::sort(found.begin() + first, found.end(), is_before);
     }
+};
 
-  private:
-    typename M::DistanceRequest request_;
+template <class M>
+class LeastDistance final : public PosedQuery<M, typename M::DistanceRequest, PosedDistance> {
+    using PosedQuery<M, typename M::DistanceRequest, PosedDistance>::PosedQuery;
+    void append(std::size_t i, std::vector<PosedDistance>& distances) override {
+        const auto& result = this->distance_at(i, this->request_);
+        const auto d = static_cast<double>(result.min_distance);
+        const PosedPair pair = posed_pair(i, result);
+        distances.push_back({d, d, d, {pair.a, pair.b}});
+    }
 };
 
 } // namespace boxwood::bench

@@ -213,7 +213,7 @@ class FirstMeetingTruth final : public Truth {
                 return {false,
                         fmt::format("said to be free until {} alone, where they are {} apart",
                                     got.t_free, apart)};
-        if (got.meets == Meets::yes)
+        if (got.meets == Meets::yes && (got.t_hit > got.t_free || got.t_free == 1))
             if (const double apart = motions_.least(i, got.t_hit).distance; apart > 8 * tolerance_)
                 return {false, fmt::format("said to meet at {}, where they are {} apart", got.t_hit,
                                            apart)};

@@ -82,6 +82,18 @@ class PyBvh {
                 if (std::isnan(boxes[i].min[axis]) || std::isnan(boxes[i].max[axis]))
                     throw py::value_error("boxes: row " + std::to_string(i) + " has a NaN");
     }
+    static void require_floats(std::span<const Aabb<double>> boxes) {
+        const auto is_rounded = [](double x) {
+            return static_cast<double>(static_cast<float>(x)) < x ||
+                   static_cast<double>(static_cast<float>(x)) > x;
+        };
+        for (std::size_t i = 0; i < boxes.size(); ++i)
+            for (int axis = 0; axis < 3; ++axis)
+                if (is_rounded(boxes[i].min[axis]) || is_rounded(boxes[i].max[axis]))
+                    throw py::value_error("boxes: row " + std::to_string(i) +
+                                          " is float64 for a tree of float32, which would round "
+                                          "it; give float32, or make a Bvh of float64");
+    }
     static py::object items(AnswersOf<std::uint32_t> found) {
         return named_tuple("Items")(array_of<std::uint64_t>(std::move(found.offsets)),
                                     array_of<std::uint32_t>(std::move(found.of)));
@@ -139,8 +151,7 @@ class PyBvh {
 
     void update(const py::object& boxes, const std::optional<py::object>& moved) {
         if (!is_double() && are_doubles(boxes, "boxes"))
-            throw py::value_error("boxes: float64 for a tree of float32, which would round them; "
-                                  "give float32, or make a Bvh of float64");
+            require_floats(GivenBoxes<double>(boxes, "boxes").get());
         std::visit([&](auto& tree) { take(tree, boxes, moved); }, tree_);
     }
 
@@ -268,8 +279,9 @@ built again where that made it too loose; of another number it is built again.
 moved: shape (m,), the items that moved, ascending, if only these did. The
     others' boxes are compared with those held.
 
-Raises ValueError for a bad box, for float64 where the tree holds float32, and
-where an item that is not listed moved; the tree then is as before.)")
+Raises ValueError for a bad box, for numbers that are no float32 where the tree
+holds these, and where an item that is not listed moved; the tree then is as
+before.)")
         .def("pairs", &PyBvh::pairs, py::arg("other") = py::none(),
              R"(Every two boxes that overlap, once: shape (m, 2), uint32, the lower first.
 With another tree: every overlapping (item here, item of `other`).)")

@@ -155,8 +155,11 @@ def test_other_bad_input_is_refused():
         bvh.update(boxes_of(10), moved=[99])
     with pytest.raises(TypeError, match="integers"):
         bvh.update(boxes_of(10), moved=[1.5])
-    with pytest.raises(ValueError, match="float64 for a tree of float32"):
+    with pytest.raises(ValueError, match="row 0 is float64 for a tree of float32"):
         bvh.update(boxes_of(10, dtype=np.float64))
+    bvh.update(boxes_of(10).astype(np.float64))  # which float32 holds
+    bvh.update([[0, 0, 0, 1, 1, 1], [0.5, 0.5, 0.5, 2, 2, 2]])
+    assert bvh.pairs().tolist() == [[0, 1]]
     assert bvh.overlapping([[1, 0, 0, 0, 1, 1]]).items.size == 0  # min > max: nothing
 
 

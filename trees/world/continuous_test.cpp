@@ -174,6 +174,21 @@ TEST(FirstContactWithAShape, OfAFloorThatRisesOrTurns) {
     EXPECT_NEAR(turning.t_hit, std::asin(.2) / angle, 1e-9);
 }
 
+/// A cylinder comes to graze the top edge of a cube: the bound by the triangles of the step before
+/// is 0 where they are still apart, which is no contact.
+TEST(FirstContactWithAShape, IsNotSaidWhereTheyAreApart) {
+    const MeshTree cube(cube_mesh(1));
+    const convex::Cylinder can{.5, .5};
+    const Motion flight(moved(5, 1.5, 0), moved(-5, 1.5, 0));
+    const FirstContact first = first_contact(cube, Motion(), can, flight);
+    EXPECT_NE(first.hit, Answer::no);
+    EXPECT_GT(first.t_free, .3999);
+    EXPECT_LE(first.t_free, .4);
+    if (first.hit == Answer::yes) {
+        EXPECT_LT(distance(cube, can, flight.at(first.t_hit)).lo, 1e-9);
+    }
+}
+
 /// Whatever a fine sampling of the motion finds touching, the answer is not later; and at its time
 /// they are as good as in touch.
 TEST(FirstContactWithAShape, IsNotAfterWhatSamplesFind) {

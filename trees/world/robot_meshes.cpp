@@ -27,10 +27,10 @@ struct ShapeOfLink {
     }
 };
 
-/// What is found beyond the limit is nothing.
+/// Of what is found beyond the limit no more is said than that.
 LinkDistance before(double limit, double distance, double lo, double hi) {
     if (!(lo < limit))
-        return {};
+        return {.lo = limit};
     return {std::max(0.0, distance), std::max(0.0, lo), std::max(0.0, hi)};
 }
 
@@ -95,7 +95,7 @@ LinkDistance RobotMeshes::distance_of(const Placed& a, const Placed& b, double l
     const MeshDistance d = b.part.mesh
                                ? boxwood::distance(*a.part.mesh, *b.part.mesh, b_in_a, options)
                                : boxwood::distance(*a.part.mesh, b.part.shape, b_in_a, options);
-    return d.found() ? before(limit, d.distance, d.lo, d.hi) : LinkDistance{};
+    return d.found() ? before(limit, d.distance, d.lo, d.hi) : LinkDistance{.lo = limit};
 }
 
 bool RobotMeshes::collide(std::uint32_t a, std::uint32_t b,

@@ -121,7 +121,9 @@ TEST(RobotMeshes, AreTestedPartByPart) {
             apart += lo > 0;
             if (hi > 0) {
                 EXPECT_LT(narrow.distance(a, b, poses, hi * 1.01).hi, hi * 1.01);
-                EXPECT_EQ(narrow.distance(a, b, poses, lo * .99).hi, inf);
+                const LinkDistance beyond = narrow.distance(a, b, poses, lo * .99);
+                EXPECT_EQ(beyond.hi, inf);
+                EXPECT_EQ(beyond.lo, lo * .99);
             }
         }
         EXPECT_FALSE(narrow.collide(0, 3, poses));

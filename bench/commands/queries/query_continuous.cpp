@@ -59,8 +59,7 @@ void add_query_continuous(CLI::App& query) {
         "Prints hit,t_free,t_hit: up to t_free they do not touch, whatever is thin; at t_hit they "
         "do, within 2^-36 of\ntheir size, or, of cylinders and other curved shapes, within what "
         "bounds of their distance leave open; nan (JSON: null) where it is left open whether they "
-        "touch "
-        "at all.\nt goes from 0 to 1.\n\nExample, which prints "
+        "touch at all.\nt goes from 0 to 1.\n\nExample, which prints "
         "1,0.45,0.45 but for rounding:\n  boxwood query continuous box:.1,.1,.1 box:.1,1,1 "
         "--from-a "
         "\"1 0 0 -1 0 1 0 0 0 0 1 0 0 0 0 1\" --to-a \"1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1\"");

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -37,6 +38,15 @@ class QueryMeshes : public ::testing::Test {
         std::ostringstream out;
         run(query, out);
         return out.str();
+    }
+    /// Of an answer of one line.
+    template <class Query> static std::array<double, 3> numbers(const Query& query) {
+        std::ostringstream out;
+        run(query, out);
+        std::array<double, 3> three{};
+        EXPECT_EQ(std::sscanf(out.str().c_str(), "%lf,%lf,%lf", &three[0], &three[1], &three[2]),
+                  3);
+        return three;
     }
     static std::string complaint(const MeshesQuery& query) {
         try {
@@ -160,6 +170,9 @@ TEST_F(QueryMeshes, BadInputIsSaidWhereItIs) {
     query.pose_b = "";
     query.a = "sphere:1,2";
     EXPECT_THAT(complaint(query), HasSubstr("sphere:radius"));
+    query.a = "spere:1";
+    EXPECT_THAT(complaint(query), HasSubstr("no such file, and unknown shape 'spere'; did you mean "
+                                            "'sphere'?"));
     query.a = "capsule:1,-2";
     EXPECT_THAT(complaint(query), HasSubstr("at least 0"));
     query.a = "cylinder:1,nan";
@@ -294,13 +307,6 @@ TEST_F(QueryMeshes, BoxesThatAreApartDoNotTouchAsTheirFloatsDo) {
 
 TEST_F(QueryMeshes, BoxesOfAnySidesAreAnsweredAsTheyAre) {
     MeshesQuery query;
-    const auto lo_and_hi = [&] {
-        double d = 0, lo = 0, hi = 0;
-        EXPECT_EQ(std::sscanf(answer(query).c_str(), "%lf,%lf,%lf", &d, &lo, &hi), 3);
-        EXPECT_LE(lo, d);
-        EXPECT_LE(d, hi);
-        return std::pair{lo, hi};
-    };
     // The second one is no box of floats, the first one is, or a mesh, or none either.
     const std::string cube = put("cube.obj", "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n"
                                              "v -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
@@ -317,7 +323,9 @@ TEST_F(QueryMeshes, BoxesOfAnySidesAreAnsweredAsTheyAre) {
             query.question = Question::distance;
             query.pose_b = at("3.1");
             const double truth = 3.1 - half - .35;
-            const auto [lo, hi] = lo_and_hi();
+            const auto [d, lo, hi] = numbers(query);
+            EXPECT_LE(lo, d);
+            EXPECT_LE(d, hi);
             EXPECT_LE(lo, truth + 1e-15);
             EXPECT_GE(hi, truth - 1e-15);
             EXPECT_LE(hi - lo, 1e-12);
@@ -343,10 +351,8 @@ TEST_F(QueryMeshes, BoxesOfAnySidesAreAnsweredAsTheyAre) {
     motion.b = "box:.2,.2,.2";
     motion.from_a = at("-2");
     motion.to_a = at("2");
-    std::ostringstream out;
-    run(motion, out);
-    double hit = 0, t_free = 0, t_hit = 0;
-    ASSERT_EQ(std::sscanf(out.str().c_str(), "%lf,%lf,%lf", &hit, &t_free, &t_hit), 3);
+    const auto [hit, t_free, t_hit] = numbers(motion);
+    EXPECT_EQ(hit, 1);
     EXPECT_LE(t_free, (2 - .45) / 4);
     EXPECT_GE(t_hit, (2 - .45) / 4 - 1e-15);
     EXPECT_LE(t_hit - t_free, 1e-9);
@@ -362,10 +368,7 @@ TEST_F(QueryMeshes, ContinuousPassesThroughNothingThin) {
             query.from_a = at(std::to_string(-length));
             query.to_a = at(std::to_string(length));
             query.motion = motion;
-            std::ostringstream out;
-            run(query, out);
-            double hit = 0, t_free = 0, t_hit = 0;
-            ASSERT_EQ(std::sscanf(out.str().c_str(), "%lf,%lf,%lf", &hit, &t_free, &t_hit), 3);
+            const auto [hit, t_free, t_hit] = numbers(query);
             EXPECT_EQ(hit, 1);
             EXPECT_NEAR(t_free, time, 1e-6); // sides are rounded to floats
             EXPECT_NEAR(t_hit, time, 1e-6);
@@ -378,10 +381,7 @@ TEST_F(QueryMeshes, ContinuousPassesThroughNothingThin) {
         query.b = b;
         query.from_a = at("-1");
         query.to_a = at("1");
-        std::ostringstream out;
-        run(query, out);
-        double hit = 0, t_free = 0, t_hit = 0;
-        ASSERT_EQ(std::sscanf(out.str().c_str(), "%lf,%lf,%lf", &hit, &t_free, &t_hit), 3);
+        const auto [hit, t_free, t_hit] = numbers(query);
         EXPECT_EQ(hit, 1) << a << " " << b;
         EXPECT_NEAR(t_free, .45, 1e-6) << a << " " << b;
         EXPECT_NEAR(t_hit, .45, 1e-6) << a << " " << b;

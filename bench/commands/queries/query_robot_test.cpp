@@ -111,6 +111,13 @@ TEST_F(QueryRobot, JointsAreSetByName) {
                           "colliding,0,a,d\nleast,0,a,d,0,0,0\n"));
     query_.joints = "bc=.5,";
     EXPECT_THAT(answer(), HasSubstr("value,0,bc,0.5\nleast"));
+    ::testing::internal::CaptureStderr();
+    query_.joints = "bc=1.5";
+    EXPECT_THAT(answer(), HasSubstr("value,0,bc,1.5\n"));
+    EXPECT_THAT(::testing::internal::GetCapturedStderr(),
+                HasSubstr("warning: bc is 1.5, outside its limits -1 to 1\n"));
+    query_.joints = "bc=1e30";
+    EXPECT_THAT(complaint(), HasSubstr("bc=1e30 is beyond 2^60"));
     query_.joints = "bd=1";
     EXPECT_THAT(complaint(), HasSubstr("unknown joint 'bd'"));
     query_.joints = "cd=1";

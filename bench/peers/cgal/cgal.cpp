@@ -48,10 +48,13 @@ struct Setting {
     std::ptrdiff_t cutoff = usual_cutoff;
     AxisOrder axes = xyz;
 
+    std::string axes_word() const {
+        return fmt::format("{:c}{:c}{:c}", 'x' + axes[0], 'x' + axes[1], 'x' + axes[2]);
+    }
     std::string suffix() const {
         std::string all;
         if (axes != xyz)
-            all += fmt::format(".{:c}{:c}{:c}", 'x' + axes[0], 'x' + axes[1], 'x' + axes[2]);
+            all += "." + axes_word();
         if (cutoff != usual_cutoff)
             all += fmt::format(".cutoff{}", cutoff);
         return all;
@@ -131,10 +134,11 @@ ContenderEntry entry(const std::string& name, std::string summary, const Setting
     e.summary = std::move(summary);
     e.notes = fmt::format(
         "build and query are one: build only fills the box array, and a query copies and sorts "
-        "it; a frame: the boxes of the bodies that are present copied again; closed boxes, cutoff "
-        "{}; with TBB CGAL cuts its input into 4 x 4 parts, whatever the number of threads, and "
+        "it; a frame: the boxes of the bodies that are present copied again; closed boxes, axes in "
+        "the order {}, cutoff {}; with TBB CGAL cuts its input into 4 x 4 parts, whatever the "
+        "number of threads, and "
         "pairs go to one list per thread that are joined at the end",
-        setting.cutoff);
+        setting.axes_word(), setting.cutoff);
     e.precision = "f32";
     e.keeps_structure = false;
     e.runs_on = RunsOn::tbb;

@@ -29,13 +29,15 @@ inline Vec3<double> over(Vec3<double> v, double d) {
     const double t = std::clamp(dot(p, axis) / dot(axis, axis), -half_length, half_length);
     const Vec3<double> on = axis * t, away = p - on;
     const double d = length(away);
-    // Of a point on the rod the direction is all rounding: the way out is square to the axis.
-    if (d <= 0x1p-20 * (norm1(p) + half_length * norm1(axis)) && std::abs(t) < half_length)
-        [[unlikely]] {
+    const double size = norm1(p) + half_length * norm1(axis);
+    if (d <= 0x1p-20 * size) [[unlikely]] {
+        // Of a point on the rod the direction is all rounding: the way out is square to the axis.
         const Vec3<double> square = away - axis * (dot(away, axis) / dot(axis, axis));
         const double across = length(square);
-        return {d, on,
-                across > .5 * d ? over(square, across) : unit_or(square_to(axis), {1, 0, 0})};
+        if (std::abs(t) < half_length && across > .5 * d)
+            return {d, on, over(square, across)};
+        if (std::abs(t) < half_length || d <= 0x1p-48 * size)
+            return {d, on, unit_or(square_to(axis), {1, 0, 0})};
     }
     return {d, on, over(away, d)};
 }

@@ -138,13 +138,22 @@ TEST(RayPackets, AmongOtherRaysAgreeWithBruteForce) {
     std::copy(others.begin(), others.begin() + 40, rays.begin() + 40);
     rays[5].direction.y = std::numeric_limits<float>::quiet_NaN();
     rays[100].origin.x = std::numeric_limits<float>::infinity();
-    rays[200].t_max = std::numeric_limits<float>::quiet_NaN();
-    rays[300].t_min = std::numeric_limits<float>::quiet_NaN();
     rays.resize(rays.size() - 3);
     const std::size_t packets = coherent_packets(rays, bounds_of(mesh));
     EXPECT_GT(packets, 50u);
     EXPECT_LT(packets, rays.size() / packet_size - 4);
     expect_right<Watertight>(mesh, rays);
+}
+
+TEST(RayPackets, ARayWithAnEndThatIsNoNumberMissesAlone) {
+    const std::vector<Ray<float>> tile = picture({1.6f, 2, 2.6f}, {}, .02f, 4);
+    std::vector<Ray<float>> rays;
+    for (std::size_t place = 0; place < packet_size; ++place)
+        for (const auto end : {&Ray<float>::t_min, &Ray<float>::t_max}) {
+            rays.insert(rays.end(), tile.begin(), tile.end());
+            rays[rays.size() - packet_size + place].*end = std::numeric_limits<float>::quiet_NaN();
+        }
+    expect_right<Watertight>(sphere(16), rays);
 }
 
 TEST(RayPackets, AreCoherentWhereRaysBeginAndGoAlike) {

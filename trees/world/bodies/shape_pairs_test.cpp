@@ -282,6 +282,27 @@ TEST(BodyShapes, ShareTheirTree) {
     EXPECT_FALSE(distance(PosedShape{none}, PosedShape{shape}).found());
 }
 
+TEST(BodyShapes, ATreeThatFailsToBeBuiltIsBuiltWhenNextAskedFor) {
+    for (const bool is_solid : {false, true}) {
+        int calls = 0;
+        MeshTreeOptions options;
+        options.builder.build = [&, build = options.builder.build](Boxes boxes,
+                                                                   const Executor& executor) {
+            if (++calls == 1)
+                throw std::bad_alloc();
+            return build(boxes, executor);
+        };
+        options.builder.build_of_mesh = {};
+        const BodyShape shape = is_solid ? BodyShape::solid(cube_mesh(1), options)
+                                         : BodyShape::surface(cube_mesh(1), options);
+        EXPECT_THROW(shape.build(), std::bad_alloc);
+        EXPECT_FALSE(shape.is_built());
+        EXPECT_EQ(collide(PosedShape{shape}, PosedShape{BodyShape(convex::Box{{2, 2, .5}})}),
+                  Answer::yes);
+        EXPECT_EQ(calls, 2);
+    }
+}
+
 TEST(BodyShapes, OfHeightsAreTriangulatedInOrder) {
     const std::vector<float> heights{0, 1, 2, 3, 4, 5};
     const BodyShape field = BodyShape::height_field(3, heights, .5f, 2);

@@ -54,7 +54,6 @@ FirstContact advance(const Approach& approach, const ContinuousOptions& options,
         }
         if (d.hi > tolerance && d.lo <= 2 * rounding && near.start) {
             near.start.reset(); // the bound of that pair may be a wide one: look without it
-            near.relative = 0;
             continue;
         }
         if (d.hi <= tolerance || d.lo <= 2 * rounding) {
