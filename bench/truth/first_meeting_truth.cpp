@@ -207,16 +207,17 @@ class FirstMeetingTruth final : public Truth {
             return {false, fmt::format("[{}, {}] are no times", got.t_free, got.t_hit)};
         if (got.meets == Meets::no && got.t_free < 1)
             return {false, fmt::format("said never to meet, but free only until {}", got.t_free)};
+        if (got.meets == Meets::yes)
+            if (const double apart = motions_.least(i, got.t_hit).distance; apart > 8 * tolerance_)
+                return {false, fmt::format("said to meet at {}, where they are {} apart", got.t_hit,
+                                           apart)};
         // Else nothing would have to be found out.
-        if (got.meets != Meets::no && got.t_free < 1)
+        const bool is_known_there = got.meets == Meets::yes && got.t_free == got.t_hit;
+        if (got.meets != Meets::no && got.t_free < 1 && !is_known_there)
             if (const double apart = motions_.least(i, got.t_free).distance; apart > 8 * tolerance_)
                 return {false,
                         fmt::format("said to be free until {} alone, where they are {} apart",
                                     got.t_free, apart)};
-        if (got.meets == Meets::yes && (got.t_hit > got.t_free || got.t_free == 1))
-            if (const double apart = motions_.least(i, got.t_hit).distance; apart > 8 * tolerance_)
-                return {false, fmt::format("said to meet at {}, where they are {} apart", got.t_hit,
-                                           apart)};
         if (got.t_free > free_until_[i])
             if (const auto t = touch_before(i, got.t_free))
                 return {true, fmt::format("said to be free until {}, and at {} they touch",
