@@ -129,7 +129,8 @@ def rays_of_trimesh(trimesh):
 
 
 def test_trimesh_interface():
-    trimesh = pytest.importorskip("trimesh", reason="trimesh is not installed (pip install trimesh)")
+    trimesh = pytest.importorskip("trimesh", reason="trimesh is not installed (pip install trimesh rtree embreex)")
+    pytest.importorskip("rtree", reason="trimesh casts rays by rtree, which is not installed (pip install rtree)")
     from boxwood.trimesh import RayMeshIntersector
 
     mesh = trimesh.creation.icosphere(subdivisions=3)
