@@ -75,8 +75,8 @@ TEST(InputMedians, LieInTheIntervalOfAComparison) {
     const auto ours = maker.cell("ours", false), peer = maker.cell("peer", true);
     for (results::Shard& shard : maker.results.shards)
         shard.input = shard.round % 5;
-    maker.time(ours, Phase::query, [](std::uint32_t) { return 100.; });
-    maker.time(peer, Phase::query,
+    maker.time(ours, results::Phase::query, [](std::uint32_t) { return 100.; });
+    maker.time(peer, results::Phase::query,
                [](std::uint32_t round) { return round % 5 == 3 ? 110. : 200.; });
     set_statuses(maker.results);
     const auto rows = comparisons_of(maker.results, Times(maker.results), default_delta);
