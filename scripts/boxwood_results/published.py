@@ -47,6 +47,8 @@ ALL = (
     races("pairs", "pairs", "Overlapping pairs", ("pairs",), ("forest", "forest_pairs_1", "pairs.png")),
     races("rays", "rays", "Rays", ("rays_closest", "rays_any", "rays_all")),
     races("queries", "queries", "Points, regions and nearest items", ("points", "regions", "nearest", "closest_points")),
+    races("narrow", "narrow", "Mesh against mesh",
+          ("collide", "collide_all", "contacts", "distance", "tolerance", "continuous")),
     races("moving", "dynamic", "Moving boxes, update and query of a frame", ("moving_pairs",)),
     Published("effects", "effects", "All stages over the required ones, ours against ourselves", against_ourselves),
     Published("accuracy", "accuracy", "Triangle against triangle: what a call costs and how often it is wrong",
