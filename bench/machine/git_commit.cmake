@@ -10,7 +10,8 @@ if(GIT)
     # --show-cdup is an empty line at the top of a working tree, else the way up to it.
     if(NOT failed AND answer MATCHES "^\n([0-9a-f]+)\n$")
         set(commit "${CMAKE_MATCH_1}")
-        execute_process(COMMAND ${GIT} status --porcelain --untracked-files=no
+        # `scripts/reproduce all --publish` writes there between its sweeps, and no program reads it.
+        execute_process(COMMAND ${GIT} status --porcelain --untracked-files=no -- . ":(exclude)results/published"
             WORKING_DIRECTORY ${SOURCE} OUTPUT_VARIABLE changes ERROR_QUIET)
         if(changes)
             set(dirty 1)

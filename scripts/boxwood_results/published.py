@@ -102,11 +102,17 @@ def noise_of(one, run):
     return f"noise floors by class {', '.join(floors[:-1])} and {floors[-1]}"
 
 
-def source_of(one, run, version, up):
+def sweep_text(run):
+    """The sweep file that made a run, as it was then."""
+    return run.source.texts.get("sweep_toml", "")
+
+
+def source_of(one, run, version, root, up):
     """Which run it was, of which track, how right it was, and how to make it again. up: from the page to the root."""
     env = run.source["env"][0]
+    as_it_was = "" if sweep_text(run) == (root / one.config).read_text(encoding="utf-8") else " as it was then"
     return (f"*Track {one.sweep}-{version}, {run.health['correctness'].split(' (')[0].rstrip('.')}. Run {cell_text(run.source.attrs['run_uuid'])[:8]} of {cell_text(run.source.attrs['created_utc'])[:10]}: "
-            f"[`{one.config}`]({up}{one.config}), {run.rounds} rounds, {env['cpu']}, {env['ncpu']} cores, commit "
+            f"[`{one.config}`]({up}{one.config}){as_it_was}, {run.rounds} rounds, {env['cpu']}, {env['ncpu']} cores, commit "
             f"{env['git_commit'][:8]}, {noise_of(one, run)}; "
             f"[`{one.sweep}.h5`]({up}results/published/{one.sweep}.h5). Again: `{command_of(one)}`.*")
 
@@ -127,7 +133,7 @@ def table_block(one, root, up):
     if len(rows) == 1:
         raise BadFile(one.file(root), f"it holds nothing for the table '{one.name}'; is it too noisy?")
     version, _ = tracks(root).get(one.sweep, (0, ""))
-    return f"**{one.title}**\n\n{markdown(rows)}\n\n{source_of(one, run, version, up)}\n"
+    return f"**{one.title}**\n\n{markdown(rows)}\n\n{source_of(one, run, version, root, up)}\n"
 
 
 def summary_block(root, up):
@@ -147,7 +153,7 @@ def picture_block(one, root, up):
         return not_published(one)
     run = read(one.file(root))
     version, _ = tracks(root).get(one.sweep, (0, ""))
-    return f"![{one.title}]({up}scripts/pictures/{one.picture[2]})\n\n{source_of(one, run, version, up)}\n"
+    return f"![{one.title}]({up}scripts/pictures/{one.picture[2]})\n\n{source_of(one, run, version, root, up)}\n"
 
 
 BLOCKS = {  # marker -> (root, up) -> text
@@ -212,8 +218,8 @@ def problems(root):
             found.append(f"{file}: too few rounds for a noise floor")
         if run.health["is_too_noisy"]:
             found.append(f"{file}: too noisy to be published")
-        if run.source.texts.get("sweep_toml", "") != (root / "bench" / "configs" / f"{sweep}.toml").read_text():
-            found.append(f"{file}: its sweep is not bench/configs/{sweep}.toml as it stands")
+        if not sweep_text(run):
+            found.append(f"{file}: it does not hold the sweep that made it")
         for one in (one for one in ALL if one.sweep == sweep and one.picture):
             shown = root / "scripts" / "pictures" / one.picture[2]
             if not shown.exists() or picture.stamp_of(shown) != cell_text(run.source.attrs["run_uuid"]):

@@ -92,7 +92,7 @@ def test_tables_and_pictures_come_from_the_files(root):
 @pytest.mark.parametrize(
     "env, toml, problem",
     [({"host": "another"}, None, "more than one machine"), ({"git_commit": "b"}, None, "more than one commit"),
-     ({"git_dirty": 1}, None, "in no commit"), ({}, "rounds = 3", "is not bench/configs")])
+     ({"git_dirty": 1}, None, "in no commit"), ({}, "", "does not hold the sweep")])
 def test_what_does_not_fit_together_is_said(root, env, toml, problem):
     file_of(root, "effects", synthetic.full())
     made = synthetic.full()
@@ -105,6 +105,16 @@ def test_what_does_not_fit_together_is_said(root, env, toml, problem):
             rows[column] = value
         tables["env"][:] = rows
     assert any(problem in line for line in published.problems(root))
+
+
+def test_a_sweep_that_has_changed_since_is_said_on_the_page(root):
+    file_of(root, "effects", synthetic.full(), "rounds = 3")
+    published.freeze(root)
+    published.write(root)
+    assert published.problems(root) == [] and "[`bench/configs/effects.toml`](../../bench/configs/effects.toml) as it was then" in (root / TABLES).read_text()
+    file_of(root, "effects", synthetic.full())
+    published.write(root)
+    assert published.problems(root) == [] and "as it was then" not in (root / TABLES).read_text()
 
 
 def test_a_track_whose_scenes_change_has_another_version(root):

@@ -155,8 +155,8 @@ Peer cgal_peer() {
     peer.summary = "CGAL: streamed segment tree, without a structure that is kept";
     peer.version = CGAL_VERSION_STR;
     peer.build = "headers compiled here with single-precision boxes and TBB";
-    for (const Setting& setting : {Setting{}, Setting{.cutoff = 2000}, Setting{.axes = xzy},
-                                   Setting{.cutoff = 2000, .axes = xzy}}) {
+    for (const Setting& setting : {Setting{}, Setting{.cutoff = 100}, Setting{.cutoff = 2000},
+                                   Setting{.axes = xzy}, Setting{.cutoff = 2000, .axes = xzy}}) {
         peer.contenders.push_back(
             entry("cgal.box_self_intersection_d",
                   "CGAL's box_self_intersection_d (Zomorodian and Edelsbrunner)", setting,
