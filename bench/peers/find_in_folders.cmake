@@ -58,32 +58,16 @@ if(warp_folder)
     target_link_libraries(boxwood_warp INTERFACE ${CMAKE_DL_LIBS})
 endif()
 
-# Sets coal_folder to what holds Coal's include/ and lib/, if it is there, and coal_why to why the peer
-# coal is not built. The package that `scripts/setup --with-coal` puts into build/coal is used where
-# the user names none.
-set(BOXWOOD_COAL "" CACHE PATH "Coal: the folder of its include/ and lib/; found in build/coal where empty")
-set(coal_folder ${BOXWOOD_COAL})
-if(NOT coal_folder)
-    file(GLOB coal_folder ${PROJECT_SOURCE_DIR}/build/coal/lib/python3*/site-packages/cmeel.prefix)
-endif()
-set(coal_why "")
-if(BOXWOOD_COAL AND NOT EXISTS ${BOXWOOD_COAL}/include/coal/config.hh)
-    message(FATAL_ERROR "BOXWOOD_COAL is '${BOXWOOD_COAL}', which has no include/coal/config.hh: name the folder "
-                        "cmeel.prefix of the Python package libcoal, or leave it empty")
-elseif(NOT EXISTS "${coal_folder}/include/coal/config.hh")
-    set(coal_why "package not found (scripts/setup --with-coal)")
-elseif(BOXWOOD_SANITIZE)
-    set(coal_why "its module cannot be opened in a build with sanitizers")
-endif()
+# Coal is linked by a module that is opened when it is wanted.
+include(${PROJECT_SOURCE_DIR}/trees/adapters/find_coal.cmake)
 if(NOT coal_why)
     file(STRINGS ${coal_folder}/include/coal/config.hh coal_version REGEX "define COAL_VERSION ")
     string(REGEX REPLACE ".*\"(.*)\".*" "\\1" coal_version "${coal_version}")
-    # Its CMake package would bring in another Boost and another assimp.
     add_library(boxwood_coal MODULE peers/coal/module.cpp peers/coal/meshes.cpp)
-    target_include_directories(boxwood_coal SYSTEM PRIVATE ${coal_folder}/include ${EIGEN3_INCLUDE_DIRS})
-    target_compile_definitions(boxwood_coal PRIVATE COAL_HAS_OCTOMAP COAL_HAVE_OCTOMAP
-        OCTOMAP_MAJOR_VERSION=1 OCTOMAP_MINOR_VERSION=10 OCTOMAP_PATCH_VERSION=0)
-    target_link_libraries(boxwood_coal PRIVATE boxwood_options boxwood_warnings ${coal_folder}/lib/libcoal.so)
+    target_link_libraries(boxwood_coal PRIVATE boxwood_options boxwood_warnings boxwood_trees boxwood_coal_library)
     target_link_options(boxwood_coal PRIVATE -Wl,--no-undefined)
-    set_target_properties(boxwood_coal PROPERTIES BUILD_RPATH ${coal_folder}/lib)
+    if(NOT pybind11_FOUND) # for which they are it already
+        boxwood_position_independent(kernels)
+        boxwood_position_independent(trees)
+    endif()
 endif()

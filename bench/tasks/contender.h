@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bench/replay/replay.h"
 #include "bench/tasks/answers.h"
 #include "kernels/decision.h"
 #include "results/words.h"
@@ -150,6 +151,7 @@ struct Peer {
     std::string version;   ///< as the library reports it
     std::string build;     ///< what is known of how it was compiled: SIMD, precision, threads
     std::vector<ContenderEntry> contenders;
+    std::vector<ReplayEntry> replays{}; ///< what recorded programs can be run with
 };
 
 /// The peers compiled in, and the names of those whose package was not found.

@@ -166,6 +166,16 @@ ContenderEntry meshes(const MeshRow& of) {
     return e;
 }
 
+ReplayEntry replay(std::string name, std::string library, std::string summary,
+                   std::optional<CoalManager> kind) {
+    ReplayEntry entry;
+    entry.name = std::move(name);
+    entry.library = std::move(library);
+    entry.summary = std::move(summary);
+    entry.make = [kind](const RecordedProgram& program) { return module().replay(program, kind); };
+    return entry;
+}
+
 } // namespace
 
 Peer coal_peer() {
@@ -191,6 +201,21 @@ Peer coal_peer() {
     peer.contenders.push_back(kernel("tri_distance", "triangle_distance",
                                      "TriangleDistance::sqrTriDistance, after PQP",
                                      "one pair per call; the root is taken", CoalKernel::distance));
+    const std::string tree = "DynamicAABBTreeCollisionManager",
+                      array = "DynamicAABBTreeArrayCollisionManager",
+                      median = ", split at the median, its default",
+                      morton = ", tree_init_level 2: in Morton order";
+    peer.replays = {
+        replay("boxwood.coal_manager", "boxwood",
+               "boxwood::CoalBroadPhase, in place of Coal's managers", std::nullopt),
+        replay("coal.dynamic_aabb_tree", "coal", tree + median, CoalManager::tree_median),
+        replay("coal.dynamic_aabb_tree.morton", "coal", tree + morton, CoalManager::tree),
+        replay("coal.dynamic_aabb_tree_array", "coal", array + median,
+               CoalManager::tree_array_median),
+        replay("coal.dynamic_aabb_tree_array.morton", "coal", array + morton,
+               CoalManager::tree_array),
+        replay("coal.ssap", "coal", "SSaPCollisionManager: objects sorted by their minima",
+               CoalManager::ssap)};
     return peer;
 }
 

@@ -1,5 +1,7 @@
 #include "bench/peers/coal/module.h"
 #include "bench/peers/each_case.h"
+#include "bench/replay/replayer.h"
+#include "trees/adapters/apis/coal_api.h"
 
 #include <coal/broadphase/broadphase.h>
 #include <coal/collision.h>
@@ -142,6 +144,15 @@ std::unique_ptr<Contender> make_manager(const Job& job, Sides sides, CoalManager
     return std::make_unique<ManagerContender<Kind>>(job, sides, Kind{manager, reported});
 }
 
+std::unique_ptr<Replay> make_replay(const RecordedProgram& program,
+                                    std::optional<CoalManager> manager) {
+    return std::make_unique<Replayer<CoalApi>>(program, [=]() -> std::unique_ptr<Managers> {
+        if (!manager)
+            return std::make_unique<CoalBroadPhase>();
+        return Kind{*manager, Reported::all_may_have_moved}.make({});
+    });
+}
+
 std::unique_ptr<Contender> make_kernel(const Job& job, CoalKernel kernel) {
     switch (kernel) {
     case CoalKernel::collide:
@@ -159,4 +170,5 @@ std::unique_ptr<Contender> make_kernel(const Job& job, CoalKernel kernel) {
 
 extern "C" [[gnu::visibility("default")]] const boxwood::bench::CoalModule boxwood_coal;
 const boxwood::bench::CoalModule boxwood_coal{
-    boxwood::bench::make_manager, boxwood::bench::make_kernel, boxwood::bench::make_coal_meshes};
+    boxwood::bench::make_manager, boxwood::bench::make_kernel, boxwood::bench::make_coal_meshes,
+    boxwood::bench::make_replay};

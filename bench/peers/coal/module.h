@@ -2,6 +2,11 @@
 
 #include "bench/peers/answering.h"
 #include "bench/peers/managers.h"
+#include "bench/replay/replay.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
 
 namespace boxwood::bench {
 
@@ -41,6 +46,8 @@ struct CoalModule {
     std::unique_ptr<Contender> (*manager)(const Job&, Sides, CoalManager, Reported);
     std::unique_ptr<Contender> (*kernel)(const Job&, CoalKernel);
     std::unique_ptr<Contender> (*meshes)(const Job&, CoalVolume, CoalMeshQuery, double);
+    /// Without a manager of Coal's, ours in its place.
+    std::unique_ptr<Replay> (*replay)(const RecordedProgram&, std::optional<CoalManager>);
 };
 
 /// The module has `extern "C" const CoalModule boxwood_coal`.

@@ -4,6 +4,7 @@
 #include "bench/peers/kernel_peers.h"
 #include "bench/peers/mesh_peers.h"
 #include "bench/peers/point_peers.h"
+#include "bench/peers/replay_peers.h"
 #include "bench/tasks/moving_pairs.h"
 
 #include <fcl/broadphase/broadphase_SSaP.h>
@@ -188,6 +189,9 @@ Peer fcl_peer() {
             all.push_back(std::move(e));
     for (ContenderEntry& e : fcl_kernels())
         all.push_back(std::move(e));
+    peer.replays = fcl_replays();
+    for (ReplayEntry& e : fcl_shape_replays())
+        peer.replays.push_back(std::move(e));
     return peer;
 }
 

@@ -1,15 +1,16 @@
 #pragma once
 
-#include "trees/adapters/fcl_manager.h"
+#include "trees/adapters/detail/object_broad_phase.h"
 
-namespace boxwood {
+namespace boxwood::detail {
 
 /// Hands pairs of two managers, or of one and itself, to the callback.
-template <class S> class FclBroadPhase<S>::ShowPairs final : public PairSink {
+template <class Library>
+template <class Callback>
+class ObjectBroadPhase<Library>::ShowPairs final : public PairSink {
   public:
-    ShowPairs(const FclBroadPhase& a, const FclBroadPhase& b, void* data,
-              fcl::CollisionCallBack<S> callback)
-        : a_(a), b_(b), data_(data), callback_(callback) {}
+    ShowPairs(const ObjectBroadPhase& a, const ObjectBroadPhase& b, const Callback& callback)
+        : a_(a), b_(b), callback_(callback) {}
 
     void begin(std::size_t, bool) override {}
     bool take(std::size_t, std::span<const Pair> pairs) override {
@@ -21,7 +22,7 @@ template <class S> class FclBroadPhase<S>::ShowPairs final : public PairSink {
             }
             const Body &a = a_.bodies_[pairs[i].a], &b = b_.bodies_[pairs[i].b];
             if (is_exact || detail::overlap(a.bounds, b.bounds))
-                goes_on_ = !callback_(a.object, b.object, data_);
+                goes_on_ = !callback_(a.object, b.object);
         }
         return goes_on_;
     }
@@ -29,15 +30,14 @@ template <class S> class FclBroadPhase<S>::ShowPairs final : public PairSink {
     bool goes_on() const { return goes_on_; }
 
   private:
-    const FclBroadPhase &a_, &b_;
-    void* data_;
-    fcl::CollisionCallBack<S> callback_;
+    const ObjectBroadPhase &a_, &b_;
+    const Callback& callback_;
     bool goes_on_ = true;
 };
 
 /// The pairs themselves are kept where few objects change between two queries for all of them, and
 /// these queries are not ended early.
-template <class S> const std::vector<Pair>* FclBroadPhase<S>::cached_pairs() const {
+template <class Library> const std::vector<Pair>* ObjectBroadPhase<Library>::cached_pairs() const {
     const std::lock_guard lock(changing_);
     if (unpaired_.empty() && has_pairs_)
         return &pairs_;
@@ -53,7 +53,7 @@ template <class S> const std::vector<Pair>* FclBroadPhase<S>::cached_pairs() con
     return &pairs_;
 }
 
-template <class S> void FclBroadPhase<S>::find_pairs() const {
+template <class Library> void ObjectBroadPhase<Library>::find_pairs() const {
     pairs_.clear();
     AppendPairs all(pairs_);
     if constexpr (is_exact) {
@@ -65,7 +65,7 @@ template <class S> void FclBroadPhase<S>::find_pairs() const {
 }
 
 /// Takes out the pairs of objects that changed, and finds these again.
-template <class S> void FclBroadPhase<S>::follow_pairs() const {
+template <class Library> void ObjectBroadPhase<Library>::follow_pairs() const {
     const std::uint8_t* const changed = unpaired_.marks(bodies_.size());
     Pair* kept = pairs_.data();
     for (const Pair pair : pairs_) {
@@ -92,70 +92,72 @@ template <class S> void FclBroadPhase<S>::follow_pairs() const {
     regions(tree_.layout(), std::span<const Box>(boxes), serial(), found);
 }
 
-template <class S>
-bool FclBroadPhase<S>::collide_self(void* data, fcl::CollisionCallBack<S> callback,
-                                    const std::vector<Pair>* cached) const {
+template <class Library>
+template <class Callback>
+bool ObjectBroadPhase<Library>::collide_self(const Callback& callback,
+                                             const std::vector<Pair>* cached) const {
     for (std::size_t i = 0; i < wide_.size(); ++i)
         for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
             const std::uint32_t a = wide_[i];
             const bool once = b != a && bodies_[b].object && (!is_wide_[b] || a < b);
             if (once && overlap(a, bodies_[b].bounds) &&
-                callback(bodies_[a].object, bodies_[b].object, data))
+                callback(bodies_[a].object, bodies_[b].object))
                 return false;
         }
     if (cached) {
         for (const Pair pair : *cached)
-            if (callback(objects_[pair.a], objects_[pair.b], data))
+            if (callback(objects_[pair.a], objects_[pair.b]))
                 return false;
         return true;
     }
-    ShowPairs show(*this, *this, data, callback);
+    ShowPairs<Callback> show(*this, *this, callback);
     boxwood::self_pairs(tree_.layout(), serial(), show);
     return show.goes_on();
 }
 
-template <class S>
-bool FclBroadPhase<S>::collide_one(Object* object, void* data,
-                                   fcl::CollisionCallBack<S> callback) const {
-    const Bounds& bounds = object->getAABB();
-    const Box box = detail::box_around(bounds);
+template <class Library>
+template <class Callback>
+bool ObjectBroadPhase<Library>::collide_one(Object* object, const Callback& callback) const {
+    const Bounds& bounds = std::as_const(*object).getAABB();
+    const Box box = box_around(bounds);
     const bool is_wide = box == Box{};
     if (is_wide) {
         for (std::uint32_t item = 0; item < bodies_.size(); ++item)
             if (bodies_[item].object && overlap(item, bounds) &&
-                callback(bodies_[item].object, object, data))
+                callback(bodies_[item].object, object))
                 return false;
         return true;
     }
     for (const std::uint32_t item : wide_)
-        if (overlap(item, bounds) && callback(bodies_[item].object, object, data))
+        if (overlap(item, bounds) && callback(bodies_[item].object, object))
             return false;
     bool goes_on = true;
     ForEachPair show([&](Pair answer) {
         if (goes_on && (is_exact || detail::overlap(bodies_[answer.b].bounds, bounds)))
-            goes_on = !callback(bodies_[answer.b].object, object, data);
+            goes_on = !callback(bodies_[answer.b].object, object);
         return goes_on;
     });
     regions(tree_.layout(), std::span<const Box>(&box, 1), serial(), show);
     return goes_on;
 }
 
-template <class S>
-bool FclBroadPhase<S>::collide_two(const FclBroadPhase& other, void* data,
-                                   fcl::CollisionCallBack<S> callback) const {
+template <class Library>
+template <class Callback>
+bool ObjectBroadPhase<Library>::collide_two(const ObjectBroadPhase& other,
+                                            const Callback& callback) const {
     for (const std::uint32_t a : wide_)
         for (std::uint32_t b = 0; b < other.bodies_.size(); ++b)
             if (other.bodies_[b].object && overlap(a, other.bodies_[b].bounds) &&
-                callback(bodies_[a].object, other.bodies_[b].object, data))
+                callback(bodies_[a].object, other.bodies_[b].object))
                 return false;
     for (const std::uint32_t b : other.wide_)
         for (std::uint32_t a = 0; a < bodies_.size(); ++a)
             if (bodies_[a].object && !is_wide_[a] && overlap(a, other.bodies_[b].bounds) &&
-                callback(bodies_[a].object, other.bodies_[b].object, data))
+                callback(bodies_[a].object, other.bodies_[b].object))
                 return false;
-    ShowPairs show(*this, other, data, callback);
+    ShowPairs<Callback> show(*this, other, callback);
     tree_pairs(tree_.layout(), other.tree_.layout(), serial(), show);
     return show.goes_on();
 }
 
-} // namespace boxwood
+} // namespace boxwood::detail

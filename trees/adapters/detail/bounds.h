@@ -2,19 +2,23 @@
 
 #include "trees/tree.h"
 
-#include <fcl/math/bv/AABB.h>
-
 #include <cmath>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 namespace boxwood::detail {
 
-/// A float box around FCL's, for trees: two of FCL's that overlap have boxes that do. Box{} for
+/// A box of FCL's or Coal's, whose corners are min_ and max_; the type of their numbers.
+template <class Bounds>
+using ScalarOf = std::remove_cvref_t<decltype(std::declval<const Bounds&>().min_[0])>;
+
+/// A float box around bounds, for trees: two bounds that overlap have boxes that do. Box{} for
 /// one that trees had better not hold: not a number somewhere, min > max, or far out as the bounds
-/// of planes and half-spaces are. FCL's own test decides about those.
+/// of planes and half-spaces are. The test of the bounds themselves decides about those.
 /// Doubles are rounded to nearest and then moved out by two ulps: quicker than to round outward.
-template <class S> Box box_around(const fcl::AABB<S>& bounds) {
+template <class Bounds> Box box_around(const Bounds& bounds) {
+    using S = ScalarOf<Bounds>;
     constexpr S far = S(1e18); // squares of floats as large do not overflow
     bool fits = true;
     Box box;
@@ -32,16 +36,16 @@ template <class S> Box box_around(const fcl::AABB<S>& bounds) {
     return fits ? box : Box{};
 }
 
-template <class S> bool is_same(const fcl::AABB<S>& a, const fcl::AABB<S>& b) {
+template <class Bounds> bool is_same(const Bounds& a, const Bounds& b) {
     bool same = true;
     for (int axis = 0; axis < 3; ++axis)
         same &= a.min_[axis] == b.min_[axis] && a.max_[axis] == b.max_[axis];
     return same;
 }
 
-/// fcl::AABB::overlap, of any bounds, without a call and without a branch: what is not a number
-/// keeps nothing apart.
-template <class S> bool overlap(const fcl::AABB<S>& a, const fcl::AABB<S>& b) {
+/// AABB::overlap of FCL and Coal, of any bounds, without a call and without a branch: what is not a
+/// number keeps nothing apart.
+template <class Bounds> bool overlap(const Bounds& a, const Bounds& b) {
     bool apart = false;
     for (int axis = 0; axis < 3; ++axis)
         apart |= a.min_[axis] > b.max_[axis] || a.max_[axis] < b.min_[axis];

@@ -1,0 +1,311 @@
+#include "bench/replay/replay.h"
+#include "bench/analysis/statistics.h"
+#include "bench/commands/command.h"
+#include "bench/io/json.h"
+#include "bench/io/pattern.h"
+#include "bench/io/progress.h"
+#include "bench/io/text_table.h"
+#include "bench/replay/made_program.h"
+#include "bench/running/interrupt.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <set>
+
+namespace boxwood::bench {
+namespace {
+
+struct ReplayOptions {
+    std::string file, only;
+    MadeProgramOptions made;
+    unsigned rounds = 9;
+    double most_tests = 2e9;
+    bool json = false;
+};
+
+/// Calls that a table shows as one column.
+struct Column {
+    std::string_view title;
+    std::vector<recording::Call> calls;
+};
+const std::array<Column, 4>& columns() {
+    using enum recording::Call;
+    static const std::array<Column, 4> all = {
+        Column{"register", {add, remove, clear, setup}},
+        Column{"update", {update_all, update_some}},
+        Column{"collide", {collide_self, collide_object, collide_others}},
+        Column{"distance", {distance_self, distance_object, distance_others}}};
+    return all;
+}
+
+double column_ns(const ReplayOutcome& outcome, const Column& column) {
+    std::vector<double> by_round(outcome.total_ns.size(), 0.);
+    for (const recording::Call call : column.calls)
+        for (std::size_t round = 0; round < by_round.size(); ++round)
+            by_round[round] += outcome.per_ns[static_cast<std::size_t>(call)][round];
+    return median_interval(by_round).mid;
+}
+
+/// Its time over that of the first, round by round.
+MedianInterval ratio(const ReplayOutcome& outcome, const ReplayOutcome& to) {
+    std::vector<double> ratios;
+    for (std::size_t round = 0; round < outcome.total_ns.size(); ++round)
+        ratios.push_back(outcome.total_ns[round] / to.total_ns[round]);
+    return median_interval(ratios);
+}
+
+/// "3 box, 2 mesh of 5,000 triangles"
+std::string shapes_of(const RecordedProgram& program) {
+    std::map<recording::Shape, std::size_t> kinds;
+    std::set<std::uint64_t> seen;
+    std::size_t triangles = 0;
+    for (const RecordedProgram::Geometry& geometry : program.geometries)
+        if (seen.insert(geometry.hash).second) {
+            ++kinds[geometry.shape];
+            triangles += geometry.n_triangles;
+        }
+    std::string text;
+    for (const auto& [shape, n] : kinds)
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n,
+                            recording::shape_names[static_cast<std::size_t>(shape)]);
+    if (triangles)
+        text += fmt::format(", {} triangles", triangles);
+    return text;
+}
+
+std::string calls_of(const RecordedProgram& program) {
+    const bool was_run = std::ranges::any_of(
+        program.calls, [](const RecordedProgram::Call& call) { return call.ns > 0; });
+    std::vector<std::string> headings = {"call", ">calls"};
+    if (was_run)
+        headings.insert(headings.end(), {">pairs shown", ">time in the program"});
+    TextTable table(headings);
+    for (std::size_t what = 0; what < recording::call_names.size(); ++what) {
+        std::size_t n = 0;
+        std::uint64_t shown = 0;
+        double ns = 0;
+        for (const RecordedProgram::Call& call : program.calls)
+            if (static_cast<std::size_t>(call.what) == what) {
+                ++n;
+                shown += call.shown;
+                ns += call.ns;
+            }
+        if (n == 0)
+            continue;
+        std::vector<std::string> row = {std::string(recording::call_names[what]),
+                                        fmt::format("{}", n)};
+        if (was_run)
+            row.insert(row.end(),
+                       {is_query(static_cast<recording::Call>(what)) ? fmt::format("{}", shown)
+                                                                     : std::string(),
+                        time_text(ns)});
+        table.add(row);
+    }
+    return table.text();
+}
+
+std::string answers_text(const ReplayOutcome& outcome, const ReplayOutcome& first,
+                         std::size_t n_checked) {
+    if (&outcome == &first && outcome.has_shapes)
+        return "";
+    if (outcome.wrong)
+        return fmt::format("{} {}, the first in call {}", outcome.wrong,
+                           outcome.has_shapes ? "differ" : "wrong", outcome.first_wrong);
+    if (outcome.has_shapes)
+        return "the same";
+    return n_checked ? "right" : "not checked";
+}
+
+/// Those with shapes, or those by bounds alone; each against the first of them.
+std::string table_of(const ReplayReport& report, bool with_shapes) {
+    std::vector<std::string> headings = {"manager", ">all"};
+    for (const Column& column : columns())
+        headings.push_back(">" + std::string(column.title));
+    headings.insert(headings.end(), {">over the first", "answers"});
+    TextTable table(headings);
+    const ReplayOutcome* first = nullptr;
+    for (const ReplayOutcome& outcome : report.outcomes) {
+        if (outcome.has_shapes != with_shapes)
+            continue;
+        if (!first)
+            first = &outcome;
+        std::vector<std::string> row = {outcome.name,
+                                        time_text(median_interval(outcome.total_ns).mid)};
+        for (const Column& column : columns())
+            row.push_back(time_text(column_ns(outcome, column)));
+        const MedianInterval over = ratio(outcome, *first);
+        row.push_back(&outcome == first ? "1"
+                      : over.n < min_pairs_interval
+                          ? ratio_text(over.mid)
+                          : fmt::format("{} ({} to {})", ratio_text(over.mid), ratio_text(over.lo),
+                                        ratio_text(over.hi)));
+        row.push_back(answers_text(outcome, *first, report.n_checked));
+        table.add(row);
+    }
+    return table.text();
+}
+
+std::string as_text(const ReplayOptions& options, const RecordedProgram& program,
+                    const ReplayReport& report) {
+    std::string text =
+        fmt::format("{}: {} objects ({}), {} calls, numbers of {} bits\n\n{}\n",
+                    options.file.empty() ? "a made program" : options.file, program.n_objects(),
+                    shapes_of(program), program.calls.size(), program.bits, calls_of(program));
+    const auto rounds = report.outcomes.front().total_ns.size();
+    if (!report.outcomes.front().has_shapes)
+        text += fmt::format("Pairs alone: a callback takes note, and does no narrow phase (medians "
+                            "of {} rounds in turns)\n{}\n",
+                            rounds, table_of(report, false));
+    if (report.outcomes.back().has_shapes)
+        text += fmt::format("With the shapes: which pairs touch, and the least distance; objects "
+                            "are moved within the time\n{}\n",
+                            table_of(report, true));
+    text +=
+        fmt::format("{} of {} queries were checked by testing all pairs{}.\n", report.n_checked,
+                    report.n_queries,
+                    report.n_checked < report.n_queries ? " (--most-tests 1e12 checks more)" : "");
+    if (report.n_missed)
+        text += fmt::format("THE PROGRAM'S OWN MANAGER MISSED PAIRS in {} of them, first in call "
+                            "{}: bounds that overlap were not shown to its callback.\n",
+                            report.n_missed, report.first_missed);
+    return text;
+}
+
+std::string as_json(const RecordedProgram& program, const ReplayReport& report) {
+    std::string outcomes;
+    for (const ReplayOutcome& outcome : report.outcomes) {
+        std::string parts;
+        for (const Column& column : columns())
+            parts += fmt::format(",{}:{}", json_string(std::string(column.title) + "_ns"),
+                                 json_number(column_ns(outcome, column)));
+        const auto first =
+            std::ranges::find(report.outcomes, outcome.has_shapes, &ReplayOutcome::has_shapes);
+        const MedianInterval over = ratio(outcome, *first);
+        outcomes += fmt::format(
+            "{}{{\"manager\":{},\"shapes\":{},\"total_ns\":{}{},\"over_first\":{{\"mid\":{},\"lo\":"
+            "{},\"hi\":{}}}"
+            ",\"wrong\":{}}}",
+            outcomes.empty() ? "" : ",\n  ", json_string(outcome.name), outcome.has_shapes,
+            json_number(median_interval(outcome.total_ns).mid), parts, json_number(over.mid),
+            json_number(over.lo), json_number(over.hi), outcome.wrong);
+    }
+    return fmt::format("{{\"objects\":{},\"calls\":{},\"queries\":{},\"checked\":{},\"missed\":{},"
+                       "\n \"managers\":[\n  {}]}}\n",
+                       program.n_objects(), program.calls.size(), report.n_queries,
+                       report.n_checked, report.n_missed, outcomes);
+}
+
+std::vector<ReplayEntry> chosen_entries(const std::string& only) {
+    std::vector<ReplayEntry> all = replay_entries();
+    if (only.empty())
+        return all;
+    const Pattern pattern(only);
+    std::string names;
+    std::erase_if(all, [&](const ReplayEntry& entry) {
+        if (!entry.is_truth)
+            names += (names.empty() ? "" : ", ") + entry.name;
+        return !entry.is_truth && !pattern.is_in(entry.name);
+    });
+    if (std::ranges::all_of(all, &ReplayEntry::is_truth))
+        throw BadInput(fmt::format("--only \"{}\" leaves no manager of {}", only, names));
+    return all;
+}
+
+ReplayReport replayed(const RecordedProgram& program, const std::vector<ReplayEntry>& entries,
+                      const ReplayOptions& options) {
+    Progress progress(stderr);
+    Eta eta(1. + options.rounds * static_cast<double>(entries.size() - 1));
+    const auto begun = std::chrono::steady_clock::now();
+    bool has_begun = false;
+    return replay(
+        program, entries, options.rounds, options.most_tests, [&](const std::string& next) {
+            const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begun;
+            if (has_begun)
+                eta.done(1);
+            progress.show(
+                {"replaying", eta.fraction(), has_begun ? eta.left_s(elapsed.count()) : -1, next});
+            has_begun = true;
+            return !CtrlC::pressed();
+        });
+}
+
+int run(const ReplayOptions& options) {
+    const std::vector<ReplayEntry> entries = chosen_entries(options.only);
+    const RecordedProgram program =
+        options.file.empty() ? made_program(options.made) : read_program(options.file);
+    if (program.calls.empty())
+        throw BadInput(options.file + ": it holds no call; did the program ask its recorder?");
+    const CtrlC ctrl_c;
+    const ReplayReport report = replayed(program, entries, options);
+    if (report.outcomes.empty())
+        throw BadInput(options.file +
+                       ": it has shapes that are known by their bounds alone, and no "
+                       "manager of FCL or Coal is here or chosen to run it with");
+    if (report.outcomes.front().total_ns.empty())
+        throw Interrupted("no round was whole");
+    std::cout << (options.json ? as_json(program, report) : as_text(options, program, report));
+    if (CtrlC::pressed())
+        throw Interrupted(fmt::format("{} of {} rounds were whole",
+                                      report.outcomes.front().total_ns.size(), options.rounds));
+    const bool wrong = std::ranges::any_of(report.outcomes, [](const ReplayOutcome& outcome) {
+        return outcome.is_ours && !outcome.has_shapes && outcome.wrong;
+    });
+    return wrong ? exit_failed : exit_success;
+}
+
+} // namespace
+
+void add_replay(CLI::App& app, int& exit_code) {
+    auto options = std::make_shared<ReplayOptions>();
+    CLI::App* command = app.add_subcommand(
+        "replay", "run again what a program asked of its FCL manager, with every manager there is");
+    CLI::Option* const file =
+        command->add_option("recording", options->file,
+                            "a file that boxwood::FclRecorder wrote; without it a program is made "
+                            "up: bodies drift, the pairs are asked for frame by frame");
+    command->add_option("--bodies", options->made.bodies, "of a made program")
+        ->check(CLI::Range(std::size_t{1}, std::size_t{10'000'000}))
+        ->excludes(file)
+        ->capture_default_str();
+    command
+        ->add_option("--moved", options->made.moved,
+                     "of a made program: the share of bodies that move in a frame")
+        ->check(CLI::Range(0., 1.))
+        ->excludes(file)
+        ->capture_default_str();
+    command->add_option("--frames", options->made.frames, "of a made program")
+        ->check(CLI::Range(1, 10'000))
+        ->excludes(file)
+        ->capture_default_str();
+    command->add_option("--only", options->only,
+                        "only managers whose name this regular expression is found in");
+    command->add_option("--rounds", options->rounds, "how often each runs")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command
+        ->add_option("--most-tests", options->most_tests,
+                     "check queries until so many pairs have been tested")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command->add_flag("--json", options->json, "print one JSON object");
+    command->footer(
+        "To record, put a recorder before the manager of your program:\n"
+        "  #include <boxwood/trees/adapters/fcl_recorder.h>\n"
+        "  boxwood::FclRecorder<double> recorder(manager, \"program.h5\");\n"
+        "and ask `recorder` what you asked `manager`. Compile with FCL and HDF5.\n"
+        "Examples:\n  boxwood replay program.h5\n"
+        "  boxwood replay --bodies 10000 --moved 0.01\n"
+        "  boxwood replay program.h5 --only 'boxwood|array' --rounds 21 --json\n"
+        "Exit codes: 0 done, 1 a manager of Boxwood's answered wrongly, 2 no recording,\n"
+        "130 interrupted (what was done is printed).");
+    command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+} // namespace boxwood::bench

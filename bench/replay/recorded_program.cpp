@@ -1,0 +1,147 @@
+#include "bench/replay/recorded_program.h"
+
+#include "results/columns.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace boxwood::bench {
+namespace {
+
+/// A table of a recording, whose numbers are asked for by row.
+class Table {
+  public:
+    Table(const std::filesystem::path& file, std::string name,
+          std::span<const std::string_view> columns)
+        : file_(file), name_(std::move(name)), names_(columns),
+          columns_(results::read_columns(file, name_, columns)) {}
+
+    std::size_t size() const { return columns_[0].size(); }
+    double number(std::size_t row, std::size_t column) const { return columns_[column][row]; }
+    /// A whole number below `end`.
+    std::uint64_t whole(std::size_t row, std::size_t column, double end) const {
+        const double value = number(row, column);
+        if (!(value >= 0 && value < end && value == std::floor(value)))
+            throw std::runtime_error(fmt::format(
+                "{}: row {} of {}/{} is {}, which should be a whole number below {}; the recording "
+                "is damaged: record again",
+                file_.string(), row, name_, names_[column], value, end));
+        return static_cast<std::uint64_t>(value);
+    }
+
+  private:
+    std::filesystem::path file_;
+    std::string name_;
+    std::span<const std::string_view> names_;
+    std::vector<std::vector<double>> columns_;
+};
+
+[[noreturn]] void throw_short(const std::filesystem::path& file, std::string_view table) {
+    throw std::runtime_error(fmt::format(
+        "{}: its calls need more rows of {} than there are; was the program still running? Close "
+        "the recorder first (FclRecorder::close)",
+        file.string(), table));
+}
+
+constexpr double many = 0x1p32;
+
+/// After its vertices and triangles, which it checks.
+void read_geometries(const std::filesystem::path& file, RecordedProgram& program) {
+    const Table table(file, "geometries", recording::geometries);
+    std::size_t vertex = 0, triangle = 0;
+    for (std::size_t row = 0; row < table.size(); ++row) {
+        RecordedProgram::Geometry& of = program.geometries.emplace_back();
+        of.shape = static_cast<recording::Shape>(
+            table.whole(row, 0, static_cast<double>(recording::shape_names.size())));
+        for (std::size_t i = 0; i < of.numbers.size(); ++i)
+            of.numbers[i] = table.number(row, 1 + i);
+        of.first_vertex = vertex;
+        of.first_triangle = triangle;
+        vertex += of.n_vertices = static_cast<std::size_t>(table.whole(row, 5, many));
+        triangle += of.n_triangles = static_cast<std::size_t>(table.whole(row, 6, many));
+        of.hash = table.whole(row, 7, many) << 32 | table.whole(row, 8, many);
+        if (vertex > program.vertices.size())
+            throw_short(file, "vertices");
+        if (triangle > program.triangles.size())
+            throw_short(file, "triangles");
+        for (const auto& corners : program.triangles_of(of))
+            for (const std::uint32_t corner : corners)
+                if (corner >= of.n_vertices)
+                    throw std::runtime_error(
+                        fmt::format("{}: a triangle of geometry {} has vertex {} of {}; the "
+                                    "recording is damaged: record again",
+                                    file.string(), row, corner, of.n_vertices));
+    }
+}
+
+} // namespace
+
+RecordedProgram read_program(const std::filesystem::path& file) {
+    RecordedProgram program;
+    const Table format(file, "format", recording::format);
+    if (format.size() != 1 || format.number(0, 0) != recording::version)
+        throw std::runtime_error(
+            fmt::format("{}: no recording of version {}; record the program again with this "
+                        "boxwood's fcl_recorder.h",
+                        file.string(), recording::version));
+    program.bits = format.number(0, 1) == 32 ? 32 : 64;
+
+    const Table vertices(file, "vertices", recording::vertices);
+    for (std::size_t row = 0; row < vertices.size(); ++row)
+        program.vertices.push_back(
+            {vertices.number(row, 0), vertices.number(row, 1), vertices.number(row, 2)});
+    const Table triangles(file, "triangles", recording::triangles);
+    for (std::size_t row = 0; row < triangles.size(); ++row)
+        for (auto& triangle = program.triangles.emplace_back(); std::size_t i : {0u, 1u, 2u})
+            triangle[i] = static_cast<std::uint32_t>(triangles.whole(row, i, many));
+    read_geometries(file, program);
+    const Table objects(file, "objects", recording::objects);
+    const auto n_geometries = static_cast<double>(program.geometries.size());
+    for (std::size_t row = 0; row < objects.size(); ++row)
+        program.geometry_of.push_back(
+            static_cast<std::uint32_t>(objects.whole(row, 0, n_geometries)));
+
+    const auto n_objects = static_cast<double>(program.n_objects());
+    const Table states(file, "states", recording::states);
+    for (std::size_t row = 0; row < states.size(); ++row) {
+        RecordedProgram::State& state = program.states.emplace_back();
+        state.object = static_cast<std::uint32_t>(states.whole(row, 0, n_objects));
+        for (std::size_t i = 0; i < 6; ++i)
+            state.bounds[i] = states.number(row, 1 + i);
+        for (std::size_t i = 0; i < 12; ++i)
+            state.pose[i] = states.number(row, 7 + i);
+    }
+    const Table of_calls(file, "call_objects", recording::call_objects);
+    for (std::size_t row = 0; row < of_calls.size(); ++row)
+        program.call_objects.push_back(
+            static_cast<std::uint32_t>(of_calls.whole(row, 0, n_objects)));
+
+    const Table calls(file, "calls", recording::calls);
+    std::size_t object = 0, state = 0;
+    for (std::size_t row = 0; row < calls.size(); ++row) {
+        RecordedProgram::Call& call = program.calls.emplace_back();
+        call.what = static_cast<recording::Call>(
+            calls.whole(row, 0, static_cast<double>(recording::call_names.size())));
+        call.first_object = object;
+        call.first_state = state;
+        object += call.n_objects = static_cast<std::size_t>(calls.whole(row, 1, many));
+        state += call.n_states = static_cast<std::size_t>(calls.whole(row, 2, many));
+        if (object > program.call_objects.size())
+            throw_short(file, "call_objects");
+        if (state > program.states.size())
+            throw_short(file, "states");
+        call.shown = calls.whole(row, 3, 0x1p53);
+        call.keys = calls.whole(row, 4, 0x1p52);
+        call.ended = calls.number(row, 5) != 0;
+        call.least = calls.number(row, 6);
+        call.ns = calls.number(row, 7);
+    }
+    return program;
+}
+
+} // namespace boxwood::bench

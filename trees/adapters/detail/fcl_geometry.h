@@ -1,0 +1,146 @@
+#pragma once
+
+#include "trees/adapters/recording.h"
+
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cone.h>
+#include <fcl/geometry/shape/convex.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/ellipsoid.h>
+#include <fcl/geometry/shape/halfspace.h>
+#include <fcl/geometry/shape/plane.h>
+#include <fcl/geometry/shape/sphere.h>
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace boxwood::detail {
+
+/// What a geometry is made of, as recordings hold it.
+struct RecordedGeometry {
+    recording::Shape shape = recording::Shape::other;
+    std::array<double, 4> numbers{};
+    std::vector<std::array<double, 3>> vertices, triangles; ///< triangles: rows of vertices
+
+    std::uint64_t hash() const {
+        std::uint64_t all = 0xcbf29ce484222325; // FNV-1a, of numbers
+        const auto add = [&](double number) {
+            all = (all ^ std::bit_cast<std::uint64_t>(number + 0.)) * 0x100000001b3; // 0, not -0
+            all ^= all >> 32;
+        };
+        add(static_cast<double>(shape));
+        for (const double number : numbers)
+            add(number);
+        for (const auto* rows : {&vertices, &triangles})
+            for (const auto& row : *rows)
+                for (const double number : row)
+                    add(number);
+        return all;
+    }
+};
+
+template <class S, class Volume>
+void take_mesh(const fcl::CollisionGeometry<S>& from, RecordedGeometry& to) {
+    const auto& model = static_cast<const fcl::BVHModel<Volume>&>(from);
+    to.shape = recording::Shape::mesh;
+    for (int i = 0; i < model.num_vertices; ++i)
+        to.vertices.push_back({model.vertices[i][0], model.vertices[i][1], model.vertices[i][2]});
+    for (int i = 0; i < model.num_tris; ++i) {
+        const fcl::Triangle& of = model.tri_indices[i];
+        to.triangles.push_back(
+            {static_cast<double>(of[0]), static_cast<double>(of[1]), static_cast<double>(of[2])});
+    }
+}
+
+template <class S> RecordedGeometry recorded(const fcl::CollisionGeometry<S>& from) {
+    using recording::Shape;
+    RecordedGeometry to;
+    const auto take = [&](Shape shape, std::array<double, 4> numbers) {
+        to.shape = shape;
+        to.numbers = numbers;
+    };
+    const auto round = [&]<class Of>(Shape shape, const Of& of) {
+        take(shape, {of.radius, of.lz});
+    };
+    const auto flat = [&]<class Of>(Shape shape, const Of& of) {
+        take(shape, {of.n[0], of.n[1], of.n[2], of.d});
+    };
+    switch (from.getNodeType()) {
+    case fcl::BV_AABB:
+        take_mesh<S, fcl::AABB<S>>(from, to);
+        break;
+    case fcl::BV_OBB:
+        take_mesh<S, fcl::OBB<S>>(from, to);
+        break;
+    case fcl::BV_RSS:
+        take_mesh<S, fcl::RSS<S>>(from, to);
+        break;
+    case fcl::BV_kIOS:
+        take_mesh<S, fcl::kIOS<S>>(from, to);
+        break;
+    case fcl::BV_OBBRSS:
+        take_mesh<S, fcl::OBBRSS<S>>(from, to);
+        break;
+    case fcl::BV_KDOP16:
+        take_mesh<S, fcl::KDOP<S, 16>>(from, to);
+        break;
+    case fcl::BV_KDOP18:
+        take_mesh<S, fcl::KDOP<S, 18>>(from, to);
+        break;
+    case fcl::BV_KDOP24:
+        take_mesh<S, fcl::KDOP<S, 24>>(from, to);
+        break;
+    case fcl::GEOM_BOX: {
+        const auto& side = static_cast<const fcl::Box<S>&>(from).side;
+        take(Shape::box, {side[0], side[1], side[2]});
+        break;
+    }
+    case fcl::GEOM_ELLIPSOID: {
+        const auto& radii = static_cast<const fcl::Ellipsoid<S>&>(from).radii;
+        take(Shape::ellipsoid, {radii[0], radii[1], radii[2]});
+        break;
+    }
+    case fcl::GEOM_SPHERE:
+        take(Shape::sphere, {static_cast<const fcl::Sphere<S>&>(from).radius});
+        break;
+    case fcl::GEOM_CAPSULE:
+        round(Shape::capsule, static_cast<const fcl::Capsule<S>&>(from));
+        break;
+    case fcl::GEOM_CONE:
+        round(Shape::cone, static_cast<const fcl::Cone<S>&>(from));
+        break;
+    case fcl::GEOM_CYLINDER:
+        round(Shape::cylinder, static_cast<const fcl::Cylinder<S>&>(from));
+        break;
+    case fcl::GEOM_PLANE:
+        flat(Shape::plane, static_cast<const fcl::Plane<S>&>(from));
+        break;
+    case fcl::GEOM_HALFSPACE:
+        flat(Shape::half_space, static_cast<const fcl::Halfspace<S>&>(from));
+        break;
+    case fcl::GEOM_CONVEX: {
+        const auto& of = static_cast<const fcl::Convex<S>&>(from);
+        to.shape = Shape::convex;
+        for (const auto& vertex : of.getVertices())
+            to.vertices.push_back({vertex[0], vertex[1], vertex[2]});
+        const std::vector<int>& faces = of.getFaces(); // number of corners, corners, ...
+        for (std::size_t at = 0; at < faces.size(); at += static_cast<std::size_t>(faces[at]) + 1)
+            for (std::size_t i = 3; i <= static_cast<std::size_t>(faces[at]); ++i)
+                to.triangles.push_back({static_cast<double>(faces[at + 1]),
+                                        static_cast<double>(faces[at + i - 1]),
+                                        static_cast<double>(faces[at + i])});
+        break;
+    }
+    default:
+        break;
+    }
+    return to;
+}
+
+} // namespace boxwood::detail
