@@ -32,13 +32,16 @@ inline RigidTransform<double> compose(const RigidTransform<double>& a,
     return {product(a.rotation, b.rotation), a(b.translation)};
 }
 
-/// The rotation about an axis of length 1, right-handed, by Rodrigues' formula. Radians.
-inline Rotation rotation_about(Vec3<double> axis, double angle) {
-    const double s = std::sin(angle), c = std::cos(angle);
+/// The rotation about an axis of length 1, right-handed, by Rodrigues' formula, from its angle's
+/// sine and cosine; from radians.
+inline Rotation rotation_about(Vec3<double> axis, double s, double c) {
     const Vec3<double> rest = (1 - c) * axis, turn = s * axis;
     return {{{rest.x * axis.x + c, rest.x * axis.y - turn.z, rest.x * axis.z + turn.y},
              {rest.y * axis.x + turn.z, rest.y * axis.y + c, rest.y * axis.z - turn.x},
              {rest.z * axis.x - turn.y, rest.z * axis.y + turn.x, rest.z * axis.z + c}}};
+}
+inline Rotation rotation_about(Vec3<double> axis, double angle) {
+    return rotation_about(axis, std::sin(angle), std::cos(angle));
 }
 
 /// The largest entry of |R R^T - I|.

@@ -1,5 +1,6 @@
 #include "scenes/sampling/poses.h"
 
+#include "kernels/primitives/rotation.h"
 #include "kernels/suggest.h"
 #include "scenes/sampling/random.h"
 
@@ -18,12 +19,14 @@ using Vec = Vec3<double>;
 struct PoseKind {
     std::string_view name, summary;
     double gap;
+    bool is_path = false; ///< each is a degree on from the one before
 };
 constexpr PoseKind kinds[] = {
     {"apart", "half its width away from the mesh", .5},
     {"near", "a hundredth of its width away", .01},
     {"shallow", "overlapping by a fiftieth of its width, which need not touch", -.02},
     {"deep", "overlapping by half its width", -.5},
+    {"along", "a hundredth of its width away, each a degree on from the one before", .01, true},
 };
 
 constexpr PoseKindEntry paths[] = {
@@ -98,15 +101,26 @@ std::vector<RigidTransform<double>> make_poses(std::string_view kind, const Tria
     check_pose_kind(kind);
     if (mesh.triangles.empty())
         throw std::invalid_argument("poses: the mesh has no triangles to place a copy of");
-    const double gap = std::ranges::find(kinds, kind, &PoseKind::name)->gap;
+    const PoseKind& of = *std::ranges::find(kinds, kind, &PoseKind::name);
+    // About a degree: rational, so that every machine gets the same bits.
+    constexpr double t = 1. / 115, sine = 2 * t / (1 + t * t), cosine = (1 - t * t) / (1 + t * t);
+    Rotation turned{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, swung = turned;
     const Vec middle = middle_of(mesh);
     const Random numbers(seed, "poses");
     std::vector<RigidTransform<double>> poses(n);
     for (std::size_t i = 0; i < n; ++i) {
-        Draws draws = numbers.item(i);
+        Draws draws = numbers.item(of.is_path ? 0 : i);
         RigidTransform<double>& pose = poses[i];
         pose.rotation = rotation_of(draws);
-        const Vec way = draws.unit_vector();
+        Vec way = draws.unit_vector();
+        if (of.is_path) {
+            pose.rotation = product(turned, pose.rotation);
+            way = times(swung, way);
+            turned =
+                orthonormalised(product(rotation_about(draws.unit_vector(), sine, cosine), turned));
+            swung =
+                orthonormalised(product(rotation_about(draws.unit_vector(), sine, cosine), swung));
+        }
         const auto& [r0, r1, r2] = pose.rotation;
         const Vec way_in_copy = way.x * r0 + way.y * r1 + way.z * r2;
         const Extent own = extent_along(way, mesh), copy = extent_along(way_in_copy, mesh);
@@ -115,7 +129,7 @@ std::vector<RigidTransform<double>> make_poses(std::string_view kind, const Tria
         const double between = dot(way, pose.translation);
         const double width = own.greatest - own.least;
         pose.translation =
-            pose.translation + (own.greatest - (copy.least + between) + gap * width) * way;
+            pose.translation + (own.greatest - (copy.least + between) + of.gap * width) * way;
     }
     return poses;
 }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <stdexcept>
 #include <string_view>
@@ -27,6 +28,19 @@ TEST(ScenePoses, AreRotationsAtTheirGap) {
     EXPECT_LT(width, 3);
     EXPECT_NEAR(between["near"] - between["shallow"], .03 * width, .005);
     EXPECT_NEAR(between["near"] / width, 1.01, .15);
+}
+
+TEST(ScenePoses, AlongAWayAreADegreeApart) {
+    const Scene scene = make_scene({.generator = "sphere_mesh", .n = 500});
+    const auto poses = make_poses("along", scene.mesh, 90, 3);
+    for (std::size_t i = 1; i < poses.size(); ++i) {
+        double trace = 0;
+        for (std::size_t row = 0; row < 3; ++row)
+            trace += dot(poses[i].rotation[row], poses[i - 1].rotation[row]);
+        EXPECT_NEAR(std::acos((trace - 1) / 2), .0174, .0002);
+        EXPECT_LT(length(poses[i].translation - poses[i - 1].translation), .08);
+    }
+    EXPECT_GT(length(poses[89].translation - poses[0].translation), .5); // it leads away
 }
 
 TEST(ScenePoses, DependOnSeedAndNumberAlone) {

@@ -45,13 +45,15 @@ std::vector<SceneSpec> MeshPairTask::posed_scenes(const BlockReader& block) cons
 void MeshPairTask::expand(const BlockReader& block, AddCell add) const {
     std::vector<ContenderEntry> ours;
     for (const BuilderChoice& builder : block.builders())
-        for (const std::string& volume : block.names("volumes", names_of(volumes), {"obb"})) {
-            Choice choice;
-            choice.builder = builder.name;
-            choice.settings = builder.settings;
-            choice.layout = volume;
-            ours.push_back(contender(choice));
-        }
+        for (const std::string& volume : block.names("volumes", names_of(volumes), {"obb"}))
+            for (const bool is_warm : warm_starts(block)) {
+                Choice choice;
+                choice.builder = builder.name;
+                choice.settings = builder.settings;
+                choice.layout = volume;
+                choice.warm_start = is_warm;
+                ours.push_back(contender(choice));
+            }
     const std::vector<ContenderEntry> peers = block.peers(name());
     if (ours.empty() && !block.has("peers"))
         block.fail("[[cells]] needs builders, peers, or both");
@@ -68,16 +70,19 @@ ContenderEntry MeshPairTask::contender(const Choice& choice) const {
     entry.layout = volume.name;
     entry.traversal = name();
     entry.promise = promise();
-    entry.name = fmt::format("{}.{}.{}", entry.builder, entry.layout, entry.traversal);
+    entry.name = fmt::format("{}.{}.{}{}", entry.builder, entry.layout, entry.traversal,
+                             choice.warm_start ? ".warm" : "");
     entry.summary = fmt::format("{}; {}", builder.summary, volume.summary);
     entry.notes = fmt::format("build: one tree, which stands for the mesh and for its copy; query: "
                               "{}; the copy's corners are moved in doubles, boxes are bounded in "
                               "floats",
                               query_notes());
-    entry.runs_on = RunsOn::one_thread;
+    if (choice.warm_start)
+        entry.notes += "; each begins at the triangles of the answer before";
+    entry.runs_on = runs_on();
     entry.answers = {{std::string(name()),
                       [build = make_builder(choice.builder, choice.settings), kind = volume.volume,
-                       make = make()](const Job& job) { return make(job, build, kind); }}};
+                       make = make(choice)](const Job& job) { return make(job, build, kind); }}};
     return entry;
 }
 

@@ -58,8 +58,11 @@ class MeshPairTask : public Task {
   protected:
     using Make = std::unique_ptr<Contender> (*)(const Job& job, BuildFunction build,
                                                 MeshVolume volume);
-    virtual Make make() const = 0;
+    virtual Make make(const Choice& choice) const = 0;
     virtual Promise promise() const = 0;
+    virtual RunsOn runs_on() const { return RunsOn::one_thread; }
+    /// Whether contenders of a block start at the answer before; the same again for each.
+    virtual std::vector<bool> warm_starts(const BlockReader&) const { return {false}; }
     /// What a query is of, for the notes.
     virtual std::string_view query_notes() const { return "pose after pose"; }
     /// The kinds of poses of a block that names none.

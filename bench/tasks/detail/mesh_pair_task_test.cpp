@@ -29,6 +29,9 @@ std::vector<ContenderEntry> contenders_of(const Task& task) {
             choice.builder = builder;
             choice.layout = volume;
             all.push_back(task.contender(choice));
+            choice.warm_start = task.name() == "distance";
+            if (choice.warm_start)
+                all.push_back(task.contender(choice));
         }
     return all;
 }
@@ -82,6 +85,43 @@ TEST(MeshPairTasks, AreAnsweredAsTheTruthSays) {
     for (const char* name : {"collide", "collide_all", "distance", "tolerance", "contacts"})
         for (const PoseKindEntry& kind : pose_kinds())
             expect_right_answers(*find_task(name), posed(kind.name), kind.name);
+}
+
+TEST(MeshPairTasks, AWarmStartSavesWorkAlongAWay) {
+    const Task& task = *find_task("distance");
+    const Scene scene =
+        make_scene({.generator = "sphere_mesh", .n = 2000, .poses = "along", .n_poses = 40});
+    std::uint64_t tests[2];
+    for (const bool is_warm : {false, true}) {
+        Choice choice;
+        choice.layout = "obb";
+        choice.warm_start = is_warm;
+        const ContenderEntry entry = task.contender(choice);
+        EXPECT_EQ(entry.name.ends_with(".distance.warm"), is_warm);
+        const auto contender = entry.make({&scene, &task});
+        contender->build();
+        const auto answers = task.make_answers();
+        tests[is_warm] = contender->counted_query(*answers)->triangle_tests;
+    }
+    EXPECT_LT(tests[true], tests[false]);
+}
+
+TEST(MeshPairTasks, TouchesAreTheSameByTwoThreads) {
+    const Task& task = *find_task("collide_all");
+    const Scene scene = posed("deep", 3000);
+    Choice choice;
+    choice.layout = "obb";
+    const auto answers = task.make_answers();
+    std::uint64_t hashes[2];
+    for (const unsigned threads : {1u, 2u}) {
+        const auto contender = task.contender(choice).make(
+            {&scene, &task, std::string(default_executor(threads)), threads});
+        contender->build();
+        contender->query(*answers);
+        EXPECT_GT(answers->size(), 100u);
+        hashes[threads - 1] = task.hash(*answers);
+    }
+    EXPECT_EQ(hashes[0], hashes[1]);
 }
 
 TEST(MeshPairTasks, TheTruthSeesWhatIsWrong) {

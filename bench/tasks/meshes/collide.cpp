@@ -49,7 +49,7 @@ class Collide final : public MeshPairTask {
     }
 
   protected:
-    Make make() const override { return mesh_pair_contender<FirstTouch>; }
+    Make make(const Choice&) const override { return mesh_pair_contender<FirstTouch>; }
     Promise promise() const override { return Promise::exact; }
 };
 

@@ -6,26 +6,36 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
 
 namespace boxwood::bench {
 namespace {
 
 class AllTouches final : public MeshPairContender {
   public:
-    using MeshPairContender::MeshPairContender;
+    AllTouches(const Job& job, BuildFunction build, MeshVolume volume)
+        : MeshPairContender(job, std::move(build), volume),
+          executor_(make_executor(job.executor, job.threads)) {}
 
   private:
     void run(Answers& answers, Work* work) override {
         std::vector<PosedPair>& touching = list_of<PosedPair>(answers);
         touching.clear();
         for (std::uint32_t i = 0; i < scene_.poses.size(); ++i) {
-            touching_triangles(*tree_, *tree_, scene_.poses[i],
-                               std::numeric_limits<std::size_t>::max(), pairs_, work);
+            if (executor_->threads() > 1 && !work)
+                pairs_ = touching_triangles(*tree_, *tree_, scene_.poses[i], *executor_);
+            else
+                touching_triangles(*tree_, *tree_, scene_.poses[i],
+                                   std::numeric_limits<std::size_t>::max(), pairs_, work);
             for (const Pair pair : pairs_)
                 touching.push_back({i, pair.a, pair.b});
         }
     }
 
+    std::unique_ptr<Executor> executor_;
     std::vector<Pair> pairs_;
 };
 
@@ -56,7 +66,8 @@ class CollideAll final : public MeshPairTask {
     }
 
   protected:
-    Make make() const override { return mesh_pair_contender<AllTouches>; }
+    Make make(const Choice&) const override { return mesh_pair_contender<AllTouches>; }
+    RunsOn runs_on() const override { return RunsOn::any_executor; }
     Promise promise() const override { return Promise::exact; }
 };
 

@@ -58,7 +58,7 @@ class Contacts final : public MeshPairTask {
     }
 
   protected:
-    Make make() const override { return mesh_pair_contender<AllContacts>; }
+    Make make(const Choice&) const override { return mesh_pair_contender<AllContacts>; }
     Promise promise() const override { return Promise::exact; }
     std::vector<std::string> usual_poses() const override { return {"shallow", "deep"}; }
     std::string_view query_notes() const override {

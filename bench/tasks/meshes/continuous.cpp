@@ -82,7 +82,7 @@ class Continuous final : public MeshPairTask {
     }
 
   protected:
-    Make make() const override { return mesh_pair_contender<FirstMeetings>; }
+    Make make(const Choice&) const override { return mesh_pair_contender<FirstMeetings>; }
     Promise promise() const override { return Promise::certified; }
     std::vector<std::string> usual_poses() const override { return {"apart", "near"}; }
     std::vector<SceneSpec> posed_scenes(const BlockReader& block) const override {

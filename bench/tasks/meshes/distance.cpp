@@ -10,7 +10,7 @@
 namespace boxwood::bench {
 namespace {
 
-class LeastDistance final : public MeshPairContender {
+template <bool is_warm> class LeastDistance final : public MeshPairContender {
   public:
     using MeshPairContender::MeshPairContender;
 
@@ -18,9 +18,12 @@ class LeastDistance final : public MeshPairContender {
     void run(Answers& answers, Work* work) override {
         std::vector<PosedDistance>& distances = list_of<PosedDistance>(answers);
         distances.clear();
+        DistanceOptions options;
         for (const Pose& pose : scene_.poses) {
-            const MeshDistance d = distance(*tree_, *tree_, pose, {}, work);
+            const MeshDistance d = distance(*tree_, *tree_, pose, options, work);
             distances.push_back({d.distance, d.lo, d.hi, d.triangles});
+            if (is_warm && d.found())
+                options.start = d.triangles;
         }
     }
 };
@@ -31,6 +34,11 @@ class DistanceOfMeshes final : public MeshPairTask {
     std::string title() const override { return "distance of two meshes"; }
     std::string_view summary() const override {
         return "how far the scene's mesh and a copy of it are apart, pose after pose";
+    }
+    std::vector<std::string_view> keys() const override {
+        std::vector<std::string_view> all = MeshPairTask::keys();
+        all.push_back("starts");
+        return all;
     }
     std::unique_ptr<Answers> make_answers() const override {
         return std::make_unique<AnswerList<PosedDistance>>();
@@ -51,7 +59,16 @@ class DistanceOfMeshes final : public MeshPairTask {
     }
 
   protected:
-    Make make() const override { return mesh_pair_contender<LeastDistance>; }
+    std::vector<bool> warm_starts(const BlockReader& block) const override {
+        std::vector<bool> starts;
+        for (const std::string& start : block.names("starts", {"cold", "warm"}, {"cold"}))
+            starts.push_back(start == "warm");
+        return starts;
+    }
+    Make make(const Choice& choice) const override {
+        return choice.warm_start ? mesh_pair_contender<LeastDistance<true>>
+                                 : mesh_pair_contender<LeastDistance<false>>;
+    }
     Promise promise() const override { return Promise::certified; }
 };
 

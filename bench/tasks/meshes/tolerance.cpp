@@ -52,7 +52,7 @@ class Tolerance final : public MeshPairTask {
     }
 
   protected:
-    Make make() const override { return mesh_pair_contender<Nearer>; }
+    Make make(const Choice&) const override { return mesh_pair_contender<Nearer>; }
     Promise promise() const override { return Promise::certified; }
     std::vector<std::string> usual_poses() const override { return {"apart", "near"}; }
     std::string_view query_notes() const override {
