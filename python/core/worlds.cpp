@@ -215,6 +215,10 @@ void add_looks(py::class_<PyWorld>& to) {
     to.def("__len__", [](const PyWorld& self) { return self.world().size(); })
         .def("__contains__",
              [](const PyWorld& self, std::uint32_t body) { return self.world().contains(body); })
+        .def("__contains__",
+             [](const PyWorld& self, const std::string& name) {
+                 return self.world().contains(std::string_view(name));
+             })
         .def("__repr__",
              [](const PyWorld& self) {
                  return "<boxwood.World of " + std::to_string(self.world().size()) + " bodies>";

@@ -116,7 +116,8 @@ def test_meshes_share_their_tree():
 def test_what_is_wrong_is_said():
     world = bw.World()
     cube = world.insert(bw.Mesh(CUBE, FACES), name="cube", group=2, mask=4)
-    assert cube in world and 5 not in world and len(world) == 1 and "1" in repr(world) and world.find("cube") == cube
+    assert cube in world and 5 not in world and "cube" in world and "ball" not in world
+    assert len(world) == 1 and "1" in repr(world) and world.find("cube") == cube
     for call, words in ((lambda: world.insert(bw.Shape.sphere(-1)), "sphere"),
                         (lambda: world.insert(bw.Shape.sphere(1), name="cube"), "two bodies"),
                         (lambda: world.insert(bw.Shape.sphere(1), np.diag([2, 2, 2, 1])), "rigid"),

@@ -7,7 +7,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 
 namespace boxwood {
 namespace {
@@ -90,6 +93,37 @@ TEST(Solids, HoldWhatLiesInside) {
     EXPECT_FALSE(collide(outer, inner, away));
     EXPECT_FALSE(collide(inner, outer, relative_pose(away, {})));
     EXPECT_FALSE(collide(Solid(TriangleMesh{}), inner, {}));
+}
+
+TEST(Solids, AreSoFarApartOrSoDeepInEachOther) {
+    const Solid cube(cube_mesh(1)), small(cube_mesh(.1f, {.2f, .1f, 0}));
+    const auto expect = [](const SolidDistance& found, double truth, double width) {
+        EXPECT_LE(found.lo, truth);
+        EXPECT_GE(found.hi, truth);
+        EXPECT_LE(found.lo, found.distance);
+        EXPECT_GE(found.hi, found.distance);
+        EXPECT_LE(found.hi - found.lo, width);
+    };
+    const auto at = [](double x) { return Pose{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {x, 0, 0}}; };
+    expect(signed_distance(cube, cube, at(3)), 1, 1e-9);
+    expect(signed_distance(cube, cube, at(2)), 0, .036);
+    expect(signed_distance(cube, cube, at(1.5)), -.5, .036);
+    expect(signed_distance(cube, cube, at(1.5), .1), -.5, .1001);
+    expect(signed_distance(cube, small, {}), -.9, .0036); // inside without a touch
+    expect(signed_distance(small, cube, {}), -.9, .0036);
+    const Pose turned =
+        pose_of_matrix(std::array<double, 16>{0, -1, 0, 1.5, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+    expect(signed_distance(cube, cube, turned), -.5, .036);
+    const SolidDistance deep = signed_distance(cube, cube, at(1.5));
+    EXPECT_NEAR(std::max(cube.depth_of(deep.point_a),
+                         cube.depth_of(deep.point_a - Vec3<double>{1.5, 0, 0})),
+                -deep.distance, 1e-6);
+    // Of spheres: half of the lens's way in, which a surface's middle has.
+    const Solid ball(noisy_sphere(60, 60, 0, 1));
+    expect(signed_distance(ball, ball, at(1.2), .02), -.8, .06);
+    EXPECT_EQ(signed_distance(cube, Solid(TriangleMesh{}), {}).distance,
+              std::numeric_limits<double>::infinity());
+    EXPECT_THROW(signed_distance(cube, cube, {}, -1), std::invalid_argument);
 }
 
 TEST(Solids, OfPartsAreLookedAtOneByOne) {

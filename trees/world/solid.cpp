@@ -4,9 +4,13 @@
 #include "trees/world/mesh_shape.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace boxwood {
 
@@ -75,6 +79,109 @@ bool collide(const Solid& a, const Solid& b, const Pose& b_in_a, Work* work) {
         if (b.holds(a, part, a_in_b))
             return true;
     return false;
+}
+
+double Solid::depth_of(const Vec3<double>& point) const {
+    return surface_.empty() ? -std::numeric_limits<double>::infinity()
+                            : -sides_.signed_distance(Vec3<float>(point));
+}
+
+namespace {
+
+/// How deep a solid's surface goes into another one, by branch and bound over its triangles: no
+/// point of a piece is deeper than its middle by more than its radius.
+class Deepest {
+  public:
+    void look(const Solid& into, const TriangleMesh& of, const Pose& pose, double tolerance) {
+        const Aabb<double> box(into.surface().bounds());
+        std::vector<Piece> pieces;
+        for (const auto& triangle : of.triangles) {
+            std::array<Vec3<double>, 3> corners;
+            Aabb<double> around;
+            for (std::size_t i = 0; i < 3; ++i)
+                around.extend(corners[i] = pose(Vec3<double>(of.vertices[triangle[i]])));
+            if (overlaps(around, box))
+                add(pieces, into, corners);
+        }
+        std::ranges::make_heap(pieces, {}, &Piece::most);
+        // More pieces than that: the bounds are wide, and true.
+        for (std::size_t n = 0; !pieces.empty() && n < 4'000'000; ++n) {
+            if (pieces.front().most <= least + tolerance)
+                break;
+            std::ranges::pop_heap(pieces, {}, &Piece::most);
+            const auto [a, b, c] = pieces.back().corners;
+            pieces.pop_back();
+            const Vec3<double> ab = .5 * (a + b), bc = .5 * (b + c), ca = .5 * (c + a);
+            for (const auto& corners : {std::array{a, ab, ca}, std::array{ab, b, bc},
+                                        std::array{ca, bc, c}, std::array{ab, bc, ca}})
+                if (add(pieces, into, corners))
+                    std::ranges::push_heap(pieces, {}, &Piece::most);
+        }
+        if (!pieces.empty())
+            most = std::max(most, pieces.front().most);
+        most = std::max(most, least);
+    }
+
+    double least = 0, most = 0; ///< of the depth
+    Vec3<double> point{};       ///< in the frame of the solid that it is in
+
+  private:
+    struct Piece {
+        double most; ///< no point of it is deeper
+        std::array<Vec3<double>, 3> corners;
+    };
+
+    /// False where it cannot be deeper than what is known.
+    bool add(std::vector<Piece>& pieces, const Solid& into,
+             const std::array<Vec3<double>, 3>& corners) {
+        const Vec3<double> middle = (1. / 3) * (corners[0] + corners[1] + corners[2]);
+        double radius = 0;
+        for (const Vec3<double>& corner : corners)
+            radius = std::max(radius, length(corner - middle));
+        const double depth = into.depth_of(middle);
+        const double off = length(middle - Vec3<double>(Vec3<float>(middle))) +
+                           0x1p-40 * (std::abs(depth) + length(middle));
+        if (depth - off > least) {
+            least = depth - off;
+            point = middle;
+        }
+        const double most_of_piece = depth + off + radius * (1 + 0x1p-40);
+        if (!(most_of_piece > least))
+            return false;
+        pieces.push_back({most_of_piece, corners});
+        return true;
+    }
+};
+
+double size_of(const Solid& solid) {
+    const Aabb<double> box(solid.surface().bounds());
+    return box.is_empty() ? 0 : length(box.max - box.min);
+}
+
+} // namespace
+
+SolidDistance signed_distance(const Solid& a, const Solid& b, const Pose& b_in_a, double tolerance,
+                              Work* work) {
+    if (!(tolerance >= 0))
+        throw std::invalid_argument("the tolerance of a signed distance must be at least 0");
+    if (!collide(a, b, b_in_a, work)) {
+        const MeshDistance apart = distance(a.surface(), b.surface(), b_in_a, {}, work);
+        return {apart.distance, apart.lo, apart.hi, apart.point_a, apart.point_b};
+    }
+    if (tolerance == 0)
+        tolerance = .01 * std::min(size_of(a), size_of(b));
+    const Pose a_in_b = relative_pose(b_in_a, Pose{});
+    Deepest of_b, of_a;
+    of_b.look(a, b.surface().mesh(), b_in_a, tolerance);
+    of_a.least = of_b.least;
+    of_a.look(b, a.surface().mesh(), a_in_b, tolerance);
+    const bool is_of_a = of_a.least > of_b.least;
+    const Vec3<double> point = is_of_a ? b_in_a(of_a.point) : of_b.point;
+    // A pose turns and rounds.
+    const double rounded = 0x1p-44 * (size_of(a) + size_of(b) + length(b_in_a.translation));
+    const double least = std::max(of_a.least - rounded, 0.),
+                 most = std::max(of_a.most, of_b.most) + rounded;
+    return {0. - std::max(of_a.least, 0.), 0. - most, 0. - least, point, point};
 }
 
 Decision collide(const Solid& solid, const convex::Shape& shape, const Pose& shape_in_solid,

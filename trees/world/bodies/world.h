@@ -97,6 +97,7 @@ class World {
     bool contains(std::uint32_t body) const {
         return body < bodies_.size() && bodies_[body].shape.has_value();
     }
+    bool contains(std::string_view name) const { return names_.find(name) != names_.end(); }
     std::vector<std::uint32_t> bodies() const; ///< ascending
     /// The body of that name; throws std::invalid_argument, with a suggestion, if there is none.
     std::uint32_t find(std::string_view name) const;

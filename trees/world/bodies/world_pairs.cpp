@@ -137,9 +137,9 @@ std::vector<std::uint32_t> World::near_to(std::uint32_t body, double tolerance) 
     State& state = *state_;
     if (state.tree.is_stale()) {
         const StageCounts::Call call(state.counts, Stage::update, count_);
-        state.tree.layout();
+        state.tree.layout_for_one();
     }
-    const Search where{state.tree.layout(), nullptr, state.tree.wide()};
+    const Search where{state.tree.layout_for_one(), nullptr, state.tree.wide()};
     StageCounts::Call call(state.counts, Stage::pairs);
     const auto pair_with = [&](std::uint32_t other) {
         return Pair{std::min(body, other), std::max(body, other)};

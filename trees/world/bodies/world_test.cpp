@@ -146,6 +146,17 @@ TEST(World, BuildsATreeWhenAPairNeedsItAndOnce) {
     EXPECT_EQ(builds(), 1u); // they overlap: nothing else is looked at
 }
 
+TEST(World, ATreeThatAQueryBuildsIsNotInTheTimeOfTheQuery) {
+    World world({.is_timed = true});
+    const BodyShape mesh = BodyShape::surface(noisy_sphere(100, 100, .1, 1));
+    world.insert(mesh);
+    world.insert(mesh, pose_at(.5));
+    EXPECT_TRUE(world.any_collision());
+    const Ledger ledger = world.ledger();
+    EXPECT_GT(ledger.row("mesh_trees").ns, 0);
+    EXPECT_LT(ledger.row("collide").ns, ledger.row("mesh_trees").ns);
+}
+
 TEST(World, MakesOnlyTheStagesThatQueriesRequire) {
     World world({.is_timed = true});
     for (int i = 0; i < 8; ++i)

@@ -34,12 +34,11 @@ void BodyTree::clear() {
     is_stale_ = groups_are_stale_ = true;
 }
 
-const PackedLayout& BodyTree::layout() const {
+const PackedLayout& BodyTree::layout_for(double cost) const {
     if (is_stale_) {
         const std::lock_guard lock(changing_);
         if (is_stale_) {
             const std::size_t orders = tree_.orders();
-            const double cost = ItemTree::per_item * static_cast<double>(tree_.boxes().size());
             if (tree_.refresh(cost))
                 lost_ = 0;
             else

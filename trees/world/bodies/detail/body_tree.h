@@ -24,8 +24,9 @@ class BodyTree {
 
     bool is_stale() const { return is_stale_; }
     bool groups_are_stale() const { return groups_are_stale_; }
-    /// Up to date from here on.
-    const PackedLayout& layout() const;
+    /// Up to date from here on, for a query of all pairs, or of one box.
+    const PackedLayout& layout() const { return layout_for(cost_of_all()); }
+    const PackedLayout& layout_for_one() const { return layout_for(ItemTree::per_query); }
     /// The groups of its lanes; after layout().
     const LaneGroups& lane_groups(std::span<const Groups> by_body) const;
 
@@ -43,6 +44,9 @@ class BodyTree {
     static bool is_wide(const Box& box);
 
   private:
+    double cost_of_all() const { return ItemTree::per_item * static_cast<double>(is_wide_.size()); }
+    const PackedLayout& layout_for(double cost) const; ///< nanoseconds, ItemTree::refresh
+
     std::vector<std::uint8_t> is_wide_; ///< by body
     std::vector<std::uint32_t> wide_;
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <utility>
 
 namespace boxwood::detail {
 
@@ -49,14 +50,17 @@ class StageCounts {
         count.items.fetch_add(items, std::memory_order_relaxed);
     }
 
-    /// One call of a stage, until it ends.
+    /// One call of a stage, until it ends. Calls of these counts that the same thread makes within
+    /// it are not in its time.
     class Call {
       public:
         Call(StageCounts& counts, Stage stage, std::size_t n = 0)
-            : items(n), count_(counts.counts_[static_cast<std::size_t>(stage)]),
+            : items(n), count_(counts.counts_[static_cast<std::size_t>(stage)]), counts_(counts),
               is_timed_(counts.is_timed_) {
-            if (is_timed_)
-                start_ = std::chrono::steady_clock::now();
+            if (!is_timed_)
+                return;
+            around_ = std::exchange(innermost, this);
+            start_ = std::chrono::steady_clock::now();
         }
         Call(const Call&) = delete;
         Call& operator=(const Call&) = delete;
@@ -64,16 +68,24 @@ class StageCounts {
             constexpr auto any = std::memory_order_relaxed;
             count_.calls.fetch_add(1, any);
             count_.items.fetch_add(items, any);
-            if (is_timed_) {
-                const std::chrono::nanoseconds ns = std::chrono::steady_clock::now() - start_;
-                count_.ns.fetch_add(static_cast<std::uint64_t>(ns.count()), any);
-            }
+            if (!is_timed_)
+                return;
+            const std::chrono::nanoseconds all = std::chrono::steady_clock::now() - start_;
+            count_.ns.fetch_add(static_cast<std::uint64_t>((all - within_).count()), any);
+            innermost = around_;
+            if (around_ && &around_->counts_ == &counts_)
+                around_->within_ += all;
         }
         std::size_t items;
 
       private:
+        inline static thread_local const Call* innermost = nullptr;
+
         Count& count_;
+        StageCounts& counts_;
         bool is_timed_;
+        const Call* around_ = nullptr;
+        mutable std::chrono::nanoseconds within_{0}; ///< of calls within it
         std::chrono::steady_clock::time_point start_;
     };
 
