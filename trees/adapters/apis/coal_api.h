@@ -35,6 +35,8 @@ struct CoalApi {
     using Naive = coal::NaiveCollisionManager;
     using Tree = coal::DynamicAABBTreeCollisionManager;
 
+    static constexpr bool tree_takes_flat = false; ///< throws for bounds of no volume
+
     template <class Shown> struct Show final : coal::CollisionCallBackBase {
         explicit Show(Shown& s) : shown(s) {}
         Shown& shown;

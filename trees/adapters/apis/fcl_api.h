@@ -39,6 +39,8 @@ template <class S> struct FclApi {
     using Naive = fcl::NaiveCollisionManager<S>;
     using Tree = fcl::DynamicAABBTreeCollisionManager<S>;
 
+    static constexpr bool tree_takes_flat = true;
+
     template <class Shown, class... Of>
     static void collide(const Manager& manager, Shown& shown, Of*... of) {
         manager.collide(of..., &shown, [](Object* a, Object* b, void* data) {

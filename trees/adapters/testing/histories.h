@@ -188,8 +188,8 @@ template <class Api> class History {
 
   public:
     History(Family family, std::uint64_t seed)
-        : random_(seed), some_(family, random_), sides_{Side(family != Family::wide),
-                                                        Side(family != Family::wide)} {}
+        : random_(seed),
+          some_(family, random_), sides_{Side(has_tree(family)), Side(has_tree(family))} {}
 
     void run() {
         for (int i = 0; i < operations && !testing::Test::HasFailure(); ++i) {
@@ -201,6 +201,11 @@ template <class Api> class History {
     }
 
   private:
+    /// Whether the library's own tree stands such bounds.
+    static bool has_tree(Family family) {
+        return family == Family::real || (Api::tree_takes_flat && family != Family::wide);
+    }
+
     void step(Side& side, Side& other) {
         const std::size_t n = side.bodies.size();
         const unsigned kind = some_.below(100);

@@ -9,9 +9,10 @@
 namespace boxwood {
 
 /// An Api says how a library's managers are called: Scalar, Object, Bounds, Manager; Ours, and its
-/// own Naive and Tree; Body, an object that is nothing but its bounds (move(bounds), number());
-/// collide(manager, shown, of...) and distance(manager, shown, of...), which hand what a callback
-/// is shown to shown.add; the objects or managers `of` are those of the call.
+/// own Naive and Tree (tree_takes_flat: also bounds of no volume); Body, an object that is nothing
+/// but its bounds (move(bounds), number()); collide(manager, shown, of...) and distance(manager,
+/// shown, of...), which hand what a callback is shown to shown.add; the objects or managers `of`
+/// are those of the call.
 template <class Api> using ObjectPair = std::pair<typename Api::Object*, typename Api::Object*>;
 
 /// What a callback was shown, and the call at which it says that it has had enough.
