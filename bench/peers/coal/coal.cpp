@@ -7,6 +7,7 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace boxwood::bench {
@@ -166,13 +167,27 @@ ContenderEntry meshes(const MeshRow& of) {
     return e;
 }
 
+/// Coal's trees throw for bounds that have none.
+bool have_volume(const RecordedProgram& program) {
+    return std::ranges::all_of(program.states, [](const RecordedProgram::State& state) {
+        double volume = 1;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            volume *= state.bounds[3 + axis] - state.bounds[axis];
+        return volume > 0;
+    });
+}
+
 ReplayEntry replay(std::string name, std::string library, std::string summary,
                    std::optional<CoalManager> kind) {
     ReplayEntry entry;
     entry.name = std::move(name);
     entry.library = std::move(library);
     entry.summary = std::move(summary);
-    entry.make = [kind](const RecordedProgram& program) { return module().replay(program, kind); };
+    entry.make = [kind](const RecordedProgram& program) -> std::unique_ptr<Replay> {
+        if (kind && !have_volume(program))
+            return nullptr;
+        return module().replay(program, kind);
+    };
     return entry;
 }
 
