@@ -26,7 +26,7 @@ struct ReplayOptions {
     std::string file, only;
     MadeProgramOptions made;
     unsigned rounds = 9;
-    double most_tests = 2e9;
+    double max_tests = 2e9;
     bool json = false;
 };
 
@@ -170,7 +170,7 @@ std::string as_text(const ReplayOptions& options, const RecordedProgram& program
     text +=
         fmt::format("{} of {} queries were checked by testing all pairs{}.\n", report.n_checked,
                     report.n_queries,
-                    report.n_checked < report.n_queries ? " (--most-tests 1e12 checks more)" : "");
+                    report.n_checked < report.n_queries ? " (--max-tests 1e12 checks more)" : "");
     if (report.n_missed)
         text += fmt::format("THE PROGRAM'S OWN MANAGER MISSED PAIRS in {} of them, first in call "
                             "{}: bounds that overlap were not shown to its callback.\n",
@@ -225,7 +225,7 @@ ReplayReport replayed(const RecordedProgram& program, const std::vector<ReplayEn
     const auto begun = std::chrono::steady_clock::now();
     bool has_begun = false;
     return replay(
-        program, entries, options.rounds, options.most_tests, [&](const std::string& next) {
+        program, entries, options.rounds, options.max_tests, [&](const std::string& next) {
             const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begun;
             if (has_begun)
                 eta.done(1);
@@ -241,7 +241,7 @@ int run(const ReplayOptions& options) {
     const RecordedProgram program =
         options.file.empty() ? made_program(options.made) : read_program(options.file);
     if (program.calls.empty())
-        throw BadInput(options.file + ": it holds no call; did the program ask its recorder?");
+        throw BadInput(options.file + ": it holds no call; did the program call its recorder?");
     const CtrlC ctrl_c;
     const ReplayReport report = replayed(program, entries, options);
     if (report.outcomes.empty())
@@ -249,10 +249,10 @@ int run(const ReplayOptions& options) {
                        ": it has shapes that are known by their bounds alone, and no "
                        "manager of FCL or Coal is here or chosen to run it with");
     if (report.outcomes.front().total_ns.empty())
-        throw Interrupted("no round was whole");
+        throw Interrupted("no round is complete");
     std::cout << (options.json ? as_json(program, report) : as_text(options, program, report));
     if (CtrlC::pressed())
-        throw Interrupted(fmt::format("{} of {} rounds were whole",
+        throw Interrupted(fmt::format("{} of {} rounds are complete",
                                       report.outcomes.front().total_ns.size(), options.rounds));
     const bool wrong = std::ranges::any_of(report.outcomes, [](const ReplayOutcome& outcome) {
         return outcome.is_ours && !outcome.has_shapes && outcome.wrong;
@@ -265,11 +265,12 @@ int run(const ReplayOptions& options) {
 void add_replay(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<ReplayOptions>();
     CLI::App* command = app.add_subcommand(
-        "replay", "run again what a program asked of its FCL manager, with every manager there is");
+        "replay",
+        "run again the calls of a program to its FCL manager, with every manager there is");
     CLI::Option* const file =
         command->add_option("recording", options->file,
                             "a file that boxwood::FclRecorder wrote; without it a program is made "
-                            "up: bodies drift, the pairs are asked for frame by frame");
+                            "up: bodies drift, the pairs are queried frame by frame");
     command->add_option("--bodies", options->made.bodies, "of a made program")
         ->check(CLI::Range(std::size_t{1}, std::size_t{10'000'000}))
         ->excludes(file)
@@ -290,7 +291,7 @@ void add_replay(CLI::App& app, int& exit_code) {
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     command
-        ->add_option("--most-tests", options->most_tests,
+        ->add_option("--max-tests", options->max_tests,
                      "check queries until so many pairs have been tested")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
@@ -299,7 +300,7 @@ void add_replay(CLI::App& app, int& exit_code) {
         "To record, put a recorder before the manager of your program:\n"
         "  #include <boxwood/trees/adapters/fcl_recorder.h>\n"
         "  boxwood::FclRecorder<double> recorder(manager, \"program.h5\");\n"
-        "and ask `recorder` what you asked `manager`. Compile with FCL and HDF5.\n"
+        "and call `recorder` where you called `manager`. Compile with FCL and HDF5.\n"
         "Examples:\n  boxwood replay program.h5\n"
         "  boxwood replay --bodies 10000 --moved 0.01\n"
         "  boxwood replay program.h5 --only 'boxwood|array' --rounds 21 --json\n"

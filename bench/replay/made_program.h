@@ -15,7 +15,7 @@ struct MadeProgramOptions {
 };
 
 /// For those who have no recording: bodies are registered at once; in each frame some move, the
-/// manager is told which, or of all if all do, and shows the pairs.
+/// moved ones are reported to the manager, or all if all do, and it shows the pairs.
 RecordedProgram made_program(const MadeProgramOptions& options);
 
 } // namespace boxwood::bench

@@ -13,7 +13,7 @@
 namespace boxwood::bench {
 namespace {
 
-/// A table of a recording, whose numbers are asked for by row.
+/// A table of a recording, whose numbers are read by row.
 class Table {
   public:
     Table(const std::filesystem::path& file, std::string name,
@@ -24,7 +24,7 @@ class Table {
     std::size_t size() const { return columns_[0].size(); }
     double number(std::size_t row, std::size_t column) const { return columns_[column][row]; }
     /// A whole number below `end`.
-    std::uint64_t whole(std::size_t row, std::size_t column, double end) const {
+    std::uint64_t integer(std::size_t row, std::size_t column, double end) const {
         const double value = number(row, column);
         if (!(value >= 0 && value < end && value == std::floor(value)))
             throw std::runtime_error(fmt::format(
@@ -57,14 +57,14 @@ void read_geometries(const std::filesystem::path& file, RecordedProgram& program
     for (std::size_t row = 0; row < table.size(); ++row) {
         RecordedProgram::Geometry& of = program.geometries.emplace_back();
         of.shape = static_cast<recording::Shape>(
-            table.whole(row, 0, static_cast<double>(recording::shape_names.size())));
+            table.integer(row, 0, static_cast<double>(recording::shape_names.size())));
         for (std::size_t i = 0; i < of.numbers.size(); ++i)
             of.numbers[i] = table.number(row, 1 + i);
         of.first_vertex = vertex;
         of.first_triangle = triangle;
-        vertex += of.n_vertices = static_cast<std::size_t>(table.whole(row, 5, many));
-        triangle += of.n_triangles = static_cast<std::size_t>(table.whole(row, 6, many));
-        of.hash = table.whole(row, 7, many) << 32 | table.whole(row, 8, many);
+        vertex += of.n_vertices = static_cast<std::size_t>(table.integer(row, 5, many));
+        triangle += of.n_triangles = static_cast<std::size_t>(table.integer(row, 6, many));
+        of.hash = table.integer(row, 7, many) << 32 | table.integer(row, 8, many);
         if (vertex > program.vertices.size())
             throw_short(file, "vertices");
         if (triangle > program.triangles.size())
@@ -98,19 +98,19 @@ RecordedProgram read_program(const std::filesystem::path& file) {
     const Table triangles(file, "triangles", recording::triangles);
     for (std::size_t row = 0; row < triangles.size(); ++row)
         for (auto& triangle = program.triangles.emplace_back(); std::size_t i : {0u, 1u, 2u})
-            triangle[i] = static_cast<std::uint32_t>(triangles.whole(row, i, many));
+            triangle[i] = static_cast<std::uint32_t>(triangles.integer(row, i, many));
     read_geometries(file, program);
     const Table objects(file, "objects", recording::objects);
     const auto n_geometries = static_cast<double>(program.geometries.size());
     for (std::size_t row = 0; row < objects.size(); ++row)
         program.geometry_of.push_back(
-            static_cast<std::uint32_t>(objects.whole(row, 0, n_geometries)));
+            static_cast<std::uint32_t>(objects.integer(row, 0, n_geometries)));
 
     const auto n_objects = static_cast<double>(program.n_objects());
     const Table states(file, "states", recording::states);
     for (std::size_t row = 0; row < states.size(); ++row) {
         RecordedProgram::State& state = program.states.emplace_back();
-        state.object = static_cast<std::uint32_t>(states.whole(row, 0, n_objects));
+        state.object = static_cast<std::uint32_t>(states.integer(row, 0, n_objects));
         for (std::size_t i = 0; i < 6; ++i)
             state.bounds[i] = states.number(row, 1 + i);
         for (std::size_t i = 0; i < 12; ++i)
@@ -119,26 +119,26 @@ RecordedProgram read_program(const std::filesystem::path& file) {
     const Table of_calls(file, "call_objects", recording::call_objects);
     for (std::size_t row = 0; row < of_calls.size(); ++row)
         program.call_objects.push_back(
-            static_cast<std::uint32_t>(of_calls.whole(row, 0, n_objects)));
+            static_cast<std::uint32_t>(of_calls.integer(row, 0, n_objects)));
 
     const Table calls(file, "calls", recording::calls);
     std::size_t object = 0, state = 0;
     for (std::size_t row = 0; row < calls.size(); ++row) {
         RecordedProgram::Call& call = program.calls.emplace_back();
         call.what = static_cast<recording::Call>(
-            calls.whole(row, 0, static_cast<double>(recording::call_names.size())));
+            calls.integer(row, 0, static_cast<double>(recording::call_names.size())));
         call.first_object = object;
         call.first_state = state;
-        object += call.n_objects = static_cast<std::size_t>(calls.whole(row, 1, many));
-        state += call.n_states = static_cast<std::size_t>(calls.whole(row, 2, many));
+        object += call.n_objects = static_cast<std::size_t>(calls.integer(row, 1, many));
+        state += call.n_states = static_cast<std::size_t>(calls.integer(row, 2, many));
         if (object > program.call_objects.size())
             throw_short(file, "call_objects");
         if (state > program.states.size())
             throw_short(file, "states");
-        call.shown = calls.whole(row, 3, 0x1p53);
-        call.keys = calls.whole(row, 4, 0x1p52);
+        call.shown = calls.integer(row, 3, 0x1p53);
+        call.keys = calls.integer(row, 4, 0x1p52);
         call.ended = calls.number(row, 5) != 0;
-        call.least = calls.number(row, 6);
+        call.min_distance = calls.number(row, 6);
         call.ns = calls.number(row, 7);
     }
     return program;

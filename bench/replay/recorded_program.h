@@ -13,7 +13,7 @@
 
 namespace boxwood::bench {
 
-/// What a program asked of its manager, as FclRecorder wrote it (trees/adapters/recording.h).
+/// The calls of a program to its manager, as FclRecorder wrote it (trees/adapters/recording.h).
 struct RecordedProgram {
     /// An object as it is from a call on.
     struct State {
@@ -27,7 +27,7 @@ struct RecordedProgram {
         std::size_t first_state = 0, n_states = 0;
         std::uint64_t shown = 0, keys = 0;
         bool ended = false; ///< by the program's callback
-        double least = 0, ns = 0;
+        double min_distance = 0, ns = 0;
     };
     struct Geometry {
         recording::Shape shape{};

@@ -16,7 +16,7 @@ namespace boxwood::bench {
 namespace {
 
 /// Which queries are checked: the first ones, as many as the truth may test pairs.
-std::vector<char> checked_queries(const RecordedProgram& program, double most_tests) {
+std::vector<char> checked_queries(const RecordedProgram& program, double max_tests) {
     std::vector<char> checked(program.calls.size(), 0);
     std::size_t registered = 0;
     double tests = 0;
@@ -46,7 +46,7 @@ std::vector<char> checked_queries(const RecordedProgram& program, double most_te
         default:
             break;
         }
-        checked[i] = is_query(call.what) && tests <= most_tests;
+        checked[i] = is_query(call.what) && tests <= max_tests;
     }
     return checked;
 }
@@ -61,7 +61,7 @@ bool is_right(const RecordedProgram::Call& call, const ReplayedCall& found,
     if (call.ended)
         return true;
     if (is_distance(call.what))
-        return found.least == truth.least;
+        return found.min_distance == truth.min_distance;
     return found.shown == truth.shown && found.keys == truth.keys;
 }
 
@@ -69,8 +69,9 @@ bool is_right(const RecordedProgram::Call& call, const ReplayedCall& found,
 bool is_same_with_shapes(const RecordedProgram::Call& call, const ReplayedCall& a,
                          const ReplayedCall& b) {
     if (is_distance(call.what))
-        return a.least == b.least ||
-               std::abs(a.least - b.least) <= 1e-5 + 1e-5 * std::min(a.least, b.least);
+        return a.min_distance == b.min_distance ||
+               std::abs(a.min_distance - b.min_distance) <=
+                   1e-5 + 1e-5 * std::min(a.min_distance, b.min_distance);
     return call.ended ? (a.shown > 0) == (b.shown > 0) : a.shown == b.shown && a.keys == b.keys;
 }
 
@@ -147,7 +148,7 @@ void compare_shapes(const RecordedProgram& program,
     for (auto outcome = first; outcome != report.outcomes.end(); ++outcome) {
         const auto base = of(*first), own = of(*outcome);
         if (base == answers.end() || own == answers.end())
-            return; // no round was whole
+            return; // no round is complete
         for (std::size_t i = 0; i < program.calls.size(); ++i)
             if (is_query(program.calls[i].what) &&
                 !is_same_with_shapes(program.calls[i], own->second[i], base->second[i]) &&
@@ -159,14 +160,14 @@ void compare_shapes(const RecordedProgram& program,
 } // namespace
 
 ReplayReport replay(const RecordedProgram& program, const std::vector<ReplayEntry>& entries,
-                    unsigned rounds, double most_tests,
+                    unsigned rounds, double max_tests,
                     const std::function<bool(const std::string&)>& goes_on) {
     ReplayReport report;
     std::vector<ReplayedCall> truth;
     std::vector<char> checked(program.calls.size(), 0);
     const auto truth_of = std::ranges::find_if(entries, &ReplayEntry::is_truth);
     if (truth_of != entries.end() && goes_on("testing all pairs, for the truth")) {
-        checked = checked_queries(program, most_tests);
+        checked = checked_queries(program, max_tests);
         truth_of->make(program)->run([&](std::size_t i) { return checked[i] != 0; }, truth);
     }
     for (std::size_t i = 0; i < program.calls.size(); ++i) {

@@ -15,19 +15,19 @@ namespace boxwood::bench {
 struct ReplayedCall {
     double ns = 0;
     std::uint64_t shown = 0, keys = 0; ///< pairs whose bounds overlap, and the sum of their keys
-    double least = std::numeric_limits<double>::infinity(); ///< distance of bounds
+    double min_distance = std::numeric_limits<double>::infinity(); ///< distance of bounds
 };
 
 /// A manager that a recorded program can be run with.
 class Replay {
   public:
     virtual ~Replay() = default;
-    /// From an empty manager: the calls in their order, but for those for which `asks` is false.
-    /// By bounds: the objects are moved outside the clock; a callback takes note of what overlaps,
-    /// and ends a query where the program's did. With shapes: moving them is timed, too; what is
-    /// noted are the pairs that touch and the least distance, and a query that the program ended is
-    /// ended at the first pair; queries with another manager are left out.
-    virtual void run(const std::function<bool(std::size_t call)>& asks,
+    /// From an empty manager: the calls in their order, but for those for which `includes` is
+    /// false. By bounds: the objects are moved outside the clock; a callback takes note of what
+    /// overlaps, and ends a query where the program's did. With shapes: moving them is timed, too;
+    /// what is noted are the pairs that touch and the least distance, and a query that the program
+    /// ended is ended at the first pair; queries with another manager are left out.
+    virtual void run(const std::function<bool(std::size_t call)>& includes,
                      std::vector<ReplayedCall>& calls) = 0;
 };
 
@@ -58,10 +58,10 @@ struct ReplayReport {
 
 /// Runs a program with every manager of the entries, `rounds` times in turns, in another order
 /// each round. Answers are held against the entry that is the truth, query by query, until it has
-/// tested `most_tests` pairs. `goes_on` is told what is done next; where it says false the rounds
-/// that are whole are reported.
+/// tested `max_tests` pairs. `goes_on` gets what is done next; where it says false the complete
+/// rounds are reported.
 ReplayReport replay(const RecordedProgram& program, const std::vector<ReplayEntry>& entries,
-                    unsigned rounds, double most_tests,
+                    unsigned rounds, double max_tests,
                     const std::function<bool(const std::string&)>& goes_on);
 
 /// A World of ours, with its own narrow phase.

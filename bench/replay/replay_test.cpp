@@ -42,8 +42,8 @@ class Replays : public testing::Test {
 
     RecordedProgram read() const { return read_program(file_); }
     static ReplayReport run(const RecordedProgram& program, const std::vector<ReplayEntry>& entries,
-                            double most_tests = 1e9) {
-        return replay(program, entries, 2, most_tests, [](const std::string&) { return true; });
+                            double max_tests = 1e9) {
+        return replay(program, entries, 2, max_tests, [](const std::string&) { return true; });
     }
     static ReplayReport run(const RecordedProgram& program) { return run(program, fcl_entries()); }
     static std::vector<ReplayEntry> fcl_entries() {
@@ -55,7 +55,7 @@ class Replays : public testing::Test {
     std::filesystem::path file_;
 };
 
-/// A program of balls and boxes that come, move and go, and asks all there is to ask.
+/// A program of balls and boxes that come, move and go, and makes every kind of query.
 template <class S> class Program {
   public:
     using Manager = fcl::BroadPhaseCollisionManager<S>;
@@ -79,18 +79,18 @@ template <class S> class Program {
             for (auto* object : {objects_[6].get(), objects_[7].get()})
                 move(*object);
             manager.update({objects_[6].get(), objects_[7].get()});
-            ask(manager, others, step);
+            query(manager, others, step);
         }
         manager.unregisterObject(objects_[0].get());
-        ask(manager, others, 0);
+        query(manager, others, 0);
         manager.clear();
-        ask(manager, others, 0);
+        query(manager, others, 0);
     }
     std::size_t collisions = 0;
-    S least = 0;
+    S distance = 0;
 
   private:
-    void ask(Manager& manager, Manager& others, int step) {
+    void query(Manager& manager, Manager& others, int step) {
         fcl::DefaultCollisionData<S> self, one, two, first;
         self.request.num_max_contacts = one.request.num_max_contacts =
             two.request.num_max_contacts = 100'000;
@@ -105,7 +105,7 @@ template <class S> class Program {
         manager.distance(&others, &c, fcl::DefaultDistanceFunction<S>);
         collisions += self.result.numContacts() + one.result.numContacts() +
                       two.result.numContacts() + first.result.numContacts();
-        least += b.result.min_distance;
+        distance += b.result.min_distance;
     }
     Object* made(int i) {
         if (i % 2 == 0)
@@ -135,7 +135,7 @@ template <class S> void record_program(const std::filesystem::path& file) {
         recorded.run(recorder, d);
     }
     EXPECT_EQ(recorded.collisions, plain.collisions); // it changes nothing
-    EXPECT_EQ(recorded.least, plain.least);
+    EXPECT_EQ(recorded.distance, plain.distance);
     EXPECT_GT(plain.collisions, 100u);
 }
 
@@ -150,7 +150,7 @@ TEST_F(Replays, AProgramRunsAgainWithEveryManager) {
         EXPECT_EQ(report.n_queries, 22u * 7u);
         EXPECT_EQ(report.n_checked, report.n_queries);
         EXPECT_EQ(report.n_missed, 0u);
-        ASSERT_EQ(report.outcomes.size(), 8u); // not SSaP, as distances are asked for
+        ASSERT_EQ(report.outcomes.size(), 8u); // not SSaP, as there are distance queries
         EXPECT_TRUE(report.outcomes.back().has_shapes);
         EXPECT_EQ(report.outcomes[0].name, "boxwood.fcl_manager");
         EXPECT_THAT(report.outcomes, Each(Field(&ReplayOutcome::wrong, 0u)));
@@ -316,12 +316,12 @@ TEST_F(Replays, ChecksUntilSoManyPairsWereTested) {
 TEST_F(Replays, AreEndedBetweenRuns) {
     record_program<double>(file_);
     const RecordedProgram program = read();
-    int asked = 0;
+    int calls = 0;
     const auto n = static_cast<int>(fcl_entries().size());
     const ReplayReport report =
-        replay(program, fcl_entries(), 5, 1e9, [&](const std::string&) { return ++asked < n + 3; });
+        replay(program, fcl_entries(), 5, 1e9, [&](const std::string&) { return ++calls < n + 3; });
     EXPECT_THAT(report.outcomes,
-                Each(Field(&ReplayOutcome::total_ns, testing::SizeIs(1)))); // a whole round
+                Each(Field(&ReplayOutcome::total_ns, testing::SizeIs(1)))); // a complete round
 }
 
 TEST_F(Replays, WhatIsNoRecordingIsRefused) {

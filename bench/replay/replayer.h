@@ -34,6 +34,44 @@ class Registrations {
     std::vector<char> is_there_;
 };
 
+/// A call that is no query, of objects that it is made with and of those that are but updated.
+template <class Manager, class Object>
+void change(Manager& manager, recording::Call what, const std::vector<Object*>& objects,
+            const std::vector<Object*>& again) {
+    using enum recording::Call;
+    switch (what) {
+    case add:
+        if (objects.size() == 1)
+            manager.registerObject(objects[0]);
+        else if (!objects.empty())
+            manager.registerObjects(objects);
+        if (!again.empty())
+            manager.update(again);
+        break;
+    case remove:
+        if (!objects.empty())
+            manager.unregisterObject(objects[0]);
+        break;
+    case clear:
+        manager.clear();
+        break;
+    case setup:
+        manager.setup();
+        break;
+    case update_all:
+        manager.update();
+        break;
+    case update_some:
+        if (objects.size() == 1)
+            manager.update(objects[0]);
+        else
+            manager.update(objects);
+        break;
+    default:
+        break;
+    }
+}
+
 /// A Replay with a manager of an Api (trees/adapters/apis/fcl_api.h is one).
 template <class Api> class Replayer final : public Replay {
     using Object = typename Api::Object;
@@ -51,7 +89,7 @@ template <class Api> class Replayer final : public Replay {
             bodies_.push_back(std::make_unique<Body>(Bounds(), static_cast<unsigned>(i)));
     }
 
-    void run(const std::function<bool(std::size_t)>& asks,
+    void run(const std::function<bool(std::size_t)>& includes,
              std::vector<ReplayedCall>& calls) override {
         calls.assign(program_.calls.size(), {});
         manager_ = make_();
@@ -60,7 +98,8 @@ template <class Api> class Replayer final : public Replay {
             const RecordedProgram::Call& call = program_.calls[i];
             for (const RecordedProgram::State& state : program_.states_of(call))
                 bodies_[state.object]->move(bounds_of(state));
-            if ((is_query(call.what) && !asks(i)) || (is_of_one(call.what) && call.n_objects == 0))
+            if ((is_query(call.what) && !includes(i)) ||
+                (is_of_one(call.what) && call.n_objects == 0))
                 continue;
             objects_.clear();
             again_.clear();
@@ -72,10 +111,10 @@ template <class Api> class Replayer final : public Replay {
             make_other(call.what);
             Seen seen{call.ended ? std::max<std::uint64_t>(call.shown, 1) : 0};
             const auto begun = std::chrono::steady_clock::now();
-            ask(call.what, seen);
+            query(call.what, seen);
             const std::chrono::duration<double, std::nano> taken =
                 std::chrono::steady_clock::now() - begun;
-            calls[i] = {taken.count(), seen.shown, seen.keys, seen.least};
+            calls[i] = {taken.count(), seen.shown, seen.keys, seen.min_distance};
         }
         other_.reset();
         manager_.reset();
@@ -85,7 +124,7 @@ template <class Api> class Replayer final : public Replay {
     struct Seen {
         std::uint64_t enough; ///< 0: there is never enough
         std::uint64_t calls = 0, shown = 0, keys = 0;
-        double least = std::numeric_limits<double>::infinity();
+        double min_distance = std::numeric_limits<double>::infinity();
 
         bool add(Object* a, Object* b) {
             if (a == b)
@@ -101,9 +140,10 @@ template <class Api> class Replayer final : public Replay {
             if (a == b)
                 return false;
             ++calls;
-            least = std::min(least, static_cast<double>(a->getAABB().distance(b->getAABB())));
+            min_distance =
+                std::min(min_distance, static_cast<double>(a->getAABB().distance(b->getAABB())));
             of_manager = static_cast<Number>(
-                std::min(least, static_cast<double>(std::numeric_limits<Number>::max())));
+                std::min(min_distance, static_cast<double>(std::numeric_limits<Number>::max())));
             return calls == enough;
         }
         static std::uint32_t number(const Object* object) {
@@ -128,30 +168,9 @@ template <class Api> class Replayer final : public Replay {
         other_->registerObjects(objects_);
         other_->setup();
     }
-    void ask(recording::Call what, Seen& seen) {
+    void query(recording::Call what, Seen& seen) {
         using enum recording::Call;
         switch (what) {
-        case add:
-            if (objects_.size() == 1)
-                manager_->registerObject(objects_[0]);
-            else if (!objects_.empty())
-                manager_->registerObjects(objects_);
-            if (!again_.empty())
-                manager_->update(again_);
-            return;
-        case remove:
-            if (!objects_.empty())
-                manager_->unregisterObject(objects_[0]);
-            return;
-        case clear:
-            return manager_->clear();
-        case setup:
-            return manager_->setup();
-        case update_all:
-            return manager_->update();
-        case update_some:
-            return objects_.size() == 1 ? manager_->update(objects_[0])
-                                        : manager_->update(objects_);
         case collide_self:
             return Api::collide(*manager_, seen);
         case collide_object:
@@ -164,6 +183,8 @@ template <class Api> class Replayer final : public Replay {
             return Api::distance(*manager_, seen, objects_[0]);
         case distance_others:
             return Api::distance(*manager_, seen, other_.get());
+        default:
+            change(*manager_, what, objects_, again_);
         }
     }
 

@@ -62,15 +62,15 @@ class WorldReplay final : public Replay {
             checked_pose(pose_of(state));
     }
 
-    void run(const std::function<bool(std::size_t)>& asks,
+    void run(const std::function<bool(std::size_t)>& includes,
              std::vector<ReplayedCall>& calls) override {
         calls.assign(program_.calls.size(), {});
         world_.clear();
         body_of_.assign(program_.n_objects(), std::nullopt);
         for (std::size_t i = 0; i < calls.size(); ++i) {
             const RecordedProgram::Call& call = program_.calls[i];
-            const bool is_asked =
-                (!is_query(call.what) || asks(i)) && !(is_of_one(call.what) && call.n_objects == 0);
+            const bool is_asked = (!is_query(call.what) || includes(i)) &&
+                                  !(is_of_one(call.what) && call.n_objects == 0);
             const auto begun = std::chrono::steady_clock::now();
             move(program_.states_of(call));
             if (is_asked)
@@ -152,15 +152,15 @@ class WorldReplay final : public Replay {
             }
             break;
         case distance_self:
-            if (const auto least = world_.least_distance())
-                to.least = std::max(least->distance, 0.);
+            if (const auto nearest = world_.least_distance())
+                to.min_distance = std::max(nearest->distance, 0.);
             break;
         default:
-            ask_of_one(call, to);
+            query_one(call, to);
         }
     }
     /// One that is not in the world is put there for the query.
-    void ask_of_one(const RecordedProgram::Call& call, ReplayedCall& to) {
+    void query_one(const RecordedProgram::Call& call, ReplayedCall& to) {
         const std::uint32_t object = program_.objects_of(call)[0];
         const bool is_guest = !body_of_[object];
         insert(object);
@@ -174,8 +174,8 @@ class WorldReplay final : public Replay {
         } else if (call.what == recording::Call::collide_object) {
             for (const std::uint32_t other : world_.collisions_of(body))
                 note(to, body, other);
-        } else if (const auto least = world_.least_distance_of(body))
-            to.least = std::max(least->distance, 0.);
+        } else if (const auto nearest = world_.least_distance_of(body))
+            to.min_distance = std::max(nearest->distance, 0.);
         if (is_guest)
             remove(object);
     }

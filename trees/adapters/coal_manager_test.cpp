@@ -37,7 +37,7 @@ std::vector<std::unique_ptr<coal::CollisionObject>> some_shapes() {
     return objects;
 }
 
-template <class Manager, class Callback> Callback asked(double apart, Callback callback) {
+template <class Manager, class Callback> Callback answered(double apart, Callback callback) {
     const auto objects = some_shapes();
     Manager manager;
     for (const auto& object : objects) {
@@ -57,12 +57,12 @@ template <class Manager, class Callback> Callback asked(double apart, Callback c
 TEST(CoalBroadPhase, GivesTheAnswersOfCoalsShapes) {
     coal::CollisionCallBackDefault contacts;
     contacts.data.request.num_max_contacts = 100'000;
-    const auto found = asked<CoalBroadPhase>(1, contacts).data.result.numContacts();
-    EXPECT_EQ(found, asked<coal::NaiveCollisionManager>(1, contacts).data.result.numContacts());
+    const auto found = answered<CoalBroadPhase>(1, contacts).data.result.numContacts();
+    EXPECT_EQ(found, answered<coal::NaiveCollisionManager>(1, contacts).data.result.numContacts());
     EXPECT_GT(found, 3u);
     const coal::DistanceCallBackDefault least;
-    EXPECT_NEAR(asked<CoalBroadPhase>(4, least).data.result.min_distance,
-                asked<coal::NaiveCollisionManager>(4, least).data.result.min_distance, 1e-6);
+    EXPECT_NEAR(answered<CoalBroadPhase>(4, least).data.result.min_distance,
+                answered<coal::NaiveCollisionManager>(4, least).data.result.min_distance, 1e-6);
 }
 
 TEST(CoalBroadPhase, BeginsACallbackOnce) {

@@ -1,6 +1,6 @@
 #pragma once
 
-/// For programs that use FCL: what they ask of a manager, call by call, in a file that `boxwood
+/// For programs that use FCL: their calls to a manager, in a file that `boxwood
 /// replay` runs again. Compiled by whoever includes it and has FCL 0.7 and HDF5; not part of
 /// trees.h.
 
@@ -44,7 +44,7 @@ template <class S> class FclRecorder final : public fcl::BroadPhaseCollisionMana
     ~FclRecorder() override {
         try {
             close();
-        } catch (...) { // a destructor has nobody to tell
+        } catch (...) { // a destructor cannot report it
         }
     }
 
@@ -178,7 +178,7 @@ template <class S> class FclRecorder final : public fcl::BroadPhaseCollisionMana
 
     /// What a query's callback was shown.
     struct Answer {
-        double shown = 0, least = std::numeric_limits<double>::infinity();
+        double shown = 0, min_distance = std::numeric_limits<double>::infinity();
         std::uint64_t keys = 0;
         bool ended = false;
 
@@ -214,7 +214,7 @@ template <class S> class FclRecorder final : public fcl::BroadPhaseCollisionMana
             Measured& self = *static_cast<Measured*>(to);
             self.add(*self.recorder, a, b);
             self.ended = self.callback(a, b, self.data, least);
-            self.least = static_cast<double>(least);
+            self.min_distance = static_cast<double>(least);
             return self.ended;
         }
     };
@@ -258,7 +258,7 @@ template <class S> class FclRecorder final : public fcl::BroadPhaseCollisionMana
                 }
         tables_->calls.add({static_cast<double>(call), n_objects, n_states_, answer.shown,
                             static_cast<double>(answer.keys), answer.ended || !is_certain ? 1. : 0.,
-                            answer.least, taken.count()});
+                            answer.min_distance, taken.count()});
         n_states_ = 0;
         if (call == recording::Call::remove || call == recording::Call::clear)
             forget(call, objects);
@@ -307,9 +307,10 @@ template <class S> class FclRecorder final : public fcl::BroadPhaseCollisionMana
         known.is_registered |= call == recording::Call::add;
         if (!is_other && known.state == state)
             return true;
-        const bool is_told = call == recording::Call::add || call == recording::Call::update_all ||
-                             call == recording::Call::update_some;
-        if (known.is_registered && !is_told)
+        const bool is_reported = call == recording::Call::add ||
+                                 call == recording::Call::update_all ||
+                                 call == recording::Call::update_some;
+        if (known.is_registered && !is_reported)
             return false;
         known.state = state;
         std::array<double, 19> row;
@@ -342,7 +343,7 @@ template <class S> class FclRecorder final : public fcl::BroadPhaseCollisionMana
     }
 
     Manager& manager_;
-    mutable std::recursive_mutex calling_; ///< a callback may ask again
+    mutable std::recursive_mutex calling_; ///< a callback may query again
     mutable std::unique_ptr<Tables> tables_;
     mutable std::unordered_map<const Object*, Known> known_;
     mutable std::unordered_map<const Geometry*, std::uint32_t> number_of_geometry_;

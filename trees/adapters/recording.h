@@ -61,8 +61,8 @@ inline constexpr std::array<std::string_view, 11> shape_names = {
 /// (how many pairs of two objects, the sum of their keys), whether one ended the query (or it was
 /// of a registered object that had moved since its update), and of distances what was the least at
 /// the end, else infinity. `ns`: nanoseconds, callbacks and the recorder's count in it.
-inline constexpr std::array<std::string_view, 8> calls = {"call", "n_objects", "n_states", "shown",
-                                                          "keys", "ended",     "least",    "ns"};
+inline constexpr std::array<std::string_view, 8> calls = {
+    "call", "n_objects", "n_states", "shown", "keys", "ended", "min_distance", "ns"};
 inline constexpr std::array<std::string_view, 1> call_objects = {"object"};
 /// An object's bounds, and its pose (a rotation by rows, a translation), when they changed: of one
 /// that is registered, by its registration or update.

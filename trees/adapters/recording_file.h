@@ -104,7 +104,7 @@ class RecordingFile {
     void check(hid_t done) const {
         if (done < 0)
             throw std::runtime_error(path_ + ": the recording cannot be written; is there such a "
-                                             "folder, and room on the disk?");
+                                             "folder, and space on the disk?");
     }
     hid_t make_column(hid_t group, const std::string& name) const {
         const hsize_t none = 0, unlimited = H5S_UNLIMITED;

@@ -103,31 +103,31 @@ class Deepest {
             if (overlaps(around, box))
                 add(pieces, into, corners);
         }
-        std::ranges::make_heap(pieces, {}, &Piece::most);
+        std::ranges::make_heap(pieces, {}, &Piece::hi);
         // More pieces than that: the bounds are wide, and true.
         for (std::size_t n = 0; !pieces.empty() && n < 4'000'000; ++n) {
-            if (pieces.front().most <= least + tolerance)
+            if (pieces.front().hi <= lo + tolerance)
                 break;
-            std::ranges::pop_heap(pieces, {}, &Piece::most);
+            std::ranges::pop_heap(pieces, {}, &Piece::hi);
             const auto [a, b, c] = pieces.back().corners;
             pieces.pop_back();
             const Vec3<double> ab = .5 * (a + b), bc = .5 * (b + c), ca = .5 * (c + a);
             for (const auto& corners : {std::array{a, ab, ca}, std::array{ab, b, bc},
                                         std::array{ca, bc, c}, std::array{ab, bc, ca}})
                 if (add(pieces, into, corners))
-                    std::ranges::push_heap(pieces, {}, &Piece::most);
+                    std::ranges::push_heap(pieces, {}, &Piece::hi);
         }
         if (!pieces.empty())
-            most = std::max(most, pieces.front().most);
-        most = std::max(most, least);
+            hi = std::max(hi, pieces.front().hi);
+        hi = std::max(hi, lo);
     }
 
-    double least = 0, most = 0; ///< of the depth
-    Vec3<double> point{};       ///< in the frame of the solid that it is in
+    double lo = 0, hi = 0; ///< of the depth
+    Vec3<double> point{};  ///< in the frame of the solid that it is in
 
   private:
     struct Piece {
-        double most; ///< no point of it is deeper
+        double hi; ///< no point of it is deeper
         std::array<Vec3<double>, 3> corners;
     };
 
@@ -141,14 +141,14 @@ class Deepest {
         const double depth = into.depth_of(middle);
         const double off = length(middle - Vec3<double>(Vec3<float>(middle))) +
                            0x1p-40 * (std::abs(depth) + length(middle));
-        if (depth - off > least) {
-            least = depth - off;
+        if (depth - off > lo) {
+            lo = depth - off;
             point = middle;
         }
-        const double most_of_piece = depth + off + radius * (1 + 0x1p-40);
-        if (!(most_of_piece > least))
+        const double hi_of_piece = depth + off + radius * (1 + 0x1p-40);
+        if (!(hi_of_piece > lo))
             return false;
-        pieces.push_back({most_of_piece, corners});
+        pieces.push_back({hi_of_piece, corners});
         return true;
     }
 };
@@ -173,15 +173,14 @@ SolidDistance signed_distance(const Solid& a, const Solid& b, const Pose& b_in_a
     const Pose a_in_b = relative_pose(b_in_a, Pose{});
     Deepest of_b, of_a;
     of_b.look(a, b.surface().mesh(), b_in_a, tolerance);
-    of_a.least = of_b.least;
+    of_a.lo = of_b.lo;
     of_a.look(b, a.surface().mesh(), a_in_b, tolerance);
-    const bool is_of_a = of_a.least > of_b.least;
+    const bool is_of_a = of_a.lo > of_b.lo;
     const Vec3<double> point = is_of_a ? b_in_a(of_a.point) : of_b.point;
     // A pose turns and rounds.
     const double rounded = 0x1p-44 * (size_of(a) + size_of(b) + length(b_in_a.translation));
-    const double least = std::max(of_a.least - rounded, 0.),
-                 most = std::max(of_a.most, of_b.most) + rounded;
-    return {0. - std::max(of_a.least, 0.), 0. - most, 0. - least, point, point};
+    const double lo = std::max(of_a.lo - rounded, 0.), hi = std::max(of_a.hi, of_b.hi) + rounded;
+    return {0. - std::max(of_a.lo, 0.), 0. - hi, 0. - lo, point, point};
 }
 
 Decision collide(const Solid& solid, const convex::Shape& shape, const Pose& shape_in_solid,

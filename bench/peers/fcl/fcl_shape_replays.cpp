@@ -99,15 +99,15 @@ class ShapeReplay final : public Replay {
         }
     }
 
-    void run(const std::function<bool(std::size_t)>& asks,
+    void run(const std::function<bool(std::size_t)>& includes,
              std::vector<ReplayedCall>& calls) override {
         calls.assign(program_.calls.size(), {});
         manager_ = make_();
         registered_.clear();
         for (std::size_t i = 0; i < calls.size(); ++i) {
             const RecordedProgram::Call& call = program_.calls[i];
-            const bool is_asked =
-                (!is_query(call.what) || asks(i)) && !(is_of_one(call.what) && call.n_objects == 0);
+            const bool is_asked = (!is_query(call.what) || includes(i)) &&
+                                  !(is_of_one(call.what) && call.n_objects == 0);
             of_call_.clear();
             again_.clear();
             for (const std::uint32_t object : program_.objects_of(call))
@@ -164,8 +164,8 @@ class ShapeReplay final : public Replay {
         const fcl::DistanceRequestd request;
         fcl::DistanceResultd result;
         fcl::distance(a, b, request, result);
-        to.least = std::min(to.least, std::max(result.min_distance, 0.));
-        least = to.least;
+        to.min_distance = std::min(to.min_distance, std::max(result.min_distance, 0.));
+        least = to.min_distance;
         return least <= 0;
     }
 
@@ -173,24 +173,6 @@ class ShapeReplay final : public Replay {
         using enum recording::Call;
         Touches touches{to, call.ended};
         switch (call.what) {
-        case add:
-            if (!of_call_.empty())
-                manager_->registerObjects(of_call_);
-            if (!again_.empty())
-                manager_->update(again_);
-            return;
-        case remove:
-            if (!of_call_.empty())
-                manager_->unregisterObject(of_call_[0]);
-            return;
-        case clear:
-            return manager_->clear();
-        case setup:
-            return manager_->setup();
-        case update_all:
-            return manager_->update();
-        case update_some:
-            return manager_->update(of_call_);
         case collide_self:
             return manager_->collide(&touches, Touches::look);
         case collide_object:
@@ -199,9 +181,8 @@ class ShapeReplay final : public Replay {
             return manager_->distance(&to, measure);
         case distance_object:
             return manager_->distance(of_call_[0], &to, measure);
-        case collide_others:
-        case distance_others:
-            return;
+        default:
+            change(*manager_, call.what, of_call_, again_);
         }
     }
 
