@@ -193,12 +193,7 @@ class WorldReplay final : public Replay {
 } // namespace
 
 ReplayEntry world_replay() {
-    ReplayEntry entry;
-    entry.name = "boxwood.world";
-    entry.library = "boxwood";
-    entry.summary = "boxwood::World: pairs and shapes";
-    entry.has_shapes = true;
-    entry.make = [](const RecordedProgram& program) -> std::unique_ptr<Replay> {
+    const auto make = [](const RecordedProgram& program) -> std::unique_ptr<Replay> {
         if (!program.knows_shapes())
             return nullptr;
         try {
@@ -208,7 +203,11 @@ ReplayEntry world_replay() {
             return nullptr;
         }
     };
-    return entry;
+    return {.name = "boxwood.world",
+            .library = "boxwood",
+            .summary = "boxwood::World: pairs and shapes",
+            .make = make,
+            .has_shapes = true};
 }
 
 } // namespace boxwood::bench

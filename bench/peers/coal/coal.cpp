@@ -179,16 +179,15 @@ bool have_volume(const RecordedProgram& program) {
 
 ReplayEntry replay(std::string name, std::string library, std::string summary,
                    std::optional<CoalManager> kind) {
-    ReplayEntry entry;
-    entry.name = std::move(name);
-    entry.library = std::move(library);
-    entry.summary = std::move(summary);
-    entry.make = [kind](const RecordedProgram& program) -> std::unique_ptr<Replay> {
+    const auto make = [kind](const RecordedProgram& program) -> std::unique_ptr<Replay> {
         if (kind && !have_volume(program))
             return nullptr;
         return module().replay(program, kind);
     };
-    return entry;
+    return {.name = std::move(name),
+            .library = std::move(library),
+            .summary = std::move(summary),
+            .make = make};
 }
 
 } // namespace

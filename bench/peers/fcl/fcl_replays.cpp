@@ -60,12 +60,10 @@ ReplayEntry entry(std::string name, std::string library, std::string summary, Do
             return std::make_unique<Replayer<FclApi<float>>>(program, in_floats);
         return std::make_unique<Replayer<FclApi<double>>>(program, in_doubles);
     };
-    ReplayEntry entry;
-    entry.name = std::move(name);
-    entry.library = std::move(library);
-    entry.summary = std::move(summary);
-    entry.make = make;
-    return entry;
+    return {.name = std::move(name),
+            .library = std::move(library),
+            .summary = std::move(summary),
+            .make = make};
 }
 
 } // namespace

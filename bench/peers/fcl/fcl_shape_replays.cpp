@@ -198,17 +198,16 @@ template <class M> std::unique_ptr<Manager> plain() { return std::make_unique<M>
 
 ReplayEntry entry(std::string name, std::string library, std::string summary,
                   ShapeReplay::Make make_manager) {
-    ReplayEntry entry;
-    entry.name = std::move(name);
-    entry.library = std::move(library);
-    entry.summary = std::move(summary);
-    entry.has_shapes = true;
-    entry.make = [make_manager](const RecordedProgram& program) -> std::unique_ptr<Replay> {
+    const auto make = [make_manager](const RecordedProgram& program) -> std::unique_ptr<Replay> {
         if (!program.knows_shapes())
             return nullptr;
         return std::make_unique<ShapeReplay>(program, make_manager);
     };
-    return entry;
+    return {.name = std::move(name),
+            .library = std::move(library),
+            .summary = std::move(summary),
+            .make = make,
+            .has_shapes = true};
 }
 
 } // namespace
