@@ -424,24 +424,26 @@ TEST(NoiseFloor, AboveTwentyPerCentOnlyWhatIsBeyondItIsClaimed) {
 TEST(NoiseFloor, IsThatOfTheKind) {
     Maker maker(9);
     const auto brief = maker.cell("brief", false), brief_peer = maker.cell("brief_peer", true),
-               lengthy = maker.cell("lengthy", false),
-               lengthy_peer = maker.cell("lengthy_peer", true);
-    maker.time(brief, Phase::query, steady(1e3));
-    maker.time(brief_peer, Phase::query, steady(1.1e3));
-    maker.time(lengthy, Phase::query, steady(1e7));
-    maker.time(lengthy_peer, Phase::query, steady(1.1e7));
+               lengthy = maker.cell("long", false), lengthy_peer = maker.cell("long_peer", true);
+    for (const auto& [cell, ns] :
+         {std::pair{brief, 1e3}, {brief_peer, 1.1e3}, {lengthy, 1e7}, {lengthy_peer, 1.1e7}})
+        maker.time(cell, Phase::query, steady(ns));
     maker.time(brief, Phase::query, steady(1.15e3), results::aa_twin);
     maker.time(lengthy, Phase::query, steady(1.01e7), results::aa_twin);
     const auto rows = against_peers(maker.results);
     EXPECT_EQ(row_of(rows, brief_peer, brief, Phase::query).verdict, Verdict::cannot_tell);
     EXPECT_EQ(row_of(rows, lengthy_peer, lengthy, Phase::query).verdict, Verdict::faster);
-    EXPECT_NEAR(row_of(rows, lengthy_peer, lengthy, Phase::query).floor, 0.01, 1e-6);
     maker.time(brief, Phase::cold_build, steady(1e3));
     maker.time(lengthy, Phase::cold_build, steady(1e7));
     maker.time(brief, Phase::cold_build, steady(1.5e3), results::aa_twin);
     EXPECT_NEAR(*floor_of(maker.results), 0.15, 1e-9); // what is not cold knows nothing of it
-    const NoiseFloors floors(maker.results, Times(maker.results));
-    EXPECT_NEAR(*floors.of(maker.results.cells[lengthy], Phase::cold_build), 0.5, 1e-9);
+    maker.time(lengthy, Phase::build, steady(1e7));
+    maker.time(lengthy, Phase::build, steady(1.4e7), results::aa_twin);
+    const Times times(maker.results);
+    const NoiseFloors floors(maker.results, times);
+    for (const auto& [phase, floor] :
+         {std::pair{Phase::cold_build, .5}, {Phase::build, .4}, {Phase::query, .01}})
+        EXPECT_NEAR(*floors.of(maker.results.cells[lengthy], phase), floor, 1e-6);
 }
 
 } // namespace

@@ -58,8 +58,9 @@ std::string trust_text(const Health& health, double lowest, std::ptrdiff_t busy)
     if (std::isnan(health.floor))
         text += "noise floor not known";
     else if (lowest < health.floor)
-        text += fmt::format("noise floor {:.1f} to {:.1f} % by threads and length", 100 * lowest,
-                            100 * health.floor);
+        text += fmt::format(
+            "noise floor {:.1f} to {:.1f} % by threads, length, and whether something is built",
+            100 * lowest, 100 * health.floor);
     else
         text += fmt::format("noise floor {:.1f} %", 100 * health.floor);
     if (health.is_too_noisy)

@@ -150,7 +150,8 @@ NoiseFloors::Likeness NoiseFloors::likeness(const results::Cell& cell, Phase pha
     constexpr double brief_ns = 1e6;
     const Rounds* const rounds = times_.rounds(cell.cell_id, phase);
     return {cell.threads > 1, rounds && paired_medians(*rounds, *rounds).first < brief_ns,
-            phase == Phase::cold_build || phase == Phase::cold_build_and_query};
+            phase == Phase::cold_build || phase == Phase::cold_build_and_query,
+            phase == Phase::query || phase == Phase::device_query};
 }
 
 std::optional<double> NoiseFloors::of(const results::Cell& cell, Phase phase) const {

@@ -50,7 +50,8 @@ std::set<std::string> machines_of(const results::Results& results);
 
 /// The A/A noise floors, as relative differences: the farthest end of the intervals of phases that
 /// were timed twice, by what is alike in noise: one thread or several, below a millisecond or not,
-/// cold or not.
+/// cold or not, and whether a structure is built or changed in it, which takes and touches memory,
+/// or only read.
 class NoiseFloors {
   public:
     /// Nothing from twins with fewer than 6 rounds.
@@ -70,7 +71,7 @@ class NoiseFloors {
 
   private:
     struct Likeness {
-        bool has_threads, is_short, is_cold;
+        bool has_threads, is_short, is_cold, is_read_only;
         auto operator<=>(const Likeness&) const = default;
     };
     Likeness likeness(const results::Cell& cell, results::Phase phase) const;
