@@ -58,6 +58,25 @@ TEST(Motions, OfHalfATurnAreNoTrap) {
     EXPECT_LT(length(motion.at(1)(Vec3<double>{1, 2, 3}) - Vec3<double>{-1, -2, 3}), 1e-14);
 }
 
+TEST(Motions, OfSmallAnglesAreNoLongerThanTheySay) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> exponent(-12, -1);
+    for (int k = 0; k < 2000; ++k) {
+        const double angle = std::pow(10, exponent(random));
+        Pose from = random_pose(random, {}), to = from;
+        // Turned about its own z axis: corners go sqrt 2 times the angle.
+        const double c = std::cos(angle), s = std::sin(angle);
+        for (std::size_t row = 0; row < 3; ++row) {
+            const Vec3<double> r = from.rotation[row];
+            to.rotation[row] = {r.x * c + r.y * s, r.y * c - r.x * s, r.z};
+        }
+        Aabb<float> box;
+        box.extend(Vec3<float>{-1, -1, -1});
+        box.extend(Vec3<float>{1, 1, 1});
+        EXPECT_GE(Motion(from, to).longest_way(box), std::sqrt(2.) * angle) << angle;
+    }
+}
+
 TEST(Motions, OfSmallAnglesAreNoTrap) {
     for (const double angle : {0.0, 1e-12, 1e-9, 1e-6, 1e-3, 3.0, std::acos(-1.0) - 1e-9}) {
         Pose from, to;

@@ -90,18 +90,20 @@ double Motion::longest_way(const Aabb<float>& box) const {
         start =
             (half > 0 ? half / std::sin(half) : 1.0) * times(rotation_about(axis_, -half), across_);
     }
-    double fastest = 0;
+    double fastest = 0, farthest = 0;
     for (int corner = 0; corner < 8; ++corner) {
         const Vec3<double> p{double{corner & 1 ? box.max.x : box.min.x},
                              double{corner & 2 ? box.max.y : box.min.y},
                              double{corner & 4 ? box.max.z : box.min.z}};
-        fastest =
-            std::max(fastest, length(start + angle_ * cross(axis_, times(from_.rotation, p))));
+        const Vec3<double> turned = times(from_.rotation, p);
+        fastest = std::max(fastest, length(start + angle_ * cross(axis_, turned)));
+        farthest = std::max(farthest, length(turned));
     }
     // Across and along the axis of a screw the ways are at right angles.
     const double slid = length(way_);
     const double way = is_screw_ ? std::sqrt(fastest * fastest + slid * slid) : fastest + slid;
-    return way * (1 + 0x1p-40);
+    // Axis times angle is off by a few units of rounding, however small the angle.
+    return way * (1 + 0x1p-40) + (angle_ > 0 ? 0x1p-48 * farthest : 0);
 }
 
 } // namespace boxwood
