@@ -1,11 +1,14 @@
 #include "arrays.h"
 #include "core.h"
 #include "poses.h"
+#include "shapes.h"
 
 #include "trees/world/mesh_contacts.h"
+#include "trees/world/mesh_shape.h"
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <optional>
 
 namespace boxwood::python {
@@ -50,41 +53,78 @@ PyMesh::PyMesh(const py::object& vertices, const py::object& faces, const std::s
 
 namespace {
 
-/// Two meshes, the second seen from the first.
-struct Posed {
-    Posed(const PyMesh& mesh, const PyMesh& other_mesh, const py::object& pose,
+/// A mesh, and another or a convex shape seen from it.
+class Posed {
+  public:
+    Posed(const PyMesh& mesh, const py::object& other, const py::object& pose,
           const py::object& other_pose)
-        : a(mesh.tree()), b(other_mesh.tree()), at(pose_of(pose, "pose")),
-          b_in_a(relative_pose(at, pose_of(other_pose, "other_pose"))) {}
+        : at(pose_of(pose, "pose")), a_(mesh.shared_tree()),
+          b_in_a_(relative_pose(at, pose_of(other_pose, "other_pose"))) {
+        if (py::isinstance<PyMesh>(other)) {
+            b_ = py::cast<const PyMesh&>(other).shared_tree();
+            return;
+        }
+        shape_ = body_shape_of(other, "other");
+        if (shape_->shape_class() != ShapeClass::convex)
+            throw py::type_error("other: a boxwood.Mesh or a convex boxwood.Shape is wanted; a "
+                                 "World takes every shape");
+    }
+    bool is_mesh() const { return b_ != nullptr; }
     Vec3<double> direction(const Vec3<double>& v) const { return at.rotated(v); }
+    /// f(mesh, the other, its pose in the mesh's frame) without the interpreter's lock.
+    template <class F> auto answer(F&& f) const {
+        return without_gil(
+            [&] { return b_ ? f(*a_, *b_, b_in_a_) : f(*a_, shape_->convex_shape(), b_in_a_); });
+    }
 
-    const MeshTree &a, &b;
-    Pose at, b_in_a;
+    Pose at;
+
+  private:
+    std::shared_ptr<const MeshTree> a_, b_;
+    std::optional<BodyShape> shape_; ///< where b_ is null
+    Pose b_in_a_;
 };
 
-py::object distance_of(const PyMesh& mesh, const PyMesh& other, const py::object& pose,
+bool is_yes(bool yes) { return yes; }
+bool is_yes(Decision decision) { return decision.answer != Answer::no; }
+
+std::vector<Pair> touching(const MeshTree& a, const MeshTree& b, const Pose& b_in_a) {
+    return touching_triangles(a, b, b_in_a);
+}
+std::vector<Pair> touching(const MeshTree& a, const convex::Shape& b, const Pose& b_in_a) {
+    std::vector<Pair> pairs;
+    for (const Contact& contact : contacts(a, b, b_in_a))
+        pairs.push_back(contact.triangles);
+    std::ranges::sort(pairs);
+    return pairs;
+}
+
+py::object distance_of(const PyMesh& mesh, const py::object& other, const py::object& pose,
                        const py::object& other_pose, double relative, double absolute) {
     const Posed posed(mesh, other, pose, other_pose);
     DistanceOptions options;
     options.relative = relative;
     options.absolute = absolute;
-    const MeshDistance d =
-        without_gil([&] { return distance(posed.a, posed.b, posed.b_in_a, options); });
-    const auto triangle = [&](std::uint32_t i) {
-        return d.found() ? static_cast<std::int64_t>(i) : -1;
+    const MeshDistance d = posed.answer([&](const MeshTree& a, const auto& b, const Pose& b_in_a) {
+        return distance(a, b, b_in_a, options);
+    });
+    const auto triangle = [&](std::uint32_t i, bool is_mesh = true) {
+        return is_mesh && d.found() ? static_cast<std::int64_t>(i) : -1;
     };
     return named_tuple("MeshDistance")(d.distance, d.lo, d.hi, point_of(posed.at(d.point_a)),
                                        point_of(posed.at(d.point_b)), triangle(d.triangles.a),
-                                       triangle(d.triangles.b));
+                                       triangle(d.triangles.b, posed.is_mesh()));
 }
 
-py::object contacts_of(const PyMesh& mesh, const PyMesh& other, const py::object& pose,
+py::object contacts_of(const PyMesh& mesh, const py::object& other, const py::object& pose,
                        const py::object& other_pose, const std::optional<std::size_t>& most) {
     const Posed posed(mesh, other, pose, other_pose);
     ContactOptions options;
     options.max_contacts = most.value_or(options.max_contacts);
     std::vector<Contact> found =
-        without_gil([&] { return contacts(posed.a, posed.b, posed.b_in_a, options); });
+        posed.answer([&](const MeshTree& a, const auto& b, const Pose& b_in_a) {
+            return contacts(a, b, b_in_a, options);
+        });
     for (Contact& contact : found) {
         contact.point = posed.at(contact.point);
         contact.normal = posed.direction(contact.normal);
@@ -104,6 +144,9 @@ void add_mesh_pairs(py::module_& to) {
     const auto other_at = arg("other_pose") = py::none();
     py::class_<PyMesh>(to, "Mesh",
                        R"(A mesh for questions about two: do they touch, how far apart are they.
+
+The other is a Mesh, or a convex Shape (sphere, box, capsule, cylinder, cone,
+ellipsoid, half-space, plane, hull), which is solid: a mesh inside touches it.
 
 Vertices are held in float32. A pose is an array of shape (4, 4), a rotation
 and a translation; None is no motion. The other mesh's corners are moved into
@@ -130,40 +173,48 @@ vertex with a NaN or a number of 2^60 or more, and for an unknown name.)")
             "Bytes of memory that the tree takes.")
         .def(
             "collides",
-            [](const PyMesh& mesh, const PyMesh& other, const py::object& pose,
+            [](const PyMesh& mesh, const py::object& other, const py::object& pose,
                const py::object& other_pose) {
                 const Posed posed(mesh, other, pose, other_pose);
-                return without_gil([&] { return collide(posed.a, posed.b, posed.b_in_a); });
+                return posed.answer([](const MeshTree& a, const auto& b, const Pose& b_in_a) {
+                    return is_yes(collide(a, b, b_in_a));
+                });
             },
-            arg("other"), at, other_at, "Whether the two share a point; touching counts. Exact.")
+            arg("other"), at, other_at,
+            "Whether the two share a point; touching counts. Exact; of a Shape true, too, where "
+            "they are apart by no more than rounding.")
         .def(
             "touching",
-            [](const PyMesh& mesh, const PyMesh& other, const py::object& pose,
+            [](const PyMesh& mesh, const py::object& other, const py::object& pose,
                const py::object& other_pose) {
                 const Posed posed(mesh, other, pose, other_pose);
                 return array_of<std::uint32_t>(
-                    without_gil([&] { return touching_triangles(posed.a, posed.b, posed.b_in_a); }),
+                    posed.answer([](const MeshTree& a, const auto& b, const Pose& b_in_a) {
+                        return touching(a, b, b_in_a);
+                    }),
                     2);
             },
             arg("other"), at, other_at,
-            "The pairs of triangles, of this mesh and of the other, that touch: shape (m, 2), "
-            "uint32.")
+            "The pairs of triangles, of this mesh and of the other (of a Shape 0, and also those "
+            "that are apart by no more than rounding), that touch: shape (m, 2), uint32.")
         .def("distance", &distance_of, arg("other"), at, other_at, py::kw_only(),
              arg("relative") = 0.0, arg("absolute") = 0.0,
              R"(How far apart the two are.
 
 Returns MeshDistance(distance, lo, hi, point_a, point_b, triangle_a,
 triangle_b): the true distance lies between lo and hi, 2^-32 of it apart, and
-all three are 0 exactly where they touch. The points are in world coordinates.
+all three are 0 exactly where they touch. Of a Shape the bounds are a little
+wider, and triangle_b is -1. The points are in world coordinates.
 relative, absolute: the answer may be farther than the least distance, so that
     hi <= (lo + absolute) / (1 - relative).)")
         .def(
             "within",
-            [](const PyMesh& mesh, const PyMesh& other, double tolerance, const py::object& pose,
-               const py::object& other_pose) {
+            [](const PyMesh& mesh, const py::object& other, double tolerance,
+               const py::object& pose, const py::object& other_pose) {
                 const Posed posed(mesh, other, pose, other_pose);
-                return without_gil(
-                    [&] { return within(posed.a, posed.b, posed.b_in_a, tolerance).within; });
+                return posed.answer([&](const MeshTree& a, const auto& b, const Pose& b_in_a) {
+                    return within(a, b, b_in_a, tolerance).within;
+                });
             },
             arg("other"), arg("tolerance"), at, other_at,
             "Whether the two are at most `tolerance` apart.")
@@ -173,7 +224,8 @@ relative, absolute: the answer may be farther than the least distance, so that
 
 Returns Contacts(points, normals, depths, triangles) of shape (n, 3), (n, 3),
 (n,) and (n, 2), one for each pair of triangles: the other mesh has to move by
-depth * normal for the two triangles to touch at most.
+depth * normal for the two triangles to touch at most. A Shape counts as one
+triangle, 0.
 max_contacts: of more the deepest, and then those that span the most.)");
 }
 

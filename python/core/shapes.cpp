@@ -24,11 +24,11 @@ std::string described(const BodyShape& shape) {
 
 } // namespace
 
-BodyShape body_shape_of(const py::object& given) {
+BodyShape body_shape_of(const py::object& given, const std::string& name) {
     if (py::isinstance<PyMesh>(given))
         return BodyShape::surface(py::cast<const PyMesh&>(given).shared_tree());
     if (!py::isinstance<BodyShape>(given))
-        throw py::type_error("shape: a boxwood.Shape or boxwood.Mesh is wanted, not " +
+        throw py::type_error(name + ": a boxwood.Shape or boxwood.Mesh is wanted, not " +
                              std::string(py::str(py::type::of(given))));
     return py::cast<BodyShape>(given);
 }

@@ -6,8 +6,8 @@
 
 namespace boxwood::python {
 
-/// Of a boxwood.Shape or a boxwood.Mesh.
-BodyShape body_shape_of(const py::object& given);
+/// Of a boxwood.Shape or a boxwood.Mesh, the argument of this name.
+BodyShape body_shape_of(const py::object& given, const std::string& name = "shape");
 
 void add_shapes(py::module_& to);
 

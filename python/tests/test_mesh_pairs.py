@@ -57,6 +57,26 @@ def test_poses_of_both_move_the_answer():
     assert (contacts.depths >= 0).all() and np.allclose(np.linalg.norm(contacts.normals, axis=1), 1)
 
 
+def test_a_shape_is_the_other():
+    cube, ball = bw.Mesh(CUBE, FACES), bw.Shape.sphere(0.5)
+    far = cube.distance(ball, other_pose=at(4, 0.5, 0.5))
+    assert far.lo <= 2.5 <= far.hi and far.distance == pytest.approx(2.5) and far.triangle_a >= 0 and far.triangle_b == -1
+    assert np.allclose(far.point_a, [1, 0.5, 0.5]) and np.allclose(far.point_b, [3.5, 0.5, 0.5])
+    assert not cube.collides(ball, other_pose=at(4)) and cube.collides(ball, at(3), at(4.4, 0.5, 0.5))
+    assert cube.within(ball, 2.51, other_pose=at(4, 0.5, 0.5)) and not cube.within(ball, 2.49, other_pose=at(4, 0.5, 0.5))
+    pairs = cube.touching(ball, other_pose=at(1.25, 0.3, 0.6))
+    assert len(pairs) and (pairs[:, 1] == 0).all() and (np.diff(pairs[:, 0].astype(int)) > 0).all()
+    contacts = cube.contacts(ball, other_pose=at(1.25, 0.3, 0.6))
+    assert sorted(contacts.triangles[:, 0].tolist()) == pairs[:, 0].tolist()
+    assert contacts.depths[0] == pytest.approx(0.25) and np.allclose(contacts.normals[0], [1, 0, 0])
+    # Solid: a mesh inside touches it.
+    assert cube.collides(bw.Shape.box([9, 9, 9])) and not cube.collides(bw.Mesh(np.asarray(CUBE, float) * 9 - 4, FACES))
+    assert cube.collides(bw.Shape.hull(np.asarray(CUBE, float) + [1, 0, 0]))
+    for wrong in (bw.Shape.surface(CUBE, FACES), bw.World(), None):
+        with pytest.raises(TypeError, match="boxwood.Shape"):
+            cube.collides(wrong)
+
+
 def test_what_is_wrong_is_said():
     cube = bw.Mesh(CUBE, FACES)
     for pose, words in ((np.eye(3), "shape"), (2 * np.eye(4), "last row"), (np.diag([2, 2, 2, 1]), "rigid"),
