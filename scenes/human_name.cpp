@@ -85,8 +85,9 @@ std::string human_name(const SceneSpec& spec) {
     if (const HardCaseFamily* family = find_hard_case_family(spec.generator))
         return family_name(*family, spec);
     if (spec.generator == robot_scene)
-        return fmt::format("robot {}, {} at random", spec.file.stem().string(),
-                           counted(spec.n_poses, "state", "states"));
+        return fmt::format("robot {}, {} {}", spec.file.stem().string(),
+                           counted(spec.n_poses, "state", "states"),
+                           spec.poses.empty() ? "at random" : "along a way");
     std::string text = generator_title(spec, scene_generator(spec.generator));
     replace(text, "{n}", grouped(spec.n));
     if (!spec.rays.empty())

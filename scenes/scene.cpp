@@ -55,6 +55,14 @@ class CaseHash {
     void one(const RayBoxCase& c) { add(c.ray, c.box, c.hit); }
     void one(const MotionCase& c) { add(c.motion, c.touch); }
     void one(const ObbPairCase& c) { add(c.a, c.b, c.touch); }
+    void one(const ShapePairCase& c) {
+        for (const ShapeOfPair* side : {&c.a, &c.b}) {
+            add(side->shape.kind());
+            boxwood::add(state_, lengths_of(side->shape));
+            add(side->pose);
+        }
+        add(c.lo, c.hi);
+    }
     void one(const FitCase& c) { add(c.transform, c.box); }
     template <class... Part> void add(const Part&... parts) {
         static_assert((std::is_trivially_copyable_v<Part> && ...));
@@ -209,7 +217,8 @@ std::string scene_name(const SceneSpec& spec) {
         return family_scene_name(*family, spec);
     }
     if (spec.generator == robot_scene)
-        return "robot_" + atom(spec.file.stem().string());
+        return "robot_" + atom(spec.file.stem().string()) +
+               (spec.poses.empty() ? "" : "_" + spec.poses);
     const SceneEntry& entry = checked(spec);
     std::string name(entry.name);
     if (!spec.file.empty())
@@ -272,11 +281,12 @@ Scene robot_of(const SceneSpec& spec) {
     Scene scene;
     scene.name = scene_name(spec);
     scene.spec = spec;
-    scene.robot =
-        std::make_shared<const RobotStates>(read_robot_states(spec.file, spec.n_poses, spec.seed));
+    const std::string_view kind = spec.poses.empty() ? random_states : std::string_view(spec.poses);
+    scene.robot = std::make_shared<const RobotStates>(
+        read_robot_states(spec.file, spec.n_poses, spec.seed, kind));
     scene.boxes = link_boxes(scene.robot->robot);
-    scene.params_json = fmt::format(R"({{"n_states":{},"srdf":{}}})", spec.n_poses,
-                                    scene.robot->allowed.has_value());
+    scene.params_json = fmt::format(R"({{"n_states":{},"states":"{}","srdf":{}}})", spec.n_poses,
+                                    kind, scene.robot->allowed.has_value());
     scene.content_hash = hash_of(scene);
     return scene;
 }

@@ -34,7 +34,9 @@ struct SceneSpec {
     std::filesystem::path file{};      ///< of `mesh` and `boxes`, or a family's cases
     std::size_t n_points = 0;          ///< number of points or regions
     std::string regions{};             ///< a name of `region_kinds()`, or empty for no regions
-    std::string poses{};     ///< a name of `pose_kinds()`, or empty for no poses (mesh scenes)
+    /// A name of `pose_kinds()`, or empty for no poses (mesh scenes); of a robot's states
+    /// `states_along`, or empty if they are at random.
+    std::string poses{};
     std::size_t n_poses = 0; ///< number of poses, or of a robot's states
     std::string motion{};    ///< a name of `motion_paths()` from pose to pose, or empty for none
     /// A scene that moves, instead of a generator's: its n and seed are those of the spec, and

@@ -281,6 +281,21 @@ void add_replay(CLI::App& app, int& exit_code) {
         ->check(CLI::Range(0., 1.))
         ->excludes(file)
         ->capture_default_str();
+    command
+        ->add_option(
+            "--triangles", options->made.triangles,
+            "of a made program: triangles of the mesh that its bodies are copies of, turned "
+            "at random; 0: they are boxes")
+        ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000}))
+        ->excludes(file)
+        ->capture_default_str();
+    command
+        ->add_option("--distances", options->made.distances,
+                     "of a made program: so many queries a frame for the distance of one body to "
+                     "the nearest other")
+        ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000}))
+        ->excludes(file)
+        ->capture_default_str();
     command->add_option("--frames", options->made.frames, "of a made program")
         ->check(CLI::Range(1, 10'000))
         ->excludes(file)
@@ -303,6 +318,7 @@ void add_replay(CLI::App& app, int& exit_code) {
         "and call `recorder` where you called `manager`. Compile with FCL and HDF5.\n"
         "Examples:\n  boxwood replay program.h5\n"
         "  boxwood replay --bodies 10000 --moved 0.01\n"
+        "  boxwood replay --bodies 1000 --triangles 1000 --distances 100\n"
         "  boxwood replay program.h5 --only 'boxwood|array' --rounds 21 --json\n"
         "Exit codes: 0 done, 1 a manager of Boxwood's answered wrongly, 2 no recording,\n"
         "130 interrupted (what was done is printed).");

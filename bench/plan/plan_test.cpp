@@ -277,7 +277,7 @@ TEST(Plan, RefusesAPatternThatIsNoneOrLeavesNothing) {
 
 TEST(Plan, ShippedSweepFilesAreGood) {
     for (const char* name : {"quick", "default", "pairs", "builders", "rays", "dynamic", "effects",
-                             "queries", "accuracy", "counts", "narrow"}) {
+                             "queries", "accuracy", "counts", "narrow", "shapes"}) {
         const std::string file = std::string("bench/configs/") + name + ".toml";
         const Plan plan = make_plan(read_text(file), file, {});
         EXPECT_GE(plan.rounds, 9u);

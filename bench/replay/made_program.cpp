@@ -1,8 +1,11 @@
 #include "bench/replay/made_program.h"
 
+#include "kernels/primitives/rotation.h"
+#include "scenes/sampling/poses.h"
 #include "scenes/sampling/random.h"
 #include "scenes/scene.h"
 
+#include <algorithm>
 #include <numeric>
 #include <span>
 #include <vector>
@@ -12,7 +15,8 @@ namespace {
 
 using recording::Call;
 
-RecordedProgram::State state_of(std::uint32_t object, const Aabb<float>& box) {
+RecordedProgram::State state_of(std::uint32_t object, const Aabb<float>& box,
+                                const Rotation& turn) {
     RecordedProgram::State state;
     state.object = object;
     for (int axis = 0; axis < 3; ++axis) {
@@ -20,7 +24,12 @@ RecordedProgram::State state_of(std::uint32_t object, const Aabb<float>& box) {
         state.bounds[static_cast<std::size_t>(3 + axis)] = double{box.max[axis]};
     }
     const Vec3<double> middle = .5 * (Vec3<double>(box.min) + Vec3<double>(box.max));
-    state.pose = {1, 0, 0, 0, 1, 0, 0, 0, 1, middle.x, middle.y, middle.z};
+    for (std::size_t row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+            state.pose[3 * row + static_cast<std::size_t>(column)] = turn[row][column];
+    state.pose[9] = middle.x;
+    state.pose[10] = middle.y;
+    state.pose[11] = middle.z;
     return state;
 }
 
@@ -36,6 +45,50 @@ void add_call(RecordedProgram& program, Call what, std::span<const std::uint32_t
     program.calls.push_back(call);
 }
 
+/// One geometry for each box.
+void add_boxes(RecordedProgram& program, const std::vector<Aabb<float>>& boxes) {
+    for (const Aabb<float>& of : boxes) {
+        program.geometry_of.push_back(static_cast<std::uint32_t>(program.geometries.size()));
+        RecordedProgram::Geometry& box = program.geometries.emplace_back();
+        const Vec3<float> sides = of.max - of.min;
+        box.shape = recording::Shape::box;
+        box.numbers = {double{sides.x}, double{sides.y}, double{sides.z}};
+        box.hash = program.geometry_of.back();
+    }
+}
+
+/// One mesh, which fits turned into cubes of the boxes' mean side; they become such cubes.
+void add_meshes(RecordedProgram& program, std::vector<Aabb<float>>& boxes,
+                const MadeProgramOptions& options) {
+    float half = 0;
+    for (const Aabb<float>& box : boxes)
+        half += (box.max.x - box.min.x + box.max.y - box.min.y + box.max.z - box.min.z) /
+                (6 * static_cast<float>(boxes.size()));
+    const TriangleMesh mesh =
+        make_scene({.generator = "sphere_mesh", .n = options.triangles, .seed = options.seed}).mesh;
+    Aabb<double> bounds;
+    for (const Vec3<float>& v : mesh.vertices)
+        bounds.extend(Vec3<double>(v));
+    const Vec3<double> centre = .5 * (bounds.min + bounds.max);
+    double radius = 0;
+    for (const Vec3<float>& v : mesh.vertices)
+        radius = std::max(radius, length(Vec3<double>(v) - centre));
+    const double scale = double{half} / (radius * (1 + 0x1p-10)); // floats on the way are rounded
+    for (const Vec3<float>& v : mesh.vertices)
+        program.vertices.emplace_back( // as floats, which ours holds
+            static_cast<Vec3<float>>(scale * (Vec3<double>(v) - centre)));
+    program.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
+    RecordedProgram::Geometry& geometry = program.geometries.emplace_back();
+    geometry.shape = recording::Shape::mesh;
+    geometry.n_vertices = program.vertices.size();
+    geometry.n_triangles = program.triangles.size();
+    program.geometry_of.assign(boxes.size(), 0);
+    for (Aabb<float>& box : boxes) {
+        const Vec3<float> middle = .5f * (box.min + box.max), side{half, half, half};
+        box = {middle - side, middle + side};
+    }
+}
+
 } // namespace
 
 RecordedProgram made_program(const MadeProgramOptions& options) {
@@ -44,16 +97,20 @@ RecordedProgram made_program(const MadeProgramOptions& options) {
     RecordedProgram program;
     std::vector<std::uint32_t> objects(boxes.size());
     std::iota(objects.begin(), objects.end(), 0u);
-    program.geometry_of = objects;
-    for (const std::uint32_t object : objects) {
-        RecordedProgram::Geometry& box = program.geometries.emplace_back();
-        const Vec3<float> sides = boxes[object].max - boxes[object].min;
-        box.shape = recording::Shape::box;
-        box.numbers = {double{sides.x}, double{sides.y}, double{sides.z}};
-        box.hash = object;
+    const Rotation straight = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    std::vector<Rotation> turns(boxes.size(), straight);
+    if (options.triangles == 0) {
+        add_boxes(program, boxes);
+    } else {
+        add_meshes(program, boxes, options);
+        const Random numbers(options.seed, "made program, turns");
+        for (const std::uint32_t object : objects) {
+            Draws draws = numbers.item(object);
+            turns[object] = rotation_of(draws);
+        }
     }
     for (const std::uint32_t object : objects)
-        program.states.push_back(state_of(object, boxes[object]));
+        program.states.push_back(state_of(object, boxes[object], turns[object]));
     add_call(program, Call::add, objects, 0);
     add_call(program, Call::setup, {}, program.states.size());
     const Random numbers(options.seed, "made program");
@@ -71,7 +128,7 @@ RecordedProgram made_program(const MadeProgramOptions& options) {
                 box.min[axis] += shift;
                 box.max[axis] += shift;
             }
-            program.states.push_back(state_of(object, box));
+            program.states.push_back(state_of(object, box, turns[object]));
             moved.push_back(object);
         }
         if (options.moved < 1)
@@ -79,6 +136,11 @@ RecordedProgram made_program(const MadeProgramOptions& options) {
         else
             add_call(program, Call::update_all, {}, first_state);
         add_call(program, Call::collide_self, {}, program.states.size());
+        for (std::size_t i = 0; i < options.distances; ++i) {
+            const std::size_t turn = frame * options.distances + i; // they take turns
+            const std::uint32_t object = objects[turn * 7919 % objects.size()];
+            add_call(program, Call::distance_object, std::span(&object, 1), program.states.size());
+        }
     }
     return program;
 }

@@ -306,6 +306,27 @@ TEST_F(Replays, AMadeProgramNeedsNoRecording) {
     }
 }
 
+TEST_F(Replays, AMadeProgramMayBeOfMeshes) {
+    const RecordedProgram program =
+        made_program({.bodies = 60, .triangles = 200, .frames = 2, .distances = 5});
+    EXPECT_EQ(program.calls.size(), 2u + 2u * (2u + 5u));
+    EXPECT_NEAR(static_cast<double>(program.triangles.size()), 200, 40);
+    // Bounds hold the mesh wherever it is turned to.
+    for (const RecordedProgram::State& state : program.states)
+        for (const Vec3<double>& vertex : program.vertices)
+            for (std::size_t row = 0; row < 3; ++row) {
+                const double x = state.pose[3 * row] * vertex.x +
+                                 state.pose[3 * row + 1] * vertex.y +
+                                 state.pose[3 * row + 2] * vertex.z + state.pose[9 + row];
+                ASSERT_GE(x, state.bounds[row]);
+                ASSERT_LE(x, state.bounds[3 + row]);
+            }
+    const ReplayReport report = run(program);
+    EXPECT_EQ(report.n_checked, 2u * (1u + 5u));
+    EXPECT_THAT(report.outcomes, Each(Field(&ReplayOutcome::wrong, 0u)));
+    EXPECT_TRUE(report.outcomes.back().has_shapes);
+}
+
 TEST_F(Replays, ChecksUntilSoManyPairsWereTested) {
     record_program<double>(file_);
     const ReplayReport report = run(read(), fcl_entries(), 60. * 60 / 2 + 60);

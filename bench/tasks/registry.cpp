@@ -39,6 +39,9 @@
     X(vertex_face)                                                                                 \
     X(edge_edge)                                                                                   \
     X(obb_obb)                                                                                     \
+    X(shape_collide)                                                                               \
+    X(shape_distance)                                                                              \
+    X(signed_shape_distance)                                                                       \
     X(box_fit)
 
 namespace boxwood::bench {

@@ -62,6 +62,36 @@
     X(touching_obbs)                                                                               \
     X(thin_obbs)                                                                                   \
     X(rotated_boxes)                                                                               \
+    X(sphere_and_sphere)                                                                           \
+    X(sphere_and_box)                                                                              \
+    X(sphere_and_capsule)                                                                          \
+    X(sphere_and_cylinder)                                                                         \
+    X(sphere_and_cone)                                                                             \
+    X(sphere_and_ellipsoid)                                                                        \
+    X(sphere_and_hull)                                                                             \
+    X(box_and_box)                                                                                 \
+    X(box_and_capsule)                                                                             \
+    X(box_and_cylinder)                                                                            \
+    X(box_and_cone)                                                                                \
+    X(box_and_ellipsoid)                                                                           \
+    X(box_and_hull)                                                                                \
+    X(capsule_and_capsule)                                                                         \
+    X(capsule_and_cylinder)                                                                        \
+    X(capsule_and_cone)                                                                            \
+    X(capsule_and_ellipsoid)                                                                       \
+    X(capsule_and_hull)                                                                            \
+    X(cylinder_and_cylinder)                                                                       \
+    X(cylinder_and_cone)                                                                           \
+    X(cylinder_and_ellipsoid)                                                                      \
+    X(cylinder_and_hull)                                                                           \
+    X(cone_and_cone)                                                                               \
+    X(cone_and_ellipsoid)                                                                          \
+    X(cone_and_hull)                                                                               \
+    X(ellipsoid_and_ellipsoid)                                                                     \
+    X(ellipsoid_and_hull)                                                                          \
+    X(hull_and_hull)                                                                               \
+    X(nearly_touching_shapes)                                                                      \
+    X(thin_shapes)                                                                                 \
     X(generic_vertex_face)                                                                         \
     X(generic_edge_edge)                                                                           \
     X(just_missed_vertex_face)                                                                     \

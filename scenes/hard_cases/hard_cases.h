@@ -1,14 +1,18 @@
 #pragma once
 
 #include "kernels/continuous/continuous_kernel.h"
+#include "kernels/convex/shapes.h"
 #include "kernels/primitives/aabb.h"
 #include "kernels/primitives/obb.h"
 #include "kernels/primitives/ray.h"
 #include "kernels/primitives/rigid_transform.h"
 #include "kernels/primitives/triangle.h"
+#include "scenes/hard_cases/shape_lengths.h"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -63,6 +67,26 @@ struct ObbPairCase {
     Known touch = Known::unknown;
 };
 
+/// A convex polyhedron by its corners and its faces, which turn counter-clockwise seen from
+/// outside.
+struct Polyhedron {
+    std::vector<Vec3<double>> points;
+    std::vector<std::array<std::uint32_t, 3>> faces;
+};
+/// One of a pair of convex shapes, where it is put. A hull has the points of `polyhedron`.
+struct ShapeOfPair {
+    convex::Shape shape;
+    convex::Pose pose;
+    std::shared_ptr<const Polyhedron> polyhedron{};
+};
+/// Two convex shapes. Their distance, below 0 the depth of one in the other (as
+/// convex::SignedDistance says it), is in [lo, hi] by construction; 0 is not. Where they are apart
+/// that is as narrow as rounding, of depths it is between bounds.
+struct ShapePairCase {
+    ShapeOfPair a, b;
+    double lo = 0, hi = 0;
+};
+
 /// A box and a transform after which it is fitted again.
 struct FitCase {
     RigidTransform<double> transform;
@@ -76,9 +100,9 @@ struct BoxCases {
 };
 
 /// The cases of one family. Their type says which kernels they are for.
-using Cases =
-    std::variant<std::monostate, std::vector<TrianglePairCase>, RayCases, std::vector<RayBoxCase>,
-                 MotionCases, std::vector<ObbPairCase>, std::vector<FitCase>, BoxCases>;
+using Cases = std::variant<std::monostate, std::vector<TrianglePairCase>, RayCases,
+                           std::vector<RayBoxCase>, MotionCases, std::vector<ObbPairCase>,
+                           std::vector<ShapePairCase>, std::vector<FitCase>, BoxCases>;
 
 std::size_t n_cases(const Cases& cases); ///< pairs, rays, motions, fits or boxes
 

@@ -82,6 +82,18 @@ struct Numbers {
                     other(axis);
             }
     }
+    void operator()(const std::vector<ShapePairCase>& cases) {
+        for (const ShapePairCase& c : cases) {
+            for (const ShapeOfPair* side : {&c.a, &c.b}) {
+                others.push_back(static_cast<double>(side->shape.kind()));
+                std::ranges::copy(lengths_of(side->shape), std::back_inserter(positions));
+                position(side->pose.translation);
+                for (const Vec3<double>& row : side->pose.rotation)
+                    other(row);
+            }
+            positions.insert(positions.end(), {c.lo, c.hi});
+        }
+    }
     void operator()(const std::vector<FitCase>& cases) {
         for (const FitCase& c : cases) {
             box(c.box);
@@ -285,15 +297,35 @@ TEST(HardCases, SceneErrorsSayWhatIsWrong) {
 // As Scene.SameBitsOnEveryMachine: a change of a family on purpose prints its new hash here.
 TEST(HardCases, SameBitsOnEveryMachine) {
     const std::map<std::string, std::uint64_t> golden{
+        {"box_and_box", 560981867527588112u},
+        {"box_and_capsule", 10812146572045182837u},
+        {"box_and_cone", 8468405680122119199u},
+        {"box_and_cylinder", 17165527371430593000u},
+        {"box_and_ellipsoid", 242341118847612579u},
+        {"box_and_hull", 16635548634630703016u},
         {"cap_triangles", 13878616234989647358u},
+        {"capsule_and_capsule", 14535035755026997788u},
+        {"capsule_and_cone", 11795307772895935357u},
+        {"capsule_and_cylinder", 4944871887115444645u},
+        {"capsule_and_ellipsoid", 11899869138708667271u},
+        {"capsule_and_hull", 12825640554184419642u},
+        {"cone_and_cone", 18324949739666605144u},
+        {"cone_and_ellipsoid", 16377883884486090470u},
+        {"cone_and_hull", 15339948121964307577u},
         {"coplanar_disjoint", 13510509543126918338u},
         {"coplanar_edge_edge", 10008211577900645685u},
         {"coplanar_mixed_octaves", 14699075438027275242u},
         {"coplanar_overlapping", 4887585875461964809u},
         {"coplanar_touching", 11949867877598824743u},
         {"coplanar_vertex_face", 17160488662041491236u},
+        {"cylinder_and_cone", 1176531238120203093u},
+        {"cylinder_and_cylinder", 2164099427229101287u},
+        {"cylinder_and_ellipsoid", 5752297048902739077u},
+        {"cylinder_and_hull", 17340779470633723255u},
         {"decimal_scale", 1956400356719761115u},
         {"edge_on_edge", 3157825884334223102u},
+        {"ellipsoid_and_ellipsoid", 9420075258365754487u},
+        {"ellipsoid_and_hull", 11496397947398921611u},
         {"far_from_origin", 16058162688544407031u},
         {"flat_boxes", 7740634830458501541u},
         {"generic_edge_edge", 11031736288075029894u},
@@ -302,6 +334,7 @@ TEST(HardCases, SameBitsOnEveryMachine) {
         {"generic_rays", 8376017178132525294u},
         {"generic_triangles", 17489183923326692645u},
         {"generic_vertex_face", 15663117579615265513u},
+        {"hull_and_hull", 1981575490279053640u},
         {"identical_boxes", 166524248530905804u},
         {"identical_triangles", 16527209336771045065u},
         {"just_missed_edge_edge", 2967329897493303545u},
@@ -312,6 +345,7 @@ TEST(HardCases, SameBitsOnEveryMachine) {
         {"near_coplanar", 12802253110821112719u},
         {"near_coplanar_needles", 15685909486571881376u},
         {"near_parallel_edges", 16990405377412050793u},
+        {"nearly_touching_shapes", 7879919302056588231u},
         {"needle_triangles", 4637809677500503660u},
         {"nested_boxes", 11455204694651997210u},
         {"parallel_planes", 7792759023748694236u},
@@ -337,11 +371,19 @@ TEST(HardCases, SameBitsOnEveryMachine) {
         {"slivers", 5678131445294023570u},
         {"small_integers_edge_edge", 13717088538496191479u},
         {"small_integers_vertex_face", 2857316326797031843u},
+        {"sphere_and_box", 5468910353127978006u},
+        {"sphere_and_capsule", 11873449675748759252u},
+        {"sphere_and_cone", 14084559349298191470u},
+        {"sphere_and_cylinder", 13798602581551513623u},
+        {"sphere_and_ellipsoid", 5225633238239514661u},
+        {"sphere_and_hull", 3039108801352942643u},
+        {"sphere_and_sphere", 15712133255619017364u},
         {"still_edge_edge", 12215929099683418417u},
         {"still_vertex_face", 11229151140972390038u},
         {"tangential_edge_edge", 10987514743819173695u},
         {"tangential_vertex_face", 5214847704939803020u},
         {"thin_obbs", 12322839706166820342u},
+        {"thin_shapes", 11072074642483413987u},
         {"tiny_gaps", 11608074594876576704u},
         {"tiny_triangles", 1115446505896839213u},
         {"touch_at_ends_edge_edge", 17577255713270965494u},
@@ -359,7 +401,12 @@ TEST(HardCases, SameBitsOnEveryMachine) {
             make_scene({.generator = std::string(family.name), .n = 300, .seed = 42});
         made[scene.name] = scene.content_hash;
     }
-    EXPECT_EQ(made, golden);
+    for (const auto& [name, hash] : made) {
+        const auto known = golden.find(name);
+        EXPECT_TRUE(known != golden.end() && known->second == hash)
+            << "{\"" << name << "\", " << hash << "u},";
+    }
+    EXPECT_EQ(made.size(), golden.size());
 }
 
 } // namespace

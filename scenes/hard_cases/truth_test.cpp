@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <set>
 #include <span>
 
@@ -37,6 +38,35 @@ bool truth(const ObbPairCase& c) {
         return std::array{b.centre, b.axis[0], b.axis[1], b.axis[2]};
     };
     return oracle::boxes_touch(pose(c.a), c.a.half, pose(c.b), c.b.half);
+}
+
+/// Of two boxes, or two balls in rationals; nothing of others.
+std::optional<bool> truth(const ShapePairCase& c) {
+    if (c.a.shape.get_if<convex::Box>() && c.b.shape.get_if<convex::Box>()) {
+        const auto pose = [](const ShapeOfPair& of) {
+            const auto& [x, y, z] = of.pose.rotation;
+            return std::array{of.pose.translation, Vec3<double>{x.x, y.x, z.x},
+                              Vec3<double>{x.y, y.y, z.y}, Vec3<double>{x.z, y.z, z.z}};
+        };
+        return oracle::boxes_touch(pose(c.a), c.a.shape.get_if<convex::Box>()->half, pose(c.b),
+                                   c.b.shape.get_if<convex::Box>()->half);
+    }
+    if (c.a.shape.get_if<convex::Sphere>() && c.b.shape.get_if<convex::Sphere>()) {
+        mpq_class squared = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const mpq_class along =
+                mpq_class(c.a.pose.translation[axis]) - mpq_class(c.b.pose.translation[axis]);
+            squared += along * along;
+        }
+        const mpq_class radii = mpq_class(c.a.shape.get_if<convex::Sphere>()->radius) +
+                                mpq_class(c.b.shape.get_if<convex::Sphere>()->radius);
+        // [lo, hi], too: lo + radii <= root of the square <= hi + radii
+        const mpq_class least = mpq_class(c.lo) + radii, most = mpq_class(c.hi) + radii;
+        EXPECT_TRUE((least <= 0 || least * least <= squared) && most >= 0 &&
+                    most * most >= squared);
+        return squared <= radii * radii;
+    }
+    return std::nullopt;
 }
 
 struct Judged {
@@ -76,6 +106,12 @@ std::vector<Judged> judged(const Cases& cases) {
                                  std::is_same_v<C, std::vector<ObbPairCase>>) {
                 for (const auto& c : all)
                     result.push_back({c.touch, truth(c)});
+            } else if constexpr (std::is_same_v<C, std::vector<ShapePairCase>>) {
+                for (const ShapePairCase& c : all) {
+                    EXPECT_TRUE(c.lo <= c.hi && (c.lo > 0 || c.hi < 0));
+                    const Known known = c.hi < 0 ? Known::yes : Known::no;
+                    result.push_back({known, truth(c).value_or(known == Known::yes)});
+                }
             } else if constexpr (std::is_same_v<C, BoxCases>) {
                 std::uint64_t pairs = 0;
                 for (std::size_t i = 0; i < all.boxes.size(); ++i)

@@ -1,9 +1,12 @@
 #include "scenes/robots/robot_scene.h"
 
 #include "kernels/kinematics/kinematic_tree.h"
+#include "kernels/suggest.h"
 #include "scenes/robots/random_values.h"
 #include "scenes/robots/srdf.h"
 
+#include <array>
+#include <stdexcept>
 #include <variant>
 
 namespace boxwood {
@@ -50,16 +53,30 @@ void extend(Aabb<float>& box, const Box& part, const RigidTransform<double>& ori
 
 } // namespace
 
-RobotStates read_robot_states(const std::filesystem::path& urdf, std::size_t n,
-                              std::uint64_t seed) {
+RobotStates read_robot_states(const std::filesystem::path& urdf, std::size_t n, std::uint64_t seed,
+                              std::string_view kind) {
+    if (kind != random_states && kind != states_along)
+        throw std::invalid_argument(
+            unknown_name("kind of states", kind, std::array{random_states, states_along}));
     RobotStates of{read_urdf(urdf), std::nullopt, {}};
     const std::filesystem::path srdf = std::filesystem::path(urdf).replace_extension(".srdf");
     if (std::filesystem::exists(srdf))
         of.allowed = read_srdf(srdf, of.robot.description).allowed;
     const KinematicTree tree(of.robot.description);
     of.states.assign(n, std::vector<double>(tree.n_values()));
-    for (std::size_t i = 0; i < n; ++i)
-        random_values(tree.ranges(), seed, i, of.states[i]);
+    if (kind == random_states) {
+        for (std::size_t i = 0; i < n; ++i)
+            random_values(tree.ranges(), seed, i, of.states[i]);
+        return of;
+    }
+    std::vector<double> from(tree.n_values()), to(tree.n_values());
+    for (std::size_t i = 0; i < n; ++i) {
+        random_values(tree.ranges(), seed, i / steps_along, from);
+        random_values(tree.ranges(), seed, i / steps_along + 1, to);
+        const double t = static_cast<double>(i % steps_along) / static_cast<double>(steps_along);
+        for (std::size_t value = 0; value < to.size(); ++value)
+            of.states[i][value] = from[value] + t * (to[value] - from[value]);
+    }
     return of;
 }
 

@@ -67,6 +67,25 @@ TEST_F(RobotScene, HoldsARobotInStatesAtRandom) {
     EXPECT_EQ(make_scene(spec).content_hash, scene.content_hash);
 }
 
+TEST_F(RobotScene, MayGoAlongAWayBetweenStatesAtRandom) {
+    const SceneSpec spec{
+        .generator = "robot", .n = 4, .file = urdf, .poses = "along", .n_poses = 130};
+    const Scene scene = make_scene(spec);
+    EXPECT_EQ(scene.name, "robot_robot_scene_arm_along");
+    EXPECT_EQ(human_name(spec), "robot robot_scene_arm, 130 states along a way");
+    const auto& states = scene.robot->states;
+    ASSERT_EQ(states.size(), 130u);
+    const auto at_random = read_robot_states(urdf, 3, 1).states;
+    EXPECT_EQ(states[0], at_random[0]);
+    EXPECT_EQ(states[64], at_random[1]);
+    EXPECT_EQ(states[128], at_random[2]);
+    EXPECT_NEAR(states[96][0], (at_random[1][0] + at_random[2][0]) / 2, 1e-15);
+    for (std::size_t i = 1; i < states.size(); ++i)
+        for (std::size_t value = 0; value < 2; ++value)
+            EXPECT_LE(std::abs(states[i][value] - states[i - 1][value]), 6. / 64);
+    EXPECT_THROW(read_robot_states(urdf, 3, 1, "alongside"), std::invalid_argument);
+}
+
 TEST_F(RobotScene, TakesTheSrdfFileBesideIt) {
     std::ofstream(srdf) << "<robot name=\"arm\"><disable_collisions link1=\"base\" link2=\"tip\" "
                            "reason=\"Never\"/></robot>";

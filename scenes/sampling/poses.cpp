@@ -34,25 +34,6 @@ constexpr PoseKindEntry paths[] = {
     {"screw", "a turn about one axis of space and a slide along it"},
 };
 
-/// A rotation from four numbers, uniform over all: a point in the ball of four dimensions.
-std::array<Vec, 3> rotation_of(Draws& draws) {
-    for (;;) {
-        std::array<double, 4> q{};
-        double squared = 0;
-        for (double& x : q) {
-            x = 2 * draws.uniform() - 1;
-            squared += x * x;
-        }
-        if (squared > 1 || squared < 0x1p-20)
-            continue;
-        const double s = 2 / squared;
-        const auto [w, x, y, z] = q;
-        return {{{1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)},
-                 {s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x)},
-                 {s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y)}}};
-    }
-}
-
 struct Extent {
     double least = std::numeric_limits<double>::infinity(), greatest = -least;
 };
@@ -76,6 +57,24 @@ Vec middle_of(const TriangleMesh& mesh) {
 }
 
 } // namespace
+
+Rotation rotation_of(Draws& draws) {
+    for (;;) {
+        std::array<double, 4> q{};
+        double squared = 0;
+        for (double& x : q) {
+            x = 2 * draws.uniform() - 1;
+            squared += x * x;
+        }
+        if (squared > 1 || squared < 0x1p-20)
+            continue;
+        const double s = 2 / squared;
+        const auto [w, x, y, z] = q;
+        return {{{1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)},
+                 {s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x)},
+                 {s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y)}}};
+    }
+}
 
 std::span<const PoseKindEntry> pose_kinds() {
     static constexpr auto entries = [] {

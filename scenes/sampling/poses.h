@@ -1,7 +1,9 @@
 #pragma once
 
 #include "kernels/primitives/rigid_transform.h"
+#include "kernels/primitives/rotation.h"
 #include "kernels/primitives/triangle.h"
+#include "scenes/sampling/random.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -24,6 +26,9 @@ void check_pose_kind(std::string_view kind);
 std::span<const PoseKindEntry> motion_paths();
 /// Throws as check_pose_kind.
 void check_motion_path(std::string_view path);
+
+/// A rotation from four numbers, uniform over all: a point in the ball of four dimensions.
+Rotation rotation_of(Draws& draws);
 
 /// n poses of a copy of the mesh in the mesh's frame: any rotation, set off in any direction so far
 /// that the two, seen along it, are a part of the mesh's width apart, or overlap by that. The same

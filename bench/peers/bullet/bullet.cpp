@@ -187,6 +187,8 @@ Peer bullet_peer() {
         peer.contenders.push_back(std::move(e));
     for (ContenderEntry& e : bullet_kernels())
         peer.contenders.push_back(std::move(e));
+    for (ContenderEntry& e : bullet_shapes())
+        peer.contenders.push_back(std::move(e));
     return peer;
 }
 

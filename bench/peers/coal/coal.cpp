@@ -178,16 +178,17 @@ bool have_volume(const RecordedProgram& program) {
 }
 
 ReplayEntry replay(std::string name, std::string library, std::string summary,
-                   std::optional<CoalManager> kind) {
-    const auto make = [kind](const RecordedProgram& program) -> std::unique_ptr<Replay> {
-        if (kind && !have_volume(program))
+                   std::optional<CoalManager> kind, bool with_shapes = false) {
+    const auto make = [=](const RecordedProgram& program) -> std::unique_ptr<Replay> {
+        if ((kind && !have_volume(program)) || (with_shapes && !program.knows_shapes()))
             return nullptr;
-        return module().replay(program, kind);
+        return module().replay(program, kind, with_shapes);
     };
     return {.name = std::move(name),
             .library = std::move(library),
             .summary = std::move(summary),
-            .make = make};
+            .make = make,
+            .has_shapes = with_shapes};
 }
 
 } // namespace
@@ -215,6 +216,16 @@ Peer coal_peer() {
     peer.contenders.push_back(kernel("tri_distance", "triangle_distance",
                                      "TriangleDistance::sqrTriDistance, after PQP",
                                      "one pair per call; the root is taken", CoalKernel::distance));
+    const std::string kept = "default tolerances (1e-6); kept for each pair, one call each";
+    peer.contenders.push_back(kernel(
+        "shapes.collide", "shape_collide", "ComputeCollision on two shapes, enable_contact off",
+        "distance_upper_bound 0; " + kept, CoalKernel::shapes_collide));
+    peer.contenders.push_back(kernel("shapes.distance", "shape_distance",
+                                     "ComputeDistance on two shapes, not signed", kept,
+                                     CoalKernel::shapes_distance));
+    peer.contenders.push_back(kernel("shapes.signed_distance", "signed_shape_distance",
+                                     "ComputeDistance on two shapes, signed, its default", kept,
+                                     CoalKernel::shapes_signed_distance));
     const std::string tree = "DynamicAABBTreeCollisionManager",
                       array = "DynamicAABBTreeArrayCollisionManager",
                       median = ", split at the median, its default",
@@ -229,7 +240,11 @@ Peer coal_peer() {
         replay("coal.dynamic_aabb_tree_array.morton", "coal", array + morton,
                CoalManager::tree_array),
         replay("coal.ssap", "coal", "SSaPCollisionManager: objects sorted by their minima",
-               CoalManager::ssap)};
+               CoalManager::ssap),
+        replay("boxwood.coal_manager, Coal's shapes", "boxwood",
+               "boxwood::CoalBroadPhase with coal::collide and coal::distance", std::nullopt, true),
+        replay("coal.dynamic_aabb_tree, Coal's shapes", "coal",
+               tree + " with coal::collide and coal::distance", CoalManager::tree_median, true)};
     return peer;
 }
 

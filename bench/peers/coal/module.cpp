@@ -145,12 +145,15 @@ std::unique_ptr<Contender> make_manager(const Job& job, Sides sides, CoalManager
 }
 
 std::unique_ptr<Replay> make_replay(const RecordedProgram& program,
-                                    std::optional<CoalManager> manager) {
-    return std::make_unique<Replayer<CoalApi>>(program, [=]() -> std::unique_ptr<Managers> {
+                                    std::optional<CoalManager> manager, bool with_shapes) {
+    const auto make = [=]() -> std::unique_ptr<Managers> {
         if (!manager)
             return std::make_unique<CoalBroadPhase>();
         return Kind{*manager, Reported::all_may_have_moved}.make({});
-    });
+    };
+    if (with_shapes)
+        return make_coal_shape_replay(program, make);
+    return std::make_unique<Replayer<CoalApi>>(program, make);
 }
 
 std::unique_ptr<Contender> make_kernel(const Job& job, CoalKernel kernel) {
@@ -161,8 +164,9 @@ std::unique_ptr<Contender> make_kernel(const Job& job, CoalKernel kernel) {
         return over_cases<TrianglePairCase, KeptShapes<true>, collide<true>>(job);
     case CoalKernel::distance:
         return over_cases<TrianglePairCase, Corners, distance>(job);
+    default:
+        return make_coal_shapes(job, kernel);
     }
-    return nullptr;
 }
 
 } // namespace

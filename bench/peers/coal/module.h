@@ -5,8 +5,13 @@
 #include "bench/replay/replay.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+
+namespace coal {
+class BroadPhaseCollisionManager;
+}
 
 namespace boxwood::bench {
 
@@ -22,8 +27,23 @@ enum class CoalManager : std::uint8_t {
     interval_tree
 };
 
-/// Coal's answers about two triangles.
-enum class CoalKernel : std::uint8_t { collide, collide_with_contact, distance };
+/// Coal's answers about two triangles, and about two convex shapes.
+enum class CoalKernel : std::uint8_t {
+    collide,
+    collide_with_contact,
+    distance,
+    shapes_collide,
+    shapes_distance,
+    shapes_signed_distance
+};
+/// Of convex shapes. In shapes.cpp, within the module.
+std::unique_ptr<Contender> make_coal_shapes(const Job& job, CoalKernel kernel);
+
+/// What makes Coal's manager of a kind, or ours in its place.
+using MakeCoalManager = std::function<std::unique_ptr<coal::BroadPhaseCollisionManager>()>;
+/// With Coal's shapes. In shape_replay.cpp, within the module.
+std::unique_ptr<Replay> make_coal_shape_replay(const RecordedProgram& program,
+                                               MakeCoalManager make);
 
 /// Coal's models of a mesh, by their volume, and what they answer of it and its copy.
 enum class CoalVolume : std::uint8_t { obbrss, obb, rss };
@@ -46,8 +66,9 @@ struct CoalModule {
     std::unique_ptr<Contender> (*manager)(const Job&, Sides, CoalManager, Reported);
     std::unique_ptr<Contender> (*kernel)(const Job&, CoalKernel);
     std::unique_ptr<Contender> (*meshes)(const Job&, CoalVolume, CoalMeshQuery, double);
-    /// Without a manager of Coal's, ours in its place.
-    std::unique_ptr<Replay> (*replay)(const RecordedProgram&, std::optional<CoalManager>);
+    /// Without a manager of Coal's, ours in its place; by bounds alone, or with Coal's shapes.
+    std::unique_ptr<Replay> (*replay)(const RecordedProgram&, std::optional<CoalManager>,
+                                      bool with_shapes);
 };
 
 /// The module has `extern "C" const CoalModule boxwood_coal`.

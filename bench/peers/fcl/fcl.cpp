@@ -187,8 +187,9 @@ Peer fcl_peer() {
     for (const auto more : {fcl_meshes, fcl_motions, fcl_robots})
         for (ContenderEntry& e : more())
             all.push_back(std::move(e));
-    for (ContenderEntry& e : fcl_kernels())
-        all.push_back(std::move(e));
+    for (const auto more : {fcl_kernels, fcl_shapes})
+        for (ContenderEntry& e : more())
+            all.push_back(std::move(e));
     peer.replays = fcl_replays();
     for (ReplayEntry& e : fcl_shape_replays())
         peer.replays.push_back(std::move(e));

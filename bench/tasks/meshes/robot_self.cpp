@@ -45,16 +45,18 @@ class RobotSelf final : public Task {
     std::string_view name() const override { return "robot_self"; }
     std::string title() const override { return "self-collision of a robot"; }
     std::string_view summary() const override {
-        return "in which random states of a robot two links touch that must not, at the first such "
+        return "in which states of a robot two links touch that must not, at the first such "
                "pair";
     }
     std::vector<std::string_view> keys() const override {
-        return {"scene", "n_states", "threads", "peers"};
+        return {"scene", "states", "n_states", "threads", "peers"};
     }
     SceneKind scenes() const override { return SceneKind::still; }
     void expand(const BlockReader& block, AddCell add) const override {
         block.names("scene", {robot_scene});
         const std::vector<ContenderEntry> peers = block.peers(name());
+        const std::vector<std::string> kinds =
+            block.names("states", {random_states, states_along}, {std::string(random_states)});
         for (const OwnScene& own : block.inputs().own) {
             if (own.generator != robot_scene)
                 continue;
@@ -64,7 +66,10 @@ class RobotSelf final : public Task {
             spec.n = own.items;
             spec.seed = block.inputs().seed;
             spec.n_poses = block.integer("n_states", 1, 1'000'000).value_or(256);
-            add_cells(block, spec, {contender({})}, peers, add);
+            for (const std::string& kind : kinds) {
+                spec.poses = kind == random_states ? "" : kind;
+                add_cells(block, spec, {contender({})}, peers, add);
+            }
         }
     }
     ContenderEntry contender(const Choice& choice) const override {

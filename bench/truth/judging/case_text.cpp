@@ -62,6 +62,22 @@ std::string text_of(const MotionCase& c) {
 
 std::string text_of(const ObbPairCase& c) { return (Row() << c.a << c.b).text(); }
 
+std::string text_of(const ShapePairCase& c) {
+    const auto side = [](const ShapeOfPair& of) {
+        Row row;
+        if (const auto* hull = of.shape.get_if<convex::Hull>())
+            row << static_cast<double>(hull->points().size());
+        else
+            for (const double length : lengths_of(of.shape))
+                row << length;
+        for (const Vec3<double>& of_rotation : of.pose.rotation)
+            row << of_rotation;
+        return fmt::format("{},{}", to_string(of.shape.kind()),
+                           (row << of.pose.translation).text());
+    };
+    return side(c.a) + ',' + side(c.b);
+}
+
 std::string text_of(const FitCase& c) {
     const auto& [x, y, z] = c.transform.rotation;
     return (Row() << x << y << z << c.transform.translation << c.box.min << c.box.max).text();

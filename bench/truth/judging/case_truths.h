@@ -15,19 +15,21 @@
 /// construction or comes from the rational oracle.
 ///
 /// Each kernel is judged on the case as it reads it: one that reads floats on the coordinates
-/// rounded to float. A case with NaN or infinity in it is not judged: nothing is promised there.
-/// Where the rational oracle is itself judged as a kernel, each of its answers has to agree with a
-/// second oracle (kernels/oracle/second_opinion.h) first.
+/// rounded to float (of convex shapes: on the case as it is, where rounding cannot matter). A case
+/// with NaN or infinity in it is not judged: nothing is promised there. Where the rational oracle
+/// is itself judged as a kernel, each of its answers has to agree with a second oracle
+/// (kernels/oracle/second_opinion.h) first.
 ///
 /// Wrong are: a false yes or no; a distance off by more than 64 u L (u the precision's roundoff, L
-/// the largest extent of the pair), too small counted as a false yes and too large as a false no; a
-/// box that does not hold the exact one. What a kernel promises is judged by its promise instead:
-/// never-leaks must hit closed fans and meshes, never-miss may say yes too often (but not where it
-/// says that a yes is proven), never-false no, certified may say maybe and must enclose a distance,
-/// within the width it states, or a first touch. What exact encloses lies between neighbouring
-/// doubles; of exact kernels of rays t must be within 0.63 ulp, u and v within 2^-23, and the
-/// triangle one that is hit there. A tree's nearest hit is that of its kernel without a tree, bit
-/// for bit, and of several triangles at one t the lowest.
+/// the largest extent of the pair) or, of convex shapes, outside of what is known by construction
+/// by more than 1e-5 (in floats 2e-3) of their size, too small counted as a false yes and too large
+/// as a false no; a box that does not hold the exact one. What a kernel promises is judged by its
+/// promise instead: never-leaks must hit closed fans and meshes, never-miss may say yes too often
+/// (but not where it says that a yes is proven), never-false no, certified may say maybe and must
+/// enclose a distance, within the width it states, or a first touch. What exact encloses lies
+/// between neighbouring doubles; of exact kernels of rays t must be within 0.63 ulp, u and v within
+/// 2^-23, and the triangle one that is hit there. A tree's nearest hit is that of its kernel
+/// without a tree, bit for bit, and of several triangles at one t the lowest.
 namespace boxwood::bench {
 
 /// What the truths of cases are made from. The scene outlives them; its cases are of their kind.
@@ -39,12 +41,15 @@ struct CaseScene {
 
 /// The hits of rays at triangles or fans; all hits of rays, which are those of the kernel on each
 /// triangle alone, by t and then by triangle, and an exact one's of the triangles that the rational
-/// oracle hits; first touches of moving features; fitted boxes. Those of yes or no and of distances
-/// are in verdict_truth.h and distance_truth.h.
+/// oracle hits; first touches of moving features; fitted boxes; distances of convex shapes, which
+/// are known by construction, depths between bounds. Those of yes or no and of other distances are
+/// in verdict_truth.h and distance_truth.h.
 std::unique_ptr<CaseTruth> make_fan_truth(const CaseScene& scene);
 std::unique_ptr<CaseTruth> make_all_hits_of_cases_truth(const CaseScene& scene);
 std::unique_ptr<CaseTruth> make_impact_truth(const CaseScene& scene);
 std::unique_ptr<CaseTruth> make_fit_truth(const CaseScene& scene);
+std::unique_ptr<CaseTruth> make_shape_distance_truth(const CaseScene& scene);
+std::unique_ptr<CaseTruth> make_signed_shape_distance_truth(const CaseScene& scene);
 
 /// Unless they agree, throws std::logic_error: then no truth is known, and nothing is judged.
 /// case_text(): the case in words.

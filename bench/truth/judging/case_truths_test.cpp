@@ -368,6 +368,51 @@ TEST(CaseTruth, ObbsAndRayBoxesHaveTheirOracles) {
               Status::exact);
 }
 
+TEST(CaseTruth, ShapesAreAsFarApartAsTheyWerePut) {
+    Scene scene;
+    ShapePairCase pair{{convex::Sphere{1}, {}}, {convex::Sphere{2}, {}}, .999, 1.001};
+    pair.b.pose.translation = {4, 0, 0};
+    scene.cases = std::vector<ShapePairCase>{pair};
+    const auto judge = [&](double distance, double lo, double hi, Promise promise,
+                           const char* task = "signed_shape_distance") {
+        return judged(scene, task, answers_of<Distance>({{distance, lo, hi}}), named(promise));
+    };
+    EXPECT_FALSE(is_broken(judge(1, 1, 1, Promise::certified)));
+    EXPECT_FALSE(is_broken(judge(1, 1, 1, Promise::certified, "shape_distance")));
+    EXPECT_FALSE(is_broken(judge(1, .9999999, 1, Promise::certified)));
+    EXPECT_TRUE(is_broken(judge(1.1, 1.1, 1.1, Promise::certified)));
+    EXPECT_TRUE(is_broken(judge(.99, .98, .99, Promise::certified)));
+    EXPECT_TRUE(is_broken(judge(1.01, .9, 1, Promise::certified))); // not between its bounds
+    EXPECT_TRUE(is_broken(judge(nan, nan, nan, Promise::certified)));
+    EXPECT_EQ(judge(1.00102, 1, 1, Promise::none).status, Status::within_bound); // 1e-5 of 1 + 2
+    EXPECT_EQ(judge(1.00104, 1, 1, Promise::none).status, Status::wrong);
+    EXPECT_EQ(judge(.9, .9, .9, Promise::none).kernel->false_pos, 1u);
+    EXPECT_EQ(judge(-1, -1, -1, Promise::none).status, Status::wrong);
+    EXPECT_EQ(judge(nan, nan, nan, Promise::none).status, Status::conservative);
+    const auto touch = [&](Answer answer) {
+        return judged(scene, "shape_collide", verdicts({{answer, 0}}), named(Promise::certified))
+            .status;
+    };
+    EXPECT_EQ(touch(Answer::no), Status::exact);
+    EXPECT_EQ(touch(Answer::yes), Status::wrong);
+
+    std::get<std::vector<ShapePairCase>>(scene.cases)[0].lo = -.5;
+    std::get<std::vector<ShapePairCase>>(scene.cases)[0].hi = -.25;
+    EXPECT_FALSE(is_broken(judge(-.3, -.3, -.3, Promise::certified)));
+    EXPECT_TRUE(is_broken(judge(-.2, -.2, -.2, Promise::certified)));
+    EXPECT_FALSE(is_broken(judge(0, 0, 0, Promise::certified, "shape_distance")));
+    EXPECT_TRUE(is_broken(judge(.1, .1, .1, Promise::certified, "shape_distance")));
+    EXPECT_EQ(touch(Answer::yes), Status::exact);
+
+    // Floats may move the two by more than their gap: then nobody is judged.
+    std::get<std::vector<ShapePairCase>>(scene.cases)[0].lo = 1e-9;
+    std::get<std::vector<ShapePairCase>>(scene.cases)[0].hi = 2e-9;
+    const auto of_floats =
+        judged(scene, "shape_collide", verdicts({{Answer::yes, 0}}), named(Promise::none, "f32"));
+    EXPECT_EQ(of_floats.kernel->n, 0u);
+    EXPECT_EQ(touch(Answer::yes), Status::wrong);
+}
+
 TEST(CaseTruth, RefusesWhatDoesNotFit) {
     const Scene scene = pairs_of_triangles({{at(0), at(1)}});
     EXPECT_THROW(find_task("ray_box")->make_truth(scene, 1), std::invalid_argument);

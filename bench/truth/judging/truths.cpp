@@ -1,5 +1,6 @@
 #include "bench/truth/judging/truths.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace boxwood::bench {
@@ -64,8 +65,38 @@ std::optional<FitCase> rounded_to_floats(const FitCase& c) {
     return to_floats.changed() ? std::optional(rounded) : std::nullopt;
 }
 
+double size_of(const ShapeOfPair& of) {
+    double size = 0;
+    for (const double length : lengths_of(of.shape))
+        size = std::max(size, std::abs(length));
+    return size;
+}
+
+std::optional<ShapePairCase> rounded_to_floats(const ShapePairCase& c) {
+    ShapePairCase rounded = c;
+    double size = 0;
+    for (const ShapeOfPair* side : {&c.a, &c.b})
+        size += 4 * size_of(*side) + length(side->pose.translation);
+    rounded.lo -= 0x1p-22 * size;
+    rounded.hi += 0x1p-22 * size;
+    return rounded;
+}
+
 bool is_finite(const TrianglePairCase& c) { return finite(c.a) && finite(c.b); }
 bool is_finite(const ObbPairCase& c) { return finite(c.a) && finite(c.b); }
+bool is_finite(const ShapePairCase& c) {
+    if (!(c.lo > 0 || c.hi < 0))
+        return false;
+    for (const ShapeOfPair* side : {&c.a, &c.b}) {
+        const auto& [x, y, z] = side->pose.rotation;
+        if (!is_finite(x) || !is_finite(y) || !is_finite(z) || !is_finite(side->pose.translation))
+            return false;
+        for (const double length : lengths_of(side->shape))
+            if (!std::isfinite(length))
+                return false;
+    }
+    return true;
+}
 bool is_finite(const FitCase& c) {
     const auto& [x, y, z] = c.transform.rotation;
     return is_finite(x) && is_finite(y) && is_finite(z) && is_finite(c.transform.translation) &&

@@ -16,10 +16,15 @@ namespace boxwood::bench {
 std::optional<TrianglePairCase> rounded_to_floats(const TrianglePairCase& c);
 std::optional<ObbPairCase> rounded_to_floats(const ObbPairCase& c);
 std::optional<FitCase> rounded_to_floats(const FitCase& c);
+/// The numbers as they are; [lo, hi] is as much wider as their rounding may move the two, and the
+/// case is no longer judged where 0 comes to lie in it.
+std::optional<ShapePairCase> rounded_to_floats(const ShapePairCase& c);
+double size_of(const ShapeOfPair& of); ///< its greatest length
 
 /// Whether all coordinates are finite.
 bool is_finite(const TrianglePairCase& c);
 bool is_finite(const ObbPairCase& c);
+bool is_finite(const ShapePairCase& c); ///< and whether they touch is known
 bool is_finite(const FitCase& c);
 bool is_finite(const RayCase& c); ///< of the ray: its triangles are looked at by themselves
 bool is_finite(const RayBoxCase& c);

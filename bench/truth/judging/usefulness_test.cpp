@@ -68,6 +68,9 @@ TEST(GenericInput, IsNotLeftUndecided) {
     EXPECT_FALSE(
         is_useful("generic_triangles", "triangle_triangle", undecided, Promise::certified));
     EXPECT_FALSE(is_useful("generic_ray_boxes", "ray_box", yes, Promise::never_miss));
+    EXPECT_FALSE(is_useful("sphere_and_box", "shape_collide", undecided, Promise::certified));
+    const Distance anything{0, -inf, inf};
+    EXPECT_FALSE(is_useful("sphere_and_box", "shape_distance", anything, Promise::certified));
     const Aabb<double> all{{-inf, -inf, -inf}, {inf, inf, inf}};
     EXPECT_FALSE(is_useful("rotated_boxes", "box_fit", all, Promise::never_miss));
 }

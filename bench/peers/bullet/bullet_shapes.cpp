@@ -1,0 +1,138 @@
+#include "bench/peers/each_case.h"
+#include "bench/peers/kernel_peers.h"
+
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btCapsuleShape.h>
+#include <BulletCollision/CollisionShapes/btConeShape.h>
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
+#include <BulletCollision/CollisionShapes/btCylinderShape.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
+#include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
+#include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+namespace boxwood::bench {
+namespace on_shapes {
+namespace {
+
+using Shape = std::unique_ptr<btConvexInternalShape>;
+
+/// Null for an ellipsoid, which Bullet has not. Its margins would round what has corners.
+Shape shape_of(const ShapeOfPair& of) {
+    const std::vector<double> doubles = lengths_of(of.shape);
+    const auto length = [&](std::size_t i) { return static_cast<btScalar>(doubles[i]); };
+    const auto sharp = [](auto shape) {
+        shape->setMargin(0);
+        return shape;
+    };
+    switch (of.shape.kind()) {
+    case convex::ShapeKind::sphere:
+        return std::make_unique<btSphereShape>(length(0));
+    case convex::ShapeKind::box:
+        return sharp(std::make_unique<btBoxShape>(btVector3(length(0), length(1), length(2))));
+    case convex::ShapeKind::capsule:
+        return std::make_unique<btCapsuleShapeZ>(length(0), 2 * length(1));
+    case convex::ShapeKind::cylinder:
+        return sharp(std::make_unique<btCylinderShapeZ>(btVector3(length(0), length(0), length(1))));
+    case convex::ShapeKind::cone:
+        return sharp(std::make_unique<btConeShapeZ>(length(0), 2 * length(1)));
+    case convex::ShapeKind::hull: {
+        auto hull = std::make_unique<btConvexHullShape>();
+        for (std::size_t i = 0; i < doubles.size(); i += 3)
+            hull->addPoint({length(i), length(i + 1), length(i + 2)}, false);
+        hull->recalcLocalAabb();
+        return sharp(std::move(hull));
+    }
+    default:
+        return nullptr;
+    }
+}
+
+btTransform transform_of(const convex::Pose& pose) {
+    const auto number = [](double x) { return static_cast<btScalar>(x); };
+    const auto& [x, y, z] = pose.rotation;
+    return btTransform(
+        btMatrix3x3(number(x.x), number(x.y), number(x.z), number(y.x), number(y.y), number(y.z),
+                    number(z.x), number(z.y), number(z.z)),
+        btVector3(number(pose.translation.x), number(pose.translation.y),
+                  number(pose.translation.z)));
+}
+
+double greatest_length(const ShapeOfPair& of) {
+    double greatest = 0;
+    for (const double length : lengths_of(of.shape))
+        greatest = std::max(greatest, std::abs(length));
+    return greatest;
+}
+
+struct Pair {
+    Shape a, b;
+    btGjkPairDetector::ClosestPointInput input;
+    btScalar rounding; ///< a distance that is none
+    explicit Pair(const ShapePairCase& c)
+        : a(shape_of(c.a)), b(shape_of(c.b)),
+          rounding(static_cast<btScalar>(1e-4 * (greatest_length(c.a) + greatest_length(c.b)))) {
+        input.m_transformA = transform_of(c.a.pose);
+        input.m_transformB = transform_of(c.b.pose);
+    }
+};
+
+/// As Bullet's own algorithm for two convex shapes: what is farther apart than they may be to touch
+/// needs no distance, so that GJK ends at the first axis that separates them so far. Where they
+/// overlap it may end at a distance that is not quite 0.
+Decision collide(Pair& p) {
+    if (!p.a || !p.b)
+        return {Answer::maybe, 0};
+    const btScalar touch = p.rounding,
+                   at_most = p.a->getMargin() + p.b->getMargin() + touch;
+    p.input.m_maximumDistanceSquared = at_most * at_most;
+    btVoronoiSimplexSolver simplex;
+    btGjkPairDetector detector(p.a.get(), p.b.get(), &simplex, nullptr);
+    btPointCollector result;
+    detector.getClosestPoints(p.input, result, nullptr);
+    if (result.m_hasResult)
+        return yes_or_no(result.m_distance <= touch);
+    constexpr int found_a_distance = 1; // too far to be a result; else the two overlap
+    return yes_or_no(detector.m_lastUsedMethod != found_a_distance);
+}
+
+template <bool is_signed> Distance distance(const Pair& p) {
+    if (!p.a || !p.b)
+        return plain_distance(std::numeric_limits<double>::quiet_NaN());
+    btVoronoiSimplexSolver simplex;
+    btGjkEpaPenetrationDepthSolver depth;
+    btGjkPairDetector detector(p.a.get(), p.b.get(), &simplex, is_signed ? &depth : nullptr);
+    btPointCollector result;
+    detector.getClosestPoints(p.input, result, nullptr);
+    const double found = result.m_hasResult ? static_cast<double>(result.m_distance) : 0.0;
+    return plain_distance(is_signed ? found : std::max(found, 0.0));
+}
+
+} // namespace
+} // namespace on_shapes
+
+std::vector<ContenderEntry> bullet_shapes() {
+    using namespace on_shapes;
+    const std::string notes = "input rounded to float; margins 0 but of spheres and capsules, whose radius it is; it has "
+                              "no ellipsoids; one pair per call";
+    return {each_case<ShapePairCase, Pair, collide>(
+                "shape_collide", "bullet", "shapes.collide", "f32",
+                "Bullet's btGjkPairDetector without a solver for depth",
+                "m_maximumDistanceSquared of the margins, as in its own algorithm, and of 1e-4 of the "
+                "size, which counts as a touch; " + notes),
+            each_case<ShapePairCase, Pair, distance<false>>(
+                "shape_distance", "bullet", "shapes.distance", "f32",
+                "Bullet's btGjkPairDetector without a solver for depth",
+                "no result is read as 0; " + notes),
+            each_case<ShapePairCase, Pair, distance<true>>(
+                "signed_shape_distance", "bullet", "shapes.signed_distance", "f32",
+                "Bullet's btGjkPairDetector with btGjkEpaPenetrationDepthSolver", notes)};
+}
+
+} // namespace boxwood::bench

@@ -1,0 +1,126 @@
+#pragma once
+
+#include "bench/replay/replayer.h"
+
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace boxwood::bench {
+
+/// A Replay with the shapes of a library behind a manager of its Api: which pairs touch, by yes or
+/// no, and distances without points. A Library has
+///   Api, Geometry (a shared pointer), Rotation, Translation,
+///   Geometry geometry_of(program, RecordedProgram::Geometry),
+///   bool touch(Object*, Object*) and double distance(Object*, Object*).
+template <class Library> class ShapeReplayer final : public Replay {
+    using Api = typename Library::Api;
+    using Object = typename Api::Object;
+    using Manager = typename Api::Manager;
+    using Number = typename Api::Scalar;
+
+  public:
+    using Make = std::function<std::unique_ptr<Manager>()>;
+
+    ShapeReplayer(const RecordedProgram& program, Make make)
+        : program_(program), make_(std::move(make)) {
+        std::vector<typename Library::Geometry> geometries;
+        for (const RecordedProgram::Geometry& geometry : program.geometries)
+            geometries.push_back(Library::geometry_of(program, geometry));
+        for (std::size_t i = 0; i < program.n_objects(); ++i) {
+            objects_.push_back(std::make_unique<Object>(geometries[program.geometry_of[i]]));
+            objects_.back()->setUserData(reinterpret_cast<void*>(static_cast<std::uintptr_t>(i)));
+        }
+    }
+
+    void run(const std::function<bool(std::size_t)>& includes,
+             std::vector<ReplayedCall>& calls) override {
+        calls.assign(program_.calls.size(), {});
+        manager_ = make_();
+        registered_.clear();
+        for (std::size_t i = 0; i < calls.size(); ++i) {
+            const RecordedProgram::Call& call = program_.calls[i];
+            const bool is_included = (!is_query(call.what) || includes(i)) &&
+                                     !(is_of_one(call.what) && call.n_objects == 0);
+            of_call_.clear();
+            again_.clear();
+            for (const std::uint32_t object : program_.objects_of(call))
+                (registered_.take(call.what, object) ? of_call_ : again_)
+                    .push_back(objects_[object].get());
+            if (call.what == recording::Call::clear)
+                registered_.clear();
+            const auto begun = std::chrono::steady_clock::now();
+            for (const RecordedProgram::State& state : program_.states_of(call))
+                move(state);
+            if (is_included)
+                answer(call, calls[i]);
+            const std::chrono::duration<double, std::nano> taken =
+                std::chrono::steady_clock::now() - begun;
+            calls[i].ns = taken.count();
+        }
+        manager_.reset();
+    }
+
+  private:
+    struct Seen {
+        ReplayedCall& to;
+        bool ends; ///< at the first pair that touches
+
+        bool add(Object* a, Object* b) {
+            if (a == b || !Library::touch(a, b))
+                return false;
+            ++to.shown;
+            to.keys = recording::sum(to.keys, recording::key(number(a), number(b)));
+            return ends;
+        }
+        bool add(Object* a, Object* b, Number& least) {
+            if (a == b)
+                return false;
+            to.min_distance = std::min(to.min_distance, std::max(Library::distance(a, b), 0.));
+            least = static_cast<Number>(to.min_distance);
+            return to.min_distance <= 0;
+        }
+        static std::uint32_t number(const Object* object) {
+            return static_cast<std::uint32_t>(
+                reinterpret_cast<std::uintptr_t>(object->getUserData()));
+        }
+    };
+
+    void move(const RecordedProgram::State& state) {
+        Object& object = *objects_[state.object];
+        typename Library::Rotation rotation;
+        for (int row = 0; row < 3; ++row)
+            for (int column = 0; column < 3; ++column)
+                rotation(row, column) = state.pose[static_cast<std::size_t>(3 * row + column)];
+        object.setTransform(rotation, typename Library::Translation(state.pose[9], state.pose[10],
+                                                                    state.pose[11]));
+        object.computeAABB();
+    }
+
+    void answer(const RecordedProgram::Call& call, ReplayedCall& to) {
+        using enum recording::Call;
+        Seen seen{to, call.ended};
+        switch (call.what) {
+        case collide_self:
+            return Api::collide(*manager_, seen);
+        case collide_object:
+            return Api::collide(*manager_, seen, of_call_[0]);
+        case distance_self:
+            return Api::distance(*manager_, seen);
+        case distance_object:
+            return Api::distance(*manager_, seen, of_call_[0]);
+        default:
+            change(*manager_, call.what, of_call_, again_);
+        }
+    }
+
+    const RecordedProgram& program_;
+    Make make_;
+    std::vector<std::unique_ptr<Object>> objects_;
+    Registrations registered_;
+    std::vector<Object*> of_call_, again_;
+    std::unique_ptr<Manager> manager_;
+};
+
+} // namespace boxwood::bench
