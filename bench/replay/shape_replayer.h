@@ -93,8 +93,8 @@ template <class Library> class ShapeReplayer final : public Replay {
         for (int row = 0; row < 3; ++row)
             for (int column = 0; column < 3; ++column)
                 rotation(row, column) = state.pose[static_cast<std::size_t>(3 * row + column)];
-        object.setTransform(rotation, typename Library::Translation(state.pose[9], state.pose[10],
-                                                                    state.pose[11]));
+        object.setTransform(
+            rotation, typename Library::Translation(state.pose[9], state.pose[10], state.pose[11]));
         object.computeAABB();
     }
 

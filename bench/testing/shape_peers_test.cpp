@@ -25,9 +25,8 @@ void expect_right(const char* task_name, int per_cent_overlapping) {
         const auto truth = task.make_truth(scene, 1);
         for (const Peer& peer : peers())
             for (const ContenderEntry& entry : peer.contenders) {
-                if (std::ranges::none_of(entry.answers, [&](const Answering& one) {
-                        return one.task == task_name;
-                    }))
+                if (std::ranges::none_of(
+                        entry.answers, [&](const Answering& one) { return one.task == task_name; }))
                     continue;
                 const auto contender = entry.make({&scene, &task, "serial", 1});
                 const auto answers = task.make_answers();

@@ -39,7 +39,8 @@ Shape shape_of(const ShapeOfPair& of) {
     case convex::ShapeKind::capsule:
         return std::make_unique<btCapsuleShapeZ>(length(0), 2 * length(1));
     case convex::ShapeKind::cylinder:
-        return sharp(std::make_unique<btCylinderShapeZ>(btVector3(length(0), length(0), length(1))));
+        return sharp(
+            std::make_unique<btCylinderShapeZ>(btVector3(length(0), length(0), length(1))));
     case convex::ShapeKind::cone:
         return sharp(std::make_unique<btConeShapeZ>(length(0), 2 * length(1)));
     case convex::ShapeKind::hull: {
@@ -57,11 +58,10 @@ Shape shape_of(const ShapeOfPair& of) {
 btTransform transform_of(const convex::Pose& pose) {
     const auto number = [](double x) { return static_cast<btScalar>(x); };
     const auto& [x, y, z] = pose.rotation;
-    return btTransform(
-        btMatrix3x3(number(x.x), number(x.y), number(x.z), number(y.x), number(y.y), number(y.z),
-                    number(z.x), number(z.y), number(z.z)),
-        btVector3(number(pose.translation.x), number(pose.translation.y),
-                  number(pose.translation.z)));
+    return btTransform(btMatrix3x3(number(x.x), number(x.y), number(x.z), number(y.x), number(y.y),
+                                   number(y.z), number(z.x), number(z.y), number(z.z)),
+                       btVector3(number(pose.translation.x), number(pose.translation.y),
+                                 number(pose.translation.z)));
 }
 
 double greatest_length(const ShapeOfPair& of) {
@@ -89,8 +89,7 @@ struct Pair {
 Decision collide(Pair& p) {
     if (!p.a || !p.b)
         return {Answer::maybe, 0};
-    const btScalar touch = p.rounding,
-                   at_most = p.a->getMargin() + p.b->getMargin() + touch;
+    const btScalar touch = p.rounding, at_most = p.a->getMargin() + p.b->getMargin() + touch;
     p.input.m_maximumDistanceSquared = at_most * at_most;
     btVoronoiSimplexSolver simplex;
     btGjkPairDetector detector(p.a.get(), p.b.get(), &simplex, nullptr);
@@ -119,20 +118,23 @@ template <bool is_signed> Distance distance(const Pair& p) {
 
 std::vector<ContenderEntry> bullet_shapes() {
     using namespace on_shapes;
-    const std::string notes = "input rounded to float; margins 0 but of spheres and capsules, whose radius it is; it has "
-                              "no ellipsoids; one pair per call";
-    return {each_case<ShapePairCase, Pair, collide>(
-                "shape_collide", "bullet", "shapes.collide", "f32",
-                "Bullet's btGjkPairDetector without a solver for depth",
-                "m_maximumDistanceSquared of the margins, as in its own algorithm, and of 1e-4 of the "
-                "size, which counts as a touch; " + notes),
-            each_case<ShapePairCase, Pair, distance<false>>(
-                "shape_distance", "bullet", "shapes.distance", "f32",
-                "Bullet's btGjkPairDetector without a solver for depth",
-                "no result is read as 0; " + notes),
-            each_case<ShapePairCase, Pair, distance<true>>(
-                "signed_shape_distance", "bullet", "shapes.signed_distance", "f32",
-                "Bullet's btGjkPairDetector with btGjkEpaPenetrationDepthSolver", notes)};
+    const std::string notes =
+        "input rounded to float; margins 0 but of spheres and capsules, whose radius it is; it has "
+        "no ellipsoids; one pair per call";
+    return {
+        each_case<ShapePairCase, Pair, collide>(
+            "shape_collide", "bullet", "shapes.collide", "f32",
+            "Bullet's btGjkPairDetector without a solver for depth",
+            "m_maximumDistanceSquared of the margins, as in its own algorithm, and of 1e-4 of the "
+            "size, which counts as a touch; " +
+                notes),
+        each_case<ShapePairCase, Pair, distance<false>>(
+            "shape_distance", "bullet", "shapes.distance", "f32",
+            "Bullet's btGjkPairDetector without a solver for depth",
+            "no result is read as 0; " + notes),
+        each_case<ShapePairCase, Pair, distance<true>>(
+            "signed_shape_distance", "bullet", "shapes.signed_distance", "f32",
+            "Bullet's btGjkPairDetector with btGjkEpaPenetrationDepthSolver", notes)};
 }
 
 } // namespace boxwood::bench

@@ -65,8 +65,8 @@ template <class Compute> struct Kept {
     coal::CollisionResult touches;
     coal::DistanceResult nearest;
     explicit Kept(const ShapePairCase& c)
-        : a(geometry_of(c.a)), b(geometry_of(c.b)), pose_a(transform_of(c.a.pose)), pose_b(transform_of(c.b.pose)),
-          compute(std::make_unique<Compute>(a.get(), b.get())) {}
+        : a(geometry_of(c.a)), b(geometry_of(c.b)), pose_a(transform_of(c.a.pose)),
+          pose_b(transform_of(c.b.pose)), compute(std::make_unique<Compute>(a.get(), b.get())) {}
 };
 
 Decision collide(Kept<coal::ComputeCollision>& of) {

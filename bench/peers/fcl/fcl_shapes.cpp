@@ -32,7 +32,8 @@ template <class S> Geometry<S> convex_of(const Polyhedron& polyhedron) {
         for (const std::uint32_t corner : face)
             faces->push_back(static_cast<int>(corner));
     }
-    return std::make_shared<fcl::Convex<S>>(points, static_cast<int>(polyhedron.faces.size()), faces);
+    return std::make_shared<fcl::Convex<S>>(points, static_cast<int>(polyhedron.faces.size()),
+                                            faces);
 }
 
 template <class S> Geometry<S> geometry_of(const ShapeOfPair& of) {
@@ -73,7 +74,8 @@ template <class S, fcl::GJKSolverType solver> Decision collide(Pair<S>& p) {
     fcl::CollisionRequest<S> request;
     request.gjk_solver_type = solver;
     p.touches.clear();
-    return yes_or_no(fcl::collide<S>(p.a.get(), p.pose_a, p.b.get(), p.pose_b, request, p.touches) > 0);
+    return yes_or_no(fcl::collide<S>(p.a.get(), p.pose_a, p.b.get(), p.pose_b, request, p.touches) >
+                     0);
 }
 
 /// NaN where FCL gives up: its polytope throws.
@@ -97,15 +99,19 @@ template <class S, fcl::GJKSolverType solver, bool is_signed> Distance distance(
 template <class S, fcl::GJKSolverType solver>
 void append(std::vector<ContenderEntry>& all, const std::string& after, const std::string& how) {
     constexpr bool is_single = std::is_same_v<S, float>;
-    const std::string precision = is_single ? "f32" : "f64", name = is_single ? "shapes_f32." : "shapes.";
-    const std::string notes = "default tolerances (1e-6); closed forms where FCL has them; one pair per call, into a "
-                              "kept result" +
-                              std::string(is_single ? "; floats, compiled here" : "");
+    const std::string precision = is_single ? "f32" : "f64",
+                      name = is_single ? "shapes_f32." : "shapes.";
+    const std::string notes =
+        "default tolerances (1e-6); closed forms where FCL has them; one pair per call, into a "
+        "kept result" +
+        std::string(is_single ? "; floats, compiled here" : "");
     all.push_back(each_case<ShapePairCase, Pair<S>, collide<S, solver>>(
-        "shape_collide", "fcl", name + "collide" + after, precision, "FCL's collide on two shapes, " + how,
+        "shape_collide", "fcl", name + "collide" + after, precision,
+        "FCL's collide on two shapes, " + how,
         "one contact without its point (enable_contact off); " + notes));
     all.push_back(each_case<ShapePairCase, Pair<S>, distance<S, solver, false>>(
-        "shape_distance", "fcl", name + "distance" + after, precision, "FCL's distance of two shapes, " + how,
+        "shape_distance", "fcl", name + "distance" + after, precision,
+        "FCL's distance of two shapes, " + how,
         "not signed, without points; its -1 where they overlap is read as 0; " + notes));
     if constexpr (solver == fcl::GST_LIBCCD)
         all.push_back(each_case<ShapePairCase, Pair<S>, distance<S, solver, true>>(

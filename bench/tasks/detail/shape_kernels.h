@@ -39,11 +39,11 @@ template <bool is_signed> std::vector<CaseKernel> shape_distance_kernels() {
     using Kernels = std::tuple<ShapeDistance<is_signed>, CoarseShapeDistance<is_signed>>;
     return all_kernels<Kernels>([]<class K>(std::type_identity<K>) {
         return scalar_kernel<K, ShapePairCase, ShapePairCase>([](const ShapePairCase& c) {
-            const convex::SignedDistance d = convex::signed_distance(
-                c.a.shape, c.a.pose, c.b.shape, c.b.pose, K::tolerance);
+            const convex::SignedDistance d =
+                convex::signed_distance(c.a.shape, c.a.pose, c.b.shape, c.b.pose, K::tolerance);
             const auto as_wanted = [](double x) { return is_signed ? x : std::max(x, 0.0); };
-            return Distance{as_wanted(d.distance), as_wanted(d.lo), as_wanted(d.hi), d.point_a,
-                            d.point_b, 0};
+            return Distance{
+                as_wanted(d.distance), as_wanted(d.lo), as_wanted(d.hi), d.point_a, d.point_b, 0};
         });
     });
 }

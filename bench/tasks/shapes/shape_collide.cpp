@@ -28,7 +28,9 @@ const Task& shape_collide_task() {
         {scalar_kernel<ConvexCollide, ShapePairCase, ShapePairCase>([](const ShapePairCase& c) {
             return convex::collide(c.a.shape, c.a.pose, c.b.shape, c.b.pose);
         })},
-        [](const CaseScene& scene) { return make_verdict_truth<ShapePairCase>(scene, shapes_touch); });
+        [](const CaseScene& scene) {
+            return make_verdict_truth<ShapePairCase>(scene, shapes_touch);
+        });
     return task;
 }
 

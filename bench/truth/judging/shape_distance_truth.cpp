@@ -14,8 +14,8 @@
 namespace boxwood::bench {
 namespace {
 
-/// What a library may be off, of the size of both shapes: FCL and Coal, which end at 1e-6, ten times
-/// that; in floats twice the 1e-3 at which Bullet ends.
+/// What a library may be off, of the size of both shapes: FCL and Coal, which end at 1e-6, ten
+/// times that; in floats twice the 1e-3 at which Bullet ends.
 double peers_error(const std::string& precision) { return precision == "f32" ? 2e-3 : 1e-5; }
 /// An interval wider than this part of the distance says little.
 constexpr double wide_interval = 0x1p-16;
@@ -39,7 +39,8 @@ class ShapeDistanceTruth final : public CaseTruth {
             const Distance& said = distances[i];
             tally.called(said.tier);
             const double off = std::max({c.lo - said.distance, said.distance - c.hi, 0.0});
-            tally.error(std::numeric_limits<double>::quiet_NaN(), off / (size_of(c.a) + size_of(c.b)));
+            tally.error(std::numeric_limits<double>::quiet_NaN(),
+                        off / (size_of(c.a) + size_of(c.b)));
             if (contender.promise == Promise::none) {
                 tally.note(i, unpromised(tally, said, off, c, contender.precision));
             } else if (keeps_promise(said, c)) {
@@ -85,12 +86,13 @@ class ShapeDistanceTruth final : public CaseTruth {
         return c;
     }
     static bool keeps_promise(const Distance& said, const ShapePairCase& c) {
-        return said.lo <= said.distance && said.distance <= said.hi && said.lo <= c.hi && said.hi >= c.lo;
+        return said.lo <= said.distance && said.distance <= said.hi && said.lo <= c.hi &&
+               said.hi >= c.lo;
     }
 
     /// NaN is how a peer says that it cannot take the case.
-    static Worth unpromised(Tally& tally, const Distance& said, double off,
-                            const ShapePairCase& c, const std::string& precision) {
+    static Worth unpromised(Tally& tally, const Distance& said, double off, const ShapePairCase& c,
+                            const std::string& precision) {
         if (std::isnan(said.distance)) {
             tally.undecided();
             return Worth::conservative;
