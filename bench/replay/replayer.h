@@ -14,12 +14,54 @@
 
 namespace boxwood::bench {
 
-/// Which objects a manager has. FCL's do not stand one that comes or goes twice: it is updated, or
-/// left alone.
-class Registrations {
+/// Which objects a manager of an Api has, and the calls that are made to it. FCL's do not stand an
+/// object that comes or goes twice: it is updated, or left alone.
+template <class Api> class CallsOf {
+    using Object = typename Api::Object;
+    using Manager = typename Api::Manager;
+
   public:
-    /// Whether a call is to be made with an object. Of one that registers: else it is an update.
-    bool take(recording::Call call, std::uint32_t object) {
+    void begin() { is_there_.clear(); }
+
+    /// The objects of the next call; `all` by their numbers.
+    template <class Owned>
+    void take(const RecordedProgram& program, const RecordedProgram::Call& call,
+              const std::vector<std::unique_ptr<Owned>>& all) {
+        objects_.clear();
+        again_.clear();
+        for (const std::uint32_t object : program.objects_of(call))
+            (is_made_with(call.what, object) ? objects_ : again_).push_back(all[object].get());
+        if (call.what == recording::Call::clear)
+            is_there_.clear();
+    }
+    const std::vector<Object*>& objects() const { return objects_; }
+
+    /// Makes it. `seen` takes what a query shows; of a call with another manager nothing without
+    /// `other`.
+    template <class Seen>
+    void make(recording::Call what, Manager& manager, Seen& seen, Manager* other = nullptr) const {
+        using enum recording::Call;
+        switch (what) {
+        case collide_self:
+            return Api::collide(manager, seen);
+        case collide_object:
+            return Api::collide(manager, seen, objects_[0]);
+        case collide_others:
+            return other ? Api::collide(manager, seen, other) : void();
+        case distance_self:
+            return Api::distance(manager, seen);
+        case distance_object:
+            return Api::distance(manager, seen, objects_[0]);
+        case distance_others:
+            return other ? Api::distance(manager, seen, other) : void();
+        default:
+            change(what, manager);
+        }
+    }
+
+  private:
+    /// Of one that registers: else it is an update.
+    bool is_made_with(recording::Call call, std::uint32_t object) {
         if (object >= is_there_.size())
             is_there_.resize(std::size_t{object} + 1);
         if (call == recording::Call::add)
@@ -28,48 +70,49 @@ class Registrations {
             return std::exchange(is_there_[object], false);
         return true;
     }
-    void clear() { is_there_.clear(); }
+    void change(recording::Call what, Manager& manager) const {
+        using enum recording::Call;
+        switch (what) {
+        case add:
+            if (objects_.size() == 1)
+                manager.registerObject(objects_[0]);
+            else if (!objects_.empty())
+                manager.registerObjects(objects_);
+            if (!again_.empty())
+                manager.update(again_);
+            break;
+        case remove:
+            if (!objects_.empty())
+                manager.unregisterObject(objects_[0]);
+            break;
+        case clear:
+            manager.clear();
+            break;
+        case setup:
+            manager.setup();
+            break;
+        case update_all:
+            manager.update();
+            break;
+        case update_some:
+            if (objects_.size() == 1)
+                manager.update(objects_[0]);
+            else
+                manager.update(objects_);
+            break;
+        default:
+            break;
+        }
+    }
 
-  private:
     std::vector<char> is_there_;
+    std::vector<Object*> objects_, again_; ///< of a call; those that it does nothing but update
 };
 
-/// A call that is no query, of objects that it is made with and of those that are but updated.
-template <class Manager, class Object>
-void change(Manager& manager, recording::Call what, const std::vector<Object*>& objects,
-            const std::vector<Object*>& again) {
-    using enum recording::Call;
-    switch (what) {
-    case add:
-        if (objects.size() == 1)
-            manager.registerObject(objects[0]);
-        else if (!objects.empty())
-            manager.registerObjects(objects);
-        if (!again.empty())
-            manager.update(again);
-        break;
-    case remove:
-        if (!objects.empty())
-            manager.unregisterObject(objects[0]);
-        break;
-    case clear:
-        manager.clear();
-        break;
-    case setup:
-        manager.setup();
-        break;
-    case update_all:
-        manager.update();
-        break;
-    case update_some:
-        if (objects.size() == 1)
-            manager.update(objects[0]);
-        else
-            manager.update(objects);
-        break;
-    default:
-        break;
-    }
+/// Whether call i is made: not a query that is left out, nor one of one object that names none.
+inline bool is_replayed(const RecordedProgram::Call& call, std::size_t i,
+                        const std::function<bool(std::size_t)>& includes) {
+    return (!is_query(call.what) || includes(i)) && !(is_of_one(call.what) && call.n_objects == 0);
 }
 
 /// A Replay with a manager of an Api (trees/adapters/apis/fcl_api.h is one).
@@ -93,25 +136,18 @@ template <class Api> class Replayer final : public Replay {
              std::vector<ReplayedCall>& calls) override {
         calls.assign(program_.calls.size(), {});
         manager_ = make_();
-        registered_.clear();
+        to_manager_.begin();
         for (std::size_t i = 0; i < calls.size(); ++i) {
             const RecordedProgram::Call& call = program_.calls[i];
             for (const RecordedProgram::State& state : program_.states_of(call))
                 bodies_[state.object]->move(bounds_of(state));
-            if ((is_query(call.what) && !includes(i)) ||
-                (is_of_one(call.what) && call.n_objects == 0))
+            if (!is_replayed(call, i, includes))
                 continue;
-            objects_.clear();
-            again_.clear();
-            for (const std::uint32_t object : program_.objects_of(call))
-                (registered_.take(call.what, object) ? objects_ : again_)
-                    .push_back(bodies_[object].get());
-            if (call.what == recording::Call::clear)
-                registered_.clear();
+            to_manager_.take(program_, call, bodies_);
             make_other(call.what);
             Seen seen{call.ended ? std::max<std::uint64_t>(call.shown, 1) : 0};
             const auto begun = std::chrono::steady_clock::now();
-            query(call.what, seen);
+            to_manager_.make(call.what, *manager_, seen, other_.get());
             const std::chrono::duration<double, std::nano> taken =
                 std::chrono::steady_clock::now() - begun;
             calls[i] = {taken.count(), seen.shown, seen.keys, seen.min_distance};
@@ -165,34 +201,14 @@ template <class Api> class Replayer final : public Replay {
         if (what != recording::Call::collide_others && what != recording::Call::distance_others)
             return;
         other_ = make_();
-        other_->registerObjects(objects_);
+        other_->registerObjects(to_manager_.objects());
         other_->setup();
-    }
-    void query(recording::Call what, Seen& seen) {
-        using enum recording::Call;
-        switch (what) {
-        case collide_self:
-            return Api::collide(*manager_, seen);
-        case collide_object:
-            return Api::collide(*manager_, seen, objects_[0]);
-        case collide_others:
-            return Api::collide(*manager_, seen, other_.get());
-        case distance_self:
-            return Api::distance(*manager_, seen);
-        case distance_object:
-            return Api::distance(*manager_, seen, objects_[0]);
-        case distance_others:
-            return Api::distance(*manager_, seen, other_.get());
-        default:
-            change(*manager_, what, objects_, again_);
-        }
     }
 
     const RecordedProgram& program_;
     Make make_;
     std::vector<std::unique_ptr<Body>> bodies_;
-    Registrations registered_;
-    std::vector<Object*> objects_, again_; ///< of a call; those that it does nothing but update
+    CallsOf<Api> to_manager_;
     std::unique_ptr<Manager> manager_, other_;
 };
 

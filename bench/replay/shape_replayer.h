@@ -38,23 +38,18 @@ template <class Library> class ShapeReplayer final : public Replay {
              std::vector<ReplayedCall>& calls) override {
         calls.assign(program_.calls.size(), {});
         manager_ = make_();
-        registered_.clear();
+        to_manager_.begin();
         for (std::size_t i = 0; i < calls.size(); ++i) {
             const RecordedProgram::Call& call = program_.calls[i];
-            const bool is_included = (!is_query(call.what) || includes(i)) &&
-                                     !(is_of_one(call.what) && call.n_objects == 0);
-            of_call_.clear();
-            again_.clear();
-            for (const std::uint32_t object : program_.objects_of(call))
-                (registered_.take(call.what, object) ? of_call_ : again_)
-                    .push_back(objects_[object].get());
-            if (call.what == recording::Call::clear)
-                registered_.clear();
+            const bool is_made = is_replayed(call, i, includes);
+            if (is_made)
+                to_manager_.take(program_, call, objects_);
+            Seen seen{calls[i], call.ended};
             const auto begun = std::chrono::steady_clock::now();
             for (const RecordedProgram::State& state : program_.states_of(call))
                 move(state);
-            if (is_included)
-                answer(call, calls[i]);
+            if (is_made)
+                to_manager_.make(call.what, *manager_, seen);
             const std::chrono::duration<double, std::nano> taken =
                 std::chrono::steady_clock::now() - begun;
             calls[i].ns = taken.count();
@@ -98,28 +93,10 @@ template <class Library> class ShapeReplayer final : public Replay {
         object.computeAABB();
     }
 
-    void answer(const RecordedProgram::Call& call, ReplayedCall& to) {
-        using enum recording::Call;
-        Seen seen{to, call.ended};
-        switch (call.what) {
-        case collide_self:
-            return Api::collide(*manager_, seen);
-        case collide_object:
-            return Api::collide(*manager_, seen, of_call_[0]);
-        case distance_self:
-            return Api::distance(*manager_, seen);
-        case distance_object:
-            return Api::distance(*manager_, seen, of_call_[0]);
-        default:
-            change(*manager_, call.what, of_call_, again_);
-        }
-    }
-
     const RecordedProgram& program_;
     Make make_;
     std::vector<std::unique_ptr<Object>> objects_;
-    Registrations registered_;
-    std::vector<Object*> of_call_, again_;
+    CallsOf<Api> to_manager_;
     std::unique_ptr<Manager> manager_;
 };
 

@@ -1,5 +1,5 @@
 #include "bench/io/say.h"
-#include "bench/replay/replay.h"
+#include "bench/replay/replayer.h"
 #include "trees/world/bodies/world.h"
 
 #include <algorithm>
@@ -69,11 +69,10 @@ class WorldReplay final : public Replay {
         body_of_.assign(program_.n_objects(), std::nullopt);
         for (std::size_t i = 0; i < calls.size(); ++i) {
             const RecordedProgram::Call& call = program_.calls[i];
-            const bool is_asked = (!is_query(call.what) || includes(i)) &&
-                                  !(is_of_one(call.what) && call.n_objects == 0);
+            const bool is_made = is_replayed(call, i, includes);
             const auto begun = std::chrono::steady_clock::now();
             move(program_.states_of(call));
-            if (is_asked)
+            if (is_made)
                 answer(call, calls[i]);
             const std::chrono::duration<double, std::nano> taken =
                 std::chrono::steady_clock::now() - begun;
