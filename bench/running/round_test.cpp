@@ -430,5 +430,14 @@ TEST_F(RoundTest, ACellWithFewerRoundsIsNotInTheLaterOnes) {
     EXPECT_EQ(timed(1), std::set<std::uint32_t>{0});
 }
 
+TEST_F(RoundTest, TwinsAreOfCellsThatAreInEveryRound) {
+    for (const char* name : {"a", "b", "c", "d", "always"})
+        add(name, Fault::none);
+    for (std::size_t i = 0; i < 4; ++i)
+        plan.cells[i].rounds = 1;
+    for (const results::Sample& sample : run_round(plan, prepared(), 0, report()).samples)
+        EXPECT_TRUE(!(sample.flags & results::aa_twin) || sample.cell_id == 4);
+}
+
 } // namespace
 } // namespace boxwood::bench
