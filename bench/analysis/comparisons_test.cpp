@@ -439,11 +439,17 @@ TEST(NoiseFloor, IsThatOfTheKind) {
     EXPECT_NEAR(*floor_of(maker.results), 0.15, 1e-9); // what is not cold knows nothing of it
     maker.time(lengthy, Phase::build, steady(1e7));
     maker.time(lengthy, Phase::build, steady(1.4e7), results::aa_twin);
+    maker.time(brief, Phase::build, steady(1e3));
+    maker.time(brief, Phase::build, steady(1.05e3), results::aa_twin);
     const Times times(maker.results);
     const NoiseFloors floors(maker.results, times);
     for (const auto& [phase, floor] :
-         {std::pair{Phase::cold_build, .5}, {Phase::build, .4}, {Phase::query, .01}})
+         {std::pair{Phase::cold_build, .5}, {Phase::build, .4}, {Phase::query, .01},
+          {Phase::build_and_query, .4}})
         EXPECT_NEAR(*floors.of(maker.results.cells[lengthy], phase), floor, 1e-6);
+    for (const auto& [phase, floor] :
+         {std::pair{Phase::build, .05}, {Phase::query, .15}, {Phase::build_and_query, .15}})
+        EXPECT_NEAR(*floors.of(maker.results.cells[brief], phase), floor, 1e-6);
 }
 
 } // namespace

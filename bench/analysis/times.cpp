@@ -155,6 +155,10 @@ NoiseFloors::Likeness NoiseFloors::likeness(const results::Cell& cell, Phase pha
 }
 
 std::optional<double> NoiseFloors::of(const results::Cell& cell, Phase phase) const {
+    if (phase == Phase::build_and_query)
+        return std::max(of(cell, Phase::build), of(cell, Phase::query));
+    if (phase == Phase::update_and_query)
+        return std::max(of(cell, Phase::update), of(cell, Phase::query));
     const Likeness alike = likeness(cell, phase);
     const auto found = floors_.find(alike);
     return found != floors_.end()           ? std::optional(found->second)

@@ -52,7 +52,7 @@ std::vector<Timing> timings_of(const Plan& plan, const results::Results& prepare
     std::vector<Timing> timings;
     Calibrations lasting = calibrations; // twins are of cells that are in every round, if there are
     for (const PlannedCell& cell : plan.cells)
-        if (cell.rounds)
+        if (cell.rounds && *cell.rounds < plan.rounds)
             lasting.erase(cell.name);
     const std::set<std::string> twins =
         choose_twins(prepared, lasting.empty() ? calibrations : lasting);
