@@ -48,26 +48,6 @@ std::optional<double> floor_of(const Results& results) {
     return NoiseFloors(results, Times(results)).highest();
 }
 
-TEST(Medians, MedianSpreadAndTails) {
-    Maker maker(5);
-    const auto id = maker.cell("x", false);
-    maker.time(id, Phase::query, [](std::uint32_t round) {
-        return std::array{5., 1., 3., 2., 100.}[round];
-    });
-    maker.time(id, Phase::query, steady(7), results::aa_twin);
-    maker.results.samples.push_back(maker.results.samples[0]);
-    maker.results.samples.back().wall_ns = results::missing;
-    const auto stats = medians_of(maker.results, Times(maker.results));
-    ASSERT_EQ(stats.size(), 1u);
-    EXPECT_EQ(stats[0].phase, Phase::query);
-    EXPECT_EQ(stats[0].n, 5u);
-    EXPECT_EQ(stats[0].median_ns, 3);
-    EXPECT_EQ(stats[0].mad_ns, 2); // of 2 2 0 1 97
-    EXPECT_EQ(stats[0].min_ns, 1);
-    EXPECT_DOUBLE_EQ(stats[0].p95_ns, 81); // numpy.percentile([1, 2, 3, 5, 100], 95)
-    EXPECT_DOUBLE_EQ(stats[0].p99_ns, 96.2);
-}
-
 TEST(ComparePeers, PairedRoundsSeeThroughDrift) {
     Maker maker(9);
     const auto ours = maker.cell("ours", false), peer = maker.cell("peer", true);
@@ -443,9 +423,10 @@ TEST(NoiseFloor, IsThatOfTheKind) {
     maker.time(brief, Phase::build, steady(1.05e3), results::aa_twin);
     const Times times(maker.results);
     const NoiseFloors floors(maker.results, times);
-    for (const auto& [phase, floor] :
-         {std::pair{Phase::cold_build, .5}, {Phase::build, .4}, {Phase::query, .01},
-          {Phase::build_and_query, .4}})
+    for (const auto& [phase, floor] : {std::pair{Phase::cold_build, .5},
+                                       {Phase::build, .4},
+                                       {Phase::query, .01},
+                                       {Phase::build_and_query, .4}})
         EXPECT_NEAR(*floors.of(maker.results.cells[lengthy], phase), floor, 1e-6);
     for (const auto& [phase, floor] :
          {std::pair{Phase::build, .05}, {Phase::query, .15}, {Phase::build_and_query, .15}})

@@ -1,7 +1,11 @@
 #include "bench/analysis/limits.h"
 
+#include "bench/analysis/times.h"
+#include "bench/testing/maker.h"
+
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 namespace boxwood::bench {
@@ -100,6 +104,26 @@ TEST(Limits, OfADeviceAreItsMemoryALaunchAndTheBus) {
     r.counters[1].value = 12'000'000; // rays, say
     EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::upload), 3'000'000);
     EXPECT_DOUBLE_EQ(limit_ns(r, cell, Phase::query), 2000 + 1'000'000 + 5'000'000);
+}
+
+TEST(Medians, MedianSpreadAndTails) {
+    Maker maker(5);
+    const auto id = maker.cell("x", false);
+    maker.time(id, Phase::query, [](std::uint32_t round) {
+        return std::array{5., 1., 3., 2., 100.}[round];
+    });
+    maker.time(id, Phase::query, steady(7), results::aa_twin);
+    maker.results.samples.push_back(maker.results.samples[0]);
+    maker.results.samples.back().wall_ns = results::missing;
+    const auto stats = medians_of(maker.results, Times(maker.results));
+    ASSERT_EQ(stats.size(), 1u);
+    EXPECT_EQ(stats[0].phase, Phase::query);
+    EXPECT_EQ(stats[0].n, 5u);
+    EXPECT_EQ(stats[0].median_ns, 3);
+    EXPECT_EQ(stats[0].mad_ns, 2); // of 2 2 0 1 97
+    EXPECT_EQ(stats[0].min_ns, 1);
+    EXPECT_DOUBLE_EQ(stats[0].p95_ns, 81); // numpy.percentile([1, 2, 3, 5, 100], 95)
+    EXPECT_DOUBLE_EQ(stats[0].p99_ns, 96.2);
 }
 
 } // namespace
