@@ -238,6 +238,9 @@ ReplayReport replayed(const RecordedProgram& program, const std::vector<ReplayEn
 
 int run(const ReplayOptions& options) {
     const std::vector<ReplayEntry> entries = chosen_entries(options.only);
+    constexpr std::size_t max_queries = 10'000'000;
+    if (options.made.distances > max_queries / options.made.frames)
+        throw BadInput(fmt::format("--distances times --frames: at most {}", max_queries));
     const RecordedProgram program =
         options.file.empty() ? made_program(options.made) : read_program(options.file);
     if (program.calls.empty())
@@ -311,17 +314,17 @@ void add_replay(CLI::App& app, int& exit_code) {
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
     command->add_flag("--json", options->json, "print one JSON object");
-    command->footer(
-        "To record, put a recorder before the manager of your program:\n"
-        "  #include <boxwood/trees/adapters/fcl_recorder.h>\n"
-        "  boxwood::FclRecorder<double> recorder(manager, \"program.h5\");\n"
-        "and call `recorder` where you called `manager`. Compile with FCL and HDF5.\n"
-        "Examples:\n  boxwood replay program.h5\n"
-        "  boxwood replay --bodies 10000 --moved 0.01\n"
-        "  boxwood replay --bodies 1000 --triangles 1000 --distances 100\n"
-        "  boxwood replay program.h5 --only 'boxwood|array' --rounds 21 --json\n"
-        "Exit codes: 0 done, 1 a manager of Boxwood's answered wrongly, 2 no recording,\n"
-        "130 interrupted (what was done is printed).");
+    command->footer("To record, put a recorder before the manager of your program:\n"
+                    "  #include <boxwood/trees/adapters/fcl_recorder.h>\n"
+                    "  boxwood::FclRecorder<double> recorder(manager, \"program.h5\");\n"
+                    "and call `recorder` where you called `manager`. Compile with FCL and HDF5.\n"
+                    "Examples:\n  boxwood replay program.h5\n"
+                    "  boxwood replay --bodies 10000 --moved 0.01\n"
+                    "  boxwood replay --bodies 1000 --triangles 1000 --distances 100\n"
+                    "  boxwood replay program.h5 --only 'boxwood|array' --rounds 21 --json\n"
+                    "Exit codes: 0 done, 1 a manager of Boxwood's showed wrong pairs of bounds, 2 "
+                    "no recording,\n"
+                    "130 interrupted (what was done is printed).");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -137,8 +137,8 @@ RecordedProgram made_program(const MadeProgramOptions& options) {
             add_call(program, Call::update_all, {}, first_state);
         add_call(program, Call::collide_self, {}, program.states.size());
         for (std::size_t i = 0; i < options.distances; ++i) {
-            const std::size_t turn = frame * options.distances + i; // they take turns
-            const std::uint32_t object = objects[turn * 7919 % objects.size()];
+            const std::uint32_t object = // they take turns
+                objects[(frame * options.distances + i) % objects.size()];
             add_call(program, Call::distance_object, std::span(&object, 1), program.states.size());
         }
     }

@@ -327,6 +327,26 @@ TEST_F(Replays, AMadeProgramMayBeOfMeshes) {
     EXPECT_TRUE(report.outcomes.back().has_shapes);
 }
 
+TEST_F(Replays, CoalAnswersAsFclDoes) {
+    std::vector<ReplayEntry> coal = replay_entries();
+    std::erase_if(coal, [](const ReplayEntry& e) {
+        return !e.is_truth && e.name != "boxwood.world" && e.library != "coal" &&
+               e.name.find("coal") == e.name.npos;
+    });
+    const auto n_coal = std::ranges::count(coal, std::string("coal"), &ReplayEntry::library);
+    if (n_coal == 0)
+        GTEST_SKIP() << "Coal is not installed: scripts/setup --with-coal";
+    record_program<double>(file_);
+    for (const RecordedProgram& program :
+         {read(), made_program({.bodies = 60, .triangles = 200, .frames = 2, .distances = 5})}) {
+        const ReplayReport report = run(program, coal);
+        EXPECT_GT(report.outcomes.size(), 3u);
+        EXPECT_GE(std::ranges::count(report.outcomes, true, &ReplayOutcome::has_shapes), 3);
+        for (const ReplayOutcome& outcome : report.outcomes)
+            EXPECT_EQ(outcome.wrong, 0u) << outcome.name;
+    }
+}
+
 TEST_F(Replays, ChecksUntilSoManyPairsWereTested) {
     record_program<double>(file_);
     const ReplayReport report = run(read(), fcl_entries(), 60. * 60 / 2 + 60);

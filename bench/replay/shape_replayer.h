@@ -13,7 +13,9 @@ namespace boxwood::bench {
 /// no, and distances without points. A Library has
 ///   Api, Geometry (a shared pointer), Rotation, Translation,
 ///   Geometry geometry_of(program, RecordedProgram::Geometry),
-///   bool touch(Object*, Object*) and double distance(Object*, Object*).
+///   bool touch(Object*, Object*),
+///   Nearest (of a query: the nearest pair so far, which spares others their search) and
+///   double distance(Object*, Object*, Nearest&), that of the nearest pair with this one.
 template <class Library> class ShapeReplayer final : public Replay {
     using Api = typename Library::Api;
     using Object = typename Api::Object;
@@ -61,6 +63,7 @@ template <class Library> class ShapeReplayer final : public Replay {
     struct Seen {
         ReplayedCall& to;
         bool ends; ///< at the first pair that touches
+        typename Library::Nearest nearest{};
 
         bool add(Object* a, Object* b) {
             if (a == b || !Library::touch(a, b))
@@ -72,7 +75,8 @@ template <class Library> class ShapeReplayer final : public Replay {
         bool add(Object* a, Object* b, Number& least) {
             if (a == b)
                 return false;
-            to.min_distance = std::min(to.min_distance, std::max(Library::distance(a, b), 0.));
+            to.min_distance =
+                std::min(to.min_distance, std::max(Library::distance(a, b, nearest), 0.));
             least = static_cast<Number>(to.min_distance);
             return to.min_distance <= 0;
         }

@@ -86,12 +86,12 @@ struct CoalShapes {
         coal::CollisionResult result;
         return coal::collide(a, b, request, result) > 0;
     }
-    static double distance(const Object* a, const Object* b) {
+    using Nearest = coal::DistanceResult;
+    static double distance(const Object* a, const Object* b, Nearest& nearest) {
         coal::DistanceRequest request;
         request.enable_signed_distance = false;
-        coal::DistanceResult result;
-        coal::distance(a, b, request, result);
-        return result.min_distance;
+        coal::distance(a, b, request, nearest);
+        return nearest.min_distance;
     }
 };
 

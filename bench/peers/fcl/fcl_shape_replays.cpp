@@ -93,11 +93,11 @@ struct FclShapes {
         fcl::CollisionResultd result;
         return fcl::collide(a, b, request, result) > 0;
     }
-    static double distance(const Object* a, const Object* b) {
+    using Nearest = fcl::DistanceResultd;
+    static double distance(const Object* a, const Object* b, Nearest& nearest) {
         const fcl::DistanceRequestd request;
-        fcl::DistanceResultd result;
-        fcl::distance(a, b, request, result);
-        return result.min_distance;
+        fcl::distance(a, b, request, nearest);
+        return nearest.min_distance;
     }
 };
 
