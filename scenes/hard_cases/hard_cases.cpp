@@ -92,6 +92,7 @@
     X(hull_and_hull)                                                                               \
     X(nearly_touching_shapes)                                                                      \
     X(thin_shapes)                                                                                 \
+    X(deep_shapes)                                                                                 \
     X(generic_vertex_face)                                                                         \
     X(generic_edge_edge)                                                                           \
     X(just_missed_vertex_face)                                                                     \

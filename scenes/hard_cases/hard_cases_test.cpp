@@ -323,6 +323,7 @@ TEST(HardCases, SameBitsOnEveryMachine) {
         {"cylinder_and_ellipsoid", 5752297048902739077u},
         {"cylinder_and_hull", 17340779470633723255u},
         {"decimal_scale", 1956400356719761115u},
+        {"deep_shapes", 5079389381949180164u},
         {"edge_on_edge", 3157825884334223102u},
         {"ellipsoid_and_ellipsoid", 9420075258365754487u},
         {"ellipsoid_and_hull", 11496397947398921611u},
