@@ -203,8 +203,10 @@ vertex with a NaN or a number of 2^60 or more, and for an unknown name.)")
 
 Returns MeshDistance(distance, lo, hi, point_a, point_b, triangle_a,
 triangle_b): the true distance lies between lo and hi, 2^-32 of it apart, and
-all three are 0 exactly where they touch. Of a Shape the bounds are a little
-wider, and triangle_b is -1. The points are in world coordinates.
+all three are 0 exactly where they touch. Of a Shape triangle_b is -1, and
+the bounds are 2e-14 of the size of both wider (of cylinders, cones and
+ellipsoids in rare cases 2^-19 of the distance). The points are in world
+coordinates.
 relative, absolute: the answer may be farther than the least distance, so that
     hi <= (lo + absolute) / (1 - relative).)")
         .def(
@@ -217,7 +219,9 @@ relative, absolute: the answer may be farther than the least distance, so that
                 });
             },
             arg("other"), arg("tolerance"), at, other_at,
-            "Whether the two are at most `tolerance` apart.")
+            "Whether the two are at most `tolerance` apart; of a Shape also where they are farther "
+            "by "
+            "no more than the bounds of `distance` are wide.")
         .def("contacts", &contacts_of, arg("other"), at, other_at, py::kw_only(),
              arg("max_contacts") = py::none(),
              R"(Where the two touch, the deepest first.

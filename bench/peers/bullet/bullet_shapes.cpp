@@ -14,8 +14,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
+#include <optional>
+#include <stdexcept>
+#include <variant>
 
 namespace boxwood::bench {
 namespace on_shapes {
@@ -23,7 +25,7 @@ namespace {
 
 using Shape = std::unique_ptr<btConvexInternalShape>;
 
-/// Null for an ellipsoid, which Bullet has not. Its margins would round what has corners.
+/// Its margins would round what has corners.
 Shape shape_of(const ShapeOfPair& of) {
     const std::vector<double> doubles = lengths_of(of.shape);
     const auto length = [&](std::size_t i) { return static_cast<btScalar>(doubles[i]); };
@@ -51,7 +53,7 @@ Shape shape_of(const ShapeOfPair& of) {
         return sharp(std::move(hull));
     }
     default:
-        return nullptr;
+        throw std::invalid_argument("Bullet has no such shape");
     }
 }
 
@@ -87,8 +89,6 @@ struct Pair {
 /// needs no distance, so that GJK ends at the first axis that separates them so far. Where they
 /// overlap it may end at a distance that is not quite 0.
 Decision collide(Pair& p) {
-    if (!p.a || !p.b)
-        return {Answer::maybe, 0};
     const btScalar touch = p.rounding, at_most = p.a->getMargin() + p.b->getMargin() + touch;
     p.input.m_maximumDistanceSquared = at_most * at_most;
     btVoronoiSimplexSolver simplex;
@@ -102,8 +102,6 @@ Decision collide(Pair& p) {
 }
 
 template <bool is_signed> Distance distance(const Pair& p) {
-    if (!p.a || !p.b)
-        return plain_distance(std::numeric_limits<double>::quiet_NaN());
     btVoronoiSimplexSolver simplex;
     btGjkEpaPenetrationDepthSolver depth;
     btGjkPairDetector detector(p.a.get(), p.b.get(), &simplex, is_signed ? &depth : nullptr);
@@ -113,15 +111,28 @@ template <bool is_signed> Distance distance(const Pair& p) {
     return plain_distance(is_signed ? found : std::max(found, 0.0));
 }
 
+std::optional<std::string> cannot(const Job& job) {
+    const auto is_ellipsoid = [](const ShapeOfPair& of) {
+        return of.shape.kind() == convex::ShapeKind::ellipsoid;
+    };
+    const auto* const cases =
+        job.scene ? std::get_if<std::vector<ShapePairCase>>(&job.scene->cases) : nullptr;
+    if (cases && std::ranges::any_of(*cases, [&](const ShapePairCase& c) {
+            return is_ellipsoid(c.a) || is_ellipsoid(c.b);
+        }))
+        return "Bullet has no ellipsoids";
+    return std::nullopt;
+}
+
 } // namespace
 } // namespace on_shapes
 
 std::vector<ContenderEntry> bullet_shapes() {
     using namespace on_shapes;
     const std::string notes =
-        "input rounded to float; margins 0 but of spheres and capsules, whose radius it is; it has "
-        "no ellipsoids; one pair per call";
-    return {
+        "input rounded to float; margins 0 but of spheres and capsules, whose radius it is; one "
+        "pair per call";
+    std::vector<ContenderEntry> all{
         each_case<ShapePairCase, Pair, collide>(
             "shape_collide", "bullet", "shapes.collide", "f32",
             "Bullet's btGjkPairDetector without a solver for depth",
@@ -135,6 +146,9 @@ std::vector<ContenderEntry> bullet_shapes() {
         each_case<ShapePairCase, Pair, distance<true>>(
             "signed_shape_distance", "bullet", "shapes.signed_distance", "f32",
             "Bullet's btGjkPairDetector with btGjkEpaPenetrationDepthSolver", notes)};
+    for (ContenderEntry& e : all)
+        e.cannot = cannot;
+    return all;
 }
 
 } // namespace boxwood::bench

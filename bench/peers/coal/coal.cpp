@@ -223,6 +223,14 @@ Peer coal_peer() {
     peer.contenders.push_back(kernel("shapes.distance", "shape_distance",
                                      "ComputeDistance on two shapes, not signed", kept,
                                      CoalKernel::shapes_distance));
+    const std::string nesterov = "gjk_variant NesterovAcceleration; ";
+    peer.contenders.push_back(
+        kernel("shapes.collide.nesterov", "shape_collide",
+               "ComputeCollision on two shapes, enable_contact off, Nesterov's acceleration",
+               nesterov + "distance_upper_bound 0; " + kept, CoalKernel::shapes_collide_nesterov));
+    peer.contenders.push_back(kernel("shapes.distance.nesterov", "shape_distance",
+                                     "ComputeDistance on two shapes, Nesterov's acceleration",
+                                     nesterov + kept, CoalKernel::shapes_distance_nesterov));
     peer.contenders.push_back(kernel("shapes.signed_distance", "signed_shape_distance",
                                      "ComputeDistance on two shapes, signed, its default", kept,
                                      CoalKernel::shapes_signed_distance));

@@ -33,7 +33,9 @@ enum class CoalKernel : std::uint8_t {
     collide_with_contact,
     distance,
     shapes_collide,
+    shapes_collide_nesterov,
     shapes_distance,
+    shapes_distance_nesterov,
     shapes_signed_distance
 };
 /// Of convex shapes. In shapes.cpp, within the module.

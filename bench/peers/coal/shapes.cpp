@@ -69,16 +69,19 @@ template <class Compute> struct Kept {
           pose_b(transform_of(c.b.pose)), compute(std::make_unique<Compute>(a.get(), b.get())) {}
 };
 
-Decision collide(Kept<coal::ComputeCollision>& of) {
+template <coal::GJKVariant variant> Decision collide(Kept<coal::ComputeCollision>& of) {
     coal::CollisionRequest request;
+    request.gjk_variant = variant;
     request.enable_contact = false;
     request.distance_upper_bound = 0; // GJK ends as soon as it knows that they are apart
     of.touches.clear();
     return yes_or_no((*of.compute)(of.pose_a, of.pose_b, request, of.touches) > 0);
 }
 
-template <bool is_signed> Distance distance(Kept<coal::ComputeDistance>& of) {
+template <bool is_signed, coal::GJKVariant variant = coal::DefaultGJK>
+Distance distance(Kept<coal::ComputeDistance>& of) {
     coal::DistanceRequest request;
+    request.gjk_variant = variant;
     request.enable_signed_distance = is_signed;
     of.nearest.clear();
     (*of.compute)(of.pose_a, of.pose_b, request, of.nearest);
@@ -90,10 +93,16 @@ template <bool is_signed> Distance distance(Kept<coal::ComputeDistance>& of) {
 } // namespace
 
 std::unique_ptr<Contender> make_coal_shapes(const Job& job, CoalKernel kernel) {
+    using Collisions = Kept<coal::ComputeCollision>;
     using Distances = Kept<coal::ComputeDistance>;
     switch (kernel) {
     case CoalKernel::shapes_collide:
-        return over_cases<ShapePairCase, Kept<coal::ComputeCollision>, collide>(job);
+        return over_cases<ShapePairCase, Collisions, collide<coal::DefaultGJK>>(job);
+    case CoalKernel::shapes_collide_nesterov:
+        return over_cases<ShapePairCase, Collisions, collide<coal::NesterovAcceleration>>(job);
+    case CoalKernel::shapes_distance_nesterov:
+        return over_cases<ShapePairCase, Distances, distance<false, coal::NesterovAcceleration>>(
+            job);
     case CoalKernel::shapes_distance:
         return over_cases<ShapePairCase, Distances, distance<false>>(job);
     case CoalKernel::shapes_signed_distance:

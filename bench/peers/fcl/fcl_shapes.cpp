@@ -65,11 +65,21 @@ template <class S> struct Pair {
     fcl::Transform3<S> pose_a, pose_b;
     fcl::CollisionResult<S> touches;
     fcl::DistanceResult<S> nearest;
-    bool are_spheres;
+    bool has_depth; ///< of its contact, in closed form
     explicit Pair(const ShapePairCase& c)
         : a(geometry_of<S>(c.a)), b(geometry_of<S>(c.b)), pose_a(transform_of<S>(c.a.pose)),
-          pose_b(transform_of<S>(c.b.pose)), are_spheres(a->getNodeType() == fcl::GEOM_SPHERE &&
-                                                         b->getNodeType() == fcl::GEOM_SPHERE) {}
+          pose_b(transform_of<S>(c.b.pose)), has_depth(depth_is_closed(*a, *b)) {}
+
+    static bool depth_is_closed(const fcl::CollisionGeometry<S>& a,
+                                const fcl::CollisionGeometry<S>& b) {
+        const auto is_round = [](fcl::NODE_TYPE type) {
+            return type == fcl::GEOM_SPHERE || type == fcl::GEOM_BOX || type == fcl::GEOM_CAPSULE ||
+                   type == fcl::GEOM_CYLINDER;
+        };
+        const fcl::NODE_TYPE one = a.getNodeType(), two = b.getNodeType();
+        return (one == fcl::GEOM_SPHERE && is_round(two)) ||
+               (two == fcl::GEOM_SPHERE && is_round(one));
+    }
 };
 
 template <class S, fcl::GJKSolverType solver> Decision collide(Pair<S>& p) {
@@ -80,14 +90,17 @@ template <class S, fcl::GJKSolverType solver> Decision collide(Pair<S>& p) {
                      0);
 }
 
-/// Of two spheres FCL has the depth in closed form, as that of a contact; its polytope needs tens
-/// of milliseconds for them.
-template <class S> Distance depth_of_contact(Pair<S>& p) {
+/// Of a sphere and another, a box, a capsule or a cylinder FCL has the depth in closed form, as
+/// that of a contact; its polytope needs tens of milliseconds for two spheres.
+template <class S, fcl::GJKSolverType solver> Distance depth_of_contact(Pair<S>& p) {
     fcl::CollisionRequest<S> request;
     request.enable_contact = true;
+    request.gjk_solver_type = solver;
     p.touches.clear();
     fcl::collide<S>(p.a.get(), p.pose_a, p.b.get(), p.pose_b, request, p.touches);
-    return plain_distance(-static_cast<double>(p.touches.getContact(0).penetration_depth));
+    return plain_distance(p.touches.isCollision()
+                              ? -static_cast<double>(p.touches.getContact(0).penetration_depth)
+                              : 0);
 }
 
 /// NaN where FCL gives up: its polytope throws.
@@ -96,11 +109,12 @@ template <class S, fcl::GJKSolverType solver, bool is_signed> Distance distance(
     request.enable_signed_distance = is_signed;
     request.gjk_solver_type = solver;
     p.nearest.clear();
-    if (!is_signed || p.are_spheres) {
+    if (!is_signed || p.has_depth) {
         request.enable_signed_distance = false;
         fcl::distance<S>(p.a.get(), p.pose_a, p.b.get(), p.pose_b, request, p.nearest);
         const auto found = static_cast<double>(p.nearest.min_distance);
-        return is_signed && found < 0 ? depth_of_contact(p) : plain_distance(std::max(found, 0.0));
+        return is_signed && found < 0 ? depth_of_contact<S, solver>(p)
+                                      : plain_distance(std::max(found, 0.0));
     }
     try {
         fcl::distance<S>(p.a.get(), p.pose_a, p.b.get(), p.pose_b, request, p.nearest);
@@ -131,8 +145,10 @@ void append(std::vector<ContenderEntry>& all, const std::string& after, const st
         all.push_back(each_case<ShapePairCase, Pair<S>, distance<S, solver, true>>(
             "signed_shape_distance", "fcl", name + "signed_distance" + after, precision,
             "FCL's signed distance of two shapes, " + how,
-            "without points; two spheres by distance and, where they overlap, the depth of their "
-            "contact, which is a closed form; no answer where FCL throws; " +
+            "without points; a sphere and another, a box, capsule or cylinder by distance and, "
+            "where "
+            "they overlap, the depth of their contact, which is a closed form; the rest by its "
+            "polytope; no answer where FCL throws; " +
                 notes));
 }
 

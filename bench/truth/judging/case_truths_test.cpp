@@ -378,6 +378,7 @@ TEST(CaseTruth, ShapesAreAsFarApartAsTheyWerePut) {
         return judged(scene, task, answers_of<Distance>({{distance, lo, hi}}), named(promise));
     };
     EXPECT_FALSE(is_broken(judge(1, 1, 1, Promise::certified)));
+    EXPECT_EQ(judge(1, 1, 1, Promise::certified).check.oracle, "construction");
     EXPECT_FALSE(is_broken(judge(1, 1, 1, Promise::certified, "shape_distance")));
     EXPECT_FALSE(is_broken(judge(1, .9999999, 1, Promise::certified)));
     EXPECT_TRUE(is_broken(judge(1.1, 1.1, 1.1, Promise::certified)));

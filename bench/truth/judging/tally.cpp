@@ -47,7 +47,8 @@ Worth worth_of(Promise promise, Answer said, bool truth) {
 
 Tally::Tally(const CaseScene& scene, const ContenderEntry& contender)
     : promise_(contender.promise), yes_is_proven_(contender.yes_is_proven),
-      panel_(panel_of(scene.scene)), n_cases_(n_cases(scene.scene.cases)) {
+      panel_(panel_of(scene.scene)), n_cases_(n_cases(scene.scene.cases)),
+      is_by_construction_(std::holds_alternative<std::vector<ShapePairCase>>(scene.scene.cases)) {
     const HardCaseFamily* family = find_hard_case_family(scene.scene.spec.generator);
     row_.family = family ? std::string(family->name) : "typical";
     row_.panel = to_string(panel_);
@@ -122,7 +123,7 @@ Judgement Tally::rows(std::string witness) const {
         row_.n > 0 ? 1 - static_cast<double>(row_.tier_0) / static_cast<double>(row_.n)
                    : results::missing;
     results::Check& check = all.check;
-    check.oracle = "rational";
+    check.oracle = is_by_construction_ ? "construction" : "rational";
     check.n_checked = row_.n;
     check.n_expected = is_yes_no_ ? true_yes_ : row_.n;
     check.n_got = is_yes_no_ ? said_yes_ : row_.n;

@@ -56,6 +56,7 @@ class Tally {
     bool yes_is_proven_;
     Panel panel_;
     std::size_t n_cases_;
+    bool is_by_construction_; ///< the truth
     results::KernelRow row_;
     bool is_yes_no_ = false;
     std::uint64_t true_yes_ = 0, said_yes_ = 0;
