@@ -322,9 +322,8 @@ void add_replay(CLI::App& app, int& exit_code) {
                     "  boxwood replay --bodies 10000 --moved 0.01\n"
                     "  boxwood replay --bodies 1000 --triangles 1000 --distances 100\n"
                     "  boxwood replay program.h5 --only 'boxwood|array' --rounds 21 --json\n"
-                    "Exit codes: 0 done, 1 a manager of Boxwood's showed wrong pairs of bounds, 2 "
-                    "no recording,\n"
-                    "130 interrupted (what was done is printed).");
+                    "Exit codes: 0 done, 1 a manager of Boxwood's gave wrong pairs of bounds,\n"
+                    "2 no recording, 130 interrupted (what was done is printed).");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -71,6 +71,9 @@ inline bool is_of_one(recording::Call call) {
     return call == recording::Call::remove || call == recording::Call::collide_object ||
            call == recording::Call::distance_object;
 }
+inline bool is_with_others(recording::Call call) {
+    return call == recording::Call::collide_others || call == recording::Call::distance_others;
+}
 inline bool is_distance(recording::Call call) { return call >= recording::Call::distance_self; }
 
 /// Throws std::runtime_error, "FILE: cause and what to do", for what is no recording, or a damaged

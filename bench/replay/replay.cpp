@@ -51,10 +51,6 @@ std::vector<char> checked_queries(const RecordedProgram& program, double max_tes
     return checked;
 }
 
-bool is_with_others(recording::Call call) {
-    return call == recording::Call::collide_others || call == recording::Call::distance_others;
-}
-
 /// A query that the program's callback ended tells only that so many pairs overlap.
 bool is_right(const RecordedProgram::Call& call, const ReplayedCall& found,
               const ReplayedCall& truth) {

@@ -40,23 +40,16 @@ template <class Api> class CallsOf {
     /// `other`.
     template <class Seen>
     void make(recording::Call what, Manager& manager, Seen& seen, Manager* other = nullptr) const {
-        using enum recording::Call;
-        switch (what) {
-        case collide_self:
-            return Api::collide(manager, seen);
-        case collide_object:
-            return Api::collide(manager, seen, objects_[0]);
-        case collide_others:
-            return other ? Api::collide(manager, seen, other) : void();
-        case distance_self:
-            return Api::distance(manager, seen);
-        case distance_object:
-            return Api::distance(manager, seen, objects_[0]);
-        case distance_others:
-            return other ? Api::distance(manager, seen, other) : void();
-        default:
-            change(what, manager);
-        }
+        if (!is_query(what))
+            return change(what, manager);
+        const auto query = [&](auto... of) {
+            is_distance(what) ? Api::distance(manager, seen, of...)
+                              : Api::collide(manager, seen, of...);
+        };
+        if (!is_with_others(what))
+            is_of_one(what) ? query(objects_[0]) : query();
+        else if (other)
+            query(other);
     }
 
   private:
@@ -198,7 +191,7 @@ template <class Api> class Replayer final : public Replay {
     }
     /// Another manager of the same kind, where a query is with one.
     void make_other(recording::Call what) {
-        if (what != recording::Call::collide_others && what != recording::Call::distance_others)
+        if (!is_with_others(what))
             return;
         other_ = make_();
         other_->registerObjects(to_manager_.objects());
