@@ -28,12 +28,16 @@ foreach(peer IN LISTS peers_found)
     set(options "$<FILTER:$<TARGET_PROPERTY:boxwood_peer_${peer},COMPILE_OPTIONS>,EXCLUDE,^-W>")
     string(APPEND peer_flags "{\"${peer}\", \"${CMAKE_CXX_FLAGS_${build_type}} $<JOIN:${options}, >\"},")
 endforeach()
+set(peers_unoptimised "")
+if(NOT BOXWOOD_PEERS_OPTIMISE STREQUAL "-O3") # no such run is published
+    set(peers_unoptimised " (peers ${BOXWOOD_PEERS_OPTIMISE})")
+endif()
 file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/build_info.h CONTENT
 "// Made by bench/machine/build_info.cmake.
 #define BOXWOOD_VERSION \"${PROJECT_VERSION}\"
 #define BOXWOOD_BUILD_TYPE \"${CMAKE_BUILD_TYPE}\"
 #define BOXWOOD_SANITIZERS \"${BOXWOOD_SANITIZE}\"
-#define BOXWOOD_CXX_FLAGS \"${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${build_type}} $<JOIN:$<TARGET_PROPERTY:boxwood_options,INTERFACE_COMPILE_OPTIONS>, >\"
+#define BOXWOOD_CXX_FLAGS \"${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${build_type}} $<JOIN:$<TARGET_PROPERTY:boxwood_options,INTERFACE_COMPILE_OPTIONS>, >${peers_unoptimised}\"
 #define BOXWOOD_HDF5_VERSION \"${HDF5_VERSION}\"
 #define BOXWOOD_GBENCH_VERSION \"${benchmark_VERSION}\"
 #define BOXWOOD_ASSIMP_VERSION \"${assimp_VERSION}\"

@@ -212,6 +212,8 @@ def problems(root):
             found.append(f"{file}: {len(wrong)} of its numbers do not follow from its samples; the first: {wrong[0]}")
         if any(row["git_dirty"] for row in run.source["env"]):
             found.append(f"{file}: measured with changes that are in no commit")
+        if any("(peers -O" in cell_text(row["flags"]) for row in run.source["env"]):
+            found.append(f"{file}: measured against peers that were hardly optimised, as preset ci compiles them")
         if scenes_of(run) != frozen:
             found.append(f"{file}: its scenes are not those of track {sweep}-{version}; scripts/published --freeze raises the version")
         if run.noise_floor != run.noise_floor:

@@ -92,7 +92,7 @@ def test_tables_and_pictures_come_from_the_files(root):
 @pytest.mark.parametrize(
     "env, toml, problem",
     [({"host": "another"}, None, "more than one machine"), ({"git_commit": "b"}, None, "more than one commit"),
-     ({"git_dirty": 1}, None, "in no commit"), ({}, "", "does not hold the sweep")])
+     ({"git_dirty": 1}, None, "in no commit"), ({"flags": "-O2 (peers -O1)"}, None, "hardly optimised"), ({}, "", "does not hold the sweep")])
 def test_what_does_not_fit_together_is_said(root, env, toml, problem):
     file_of(root, "effects", synthetic.full())
     made = synthetic.full()
