@@ -431,6 +431,13 @@ TEST(NoiseFloor, IsThatOfTheKind) {
     for (const auto& [phase, floor] :
          {std::pair{Phase::build, .05}, {Phase::query, .15}, {Phase::build_and_query, .15}})
         EXPECT_NEAR(*floors.of(maker.results.cells[brief], phase), floor, 1e-6);
+    const auto mixed = maker.cell("brief build, long query", false);
+    maker.time(mixed, Phase::build, steady(1e3));
+    maker.time(mixed, Phase::query, steady(1e7));
+    const Times of_all(maker.results);
+    EXPECT_NEAR(
+        *NoiseFloors(maker.results, of_all).of(maker.results.cells[mixed], Phase::build_and_query),
+        .4, 1e-6); // as a long build
 }
 
 } // namespace

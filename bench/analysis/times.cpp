@@ -155,15 +155,16 @@ NoiseFloors::Likeness NoiseFloors::likeness(const results::Cell& cell, Phase pha
 }
 
 std::optional<double> NoiseFloors::of(const results::Cell& cell, Phase phase) const {
-    if (phase == Phase::build_and_query)
-        return std::max(of(cell, Phase::build), of(cell, Phase::query));
-    if (phase == Phase::update_and_query)
-        return std::max(of(cell, Phase::update), of(cell, Phase::query));
     const Likeness alike = likeness(cell, phase);
     const auto found = floors_.find(alike);
-    return found != floors_.end()           ? std::optional(found->second)
-           : alike.is_cold && highest(true) ? highest(true)
-                                            : highest();
+    const std::optional<double> as_one = found != floors_.end() ? std::optional(found->second)
+                                         : alike.is_cold && highest(true) ? highest(true)
+                                                                          : highest();
+    if (phase == Phase::build_and_query)
+        return std::max({as_one, of(cell, Phase::build), of(cell, Phase::query)});
+    if (phase == Phase::update_and_query)
+        return std::max({as_one, of(cell, Phase::update), of(cell, Phase::query)});
+    return as_one;
 }
 
 std::optional<double> NoiseFloors::highest(bool cold) const {

@@ -57,8 +57,8 @@ class NoiseFloors {
     /// Nothing from twins with fewer than 6 rounds.
     NoiseFloors(const results::Results& results, const Times& times);
 
-    /// Of what is like this phase of this cell, of a sum of two the higher; the highest where no
-    /// twin is. Nothing without twins.
+    /// Of what is like this phase of this cell, and for a sum of its parts, too, the highest; the
+    /// highest of all where no twin is. Nothing without twins.
     std::optional<double> of(const results::Cell& cell, results::Phase phase) const;
     /// For a comparison of two.
     std::optional<double> of(const results::Cell& a, const results::Cell& b,

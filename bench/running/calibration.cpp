@@ -56,7 +56,8 @@ Calibrations calibrations_of(std::string_view text) {
 }
 
 std::set<std::string> choose_twins(const results::Results& prepared,
-                                   const Calibrations& calibrations) {
+                                   const Calibrations& calibrations,
+                                   const std::set<std::string>& in_fewer_rounds) {
     std::map<std::uint32_t, bool> wrong, peer;
     for (const results::Check& check : prepared.checks)
         wrong[check.cell_id] |= check.status == results::Status::wrong;
@@ -64,8 +65,8 @@ std::set<std::string> choose_twins(const results::Results& prepared,
         peer[variant.variant_id] = variant.is_peer != 0;
 
     double all_ns = 0;
-    using Kind = std::tuple<bool, bool, bool>;          // a peer's, several threads, brief
-    using Cost = std::tuple<bool, double, std::string>; // wrong, ns, name
+    using Kind = std::tuple<bool, bool, bool>;                // a peer's, several threads, brief
+    using Cost = std::tuple<bool, bool, double, std::string>; // wrong, fewer rounds, ns, name
     std::map<Kind, Cost> least;
     for (const results::Cell& cell : prepared.cells) {
         const auto found = calibrations.find(cell.name);
@@ -77,7 +78,8 @@ std::set<std::string> choose_twins(const results::Results& prepared,
         const Kind kind =
             is_peer ? Kind{true, false, false}
                     : Kind{false, cell.threads > 1, std::max(c.build_ns, c.query_ns) < 1e6};
-        const Cost cost{wrong[cell.cell_id], round_ns(c), cell.name};
+        const Cost cost{wrong[cell.cell_id], in_fewer_rounds.contains(cell.name), round_ns(c),
+                        cell.name};
         const auto [entry, is_new] = least.try_emplace(kind, cost);
         if (!is_new)
             entry->second = std::min(entry->second, cost);
@@ -87,7 +89,7 @@ std::set<std::string> choose_twins(const results::Results& prepared,
         twins.push_back(cost);
     std::ranges::sort(twins);
     std::set<std::string> names;
-    for (const auto& [is_wrong, ns, name] : twins)
+    for (const auto& [is_wrong, is_rare, ns, name] : twins)
         if (names.empty() || (!is_wrong && ns < all_ns / 10))
             names.insert(name);
     return names;

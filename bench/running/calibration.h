@@ -33,8 +33,10 @@ Calibrations calibrations_of(std::string_view text);
 
 /// The A/A cells, which each round times twice: of each kind (ours on one thread or on several,
 /// with a query below a millisecond or not; peers) the right one that takes the least time, if it
-/// takes more than a tenth of the time of the round only where there is no other twin.
+/// takes more than a tenth of the time of the round only where there is no other twin; one of
+/// `in_fewer_rounds` only where its kind has no other.
 std::set<std::string> choose_twins(const results::Results& prepared,
-                                   const Calibrations& calibrations);
+                                   const Calibrations& calibrations,
+                                   const std::set<std::string>& in_fewer_rounds = {});
 
 } // namespace boxwood::bench

@@ -50,12 +50,11 @@ std::vector<Timing> timings_of(const Plan& plan, const results::Results& prepare
 
     const InputAnswers answers = input_answers_of(prepared.texts.at("inputs"));
     std::vector<Timing> timings;
-    Calibrations lasting = calibrations; // twins are of cells that are in every round, if there are
+    std::set<std::string> in_fewer_rounds;
     for (const PlannedCell& cell : plan.cells)
         if (cell.rounds && *cell.rounds < plan.rounds)
-            lasting.erase(cell.name);
-    const std::set<std::string> twins =
-        choose_twins(prepared, lasting.empty() ? calibrations : lasting);
+            in_fewer_rounds.insert(cell.name);
+    const std::set<std::string> twins = choose_twins(prepared, calibrations, in_fewer_rounds);
     for (const PlannedCell& cell : plan.cells) {
         const auto found = calibrations.find(cell.name);
         if (found == calibrations.end() || !cell.is_in(round))
