@@ -84,7 +84,7 @@ void add_check(CLI::App& app, int& exit_code) {
     check->add_option("--case", options->one,
                       "only the case of this number: print it, the truth and each answer");
     check->add_flag("--quick", options->is_quick,
-                    "fewer cases, fewest at the extreme scales: some two minutes");
+                    "fewer cases, fewest at the extreme scales: about a minute and a half");
     check->add_option("--ccd", options->ccd,
                       "a folder of query files for the families that read files, such as data/ccd");
     check->footer(

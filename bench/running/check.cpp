@@ -59,7 +59,6 @@ Outcome outcome_of(const ContenderEntry& contender, const Job& job, double budge
         const KeepFloatingPointMode keep;
         const std::unique_ptr<Contender> instance = contender.make(job);
         instance->build();
-        instance->query(to);
         return min_query_ns(*instance, to, budget_ns);
     };
     if (contender.is_peer)
