@@ -72,13 +72,14 @@ template <class S> struct Pair {
 
     static bool depth_is_closed(const fcl::CollisionGeometry<S>& a,
                                 const fcl::CollisionGeometry<S>& b) {
-        const auto is_round = [](fcl::NODE_TYPE type) {
+        const auto has_formula = [](fcl::NODE_TYPE type) {
             return type == fcl::GEOM_SPHERE || type == fcl::GEOM_BOX || type == fcl::GEOM_CAPSULE ||
                    type == fcl::GEOM_CYLINDER;
         };
         const fcl::NODE_TYPE one = a.getNodeType(), two = b.getNodeType();
-        return (one == fcl::GEOM_SPHERE && is_round(two)) ||
-               (two == fcl::GEOM_SPHERE && is_round(one));
+        return (one == fcl::GEOM_SPHERE && has_formula(two)) ||
+               (two == fcl::GEOM_SPHERE && has_formula(one)) ||
+               (one == fcl::GEOM_BOX && two == fcl::GEOM_BOX);
     }
 };
 
@@ -90,32 +91,31 @@ template <class S, fcl::GJKSolverType solver> Decision collide(Pair<S>& p) {
                      0);
 }
 
-/// Of a sphere and another, a box, a capsule or a cylinder FCL has the depth in closed form, as
-/// that of a contact; its polytope needs tens of milliseconds for two spheres.
-template <class S, fcl::GJKSolverType solver> Distance depth_of_contact(Pair<S>& p) {
-    fcl::CollisionRequest<S> request;
-    request.enable_contact = true;
-    request.gjk_solver_type = solver;
-    p.touches.clear();
-    fcl::collide<S>(p.a.get(), p.pose_a, p.b.get(), p.pose_b, request, p.touches);
-    return plain_distance(p.touches.isCollision()
-                              ? -static_cast<double>(p.touches.getContact(0).penetration_depth)
-                              : 0);
-}
-
-/// NaN where FCL gives up: its polytope throws.
-template <class S, fcl::GJKSolverType solver, bool is_signed> Distance distance(Pair<S>& p) {
+template <class S, fcl::GJKSolverType solver> Distance distance(Pair<S>& p) {
     fcl::DistanceRequest<S> request;
-    request.enable_signed_distance = is_signed;
     request.gjk_solver_type = solver;
     p.nearest.clear();
-    if (!is_signed || p.has_depth) {
-        request.enable_signed_distance = false;
-        fcl::distance<S>(p.a.get(), p.pose_a, p.b.get(), p.pose_b, request, p.nearest);
-        const auto found = static_cast<double>(p.nearest.min_distance);
-        return is_signed && found < 0 ? depth_of_contact<S, solver>(p)
-                                      : plain_distance(std::max(found, 0.0));
+    fcl::distance<S>(p.a.get(), p.pose_a, p.b.get(), p.pose_b, request, p.nearest);
+    return plain_distance(std::max(static_cast<double>(p.nearest.min_distance), 0.0));
+}
+
+/// By the contact, where FCL has its depth in closed form: its polytope needs tens of milliseconds
+/// for two spheres. NaN where FCL gives up: its polytope throws.
+template <class S, fcl::GJKSolverType solver> Distance signed_distance(Pair<S>& p) {
+    if (p.has_depth) {
+        fcl::CollisionRequest<S> request;
+        request.enable_contact = true;
+        request.gjk_solver_type = solver;
+        p.touches.clear();
+        fcl::collide<S>(p.a.get(), p.pose_a, p.b.get(), p.pose_b, request, p.touches);
+        if (!p.touches.isCollision())
+            return distance<S, solver>(p);
+        return plain_distance(-static_cast<double>(p.touches.getContact(0).penetration_depth));
     }
+    fcl::DistanceRequest<S> request;
+    request.enable_signed_distance = true;
+    request.gjk_solver_type = solver;
+    p.nearest.clear();
     try {
         fcl::distance<S>(p.a.get(), p.pose_a, p.b.get(), p.pose_b, request, p.nearest);
         return plain_distance(static_cast<double>(p.nearest.min_distance));
@@ -137,12 +137,12 @@ void append(std::vector<ContenderEntry>& all, const std::string& after, const st
         "shape_collide", "fcl", name + "collide" + after, precision,
         "FCL's collide on two shapes, " + how,
         "one contact without its point (enable_contact off); " + notes));
-    all.push_back(each_case<ShapePairCase, Pair<S>, distance<S, solver, false>>(
+    all.push_back(each_case<ShapePairCase, Pair<S>, distance<S, solver>>(
         "shape_distance", "fcl", name + "distance" + after, precision,
         "FCL's distance of two shapes, " + how,
         "not signed, without points; its -1 where they overlap is read as 0; " + notes));
     if constexpr (solver == fcl::GST_LIBCCD)
-        all.push_back(each_case<ShapePairCase, Pair<S>, distance<S, solver, true>>(
+        all.push_back(each_case<ShapePairCase, Pair<S>, signed_distance<S, solver>>(
             "signed_shape_distance", "fcl", name + "signed_distance" + after, precision,
             "FCL's signed distance of two shapes, " + how,
             "without points; a sphere and another, a box, capsule or cylinder by distance and, "
