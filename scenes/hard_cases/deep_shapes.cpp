@@ -60,16 +60,22 @@ ShapePairCase as_deep(const Drawn& a, const Drawn& b, double depth) {
     return with_slack(a, b, -depth, -depth);
 }
 
-/// A ball whose centre is in the other shape.
-ShapePairCase ball_in(Draws& draws) {
-    const ShapeKind kind = draw_kind(draws);
+/// A ball whose centre is in the other shape: `share` of the way from the middle of the ball inside
+/// it to its surface.
+ShapePairCase ball_in(ShapeKind kind, double share, Draws& draws) {
     Drawn a = draw_shape(kind, draws), b = draw_shape(ShapeKind::sphere, draws);
     const Vec to = a.farthest_along(draws.unit_vector());
-    const double share = kind == ShapeKind::ellipsoid ? 0 : draws.uniform(0, 0.95);
     const Vec centre = a.ball.centre + share * (to - a.ball.centre);
     a.posed.pose.translation = draw_offset(draws);
     b.posed.pose.translation = a.posed.pose(centre);
     return as_deep(a, b, b.ball.radius + depth_inside(a.posed, centre));
+}
+
+ShapePairCase ball_in(Draws& draws) {
+    ShapeKind kind = ShapeKind::ellipsoid; // has a closed form of its middle alone
+    while (kind == ShapeKind::ellipsoid)
+        kind = draw_kind(draws);
+    return ball_in(kind, draws.uniform(0, 0.95), draws);
 }
 
 /// Puts b, turned as a is, so far from a along its axes.
@@ -82,7 +88,7 @@ Vec draw_within(Vec half, Draws& draws) {
     return {half.x * draws.uniform(-0.95, 0.95), half.y * draws.uniform(-0.95, 0.95),
             half.z * draws.uniform(-0.95, 0.95)};
 }
-/// In the cylinder of this radius and half length.
+/// In the cylinder of this radius and half length: in a square prism in it.
 Vec draw_within(double radius, double half, Draws& draws) {
     return draw_within({radius * std::sqrt(0.5), radius * std::sqrt(0.5), half}, draws);
 }
@@ -115,7 +121,8 @@ ShapePairCase side_by_side(Draws& draws) {
     if (kind_a == ShapeKind::capsule) {
         const auto &one = as<convex::Capsule>(a), &two = as<convex::Capsule>(b);
         const convex::Capsule both{one.radius + two.radius, one.half_length + two.half_length};
-        return beside(both, draw_within(both.radius, both.half_length, draws), 0);
+        const double end = 0.3 * both.radius; // of what lies beyond the rod
+        return beside(both, draw_within(both.radius, both.half_length + end, draws), 0);
     }
     convex::Cylinder both = as<convex::Cylinder>(a);
     if (kind_b == ShapeKind::cylinder) {
@@ -133,11 +140,20 @@ ShapePairCase side_by_side(Draws& draws) {
 HardCaseFamily deep_shapes_family() {
     return in_range(
         rounded_family("deep_shapes", "convex shapes in each other, whose depth has a closed form",
-                       Panel::degenerate, [](const HardCaseSpec& spec, const Random& random) {
+                       Panel::generic, [](const HardCaseSpec& spec, const Random& random) {
                            return shape_pairs(spec, random, [](Draws& draws) {
                                return draw_coin(draws) ? ball_in(draws) : side_by_side(draws);
                            });
                        }));
+}
+
+HardCaseFamily ball_in_ellipsoid_family() {
+    return in_range(rounded_family(
+        "ball_in_ellipsoid", "a ball in the middle of an ellipsoid: both ways out are equally deep",
+        Panel::degenerate, [](const HardCaseSpec& spec, const Random& random) {
+            return shape_pairs(
+                spec, random, [](Draws& draws) { return ball_in(ShapeKind::ellipsoid, 0, draws); });
+        }));
 }
 
 } // namespace boxwood

@@ -93,6 +93,7 @@
     X(nearly_touching_shapes)                                                                      \
     X(thin_shapes)                                                                                 \
     X(deep_shapes)                                                                                 \
+    X(ball_in_ellipsoid)                                                                           \
     X(generic_vertex_face)                                                                         \
     X(generic_edge_edge)                                                                           \
     X(just_missed_vertex_face)                                                                     \

@@ -45,7 +45,7 @@ double searched_distance(const ShapePairCase& c, std::mt19937_64& random) {
         for (double step = 0.2; step > 1e-7;) {
             const Vec moved = n + step * draw();
             const double there = separation(c, moved);
-            step *= there > distance ? 1.5 : 0.93;
+            step *= there > distance ? 1.5 : 0.98;
             if (there > distance) {
                 distance = there;
                 n = moved * (1 / length(moved));
@@ -63,7 +63,7 @@ TEST(ShapePairs, DistancesAreThoseAlongTheBestDirection) {
         if (family.reads_file)
             continue;
         HardCaseSpec spec;
-        spec.n = 40;
+        spec.n = family.name == "deep_shapes" ? 200 : 40;
         const Cases cases = make_cases(family, spec);
         const auto* const pairs = std::get_if<std::vector<ShapePairCase>>(&cases);
         if (!pairs)
@@ -73,10 +73,10 @@ TEST(ShapePairs, DistancesAreThoseAlongTheBestDirection) {
             const ShapePairCase& c = (*pairs)[i];
             const double found = searched_distance(c, random);
             EXPECT_LE(found, c.hi + 1e-12) << family.name << " " << i;
-            EXPECT_GE(found, c.lo - 1e-3) << family.name << " " << i;
+            EXPECT_GE(found, c.lo - 1e-4) << family.name << " " << i;
         }
     }
-    EXPECT_EQ(families, 31u);
+    EXPECT_EQ(families, 32u);
 }
 
 } // namespace
