@@ -103,7 +103,7 @@ struct Health {
     std::uint64_t disturbed = 0;    ///< samples that lost time to the hypervisor or a switch
     double floor = missing;         ///< the A/A noise floor, relative
     double delta = missing;         ///< with which the verdicts were made
-    std::uint32_t is_too_noisy = 0; ///< the floor is above 20 %: measure again
+    std::uint32_t is_too_noisy = 0; ///< even the lowest floor is above 50 %
     std::uint64_t answers = 0;      ///< cells whose answers were checked
     std::uint64_t wrong_ours = 0, wrong_peers = 0;
     std::uint64_t broken_promises = 0; ///< of kernels of ours

@@ -279,13 +279,32 @@ TEST_F(Findings, ANoisyRunSaysRepeatThisInstead) {
     for (auto sample = run.results.samples.end() - 9; sample != run.results.samples.end();
          ++sample) {
         sample->flags = results::aa_twin;
-        sample->wall_ns = 400;
+        sample->wall_ns = 600;
     }
     const std::string text = screen();
     EXPECT_EQ(run.results.health[0].is_too_noisy, 1u);
     EXPECT_THAT(text, HasSubstr("REPEAT THIS"));
     EXPECT_THAT(text, Not(HasSubstr("FCL")));
     EXPECT_TRUE(run.results.findings.empty());
+}
+
+TEST_F(Findings, ARunThatIsNotQuietTellsWhatIsBeyondItsNoise) {
+    const auto cell = add("uniform", "pairs", "ours.packed", 100, 300);
+    add("uniform", "pairs", "fcl.tree", 100, 900);
+    add("clusters", "pairs", "ours.packed", 100, 300);
+    add("clusters", "pairs", "fcl.tree", 100, 380);
+    run.time(cell, Phase::query, 300);
+    for (auto sample = run.results.samples.end() - 9; sample != run.results.samples.end();
+         ++sample) {
+        sample->flags = results::aa_twin;
+        sample->wall_ns = 400;
+    }
+    const std::string text = screen();
+    EXPECT_THAT(text, HasSubstr("noise floor 33.3 %: not quiet"));
+    EXPECT_EQ(run.results.health[0].is_too_noisy, 0u);
+    ASSERT_EQ(run.results.findings.size(), 2u);
+    EXPECT_THAT(text, HasSubstr("wins 3.00x"));
+    EXPECT_THAT(text, HasSubstr("unsure, 1.27x"));
 }
 
 TEST_F(Findings, OneScreenHoldsAHundredQuestions) {

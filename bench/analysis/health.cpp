@@ -69,8 +69,9 @@ std::string trust_text(const Health& health, double lowest, std::ptrdiff_t busy)
         return text + fmt::format(": verdicts need at least {} rounds", min_pairs_verdict);
     if (std::isnan(health.floor))
         return text + ": no cell was timed twice";
-    const bool is_disturbed = 2 * health.disturbed > health.samples;
-    return text + (is_disturbed ? ": fit for verdicts, though not quiet" : ": quiet enough");
+    const bool is_quiet = lowest <= noisy_floor && 2 * health.disturbed <= health.samples;
+    return text + (is_quiet ? ": quiet enough"
+                            : ": not quiet; what differs by less than its floor is left open");
 }
 
 /// Names the first of our wrong answers, and the kernels that break a promise, the first ones at

@@ -150,7 +150,8 @@ Ruling decide_one(const Claim& asked, double p_adj, double level, double delta) 
         claim.reason = reason;
         return claim;
     };
-    const Reason within_the_floor = floor > max_floor ? Reason::too_noisy : Reason::below_the_floor;
+    const Reason within_the_floor =
+        floor > noisy_floor ? Reason::too_noisy : Reason::below_the_floor;
     if (n < min_pairs_verdict)
         return open(Reason::too_few_rounds);
     if (is_within(claim.ratio.ci_lo, delta) && is_within(claim.ratio.ci_hi, delta)) {

@@ -14,7 +14,8 @@ namespace boxwood::bench {
 
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double default_delta = 0.05; ///< "same" means within +-5 %
-inline constexpr double max_floor = 0.2;      ///< of noisier runs the advice is to repeat them
+inline constexpr double noisy_floor = 0.2;    ///< a claim below a higher one is open for noise
+inline constexpr double max_floor = 0.5;      ///< of a run of which anything is told
 inline constexpr double family_error = 0.05;  ///< of the claims of a family
 inline constexpr std::size_t min_pairs_interval = 6; ///< fewer give no 95 % interval
 inline constexpr std::size_t min_pairs_verdict = 9;  ///< fewer give no verdict

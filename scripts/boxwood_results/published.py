@@ -49,6 +49,7 @@ ALL = (
     races("queries", "queries", "Points, regions and nearest items", ("points", "regions", "nearest", "closest_points")),
     races("narrow", "narrow", "Mesh against mesh",
           ("collide", "collide_all", "contacts", "distance", "tolerance", "continuous")),
+    races("shapes", "shapes", "Convex shape against convex shape", ("shape_collide", "shape_distance", "signed_shape_distance")),
     races("moving", "dynamic", "Moving boxes, update and query of a frame", ("moving_pairs",)),
     Published("effects", "effects", "All stages over the required ones, ours against ourselves", against_ourselves),
     Published("accuracy", "accuracy", "Triangle against triangle: what a call costs and how often it is wrong",

@@ -38,7 +38,7 @@ def cold(run):
 class Question:
     """One question on one thread, and the fastest variant of each library against ours."""
 
-    finding: object
+    text: str
     group: str  # what it shares with the same question on other scenes
     measured: str
     known: dict  # library -> comparison
@@ -56,12 +56,29 @@ def questions(run, tasks):
     for block in found:
         task = run.tasks[block.job.task]
         group = ", ".join(filter(None, (task.title, block.contender_class)))
-        asked.append(Question(block.finding, group, task.total_title, block.fastest(0)))
-        asked.append(Question(block.finding, group, "query alone", block.fastest(1)))
-        asked += [Question(race.finding, group, "first build and query, fresh process",
+        asked.append(Question(block.finding.question, group, task.total_title, block.fastest(0)))
+        asked.append(Question(block.finding.question, group, "query alone", block.fastest(1)))
+        asked += [Question(race.finding.question, group, "first build and query, fresh process",
                            cold_builds.get((race.job, race.contender_class), {}))
                   for race in races if race.kind == block.kind and race.job.n >= block.job.n]
-    return [question for question in asked if question.known]
+    return [question for question in asked + kernel_questions(run, tasks) if question.known]
+
+
+def kernel_questions(run, tasks):
+    """Of kernels alone, family by family: the fastest of ours and of each library that is right."""
+    kernels = {point.cell.cell_id for point in run.kernels}
+    of_job = {}
+    for row in run.family(PEERS, "query"):
+        job = row.b.job
+        if row.b.cell_id in kernels and row.verdict != "wrong" and job.task in tasks and job.where == ONE:
+            of_job.setdefault(job, []).append(row)
+    asked = []
+    for job, rows in of_job.items():
+        ours = min((row.b for row in rows), key=lambda cell: cell.median("query"))
+        title = run.tasks[job.task].title
+        asked.append(Question(f"{title}, {job.scene.replace('_', ' ')}", title, f"{job.n:,} calls",
+                              forest.fastest(row for row in rows if row.b is ours)))
+    return asked
 
 
 def against_peers(*tasks):
@@ -74,7 +91,7 @@ def against_peers(*tasks):
         rows = [["question, one thread", "measured", "ours", *libraries.values()]]
         for question in asked:
             first = next(iter(question.known.values()))
-            rows.append([question.finding.question, question.measured, f"{first.b.label} {time_of(first)}",
+            rows.append([question.text, question.measured, f"{first.b.label} {time_of(first)}",
                          *(ratio_of(question.known[library]) if library in question.known else "" for library in libraries)])
         return rows
 

@@ -1,5 +1,6 @@
 """Every measured number of README.md leads to a file of results/published/, by a command that exists."""
 
+import math
 import re
 import shutil
 import subprocess
@@ -225,6 +226,23 @@ def test_a_race_is_shown_at_the_largest_size_that_most_libraries_ran():
     # A size of one class alone takes no row from another class, nor one scene's from another's.
     single, elsewhere = entry(10**6, ["fcl"], "single rays"), entry(10**6, ["fcl"], scene="clusters")
     assert fullest([most, single, elsewhere]) == [most, single, elsewhere]
+
+
+def test_kernels_have_a_row_for_each_family(tmp_path):
+    run = published.read(synthetic.full().write(tmp_path / "kernels.h5"))
+    rows = published_tables.against_peers("triangle_triangle")(run)[1:]
+    families = {point.cases.replace("_", " ") for point in run.kernels if point.task == "triangle_triangle"}
+    assert {row[0].removeprefix("triangle triangle, ") for row in rows} == families
+    for row in rows:
+        cases = row[0].removeprefix("triangle triangle, ")
+        points = [point for point in run.kernels if point.task == "triangle_triangle" and point.cases.replace("_", " ") == cases]
+        ours = min(point.ns for point in points if point.ours)
+        best = {}
+        for point in points:
+            if not point.ours and point.cell.status != "wrong":
+                best[point.library] = min(best.get(point.library, math.inf), point.ns / ours)
+        said = [float(re.match(r"[\d.]+", text)[0]) for text in row[3:] if text]
+        assert sorted(said) == pytest.approx(sorted(best.values()), rel=0.05)
 
 
 def test_first_builds_have_a_row_of_their_own(tmp_path):

@@ -141,7 +141,7 @@ def test_a_noisy_run_says_repeat_this_instead_of_findings(tmp_path, script):
     made = synthetic.small(9, twin=True)
     for row in made.rows["samples"]:
         if row["flags"] & 4:
-            row["wall_ns"] *= 1.5
+            row["wall_ns"] *= 2
     out = tmp_path / "r.html"
     assert script("report", made.write(tmp_path / "a.h5"), "--out", out).returncode == 0
     text = " ".join(Page(out.read_text()).text)
