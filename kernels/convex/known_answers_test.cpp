@@ -150,6 +150,75 @@ TEST(KnownAnswers, RoundShapesInOneAnotherHaveBoundsThatHold) {
               Answer::yes);
 }
 
+Vec3<double> times_each(Vec3<double> a, Vec3<double> b) {
+    return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
+TEST(KnownAnswers, ASphereLeavesAnEllipsoidByItsNearestPoint) {
+    RandomPoses random(5);
+    const Vec3<double> kinds[] = {{1, 1, 1},     {1, 2, 3},       {3, 2, 1},     {2, 2, 1},
+                                  {1, 2, 2},     {1, 1e-3, 1},    {1e-6, 1, 2},  {1, 1e-9, 1e-5},
+                                  {1e6, 1e6, 1}, {1e-20, 1, 1.5}, {1e-170, 1, 1}};
+    for (const Vec3<double> radii : kinds)
+        for (int i = 0; i < 3000; ++i) {
+            SCOPED_TRACE(testing::Message()
+                         << radii.x << ' ' << radii.y << ' ' << radii.z << ' ' << i);
+            Vec3<double> t = random.unit_vector();
+            if (i % 7 < 3)
+                t[i % 7] = i % 2 == 0 ? 0 : 1e-9; // in a plane of symmetry, or near it
+            t = t * (1 / length(t));
+            const Vec3<double> x = times_each(radii, t);
+            Vec3<double> n{t.x / radii.x, t.y / radii.y, t.z / radii.z};
+            n = n * (1 / std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)}));
+            n = n * (1 / length(n));
+            const double least = std::min({radii.x, radii.y, radii.z}),
+                         most = std::max({radii.x, radii.y, radii.z}), radius = i % 3 * .25;
+            // Inside up to where two points are as near: the least radius of curvature.
+            const double d =
+                i % 2 == 0 ? std::exp2(i % 40 - 30) : -least * (least / most) * (i % 100) / 100;
+            const Pose frame{random.rotation(), random.vector(1)};
+            const Pose ball{Pose{}.rotation, frame(x + n * d)};
+            const SignedDistance found =
+                signed_distance(Sphere{radius}, ball, Ellipsoid{radii}, frame);
+            const double size = 2 * most + std::abs(d) + 2;
+            EXPECT_LE(found.lo, d - radius + 2e-15 * size);
+            EXPECT_GE(found.hi, d - radius - 2e-15 * size);
+            EXPECT_LE(found.hi - found.lo, 1e-13 * size);
+            EXPECT_NEAR(found.distance, d - radius, 5e-15 * size);
+            EXPECT_NEAR(length(found.point_b - frame(x)), 0, 1e-6 * size);
+        }
+}
+
+TEST(KnownAnswers, ASphereDeepInAnEllipsoidHasSharpBounds) {
+    RandomPoses random(6);
+    for (int i = 0; i < 400; ++i) {
+        const Vec3<double> radii{std::exp2(i % 5), i % 3 == 0 ? 1 : std::exp2(-(i % 4)), 1};
+        Vec3<double> p = times_each(radii, random.unit_vector()) * (i % 10 / 10.);
+        if (i % 2 == 0)
+            p[i % 3] = 0; // as many as two points are as near
+        const SignedDistance d =
+            signed_distance(Sphere{.5}, {Pose{}.rotation, p}, Ellipsoid{radii}, Pose{});
+        EXPECT_LE(d.hi - d.lo, 2e-13 * std::max(radii.x, 1.0)) << i;
+        for (int k = 0; k < 2000; ++k) {
+            const Vec3<double> n = random.unit_vector(), on = times_each(radii, n);
+            EXPECT_LE(dot(n, p) - length(on) - .5, d.hi) << i; // no direction is a shorter way out
+            EXPECT_GE(length(p - on), -(d.hi + .5)) << i;      // and no point of the surface nearer
+        }
+        const Vec3<double> on = d.point_b;
+        EXPECT_NEAR(length(Vec3<double>{on.x / radii.x, on.y / radii.y, on.z / radii.z}), 1, 1e-14);
+        EXPECT_NEAR(length(on - p), -(d.distance + .5), 1e-13 * std::max(radii.x, 1.0)) << i;
+    }
+    expect_distance(signed_distance(Sphere{1}, Pose{}, Ellipsoid{{2, 3, 4}}, Pose{}), -3);
+    expect_distance(signed_distance(Sphere{1}, Pose{}, Ellipsoid{{2, 2, 2}}, Pose{}), -3);
+    // Flat ones: a disc, a rod, a point.
+    expect_distance(signed_distance(Sphere{1}, at(.25, .25, 3), Ellipsoid{{1, 1, 0}}, Pose{}), 2);
+    expect_distance(signed_distance(Sphere{1}, at(.25, .25, 0), Ellipsoid{{1, 1, 0}}, Pose{}), -1);
+    expect_distance(signed_distance(Sphere{1}, at(4, 0, 4), Ellipsoid{{1, 1, 0}}, Pose{}), 4);
+    expect_distance(signed_distance(Sphere{1}, at(.5, 3, 4), Ellipsoid{{1, 0, 0}}, Pose{}), 4);
+    expect_distance(signed_distance(Sphere{1}, at(4, 4, 0), Ellipsoid{{1, 0, 0}}, Pose{}), 4);
+    expect_distance(signed_distance(Sphere{1}, at(0, 3, 4), Ellipsoid{{0, 0, 0}}, Pose{}), 4);
+}
+
 TEST(KnownAnswers, FlatAndEmptyShapes) {
     const Box plate{{1, 1, 0}}, stick{{0, 0, 1}}, point{{0, 0, 0}};
     expect_distance(signed_distance(plate, Pose{}, plate, at(0, 0, 2)), 2);

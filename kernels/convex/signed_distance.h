@@ -27,8 +27,9 @@ struct Tolerance {
     double absolute = 0;
 };
 
-/// Closed forms: sphere with sphere, capsule, box, cylinder, cone; capsule with capsule (their
-/// segments); half-space and plane with all; the depth of boxes (15 directions).
+/// Closed forms: sphere with sphere, capsule, box, cylinder, cone, and by a root ellipsoid; capsule
+/// with capsule (their segments); half-space and plane with all; the depth of boxes (15
+/// directions).
 inline constexpr KernelInfo closed_form_info{
     "convex_convex",
     "closed_form",
@@ -36,7 +37,7 @@ inline constexpr KernelInfo closed_form_info{
     Promise::certified,
     "lo <= signed distance <= hi, width about 2e-14 of the size of all; derived in "
     "convex/detail/relative_pose.h",
-    "30 to 200 flops"};
+    "30 to 200 flops; ellipsoids some five turns of a search"};
 /// The rest: Gilbert-Johnson-Keerthi apart, the expanding polytope for depth.
 inline constexpr KernelInfo gjk_epa_info{
     "convex_convex",

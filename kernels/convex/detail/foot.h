@@ -6,11 +6,12 @@
 namespace boxwood::convex::detail {
 
 /// Where the surface is nearest to a point: signed distance (negative inside), and the direction in
-/// which the point leaves the shape. Off by at most 16u (|p| + reach), by the count of operations:
-/// at most eight roundings of lengths no longer than that.
+/// which the point leaves the shape. The distance is off by at most width, and 16u (|p| + reach) by
+/// the count of operations: at most eight roundings of lengths no longer than that.
 struct Foot {
     double distance;
     Vec3<double> point, normal;
+    double width = 0; ///< more than rounding only where a search ended early
 };
 
 /// v of length d made a unit vector, any one if it is 0.
@@ -122,5 +123,8 @@ struct Flat {
     }
     return best;
 }
+
+/// By a search for the multiplier of the nearest point, some five turns.
+Foot foot(Vec3<double> p, const Ellipsoid& s);
 
 } // namespace boxwood::convex::detail

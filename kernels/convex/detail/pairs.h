@@ -69,7 +69,7 @@ template <class B> struct Ball {
         } else
             at = foot(in_world ? between : transposed_times(pose_b.rotation, between), core(b));
         distance = at.distance - radius;
-        error = distance_error(size, lack);
+        error = distance_error(size, lack) + at.width;
     }
     bool is_odd() const { return !in_range(size) || !(lack <= max_defect); }
 };
