@@ -1,6 +1,7 @@
 // What is known without computing: hard cases of primitives, symmetric poses, flat and empty
 // shapes.
 
+#include "kernels/convex/detail/ellipsoid_foot.h"
 #include "kernels/convex/signed_distance.h"
 #include "kernels/testing/poses.h"
 
@@ -129,7 +130,7 @@ TEST(KnownAnswers, RoundShapesOnAnAxis) {
     // Slant of a 3-4-5 triangle: from (0, 2) to (3, -2); beside its middle by 5.
     expect_distance(signed_distance(ball, at(1.5 + 4, 0, 3), Cone{3, 2}, Pose{}), 4);
     expect_distance(signed_distance(Capsule{.5, 2}, Pose{}, Capsule{.5, 2}, at(0, 3, 1)), 2);
-    expect_distance(signed_distance(ball, at(0, 9, 0), Ellipsoid{{1, 2, 3}}, Pose{}), 6, 1e-9);
+    expect_distance(signed_distance(ball, at(0, 9, 0), Ellipsoid{{1, 2, 3}}, Pose{}), 6);
     expect_distance(signed_distance(Cylinder{1, 2}, Pose{}, Cylinder{1, 2}, at(5, 0, 0)), 3, 1e-9);
     expect_distance(signed_distance(Cylinder{1, 2}, Pose{}, Cylinder{1, 2}, at(0, 0, 5)), 1, 1e-9);
     expect_distance(signed_distance(Cone{1, 2}, Pose{}, Box{{1, 1, 1}}, at(0, 0, 4)), 1, 1e-9);
@@ -154,39 +155,93 @@ Vec3<double> times_each(Vec3<double> a, Vec3<double> b) {
     return {a.x * b.x, a.y * b.y, a.z * b.z};
 }
 
+/// A point, and how far it is from an ellipsoid, up to rounding.
+struct Beside {
+    Vec3<double> radii, on, normal;
+    double distance;
+    Vec3<double> point() const { return on + normal * distance; }
+    double size() const { return 2 * std::max({radii.x, radii.y, radii.z}) + std::abs(distance); }
+};
+
+/// Beside a random point of the surface, or one in a plane of symmetry or near it. Inside no deeper
+/// than the least radius of curvature, beyond which another point may be nearer.
+Beside draw_beside(Vec3<double> radii, int i, RandomPoses& random) {
+    constexpr double off_plane[] = {0, 1e-5, 1e-9, 1e-14, 1e-30, 1e-310};
+    Vec3<double> t = random.unit_vector();
+    if (i % 7 < 3)
+        t[i % 7] = off_plane[i / 7 % 6];
+    t = t * (1 / length(t));
+    Vec3<double> n{t.x / radii.x, t.y / radii.y, t.z / radii.z};
+    n = n * (1 / std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)}));
+    const double least = std::min({radii.x, radii.y, radii.z}),
+                 most = std::max({radii.x, radii.y, radii.z});
+    return {radii, times_each(radii, t), n * (1 / length(n)),
+            i / 42 % 2 == 0 ? std::exp2(i % 40 - 30) : -least * (least / most) * (i % 100) / 100};
+}
+
+constexpr Vec3<double> radii_of_ellipsoids[] = {
+    {1, 1, 1},         {1, 2, 3},     {3, 2, 1},     {2, 2, 1},       {1, 2, 2},
+    {1, 1e-3, 1},      {1e-6, 1, 2},  {1, 1, 1e-8},  {1, 1e-9, 1},    {1, 1e-9, 1e-5},
+    {1e-12, 1e-12, 1}, {1e-17, 1, 2}, {1e6, 1e6, 1}, {1e-20, 1, 1.5}, {1e-170, 1, 1}};
+
 TEST(KnownAnswers, ASphereLeavesAnEllipsoidByItsNearestPoint) {
     RandomPoses random(5);
-    const Vec3<double> kinds[] = {{1, 1, 1},     {1, 2, 3},       {3, 2, 1},     {2, 2, 1},
-                                  {1, 2, 2},     {1, 1e-3, 1},    {1e-6, 1, 2},  {1, 1e-9, 1e-5},
-                                  {1e6, 1e6, 1}, {1e-20, 1, 1.5}, {1e-170, 1, 1}};
-    for (const Vec3<double> radii : kinds)
+    for (const Vec3<double> radii : radii_of_ellipsoids)
         for (int i = 0; i < 3000; ++i) {
             SCOPED_TRACE(testing::Message()
                          << radii.x << ' ' << radii.y << ' ' << radii.z << ' ' << i);
-            Vec3<double> t = random.unit_vector();
-            if (i % 7 < 3)
-                t[i % 7] = i % 2 == 0 ? 0 : 1e-9; // in a plane of symmetry, or near it
-            t = t * (1 / length(t));
-            const Vec3<double> x = times_each(radii, t);
-            Vec3<double> n{t.x / radii.x, t.y / radii.y, t.z / radii.z};
-            n = n * (1 / std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)}));
-            n = n * (1 / length(n));
-            const double least = std::min({radii.x, radii.y, radii.z}),
-                         most = std::max({radii.x, radii.y, radii.z}), radius = i % 3 * .25;
-            // Inside up to where two points are as near: the least radius of curvature.
-            const double d =
-                i % 2 == 0 ? std::exp2(i % 40 - 30) : -least * (least / most) * (i % 100) / 100;
-            const Pose frame{random.rotation(), random.vector(1)};
-            const Pose ball{Pose{}.rotation, frame(x + n * d)};
-            const SignedDistance found =
-                signed_distance(Sphere{radius}, ball, Ellipsoid{radii}, frame);
-            const double size = 2 * most + std::abs(d) + 2;
-            EXPECT_LE(found.lo, d - radius + 2e-15 * size);
-            EXPECT_GE(found.hi, d - radius - 2e-15 * size);
+            const Beside c = draw_beside(radii, i, random);
+            const double radius = i % 3 * .25, truth = c.distance - radius;
+            const Pose frame = i % 4 == 0 ? Pose{} : Pose{random.rotation(), random.vector(1)};
+            const SignedDistance found = signed_distance(
+                Sphere{radius}, {Pose{}.rotation, frame(c.point())}, Ellipsoid{radii}, frame);
+            const double size = c.size() + 2;
+            EXPECT_LE(found.lo, truth + 2e-15 * size);
+            EXPECT_GE(found.hi, truth - 2e-15 * size);
             EXPECT_LE(found.hi - found.lo, 1e-13 * size);
-            EXPECT_NEAR(found.distance, d - radius, 5e-15 * size);
-            EXPECT_NEAR(length(found.point_b - frame(x)), 0, 1e-6 * size);
+            EXPECT_NEAR(found.distance, truth, 5e-15 * size);
+            EXPECT_NEAR(length(found.point_b - frame(c.on)), 0, 1e-6 * size);
         }
+}
+
+/// Wherever the search ends, the bounds hold: they are no closer than the root's.
+TEST(KnownAnswers, TheFootOnAnEllipsoidHasBoundsForAnyMultiplier) {
+    RandomPoses random(8);
+    int wide = 0;
+    for (const Vec3<double> radii : radii_of_ellipsoids)
+        for (int i = 0; i < 500; ++i) {
+            const Beside c = draw_beside(radii, i, random);
+            detail::EllipsoidFoot search(c.point(), radii);
+            const double start = search.shift;
+            search.solve();
+            const double root = search.shift;
+            for (const double part : {0., 1e-9, 1e-3, .5, .999, 1., 1.001, 2., 1e3}) {
+                search.shift = part == 0 ? start : root * part;
+                const detail::Foot foot = search.foot();
+                const double slack = 4e-15 * c.size();
+                EXPECT_LE(foot.distance - foot.width, c.distance + slack) << part << ' ' << i;
+                EXPECT_GE(foot.distance + foot.width, c.distance - slack) << part << ' ' << i;
+                wide += foot.width > 1e-6 * c.size();
+            }
+        }
+    EXPECT_GT(wide, 5000); // else it were a test of the root
+}
+
+/// A power of two rounds nothing: all scales.
+TEST(KnownAnswers, TheFootOnAnEllipsoidScales) {
+    RandomPoses random(9);
+    for (int i = 0; i < 2000; ++i) {
+        const Beside c = draw_beside({1, 1 + i % 3 * .5, std::exp2(-(i % 5))}, i % 1000, random);
+        const SignedDistance one =
+            signed_distance(Sphere{.25}, {Pose{}.rotation, c.point()}, Ellipsoid{c.radii}, Pose{});
+        for (const double scale : {0x1p-96, 0x1p90}) {
+            const SignedDistance d =
+                signed_distance(Sphere{.25 * scale}, {Pose{}.rotation, c.point() * scale},
+                                Ellipsoid{c.radii * scale}, Pose{});
+            EXPECT_NEAR(d.distance, one.distance * scale, 1e-15 * scale * c.size());
+            EXPECT_NEAR(d.hi - d.lo, (one.hi - one.lo) * scale, 1e-15 * scale * c.size());
+        }
+    }
 }
 
 TEST(KnownAnswers, ASphereDeepInAnEllipsoidHasSharpBounds) {
@@ -195,7 +250,7 @@ TEST(KnownAnswers, ASphereDeepInAnEllipsoidHasSharpBounds) {
         const Vec3<double> radii{std::exp2(i % 5), i % 3 == 0 ? 1 : std::exp2(-(i % 4)), 1};
         Vec3<double> p = times_each(radii, random.unit_vector()) * (i % 10 / 10.);
         if (i % 2 == 0)
-            p[i % 3] = 0; // as many as two points are as near
+            p[i % 3] = i % 4 == 0 ? 0 : 1e-310; // two points are as near
         const SignedDistance d =
             signed_distance(Sphere{.5}, {Pose{}.rotation, p}, Ellipsoid{radii}, Pose{});
         EXPECT_LE(d.hi - d.lo, 2e-13 * std::max(radii.x, 1.0)) << i;
@@ -210,6 +265,10 @@ TEST(KnownAnswers, ASphereDeepInAnEllipsoidHasSharpBounds) {
     }
     expect_distance(signed_distance(Sphere{1}, Pose{}, Ellipsoid{{2, 3, 4}}, Pose{}), -3);
     expect_distance(signed_distance(Sphere{1}, Pose{}, Ellipsoid{{2, 2, 2}}, Pose{}), -3);
+    // Near the rim of a plate, where the term of the least radius is a spike.
+    const SignedDistance rim = signed_distance(Sphere{.25}, at(0.999999999999999, 0, 1e-14),
+                                               Ellipsoid{{1, 1, 1e-8}}, Pose{});
+    EXPECT_LE(rim.hi - rim.lo, 1e-13);
     // Flat ones: a disc, a rod, a point.
     expect_distance(signed_distance(Sphere{1}, at(.25, .25, 3), Ellipsoid{{1, 1, 0}}, Pose{}), 2);
     expect_distance(signed_distance(Sphere{1}, at(.25, .25, 0), Ellipsoid{{1, 1, 0}}, Pose{}), -1);

@@ -35,8 +35,8 @@ inline constexpr KernelInfo closed_form_info{
     "closed_form",
     "spheres, capsules and planes with what they have a formula for; 15 directions for boxes",
     Promise::certified,
-    "lo <= signed distance <= hi, width about 2e-14 of the size of all; derived in "
-    "convex/detail/relative_pose.h",
+    "lo <= signed distance <= hi, width about 2e-14 of the size of all, of ellipsoids 5e-14; "
+    "derived in convex/detail/relative_pose.h",
     "30 to 200 flops; ellipsoids some five turns of a search"};
 /// The rest: Gilbert-Johnson-Keerthi apart, the expanding polytope for depth.
 inline constexpr KernelInfo gjk_epa_info{
@@ -49,7 +49,8 @@ inline constexpr KernelInfo gjk_epa_info{
     "0.2 to 2 us apart, 1 to 50 us for depth"};
 
 /// The pose's matrix is a rotation up to rounding: what it lacks (at most 2^-10) widens the bounds.
-/// The width of [lo, hi] is 2^-36 of the distance, plus about 2e-14 of the size of all
+/// The width of [lo, hi] is 2^-36 of the distance, plus about 2e-14 of the size of all, 5e-14 for a
+/// sphere and an ellipsoid,
 /// (|translation| of b from a, and how far both reach from their origins), where the search ends as
 /// it should. Sizes are 0 or 2^-100 .. 2^100, else the bounds say next to nothing. NaN, or no
 /// rotation: NaN.

@@ -7,7 +7,7 @@ namespace boxwood::convex::detail {
 
 /// Where the surface is nearest to a point: signed distance (negative inside), and the direction in
 /// which the point leaves the shape. The distance is off by at most width, and 16u (|p| + reach) by
-/// the count of operations: at most eight roundings of lengths no longer than that.
+/// the count of roundings of lengths no longer than that.
 struct Foot {
     double distance;
     Vec3<double> point, normal;
@@ -124,7 +124,7 @@ struct Flat {
     return best;
 }
 
-/// By a search for the multiplier of the nearest point, some five turns.
+/// By a search, ellipsoid_foot.h.
 Foot foot(Vec3<double> p, const Ellipsoid& s);
 
 } // namespace boxwood::convex::detail

@@ -80,7 +80,9 @@ SignedDistance ball_distance(const Sphere& a, const Pose& pose_a, const B& b, co
     if (ball.is_odd()) [[unlikely]]
         return of_odd_size(ball.size, ball.lack, ball.radius, pose_b);
     const auto turned = [&](V v) { return ball.in_world ? v : times(pose_b.rotation, v); };
-    const V n = turned(ball.at.normal);
+    V n = turned(ball.at.normal);
+    if (ball.lack > 0x1p-40) [[unlikely]] // a matrix that is no rotation stretches it so far
+        n = unit_or(n, {0, 0, 1});
     return {ball.distance,
             ball.distance - ball.error,
             ball.distance + ball.error,

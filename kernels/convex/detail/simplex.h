@@ -38,8 +38,8 @@ struct Simplex {
 };
 
 /// The nearest point of `from`, and in `to` (another one) only the vertices that it needs.
-/// Parameters are solved for relative to the newest vertex, so that they are accurate in small
-/// simplices far from the origin. Errors only make the point less near: it is a sum of the
+/// Parameters are solved for relative to the vertex nearest the origin, so that they are accurate
+/// in small simplices far from it. Errors only make the point less near: it is a sum of the
 /// vertices.
 void reduce(const Simplex& from, Simplex& to);
 
