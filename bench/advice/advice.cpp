@@ -218,8 +218,8 @@ class Adviser {
 
     bool is_told_apart(const Way& way, double queries) const {
         const std::uint32_t a = advice_.ways[advice_.best].cell_id, b = way.cell_id;
-        const double floor =
-            floors_.of(index_.cell(a), index_.cell(b), Phase::query).value_or(default_delta);
+        const double floor = floors_.of(index_.cell(a), index_.cell(b), Phase::build_and_query)
+                                 .value_or(default_delta);
         const Claim claim{total_logs(a, b, queries), floor};
         const results::Verdict verdict = decide({&claim, 1}, default_delta)[0].verdict;
         return verdict == results::Verdict::faster || verdict == results::Verdict::slower;

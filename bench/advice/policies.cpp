@@ -6,6 +6,7 @@
 #include "bench/analysis/wording.h"
 #include "bench/io/bad_input.h"
 #include "bench/io/json.h"
+#include "bench/io/text_table.h"
 
 #include <fmt/format.h>
 
@@ -15,10 +16,6 @@ namespace boxwood::bench {
 namespace {
 
 using results::Phase;
-
-std::string ms(double ns) {
-    return ns < 1e6 ? fmt::format("{:.3g} us", ns / 1e3) : fmt::format("{:.3g} ms", ns / 1e6);
-}
 
 } // namespace
 
@@ -68,7 +65,8 @@ PolicyAdvice advise_of_policies(const results::Results& results) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
         advice.policies[i].over_best = rulings[i].ratio;
         advice.policies[i].is_as_good =
-            cells[i] == best || rulings[i].verdict != results::Verdict::slower;
+            cells[i] == best || (rulings[i].verdict != results::Verdict::slower &&
+                                 rulings[i].verdict != results::Verdict::faster);
     }
     std::ranges::sort(advice.policies, {}, [](const Policy& p) { return p.frame.mid; });
     advice.best = static_cast<std::size_t>(
@@ -80,7 +78,7 @@ PolicyAdvice advise_of_policies(const results::Results& results) {
 std::string policies_text(const PolicyAdvice& advice) {
     const Policy& best = advice.policies[advice.best];
     std::string text = fmt::format("{}, the pairs of each frame\n\nUse {}: {} a frame.",
-                                   advice.scene, best.name, ms(best.frame.mid));
+                                   advice.scene, best.name, time_text(best.frame.mid));
     std::string as_good;
     const Policy* rival = nullptr;
     for (const Policy& policy : advice.policies) {
@@ -93,13 +91,14 @@ std::string policies_text(const PolicyAdvice& advice) {
                             : fmt::format(" Not told apart from it beyond noise: {}.\n", as_good);
     if (rival)
         text += fmt::format(
-            "{} would take {} as long.\n", rival->name,
-            interval_text(rival->over_best.ratio, rival->over_best.ci_lo, rival->over_best.ci_hi));
+            "{} would take {} as long{}.\n", rival->name,
+            interval_text(rival->over_best.ratio, rival->over_best.ci_lo, rival->over_best.ci_hi),
+            rival->is_as_good ? ", which is not told apart from it beyond noise" : "");
     text += fmt::format("\nC++:\n    auto updater = boxwood::find_update(\"{}\").make({{}});\n\n",
                         best.name);
     for (const Policy& policy : advice.policies)
         text += fmt::format(
-            "{:<40} {:>10}  {}\n", policy.name, ms(policy.frame.mid),
+            "{:<40} {:>10}  {}\n", policy.name, time_text(policy.frame.mid),
             interval_text(policy.over_best.ratio, policy.over_best.ci_lo, policy.over_best.ci_hi));
     return text;
 }

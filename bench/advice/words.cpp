@@ -2,6 +2,7 @@
 
 #include "bench/analysis/wording.h"
 #include "bench/io/json.h"
+#include "bench/io/text_table.h"
 
 #include <fmt/format.h>
 
@@ -22,13 +23,6 @@ std::string about(double n) {
         digits.insert(at, 1, ',');
     }
     return digits;
-}
-
-std::string time_of(double ns) {
-    return ns < 1e3   ? fmt::format("{:.0f} ns", ns)
-           : ns < 1e6 ? fmt::format("{:.3g} us", ns / 1e3)
-           : ns < 1e9 ? fmt::format("{:.3g} ms", ns / 1e6)
-                      : fmt::format("{:.3g} s", ns / 1e9);
 }
 
 std::string range(const MedianInterval& interval) {
@@ -77,8 +71,8 @@ std::string advice_text(const Advice& advice) {
     const double queries = advice.wanted.value_or(advice.n_queries);
     std::string text = fmt::format("{}, {}\n\n{}", advice.scene, advice.task, rule_text(advice));
     text += fmt::format("For {} {} per build: {} ({} to build, {} each).\n", about(queries),
-                        advice.query_word, best.name, time_of(best.build_ns),
-                        time_of(best.query_ns / advice.n_queries));
+                        advice.query_word, best.name, time_text(best.build_ns),
+                        time_text(best.query_ns / advice.n_queries));
     if (!advice.as_good.empty()) {
         constexpr std::size_t most = 5;
         text += "Not told apart from it there, beyond noise: ";
@@ -98,8 +92,8 @@ std::string advice_text(const Advice& advice) {
     text += fmt::format("\n{:<34} {:>10} {:>12}\n", "timed", "build",
                         advice.n_queries > 1 ? "per query" : "query");
     const auto row = [&](const Way& way, std::string_view mark) {
-        return fmt::format("{:<34} {:>10} {:>12} {}\n", way.name, time_of(way.build_ns),
-                           time_of(way.query_ns / advice.n_queries), mark);
+        return fmt::format("{:<34} {:>10} {:>12} {}\n", way.name, time_text(way.build_ns),
+                           time_text(way.query_ns / advice.n_queries), mark);
     };
     // Of many those that are near the best for some number of queries.
     constexpr std::size_t most = 24;

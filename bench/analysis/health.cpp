@@ -24,11 +24,12 @@ std::string count_answers(const Results& results, Health& health) {
     std::string first_wrong;
     for (const results::Cell& cell : results.cells) {
         const bool is_wrong = cell.status == Status::wrong;
+        const bool is_peer = index.is_peer(cell);
         if (cell.status == Status::unchecked || cell.status == Status::unsupported ||
-            (is_wrong && is_judged_by_promise(results, cell)))
+            (is_wrong && !is_peer && is_judged_by_promise(results, cell)))
             continue;
         ++health.answers;
-        if (is_wrong && index.is_peer(cell))
+        if (is_wrong && is_peer)
             ++health.wrong_peers;
         else if (is_wrong && ++health.wrong_ours == 1)
             first_wrong = cell.name;

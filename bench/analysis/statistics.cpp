@@ -165,7 +165,8 @@ Ruling decide_one(const Claim& asked, double p_adj, double level, double delta) 
         return open(Reason::too_few_rounds);
     if (claim.ratio.ci_lo <= 1 && claim.ratio.ci_hi >= 1)
         return open(Reason::crosses_1);
-    if (is_within(claim.ratio.ratio, floor))
+    const double near_end = claim.ratio.ratio < 1 ? claim.ratio.ci_hi : claim.ratio.ci_lo;
+    if (is_within(floor > delta ? near_end : claim.ratio.ratio, floor))
         return open(within_the_floor);
     claim.verdict = claim.ratio.ci_hi < 1 ? Verdict::faster : Verdict::slower;
     return claim;

@@ -90,8 +90,9 @@ struct Ruling {
 /// Every interval is as wide as to hold the median of each input, too: rounds of one input are not
 /// independent, and what is said is to hold for other inputs.
 /// "same": the 95 % interval lies within a factor 1 + delta and the noise floor is no wider.
-/// "faster", "slower": the interval at the claim's level within the family excludes 1, and the
-/// ratio is beyond the claim's noise floor. Else "cannot_tell", as for fewer than 9 pairs.
+/// "faster", "slower": the interval at the claim's level within the family lies beyond 1, and the
+/// ratio beyond the claim's noise floor; all of the interval, where that is above delta. Else
+/// "cannot_tell", as for fewer than 9 pairs.
 struct Claim {
     std::vector<double> log_ratios;
     double floor = 0; ///< the A/A noise of its class

@@ -53,6 +53,10 @@ class Comparison:
         return self.ratio.inverse()
 
     @property
+    def is_open(self):
+        return self.verdict == "cannot_tell"
+
+    @property
     def text(self):
         return self.gain.text
 

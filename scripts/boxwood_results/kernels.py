@@ -55,6 +55,11 @@ class KernelPoint:
         return int(self.row["wrong"])
 
     @property
+    def maybe(self):
+        """Cases without an answer, or with one that says nothing."""
+        return int(self.row["maybe"])
+
+    @property
     def error(self):
         return float(self.row["max_rel_err"])
 

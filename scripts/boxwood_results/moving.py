@@ -3,7 +3,7 @@
 import json
 from dataclasses import dataclass, field
 
-from .findings import Ratio
+from .findings import STAGES
 from .run import ALL_STAGES, REQUIRED
 from .selection import largest_jobs
 
@@ -17,8 +17,12 @@ class EffectCost:
     what: str
     with_ns: float  # of a frame
     without_ns: float
-    ratio: Ratio
     extra_ns: float
+    comparison: object  # of the two
+
+    @property
+    def ratio(self):
+        return self.comparison.ratio
 
 
 @dataclass
@@ -45,10 +49,11 @@ def played_scenes(run, largest=True):
             elif cell.stages_played == ALL_STAGES:
                 scene.all_stages = cell
     scenes = [scene for scene in played.values() if scene.required]
+    compared = {(row.a.cell_id, row.b.cell_id): row for row in run.family(STAGES) if row.phase == row.b.total}
     for scene in scenes:
         for row in run.source["effect_costs"]:
-            cost = EffectCost(row["what"], float(row["with_ns"]), float(row["without_ns"]), Ratio(
-                float(row["ratio"]), float(row["ci_lo"]), float(row["ci_hi"])), float(row["extra_ns"]))
+            cost = EffectCost(row["what"], float(row["with_ns"]), float(row["without_ns"]), float(row["extra_ns"]),
+                              compared[row["cell_without"], row["cell_with"]])
             if row["cell_without"] == scene.required.cell_id:
                 scene.all_stages_cost = cost
             elif row["cell_with"] == scene.required.cell_id:

@@ -99,7 +99,7 @@ def noise_of(one, run):
     """The noise floors of what a table shows, in words."""
     floors = [f"{ratio_text(100 * floor)} %" for floor in published_tables.floors(run, one.tasks)]
     if len(floors) < 2:
-        return f"noise floor {ratio_text(100 * run.noise_floor)} %"
+        return f"noise floor {floors[0] if floors else f'{ratio_text(100 * run.noise_floor)} %'}"
     return f"noise floors by class {', '.join(floors[:-1])} and {floors[-1]}"
 
 
@@ -221,6 +221,8 @@ def problems(root):
             found.append(f"{file}: too few rounds for a noise floor")
         if run.health["is_too_noisy"]:
             found.append(f"{file}: too noisy to be published")
+        if run.health["wrong_ours"] or run.health["broken_promises"]:
+            found.append(f"{file}: ours is wrong: {cell_text(run.health['correctness'])}")
         if not sweep_text(run):
             found.append(f"{file}: it does not hold the sweep that made it")
         for one in (one for one in ALL if one.sweep == sweep and one.picture):

@@ -1,6 +1,6 @@
 """The tables of a published run: run -> [header, row, ...] of texts."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from .figures import forest
 from .findings import PEERS
@@ -12,41 +12,59 @@ ONE = Where("", 1)
 OPEN = " ?"  # behind a ratio that the file calls open
 
 
+def marked(text, comparison):
+    return text + (OPEN if comparison.is_open else "")
+
+
 def time_of(row):
     """The time of ours in a comparison, as the file has it."""
     return time_text(row.b.median(row.phase))
 
 
 def ratio_of(row):
-    return row.text + (OPEN if row.verdict == "cannot_tell" else "")
+    return marked(row.text, row)
 
 
 COLD = "cold_build+query"
 
 
 def cold(run):
-    """{(job, class): {library: its comparison}} of first builds, by the fastest of ours and of each library."""
+    """{(job, class): comparisons} of first builds, of the fastest of ours."""
     found = {}
     for row in sorted(run.family(PEERS, COLD), key=lambda row: row.b.median(COLD)):
         if row.verdict != "wrong":
             ours, rows = found.setdefault((row.b.job, row.contender_class), (row.b, []))
             rows += [row] if row.b is ours else []
-    return {key: forest.fastest(rows) for key, (_, rows) in found.items()}
+    return {key: tuple(rows) for key, (_, rows) in found.items()}
 
 
 @dataclass(frozen=True)
 class Question:
-    """One question on one thread, and the fastest variant of each library against ours."""
+    """One question on one thread: the best of ours against every peer."""
 
     text: str
     group: str  # what it shares with the same question on other scenes
     measured: str
-    known: dict  # library -> comparison
+    ours: str  # its name and time
+    rows: tuple  # its comparisons
+    rival: object = None  # the cell that a finding of the file holds it against
+    unanswered: dict = field(default_factory=dict)  # library -> (one of its cells, why it has no comparison)
+
+    @property
+    def known(self):
+        """{library: its comparison}, each by its fastest variant."""
+        return forest.fastest(self.rows)
 
     @property
     def closest(self):
-        """The comparison with the fastest peer of all."""
-        return next(iter(sorted(self.known.values(), key=lambda row: row.gain.mid)))
+        """The comparison with the rival; if the file names none, one that is lost for sure, else that with the fastest peer."""
+        ordered = sorted(self.rows, key=lambda row: (row.a is not self.rival, row.verdict != "slower", row.gain.mid))
+        return ordered[0]
+
+
+def asked_of(text, group, measured, rows, rival=None):
+    rows = tuple(rows)
+    return [Question(text, group, measured, f"{rows[0].b.label} {time_of(rows[0])}", rows, rival)] if rows else []
 
 
 def questions(run, tasks):
@@ -54,31 +72,46 @@ def questions(run, tasks):
     cold_builds, races = cold(run), forest.races(run)
     asked = []
     for block in found:
-        task = run.tasks[block.job.task]
+        task, finding = run.tasks[block.job.task], block.finding
         group = ", ".join(filter(None, (task.title, block.contender_class)))
-        asked.append(Question(block.finding.question, group, task.total_title, block.fastest(0)))
-        asked.append(Question(block.finding.question, group, "query alone", block.fastest(1)))
-        asked += [Question(race.finding.question, group, "first build and query, fresh process",
-                           cold_builds.get((race.job, race.contender_class), {}))
-                  for race in races if race.kind == block.kind and race.job.n >= block.job.n]
-    return [question for question in asked + kernel_questions(run, tasks) if question.known]
+        asked += asked_of(finding.question, group, task.total_title, block.together.values(), finding.rival)
+        asked += asked_of(finding.question, group, "query alone", block.alone.values(), finding.rival_alone)
+        for race in races:
+            if race.kind == block.kind and race.job.n >= block.job.n:
+                asked += asked_of(race.finding.question, group, "first build and query, fresh process",
+                                  cold_builds.get((race.job, race.contender_class), ()))
+    return asked + kernel_questions(run, tasks)
 
 
 def kernel_questions(run, tasks):
-    """Of kernels alone, family by family: the fastest of ours and of each library that is right."""
-    kernels = {point.cell.cell_id for point in run.kernels}
+    """Of kernels alone, family by family: the fastest of ours against each variant of a library that is always right."""
     of_job = {}
-    for row in run.family(PEERS, "query"):
-        job = row.b.job
-        if row.b.cell_id in kernels and row.verdict != "wrong" and job.task in tasks and job.where == ONE:
-            of_job.setdefault(job, []).append(row)
-    asked = []
-    for job, rows in of_job.items():
-        ours = min((row.b for row in rows), key=lambda cell: cell.median("query"))
-        title = run.tasks[job.task].title
-        asked.append(Question(f"{title}, {job.scene.replace('_', ' ')}", title, f"{job.n:,} calls",
-                              forest.fastest(row for row in rows if row.b is ours)))
-    return asked
+    for point in run.kernels:
+        if point.task in tasks and point.cell.job.where == ONE and point.supported:
+            of_job.setdefault(point.cell.job, []).append(point)
+    compared = {(row.a.cell_id, row.b.cell_id): row for row in run.family(PEERS, "query")}
+    return [question for job, points in of_job.items() for question in kernel_question(run, job, points, compared)]
+
+
+def kernel_question(run, job, points, compared):
+    ours = sorted((point for point in points if point.ours and point.cell.status != "wrong"), key=lambda point: point.ns)
+    if not ours:
+        return []
+    best, rows, unanswered = ours[0].cell, [], {}
+    for point in points:
+        if point.ours:
+            continue
+        row = compared.get((point.cell.cell_id, best.cell_id))
+        if point.cell.status == "wrong":
+            unanswered.setdefault(point.library, (point.cell, f"wrong in {point.wrong:,} of {point.n:,}"))
+        elif point.maybe:
+            unanswered.setdefault(point.library, (point.cell, f"no answer in {point.maybe:,} of {point.n:,}"))
+        elif row:
+            rows.append(row)
+    known = {row.a.library for row in rows}
+    title = run.tasks[job.task].title
+    return [Question(f"{title}, {job.scene.replace('_', ' ')}", title, f"{job.n:,} calls", f"{best.label} {time_text(best.median('query'))}",
+                     tuple(rows), None, {library: why for library, why in unanswered.items() if library not in known})]
 
 
 def against_peers(*tasks):
@@ -86,33 +119,40 @@ def against_peers(*tasks):
 
     def table(run):
         asked = questions(run, tasks)
-        peers = sorted((row.a for question in asked for row in question.known.values()), key=lambda cell: cell.place)
-        libraries = {cell.library: cell.library_title for cell in peers}
+        peers = [row.a for question in asked for row in question.rows]
+        peers += [cell for question in asked for cell, _ in question.unanswered.values()]
+        libraries = {cell.library: cell.library_title for cell in sorted(peers, key=lambda cell: cell.place)}
         rows = [["question, one thread", "measured", "ours", *libraries.values()]]
         for question in asked:
-            first = next(iter(question.known.values()))
-            rows.append([question.text, question.measured, f"{first.b.label} {time_of(first)}",
-                         *(ratio_of(question.known[library]) if library in question.known else "" for library in libraries)])
+            texts = {library: why for library, (_, why) in question.unanswered.items()}
+            texts |= {library: ratio_of(row) for library, row in question.known.items()}
+            rows.append([question.text, question.measured, question.ours, *(texts.get(library, "") for library in libraries)])
         return rows
 
     return table
 
 
-SUMMARY = ["one thread, against the fastest peer", "measured", "questions", "won, lost, open", "least", "middle", "most"]
+SUMMARY = ["one thread, against the fastest peer", "measured", "questions", "won, lost, same, open", "least", "middle", "most"]
+VERDICTS = ("faster", "slower", "same", "cannot_tell")
 
 
 def summary(run, tasks):
     """A line for each kind of question: how many are won, and by how much."""
     groups = {}
     for question in questions(run, tasks):
-        groups.setdefault((question.group, question.measured), []).append(question.closest)
+        if question.rows:
+            groups.setdefault((question.group, question.measured), []).append(question.closest)
     lines = []
     for (group, measured), rows in groups.items():
         ordered = sorted(rows, key=lambda row: row.gain.mid)
-        counts = [len([row for row in rows if row.verdict in verdicts]) for verdicts in (("faster",), ("slower",), ("same", "cannot_tell"))]
-        lines.append([group, measured, str(len(rows)), ", ".join(map(str, counts)),
-                      *(f"{ratio_text(row.gain.mid)}x" for row in (ordered[0], ordered[(len(ordered) - 1) // 2], ordered[-1]))])
+        counts = [len([row for row in rows if row.verdict == verdict]) for verdict in VERDICTS]
+        middle = marked_ratio(ordered[(len(ordered) - 1) // 2]) if len(ordered) > 2 else ""
+        lines.append([group, measured, str(len(rows)), ", ".join(map(str, counts)), marked_ratio(ordered[0]), middle, marked_ratio(ordered[-1])])
     return lines
+
+
+def marked_ratio(row):
+    return marked(f"{ratio_text(row.gain.mid)}x", row)
 
 
 def floors(run, tasks):
@@ -126,7 +166,7 @@ def against_ourselves(run):
     for scene in played_scenes(run):
         if scene.all_stages_cost:
             rows.append([scene.job.scene, f"{scene.job.n:,}", time_text(scene.all_stages_cost.without_ns),
-                         scene.all_stages_cost.ratio.text])
+                         marked(scene.all_stages_cost.ratio.text, scene.all_stages_cost.comparison)])
     return rows
 
 

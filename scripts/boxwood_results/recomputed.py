@@ -59,6 +59,14 @@ def is_near(a, b):
     return abs(a - b) <= NEAR * max(abs(a), abs(b))
 
 
+def is_held(row):
+    """Whether a verdict's interval lies beyond 1, and the ratio beyond the noise floor; all of the interval, where that is above delta."""
+    near_end, floor = row["ci_hi" if row["verdict"] == "faster" else "ci_lo"], row["floor"]
+    held = near_end if floor > row["delta"] else row["ratio"]
+    beyond_1 = near_end < 1 if row["verdict"] == "faster" else near_end > 1
+    return beyond_1 and not (floor >= 0 and 1 / (1 + floor) <= held <= 1 + floor)
+
+
 def differences(source):
     """What of /medians and /compare does not follow from /samples, as texts; none if all does."""
     times = rounds_by_cell(source)
@@ -82,8 +90,6 @@ def differences(source):
                 is_near(math.exp(lo), row["ci_lo"]) and is_near(math.exp(hi), row["ci_hi"])
                 for lo, hi in intervals(logs, [input_of[key] for key, _ in both])):
             found.append(f"{name}: not an interval of its samples")
-        elif row["verdict"] in ("faster", "slower") and not (
-                (row["ci_hi"] < 1 if row["verdict"] == "faster" else row["ci_lo"] > 1) and
-                not (row["floor"] >= 0 and 1 / (1 + row["floor"]) <= row["ratio"] <= 1 + row["floor"])):
+        elif row["verdict"] in ("faster", "slower") and not is_held(row):
             found.append(f"{name}: called {row['verdict']}, and its interval or the noise floor does not")
     return found

@@ -152,13 +152,14 @@ def count_axis(axis, low, high, room=0.06):
     log_axis(axis, low, high, count_text, room)
 
 
-def draw_marks(ax, marks, floor):
-    """Ratios in rows: of each (ratio, height, (colour, marker), strength) a mark and the bar of its interval; the line at 1,
-    and the band of the noise floor, within which nothing is claimed."""
-    if not math.isnan(floor):
-        ax.axvspan(1 / (1 + floor), 1 + floor, color="#DDDDDD", zorder=0)
+def draw_marks(ax, marks):
+    """Ratios in rows: of each (ratio, height, (colour, marker), is_open, floor) a mark, pale if it is open, the bar of its
+    interval and the band of its noise floor, within which nothing is claimed; and the line at 1."""
     ax.axvline(1, color="#555555", linewidth=1, zorder=1)
-    for ratio, height, (colour, marker), strength in marks:
+    for ratio, height, (colour, marker), is_open, floor in marks:
+        strength = 0.45 if is_open else 1.0
+        if not math.isnan(floor):
+            ax.barh([height], [1 + floor - 1 / (1 + floor)], ROW, left=1 / (1 + floor), color="#DDDDDD", zorder=0)
         if ratio.known:
             ax.plot([ratio.lo, ratio.hi], [height, height], color=colour, linewidth=1.8, alpha=strength, zorder=3)
         ax.plot([ratio.mid], [height], marker=marker, markersize=6.5, color=colour, alpha=strength,

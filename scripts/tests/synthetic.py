@@ -398,7 +398,7 @@ def merged(path, *parts):
 
 
 def full(rounds=15, wrong=True):
-    """A sweep as the default one: sizes, threads, pairs and rays; one wrong peer, one unsupported cell."""
+    """A sweep as the default one: sizes, threads, pairs and rays; one wrong peer and one wrong kernel of ours, one unsupported cell."""
     made = Maker(rounds)
     for scene, hard in (("uniform", 1.0), ("clusters", 1.4), ("bars", 2.2)):
         for n in (1000, 3000, 10000, 100000) if scene == "uniform" else (100000,):
@@ -421,7 +421,7 @@ def full(rounds=15, wrong=True):
         made.cell("uniform", 100000, "build", contender, spec, 1)
     for kernel, factor in (("moller_f32", 1.0), ("guigue_devillers_f64", 1.1), ("guigue_devillers_exact", 1.3)):
         made.cell("triangle_soup", 20000, "triangle_pairs", "median.wide8", PAIR_CONTENDERS["median.wide8"], 1, factor,
-                  "wrong" if kernel == "moller_f32" else "exact", kernel=kernel)
+                  "wrong" if wrong and kernel == "moller_f32" else "exact", kernel=kernel)
     made.kernels()
     made.id_of("variants", "fcl.dynamic_aabb_tree_2", name="fcl.dynamic_aabb_tree", library="fcl", is_peer=1)
     lost = made.id_of("cells", "lost", name="uniform/n1000-s1/pairs/fcl.dynamic_aabb_tree/f64/serial-2", scene_id=0,

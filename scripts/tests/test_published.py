@@ -67,9 +67,9 @@ def root(tmp_path):
 
 
 def test_tables_and_pictures_come_from_the_files(root):
-    file_of(root, "pairs", synthetic.full())
-    file_of(root, "effects", synthetic.full())
-    file_of(root, "accuracy", synthetic.full())
+    file_of(root, "pairs", synthetic.full(wrong=False))
+    file_of(root, "effects", synthetic.full(wrong=False))
+    file_of(root, "accuracy", synthetic.full(wrong=False))
     assert published.freeze(root) == ["accuracy-1", "effects-1", "pairs-1"] and published.freeze(root) == []
     written = published.write(root)
     assert {path.name for path in written} == {"README.md", "tables.md", "pairs.png", "accuracy_triangles.png"}
@@ -78,11 +78,11 @@ def test_tables_and_pictures_come_from_the_files(root):
     results = published.read(root / "results" / "published" / "pairs.h5")
     of_pairs = next(c for c in results.comparisons if c.family == "peers" and c.a.library == "embree" and c.b.job.task == "pairs"
                     and c.text in text)
-    assert of_pairs and re.search(r"\*Track pairs-1, \d+ answers checked: 1 of ours wrong. Run u of 2025-01-01", text) and "commit abcdef01, noise floor" in text
+    assert of_pairs and re.search(r"\*Track pairs-1, \d+ answers checked: 0 of ours wrong, \d+ of the peers' wrong. Run u of 2025-01-01", text) and "commit abcdef01, noise floor" in text
     assert "| warehouse | 10,000 |" in text and "guigue_devillers_exact" in text and "not published yet" in text
 
     summary = (root / "README.md").read_text()
-    assert re.search(r"\| [^|]+ \| [^|]*query[^|]* \| \d+ \| \d+, \d+, \d+ \| \d", summary) and "not published yet" in summary
+    assert re.search(r"\| [^|]+ \| [^|]*query[^|]* \| \d+ \| \d+, \d+, \d+, \d+ \| \d", summary) and "not published yet" in summary
     (root / TABLES).write_text(text.replace(of_pairs.text, "99.9x (99.8 to 99.9)"))
     assert any("a table differs" in line for line in published.problems(root))
     published.write(root)
@@ -90,13 +90,21 @@ def test_tables_and_pictures_come_from_the_files(root):
     assert any("not drawn from" in line for line in published.problems(root))
 
 
+def test_a_file_in_which_ours_is_wrong_is_said(root):
+    file_of(root, "effects", synthetic.full())
+    published.freeze(root)
+    published.write(root)
+    (said,) = published.problems(root)
+    assert "ours is wrong" in said and "1 of ours wrong" in said
+
+
 @pytest.mark.parametrize(
     "env, toml, problem",
     [({"host": "another"}, None, "more than one machine"), ({"git_commit": "b"}, None, "more than one commit"),
      ({"git_dirty": 1}, None, "in no commit"), ({"flags": "-O2 (peers -O1)"}, None, "hardly optimised"), ({}, "", "does not hold the sweep")])
 def test_what_does_not_fit_together_is_said(root, env, toml, problem):
-    file_of(root, "effects", synthetic.full())
-    made = synthetic.full()
+    file_of(root, "effects", synthetic.full(wrong=False))
+    made = synthetic.full(wrong=False)
     file = file_of(root, "pairs", made, toml)
     published.freeze(root)
     published.write(root)
@@ -109,17 +117,17 @@ def test_what_does_not_fit_together_is_said(root, env, toml, problem):
 
 
 def test_a_sweep_that_has_changed_since_is_said_on_the_page(root):
-    file_of(root, "effects", synthetic.full(), "rounds = 3")
+    file_of(root, "effects", synthetic.full(wrong=False), "rounds = 3")
     published.freeze(root)
     published.write(root)
     assert published.problems(root) == [] and "[`bench/configs/effects.toml`](../../bench/configs/effects.toml) as it was then" in (root / TABLES).read_text()
-    file_of(root, "effects", synthetic.full())
+    file_of(root, "effects", synthetic.full(wrong=False))
     published.write(root)
     assert published.problems(root) == [] and "as it was then" not in (root / TABLES).read_text()
 
 
 def test_a_track_whose_scenes_change_has_another_version(root):
-    file = file_of(root, "effects", synthetic.full())
+    file = file_of(root, "effects", synthetic.full(wrong=False))
     published.freeze(root)
     published.write(root)
     assert published.problems(root) == []
@@ -146,7 +154,7 @@ def edited(file, table, column, change):
     ("compare", "ratio", lambda ratio: 2 * ratio, "not the ratio of its samples"),
     ("compare", "ci_hi", lambda hi: 0.999 * hi, "not an interval of its samples")])
 def test_numbers_that_do_not_follow_from_the_samples_are_said(root, table, column, change, problem):
-    file = file_of(root, "pairs", synthetic.full())
+    file = file_of(root, "pairs", synthetic.full(wrong=False))
     published.freeze(root)
     published.write(root)
     assert published.problems(root) == []
@@ -157,7 +165,7 @@ def test_numbers_that_do_not_follow_from_the_samples_are_said(root, table, colum
 
 
 def test_a_file_without_its_seal_is_said(root):
-    file = file_of(root, "effects", synthetic.full())
+    file = file_of(root, "effects", synthetic.full(wrong=False))
     published.freeze(root)
     published.write(root)
     with h5py.File(file, "a") as tables:
@@ -173,7 +181,7 @@ def test_intervals_are_those_of_the_median_and_hold_every_input():
 
 
 def test_a_frozen_track_without_its_file_is_said(root):
-    file = file_of(root, "effects", synthetic.full())
+    file = file_of(root, "effects", synthetic.full(wrong=False))
     published.freeze(root)
     file.unlink()
     published.write(root)
@@ -229,7 +237,7 @@ def test_a_race_is_shown_at_the_largest_size_that_most_libraries_ran():
 
 
 def test_kernels_have_a_row_for_each_family(tmp_path):
-    run = published.read(synthetic.full().write(tmp_path / "kernels.h5"))
+    run = published.read(synthetic.full(wrong=False).write(tmp_path / "kernels.h5"))
     rows = published_tables.against_peers("triangle_triangle")(run)[1:]
     families = {point.cases.replace("_", " ") for point in run.kernels if point.task == "triangle_triangle"}
     assert {row[0].removeprefix("triangle triangle, ") for row in rows} == families
@@ -246,7 +254,7 @@ def test_kernels_have_a_row_for_each_family(tmp_path):
 
 
 def test_first_builds_have_a_row_of_their_own(tmp_path):
-    made = synthetic.full()
+    made = synthetic.full(wrong=False)
     cells = {name: number for name, number in made.ids["cells"].items() if "/pairs/" in name and name.endswith("serial-1")}
     job = max((name.split("/pairs/")[0] for name in cells if "embree" in name), key=lambda job: int(re.search(r"/n(\d+)", job)[1]))
     for name, ns in (("median.wide8.self_pairs", 4e6), ("binned_sah.wide8.self_pairs", 5e6), ("embree.rtc_collide.low", 8e6)):

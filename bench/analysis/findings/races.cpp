@@ -104,10 +104,14 @@ class Races {
         if (sides.peers.empty()) {
             best = compared(*reference_of(index_, *ours), *ours, phase, "");
         } else {
+            // One that is faster beyond doubt, if there is one; else the fastest.
+            const auto rank = [&](const Comparison& row) {
+                return std::pair(row.verdict != results::Verdict::slower,
+                                 medians_.ns(row.cell_a, phase));
+            };
             for (const Cell* peer : sides.peers) {
                 const Comparison* row = compared(*peer, *ours, phase, name);
-                if (row &&
-                    (!best || medians_.ns(peer->cell_id, phase) < medians_.ns(best->cell_a, phase)))
+                if (row && (!best || rank(*row) < rank(*best)))
                     best = row;
             }
         }

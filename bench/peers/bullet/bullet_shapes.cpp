@@ -1,6 +1,7 @@
 #include "bench/peers/each_case.h"
 #include "bench/peers/kernel_peers.h"
 
+#include <BulletCollision/CollisionDispatch/btBoxBoxDetector.h>
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btCapsuleShape.h>
 #include <BulletCollision/CollisionShapes/btConeShape.h>
@@ -115,6 +116,39 @@ template <bool is_signed> Distance distance(const Pair& p) {
     return plain_distance(is_signed ? found : std::max(found, 0.0));
 }
 
+bool both_are(const Pair& p, int kind) {
+    return p.a && p.b && p.a->getShapeType() == kind && p.b->getShapeType() == kind;
+}
+/// As btSphereSphereCollisionAlgorithm has it.
+double distance_of_spheres(const Pair& p) {
+    const btVector3 between = p.input.m_transformA.getOrigin() - p.input.m_transformB.getOrigin();
+    return between.length() - (static_cast<const btSphereShape&>(*p.a).getRadius() +
+                               static_cast<const btSphereShape&>(*p.b).getRadius());
+}
+/// By btBoxBoxCollisionAlgorithm's detector: negative; nothing where they are apart.
+std::optional<double> depth_of_boxes(const Pair& p) {
+    btBoxBoxDetector detector(static_cast<const btBoxShape*>(p.a.get()),
+                              static_cast<const btBoxShape*>(p.b.get()));
+    btPointCollector result;
+    detector.getClosestPoints(p.input, result, nullptr);
+    return result.m_hasResult ? std::optional<double>(result.m_distance) : std::nullopt;
+}
+Decision default_collide(Pair& p) {
+    if (both_are(p, SPHERE_SHAPE_PROXYTYPE))
+        return yes_or_no(distance_of_spheres(p) <= 0);
+    if (both_are(p, BOX_SHAPE_PROXYTYPE))
+        return yes_or_no(depth_of_boxes(p).has_value());
+    return collide(p);
+}
+Distance default_distance(const Pair& p) {
+    if (both_are(p, SPHERE_SHAPE_PROXYTYPE))
+        return plain_distance(distance_of_spheres(p));
+    if (both_are(p, BOX_SHAPE_PROXYTYPE))
+        if (const std::optional<double> depth = depth_of_boxes(p))
+            return plain_distance(*depth);
+    return distance<true>(p);
+}
+
 /// Answers that are none are not timed; in mixed families it is judged on the others.
 std::optional<std::string> cannot(const Job& job) {
     const auto is_ellipsoid = [](const ShapeOfPair& of) {
@@ -150,7 +184,17 @@ std::vector<ContenderEntry> bullet_shapes() {
             "no result is read as 0; " + notes),
         each_case<ShapePairCase, Pair, distance<true>>(
             "signed_shape_distance", "bullet", "shapes.signed_distance", "f32",
-            "Bullet's btGjkPairDetector with btGjkEpaPenetrationDepthSolver", notes)};
+            "Bullet's btGjkPairDetector with btGjkEpaPenetrationDepthSolver", notes),
+        each_case<ShapePairCase, Pair, default_collide>(
+            "shape_collide", "bullet", "shapes.collide.default_configuration", "f32",
+            "Bullet's algorithms of two boxes and of two spheres, else as shapes.collide",
+            "btBoxBoxDetector, a formula; " + notes),
+        each_case<ShapePairCase, Pair, default_distance>(
+            "signed_shape_distance", "bullet", "shapes.signed_distance.default_configuration",
+            "f32",
+            "Bullet's algorithms of two boxes that overlap and of two spheres, else as "
+            "shapes.signed_distance",
+            "btBoxBoxDetector, a formula; " + notes)};
     for (ContenderEntry& e : all)
         e.cannot = cannot;
     return all;

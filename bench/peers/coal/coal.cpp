@@ -107,6 +107,41 @@ ContenderEntry kernel(std::string name, std::string task, std::string summary, s
     return e;
 }
 
+/// By each form of Coal's GJK.
+void append_shapes(std::vector<ContenderEntry>& all) {
+    struct Form {
+        const char *after, *notes;
+        CoalGjk gjk;
+    };
+    constexpr Form forms[] = {
+        {"", "", CoalGjk::plain},
+        {".polyak", "gjk_variant PolyakAcceleration; ", CoalGjk::polyak},
+        {".nesterov", "gjk_variant NesterovAcceleration; ", CoalGjk::nesterov}};
+    struct Query {
+        const char *name, *task, *summary, *notes;
+        CoalShapeQuery query;
+    };
+    constexpr Query queries[] = {
+        {"shapes.collide", "shape_collide", "ComputeCollision on two shapes, enable_contact off",
+         "distance_upper_bound 0; ", CoalShapeQuery::collide},
+        {"shapes.distance", "shape_distance", "ComputeDistance on two shapes, not signed", "",
+         CoalShapeQuery::distance},
+        {"shapes.signed_distance", "signed_shape_distance",
+         "ComputeDistance on two shapes, signed, its default", "",
+         CoalShapeQuery::signed_distance}};
+    for (const Query& of : queries)
+        for (const Form& form : forms) {
+            ContenderEntry& e = all.emplace_back(
+                row(std::string(of.name) + form.after, of.summary,
+                    std::string(form.notes) + of.notes +
+                        "default tolerances (1e-6); kept for each pair, one call each"));
+            e.kernel = e.name;
+            e.answers = {{of.task, [query = of.query, gjk = form.gjk](const Job& job) {
+                              return module().shapes(job, query, gjk);
+                          }}};
+        }
+}
+
 struct MeshRow {
     const char* name;
     const char* task;
@@ -216,24 +251,7 @@ Peer coal_peer() {
     peer.contenders.push_back(kernel("tri_distance", "triangle_distance",
                                      "TriangleDistance::sqrTriDistance, after PQP",
                                      "one pair per call; the root is taken", CoalKernel::distance));
-    const std::string kept = "default tolerances (1e-6); kept for each pair, one call each";
-    peer.contenders.push_back(kernel(
-        "shapes.collide", "shape_collide", "ComputeCollision on two shapes, enable_contact off",
-        "distance_upper_bound 0; " + kept, CoalKernel::shapes_collide));
-    peer.contenders.push_back(kernel("shapes.distance", "shape_distance",
-                                     "ComputeDistance on two shapes, not signed", kept,
-                                     CoalKernel::shapes_distance));
-    const std::string nesterov = "gjk_variant NesterovAcceleration; ";
-    peer.contenders.push_back(
-        kernel("shapes.collide.nesterov", "shape_collide",
-               "ComputeCollision on two shapes, enable_contact off, Nesterov's acceleration",
-               nesterov + "distance_upper_bound 0; " + kept, CoalKernel::shapes_collide_nesterov));
-    peer.contenders.push_back(kernel("shapes.distance.nesterov", "shape_distance",
-                                     "ComputeDistance on two shapes, Nesterov's acceleration",
-                                     nesterov + kept, CoalKernel::shapes_distance_nesterov));
-    peer.contenders.push_back(kernel("shapes.signed_distance", "signed_shape_distance",
-                                     "ComputeDistance on two shapes, signed, its default", kept,
-                                     CoalKernel::shapes_signed_distance));
+    append_shapes(peer.contenders);
     const std::string tree = "DynamicAABBTreeCollisionManager",
                       array = "DynamicAABBTreeArrayCollisionManager",
                       median = ", split at the median, its default",

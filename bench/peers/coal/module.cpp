@@ -164,9 +164,8 @@ std::unique_ptr<Contender> make_kernel(const Job& job, CoalKernel kernel) {
         return over_cases<TrianglePairCase, KeptShapes<true>, collide<true>>(job);
     case CoalKernel::distance:
         return over_cases<TrianglePairCase, Corners, distance>(job);
-    default:
-        return make_coal_shapes(job, kernel);
     }
+    return nullptr;
 }
 
 } // namespace
@@ -174,5 +173,5 @@ std::unique_ptr<Contender> make_kernel(const Job& job, CoalKernel kernel) {
 
 extern "C" [[gnu::visibility("default")]] const boxwood::bench::CoalModule boxwood_coal;
 const boxwood::bench::CoalModule boxwood_coal{
-    boxwood::bench::make_manager, boxwood::bench::make_kernel, boxwood::bench::make_coal_meshes,
-    boxwood::bench::make_replay};
+    boxwood::bench::make_manager, boxwood::bench::make_kernel, boxwood::bench::make_coal_shapes,
+    boxwood::bench::make_coal_meshes, boxwood::bench::make_replay};

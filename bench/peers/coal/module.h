@@ -27,19 +27,14 @@ enum class CoalManager : std::uint8_t {
     interval_tree
 };
 
-/// Coal's answers about two triangles, and about two convex shapes.
-enum class CoalKernel : std::uint8_t {
-    collide,
-    collide_with_contact,
-    distance,
-    shapes_collide,
-    shapes_collide_nesterov,
-    shapes_distance,
-    shapes_distance_nesterov,
-    shapes_signed_distance
-};
-/// Of convex shapes. In shapes.cpp, within the module.
-std::unique_ptr<Contender> make_coal_shapes(const Job& job, CoalKernel kernel);
+/// Coal's answers about two triangles.
+enum class CoalKernel : std::uint8_t { collide, collide_with_contact, distance };
+
+/// What is asked of two convex shapes, and which of Coal's forms of GJK answers.
+enum class CoalShapeQuery : std::uint8_t { collide, distance, signed_distance };
+enum class CoalGjk : std::uint8_t { plain, polyak, nesterov };
+/// In shapes.cpp, within the module.
+std::unique_ptr<Contender> make_coal_shapes(const Job& job, CoalShapeQuery query, CoalGjk gjk);
 
 /// What makes Coal's manager of a kind, or ours in its place.
 using MakeCoalManager = std::function<std::unique_ptr<coal::BroadPhaseCollisionManager>()>;
@@ -67,6 +62,7 @@ std::unique_ptr<Contender> make_coal_meshes(const Job& job, CoalVolume volume, C
 struct CoalModule {
     std::unique_ptr<Contender> (*manager)(const Job&, Sides, CoalManager, Reported);
     std::unique_ptr<Contender> (*kernel)(const Job&, CoalKernel);
+    std::unique_ptr<Contender> (*shapes)(const Job&, CoalShapeQuery, CoalGjk);
     std::unique_ptr<Contender> (*meshes)(const Job&, CoalVolume, CoalMeshQuery, double);
     /// Without a manager of Coal's, ours in its place; by bounds alone, or with Coal's shapes.
     std::unique_ptr<Replay> (*replay)(const RecordedProgram&, std::optional<CoalManager>,

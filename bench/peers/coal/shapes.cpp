@@ -78,7 +78,7 @@ template <coal::GJKVariant variant> Decision collide(Kept<coal::ComputeCollision
     return yes_or_no((*of.compute)(of.pose_a, of.pose_b, request, of.touches) > 0);
 }
 
-template <bool is_signed, coal::GJKVariant variant = coal::DefaultGJK>
+template <bool is_signed, coal::GJKVariant variant>
 Distance distance(Kept<coal::ComputeDistance>& of) {
     coal::DistanceRequest request;
     request.gjk_variant = variant;
@@ -90,26 +90,33 @@ Distance distance(Kept<coal::ComputeDistance>& of) {
                                     : std::max(of.nearest.min_distance, 0.0));
 }
 
-} // namespace
-
-std::unique_ptr<Contender> make_coal_shapes(const Job& job, CoalKernel kernel) {
+template <coal::GJKVariant variant>
+std::unique_ptr<Contender> make(const Job& job, CoalShapeQuery query) {
     using Collisions = Kept<coal::ComputeCollision>;
     using Distances = Kept<coal::ComputeDistance>;
-    switch (kernel) {
-    case CoalKernel::shapes_collide:
-        return over_cases<ShapePairCase, Collisions, collide<coal::DefaultGJK>>(job);
-    case CoalKernel::shapes_collide_nesterov:
-        return over_cases<ShapePairCase, Collisions, collide<coal::NesterovAcceleration>>(job);
-    case CoalKernel::shapes_distance_nesterov:
-        return over_cases<ShapePairCase, Distances, distance<false, coal::NesterovAcceleration>>(
-            job);
-    case CoalKernel::shapes_distance:
-        return over_cases<ShapePairCase, Distances, distance<false>>(job);
-    case CoalKernel::shapes_signed_distance:
-        return over_cases<ShapePairCase, Distances, distance<true>>(job);
-    default:
-        return nullptr;
+    switch (query) {
+    case CoalShapeQuery::collide:
+        return over_cases<ShapePairCase, Collisions, collide<variant>>(job);
+    case CoalShapeQuery::distance:
+        return over_cases<ShapePairCase, Distances, distance<false, variant>>(job);
+    case CoalShapeQuery::signed_distance:
+        return over_cases<ShapePairCase, Distances, distance<true, variant>>(job);
     }
+    return nullptr;
+}
+
+} // namespace
+
+std::unique_ptr<Contender> make_coal_shapes(const Job& job, CoalShapeQuery query, CoalGjk gjk) {
+    switch (gjk) {
+    case CoalGjk::plain:
+        return make<coal::DefaultGJK>(job, query);
+    case CoalGjk::polyak:
+        return make<coal::PolyakAcceleration>(job, query);
+    case CoalGjk::nesterov:
+        return make<coal::NesterovAcceleration>(job, query);
+    }
+    return nullptr;
 }
 
 } // namespace boxwood::bench

@@ -4,6 +4,8 @@
 #include "bench/peers/mesh_queries.h"
 #include "bench/tasks/detail/median_distance.h"
 
+#include <fcl/narrowphase/detail/primitive_shape_algorithm/triangle_distance.h>
+
 #include <limits>
 
 namespace boxwood::bench {
@@ -26,6 +28,37 @@ template <class Volume> class Nearer final : public MeshModels<Volume> {
   private:
     S tolerance_;
     typename Models::DistanceRequest request_{false};
+};
+
+/// Each result starts at how far the nearest triangles of the pose before are apart in this one.
+template <class Volume>
+class WarmDistance final
+    : public PosedQuery<MeshModels<Volume>, fcl::DistanceRequest<typename Volume::S>,
+                        PosedDistance> {
+    using S = typename Volume::S;
+    using PosedQuery<MeshModels<Volume>, fcl::DistanceRequest<S>, PosedDistance>::PosedQuery;
+
+    void append(std::size_t i, std::vector<PosedDistance>& distances) override {
+        const fcl::Transform3<S>& pose = this->poses_[i];
+        Pair triangles = distances.empty() ? Pair{} : distances.back().triangles;
+        const S start = distances.empty() ? std::numeric_limits<S>::max() : apart(triangles, pose);
+        const auto& result = this->distance_at(pose, this->request_, start);
+        if (result.b1 != fcl::DistanceResult<S>::NONE)
+            triangles = {static_cast<std::uint32_t>(result.b1),
+                         static_cast<std::uint32_t>(result.b2)};
+        const auto d = static_cast<double>(result.min_distance);
+        distances.push_back({d, d, d, triangles});
+    }
+
+    S apart(const Pair& triangles, const fcl::Transform3<S>& pose) const {
+        const fcl::BVHModel<Volume>& model = *this->model_;
+        fcl::Vector3<S> a[3], b[3], on_a, on_b;
+        for (int k = 0; k < 3; ++k) {
+            a[k] = model.vertices[model.tri_indices[triangles.a][k]];
+            b[k] = model.vertices[model.tri_indices[triangles.b][k]];
+        }
+        return fcl::detail::TriangleDistance<S>::triDistance(a, b, pose, on_a, on_b);
+    }
 };
 
 template <class Volume>
@@ -62,6 +95,12 @@ template <class Volume> void append_distances(std::vector<ContenderEntry>& all) 
     ContenderEntry& least =
         all.emplace_back(entry_of_meshes<Volume>(".distance", "distance with nearest points"));
     least.answers = {answering<LeastDistance<Models>>("distance", Request(true))};
+    ContenderEntry& warm = all.emplace_back(entry_of_meshes<Volume>(
+        ".distance.warm",
+        "distance with nearest points, where the result starts at how far the triangles of the "
+        "answer before are apart in the new pose"));
+    warm.answers = {answering<WarmDistance<Volume>>("distance", Request(true))};
+    warm.classes = {warm_start_class};
     ContenderEntry& nearer = all.emplace_back(entry_of_meshes<Volume>(
         ".tolerance",
         "distance without nearest points, where the result starts at the tolerance, as MoveIt "

@@ -25,6 +25,8 @@ struct PosedDistance {
 
 /// The class of contenders of `collide` that also give the contact's point, normal and depth.
 inline const std::string with_contact_class = "with a contact";
+/// The class of contenders of `distance` that begin each pose at the triangles of the one before.
+inline const std::string warm_start_class = "warm start";
 
 /// Where two triangles meet in one of the scene's poses: the copy leaves the mesh there if it is
 /// moved by depth * normal. In the mesh's frame; the normal is of length 1.

@@ -77,8 +77,10 @@ ContenderEntry MeshPairTask::contender(const Choice& choice) const {
                               "{}; the copy's corners are moved in doubles, boxes are bounded in "
                               "floats",
                               query_notes());
-    if (choice.warm_start)
+    if (choice.warm_start) {
         entry.notes += "; each begins at the triangles of the answer before";
+        entry.classes = {warm_start_class};
+    }
     entry.runs_on = runs_on();
     entry.answers = {{std::string(name()),
                       [build = make_builder(choice.builder, choice.settings), kind = volume.volume,

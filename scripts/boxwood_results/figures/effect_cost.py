@@ -11,7 +11,7 @@ TITLE = "What an effect costs, against ourselves"
 HOW_TO_READ = (
     "Each mark is the time of a frame with something over the time without it, paired within rounds: right of the line "
     "it costs time. Round marks: one effect of the scene. Diamonds: all stages, over only those that the scene requires. "
-    "Bars are the intervals that decided; the shaded band is the A/A noise floor."
+    "Bars are the intervals that decided; the shaded bands are the A/A noise floors; what is open is pale."
 )
 COLUMNS = ("scene", "n", "threads", "what", "with_ns", "without_ns", "ratio", "ratio_lo", "ratio_hi")
 GAP = 0.12  # inches above a scene
@@ -47,13 +47,13 @@ def draw(run):
         for cost, look in entries:
             ratio = cost.ratio
             y += style.ROW / 2
-            marks.append((ratio, y, look, 1.0))
+            marks.append((ratio, y, look, cost.comparison.is_open, cost.comparison.floor))
             style.row_texts(ax, y, cost.what, f"{ratio.text}   {cost_text(cost.extra_ns)} a frame")
             ends += [ratio.lo, ratio.hi] if ratio.known else [ratio.mid]
             rows.append((job.scene, job.n, job.where.column, cost.what, cost.with_ns, cost.without_ns, ratio.mid, ratio.lo,
                          ratio.hi))
             y += style.ROW / 2
-    style.draw_marks(ax, marks, run.noise_floor)
+    style.draw_marks(ax, marks)
     style.ratio_axis(ax, min(ends), max(ends), "time of a frame with it / without it (right: it costs time)", room=0.04)
     ax.tick_params(axis="x", labeltop=height > style.TALL)
     ax.set_ylim(height, 0)

@@ -14,8 +14,9 @@ NAME = "forest"
 TITLE = "Against the peers"
 HOW_TO_READ = (
     "Each mark is the time of a library, by its fastest variant, divided by the time of our best variant, paired within "
-    "rounds: right of the line Boxwood is faster, left of it the peer. Bars are the intervals that decided. The shaded band "
-    "is the A/A noise floor, within which nothing is claimed; marks without a verdict are pale. The table names the variants."
+    "rounds: right of the line Boxwood is faster, left of it the peer. Bars are the intervals that decided. The shaded bands "
+    "are the A/A noise floors of such timings, within which nothing is claimed; marks without a verdict are pale. The table "
+    "names the variants."
 )
 COLUMNS = ("task", "class", "scene", "n", "threads", "ours", "peer", "peer_library", "phase", "rounds",
            "ratio", "ratio_lo", "ratio_hi", "verdict", "reason")
@@ -112,7 +113,7 @@ def ratio_axis(ax, comparisons):
     style.ratio_axis(ax, min(min(ends), 0.7), max(max(ends), 1.4), METRICS["ratio"].axis, room=0.05)
 
 
-def draw_column(ax, found, column, floor, rows):
+def draw_column(ax, found, column, rows):
     """One measure of all blocks: a row per library."""
     entries, y = [], 0.0
     for block in found:
@@ -132,9 +133,8 @@ def draw_column(ax, found, column, floor, rows):
                 rows.append((block.job.task, block.finding.contender_class, block.job.scene, block.job.n, block.job.where.column,
                              comparison.b.label, comparison.a.label, library, comparison.phase, comparison.rounds, gain.mid,
                              gain.lo, gain.hi, comparison.verdict, comparison.reason))
-    marks = [(comparison.gain, height, style.look(comparison.a), 0.45 if comparison.verdict == "cannot_tell" else 1.0)
-             for height, comparison in entries if comparison]
-    style.draw_marks(ax, marks, floor)
+    style.draw_marks(ax, [(comparison.gain, height, style.look(comparison.a), comparison.is_open, comparison.floor)
+                          for height, comparison in entries if comparison])
     ratio_axis(ax, [comparison for _, comparison in entries])
     ax.set_ylim(y - 0.12, 0)
 
@@ -150,7 +150,7 @@ def draw_one(run, task, contender_class, where, found):
     rows = []
     for column, title in enumerate(titles):
         ax = figure.add_axes(((column * wide + NAMES) / size[0], BOTTOM / size[1], PANEL / size[0], height / size[1]))
-        draw_column(ax, found, column, run.noise_floor, rows)
+        draw_column(ax, found, column, rows)
         ax.tick_params(axis="x", labeltop=height > style.TALL)
         ax.set_title(title, fontsize=10, weight="bold")
     jobs = {block.job for block in found}
