@@ -1,7 +1,10 @@
 #include "bench/advice/advice.h"
 
+#include "bench/advice/policies.h"
+#include "bench/analysis/analyse.h"
 #include "bench/io/bad_input.h"
 #include "bench/testing/maker.h"
+#include "bench/testing/run.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -135,6 +138,26 @@ TEST(Advice, IsDrawnAndToldToPrograms) {
     const std::string json = advice_json(advice);
     EXPECT_THAT(json, HasSubstr(R"("best":"hilbert.wide8")"));
     EXPECT_THAT(json, HasSubstr(R"("break_even":{"value":)"));
+}
+
+TEST(PolicyAdvice, APeerThatIsFasterBeyondNoiseIsNotCalledAsGood) {
+    for (const auto& [ns, as_good] : {std::pair{200., false}, {404., true}, {900., false}}) {
+        RunForTest run;
+        for (const auto& [name, query] :
+             {std::pair{"auto", 300.}, {"refit", 303.}, {"fcl.moved", ns - 100}}) {
+            const auto cell = run.cell("drift", 10, "moving_pairs", name);
+            run.time(cell, results::Phase::update, 100.);
+            run.time(cell, results::Phase::query, query);
+        }
+        analyse(run.results);
+        const PolicyAdvice advice = advise_of_policies(run.results);
+        EXPECT_EQ(advice.policies[advice.best].name, "auto");
+        for (const Policy& policy : advice.policies)
+            EXPECT_EQ(policy.is_as_good, !policy.is_peer || as_good) << policy.name << ' ' << ns;
+        EXPECT_EQ(policies_text(advice).find(", which is not told apart from it") !=
+                      std::string::npos,
+                  as_good);
+    }
 }
 
 } // namespace

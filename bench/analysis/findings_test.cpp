@@ -49,6 +49,12 @@ struct Findings : testing::Test {
         run.results.checks[cell].status = row.status;
         return cell;
     }
+    void time_twin(std::uint32_t cell, double query_ns) {
+        const std::size_t before = run.results.samples.size();
+        run.time(cell, Phase::query, query_ns);
+        for (std::size_t i = before; i < run.results.samples.size(); ++i)
+            run.results.samples[i].flags = results::aa_twin;
+    }
     std::string screen() {
         analyse(run.results);
         return screen_text(run.results);
@@ -275,12 +281,7 @@ TEST_F(Findings, AScenePlayedOnADeviceSaysWhere) {
 TEST_F(Findings, ANoisyRunSaysRepeatThisInstead) {
     const auto cell = add("uniform", "pairs", "ours.packed", 100, 300);
     add("uniform", "pairs", "fcl.tree", 100, 900);
-    run.time(cell, Phase::query, 300);
-    for (auto sample = run.results.samples.end() - 9; sample != run.results.samples.end();
-         ++sample) {
-        sample->flags = results::aa_twin;
-        sample->wall_ns = 600;
-    }
+    time_twin(cell, 600);
     const std::string text = screen();
     EXPECT_EQ(run.results.health[0].is_too_noisy, 1u);
     EXPECT_THAT(text, HasSubstr("REPEAT THIS"));
@@ -293,18 +294,32 @@ TEST_F(Findings, ARunThatIsNotQuietTellsWhatIsBeyondItsNoise) {
     add("uniform", "pairs", "fcl.tree", 100, 900);
     add("clusters", "pairs", "ours.packed", 100, 300);
     add("clusters", "pairs", "fcl.tree", 100, 380);
-    run.time(cell, Phase::query, 300);
-    for (auto sample = run.results.samples.end() - 9; sample != run.results.samples.end();
-         ++sample) {
-        sample->flags = results::aa_twin;
-        sample->wall_ns = 400;
-    }
+    time_twin(cell, 400);
     const std::string text = screen();
     EXPECT_THAT(text, HasSubstr("noise floor 33.3 %: not quiet"));
     EXPECT_EQ(run.results.health[0].is_too_noisy, 0u);
     ASSERT_EQ(run.results.findings.size(), 2u);
     EXPECT_THAT(text, HasSubstr("wins 3.00x"));
     EXPECT_THAT(text, HasSubstr("unsure, 1.27x"));
+}
+
+TEST_F(Findings, ASureLossIsNotHiddenBehindAFasterRivalThatIsOpen) {
+    add("uniform", "pairs", "ours.packed", 10, 100);
+    add("uniform", "pairs", "embree.bvh", 10, 85);
+    const auto noisy = run.cell("uniform", 10, "pairs", "fcl.tree");
+    for (const Phase phase : {Phase::build, Phase::query})
+        run.time(noisy, phase, [](std::uint32_t round) { return round % 9 < 5 ? 70. : 300.; });
+    const Finding& row = only();
+    EXPECT_EQ(row.together, "LOSES 0.864x to Embree"); // FCL's median is less, and open
+    EXPECT_EQ(row.alone, "LOSES 0.850x");
+    EXPECT_TRUE(row.is_loss);
+}
+
+TEST_F(Findings, WrongKernelsOfPeersAreCounted) {
+    add_kernel("plain", "no promise", 3, 10); // ours: it promised nothing
+    add_kernel("sure", "exact", 0, 25);
+    add_kernel("fcl.triangles", "no promise", 5, 10);
+    EXPECT_THAT(screen(), HasSubstr("2 answers checked: 0 of ours wrong, 1 of the peers' wrong"));
 }
 
 TEST_F(Findings, OneScreenHoldsAHundredQuestions) {

@@ -121,6 +121,11 @@ TEST(Decide, CaseByCase) {
     EXPECT_EQ(of({.7, .7, .7, .8, .8, .8, .8, .8}), open(Reason::too_few_rounds));
     EXPECT_EQ(of({1.1, 1.1, 1.15, 1.15, 1.15, 1.15, 1.15, 1.5, 1.5}, .2),
               open(Reason::below_the_floor));
+    // The ratio is beyond the floor, the interval reaches into it: enough where the floor is small.
+    EXPECT_EQ(of({1.1, 1.1, 1.3, 1.3, 1.3, 1.3, 1.3, 1.5, 1.5}, .15),
+              open(Reason::below_the_floor));
+    EXPECT_EQ(of({.9, .9, .7, .7, .7, .7, .7, .6, .6}, .15), open(Reason::below_the_floor));
+    EXPECT_EQ(of({1.03, 1.03, 1.3, 1.3, 1.3, 1.3, 1.3, 1.5, 1.5}, .04), said(Verdict::slower));
     EXPECT_EQ(of({1, 1, 1}), open(Reason::too_few_rounds)); // even for the same data
     EXPECT_EQ(of({1, 1, 1, 1, 1, 1, 1, 1, 1}), said(Verdict::same));
     EXPECT_EQ(of({1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2}, .21), open(Reason::too_noisy));

@@ -152,7 +152,8 @@ def edited(file, table, column, change):
     ("samples", "wall_ns", lambda ns: 3 * ns, "not the median of its samples"),
     ("medians", "median_ns", lambda ns: 1.01 * ns, "not the median of its samples"),
     ("compare", "ratio", lambda ratio: 2 * ratio, "not the ratio of its samples"),
-    ("compare", "ci_hi", lambda hi: 0.999 * hi, "not an interval of its samples")])
+    ("compare", "ci_hi", lambda hi: 0.999 * hi, "not an interval of its samples"),
+    ("compare", "floor", lambda floor: 1000 + 0 * floor, "its interval or the noise floor does not")])
 def test_numbers_that_do_not_follow_from_the_samples_are_said(root, table, column, change, problem):
     file = file_of(root, "pairs", synthetic.full(wrong=False))
     published.freeze(root)
@@ -251,6 +252,21 @@ def test_kernels_have_a_row_for_each_family(tmp_path):
                 best[point.library] = min(best.get(point.library, math.inf), point.ns / ours)
         said = [float(re.match(r"[\d.]+", text)[0]) for text in row[3:] if text]
         assert sorted(said) == pytest.approx(sorted(best.values()), rel=0.05)
+
+
+def test_a_library_that_is_wrong_or_silent_is_named_in_the_row(tmp_path):
+    made = synthetic.full(wrong=False)
+    kernels = {number: name for name, number in made.ids["cells"].items() if "/triangle_triangle/" in name}
+    peers = {row["name"] for row in made.rows["variants"] if row["library"] == "fcl"}
+    family = next(name.split("/")[0] for name in kernels.values())
+    for row in made.rows["kernels"]:
+        if row["task"] == "triangle_triangle" and row["kernel"] in peers:
+            row["maybe"] = 7 if kernels[row["cell_id"]].startswith(family + "/") else 0
+    rows = published_tables.against_peers("triangle_triangle")(published.read(made.write(tmp_path / "silent.h5")))
+    cells = {row[0]: row[1:] for row in rows[1:]}
+    silent = f"triangle triangle, {family.replace('_', ' ')}"
+    assert "no answer in 7 of 4,000" in cells.pop(silent)
+    assert not any("no answer" in text for row in cells.values() for text in row)
 
 
 def test_first_builds_have_a_row_of_their_own(tmp_path):
