@@ -75,17 +75,15 @@ template <class Number> struct PaddedFit {
     static constexpr std::string_view name = info.name;
 
     static Aabb<Real> fit(const RigidTransform<Real>& transform, const Aabb<Real>& box) {
-        return without_flushing([&] { return padded(transform, box); });
+        return without_flushing([&] {
+            return box.is_empty() ? Aabb<Real>{} : fit_kept(transform, CentredBox<Real>(box));
+        });
     }
 
-  private:
-    using Limits = std::numeric_limits<Real>;
-
-    static Aabb<Real> padded(const RigidTransform<Real>& transform, const Aabb<Real>& box) {
+    /// The same of a box that is not empty, in a thread that keeps denormals.
+    static Aabb<Real> fit_kept(const RigidTransform<Real>& transform, const CentredBox<Real>& in) {
+        using Limits = std::numeric_limits<Real>;
         constexpr Real eight_u = 4 * Limits::epsilon();
-        if (box.is_empty())
-            return {};
-        const CentredBox<Real> in(box);
         Aabb<Real> out;
         for (int i = 0; i < 3; ++i) {
             const Vec3<Real> row = transform.rotation[static_cast<std::size_t>(i)];

@@ -200,6 +200,8 @@ KinematicTree::Step KinematicTree::step_of(const JointDescription& joint) {
     Step step{joint.parent, joint.child};
     step.rotation = orthonormalised(orthonormalised(joint.origin.rotation));
     step.translation = joint.origin.translation;
+    const bool turns = joint.kind != JointKind::fixed && joint.kind != JointKind::prismatic;
+    step.parallel = !turns && step.rotation == RigidTransform<double>{}.rotation;
     if (joint.kind == JointKind::fixed)
         return step;
     const Vec3<double> a = unit_axis(joint);
@@ -268,19 +270,22 @@ void KinematicTree::forward(std::span<const double> values, std::span<RigidTrans
                             const RigidTransform<double>& root) const {
     poses[root_] = root;
     for (const Step& step : steps_) {
-        RigidTransform<double> local{step.rotation, step.translation};
+        const RigidTransform<double>& parent = poses[step.parent];
+        RigidTransform<double>& child = poses[step.child];
+        Vec3<double> place = step.translation;
+        Rotation turned = step.rotation;
         if (step.turns) {
             const double q = step.multiplier * values[step.value] + step.offset;
             const double s = std::sin(q), c = std::cos(q);
             for (std::size_t i = 0; i < 3; ++i)
-                local.rotation[i] = step.rotation[i] + (s * step.sine[i] + c * step.cosine[i]);
+                turned[i] = step.rotation[i] + (s * step.sine[i] + c * step.cosine[i]);
         } else if (step.slides) {
             const double q = step.multiplier * values[step.value] + step.offset;
-            local.translation = step.translation + q * step.slide;
+            place = place + q * step.slide;
         }
-        RigidTransform<double> pose = compose(poses[step.parent], local);
-        pose.rotation = orthonormalised(pose.rotation);
-        poses[step.child] = pose;
+        child.translation = parent(place);
+        child.rotation =
+            step.parallel ? parent.rotation : orthonormal_product(parent.rotation, turned);
     }
 }
 

@@ -50,6 +50,7 @@ class KinematicTree {
         std::uint32_t parent, child;
         std::uint32_t value = 0; ///< not of fixed joints
         bool turns = false, slides = false;
+        bool parallel = false;             ///< axes of both frames are parallel at any value
         double multiplier = 1, offset = 0; ///< q = multiplier * value + offset
         std::array<Vec3<double>, 3> rotation{}, sine{}, cosine{};
         Vec3<double> translation{}, slide{};

@@ -26,6 +26,16 @@ inline Rotation product(const Rotation& a, const Rotation& b) {
     return out;
 }
 
+/// The product of two rotations that are orthonormal to 2^-27, orthonormal to 16 roundings: two
+/// rows, a Newton step for each towards length 1 and a right angle, and their cross product.
+inline Rotation orthonormal_product(const Rotation& a, const Rotation& b) {
+    Vec3<double> x = a[0].x * b[0] + a[0].y * b[1] + a[0].z * b[2];
+    Vec3<double> y = a[1].x * b[0] + a[1].y * b[1] + a[1].z * b[2];
+    x = x + (.5 - dot(x, x) / 2) * x;
+    y = y + ((.5 - dot(y, y) / 2) * y - dot(x, y) * x);
+    return {x, y, cross(x, y)};
+}
+
 /// x -> a(b(x)), rounded.
 inline RigidTransform<double> compose(const RigidTransform<double>& a,
                                       const RigidTransform<double>& b) {

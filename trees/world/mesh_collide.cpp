@@ -47,10 +47,10 @@ HWY_INLINE std::uint32_t overlapping(const SeenBox& one, const Centre& centre,
 
 template <bool first_hit, bool counted> class Collision {
   public:
-    Collision(const MeshTree& a, const MeshTree& b, const Pose& pose, std::size_t limit,
+    Collision(const MeshTree& a, const MeshTree& b, const PairFrame& frame, std::size_t limit,
               std::vector<Pair>* pairs, Work* work)
-        : a_(a), b_(b), frame_(a, b, pose), stack_(max_entries(a.depth(), b.depth())),
-          limit_(limit), pairs_(pairs), work_(work) {}
+        : a_(a), b_(b), frame_(frame), stack_(max_entries(a.depth(), b.depth())), limit_(limit),
+          pairs_(pairs), work_(work) {}
 
     bool run() { return run({a_.root(), b_.root()}) || finish(); }
 
@@ -220,7 +220,7 @@ template <bool first_hit, bool counted> class Collision {
     }
 
     const MeshTree &a_, &b_;
-    PairFrame frame_;
+    const PairFrame& frame_;
     EntryStack<Pair> stack_;
     PairBlocks<128> queue_;
     Decision decisions_[128];
@@ -229,17 +229,31 @@ template <bool first_hit, bool counted> class Collision {
     Work* work_;
 };
 
-bool first_touch(const MeshTree& a, const MeshTree& b, const Pose& pose, Work* work) {
+/// Most pairs of bodies whose boxes along the axes overlap lie apart: one test of the boxes around
+/// all of them, before eight by eight.
+bool roots_parted(const MeshTree& a, const MeshTree& b, const PairFrame& frame, Work* work) {
     if (work)
-        return Collision<true, true>(a, b, pose, 1, nullptr, work).run();
-    return Collision<true, false>(a, b, pose, 1, nullptr, nullptr).run();
+        ++work->box_tests;
+    return frame.parted(a.own(a.root()), b.own(b.root()));
+}
+
+bool first_touch(const MeshTree& a, const MeshTree& b, const Pose& pose, Work* work) {
+    const PairFrame frame(a, b, pose);
+    if (roots_parted(a, b, frame, work))
+        return false;
+    if (work)
+        return Collision<true, true>(a, b, frame, 1, nullptr, work).run();
+    return Collision<true, false>(a, b, frame, 1, nullptr, nullptr).run();
 }
 void all_touches(const MeshTree& a, const MeshTree& b, const Pose& pose, std::size_t limit,
                  std::vector<Pair>& pairs, Work* work) {
+    const PairFrame frame(a, b, pose);
+    if (roots_parted(a, b, frame, work))
+        return;
     if (work)
-        Collision<false, true>(a, b, pose, limit, &pairs, work).run();
+        Collision<false, true>(a, b, frame, limit, &pairs, work).run();
     else
-        Collision<false, false>(a, b, pose, limit, &pairs, nullptr).run();
+        Collision<false, false>(a, b, frame, limit, &pairs, nullptr).run();
 }
 
 void all_touches_by(const MeshTree& a, const MeshTree& b, const Pose& pose,
@@ -247,11 +261,14 @@ void all_touches_by(const MeshTree& a, const MeshTree& b, const Pose& pose,
     constexpr std::size_t enough = 256, in_task = 8;
     constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
     using AllTouches = Collision<false, false>;
-    const std::vector<Pair> front = AllTouches(a, b, pose, all, nullptr, nullptr).front(enough);
+    const PairFrame frame(a, b, pose);
+    if (roots_parted(a, b, frame, nullptr))
+        return;
+    const std::vector<Pair> front = AllTouches(a, b, frame, all, nullptr, nullptr).front(enough);
     std::vector<std::vector<Pair>> found((front.size() + in_task - 1) / in_task);
     executor.for_each(found.size(), [&](std::size_t task) {
         without_flushing([&] {
-            AllTouches below(a, b, pose, all, &found[task], nullptr);
+            AllTouches below(a, b, frame, all, &found[task], nullptr);
             const std::size_t end = std::min(front.size(), (task + 1) * in_task);
             for (std::size_t i = task * in_task; i < end; ++i)
                 below.run(front[i]);

@@ -1,11 +1,13 @@
 #include "trees/world/mesh_pairs.h"
 
 #include "kernels/oracle/oracle.h"
+#include "kernels/primitives/rotation.h"
 #include "kernels/triangle_distance/certified.h"
 #include "trees/builders/lbvh.h"
 #include "trees/testing/every_executor.h"
 #include "trees/testing/test_meshes.h"
 #include "trees/testing/triangle_soup.h"
+#include "trees/world/box_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -86,6 +88,48 @@ TEST_P(RandomPoses, TouchAsRationalsSay) {
         }
     }
     EXPECT_GT(hits, 500u);
+}
+
+/// A point within the edge along an axis that reaches farthest in a direction.
+Vec3<double> on_farthest_edge(const TriangleMesh& box, int axis, Vec3<double> direction,
+                              std::mt19937& random) {
+    Vec3<double> point(box.vertices[7]);
+    for (int i = 0; i < 3; ++i)
+        point[i] = std::copysign(point[i], direction[i]);
+    point[axis] *= std::uniform_real_distribution<double>(-.9, .9)(random);
+    return point;
+}
+
+TEST(MeshPairs, OfBoxesWhoseEdgesMeetTouchAsRationalsSay) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> side(.2, 3), exponent(-52, -3);
+    std::size_t touch = 0, parted_at_once = 0, apart = 0;
+    for (int k = 0; k < 600; ++k) {
+        const TriangleMesh a = box_mesh({side(random), side(random), side(random)});
+        const TriangleMesh b = box_mesh({side(random), side(random), side(random)});
+        const int axis_a = static_cast<int>(random() % 3), axis_b = static_cast<int>(random() % 3);
+        Vec3<double> along_a, along_b;
+        along_a[axis_a] = along_b[axis_b] = 1;
+        Pose pose = random_pose(random, {});
+        Vec3<double> out = cross(along_a, pose.rotated(along_b));
+        out = 1 / length(out) * out;
+        const Vec3<double> on_a = on_farthest_edge(a, axis_a, out, random);
+        const Vec3<double> on_b =
+            on_farthest_edge(b, axis_b, transposed_times(pose.rotation, -out), random);
+        const double gap = k % 5 == 0 ? 0 : std::copysign(std::exp2(exponent(random)), k % 2 - .5);
+        pose.translation = on_a - pose.rotated(on_b) + gap * out;
+        const MeshTree tree_a(a), tree_b(b);
+        Work work;
+        const bool touching = !touching_by_rationals(a, b, pose).empty();
+        ASSERT_EQ(collide(tree_a, tree_b, pose, &work), touching) << k;
+        ASSERT_EQ(touching_triangles(tree_a, tree_b, pose).empty(), !touching) << k;
+        touch += touching;
+        apart += !touching && gap > 0x1p-12;
+        parted_at_once += !touching && gap > 0x1p-12 && work.node_visits == 0;
+    }
+    EXPECT_GT(touch, 200u);
+    EXPECT_GT(apart, 30u);
+    EXPECT_EQ(parted_at_once, apart);
 }
 
 TEST(MeshPairs, TouchTheSameForAnyNumberOfThreads) {

@@ -57,6 +57,10 @@ class MeshTree {
     const detail::TriangleLeaf& leaf(std::uint32_t ref) const {
         return leaves_[detail::index_of(ref)];
     }
+    /// The box around what is below a block or in a leaf.
+    const detail::PosedBox& own(std::uint32_t ref) const {
+        return detail::is_leaf(ref) ? leaf(ref).own : block(ref).own;
+    }
 
   private:
     TriangleMesh mesh_;

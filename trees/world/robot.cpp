@@ -1,7 +1,6 @@
 #include "trees/world/robot.h"
 
 #include "kernels/arithmetic/rounding.h"
-#include "kernels/boxes/fit.h"
 #include "kernels/primitives/rotation.h"
 #include "kernels/suggest.h"
 
@@ -181,7 +180,7 @@ LinkBoxes::LinkBoxes(const Robot& robot, std::span<const Aabb<float>> mesh_boxes
         if (!link.geometries.empty())
             links_.push_back(i);
         for (const LinkGeometry& geometry : link.geometries)
-            parts_.push_back(
+            parts_.emplace_back(
                 fit(geometry.origin, std::visit(ShapeBox{link, mesh_boxes}, geometry.shape)));
     }
     first_.push_back(parts_.size());
@@ -191,12 +190,14 @@ void LinkBoxes::boxes(std::span<const RigidTransform<double>> poses,
                       std::span<Aabb<double>> boxes) const {
     check_size(poses.size(), first_.size() - 1, "poses of links");
     check_size(boxes.size(), first_.size() - 1, "boxes of links");
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-        Aabb<double> box;
-        for (std::size_t part = first_[i]; part < first_[i + 1]; ++part)
-            box.extend(fit(poses[i], parts_[part]));
-        boxes[i] = box;
-    }
+    without_flushing([&] {
+        for (std::size_t i = 0; i < poses.size(); ++i) {
+            Aabb<double> box;
+            for (std::size_t part = first_[i]; part < first_[i + 1]; ++part)
+                box.extend(PaddedFit<double>::fit_kept(poses[i], parts_[part]));
+            boxes[i] = box;
+        }
+    });
 }
 
 } // namespace boxwood

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/boxes/fit.h"
 #include "kernels/kinematics/kinematic_tree.h"
 #include "kernels/primitives/aabb.h"
 #include "kernels/primitives/triangle.h"
@@ -94,8 +95,8 @@ class LinkBoxes {
 
   private:
     std::vector<std::uint32_t> links_;
-    std::vector<std::size_t> first_;  ///< of each link in parts_; one more at the end
-    std::vector<Aabb<double>> parts_; ///< around each shape, in its link's frame
+    std::vector<std::size_t> first_;        ///< of each link in parts_; one more at the end
+    std::vector<CentredBox<double>> parts_; ///< around each shape, in its link's frame
 };
 
 } // namespace boxwood

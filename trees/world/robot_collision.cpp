@@ -34,9 +34,19 @@ void RobotSelfCollision::place(std::span<const double> values) {
 
 bool RobotSelfCollision::collides(std::span<const double> values) {
     place(values);
-    return std::ranges::any_of(pairs_to_test_, [&](Pair p) {
-        return overlaps(boxes_[p.a], boxes_[p.b]) && narrow_phase_->collide(p.a, p.b, poses_);
-    });
+    const auto touch = [&](std::size_t i) {
+        const auto [a, b] = pairs_to_test_[i];
+        return overlaps(boxes_[a], boxes_[b]) && narrow_phase_->collide(a, b, poses_);
+    };
+    const std::size_t n = pairs_to_test_.size(), first = touched_last_;
+    if (first < n && touch(first))
+        return true;
+    for (std::size_t i = 0; i < n; ++i)
+        if (i != first && touch(i)) {
+            touched_last_ = i;
+            return true;
+        }
+    return false;
 }
 
 const SelfCollision& RobotSelfCollision::check(std::span<const double> values) {

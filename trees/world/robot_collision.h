@@ -76,6 +76,7 @@ class RobotSelfCollision {
     const LinkBoxes* link_boxes_;
     const LinkNarrowPhase* narrow_phase_;
     std::vector<Pair> pairs_, pairs_to_test_; ///< all with geometry; those that are not allowed
+    std::size_t touched_last_ = 0;            ///< in pairs_to_test_: tested first in `collides`
     std::vector<RigidTransform<double>> poses_;
     std::vector<Aabb<double>> boxes_;
     std::vector<Near> by_gap_;

@@ -104,6 +104,11 @@ TEST(RobotSelfCollision, AgreesWithEveryPairTested) {
         ASSERT_GE(found.least.hi, least - 1e-15);
         collided += !colliding.empty();
         ASSERT_EQ(self.collides(values), !colliding.empty());
+        balls.asked = 0;
+        ASSERT_EQ(self.collides(values), !colliding.empty());
+        if (!colliding.empty()) {
+            ASSERT_EQ(balls.asked, 1u); // the pair that touched last comes first
+        }
     }
     EXPECT_GT(collided, 100);
     EXPECT_LT(collided, 1900);
