@@ -111,19 +111,34 @@ double Bvh::area_ratio() const {
     return now > 0 ? std::numeric_limits<double>::infinity() : 1; // there was no area at all
 }
 
-void Bvh::require_moved(Boxes boxes, std::span<const std::uint32_t> moved) const {
-    if (boxes.size() != size())
-        throw std::invalid_argument("update: the tree holds " + std::to_string(size()) +
-                                    " boxes, " + std::to_string(boxes.size()) +
+namespace {
+
+/// A list of moved items as it must be, of trees that hold `held` boxes.
+void require_list(std::size_t held, std::size_t given, std::span<const std::uint32_t> moved) {
+    if (given != held)
+        throw std::invalid_argument("update: the tree holds " + std::to_string(held) + " boxes, " +
+                                    std::to_string(given) +
                                     " are given; leave the list of moved items out");
     for (std::size_t i = 0; i < moved.size(); ++i) {
-        if (moved[i] >= boxes.size())
+        if (moved[i] >= held)
             throw std::invalid_argument("update: there is no item " + std::to_string(moved[i]));
         if (i > 0 && moved[i] <= moved[i - 1])
             throw std::invalid_argument("update: the moved items do not ascend at item " +
                                         std::to_string(moved[i]));
-        require_valid(boxes[moved[i]], moved[i]);
     }
+}
+
+[[noreturn]] void refuse_unlisted(std::size_t item) {
+    throw std::invalid_argument("update: the box of item " + std::to_string(item) +
+                                " differs from the one held, but the item is not listed as moved");
+}
+
+} // namespace
+
+void Bvh::require_moved(Boxes boxes, std::span<const std::uint32_t> moved) const {
+    require_list(size(), boxes.size(), moved);
+    for (const std::uint32_t item : moved)
+        require_valid(boxes[item], item);
     std::size_t unlisted = boxes.size();
     const auto compare = [&](std::uint32_t item, const Box& held) {
         if (!(held == boxes[item]) && !std::ranges::binary_search(moved, item))
@@ -140,9 +155,7 @@ void Bvh::require_moved(Boxes boxes, std::span<const std::uint32_t> moved) const
                 compare(tree_.item(i), tree_.bounds(i));
     }
     if (unlisted < boxes.size())
-        throw std::invalid_argument("update: the box of item " + std::to_string(unlisted) +
-                                    " differs from the one held, but the item is not listed as "
-                                    "moved");
+        refuse_unlisted(unlisted);
 }
 
 namespace {
@@ -157,6 +170,10 @@ std::vector<Box> boxes_around(std::span<const Aabb<double>> boxes) {
             throw InvalidBox(i, "a coordinate beyond the largest float, 3.4e38; scale the scene");
     }
     return around;
+}
+
+bool is_region(const Aabb<double>& box) {
+    return box.min.x <= box.max.x && box.min.y <= box.max.y && box.min.z <= box.max.z;
 }
 
 /// The pairs of the float boxes whose double boxes overlap.
@@ -180,13 +197,11 @@ void BvhF64::update(std::span<const Aabb<double>> boxes) {
 }
 
 void BvhF64::update(std::span<const Aabb<double>> boxes, std::span<const std::uint32_t> moved) {
-    if (boxes.size() == boxes_.size())
-        for (std::size_t i = 0; i < boxes.size(); ++i)
-            if (!(boxes[i] == boxes_[i]) &&
-                !std::ranges::binary_search(moved, static_cast<std::uint32_t>(i)))
-                throw std::invalid_argument("update: the box of item " + std::to_string(i) +
-                                            " differs from the one held, but the item is not "
-                                            "listed as moved");
+    require_list(size(), boxes.size(), moved);
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        if (!(boxes[i] == boxes_[i]) &&
+            !std::ranges::binary_search(moved, static_cast<std::uint32_t>(i)))
+            refuse_unlisted(i);
     around_.update(boxes_around(boxes), moved);
     std::ranges::copy(boxes, boxes_.begin());
 }
@@ -231,7 +246,7 @@ std::uint64_t BvhF64::pair_count(const BvhF64& other) const {
 
 std::vector<std::uint32_t> BvhF64::overlapping(const Aabb<double>& box) const {
     std::vector<std::uint32_t> items;
-    if (!(box.min.x <= box.max.x && box.min.y <= box.max.y && box.min.z <= box.max.z))
+    if (!is_region(box))
         return items; // around it there may be a box all the same
     around_.overlapping(round_outward(box), [&](std::uint32_t item) {
         if (overlaps(boxes_[item], box))
@@ -242,6 +257,26 @@ std::vector<std::uint32_t> BvhF64::overlapping(const Aabb<double>& box) const {
 
 std::vector<std::uint32_t> BvhF64::containing(Vec3<double> point) const {
     return is_finite(point) ? overlapping({point, point}) : std::vector<std::uint32_t>();
+}
+
+/// A region with a NaN, or min > max, is given to the tree as one that shares no point with any.
+AnswersOf<std::uint32_t> BvhF64::overlapping(std::span<const Aabb<double>> boxes) const {
+    std::vector<Box> around(boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        if (is_region(boxes[i]))
+            around[i] = round_outward(boxes[i]);
+    std::vector<Pair> found;
+    AppendPairs sink(found);
+    FilteredPairs exact([&](Pair p) { return overlaps(boxes_[p.b], boxes[p.a]); }, sink);
+    around_.overlapping(around, exact);
+    return detail::answers_of_pairs(boxes.size(), found);
+}
+AnswersOf<std::uint32_t> BvhF64::containing(std::span<const Vec3<double>> points) const {
+    std::vector<Aabb<double>> boxes(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (is_finite(points[i]))
+            boxes[i] = {points[i], points[i]};
+    return overlapping(boxes);
 }
 
 /// Any k items bound how far the nearest ones are: those nearest to the rounded point in floats.
@@ -272,6 +307,22 @@ std::vector<Neighbour> BvhF64::nearest(Vec3<double> point, std::size_t k) const 
     if (found.size() > k)
         found.resize(k);
     return found;
+}
+
+std::vector<Neighbour> BvhF64::nearest(std::span<const Vec3<double>> points, std::size_t k) const {
+    std::vector<Neighbour> all;
+    if (!points.empty() && k > all.max_size() / points.size())
+        throw std::length_error("nearest: k answers to each point are more than memory holds");
+    all.resize(k * points.size());
+    constexpr std::size_t in_chunk = 64;
+    const std::size_t chunks = (points.size() + in_chunk - 1) / in_chunk;
+    around_.executor().for_each(chunks, [&](std::size_t chunk) {
+        const std::size_t end = std::min(points.size(), (chunk + 1) * in_chunk);
+        for (std::size_t i = chunk * in_chunk; i < end; ++i)
+            std::ranges::copy(nearest(points[i], k),
+                              all.begin() + static_cast<std::ptrdiff_t>(i * k));
+    });
+    return all;
 }
 
 } // namespace boxwood

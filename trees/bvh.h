@@ -51,8 +51,9 @@ class Bvh : public BoxQueries {
     std::size_t bytes() const;
 
     /// The boxes moved. As many as there were are fitted into the tree as it is, and it is built
-    /// again where that made it too loose; of another number it is built again. After an exception
-    /// it is as before.
+    /// again where that made it too loose; of another number it is built again. Input that is
+    /// refused changes nothing. After any other exception (no memory; of a builder or executor of
+    /// yours) only `rebuild` and assignment make sense.
     void update(Boxes boxes);
     /// The same where only these items moved, ascending: the others' boxes are compared with those
     /// held, and one that differs throws std::invalid_argument, as does a number of boxes other
@@ -76,8 +77,8 @@ class Bvh : public BoxQueries {
 };
 
 /// A tree of boxes in doubles: a Bvh of the float boxes around them finds what may be, and each
-/// answer is decided in doubles. Coordinates up to the largest float; beyond it, InvalidBox.
-/// Otherwise as Bvh.
+/// answer is decided in doubles. Coordinates up to the largest float; beyond it, InvalidBox. Build,
+/// update and order of answers as those of Bvh; queries of many run on the threads of the options.
 class BvhF64 {
   public:
     explicit BvhF64(std::span<const Aabb<double>> boxes = {}, const BvhOptions& options = {});
@@ -99,9 +100,15 @@ class BvhF64 {
     std::uint64_t pair_count(const BvhF64& other) const;
 
     std::vector<std::uint32_t> overlapping(const Aabb<double>& box) const;
+    AnswersOf<std::uint32_t> overlapping(std::span<const Aabb<double>> boxes) const;
     std::vector<std::uint32_t> containing(Vec3<double> point) const;
-    /// By the distance as doubles compute it (box_distance.h), and then by item.
+    AnswersOf<std::uint32_t> containing(std::span<const Vec3<double>> points) const;
+    /// By the squared distance as doubles compute it (box_distance.h), and then by item: what is
+    /// nearer than 1e-154 or farther than 1e154 has the same.
     std::vector<Neighbour> nearest(Vec3<double> point, std::size_t k = 1) const;
+    /// Of many: k to a point, filled up with no item (Neighbour::none). Throws std::length_error
+    /// for more than memory can hold.
+    std::vector<Neighbour> nearest(std::span<const Vec3<double>> points, std::size_t k = 1) const;
 
   private:
     std::vector<Aabb<double>> boxes_;

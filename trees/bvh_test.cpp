@@ -17,6 +17,7 @@
 namespace boxwood {
 namespace {
 
+using ::testing::ElementsAreArray;
 using ::testing::HasSubstr;
 using ::testing::Throws;
 using ::testing::ThrowsMessage;
@@ -146,6 +147,19 @@ TEST(Bvh, FunctionsAreCalledUntilTheySayFalse) {
     std::size_t calls = 0;
     bvh.self_pairs([&](Pair) { return ++calls < 5; });
     EXPECT_EQ(calls, 5u);
+    const Bvh of_two(random_boxes(20'000, .02f, 3), {.threads = 2});
+    std::vector<Pair> begun; // by the caller's thread alone, and in order
+    of_two.self_pairs([&](Pair pair) {
+        begun.push_back(pair);
+        return begun.size() < 5;
+    });
+    std::vector<Pair> wanted = of_two.self_pairs();
+    ASSERT_GT(wanted.size(), 1000u);
+    wanted.resize(5);
+    EXPECT_EQ(begun, wanted);
+    std::size_t across = 0;
+    of_two.pairs(of_two, [&](Pair) { return ++across < 5; });
+    EXPECT_EQ(across, 5u);
     Items items;
     bvh.overlapping(boxes[0], [&](std::uint32_t item) { items.push_back(item); });
     EXPECT_EQ(items, bvh.overlapping(boxes[0]));
@@ -283,6 +297,19 @@ void expect_exact_answers(const BvhF64& bvh, const Boxes64& boxes) {
                 pairs.push_back({a, b});
     EXPECT_EQ(ascending(bvh.self_pairs()), pairs);
     EXPECT_EQ(bvh.self_pair_count(), pairs.size());
+    std::vector<Vec3<double>> points;
+    for (const Aabb<double>& box : boxes)
+        points.push_back(box.max);
+    const AnswersOf<std::uint32_t> all = bvh.overlapping(boxes), at = bvh.containing(points);
+    ASSERT_EQ(all.size(), boxes.size());
+    const std::vector<Neighbour> near = bvh.nearest(points, 2);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        EXPECT_THAT(bvh.overlapping(boxes[i]), ElementsAreArray(all[i]));
+        EXPECT_THAT(bvh.containing(points[i]), ElementsAreArray(at[i]));
+        std::vector<Neighbour> two = bvh.nearest(points[i], 2);
+        two.resize(2);
+        EXPECT_THAT(std::span(near).subspan(2 * i, 2), ElementsAreArray(two));
+    }
     for (std::size_t i = 0; i < boxes.size(); i += 3) {
         Aabb<double> box = boxes[i];
         const auto overlapping = [&] {
@@ -332,6 +359,7 @@ TEST(BvhF64, FollowsBoxesThatMoveAndChecksTheList) {
     boxes[5].max.x += 0x1p-40; // less than any float sees
     const auto update = [&](const Items& list) { return [&, list] { bvh.update(boxes, list); }; };
     EXPECT_THAT(update({}), ThrowsMessage<std::invalid_argument>(HasSubstr("item 5 ")));
+    EXPECT_THAT(update({7, 5}), ThrowsMessage<std::invalid_argument>(HasSubstr("do not ascend")));
     bvh.update(boxes, Items{5});
     expect_exact_answers(bvh, boxes);
     boxes = close_boxes(250, 1, 0x1p-29, 11);
@@ -354,12 +382,19 @@ TEST(BvhF64, PairsOfTwoTreesAndBadInput) {
     const BvhF64 bvh(a);
     EXPECT_TRUE(bvh.containing({nan, 1, 1}).empty());
     EXPECT_TRUE(bvh.nearest({inf, 1, 1}).empty());
+    const std::vector<Vec3<double>> points{{nan, 1, 1}, a[7].min};
+    EXPECT_TRUE(bvh.containing(points)[0].empty());
+    EXPECT_FALSE(bvh.containing(points)[1].empty());
+    EXPECT_EQ(bvh.nearest(points, 3)[0], Neighbour{});
+    EXPECT_NE(bvh.nearest(points, 3)[3], Neighbour{});
+    EXPECT_THROW(bvh.nearest(points, std::numeric_limits<std::size_t>::max()), std::length_error);
     EXPECT_EQ(bvh.nearest({1, 1, 1}, std::numeric_limits<std::size_t>::max()).size(), a.size());
     EXPECT_TRUE(bvh.overlapping({{1, 1, nan}, {2, 2, 2}}).empty());
     const Vec3<double> inside{1 + 0x1p-26, 1 + 0x1p-26, 1 + 0x1p-26};
     Aabb<double> inverted{inside, inside};
     inverted.max.x -= 0x1p-50;
     EXPECT_TRUE(bvh.overlapping(inverted).empty());
+    EXPECT_TRUE(bvh.overlapping(std::span<const Aabb<double>>(&inverted, 1))[0].empty());
     EXPECT_EQ(bvh.overlapping({{-inf, -inf, -inf}, {inf, inf, inf}}).size(), a.size());
     Boxes64 bad = a;
     bad[9].max.y = 1e39;

@@ -82,6 +82,7 @@ class Adviser {
             advice_.ways.push_back(std::move(way));
             if (cell.n_queries > 0)
                 advice_.n_queries = static_cast<double>(cell.n_queries);
+            advice_.threads = cell.threads;
             advice_.task = cell.task;
             advice_.scene = index_.scene(cell.scene_id).human_name;
         }
@@ -216,20 +217,28 @@ class Adviser {
         return logs;
     }
 
+    double floor_of(const Way& way) const {
+        return floors_
+            .of(index_.cell(advice_.ways[advice_.best].cell_id), index_.cell(way.cell_id),
+                Phase::build_and_query)
+            .value_or(default_delta);
+    }
     bool is_told_apart(const Way& way, double queries) const {
         const std::uint32_t a = advice_.ways[advice_.best].cell_id, b = way.cell_id;
-        const double floor = floors_.of(index_.cell(a), index_.cell(b), Phase::build_and_query)
-                                 .value_or(default_delta);
-        const Claim claim{total_logs(a, b, queries), floor};
+        const Claim claim{total_logs(a, b, queries), floor_of(way)};
         const results::Verdict verdict = decide({&claim, 1}, default_delta)[0].verdict;
         return verdict == results::Verdict::faster || verdict == results::Verdict::slower;
     }
 
     void find_as_good() {
         const double queries = advice_.wanted.value_or(advice_.n_queries);
-        for (std::size_t i = 0; i < advice_.ways.size(); ++i)
-            if (i != advice_.best && !is_told_apart(advice_.ways[i], queries))
+        for (std::size_t i = 0; i < advice_.ways.size(); ++i) {
+            if (i == advice_.best)
+                continue;
+            advice_.floor = std::max(advice_.floor, floor_of(advice_.ways[i]));
+            if (!is_told_apart(advice_.ways[i], queries))
                 advice_.as_good.push_back(i);
+        }
         std::ranges::sort(advice_.as_good, {},
                           [&](std::size_t way) { return total_ns(advice_.ways[way], queries); });
     }

@@ -30,6 +30,8 @@ struct Advice {
     std::string task, scene;
     std::string query_word;           ///< "rays"; "queries" where one query answers all
     double n_queries = 1;             ///< of the words above, as they were timed
+    unsigned threads = 1;             ///< of tree and queries
+    double floor = 0;                 ///< less than this part tells no two ways apart
     std::vector<Way> ways;            ///< all right ones of ours, by rising build time
     std::vector<std::size_t> front;   ///< of them, by rising build time: what to take
     std::vector<Step> steps;          ///< between them

@@ -13,6 +13,7 @@ namespace boxwood::bench {
 namespace {
 
 using results::Phase;
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -114,11 +115,21 @@ TEST(Advice, TakesTheLeastTotalOfAllAndNamesWhatIsNotToldApart) {
     }
     const Advice alike =
         advise(timed({{"a", "wide8", 1e6, 5e5}, {"b", "wide8", 1.01e6, 5e5}}, 1.51e6));
-    EXPECT_THAT(advice_text(alike),
-                HasSubstr("Not told apart from it there, beyond noise: b.wide8."));
+    EXPECT_THAT(advice_text(alike), AllOf(HasSubstr("Not told apart from it there (noise floor "),
+                                          HasSubstr(" %): b.wide8.\n")));
     const Advice apart = advise(timed({{"a", "wide8", 1e6, 5e5}, {"b", "wide8", 2e6, 5e5}}, 7.6e5));
     EXPECT_THAT(advice_text(apart), Not(HasSubstr("ot told apart from it there")));
     EXPECT_THAT(advice_text(apart), HasSubstr("as long, which is not told apart from it."));
+}
+
+TEST(Advice, NamesTheThreadsThatWereTimed) {
+    auto of_two = timed({{"a", "wide8", 1e6, 5e5}});
+    EXPECT_THAT(advice_text(advise(of_two)), Not(HasSubstr("threads")));
+    for (results::Cell& cell : of_two.cells)
+        cell.threads = 2;
+    const std::string text = advice_text(advise(of_two));
+    EXPECT_THAT(text, HasSubstr(", .threads = 2});"));
+    EXPECT_THAT(text, HasSubstr(", threads=2)"));
 }
 
 TEST(Advice, LeavesOutWhatErrs) {
@@ -138,6 +149,7 @@ TEST(Advice, IsDrawnAndToldToPrograms) {
     const std::string json = advice_json(advice);
     EXPECT_THAT(json, HasSubstr(R"("best":"hilbert.wide8")"));
     EXPECT_THAT(json, HasSubstr(R"("break_even":{"value":)"));
+    EXPECT_THAT(json, HasSubstr(R"("is_rival_told_apart":true)"));
 }
 
 TEST(PolicyAdvice, APeerThatIsFasterBeyondNoiseIsNotCalledAsGood) {

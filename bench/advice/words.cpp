@@ -34,23 +34,25 @@ std::string range(const MedianInterval& interval) {
 std::string cpp_lines(const Advice& advice, const Way& way) {
     const bool is_mesh = advice.task.starts_with("rays");
     return fmt::format("    boxwood::{0} bvh({1}, {{.builder = boxwood::make_builder(\"{2}\"),\n"
-                       "        .layout = boxwood::LayoutName::{3}}});",
+                       "        .layout = boxwood::LayoutName::{3}{4}}});",
                        is_mesh ? "MeshBvh" : "Bvh", is_mesh ? "vertices, triangles" : "boxes",
-                       way.builder, way.layout);
+                       way.builder, way.layout,
+                       advice.threads > 1 ? fmt::format(", .threads = {}", advice.threads) : "");
 }
 std::string python_line(const Advice& advice, const Way& way) {
     const bool is_mesh = advice.task.starts_with("rays");
-    return fmt::format("    bvh = boxwood.{}({}, builder=\"{}\", layout=\"{}\")",
+    return fmt::format("    bvh = boxwood.{}({}, builder=\"{}\", layout=\"{}\"{})",
                        is_mesh ? "MeshBvh" : "Bvh", is_mesh ? "vertices, faces" : "boxes",
-                       way.builder, way.layout);
+                       way.builder, way.layout,
+                       advice.threads > 1 ? fmt::format(", threads={}", advice.threads) : "");
 }
 
 /// "Up to 40,000 rays per build use A, above it B (...)."
 std::string rule_text(const Advice& advice) {
     const auto name = [&](std::size_t i) { return advice.ways[advice.front[i]].name; };
     if (advice.front.size() == 1)
-        return fmt::format("Use {} for any number of {} per build: nothing that was timed is "
-                           "faster in build or query beyond noise.\n",
+        return fmt::format("Use {} for any number of {} per build: no other way was seen to build "
+                           "or answer faster, by more than noise.\n",
                            name(0), advice.query_word);
     std::string text;
     for (std::size_t i = 0; i < advice.steps.size(); ++i) {
@@ -75,7 +77,8 @@ std::string advice_text(const Advice& advice) {
                         time_text(best.query_ns / advice.n_queries));
     if (!advice.as_good.empty()) {
         constexpr std::size_t most = 5;
-        text += "Not told apart from it there, beyond noise: ";
+        text += fmt::format("Not told apart from it there (noise floor {:.1f} %): ",
+                            100 * advice.floor);
         for (std::size_t i = 0; i < std::min(most, advice.as_good.size()); ++i)
             text += (i == 0 ? "" : ", ") + advice.ways[advice.as_good[i]].name;
         text += advice.as_good.size() > most
@@ -143,14 +146,16 @@ std::string advice_json(const Advice& advice) {
                              interval(step.query.ratio, step.query.ci_lo, step.query.ci_hi));
     const Way& best = advice.ways[advice.best];
     return fmt::format(
-        R"({{"task":{},"scene":{},"queries_per_build":{},"best":{},"as_good":[{}],"front":[{}],"steps":[{}],)"
-        R"("rival":{},"rival_ratio":{},"ways":[{}],"cpp":{},"python":{}}})"
+        R"({{"task":{},"scene":{},"threads":{},"noise_floor":{},"queries_per_build":{},"best":{},)"
+        R"("as_good":[{}],"front":[{}],"steps":[{}],"rival":{},"rival_ratio":{},)"
+        R"("is_rival_told_apart":{},"ways":[{}],"cpp":{},"python":{}}})"
         "\n",
-        json_string(advice.task), json_string(advice.scene),
-        json_number(advice.wanted.value_or(advice.n_queries)), json_string(best.name), as_good,
-        front, steps, advice.rival ? way(*advice.rival) : "null",
+        json_string(advice.task), json_string(advice.scene), advice.threads,
+        json_number(advice.floor), json_number(advice.wanted.value_or(advice.n_queries)),
+        json_string(best.name), as_good, front, steps, advice.rival ? way(*advice.rival) : "null",
         interval(advice.rival_ratio.ratio, advice.rival_ratio.ci_lo, advice.rival_ratio.ci_hi),
-        ways, json_string(cpp_lines(advice, best)), json_string(python_line(advice, best)));
+        advice.is_rival_told_apart, ways, json_string(cpp_lines(advice, best)),
+        json_string(python_line(advice, best)));
 }
 
 } // namespace boxwood::bench

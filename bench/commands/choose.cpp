@@ -5,6 +5,7 @@
 #include "bench/io/read_results.h"
 #include "bench/io/say.h"
 #include "bench/running/sweep.h"
+#include "kernels/suggest.h"
 #include "scenes/moving/recording.h"
 #include "scenes/moving/scene_file.h"
 #include "trees/builder.h"
@@ -59,8 +60,8 @@ const Question& question_named(const std::string& name) {
     std::vector<std::string_view> names;
     for (const Question& question : questions)
         names.push_back(question.name);
-    throw BadInput(
-        fmt::format("choose: --task '{}' is none of {}, moving", name, fmt::join(names, ", ")));
+    names.push_back("moving");
+    throw BadInput("choose: --task: " + unknown_name("question", name, names));
 }
 
 struct ChooseOptions {
@@ -92,6 +93,9 @@ std::vector<std::string> builders_to_try() {
     return all;
 }
 
+/// As result files record it.
+constexpr std::string_view choose_command_line = "boxwood choose";
+
 /// A sweep of blocks that are written for it.
 class OwnSweep {
   public:
@@ -118,7 +122,7 @@ class OwnSweep {
         sweep.budget_s = budget_s;
         sweep.wait_s = 10;
         sweep.is_quiet = true;
-        sweep.command_line = "boxwood choose";
+        sweep.command_line = choose_command_line;
         if (!options_.mesh.empty())
             sweep.overrides.meshes = {options_.mesh};
         if (!options_.boxes.empty())
@@ -179,7 +183,11 @@ class Chooser {
         const Advice advice = advise(read_results(options_.out), options_.queries);
         fs::path picture = options_.out;
         picture.replace_extension(".svg");
-        std::ofstream(picture) << advice_picture(advice);
+        std::ofstream svg(picture);
+        svg << advice_picture(advice);
+        if (!svg.flush())
+            throw BadInput(
+                fmt::format("choose: the picture '{}' cannot be written", picture.string()));
         std::cout << (options_.as_json ? advice_json(advice) : advice_text(advice));
         if (!options_.as_json)
             std::cout << fmt::format("\nevidence  {}\npicture   {}\n", options_.out.string(),
@@ -267,6 +275,18 @@ int choose_policy(const ChooseOptions& options) {
     return 0;
 }
 
+/// What was measured before is measured again; but nobody else's file is lost.
+void require_own(const fs::path& out) {
+    if (!fs::exists(out))
+        return;
+    const results::Results there = read_results(out);
+    const auto argv = there.texts.find("argv");
+    if (argv == there.texts.end() || argv->second != choose_command_line)
+        throw BadInput(fmt::format("choose: --out '{}' holds what another command measured; name "
+                                   "another file, or remove it",
+                                   out.string()));
+}
+
 int choose(ChooseOptions options) {
     const bool moves = !options.scene.empty() || !options.motion.empty();
     if (!options.mesh.empty() + !options.boxes.empty() + !options.scene.empty() +
@@ -301,6 +321,7 @@ int choose(ChooseOptions options) {
         throw BadInput(
             fmt::format("choose: --out '{}': there is no folder {}; make it: mkdir -p {}",
                         options.out.string(), folder.string(), folder.string()));
+    require_own(options.out);
     return moves ? choose_policy(options) : Chooser(options).run();
 }
 

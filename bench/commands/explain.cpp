@@ -51,8 +51,12 @@ template <class Explain> void print(const ExplainOptions& options, const Explain
         throw BadInput(fmt::format("explain: {}", error.what()));
     }
     std::cout << answer.text;
-    if (options.svg.empty() || answer.svg.empty())
+    if (options.svg.empty())
         return;
+    if (answer.svg.empty()) {
+        std::cout << "\npicture  none: there is nothing to draw\n";
+        return;
+    }
     std::ofstream out(options.svg);
     out << answer.svg;
     if (!out.flush())

@@ -71,6 +71,19 @@ TEST(Explain, RaysMeetWhatTheQueryFinds) {
     EXPECT_GT(hits, 50u);
 }
 
+TEST(Explain, AHitBehindTheNearestIsNoMiss) {
+    TriangleMesh mesh;
+    mesh.vertices = {{0, 0, .9f}, {1, 0, 1.1f}, {0, 1, .9f}, {0, 0, .92f}, {1, 0, .92f}, {0, 1, 6}};
+    mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+    std::vector<Box> boxes;
+    for (std::size_t i = 0; i < 2; ++i)
+        boxes.push_back(mesh.triangle(i).bounds());
+    const Tree tree = make_builder("median")(boxes, serial());
+    const std::string text = explain_ray(tree, mesh, {{.25f, .25f, 0}, {0, 0, 1}}).text;
+    EXPECT_THAT(text, HasSubstr("triangle 1 is hit at t = 2.19, behind the hit at 0.95"));
+    EXPECT_THAT(text, HasSubstr("The nearest hit: triangle 0 at t = 0.95"));
+}
+
 TEST(Explain, BodiesAndWhatTheSceneExpects) {
     const MovingScene scene(load_scene("four_link_arm"));
     const Explanation why = explain_body(scene, 1);

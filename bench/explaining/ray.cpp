@@ -77,6 +77,11 @@ Explanation explain_ray(const Tree& tree, const TriangleMesh& mesh, const Ray<fl
                     nearest = hit;
                     nearest.triangle = item;
                 }
+            } else if (nearest.hit() &&
+                       Watertight::intersect(prepared, ray, mesh.triangle(item), ray.t_max, hit)) {
+                report(now.depth, fmt::format("triangle {} is hit at t = {:.6g}, behind the hit "
+                                              "at {:.6g}",
+                                              item, hit.t, nearest.t));
             } else {
                 report(now.depth, fmt::format("triangle {} is missed", item));
             }

@@ -28,7 +28,8 @@ struct Side {
     fs::path program, out;
     const char* name;
 
-    fs::path log() const { return fs::path(out).replace_extension(".log"); }
+    /// Beside the file that it makes, by a name of its own: OUT.log may be a file of the user.
+    fs::path log() const { return out.string() + ".turns.log"; }
     unsigned rounds_done() const {
         return fs::exists(out) ? static_cast<unsigned>(rounds_in(read_results(out)).size()) : 0;
     }

@@ -45,6 +45,7 @@ TEST_F(SweepTest, ThatCouldTimeNothingFails) {
 TEST_F(SweepTest, AgainstAnotherProgramTakesTurns) {
     const fs::path base = folder / "out.base.h5";
     const std::vector<std::string> against{"--against", program()};
+    std::ofstream(folder / "out.log") << "the user's own";
     const pid_t pid = start(against);
     ASSERT_TRUE(wait_until([&] { return fs::exists(base); })) << text_of(log());
     kill(pid, SIGINT);
@@ -62,7 +63,9 @@ TEST_F(SweepTest, AgainstAnotherProgramTakesTurns) {
     for (std::size_t round = 0; round < 3; ++round) // of both before the next
         EXPECT_NE(order[2 * round], order[2 * round + 1]) << order;
     EXPECT_EQ(std::ranges::count(order, 'b'), 3);
-    EXPECT_FALSE(fs::exists(folder / "out.log"));
+    EXPECT_EQ(text_of(folder / "out.log"), "the user's own");
+    EXPECT_FALSE(fs::exists(out().string() + ".turns.log"));
+    EXPECT_FALSE(fs::exists(base.string() + ".turns.log"));
 
     fs::remove(base);
     const fs::path other = folder / "other", heard = folder / "heard";

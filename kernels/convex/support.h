@@ -28,12 +28,35 @@ inline Vec3<double> support(Rod r, Vec3<double> d) {
     return {0, 0, std::copysign(r.half_length, d.z)};
 }
 
+/// The core of an ellipsoid: what the centre of a ball reaches that rolls inside of it. The rounder
+/// the ellipsoid, the less is left for a search to go around.
+struct EllipsoidCore {
+    Vec3<double> radii; ///< of the ellipsoid
+    double ball; ///< its radius: at most the least radius of curvature, so that all is reached
+};
+inline double rolling_radius(const Ellipsoid& s) {
+    const double least = std::min({s.radii.x, s.radii.y, s.radii.z});
+    const double most = std::max({s.radii.x, s.radii.y, s.radii.z});
+    return least > 0 ? least * (least / most) * (1 - 8 * u) : 0;
+}
+inline Vec3<double> support(const EllipsoidCore& s, Vec3<double> d) {
+    const Vec3<double> e{s.radii.x * d.x, s.radii.y * d.y, s.radii.z * d.z};
+    const double size = length(e);
+    if (!(size > 0))
+        return {};
+    const double scale = 1 / size, back = s.ball / length(d);
+    return {s.radii.x * (e.x * scale) - back * d.x, s.radii.y * (e.y * scale) - back * d.y,
+            s.radii.z * (e.z * scale) - back * d.z};
+}
+
 /// Every shape is its core and all that is at most radius_of(shape) from it.
 inline Point core(const Sphere&) { return {}; }
 inline Rod core(const Capsule& s) { return {s.half_length}; }
+inline EllipsoidCore core(const Ellipsoid& s) { return {s.radii, rolling_radius(s)}; }
 template <BoundedShape S> const S& core(const S& s) { return s; }
 inline double radius_of(const Sphere& s) { return s.radius; }
 inline double radius_of(const Capsule& s) { return s.radius; }
+inline double radius_of(const Ellipsoid& s) { return rolling_radius(s); }
 template <class S> double radius_of(const S&) { return 0; }
 
 /// At least the greatest distance of a core's points from the origin of its frame.
@@ -42,7 +65,7 @@ inline double reach(Rod r) { return r.half_length; }
 inline double reach(const Box& s) { return s.half.x + s.half.y + s.half.z; }
 inline double reach(const Cylinder& s) { return s.radius + s.half_length; }
 inline double reach(const Cone& s) { return s.radius + s.half_length; }
-inline double reach(const Ellipsoid& s) { return s.radii.x + s.radii.y + s.radii.z; }
+inline double reach(const EllipsoidCore& s) { return (s.radii.x + s.radii.y + s.radii.z) - s.ball; }
 inline double reach(const Hull& s) { return s.reach(); }
 inline double norm1(Vec3<double> p) { return std::abs(p.x) + std::abs(p.y) + std::abs(p.z); }
 inline double reach(const Triangle& s) {

@@ -38,7 +38,8 @@ class KinematicTree {
     std::span<const std::uint32_t> rigid_parts() const { return rigid_parts_; }
 
     /// Forward kinematics: the pose of every link in the frame that the root's pose is given in.
-    /// values: n_values() finite ones, within their ranges or not; poses: n_links().
+    /// values: n_values() finite ones, within their ranges or not; poses: n_links(); root: a
+    /// rotation up to rounding, no reflection.
     /// Each rotation is orthonormal to 16 roundings, however long the chain. Allocates nothing.
     void forward(std::span<const double> values, std::span<RigidTransform<double>> poses,
                  const RigidTransform<double>& root = {}) const;

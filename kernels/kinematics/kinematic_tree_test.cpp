@@ -76,8 +76,13 @@ struct RandomRobot {
             const Vec3<double> about{real(-1, 1), real(-1, 1), real(.1, 1)}, by{real(-1, 1), 0, 1};
             const double angle = real(-4, 4);
             joint.origin = {rotation_about(about * (1 / length(about)), angle), by};
+            Motion turned = turn_about(about, angle);
+            if (bits() % 3 == 0) { // axes parallel to the parent's
+                joint.origin.rotation = RigidTransform<double>{}.rotation;
+                turned = {};
+            }
             robot.joints.push_back(joint);
-            origins.push_back(shift(by) * turn_about(about, angle));
+            origins.push_back(shift(by) * turned);
         }
         // In any order, each joint beside its origin.
         for (std::size_t i = robot.joints.size(); i-- > 1;) {

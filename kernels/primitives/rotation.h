@@ -26,7 +26,7 @@ inline Rotation product(const Rotation& a, const Rotation& b) {
     return out;
 }
 
-/// The product of two rotations that are orthonormal to 2^-27, orthonormal to 16 roundings: two
+/// The product of two rotations that are orthonormal to 2^-28, orthonormal to 16 roundings: two
 /// rows, a Newton step for each towards length 1 and a right angle, and their cross product.
 inline Rotation orthonormal_product(const Rotation& a, const Rotation& b) {
     Vec3<double> x = a[0].x * b[0] + a[0].y * b[1] + a[0].z * b[2];

@@ -22,7 +22,7 @@ from ._answers import (BodyContacts, BodyDistance, BodyDistances, ClosestPoints,
                        Items, MeshDistance, Nearest)
 
 __all__ = ["BodyContacts", "BodyDistance", "BodyDistances", "Bvh", "ClosestPoints", "Contacts", "Distances",
-           "FirstContacts", "Hits", "Items", "Mesh", "MeshBvh", "MeshDistance", "Nearest", "Shape", "World", "results",
+           "FirstContacts", "Hits", "Items", "Mesh", "MeshBvh", "MeshDistance", "Nearest", "Shape", "World",
            "triangle_distances", "triangles_intersect"]
 
 _CORE = {"Bvh", "Mesh", "MeshBvh", "Shape", "World", "triangle_distances", "triangles_intersect", "__version__"}
@@ -41,7 +41,8 @@ def _compiled():
 
 
 def __getattr__(name):
-    # Each when it is asked for: results needs h5py, and is read where the rest was not built.
+    # Each when it is asked for: results needs h5py (pip install 'boxwood[results]'), which is no reason for * to fail, and
+    # is read where the rest was not built.
     if name in _CORE:
         return getattr(_compiled(), name)
     if name in ("results", "trimesh"):

@@ -11,13 +11,23 @@ def _largest(vectors):
     return np.maximum(np.maximum(x, y), z)
 
 
+def _rows(name, given):
+    """Of shape (n, 3), in float64; also from (3,), or nothing at all."""
+    rows = np.asarray(given, dtype=np.float64)
+    if rows.shape == (3,) or rows.size == 0:
+        rows = rows.reshape(-1, 3)
+    if rows.ndim != 2 or rows.shape[1] != 3:
+        raise ValueError(f"{name}: the shape (n, 3) is wanted, not {rows.shape}")
+    return rows
+
+
 class RayMeshIntersector:
     """The interface of trimesh.ray.ray_pyembree.RayMeshIntersector.
 
     mesh: a trimesh.Trimesh. The tree is made when it is first asked, and again once the mesh has
     changed. Coordinates are held in float32, measured from the middle of the mesh; places of hits
     come from the triangles' own corners, in float64. A ray with a NaN, an infinity or no direction
-    meets nothing.
+    meets nothing. Rays are of shape (n, 3), or (3,) for one; others raise ValueError.
     threads: how many a query may use.
     """
 
@@ -43,8 +53,8 @@ class RayMeshIntersector:
 
     def _cast(self, how, ray_origins, ray_directions):
         """The answer about the rays that are any, and which these are."""
-        origins = np.asarray(ray_origins, dtype=np.float64).reshape(-1, 3)
-        directions = np.asarray(ray_directions, dtype=np.float64).reshape(-1, 3)
+        origins = _rows("ray_origins", ray_origins)
+        directions = _rows("ray_directions", ray_directions)
         if len(origins) != len(directions):
             raise ValueError(f"there are {len(origins)} ray_origins and {len(directions)} ray_directions")
         tree = self._tree()
@@ -69,20 +79,20 @@ class RayMeshIntersector:
         first of each ray.
         """
         index_tri, index_ray, locations = self.intersects_id(ray_origins, ray_directions, multiple_hits,
-                                                             return_locations=True)
+                                                             max_hits=None, return_locations=True)
         return locations, index_ray, index_tri
 
     def intersects_id(self, ray_origins, ray_directions, multiple_hits=True, max_hits=100, return_locations=False):
         """Which triangles rays meet: (index_tri, index_ray), and the locations if asked for.
 
-        max_hits: the first so many of each ray.
+        max_hits: the first so many of each ray; None for all.
         """
         if multiple_hits:
             (offsets, hits), rays, _ = self._cast("all_hits", ray_origins, ray_directions)
             counts = np.diff(offsets.astype(np.int64))
             index_ray = np.repeat(rays, counts)
             nth = np.arange(len(index_ray)) - np.repeat(offsets[:-1].astype(np.int64), counts)
-            kept = nth < max_hits
+            kept = nth < (np.inf if max_hits is None else max_hits)
         else:
             hits, index_ray, _ = self._cast("closest_hits", ray_origins, ray_directions)
             kept = hits.triangle >= 0
@@ -108,6 +118,14 @@ class RayMeshIntersector:
 
     def contains_points(self, points):
         """Whether points, shape (n, 3), are inside the mesh or on it, shape (n,), bool: exactly,
-        without a vote of rays. Raises ValueError for a mesh that is not closed."""
+        without a vote of rays, for both as float32 holds them. Points that are not finite are not.
+        Raises ValueError for a mesh that is not closed, which has no inside."""
+        points = _rows("points", points)
         tree = self._tree()
-        return tree.contains(np.asarray(points, dtype=np.float64) - self._middle)
+        inside = np.zeros(len(points), dtype=bool)
+        if len(self.mesh.faces):
+            low, high = self.mesh.bounds
+            room = 1e-6 * np.max(high - low)  # more than float32 rounds by
+            near = np.flatnonzero(np.all((points >= low - room) & (points <= high + room), axis=1))
+            inside[near] = tree.contains(points[near] - self._middle)
+        return inside

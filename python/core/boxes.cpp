@@ -55,22 +55,10 @@ bool are_doubles(const py::handle& given, const std::string& name) {
     return type.kind() != 'f' || type.itemsize() > 4;
 }
 
-/// One answer after the other, as those of many.
-template <class Found, class Ask> AnswersOf<Found> each(std::size_t n, const Ask& ask) {
-    AnswersOf<Found> all{std::vector<std::uint64_t>(1), {}};
-    for (std::size_t i = 0; i < n; ++i) {
-        const std::vector<Found> found = ask(i);
-        all.of.insert(all.of.end(), found.begin(), found.end());
-        all.offsets.push_back(all.of.size());
-    }
-    return all;
-}
-
 constexpr std::size_t max_neighbours = std::size_t{1} << 32; ///< of one call: 64 GiB
 
 /// A tree of float boxes, or of doubles where the boxes are.
 class PyBvh {
-    template <class Tree> static constexpr bool is_double_tree = std::is_same_v<Tree, BvhF64>;
     template <class Tree>
     using RealOf = std::conditional_t<std::is_same_v<Tree, BvhF64>, double, float>;
 
@@ -172,13 +160,7 @@ class PyBvh {
             const GivenBoxes<RealOf<Tree>> given(boxes, "boxes");
             const auto asked = given.get();
             require_no_nan(asked);
-            return items(without_gil([&] {
-                if constexpr (is_double_tree<Tree>)
-                    return each<std::uint32_t>(
-                        asked.size(), [&](std::size_t i) { return tree.overlapping(asked[i]); });
-                else
-                    return tree.overlapping(asked);
-            }));
+            return items(without_gil([&] { return tree.overlapping(asked); }));
         });
     }
 
@@ -188,13 +170,7 @@ class PyBvh {
             const Rows<Real> given(points, "points", {3});
             given.require_finite();
             const auto asked = given.template as<Vec3<Real>>();
-            return items(without_gil([&] {
-                if constexpr (is_double_tree<Tree>)
-                    return each<std::uint32_t>(
-                        asked.size(), [&](std::size_t i) { return tree.containing(asked[i]); });
-                else
-                    return tree.containing(asked);
-            }));
+            return items(without_gil([&] { return tree.containing(asked); }));
         });
     }
 
@@ -212,17 +188,7 @@ class PyBvh {
                                       " points are more than 2^32 answers; there are " +
                                       std::to_string(tree.size()) + " items");
             const auto asked = given.template as<Vec3<Real>>();
-            std::vector<Neighbour> found = without_gil([&] {
-                if constexpr (is_double_tree<Tree>) {
-                    std::vector<Neighbour> all(k * asked.size());
-                    for (std::size_t i = 0; i < asked.size(); ++i)
-                        std::ranges::copy(tree.nearest(asked[i], k),
-                                          all.begin() + static_cast<std::ptrdiff_t>(i * k));
-                    return all;
-                } else {
-                    return tree.nearest(asked, k);
-                }
-            });
+            std::vector<Neighbour> found = without_gil([&] { return tree.nearest(asked, k); });
             std::vector<double> distances(found.size());
             std::ranges::transform(found, distances.begin(), [](const Neighbour& near) {
                 return std::sqrt(near.squared_distance);

@@ -1,5 +1,6 @@
 #include "arrays.h"
 #include "core.h"
+#include "kernels/suggest.h"
 
 #include "trees/mesh_bvh.h"
 
@@ -149,13 +150,8 @@ class PyMeshBvh {
                                               ", has a NaN, or a number of 2^126 or more");
     }
     static RayKernelName kernel_named(const std::string& name) {
-        for (std::size_t i = 0; i < ray_kernels().size(); ++i)
-            if (ray_kernels()[i].name == name)
-                return static_cast<RayKernelName>(i);
-        std::string known;
-        for (const KernelInfo& kernel : ray_kernels())
-            known += (known.empty() ? "" : ", ") + std::string(kernel.name);
-        throw py::value_error("unknown kernel '" + name + "'; known: " + known);
+        const std::span<const KernelInfo> kernels = ray_kernels();
+        return static_cast<RayKernelName>(&entry_named(name, kernels, "kernel") - kernels.data());
     }
     static Rows<float> finite(const py::object& points) {
         Rows<float> given(points, "points", {3});
@@ -195,8 +191,8 @@ released); who calls update() is alone with it meanwhile.)")
              arg("layout") = "wide8", arg("kernel") = "watertight", arg("threads") = 1, R"(
 vertices: shape (n, 3). faces: shape (m, 3), integers, each row the vertices of
     a triangle.
-builder, layout, kernel: names, as `boxwood list builders`, `layouts` and
-    `kernels` print them.
+builder, layout: names, as `boxwood list builders` and `layouts` print them.
+kernel: how a ray meets a triangle; a misspelt one is answered by their names.
 threads: how many a query of many, or a build, may use.
 
 Raises ValueError for a wrong shape, a face with a vertex that is not there, a

@@ -58,6 +58,8 @@ PYBIND11_MODULE(_core, module) {
     require_known_numpy();
     module.doc() = "What boxwood/__init__.py offers, in C++.";
     module.attr("__version__") = BOXWOOD_VERSION;
+    module.attr("_pybind11_version") =
+        py::make_tuple(PYBIND11_VERSION_HEX >> 24, PYBIND11_VERSION_HEX >> 16 & 0xff);
     module.def(
         "_inside_ns", [] { return inside_ns.load(); },
         "Nanoseconds that the library took of all calls so far.");

@@ -12,6 +12,8 @@ import pytest
 
 import boxwood as bw
 
+ENVIRONMENT = {**os.environ, "PYTHONPATH": str(Path(bw.__path__[-1]).parent)}
+
 
 def boxes_of(n, seed=1, dtype=np.float32, size=0.05):
     random = np.random.default_rng(seed)
@@ -174,23 +176,27 @@ def test_answers_are_handed_over_and_outlive_the_tree():
     assert (view == kept).all() and junk
 
 
-def test_arrays_that_fit_are_not_copied():
+@pytest.mark.parametrize("order", ["C", "F"])
+def test_arrays_that_fit_are_not_copied(order):
     """Reading 48 MB where they lie takes no 48 MB more; the same in another order does."""
-    import resource
-
-    boxes = np.zeros((2_000_000, 6), np.float32)
-    bvh = bw.Bvh(np.zeros((1, 6), np.float32))
-    bvh.overlapping(boxes[:10])
-
-    def grown_by(given):
+    code = f"""if True:
+        import resource
+        import numpy as np
+        import boxwood as bw
+        boxes = np.ones((2_000_000, 6), np.float32, order={order!r})
+        boxes[-1, 5] = np.nan
+        bvh = bw.Bvh(np.zeros((1, 6), np.float32))
+        bvh.overlapping(boxes[:10])
         before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-        with pytest.raises(ValueError, match="row 1999999 has a NaN"):
-            bvh.overlapping(given)
-        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
-
-    boxes[-1, 5] = np.nan
-    assert grown_by(boxes) < 20_000
-    assert grown_by(np.asfortranarray(boxes)) >= 0
+        try:
+            bvh.overlapping(boxes)
+        except ValueError as error:
+            assert "row 1999999 has a NaN" in str(error)
+            print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)
+        """
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=ENVIRONMENT, check=True)
+    grown = int(done.stdout)
+    assert grown < 20_000 if order == "C" else grown > 20_000
 
 
 def test_the_gil_is_released():
@@ -218,6 +224,8 @@ def test_the_gil_is_released():
 
 def test_a_numpy_that_pybind11_does_not_know_is_refused():
     code = "import numpy; numpy.__version__ = '2.0.0'; import boxwood; boxwood.Bvh([])"
-    environment = {**os.environ, "PYTHONPATH": str(Path(bw.__path__[-1]).parent)}
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment)
-    assert done.returncode == 0 or "ImportError" in done.stderr and "does not know numpy 2.0.0" in done.stderr, done.stderr
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=ENVIRONMENT)
+    if bw._compiled()._pybind11_version >= (2, 12):
+        assert done.returncode == 0, done.stderr
+    else:
+        assert "ImportError" in done.stderr and "does not know numpy 2.0.0" in done.stderr, done.stderr

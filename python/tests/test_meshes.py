@@ -81,7 +81,7 @@ def test_bad_meshes_and_rays_are_refused():
             bw.MeshBvh(vertices, faces)
     with pytest.raises(TypeError, match="integers"):
         bw.MeshBvh(CUBE, FACES.astype(float))
-    with pytest.raises(ValueError, match="unknown kernel 'watertigt'; known: .*watertight"):
+    with pytest.raises(ValueError, match="unknown kernel 'watertigt'; did you mean 'watertight'"):
         bw.MeshBvh(CUBE, FACES, kernel="watertigt")
     bw.MeshBvh(np.vstack([CUBE, [[np.nan, 0, 0]]]), FACES)  # of no face
     mesh = bw.MeshBvh(CUBE, FACES)
@@ -170,10 +170,18 @@ def test_trimesh_takes_it_as_its_own():
     odd = np.array([[0, 0, -1e-300], [0, 0, 0], [0, 0, -1e300], [np.nan, 0, -1], [np.inf, 0, 0], [0, 0, -1]])
     assert mesh.ray.intersects_any([[100, 0, 9]] * 6, odd).tolist() == [True, False, True, False, False, True]
     assert mesh.ray.intersects_id([[100.1, 0, 9]] * 6, odd)[1].tolist() == [0, 0, 2, 2, 5, 5]
+    for shape in ((3, 4), (2, 6), (2, 3, 1)):
+        with pytest.raises(ValueError, match=r"ray_origins: the shape \(n, 3\) is wanted"):
+            mesh.ray.intersects_any(np.zeros(shape), np.ones(shape))
+    assert mesh.ray.contains_points([[np.nan, 0, 0], [1e39, 0, 0], [100, 0, 0]]).tolist() == [False, False, True]
     with pytest.raises(ValueError, match="2 ray_origins and 1 ray_directions"):
         mesh.ray.intersects_any([[0, 0, 0]] * 2, [[0, 0, 1]])
     mesh.apply_translation([0, 50, 0])
     assert mesh.ray.intersects_any([[100, 0, 9], [100, 50, 9]], [[0, 0, -1]] * 2).tolist() == [False, True]
+    plates = [trimesh.Trimesh([[0, 0, z], [1, 0, z], [0, 1, z]], [[0, 1, 2]]) for z in range(150)]
+    through = RayMeshIntersector(trimesh.util.concatenate(plates))
+    assert len(through.intersects_location([[0.2, 0.2, -1]], [[0, 0, 1]])[0]) == 150
+    assert len(through.intersects_id([[0.2, 0.2, -1]], [[0, 0, 1]], max_hits=20)[0]) == 20
     nothing = RayMeshIntersector(trimesh.Trimesh())
     assert nothing.intersects_any([[0, 0, 9]], [[0, 0, -1]]).tolist() == [False]
     assert nothing.intersects_id([[0, 0, 9]], [[0, 0, -1]])[0].shape == (0,)

@@ -26,7 +26,7 @@ def files(tmp_path):
         (("--mesh", "empty.obj"), "empty.obj: is empty"),
         (("--mesh", "binary.obj"), "binary.obj: holds no triangles"),
         (("--mesh", "range.obj"), "line 4: vertex index 9 is out of range"),
-        (("--mesh", "mesh.obj", "--task", "rys"), "'rys' is none of rays, pairs"),
+        (("--mesh", "mesh.obj", "--task", "rys"), "did you mean 'rays'"),
         (("--mesh", "mesh.obj", "--queries", "-5"), "--queries -5: a number above 0"),
         (("--mesh", "mesh.obj", "--queries", "nan"), "a number above 0"),
         (("--mesh", "mesh.obj", "--queries", "many"), "--queries"),
@@ -43,10 +43,10 @@ def files(tmp_path):
 )
 def test_choose_refuses(files, monkeypatch, arguments, said):
     monkeypatch.chdir(files)
-    message = complaint_after_progress("choose", *arguments, "--out", "kept.h5")
+    message = complaint_after_progress("choose", *arguments, "--out", "new.h5")
     assert said in message, message
     assert "/tmp/boxwood-choose" not in message
-    assert (files / "kept.h5").read_text() == "somebody's"
+    assert not (files / "new.h5").exists()
 
 
 def complaint_after_progress(*arguments):
@@ -60,6 +60,8 @@ def test_choose_refuses_an_out_that_cannot_be(files, monkeypatch):
     monkeypatch.chdir(files)
     assert "ends in .h5" in complaint("choose", "--mesh", "mesh.obj", "--out", "a.csv")
     assert "there is no folder" in complaint("choose", "--mesh", "mesh.obj", "--out", "none/a.h5")
+    assert "kept.h5" in complaint("choose", "--mesh", "mesh.obj", "--out", "kept.h5")
+    assert (files / "kept.h5").read_text() == "somebody's"
 
 
 @pytest.mark.parametrize(

@@ -77,7 +77,7 @@ FetchContent_MakeAvailable(boxwood)
                          ids=["add_subdirectory", "FetchContent"])  # fmt: skip
 def test_as_a_part_of_another_project(tmp_path, inclusion):
     """No bench, no tests, no device code, optimised whatever the project says, and nobody gets our flags."""
-    (tmp_path / "main.cpp").write_text("int main() {}\n")
+    (tmp_path / "main.cpp").write_text("#include <boxwood/trees/bvh.h>\n#include <boxwood/boxwood.h>\n" "int main() { return boxwood::Bvh().empty() ? 0 : 1; }\n")
     (tmp_path / "CMakeLists.txt").write_text(
         "cmake_minimum_required(VERSION 3.25)\nproject(other LANGUAGES CXX)\nset(CMAKE_EXPORT_COMPILE_COMMANDS ON)\n"
         f"{inclusion}add_executable(other main.cpp)\n"
@@ -92,6 +92,7 @@ def test_as_a_part_of_another_project(tmp_path, inclusion):
     assert "-std=" in own and not re.search(r"-W\w|-f(?!PI)", own)
     assert "-ffp-contract=off" in commands[str(ROOT / "trees/bvh.cpp")] and " -O2 " in commands[str(ROOT / "trees/bvh.cpp")]
     assert not [file for file in commands if file.endswith((".cu", ".c"))]
+    run("ninja", "-C", tmp_path / "build", "CMakeFiles/other.dir/main.cpp.o")  # the same paths as once installed
 
 
 def test_readme_quotes_the_first_example():

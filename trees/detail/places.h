@@ -8,7 +8,7 @@
 
 namespace boxwood::detail {
 
-/// By vertex: one of those at its place, the same for all of them. No vertex is a NaN.
+/// By vertex: one of those at its place, the same for all of them; itself if it has a NaN.
 std::vector<std::uint32_t> places_of(std::span<const Vec3<float>> vertices);
 
 } // namespace boxwood::detail

@@ -18,21 +18,24 @@ template <class Query> std::uint64_t count_of(const Query& query) {
     return sink.count();
 }
 
-/// Pairs (query, item) come by query and then by item.
 template <class Query> AnswersOf<std::uint32_t> answers_of(std::size_t n, const Query& query) {
-    const std::vector<Pair> pairs = pairs_of(query);
-    AnswersOf<std::uint32_t> answers{std::vector<std::uint64_t>(n + 1),
+    return detail::answers_of_pairs(n, pairs_of(query));
+}
+
+} // namespace
+
+AnswersOf<std::uint32_t> detail::answers_of_pairs(std::size_t n_queries,
+                                                  std::span<const Pair> pairs) {
+    AnswersOf<std::uint32_t> answers{std::vector<std::uint64_t>(n_queries + 1),
                                      std::vector<std::uint32_t>(pairs.size())};
     std::size_t found = 0;
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < n_queries; ++i) {
         for (; found < pairs.size() && pairs[found].a == i; ++found)
             answers.of[found] = pairs[found].b;
         answers.offsets[i + 1] = found;
     }
     return answers;
 }
-
-} // namespace
 
 std::vector<Pair> BoxQueries::self_pairs() const {
     return pairs_of([&](PairSink& sink) { self_pairs(sink); });

@@ -18,8 +18,9 @@ concept Visitor = std::invocable<F&, Found> && !std::derived_from<std::remove_cv
 
 /// What Bvh and DynamicBvh answer about boxes: closed, so that one shared point counts. Each query
 /// returns its answers, or hands them to a sink or a function, or counts them; queries of many run
-/// on the threads of the options, and functions are called from these. The order of answers is the
-/// same for any number of threads.
+/// on the threads of the options. The order of what is returned is the same for any number of
+/// threads. Functions are called from those threads, several at a time; but one that returns bool
+/// from the caller's alone, until it says false.
 ///
 /// Threads: any number of them may call const members of one tree at the same time. Who changes it
 /// (update, insert, move ...) is alone with it meanwhile.
@@ -29,7 +30,9 @@ class BoxQueries {
     std::vector<Pair> self_pairs() const;
     void self_pairs(PairSink& sink) const { layout_->self_pairs(*executor_, sink); }
     template <Visitor<Pair> F> void self_pairs(F&& visit) const {
-        with_pairs(visit, [&](PairSink& sink) { self_pairs(sink); });
+        with_pairs(visit, [&](const Executor& executor, PairSink& sink) {
+            layout_->self_pairs(executor, sink);
+        });
     }
     std::uint64_t self_pair_count() const;
 
@@ -40,7 +43,9 @@ class BoxQueries {
         layout_->tree_pairs(*other.layout_, *executor_, sink);
     }
     template <Visitor<Pair> F> void pairs(const BoxQueries& other, F&& visit) const {
-        with_pairs(visit, [&](PairSink& sink) { pairs(other, sink); });
+        with_pairs(visit, [&](const Executor& executor, PairSink& sink) {
+            layout_->tree_pairs(*other.layout_, executor, sink);
+        });
     }
     std::uint64_t pair_count(const BoxQueries& other) const;
 
@@ -76,7 +81,7 @@ class BoxQueries {
     }
 
     /// The k items nearest to a point, by distance and then by item; fewer if there are fewer, none
-    /// of a point that is not finite.
+    /// of a point that is not finite. Throws std::length_error for a k beyond memory.
     std::vector<Neighbour> nearest(Vec3<float> point, std::size_t k = 1) const;
     /// Of many: k to a point, filled up with no item (Neighbour::none). Throws std::length_error
     /// for more than memory can hold.
@@ -97,17 +102,19 @@ class BoxQueries {
     std::shared_ptr<const Executor> executor_;
 
   private:
+    template <class F, class Found>
+    static constexpr bool may_end = std::same_as<std::invoke_result_t<F&, Found>, bool>;
     template <class F, class Found> static bool goes_on(F& visit, Found found) {
-        if constexpr (std::same_as<std::invoke_result_t<F&, Found>, bool>) {
+        if constexpr (may_end<F, Found>) {
             return visit(found);
         } else {
             visit(found);
             return true;
         }
     }
-    template <class F, class Query> static void with_pairs(F& visit, const Query& query) {
+    template <class F, class Query> void with_pairs(F& visit, const Query& query) const {
         ForEachPair sink([&](Pair pair) { return goes_on(visit, pair); });
-        query(sink);
+        query(may_end<F, Pair> ? serial() : *executor_, sink);
     }
     template <class F, class Query> static void with_items(F& visit, const Query& query) {
         ForEachPair sink([&](Pair pair) { return goes_on(visit, pair.b); });
@@ -116,6 +123,9 @@ class BoxQueries {
 };
 
 namespace detail {
+
+/// By query, from pairs (query, item) in that order.
+AnswersOf<std::uint32_t> answers_of_pairs(std::size_t n_queries, std::span<const Pair> pairs);
 
 /// That of the options: `given`, else one of so many threads. Throws std::invalid_argument for both
 /// and for no threads.

@@ -176,6 +176,21 @@ TEST(Sides, RefuseOpenMeshesAndSayHowOpenTheyAre) {
     EXPECT_THROW(open.signed_distance({0, 0, 0}), std::invalid_argument);
 }
 
+TEST(Sides, VerticesOfNoTriangleMayBeAnything) {
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    TriangleMesh mesh = uv_sphere(8, 4);
+    mesh.triangles.pop_back();
+    for (std::size_t at = 0; at <= mesh.vertices.size(); ++at) {
+        TriangleMesh with = mesh;
+        with.vertices.insert(with.vertices.begin() + static_cast<std::ptrdiff_t>(at),
+                             {nan, 0, nan});
+        for (auto& triangle : with.triangles)
+            for (std::uint32_t& corner : triangle)
+                corner += corner >= at;
+        EXPECT_EQ(MeshBvh(with).open_edges(), 3u) << at;
+    }
+}
+
 TEST(Sides, OfNoMeshAndOfNoPoint) {
     const MeshBvh none;
     EXPECT_EQ(none.side({0, 0, 0}), Side::outside);

@@ -1,9 +1,10 @@
 /// Which triangles of two meshes share a point.
 ///
-/// A step takes a pair of blocks and opens both at once. B's eight boxes are moved into A's frame
-/// and tested against the box around A's block; each that is left against A's eight boxes. Pairs of
-/// leaves: B's corners are moved in doubles, boxes of triangles are compared, and what is left goes
-/// to the exact kernel, 64 pairs at a time, or eight where the first hit will do.
+/// First the boxes around all of both, along 15 axes. Then a step takes a pair of blocks and opens
+/// both at once. B's eight boxes are moved into A's frame and tested against the box around A's
+/// block; each that is left against A's eight boxes. Pairs of leaves: B's corners are moved in
+/// doubles, boxes of triangles are compared, and what is left goes to the exact kernel, 64 pairs at
+/// a time, or eight where the first hit will do.
 
 // Compiled once per instruction set; the best one is chosen at run time.
 #undef HWY_TARGET_INCLUDE
@@ -47,6 +48,7 @@ HWY_INLINE std::uint32_t overlapping(const SeenBox& one, const Centre& centre,
 
 template <bool first_hit, bool counted> class Collision {
   public:
+    /// The frame must outlive it.
     Collision(const MeshTree& a, const MeshTree& b, const PairFrame& frame, std::size_t limit,
               std::vector<Pair>* pairs, Work* work)
         : a_(a), b_(b), frame_(frame), stack_(max_entries(a.depth(), b.depth())), limit_(limit),
@@ -232,8 +234,10 @@ template <bool first_hit, bool counted> class Collision {
 /// Most pairs of bodies whose boxes along the axes overlap lie apart: one test of the boxes around
 /// all of them, before eight by eight.
 bool roots_parted(const MeshTree& a, const MeshTree& b, const PairFrame& frame, Work* work) {
-    if (work)
+    if (work) {
+        ++work->node_visits;
         ++work->box_tests;
+    }
     return frame.parted(a.own(a.root()), b.own(b.root()));
 }
 

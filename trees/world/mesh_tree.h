@@ -57,7 +57,7 @@ class MeshTree {
     const detail::TriangleLeaf& leaf(std::uint32_t ref) const {
         return leaves_[detail::index_of(ref)];
     }
-    /// The box around what is below a block or in a leaf.
+    /// The box around what is below a block or in a leaf; not of an empty tree.
     const detail::PosedBox& own(std::uint32_t ref) const {
         return detail::is_leaf(ref) ? leaf(ref).own : block(ref).own;
     }

@@ -174,15 +174,17 @@ TriangleMesh scaled(TriangleMesh mesh, Vec3<double> scale) {
 }
 
 LinkBoxes::LinkBoxes(const Robot& robot, std::span<const Aabb<float>> mesh_boxes) {
-    for (std::uint32_t i = 0; i < robot.links().size(); ++i) {
-        const LinkDescription& link = robot.links()[i];
-        first_.push_back(parts_.size());
-        if (!link.geometries.empty())
-            links_.push_back(i);
-        for (const LinkGeometry& geometry : link.geometries)
-            parts_.emplace_back(
-                fit(geometry.origin, std::visit(ShapeBox{link, mesh_boxes}, geometry.shape)));
-    }
+    without_flushing([&] {
+        for (std::uint32_t i = 0; i < robot.links().size(); ++i) {
+            const LinkDescription& link = robot.links()[i];
+            first_.push_back(parts_.size());
+            if (!link.geometries.empty())
+                links_.push_back(i);
+            for (const LinkGeometry& geometry : link.geometries)
+                parts_.emplace_back(
+                    fit(geometry.origin, std::visit(ShapeBox{link, mesh_boxes}, geometry.shape)));
+        }
+    });
     first_.push_back(parts_.size());
 }
 

@@ -40,9 +40,10 @@ class Robot {
     /// Where each value is 0, or as near to 0 as its range allows.
     std::vector<double> rest() const;
 
-    /// Forward kinematics: the pose of each link, the root's being `root`. Values beyond their
-    /// ranges are taken as they are. Throws std::invalid_argument unless there are n_values()
-    /// finite values and room for exactly links().size() poses. Allocates nothing.
+    /// Forward kinematics: the pose of each link, the root's being `root`, as checked_pose gives
+    /// one. Values beyond their ranges are taken as they are. Throws std::invalid_argument unless
+    /// there are n_values() finite values and room for exactly links().size() poses. Allocates
+    /// nothing.
     void poses(std::span<const double> values, std::span<RigidTransform<double>> poses,
                const RigidTransform<double>& root = {}) const;
 

@@ -167,10 +167,19 @@ template <class Volume> class SelfCollisions final : public Contender {
         return found_;
     }
     bool found_pair_by_pair() {
-        for (const Pair& pair : pairs_)
-            if (objects_[pair.a]->getAABB().overlap(objects_[pair.b]->getAABB()) &&
-                touch(objects_[pair.a].get(), objects_[pair.b].get()))
+        const auto overlap = [&](std::size_t i) {
+            const auto [a, b] = pairs_[i];
+            return objects_[a]->getAABB().overlap(objects_[b]->getAABB()) &&
+                   touch(objects_[a].get(), objects_[b].get());
+        };
+        const std::size_t first = touched_last_; // as ours
+        if (first < pairs_.size() && overlap(first))
+            return true;
+        for (std::size_t i = 0; i < pairs_.size(); ++i)
+            if (i != first && overlap(i)) {
+                touched_last_ = i;
                 return true;
+            }
         return false;
     }
 
@@ -178,6 +187,7 @@ template <class Volume> class SelfCollisions final : public Contender {
     LinkShapes<S> shapes_;
     Allowed allowed_;
     std::vector<Pair> pairs_;                   ///< of shapes whose links must not touch
+    std::size_t touched_last_ = 0;              ///< in pairs_
     std::vector<RigidTransform<double>> poses_; ///< of the links
     bool by_manager_, found_ = false;
     std::vector<std::unique_ptr<Object>> objects_; ///< outlive their manager's use
@@ -215,7 +225,7 @@ template <class Volume> void append_robots(std::vector<ContenderEntry>& all) {
     all.push_back(self_collisions<Volume>(
         "pairs", Pairs::all,
         "of which the boxes overlap, one by one of a list that is made beforehand, without those "
-        "that may touch"));
+        "that may touch, that which touched last first"));
 }
 
 } // namespace

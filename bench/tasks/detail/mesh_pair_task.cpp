@@ -75,7 +75,7 @@ ContenderEntry MeshPairTask::contender(const Choice& choice) const {
     entry.summary = fmt::format("{}; {}", builder.summary, volume.summary);
     entry.notes = fmt::format("build: one tree, which stands for the mesh and for its copy; query: "
                               "{}; the copy's corners are moved in doubles, boxes are bounded in "
-                              "floats",
+                              "floats, those of the roots in doubles",
                               query_notes());
     if (choice.warm_start) {
         entry.notes += "; each begins at the triangles of the answer before";

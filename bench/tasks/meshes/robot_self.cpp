@@ -84,9 +84,11 @@ class RobotSelf final : public Task {
         entry.promise = Promise::certified;
         entry.name = fmt::format("{}.{}.{}", entry.builder, entry.layout, entry.traversal);
         entry.summary = "boxes of the links, then their meshes' trees and solids";
-        entry.notes = "build: a tree of each mesh; query: state after state, forward kinematics, "
-                      "boxes of the links, and of pairs that must not touch those whose boxes "
-                      "overlap, until two touch; exact for two meshes, certified for solids";
+        entry.notes =
+            "build: a tree of each mesh; query: state after state, forward kinematics, "
+            "boxes of the links, and of pairs that must not touch those whose boxes "
+            "overlap, until two touch, that which touched last first; exact for two meshes, "
+            "certified for solids";
         entry.runs_on = RunsOn::one_thread;
         entry.answers = {{std::string(name()),
                           [](const Job& job) { return std::make_unique<SelfCollisions>(job); }}};

@@ -126,5 +126,12 @@ struct Flat {
 
 /// By a search, ellipsoid_foot.h.
 Foot foot(Vec3<double> p, const Ellipsoid& s);
+/// As deep in the core as in the ellipsoid less the ball.
+inline Foot foot(Vec3<double> p, const EllipsoidCore& s) {
+    Foot f = foot(p, Ellipsoid{s.radii});
+    f.distance += s.ball;
+    f.point = f.point - f.normal * s.ball;
+    return f;
+}
 
 } // namespace boxwood::convex::detail

@@ -84,7 +84,7 @@ CoreDistance nearest_to_origin(const D& difference, Vec3<double> start, const Go
     const double rounding = touching_size(goal.size) / 4;
     int level_turns = 0; // a far vertex may turn v, yet gain less than rounding
     CoreDistance found;
-    Simplex buffer[2], grown;
+    Simplex buffer[2];
     Simplex* simplex = buffer;
     Simplex* spare = buffer + 1;
     Vec3<double> v = -start; // the direction of the nearest point, of any length
@@ -96,14 +96,11 @@ CoreDistance nearest_to_origin(const D& difference, Vec3<double> start, const Go
             if (goal.reached(gap, found.hi))
                 break;
         }
-        for (std::size_t i = 0; i < static_cast<std::size_t>(simplex->size); ++i)
-            grown.vertex[i] = simplex->vertex[i];
-        grown.size = simplex->size;
-        const bool known = grown.holds(next.w);
+        const bool known = simplex->holds(next.w);
         double hi = inf;
         if (!known) {
-            grown.add(next);
-            reduce(grown, *spare);
+            simplex->add(next);
+            reduce(*simplex, *spare);
             hi = length(spare->nearest);
         }
         const auto gains = [&] {
@@ -112,10 +109,12 @@ CoreDistance nearest_to_origin(const D& difference, Vec3<double> start, const Go
                     ++level_turns <= max_level_turns);
         };
         if (!gains()) {
-            reduce_thoroughly(grown, *spare);
+            reduce_thoroughly(*simplex, *spare);
             hi = length(spare->nearest);
-            if (!gains())
+            if (!gains()) {
+                simplex->size -= known ? 0 : 1; // as it was
                 break;
+            }
         }
         std::swap(simplex, spare);
         found.hi = hi;

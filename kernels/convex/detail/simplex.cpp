@@ -11,17 +11,10 @@ using Index = std::size_t;
 /// The best point so far, on the vertices from[0 .. size).
 struct Best {
     double squared = inf;
-    V nearest, direction;
+    V nearest;
     std::array<Index, 3> from;
     std::array<double, 3> weight;
     int size = 0;
-
-    void offer(const V& p, const V& way, std::array<Index, 3> vertices, std::array<double, 3> parts,
-               int count) {
-        const double d = dot(p, p);
-        if (d < squared)
-            *this = {d, p, way, vertices, parts, count};
-    }
 };
 
 struct Search {
@@ -36,7 +29,10 @@ struct Search {
 
     const V& w(Index i) const { return s.vertex[i].w; }
 
-    void vertex(Index i) { best.offer(w(i), w(i), {i, 0, 0}, {1, 0, 0}, 1); }
+    void vertex(Index i) {
+        if (squared[i] < best.squared)
+            best = {squared[i], w(i), {i, 0, 0}, {1, 0, 0}, 1};
+    }
 
     void segment(Index i, Index j) {
         if (squared[j] < squared[i])
@@ -48,7 +44,9 @@ struct Search {
         if (!(along < ee))
             return vertex(j);
         const double t = along / ee;
-        best.offer(w(i) + t * e, cross(e, cross(w(i), e)), {i, j, 0}, {1 - t, t, 0}, 2);
+        const V p = w(i) + t * e;
+        if (const double d = dot(p, p); d < best.squared)
+            best = {d, p, {i, j, 0}, {1 - t, t, 0}, 2};
     }
 
     /// Of the edges of triangle ijk only those that face the origin can hold the nearest point,
@@ -66,8 +64,9 @@ struct Search {
         const double of_j = qq * x - pq * y, of_k = pp * y - pq * x, of_i = nn - of_j - of_k;
         if (of_i > 0 && of_j > 0 && of_k > 0 && nn > 0) {
             const double b = of_j / nn, c = of_k / nn;
-            best.offer(w(i) + (b * p + c * q), dot(n, w(i)) < 0 ? -n : n, {i, j, k},
-                       {1 - b - c > 0 ? 1 - b - c : 0, b, c}, 3);
+            const V at = w(i) + (b * p + c * q);
+            if (const double d = dot(at, at); d < best.squared)
+                best = {d, at, {i, j, k}, {1 - b - c > 0 ? 1 - b - c : 0, b, c}, 3};
             if (!all)
                 return;
         }
@@ -77,6 +76,20 @@ struct Search {
             segment(i, k);
         if (all || !(of_i > 0))
             segment(j, k);
+    }
+
+    /// From the origin to the best point, square to the edge or face that it lies on.
+    V direction() const {
+        if (best.size == 0) // NaN in all
+            return {};
+        const V& a = w(best.from[0]);
+        if (best.size == 1)
+            return a;
+        const V p = w(best.from[1]) - a;
+        if (best.size == 2)
+            return cross(p, cross(a, p));
+        const V n = cross(p, w(best.from[2]) - a);
+        return dot(n, a) < 0 ? -n : n;
     }
 
     /// True if the origin is inside, with the weights of the four.
@@ -143,7 +156,7 @@ void reduce_with(const Simplex& s, Simplex& to, bool all) {
                 to.add(s.vertex[i]);
             }
     to.nearest = best.nearest;
-    to.direction = best.direction;
+    to.direction = search.direction();
 }
 
 } // namespace

@@ -74,8 +74,9 @@ struct PairFrame {
         return seen;
     }
     /// Whether a plane parts two boxes, along one of their six axes or across one of each. In
-    /// doubles: error() is then for axes that are not quite orthonormal, each by less than 2u,
-    /// which costs a bound less than 7u S (slack), and 9u |t| + 3u S across two.
+    /// doubles: error() is then for axes that are not quite orthonormal, each by less than 2u. That
+    /// takes less than 7u S from a bound along one (slack), and 14u S from one across two, whose
+    /// length may be anything up to 1.
     bool parted(const PosedBox& a, const PosedBox& b) const {
         const Vec3<double> t = between(a.centre, b.centre);
         const double most = double{error(t, a, b)};
