@@ -127,6 +127,20 @@ Vec3<double> farthest_point(const PosedShape& s, const Vec3<double>& n) {
 }
 
 /// Set on each other at the points that are farthest towards the other: rounding alone decides.
+TEST(SignedDistance, OfEllipsoidsDeepInOneAnotherIsNarrow) {
+    RandomPoses random(7);
+    for (int k = 0; k < 300; ++k) {
+        const auto ellipsoid = [&] {
+            return Ellipsoid{{random.real(.25, .65), random.real(.25, .65), random.real(.25, .65)}};
+        };
+        const PosedShape a{ellipsoid(), Pose{random.rotation(), random.vector(.1)}},
+            b{ellipsoid(), Pose{random.rotation(), random.vector(.1)}};
+        const SignedDistance d = measure(a, b);
+        ASSERT_LT(d.hi, 0);
+        EXPECT_LE(d.hi - d.lo, 0x1p-15 * -d.hi) << k;
+    }
+}
+
 TEST(SignedDistance, OfShapesThatTouchIsNothing) {
     RandomShapes shapes(3);
     for (const ShapeKind i : bounded)

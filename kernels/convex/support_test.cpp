@@ -34,6 +34,24 @@ TEST(Support, IsTheFarthestPointAndOnTheShape) {
         }
 }
 
+TEST(Support, OfAnEllipsoidsCoreAndTheBallIsThatOfTheEllipsoid) {
+    RandomShapes shapes(2);
+    RandomPoses& random = shapes.random;
+    for (int k = 0; k < 4000; ++k) {
+        const Ellipsoid s{{random.real(.1, 2), random.real(.1, 2), random.real(.1, 2)}};
+        const detail::EllipsoidCore core = detail::core(s);
+        const Vec3<double> n = random.unit_vector();
+        const Vec3<double> p = detail::support(core, n);
+        EXPECT_LE(length(p + n * core.ball - support(s, n)), 1e-15 * detail::reach(core) + 1e-15);
+        // Convex: no other of its points is farther.
+        const Vec3<double> other = detail::support(core, random.unit_vector());
+        EXPECT_LE(dot(other, n), dot(p, n) + 1e-14);
+        EXPECT_LE(length(p), detail::reach(core));
+    }
+    EXPECT_EQ(detail::radius_of(Ellipsoid{{1, 0, 2}}), 0);
+    EXPECT_NEAR(detail::radius_of(Ellipsoid{{3, 3, 3}}), 3, 1e-14);
+}
+
 TEST(Support, OfDirectionsAlongAxes) {
     const Cylinder cylinder{1, 2};
     const Cone cone{1, 2};
