@@ -132,6 +132,22 @@ TEST(MeshPairs, OfBoxesWhoseEdgesMeetTouchAsRationalsSay) {
     EXPECT_EQ(parted_at_once, apart);
 }
 
+TEST(MeshPairs, BoxesSideBySideArePartedByOneTest) {
+    std::mt19937 random(4);
+    const MeshTree a(box_mesh({1, 2, 3})), b(box_mesh({2, 1, 1}));
+    for (int axis = 0; axis < 3; ++axis)
+        for (const bool of_b : {false, true}) { // along an axis of either
+            Pose pose = random_pose(random, {});
+            Vec3<double> way;
+            way[axis] = 1;
+            pose.translation = 4. * (of_b ? pose.rotated(way) : way);
+            Work work;
+            EXPECT_FALSE(collide(a, b, pose, &work));
+            EXPECT_TRUE(touching_triangles(a, b, pose, 9, &work).empty());
+            EXPECT_EQ(work.box_tests, 2u);
+        }
+}
+
 TEST(MeshPairs, TouchTheSameForAnyNumberOfThreads) {
     const MeshTree a(noisy_sphere(40, 40, .1, 1)), b(noisy_sphere(35, 30, .1, 2));
     const MeshTree one(triangle_soup(1)), none;
