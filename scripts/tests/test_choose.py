@@ -1,7 +1,10 @@
 """boxwood choose and explain: bad input is refused before any work, with the name of the file and what to do."""
 
+import shutil
+
+import h5py
 import pytest
-from test_boxwood import answer, boxwood, complaint, pytestmark  # noqa: F401
+from test_boxwood import ROOT, answer, boxwood, complaint, pytestmark  # noqa: F401
 
 TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
 
@@ -13,7 +16,11 @@ def files(tmp_path):
     (tmp_path / "range.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")
     (tmp_path / "empty.obj").write_bytes(b"")
     (tmp_path / "binary.obj").write_bytes(bytes(range(256)) * 9)
-    (tmp_path / "kept.h5").write_text("somebody's")
+    shutil.copyfile(ROOT / "results/published/queries.h5", tmp_path / "sweep.h5")  # what boxwood sweep measured
+    shutil.copyfile(tmp_path / "sweep.h5", tmp_path / "kept.h5")
+    with h5py.File(tmp_path / "kept.h5", "r+") as own:  # as if choose had
+        del own["text/argv"]
+        own["text/argv"] = "boxwood choose"
     return tmp_path
 
 
@@ -43,10 +50,11 @@ def files(tmp_path):
 )
 def test_choose_refuses(files, monkeypatch, arguments, said):
     monkeypatch.chdir(files)
-    message = complaint_after_progress("choose", *arguments, "--out", "new.h5")
+    before = (files / "kept.h5").read_bytes()
+    message = complaint_after_progress("choose", *arguments, "--out", "kept.h5")
     assert said in message, message
     assert "/tmp/boxwood-choose" not in message
-    assert not (files / "new.h5").exists()
+    assert (files / "kept.h5").read_bytes() == before
 
 
 def complaint_after_progress(*arguments):
@@ -60,8 +68,9 @@ def test_choose_refuses_an_out_that_cannot_be(files, monkeypatch):
     monkeypatch.chdir(files)
     assert "ends in .h5" in complaint("choose", "--mesh", "mesh.obj", "--out", "a.csv")
     assert "there is no folder" in complaint("choose", "--mesh", "mesh.obj", "--out", "none/a.h5")
-    assert "kept.h5" in complaint("choose", "--mesh", "mesh.obj", "--out", "kept.h5")
-    assert (files / "kept.h5").read_text() == "somebody's"
+    before = (files / "sweep.h5").read_bytes()
+    assert "holds what another command measured" in complaint("choose", "--mesh", "mesh.obj", "--out", "sweep.h5")
+    assert (files / "sweep.h5").read_bytes() == before
 
 
 @pytest.mark.parametrize(

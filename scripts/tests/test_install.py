@@ -77,7 +77,9 @@ FetchContent_MakeAvailable(boxwood)
                          ids=["add_subdirectory", "FetchContent"])  # fmt: skip
 def test_as_a_part_of_another_project(tmp_path, inclusion):
     """No bench, no tests, no device code, optimised whatever the project says, and nobody gets our flags."""
-    (tmp_path / "main.cpp").write_text("#include <boxwood/trees/bvh.h>\n#include <boxwood/boxwood.h>\n" "int main() { return boxwood::Bvh().empty() ? 0 : 1; }\n")
+    (tmp_path / "main.cpp").write_text(
+        "#include <boxwood/trees/bvh.h>\n#include <boxwood/boxwood.h>\nint main() { return boxwood::Bvh().empty() ? 0 : 1; }\n"
+    )
     (tmp_path / "CMakeLists.txt").write_text(
         "cmake_minimum_required(VERSION 3.25)\nproject(other LANGUAGES CXX)\nset(CMAKE_EXPORT_COMPILE_COMMANDS ON)\n"
         f"{inclusion}add_executable(other main.cpp)\n"

@@ -114,6 +114,7 @@ template <class Volume> class SelfCollisions final : public Contender {
     void build() override {
         manager_.clear();
         objects_.clear();
+        touched_last_ = 0;
         std::vector<std::shared_ptr<Model>> models;
         for (const MeshOfFcl<S>& mesh : shapes_.meshes) {
             models.push_back(std::make_shared<Model>());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/boxes/sat.h"
 #include "trees/world/detail/obb_block.h"
 #include "trees/world/mesh_tree.h"
 #include "trees/world/pose.h"
@@ -74,46 +75,27 @@ struct PairFrame {
         return seen;
     }
     /// Whether a plane parts two boxes, along one of their six axes or across one of each. In
-    /// doubles: error() is then for axes that are not quite orthonormal, each by less than 2u. That
-    /// takes less than 7u S from a bound along one (slack), and 14u S from one across two, whose
-    /// length may be anything up to 1.
+    /// doubles: error() is then for axes that are not quite orthonormal, each by less than 2u,
+    /// which takes less than 14u S from a gap, whatever the length of its direction, at most 1.
     bool parted(const PosedBox& a, const PosedBox& b) const {
+        const auto vec = [](const float(&v)[3]) {
+            return Vec3<double>{double{v[0]}, double{v[1]}, double{v[2]}};
+        };
         const Vec3<double> t = between(a.centre, b.centre);
+        const ObbPair<double> pair(
+            {{}, {vec(a.axis[0]), vec(a.axis[1]), vec(a.axis[2])}, vec(a.half)},
+            {t,
+             {pose.rotated(vec(b.axis[0])), pose.rotated(vec(b.axis[1])),
+              pose.rotated(vec(b.axis[2]))},
+             vec(b.half)});
         const double most = double{error(t, a, b)};
-        Vec3<double> of_a[3], of_b[3];
-        double half_a[3], half_b[3], along_a[3];
-        for (std::size_t k = 0; k < 3; ++k) {
-            of_a[k] = {double{a.axis[k][0]}, double{a.axis[k][1]}, double{a.axis[k][2]}};
-            of_b[k] =
-                pose.rotated({double{b.axis[k][0]}, double{b.axis[k][1]}, double{b.axis[k][2]}});
-            half_a[k] = double{a.half[k]};
-            half_b[k] = double{b.half[k]};
-            along_a[k] = dot(of_a[k], t);
-        }
-        double cosine[3][3], size[3][3];
-        for (std::size_t i = 0; i < 3; ++i)
-            for (std::size_t j = 0; j < 3; ++j) {
-                cosine[i][j] = dot(of_a[i], of_b[j]);
-                size[i][j] = std::abs(cosine[i][j]);
-            }
-        for (std::size_t i = 0; i < 3; ++i)
-            if (std::abs(along_a[i]) > half_a[i] + size[i][0] * half_b[0] + size[i][1] * half_b[1] +
-                                           size[i][2] * half_b[2] + most)
+        for (int i = 0; i < 3; ++i)
+            if (pair.face_of_a(i) > most || pair.face_of_b(i) > most)
                 return true;
-        for (std::size_t j = 0; j < 3; ++j)
-            if (std::abs(dot(of_b[j], t)) > half_b[j] + size[0][j] * half_a[0] +
-                                                size[1][j] * half_a[1] + size[2][j] * half_a[2] +
-                                                most)
-                return true;
-        for (std::size_t i = 0; i < 3; ++i)
-            for (std::size_t j = 0; j < 3; ++j) {
-                const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3;
-                const std::size_t j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-                if (std::abs(along_a[i2] * cosine[i1][j] - along_a[i1] * cosine[i2][j]) >
-                    half_a[i1] * size[i2][j] + half_a[i2] * size[i1][j] + half_b[j1] * size[i][j2] +
-                        half_b[j2] * size[i][j1] + most)
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j)
+                if (pair.edges(i, j) > most)
                     return true;
-            }
         return false;
     }
     /// A box of A as seen from its own centre.
