@@ -8,7 +8,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import picture, published_tables, recomputed, registry
+from . import picture, published_tables, python_times, recomputed, registry
 from .picture import cell_text
 from .published_tables import against_ourselves, against_peers, kernels_of, markdown
 from .run import read
@@ -157,8 +157,24 @@ def picture_block(one, root, up):
     return f"![{one.title}]({up}scripts/pictures/{one.picture[2]})\n\n{source_of(one, run, version, root, up)}\n"
 
 
+PYTHON = Path("results") / "published" / "python.json"
+PYTHON_COMMAND = f"scripts/python_bench --out {PYTHON}"
+
+
+def python_block(root, up):
+    """What a call from Python costs, and what others take: of scripts/python_bench, which no sweep holds."""
+    if not (root / PYTHON).exists():
+        return f"*The module `boxwood`: not published yet. `{PYTHON_COMMAND}` measures it.*\n"
+    times = python_times.read(root / PYTHON)
+    env = times.env
+    beside = ", ".join(f"{package} {version}" for package, version in env["versions"].items())
+    return (f"{markdown(python_times.table(times))}\n\n*{env['created_utc'][:10]}, {len(times.rows[0].ours)} rounds, {env['cpu']}, {env['ncpu']} cores, "
+            f"commit {env['git_commit'][:8]}, {beside}; [`{PYTHON.name}`]({up}{PYTHON}). Again: `{PYTHON_COMMAND}`.*\n")
+
+
 BLOCKS = {  # marker -> (root, up) -> text
     "summary": summary_block,
+    "python": python_block,
     **{one.name: lambda root, up, one=one: table_block(one, root, up) for one in ALL},
     **{f"{one.name}_picture": lambda root, up, one=one: picture_block(one, root, up) for one in ALL if one.picture},
 }
@@ -229,6 +245,12 @@ def problems(root):
             shown = root / "scripts" / "pictures" / one.picture[2]
             if not shown.exists() or picture.stamp_of(shown) != cell_text(run.source.attrs["run_uuid"]):
                 found.append(f"{shown}: not drawn from {file}")
+    if (root / PYTHON).exists():
+        env = python_times.read(root / PYTHON).env
+        machines.add((env["host"], env["cpu"]))
+        commits.add(env["git_commit"])
+        if env["git_dirty"]:
+            found.append(f"{root / PYTHON}: measured with changes that are in no commit")
     for what, values in (("machine", machines), ("commit", commits)):
         if len(values) > 1:
             found.append(f"results/published: files of more than one {what}: {', '.join(map(str, sorted(values)))}")

@@ -11,7 +11,7 @@ import pytest
 import synthetic
 from synthetic import SCRIPTS
 
-from boxwood_results import published, published_tables, recomputed
+from boxwood_results import published, published_tables, python_times, recomputed
 from boxwood_results.run import Job
 from boxwood_results.selection import fullest
 
@@ -88,6 +88,29 @@ def test_tables_and_pictures_come_from_the_files(root):
     published.write(root)
     (root / "scripts" / "pictures" / "pairs.png").unlink()
     assert any("not drawn from" in line for line in published.problems(root))
+
+
+def test_what_python_takes_is_shown_with_its_intervals(root):
+    rows = [python_times.Row("pairs of boxes", 1000, [200, 210, 190, 205, 195, 200, 200, 200, 200], [100] * 9,
+                             {"rtree": [400, 420, 380, 410, 390, 400, 400, 400, 900], "SciPy": [150, 300, 150, 300, 200, 200, 200, 200, 100]})]
+    env = {"host": "h", "cpu": "a CPU", "ncpu": 2, "git_commit": "abcdef012345", "git_dirty": 0, "created_utc": "2026-11-26T10:00:00",
+           "versions": {"python": "3.11", "rtree": "1.4"}}
+    python_times.PythonTimes(rows, env).write(root / published.PYTHON)
+    published.write(root)
+    text = (root / "README.md").read_text()
+    assert "| pairs of boxes | 1,000 | 200 ns | 100 ns, 100 % | rtree 2.00x (2.00 to 2.00), SciPy 1.00x (0.750 to 1.43) ? |" in text
+    assert "a CPU, 2 cores, commit abcdef01, python 3.11, rtree 1.4" in text and published.problems(root) == []
+    file_of(root, "effects", synthetic.full(wrong=False))
+    assert any("more than one machine" in line for line in published.problems(root))
+    (root / published.PYTHON).write_text("{}")
+    with pytest.raises(published.BadFile, match="no file of scripts/python_bench"):
+        published.problems(root)
+
+
+@pytest.mark.parametrize("n, cut", [(1, 0), (5, 0), (6, 0), (8, 0), (9, 1), (11, 1), (12, 2), (30, 9)])
+def test_intervals_of_medians_are_those_of_the_sign_test(n, cut):
+    _, lo, hi = python_times.median_interval(range(n))
+    assert (lo, hi) == (cut, n - 1 - cut)
 
 
 def test_a_file_in_which_ours_is_wrong_is_said(root):
