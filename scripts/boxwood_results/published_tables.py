@@ -110,8 +110,14 @@ def kernel_question(run, job, points, compared):
             rows.append(row)
     known = {row.a.library for row in rows}
     title = run.tasks[job.task].title
-    return [Question(f"{title}, {job.scene.replace('_', ' ')}", title, f"{job.n:,} calls", f"{best.label} {time_text(best.median('query'))}",
+    return [Question(f"{title}, {shapes_text(job.scene)}", title, f"{job.n:,} calls", f"{best.label} {time_text(best.median('query'))}",
                      tuple(rows), None, {library: why for library, why in unanswered.items() if library not in known})]
+
+
+def shapes_text(scene):
+    """A family of pairs of shapes: of 'box_and_cone_k100' all overlap, of 'box_and_cone' half; its k is per cent."""
+    name, _, share = scene.partition("_k")
+    return name.replace("_", " ") + {"": "", "0": ", apart", "100": ", overlapping"}.get(share, f", {share} % of them overlap")
 
 
 def against_peers(*tasks):

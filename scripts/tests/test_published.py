@@ -277,6 +277,11 @@ def test_kernels_have_a_row_for_each_family(tmp_path):
         assert sorted(said) == pytest.approx(sorted(best.values()), rel=0.05)
 
 
+def test_how_many_of_two_shapes_overlap_is_in_words():
+    texts = [published_tables.shapes_text(f"box_and_cone{k}") for k in ("", "_k0", "_k100", "_k30")]
+    assert texts == ["box and cone", "box and cone, apart", "box and cone, overlapping", "box and cone, 30 % of them overlap"]
+
+
 def test_a_library_that_is_wrong_or_silent_is_named_in_the_row(tmp_path):
     made = synthetic.full(wrong=False)
     kernels = {number: name for name, number in made.ids["cells"].items() if "/triangle_triangle/" in name}
