@@ -105,7 +105,7 @@ void put_table(hid_t file, const Table& table, const Results& results) {
     const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
     checked(H5Pset_chunk(creation, 1, &chunk), name);
     checked(H5Pset_shuffle(creation), name);
-    checked(H5Pset_deflate(creation, 1), name);
+    checked(H5Pset_deflate(creation, 6), name);
     checked(H5Pset_fletcher32(creation), name);
     checked(H5Pset_obj_track_times(creation, false), name);
     const Handle dataset(

@@ -172,10 +172,6 @@ std::vector<Box> boxes_around(std::span<const Aabb<double>> boxes) {
     return around;
 }
 
-bool is_region(const Aabb<double>& box) {
-    return box.min.x <= box.max.x && box.min.y <= box.max.y && box.min.z <= box.max.z;
-}
-
 /// The pairs of the float boxes whose double boxes overlap.
 auto exact_pairs(std::span<const Aabb<double>> a, std::span<const Aabb<double>> b, PairSink& sink) {
     return FilteredPairs([a, b](Pair p) { return overlaps(a[p.a], b[p.b]); }, sink);
@@ -246,12 +242,7 @@ std::uint64_t BvhF64::pair_count(const BvhF64& other) const {
 
 std::vector<std::uint32_t> BvhF64::overlapping(const Aabb<double>& box) const {
     std::vector<std::uint32_t> items;
-    if (!is_region(box))
-        return items; // around it there may be a box all the same
-    around_.overlapping(round_outward(box), [&](std::uint32_t item) {
-        if (overlaps(boxes_[item], box))
-            items.push_back(item);
-    });
+    overlapping(box, [&](std::uint32_t item) { items.push_back(item); });
     return items;
 }
 

@@ -5,16 +5,20 @@
 /// (dynamic/dynamic_bvh.h) boxes that come, go and move one at a time. The parts beneath are public
 /// (trees.h), and what runs is the same code.
 
+#include "kernels/arithmetic/rounding.h"
 #include "trees/builder.h"
 #include "trees/builders/hilbert.h"
 #include "trees/dynamic/dynamic_bvh.h"
 #include "trees/mesh_bvh.h"
 #include "trees/queries/box_queries.h"
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace boxwood {
@@ -78,7 +82,7 @@ class Bvh : public BoxQueries {
 
 /// A tree of boxes in doubles: a Bvh of the float boxes around them finds what may be, and each
 /// answer is decided in doubles. Coordinates up to the largest float; beyond it, InvalidBox. Build,
-/// update and order of answers as those of Bvh; queries of many run on the threads of the options.
+/// update, order of answers, functions and threads as those of Bvh (BoxQueries).
 class BvhF64 {
   public:
     explicit BvhF64(std::span<const Aabb<double>> boxes = {}, const BvhOptions& options = {});
@@ -94,14 +98,34 @@ class BvhF64 {
 
     std::vector<Pair> self_pairs() const;
     void self_pairs(PairSink& sink) const;
+    template <Visitor<Pair> F> void self_pairs(F&& visit) const {
+        around_.self_pairs(
+            of_those<Pair>(visit, [this](Pair p) { return overlaps(boxes_[p.a], boxes_[p.b]); }));
+    }
     std::uint64_t self_pair_count() const;
     std::vector<Pair> pairs(const BvhF64& other) const;
     void pairs(const BvhF64& other, PairSink& sink) const;
+    template <Visitor<Pair> F> void pairs(const BvhF64& other, F&& visit) const {
+        around_.pairs(other.around_, of_those<Pair>(visit, [this, &other](Pair p) {
+                          return overlaps(boxes_[p.a], other.boxes_[p.b]);
+                      }));
+    }
     std::uint64_t pair_count(const BvhF64& other) const;
 
     std::vector<std::uint32_t> overlapping(const Aabb<double>& box) const;
+    template <Visitor<std::uint32_t> F> void overlapping(const Aabb<double>& box, F&& visit) const {
+        if (is_region(box)) // around one that is none there may be a box all the same
+            around_.overlapping(round_outward(box),
+                                of_those<std::uint32_t>(visit, [&](std::uint32_t item) {
+                                    return overlaps(boxes_[item], box);
+                                }));
+    }
     AnswersOf<std::uint32_t> overlapping(std::span<const Aabb<double>> boxes) const;
     std::vector<std::uint32_t> containing(Vec3<double> point) const;
+    template <Visitor<std::uint32_t> F> void containing(Vec3<double> point, F&& visit) const {
+        if (is_finite(point))
+            overlapping({point, point}, std::forward<F>(visit));
+    }
     AnswersOf<std::uint32_t> containing(std::span<const Vec3<double>> points) const;
     /// By the squared distance as doubles compute it (box_distance.h), and then by item: what is
     /// nearer than 1e-154 or farther than 1e154 has the same.
@@ -111,6 +135,21 @@ class BvhF64 {
     std::vector<Neighbour> nearest(std::span<const Vec3<double>> points, std::size_t k = 1) const;
 
   private:
+    static bool is_region(const Aabb<double>& box) {
+        return box.min.x <= box.max.x && box.min.y <= box.max.y && box.min.z <= box.max.z;
+    }
+    /// Hands on what is so in doubles; what ends the query still does.
+    template <class Found, class F, class IsSo> static auto of_those(F& visit, IsSo is_so) {
+        return [&visit, is_so](Found found) {
+            if constexpr (std::same_as<std::invoke_result_t<F&, Found>, bool>) {
+                return !is_so(found) || visit(found);
+            } else {
+                if (is_so(found))
+                    visit(found);
+            }
+        };
+    }
+
     std::vector<Aabb<double>> boxes_;
     Bvh around_;
 };

@@ -19,6 +19,7 @@ namespace {
 
 using ::testing::ElementsAreArray;
 using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
 using ::testing::Throws;
 using ::testing::ThrowsMessage;
 
@@ -365,6 +366,45 @@ TEST(BvhF64, FollowsBoxesThatMoveAndChecksTheList) {
     boxes = close_boxes(250, 1, 0x1p-29, 11);
     bvh.update(boxes);
     expect_exact_answers(bvh, boxes);
+}
+
+/// Functions are handed what is so in doubles, and one that returns false ends the query.
+TEST(BvhF64, HandsAnswersToFunctions) {
+    const Boxes64 a = close_boxes(200, 1, 0x1p-30, 14), b = close_boxes(150, 1, 0x1p-30, 15);
+    const BvhF64 bvh(a), other(b);
+    std::vector<Pair> own, with, first;
+    bvh.self_pairs([&](Pair p) { own.push_back(p); });
+    bvh.pairs(other, [&](Pair p) { with.push_back(p); });
+    EXPECT_EQ(ascending(own), ascending(bvh.self_pairs()));
+    EXPECT_EQ(ascending(with), ascending(bvh.pairs(other)));
+    bvh.self_pairs([&](Pair p) {
+        first.push_back(p);
+        return first.size() < 3;
+    });
+    ASSERT_EQ(first.size(), 3u);
+    EXPECT_THAT(own, IsSupersetOf(first));
+    std::size_t n_asked = 0;
+    bvh.pairs(other, [&](Pair) { return ++n_asked < 2; });
+    EXPECT_EQ(n_asked, 2u);
+    for (const Aabb<double>& box : b) {
+        Items items, at, one;
+        bvh.overlapping(box, [&](std::uint32_t item) { items.push_back(item); });
+        bvh.containing(box.min, [&](std::uint32_t item) { at.push_back(item); });
+        bvh.overlapping(box, [&](std::uint32_t item) {
+            one.push_back(item);
+            return false;
+        });
+        EXPECT_EQ(items, items_where(a.size(), [&](auto item) { return overlaps(a[item], box); }));
+        EXPECT_EQ(at, bvh.containing(box.min));
+        EXPECT_EQ(one.size(), std::min<std::size_t>(1, items.size()));
+    }
+    const auto refuse = [](std::uint32_t) { ADD_FAILURE(); };
+    const Vec3<double> inside = 0.5 * (a[7].min + a[7].max);
+    Aabb<double> inverted{inside, inside};
+    inverted.max.x -= 0x1p-50; // both corners are within a box
+    ASSERT_TRUE(overlaps(a[7], inverted));
+    bvh.overlapping(inverted, refuse);
+    bvh.containing({std::numeric_limits<double>::quiet_NaN(), 1, 1}, refuse);
 }
 
 TEST(BvhF64, PairsOfTwoTreesAndBadInput) {

@@ -94,7 +94,9 @@ std::string policies_text(const PolicyAdvice& advice) {
             "{} would take {} as long{}.\n", rival->name,
             interval_text(rival->over_best.ratio, rival->over_best.ci_lo, rival->over_best.ci_hi),
             rival->is_as_good ? ", which is not told apart from it beyond noise" : "");
-    text += fmt::format("\nC++:\n    auto updater = boxwood::find_update(\"{}\").make({{}});\n\n",
+    text += fmt::format("\nC++:\n    auto updater = boxwood::find_update(\"{}\").make({{}});\n"
+                        "Python (its one policy refits, and builds again where that got loose):\n"
+                        "    bvh = boxwood.Bvh(boxes)\n    bvh.update(boxes)\n\n",
                         best.name);
     for (const Policy& policy : advice.policies)
         text += fmt::format(

@@ -157,8 +157,8 @@ class Sides {
         FileRow& added = rows.emplace_back(FileRow{name, row});
         std::tie(added.base_ns, added.head_ns) = paired_medians(rounds, other->second);
         added.max_ratio = paired_ratio(ratios).ci_hi;
-        added.is_same_samples =
-            !ratios.empty() && std::ranges::all_of(ratios, [](double log) { return log == 0; });
+        added.is_same_samples = !ratios.empty() && rounds.size() == other->second.size() &&
+                                std::ranges::all_of(ratios, [](double log) { return log == 0; });
         family.claims.push_back({std::move(ratios), floor.value_or(0)});
     }
 

@@ -46,6 +46,12 @@ TEST(Gate, AnIdenticalFilePasses) {
     EXPECT_EQ(rows_with(same, Gate::passes), 8);
 }
 
+TEST(Gate, AFileThatLacksRoundsIsNotTheSame) {
+    Results fewer = recorded();
+    std::erase_if(fewer.samples, [](const auto& sample) { return sample.round >= 5; });
+    EXPECT_NE(compare_files(recorded(), fewer).gate, Gate::passes);
+}
+
 TEST(Gate, EveryCellOfOursThreeTimesSlowerFails) {
     const FileComparison slower = compare_files(recorded(), slowed(3, 0, 8));
     EXPECT_EQ(slower.gate, Gate::fails);

@@ -12,7 +12,7 @@
 namespace boxwood::bench {
 namespace {
 
-constexpr std::size_t n_queries = 2000; ///< of each kind; of large trees as many items
+constexpr std::size_t n_queries = 2000; ///< of each kind
 
 /// Surface of a box, or its extent where it has none.
 double area(const Box& box) { return 2 * box.half_area(); }
@@ -100,7 +100,7 @@ class Grader {
     }
 
     std::vector<std::uint32_t> some_items() const {
-        const std::size_t n = tree_.boxes().size(), step = std::max<std::size_t>(1, n / n_queries);
+        const std::size_t n = tree_.boxes().size(), step = epo_step(n);
         std::vector<std::uint32_t> some;
         for (std::size_t i = 0; i < n; i += step)
             some.push_back(static_cast<std::uint32_t>(i));

@@ -64,7 +64,7 @@ if(NOT coal_why)
     file(STRINGS ${coal_folder}/include/coal/config.hh coal_version REGEX "define COAL_VERSION ")
     string(REGEX REPLACE ".*\"(.*)\".*" "\\1" coal_version "${coal_version}")
     add_library(boxwood_coal MODULE peers/coal/module.cpp peers/coal/meshes.cpp peers/coal/shapes.cpp
-                peers/coal/shape_replay.cpp)
+                peers/coal/shape_replay.cpp peers/coal/robots.cpp)
     target_link_libraries(boxwood_coal PRIVATE boxwood_options boxwood_warnings boxwood_trees boxwood_coal_library)
     target_link_options(boxwood_coal PRIVATE -Wl,--no-undefined)
     if(NOT pybind11_FOUND) # for which they are it already

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 namespace boxwood::convex {
 namespace {
 
@@ -64,6 +67,24 @@ TEST(Support, OfDirectionsAlongAxes) {
     EXPECT_EQ(support(Ellipsoid{{1, 2, 3}}, {0, -4, 0}), (Vec3<double>{0, -2, 0}));
     EXPECT_EQ(support(Sphere{2}, {0, 0, 0}), (Vec3<double>{}));
     EXPECT_EQ(support(Box{{1, 2, 3}}, {1, -1, 1}), (Vec3<double>{1, -2, 3}));
+}
+
+/// Of several points as far the first, however many there are.
+TEST(Support, OfAHullIsTheFirstOfTheFarthest) {
+    std::vector<Vec3<double>> points;
+    EXPECT_EQ(support(Hull(points), {1, 0, 0}), (Vec3<double>{}));
+    for (std::size_t n = 1; n <= 30; ++n) {
+        points.push_back({double(n * 7 % 3), double(n * 5 % 4), double(n % 2)});
+        const Hull hull(points);
+        for (double x = -1; x <= 1; ++x)
+            for (double y = -1; y <= 1; ++y)
+                for (double z = -1; z <= 1; ++z) {
+                    const Vec3<double> d{x, y, z};
+                    const auto first = std::ranges::max_element(
+                        points, {}, [&](Vec3<double> p) { return dot(p, d); });
+                    ASSERT_EQ(support(hull, d), *first) << n;
+                }
+    }
 }
 
 TEST(ExtentAlong, HoldsTheShapeTightly) {

@@ -1,4 +1,5 @@
-"""Draws Boxwood result files as figures and the report. Never measures, decides or writes one."""
+"""Draws Boxwood result files as figures and the report. Never measures, decides or writes one
+(python_times alone holds what scripts/python_bench timed)."""
 
 import sys
 from pathlib import Path

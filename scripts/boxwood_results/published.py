@@ -91,8 +91,8 @@ def freeze(root):
     return raised
 
 
-def command_of(one):
-    return f"scripts/reproduce {one.name}"
+def command_of(one, rounds=None):
+    return f"scripts/reproduce {one.name}" + (f" -- --rounds {rounds}" if rounds else "")
 
 
 def noise_of(one, run):
@@ -115,7 +115,7 @@ def source_of(one, run, version, root, up):
     return (f"*Track {one.sweep}-{version}, {run.health['correctness'].split(' (')[0].rstrip('.')}. Run {cell_text(run.source.attrs['run_uuid'])[:8]} of {cell_text(run.source.attrs['created_utc'])[:10]}: "
             f"[`{one.config}`]({up}{one.config}){as_it_was}, {run.rounds} rounds, {env['cpu']}, {env['ncpu']} cores, commit "
             f"{env['git_commit'][:8]}, {noise_of(one, run)}; "
-            f"[`{one.sweep}.h5`]({up}results/published/{one.sweep}.h5). Again: `{command_of(one)}`.*")
+            f"[`{one.sweep}.h5`]({up}results/published/{one.sweep}.h5). Again: `{command_of(one, run.rounds)}`.*")
 
 
 PAGES = {"README.md": "", "results/published/tables.md": "../../"}  # and from there to the root
@@ -159,6 +159,7 @@ def picture_block(one, root, up):
 
 PYTHON = Path("results") / "published" / "python.json"
 PYTHON_COMMAND = f"scripts/python_bench --out {PYTHON}"
+PYTHON_ROUNDS = 9  # at least
 
 
 def python_block(root, up):
@@ -169,7 +170,8 @@ def python_block(root, up):
     env = times.env
     beside = ", ".join(f"{package} {version}" for package, version in env["versions"].items())
     return (f"{markdown(python_times.table(times))}\n\n*{env['created_utc'][:10]}, {len(times.rows[0].ours)} rounds, {env['cpu']}, {env['ncpu']} cores, "
-            f"commit {env['git_commit'][:8]}, {beside}; [`{PYTHON.name}`]({up}{PYTHON}). Again: `{PYTHON_COMMAND}`.*\n")
+            f"commit {env['git_commit'][:8]}, {beside}; [`{PYTHON.name}`]({up}{PYTHON}). Again: "
+            f"`{PYTHON_COMMAND} --rounds {len(times.rows[0].ours)}`.*\n")
 
 
 BLOCKS = {  # marker -> (root, up) -> text
@@ -246,7 +248,10 @@ def problems(root):
             if not shown.exists() or picture.stamp_of(shown) != cell_text(run.source.attrs["run_uuid"]):
                 found.append(f"{shown}: not drawn from {file}")
     if (root / PYTHON).exists():
-        env = python_times.read(root / PYTHON).env
+        times = python_times.read(root / PYTHON)
+        env = times.env
+        if len(times.rows) < 14 or any(len(row.ours) < PYTHON_ROUNDS for row in times.rows):
+            found.append(f"{root / PYTHON}: it lacks questions or rounds (7 questions of two sizes, {PYTHON_ROUNDS} rounds)")
         machines.add((env["host"], env["cpu"]))
         commits.add(env["git_commit"])
         if env["git_dirty"]:

@@ -1,14 +1,16 @@
 """The tables of a published run: run -> [header, row, ...] of texts."""
 
+import re
 from dataclasses import dataclass, field
 
 from .figures import forest
 from .findings import PEERS
 from .moving import played_scenes
 from .run import Where
+from .selection import wrong_counts
 from boxwood.results.words import count_text, ratio_text, time_text
 
-ONE = Where("", 1)
+ONE, TWO = Where("", 1), Where("", 2)
 OPEN = " ?"  # behind a ratio that the file calls open
 
 
@@ -40,14 +42,13 @@ def cold(run):
 
 @dataclass(frozen=True)
 class Question:
-    """One question on one thread: the best of ours against every peer."""
+    """The best of ours against every peer."""
 
     text: str
     group: str  # what it shares with the same question on other scenes
     measured: str
     ours: str  # its name and time
     rows: tuple  # its comparisons
-    rival: object = None  # the cell that a finding of the file holds it against
     unanswered: dict = field(default_factory=dict)  # library -> (one of its cells, why it has no comparison)
 
     @property
@@ -57,25 +58,30 @@ class Question:
 
     @property
     def closest(self):
-        """The comparison with the rival; if the file names none, one that is lost for sure, else that with the fastest peer."""
-        ordered = sorted(self.rows, key=lambda row: (row.a is not self.rival, row.verdict != "slower", row.gain.mid))
+        """The comparison with the library that is lost to for sure, else with the fastest: one of `known`."""
+        ordered = sorted(self.known.values(), key=lambda row: (row.verdict != "slower", row.gain.mid))
         return ordered[0]
 
 
-def asked_of(text, group, measured, rows, rival=None):
+def asked_of(text, group, measured, rows, wrong=()):
     rows = tuple(rows)
-    return [Question(text, group, measured, f"{rows[0].b.label} {time_of(rows[0])}", rows, rival)] if rows else []
+    answered = {row.a.library for row in rows}
+    unanswered = {cell.library: (cell, wrong_counts(cell)) for cell in wrong if cell.library not in answered}
+    return [Question(text, group, measured, f"{rows[0].b.label} {time_of(rows[0])}", rows, unanswered)] if rows else []
 
 
 def questions(run, tasks):
-    found = [block for block in forest.blocks(run) if block.job.task in tasks and block.job.where == ONE]
+    found = [block for block in forest.blocks(run) if block.job.task in tasks and block.job.where in (ONE, TWO)]
+    classes = {row["cell_id"]: row["class"] for row in run.source["cells"]}
     cold_builds, races = cold(run), forest.races(run)
     asked = []
     for block in found:
         task, finding = run.tasks[block.job.task], block.finding
-        group = ", ".join(filter(None, (task.title, block.contender_class)))
-        asked += asked_of(finding.question, group, task.total_title, block.together.values(), finding.rival)
-        asked += asked_of(finding.question, group, "query alone", block.alone.values(), finding.rival_alone)
+        group = ", ".join(filter(None, (task.title, block.contender_class, "" if block.job.where == ONE else "2 threads")))
+        wrong = [cell for cell in run.cells if cell.job == block.job and cell.is_peer and cell.status == "wrong"
+                 and classes[cell.cell_id] == block.contender_class]
+        asked += asked_of(finding.question, group, task.total_title, block.together.values(), wrong)
+        asked += asked_of(finding.question, group, "query alone", block.alone.values(), wrong)
         for race in races:
             if race.kind == block.kind and race.job.n >= block.job.n:
                 asked += asked_of(race.finding.question, group, "first build and query, fresh process",
@@ -110,14 +116,20 @@ def kernel_question(run, job, points, compared):
             rows.append(row)
     known = {row.a.library for row in rows}
     title = run.tasks[job.task].title
-    return [Question(f"{title}, {shapes_text(job.scene)}", title, f"{job.n:,} calls", f"{best.label} {time_text(best.median('query'))}",
-                     tuple(rows), None, {library: why for library, why in unanswered.items() if library not in known})]
+    return [Question(f"{title}, {family_text(job.scene)}", title, f"{job.n:,} calls", f"{best.label} {time_text(best.median('query'))}",
+                     tuple(rows), {library: why for library, why in unanswered.items() if library not in known})]
 
 
-def shapes_text(scene):
-    """A family of pairs of shapes: of 'box_and_cone_k100' all overlap, of 'box_and_cone' half; its k is per cent."""
-    name, _, share = scene.partition("_k")
-    return name.replace("_", " ") + {"": "", "0": ", apart", "100": ", overlapping"}.get(share, f", {share} % of them overlap")
+SHARE = re.compile(r"(\w+_and_\w+)_k(\d+)$")
+
+
+def family_text(scene):
+    """'box_and_cone_k100' in words: of pairs of shapes k is how many of a hundred overlap, half if it is not said."""
+    shapes = SHARE.match(scene)
+    if not shapes:
+        return scene.replace("_", " ")
+    share = {"0": "apart", "100": "overlapping"}.get(shapes[2], f"{shapes[2]} % of them overlap")
+    return f"{shapes[1].replace('_', ' ')}, {share}"
 
 
 def against_peers(*tasks):
@@ -128,7 +140,7 @@ def against_peers(*tasks):
         peers = [row.a for question in asked for row in question.rows]
         peers += [cell for question in asked for cell, _ in question.unanswered.values()]
         libraries = {cell.library: cell.library_title for cell in sorted(peers, key=lambda cell: cell.place)}
-        rows = [["question, one thread", "measured", "ours", *libraries.values()]]
+        rows = [["question, on one thread where no more are named", "measured", "ours", *libraries.values()]]
         for question in asked:
             texts = {library: why for library, (_, why) in question.unanswered.items()}
             texts |= {library: ratio_of(row) for library, row in question.known.items()}
@@ -138,8 +150,8 @@ def against_peers(*tasks):
     return table
 
 
-SUMMARY = ["one thread, against the fastest peer", "measured", "questions", "won, lost, same, open", "least", "middle", "most"]
-VERDICTS = ("faster", "slower", "same", "cannot_tell")
+SUMMARY = ["against the fastest peer", "measured", "questions", "won, lost, same", "open: above 1, around it, below", "least", "middle", "most"]
+VERDICTS = ("faster", "slower", "same")
 
 
 def summary(run, tasks):
@@ -152,8 +164,12 @@ def summary(run, tasks):
     for (group, measured), rows in groups.items():
         ordered = sorted(rows, key=lambda row: row.gain.mid)
         counts = [len([row for row in rows if row.verdict == verdict]) for verdict in VERDICTS]
+        unsure = [row for row in rows if row.verdict not in VERDICTS]
+        above, below = [row for row in unsure if row.gain.lo > 1], [row for row in unsure if row.gain.hi < 1]
+        leaning = [len(above), len([row for row in unsure if row not in above and row not in below]), len(below)]
         middle = marked_ratio(ordered[(len(ordered) - 1) // 2]) if len(ordered) > 2 else ""
-        lines.append([group, measured, str(len(rows)), ", ".join(map(str, counts)), marked_ratio(ordered[0]), middle, marked_ratio(ordered[-1])])
+        lines.append([group, measured, str(len(rows)), ", ".join(map(str, counts)), ", ".join(map(str, leaning)),
+                      marked_ratio(ordered[0]), middle, marked_ratio(ordered[-1])])
     return lines
 
 

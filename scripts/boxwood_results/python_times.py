@@ -50,20 +50,32 @@ def median_interval(values):
     return statistics.median(ordered), ordered[cut], ordered[n - 1 - cut]
 
 
+ENV = ("host", "cpu", "ncpu", "git_commit", "git_dirty", "created_utc", "versions")
+
+
 @dataclass(frozen=True)
 class PythonTimes:
     rows: list
-    env: dict  # host, cpu, ncpu, git_commit, git_dirty, created_utc, versions
+    env: dict  # of ENV
 
     def write(self, path):
         rows = [vars(row) for row in self.rows]
-        Path(path).write_text(json.dumps({"env": self.env, "rows": rows}) + "\n", encoding="utf-8")
+        part = Path(f"{path}.part")
+        part.write_text(json.dumps({"env": self.env, "rows": rows}) + "\n", encoding="utf-8")
+        part.replace(path)
 
 
 def read(path):
     try:
         found = json.loads(Path(path).read_text(encoding="utf-8"))
-        return PythonTimes([Row(**row) for row in found["rows"]], dict(found["env"]))
+        times = PythonTimes([Row(**row) for row in found["rows"]], {key: found["env"][key] for key in ENV})
+        if not times.rows:
+            raise ValueError("no question")
+        for row in times.rows:
+            for samples in (row.ours, row.inside, *row.others.values()):
+                if len(samples) != len(row.ours) or not all(isinstance(ns, int) and ns > 0 for ns in samples):
+                    raise ValueError(f"'{row.question}' has not a time above 0 of each round")
+        return times
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise BadFile(path, f"it is no file of scripts/python_bench --out ({error})") from error
 

@@ -66,6 +66,14 @@ def left_out_note(count, what="variants"):
     return [f"{count} further {what} are left out here; the table of all cells has them."] if count else []
 
 
+def wrong_counts(cell):
+    """In a few words."""
+    check = cell.check
+    if check is None or not (check["missing"] or check["extra"]):
+        return "wrong"
+    return f"wrong: {check['missing']:,} missing, {check['extra']:,} extra"
+
+
 def wrong_text(cell):
     """What was wrong with a cell's answers."""
     check = cell.check

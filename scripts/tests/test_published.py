@@ -24,6 +24,13 @@ def test_readme_says_what_the_files_say():
     assert published.problems(ROOT) == []
 
 
+def test_each_ratio_of_the_summary_stands_in_the_tables():
+    tables = (ROOT / TABLES).read_text()
+    (summary,) = [text for name, text in published.MARKED.findall(README) if name == "summary"]
+    ratios = re.findall(r"[\d.]+x(?: \?)?", summary)
+    assert len(ratios) > 20 and not [ratio for ratio in ratios if not re.search(rf"\| {re.escape(ratio.split()[0])} \([^|]*\)", tables)]
+
+
 def test_each_table_has_its_markers_and_its_sweep():
     shown = [name for page in published.PAGES for name in re.findall(r"<!-- published: (\w+) -->", (ROOT / page).read_text())]
     assert len(shown) > 5 and sorted(shown) == sorted(published.BLOCKS)
@@ -82,7 +89,7 @@ def test_tables_and_pictures_come_from_the_files(root):
     assert "| warehouse | 10,000 |" in text and "guigue_devillers_exact" in text and "not published yet" in text
 
     summary = (root / "README.md").read_text()
-    assert re.search(r"\| [^|]+ \| [^|]*query[^|]* \| \d+ \| \d+, \d+, \d+, \d+ \| \d", summary) and "not published yet" in summary
+    assert re.search(r"\| [^|]+ \| [^|]*query[^|]* \| \d+ \| \d+, \d+, \d+ \| \d+, \d+, \d+ \| \d", summary) and "not published yet" in summary
     (root / TABLES).write_text(text.replace(of_pairs.text, "99.9x (99.8 to 99.9)"))
     assert any("a table differs" in line for line in published.problems(root))
     published.write(root)
@@ -96,15 +103,24 @@ def test_what_python_takes_is_shown_with_its_intervals(root):
     env = {"host": "h", "cpu": "a CPU", "ncpu": 2, "git_commit": "abcdef012345", "git_dirty": 0, "created_utc": "2026-11-26T10:00:00",
            "versions": {"python": "3.11", "rtree": "1.4"}}
     python_times.PythonTimes(rows, env).write(root / published.PYTHON)
+    assert any("lacks questions or rounds" in line for line in published.problems(root))
+    rows += [python_times.Row(f"question {i}", 1000, [200] * 9, [100] * 9, {}) for i in range(13)]
+    python_times.PythonTimes(rows, env).write(root / published.PYTHON)
     published.write(root)
     text = (root / "README.md").read_text()
     assert "| pairs of boxes | 1,000 | 200 ns | 100 ns, 100 % | rtree 2.00x (2.00 to 2.00), SciPy 1.00x (0.750 to 1.43) ? |" in text
     assert "a CPU, 2 cores, commit abcdef01, python 3.11, rtree 1.4" in text and published.problems(root) == []
     file_of(root, "effects", synthetic.full(wrong=False))
     assert any("more than one machine" in line for line in published.problems(root))
-    (root / published.PYTHON).write_text("{}")
-    with pytest.raises(published.BadFile, match="no file of scripts/python_bench"):
-        published.problems(root)
+    broken = [python_times.Row("cut", 1000, [200] * 8, [100] * 9, {}), python_times.Row("silent", 1000, [200] * 9, [0] * 9, {})]
+    for row in broken:
+        python_times.PythonTimes([row], env).write(root / published.PYTHON)
+        with pytest.raises(published.BadFile, match=f"'{row.question}' has not a time above 0 of each round"):
+            published.problems(root)
+    for text in ("{}", '{"rows": [], "env": {}}', "not JSON"):
+        (root / published.PYTHON).write_text(text)
+        with pytest.raises(published.BadFile, match="no file of scripts/python_bench"):
+            published.problems(root)
 
 
 @pytest.mark.parametrize("n, cut", [(1, 0), (5, 0), (6, 0), (8, 0), (9, 1), (11, 1), (12, 2), (30, 9)])
@@ -278,8 +294,9 @@ def test_kernels_have_a_row_for_each_family(tmp_path):
 
 
 def test_how_many_of_two_shapes_overlap_is_in_words():
-    texts = [published_tables.shapes_text(f"box_and_cone{k}") for k in ("", "_k0", "_k100", "_k30")]
+    texts = [published_tables.family_text(f"box_and_cone{k}") for k in ("", "_k0", "_k100", "_k30")]
     assert texts == ["box and cone", "box and cone, apart", "box and cone, overlapping", "box and cone, 30 % of them overlap"]
+    assert published_tables.family_text("decimal_scale_km30") == "decimal scale km30"
 
 
 def test_a_library_that_is_wrong_or_silent_is_named_in_the_row(tmp_path):

@@ -43,7 +43,8 @@ RobotMeshes::RobotMeshes(const Robot& robot, std::span<const TriangleMesh> meshe
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         const LinkDescription& link = robot.links()[i];
         for (const LinkGeometry& geometry : link.geometries) {
-            Part part{nullptr, std::visit(ShapeOfLink{}, geometry.shape), geometry.origin};
+            Part part{nullptr, std::visit(ShapeOfLink{}, geometry.shape), geometry.origin,
+                      geometry.origin != Pose{}};
             if (const auto* mesh = std::get_if<LinkMesh>(&geometry.shape)) {
                 if (mesh->mesh >= meshes.size())
                     throw std::invalid_argument("link " + link.name + " names mesh " +
@@ -59,13 +60,17 @@ RobotMeshes::RobotMeshes(const Robot& robot, std::span<const TriangleMesh> meshe
     }
 }
 
+RobotMeshes::Placed RobotMeshes::placed(const Part& part, const Pose& link) {
+    return {part, part.turns_or_moves ? compose(link, part.origin) : link};
+}
+
 template <class F>
 void RobotMeshes::for_each_pair(std::uint32_t a, std::uint32_t b,
                                 std::span<const RigidTransform<double>> poses, const F& f) const {
     for (const Part& of_a : parts_[a]) {
-        const Placed placed_a{of_a, compose(poses[a], of_a.origin)};
+        const Placed placed_a = placed(of_a, poses[a]);
         for (const Part& of_b : parts_[b])
-            if (f(placed_a, Placed{of_b, compose(poses[b], of_b.origin)}))
+            if (f(placed_a, placed(of_b, poses[b])))
                 return;
     }
 }

@@ -32,13 +32,15 @@ class RobotMeshes final : public LinkNarrowPhase {
     struct Part {
         std::shared_ptr<const MeshTree> mesh; ///< none: `shape`
         convex::Shape shape;
-        Pose origin; ///< in the link
+        Pose origin;         ///< in the link
+        bool turns_or_moves; ///< whether the origin does; most do not
     };
     /// A part where its link is.
     struct Placed {
         const Part& part;
         Pose pose;
     };
+    static Placed placed(const Part& part, const Pose& link);
     static bool touch(const Placed& a, const Placed& b);
     static LinkDistance distance_of(const Placed& a, const Placed& b, double limit);
     template <class F>

@@ -140,13 +140,15 @@ Decision default_collide(Pair& p) {
         return yes_or_no(depth_of_boxes(p).has_value());
     return collide(p);
 }
-Distance default_distance(const Pair& p) {
-    if (both_are(p, SPHERE_SHAPE_PROXYTYPE))
-        return plain_distance(distance_of_spheres(p));
-    if (both_are(p, BOX_SHAPE_PROXYTYPE))
+template <bool is_signed> Distance default_distance(const Pair& p) {
+    if (both_are(p, SPHERE_SHAPE_PROXYTYPE)) {
+        const double found = distance_of_spheres(p);
+        return plain_distance(is_signed ? found : std::max(found, 0.0));
+    }
+    if (is_signed && both_are(p, BOX_SHAPE_PROXYTYPE))
         if (const std::optional<double> depth = depth_of_boxes(p))
             return plain_distance(*depth);
-    return distance<true>(p);
+    return distance<is_signed>(p);
 }
 
 /// Answers that are none are not timed; in mixed families it is judged on the others.
@@ -189,7 +191,11 @@ std::vector<ContenderEntry> bullet_shapes() {
             "shape_collide", "bullet", "shapes.collide.default_configuration", "f32",
             "Bullet's algorithms of two boxes and of two spheres, else as shapes.collide",
             "btBoxBoxDetector, a formula; " + notes),
-        each_case<ShapePairCase, Pair, default_distance>(
+        each_case<ShapePairCase, Pair, default_distance<false>>(
+            "shape_distance", "bullet", "shapes.distance.default_configuration", "f32",
+            "Bullet's algorithm of two spheres, else as shapes.distance",
+            "no result is read as 0; " + notes),
+        each_case<ShapePairCase, Pair, default_distance<true>>(
             "signed_shape_distance", "bullet", "shapes.signed_distance.default_configuration",
             "f32",
             "Bullet's algorithms of two boxes that overlap and of two spheres, else as "

@@ -202,6 +202,24 @@ ContenderEntry meshes(const MeshRow& of) {
     return e;
 }
 
+ContenderEntry robot(const std::string& name, CoalVolume volume, LinkPairs pairs) {
+    const bool is_obb = volume == CoalVolume::obb;
+    const std::string how = pairs == LinkPairs::listed ? listed_pairs : managed_pairs;
+    ContenderEntry e =
+        row("robot." + name + (is_obb ? ".obb" : ""),
+            fmt::format("BVHModel of {} for each link's mesh and its shapes for solids, pairs {}",
+                        is_obb ? "OBB" : "OBBRSS", how),
+            fmt::format("build = a model of each mesh, and objects; query = state after state, our "
+                        "forward kinematics, objects placed, pairs {}, until two touch that must "
+                        "not; collide for one contact, enable_contact off; break_distance and "
+                        "distance_upper_bound 0, as nobody reads a distance; doubles; one thread",
+                        how));
+    e.answers = {{"robot_self", [=](const Job& job) {
+                      return module().robot(RobotInScene(*job.scene), volume, pairs);
+                  }}};
+    return e;
+}
+
 /// Coal's trees throw for bounds that have none.
 bool have_volume(const RecordedProgram& program) {
     return std::ranges::all_of(program.states, [](const RecordedProgram::State& state) {
@@ -238,6 +256,10 @@ Peer coal_peer() {
     peer.contenders = managers();
     for (const MeshRow& of : mesh_rows)
         peer.contenders.push_back(meshes(of));
+    for (const CoalVolume volume : {CoalVolume::obbrss, CoalVolume::obb}) {
+        peer.contenders.push_back(robot("manager", volume, LinkPairs::by_manager));
+        peer.contenders.push_back(robot("pairs", volume, LinkPairs::listed));
+    }
     const std::string shapes = "on two TriangleP, enable_contact ";
     peer.contenders.push_back(kernel("collide", "triangle_triangle",
                                      "ComputeCollision " + shapes + "off",

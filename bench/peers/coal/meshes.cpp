@@ -1,7 +1,7 @@
+#include "bench/peers/coal/conversions.h"
 #include "bench/peers/coal/module.h"
 #include "bench/peers/mesh_queries.h"
 
-#include <coal/BVH/BVH_model.h>
 #include <coal/collision.h>
 #include <coal/distance.h>
 
@@ -19,29 +19,13 @@ template <class Volume> class MeshModels : public Contender {
     using CollisionRequest = coal::CollisionRequest;
     using DistanceRequest = coal::DistanceRequest;
 
-    explicit MeshModels(const Job& job) {
-        const Scene& scene = *job.scene;
-        for (const Vec3<float>& v : scene.mesh.vertices)
-            vertices_.emplace_back(static_cast<double>(v.x), static_cast<double>(v.y),
-                                   static_cast<double>(v.z));
-        for (const auto& [a, b, c] : scene.mesh.triangles)
-            triangles_.emplace_back(a, b, c);
-        for (const RigidTransform<double>& pose : scene.poses) {
-            coal::Matrix3s rotation;
-            for (int i = 0; i < 3; ++i)
-                for (int j = 0; j < 3; ++j)
-                    rotation(i, j) = pose.rotation[static_cast<std::size_t>(i)][j];
-            const Vec3<double>& t = pose.translation;
-            poses_.emplace_back(rotation, coal::Vec3s(t.x, t.y, t.z));
-        }
+    explicit MeshModels(const Job& job) : mesh_(job.scene->mesh) {
+        for (const RigidTransform<double>& pose : job.scene->poses)
+            poses_.push_back(transform_of(pose));
     }
     void build() override {
         model_.reset();
-        model_ = std::make_unique<coal::BVHModel<Volume>>();
-        model_->beginModel(static_cast<unsigned>(triangles_.size()),
-                           static_cast<unsigned>(vertices_.size()));
-        model_->addSubModel(vertices_, triangles_);
-        model_->endModel();
+        model_ = mesh_.model<Volume>();
     }
 
   protected:
@@ -63,25 +47,14 @@ template <class Volume> class MeshModels : public Contender {
     }
 
   private:
-    std::vector<coal::Vec3s> vertices_;
-    std::vector<coal::Triangle> triangles_;
+    MeshOfCoal mesh_;
     std::vector<coal::Transform3s> poses_;
     coal::CollisionResult touches_;
     coal::DistanceResult nearest_;
-    std::unique_ptr<coal::BVHModel<Volume>> model_;
+    std::shared_ptr<coal::BVHModel<Volume>> model_;
     const coal::Transform3s in_place_;
 };
 
-/// break_distance: boxes nearer than this are opened, so that a better lower bound of the distance
-/// is found, which nobody reads here.
-coal::CollisionRequest request_of(std::size_t max_contacts, bool with_contact, double margin = 0) {
-    coal::CollisionRequest request;
-    request.num_max_contacts = max_contacts;
-    request.enable_contact = with_contact;
-    request.security_margin = margin;
-    request.break_distance = 0;
-    return request;
-}
 constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
 
 /// Where the two touch a signed distance would be asked for once more.

@@ -1,4 +1,5 @@
 #include "bench/peers/coal/module.h"
+#include "bench/peers/coal/conversions.h"
 #include "bench/peers/each_case.h"
 #include "bench/replay/replayer.h"
 #include "trees/adapters/apis/coal_api.h"
@@ -13,8 +14,6 @@
 
 namespace boxwood::bench {
 namespace {
-
-coal::Vec3s vector(Vec3<double> v) { return {v.x, v.y, v.z}; }
 
 /// A geometry that is nothing but its bounds: Coal's Box would round them.
 class Bounds final : public coal::CollisionGeometry {
@@ -173,5 +172,6 @@ std::unique_ptr<Contender> make_kernel(const Job& job, CoalKernel kernel) {
 
 extern "C" [[gnu::visibility("default")]] const boxwood::bench::CoalModule boxwood_coal;
 const boxwood::bench::CoalModule boxwood_coal{
-    boxwood::bench::make_manager, boxwood::bench::make_kernel, boxwood::bench::make_coal_shapes,
-    boxwood::bench::make_coal_meshes, boxwood::bench::make_replay};
+    boxwood::bench::make_manager,     boxwood::bench::make_kernel,
+    boxwood::bench::make_coal_shapes, boxwood::bench::make_coal_meshes,
+    boxwood::bench::make_coal_robot,  boxwood::bench::make_replay};

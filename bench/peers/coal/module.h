@@ -2,6 +2,7 @@
 
 #include "bench/peers/answering.h"
 #include "bench/peers/managers.h"
+#include "bench/peers/robot_queries.h"
 #include "bench/replay/replay.h"
 
 #include <cstdint>
@@ -56,6 +57,9 @@ enum class CoalMeshQuery : std::uint8_t {
 std::unique_ptr<Contender> make_coal_meshes(const Job& job, CoalVolume volume, CoalMeshQuery query,
                                             double tolerance);
 
+/// Self-collision of a robot. In robots.cpp, within the module.
+std::unique_ptr<Contender> make_coal_robot(RobotInScene robot, CoalVolume volume, LinkPairs pairs);
+
 /// The library behind a door: a module that is opened when a contender is made. In one process with
 /// FCL's package two octomaps would meet under the same names, and the program end in a double
 /// free.
@@ -64,6 +68,7 @@ struct CoalModule {
     std::unique_ptr<Contender> (*kernel)(const Job&, CoalKernel);
     std::unique_ptr<Contender> (*shapes)(const Job&, CoalShapeQuery, CoalGjk);
     std::unique_ptr<Contender> (*meshes)(const Job&, CoalVolume, CoalMeshQuery, double);
+    std::unique_ptr<Contender> (*robot)(RobotInScene, CoalVolume, LinkPairs);
     /// Without a manager of Coal's, ours in its place; by bounds alone, or with Coal's shapes.
     std::unique_ptr<Replay> (*replay)(const RecordedProgram&, std::optional<CoalManager>,
                                       bool with_shapes);

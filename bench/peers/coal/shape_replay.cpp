@@ -1,8 +1,8 @@
+#include "bench/peers/coal/conversions.h"
 #include "bench/peers/coal/module.h"
 #include "bench/replay/shape_replayer.h"
 #include "trees/adapters/apis/coal_api.h"
 
-#include <coal/BVH/BVH_model.h>
 #include <coal/broadphase/broadphase.h>
 #include <coal/collision.h>
 #include <coal/distance.h>
@@ -18,27 +18,10 @@ namespace {
 
 using Object = coal::CollisionObject;
 
-struct Corners {
-    std::vector<coal::Vec3s> vertices;
-    std::vector<coal::Triangle> triangles;
-
-    Corners(const RecordedProgram& program, const RecordedProgram::Geometry& of) {
-        for (const Vec3<double>& v : program.vertices_of(of))
-            vertices.emplace_back(v.x, v.y, v.z);
-        for (const auto& [a, b, c] : program.triangles_of(of))
-            triangles.emplace_back(a, b, c);
-    }
-};
-
-std::shared_ptr<coal::CollisionGeometry> mesh_of(const Corners& of) {
-    auto model = std::make_shared<coal::BVHModel<coal::OBBRSS>>();
-    model->beginModel(static_cast<unsigned>(of.triangles.size()),
-                      static_cast<unsigned>(of.vertices.size()));
-    model->addSubModel(of.vertices, of.triangles);
-    model->endModel();
-    return model;
+MeshOfCoal mesh_of(const RecordedProgram& program, const RecordedProgram::Geometry& of) {
+    return {program.vertices_of(of), program.triangles_of(of)};
 }
-std::shared_ptr<coal::CollisionGeometry> convex_of(Corners of) {
+std::shared_ptr<coal::CollisionGeometry> convex_of(MeshOfCoal of) {
     const auto n_points = static_cast<unsigned>(of.vertices.size()),
                n_faces = static_cast<unsigned>(of.triangles.size());
     return std::make_shared<coal::Convex<coal::Triangle>>(
@@ -73,9 +56,9 @@ struct CoalShapes {
         case recording::Shape::half_space:
             return std::make_shared<coal::Halfspace>(a, b, c, d);
         case recording::Shape::convex:
-            return convex_of({program, of});
+            return convex_of(mesh_of(program, of));
         default:
-            return mesh_of({program, of});
+            return mesh_of(program, of).model<coal::OBBRSS>();
         }
     }
     static bool touch(const Object* a, const Object* b) {

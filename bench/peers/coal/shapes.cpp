@@ -1,3 +1,4 @@
+#include "bench/peers/coal/conversions.h"
 #include "bench/peers/coal/module.h"
 #include "bench/peers/each_case.h"
 
@@ -47,14 +48,6 @@ Geometry geometry_of(const ShapeOfPair& of) {
     default:
         throw std::invalid_argument("the families of shape pairs have no such shape");
     }
-}
-
-coal::Transform3s transform_of(const convex::Pose& pose) {
-    coal::Matrix3s rotation;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            rotation(i, j) = pose.rotation[static_cast<std::size_t>(i)][j];
-    return {rotation, coal::Vec3s(pose.translation.x, pose.translation.y, pose.translation.z)};
 }
 
 /// What a user keeps for many queries of two shapes; Compute refers to them.

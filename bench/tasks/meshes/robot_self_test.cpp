@@ -110,10 +110,10 @@ TEST_F(RobotSelf, TheTruthSeesWhatIsWrong) {
     }
 }
 
-/// Solid, as each library has them: what lies in one touches it.
-TEST_F(RobotSelf, IsAnsweredOfRoundLinksToo) {
+/// Solid, as each library has them: what lies in one touches it. One is flat.
+TEST_F(RobotSelf, IsAnsweredOfOtherShapesToo) {
     for (const char* tip : {"<cylinder radius=\"0.2\" length=\"1\"/>", "<sphere radius=\"0.4\"/>",
-                            "<capsule radius=\"0.1\" length=\"0.8\"/>"}) {
+                            "<capsule radius=\"0.1\" length=\"0.8\"/>", "<box size=\"1 1 0\"/>"}) {
         SCOPED_TRACE(tip);
         std::ofstream(spec.file) << arm(tip);
         EXPECT_GT(agreed(make_scene(spec)), 10u);

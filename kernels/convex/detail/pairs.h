@@ -29,15 +29,28 @@ inline Decision decided(double lo, double hi, double t) {
     return {hi <= t ? Answer::yes : lo > t ? Answer::no : Answer::maybe};
 }
 
-/// Of cores in the frame of `frame`, made that of the shapes in the world.
-inline SignedDistance in_world(const CoreDistance& core, double value, double error,
-                               double radius_a, double radius_b, const Pose& frame) {
+/// A frame in which the cores of two shapes were searched.
+struct PosedFrame {
+    const Pose& pose;
+    V operator()(V p) const { return pose(p); }
+    V direction(V n) const { return unit_or(times(pose.rotation, n), {0, 0, 1}); }
+};
+struct MovedFrame {
+    V origin;
+    V operator()(V p) const { return origin + p; }
+    V direction(V n) const { return n; }
+};
+
+/// Of cores in such a frame, made that of the shapes in the world.
+template <class Frame>
+SignedDistance in_world(const CoreDistance& core, double value, double error, double radius_a,
+                        double radius_b, const Frame& frame) {
     const double radius = radius_a + radius_b;
     SignedDistance d;
     d.lo = core.lo - radius - error;
     d.hi = core.hi - radius + error;
     d.distance = std::clamp(value - radius, d.lo, d.hi);
-    d.normal = unit_or(times(frame.rotation, core.normal), {0, 0, 1});
+    d.normal = frame.direction(core.normal);
     d.point_a = frame(core.on_a) + d.normal * radius_a;
     d.point_b = frame(core.on_a - core.between) - d.normal * radius_b;
     return d;
@@ -234,7 +247,7 @@ SignedDistance measure(const A& a, const Pose& pose_a, const B& b, const Pose& p
                             a.radius + b.radius};
             if (CoreDistance found; in_range(rods.size) && rods.measure(goal, found)) [[likely]]
                 return in_world(found, found.hi, rods.error, a.radius, b.radius,
-                                {.translation = pose_a.translation});
+                                MovedFrame{pose_a.translation});
         }
         const Search<A, B> search{a, b, pose_a, pose_b};
         const double radius = search.radius_a + search.radius_b;
@@ -244,7 +257,7 @@ SignedDistance measure(const A& a, const Pose& pose_a, const B& b, const Pose& p
                         radius};
         const CoreDistance found = search.run(goal);
         return in_world(found, Search<A, B>::boxes && found.overlapping ? found.lo : found.hi,
-                        search.error, search.radius_a, search.radius_b, pose_a);
+                        search.error, search.radius_a, search.radius_b, PosedFrame{pose_a});
     }
 }
 
