@@ -4,9 +4,7 @@
 #include "kernels/primitives/aabb.h"
 
 #include <cmath>
-#include <cstddef>
 #include <limits>
-#include <span>
 #include <type_traits>
 
 /// The farthest point of a shape in a direction, and what follows from it: the least and greatest
@@ -109,27 +107,12 @@ inline Vec3<double> support(const Ellipsoid& s, Vec3<double> d) {
     return {s.radii.x * (e.x * scale), s.radii.y * (e.y * scale), s.radii.z * (e.z * scale)};
 }
 inline Vec3<double> support(const Hull& s, Vec3<double> d) {
-    const std::span<const Vec3<double>> p = s.points();
-    constexpr std::size_t lanes =
-        4; // searches side by side, without a branch that is hard to predict
-    double most[lanes] = {-detail::inf, -detail::inf, -detail::inf, -detail::inf};
-    std::size_t at[lanes] = {};
-    const auto look = [&](std::size_t i, std::size_t lane) {
-        const double x = dot(p[i], d);
-        at[lane] = x > most[lane] ? i : at[lane];
-        most[lane] = x > most[lane] ? x : most[lane];
-    };
-    std::size_t i = 0;
-    for (; i + lanes <= p.size(); i += lanes)
-        for (std::size_t lane = 0; lane < lanes; ++lane)
-            look(i + lane, lane);
-    for (; i < p.size(); ++i)
-        look(i, 0);
-    std::size_t best = 0;
-    for (std::size_t lane = 1; lane < lanes; ++lane)
-        if (most[lane] > most[best] || (most[lane] == most[best] && at[lane] < at[best]))
-            best = lane;
-    return p.empty() ? Vec3<double>{} : p[at[best]];
+    Vec3<double> best{};
+    double most = -detail::inf;
+    for (const Vec3<double>& p : s.points())
+        if (const double x = dot(p, d); x > most)
+            most = x, best = p;
+    return best;
 }
 inline Vec3<double> support(const Triangle& s, Vec3<double> d) {
     const double a = dot(s.a, d), b = dot(s.b, d), c = dot(s.c, d);
