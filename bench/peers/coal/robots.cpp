@@ -5,7 +5,6 @@
 #include <coal/collision.h>
 #include <coal/shape/geometric_shapes.h>
 
-#include <cmath>
 #include <memory>
 #include <utility>
 #include <variant>
@@ -37,7 +36,7 @@ template <class Volume> class CoalLinks {
         object.computeAABB();
         coal::AABB& box = object.getAABB();
         if (!(box.volume() > 0)) // for which its trees throw
-            box.expand(0x1p-40 * (1 + pose_size(pose)));
+            box.expand(0x1p-40 * (1 + box.min_.norm() + box.max_.norm()));
     }
     bool touch(Object* a, Object* b) {
         result_.clear();
@@ -53,11 +52,6 @@ template <class Volume> class CoalLinks {
     }
 
   private:
-    static double pose_size(const RigidTransform<double>& pose) {
-        const Vec3<double>& t = pose.translation;
-        return std::abs(t.x) + std::abs(t.y) + std::abs(t.z);
-    }
-
     using Geometry = std::shared_ptr<coal::CollisionGeometry>;
     using Models = std::vector<std::shared_ptr<coal::BVHModel<Volume>>>;
 
