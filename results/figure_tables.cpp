@@ -26,7 +26,8 @@ std::vector<Table> figure_tables() {
          &Results::findings,
          {
              {"place", &Finding::place, "", "its place on the screen: losses first"},
-             {"topic", &Finding::topic, "", "race (against peers), kernel, scene or device"},
+             {"topic", &Finding::topic, "",
+              "race (against peers), call (of a kernel, against peers), kernel, scene or device"},
              {"is_headline", &Finding::is_headline, "", "1 if it stands for its question"},
              {"is_loss", &Finding::is_loss, "", "1 if the rival is better for sure"},
              {"scene_id", &Finding::scene_id, "", "of scenes"},

@@ -47,7 +47,7 @@ enum class Reason : std::uint8_t {
 /// Which claims were corrected together; analysis/comparisons.h says how each is formed.
 enum class Family : std::uint8_t { none, peers, ours, threads, stages, devices };
 /// What a row of findings is about.
-enum class Topic : std::uint8_t { none, race, kernel, scene, device };
+enum class Topic : std::uint8_t { none, race, call, kernel, scene, device };
 
 /// Of Variant::stages; any other word is the effect that the scene is played without.
 inline constexpr std::string_view required_stages = "required", all_stages = "all";
@@ -85,7 +85,8 @@ template <> struct Words<Family> {
                                                          "threads", "stages", "devices"};
 };
 template <> struct Words<Topic> {
-    static constexpr std::array<std::string_view, 5> all{"", "race", "kernel", "scene", "device"};
+    static constexpr std::array<std::string_view, 6> all{"",       "race",  "call",
+                                                         "kernel", "scene", "device"};
 };
 
 /// An enum that has words.

@@ -37,13 +37,17 @@ void replace(std::string& text, std::string_view what, const std::string& by) {
         text.replace(at, what.size(), by);
 }
 
+std::string k_text(const HardCaseFamily& family, int k) {
+    return family.k_words ? family.k_words(k) : fmt::format("k = {}", k);
+}
+
 std::string family_name(const HardCaseFamily& family, const SceneSpec& spec) {
     std::string text = spaced(family.name);
     if (family.reads_file)
         text += " of " + spec.file.string();
     text += ", " + counted(spec.n, "case", "cases");
     if (!family.k_meaning.empty())
-        text += fmt::format(", k = {}", spec.k.value_or(family.k_default));
+        text += ", " + k_text(family, spec.k.value_or(family.k_default));
     if (spec.scale != 0)
         text += fmt::format(", scaled by 2^{}", spec.scale);
     return text;

@@ -54,9 +54,20 @@ TEST(HumanName, OfHardCasesSaysParameterAndScale) {
         const std::string name = human_name(spec);
         EXPECT_NE(name.find("500 cases"), std::string::npos) << name;
         EXPECT_NE(name.find("scaled by 2^-3"), std::string::npos) << name;
-        EXPECT_EQ(name.find("k = ") != std::string::npos, !family.k_meaning.empty()) << name;
+        EXPECT_EQ(name.find("k = ") != std::string::npos,
+                  !family.k_meaning.empty() && !family.k_words)
+            << name;
         EXPECT_EQ(name.find('_'), std::string::npos) << name;
     }
+}
+
+TEST(HumanName, OfPairsOfShapesSaysHowManyOverlap) {
+    const auto name = [](int k) {
+        return human_name({.generator = "box_and_cone", .n = 1000, .k = k});
+    };
+    EXPECT_EQ(name(0), "box and cone, 1,000 cases, apart");
+    EXPECT_EQ(name(50), "box and cone, 1,000 cases, 50 % of them overlap");
+    EXPECT_EQ(name(100), "box and cone, 1,000 cases, overlapping");
 }
 
 TEST(HumanName, IsOneForEachSceneAndNoPlaceIsLeftOpen) {

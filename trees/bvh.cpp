@@ -301,10 +301,7 @@ std::vector<Neighbour> BvhF64::nearest(Vec3<double> point, std::size_t k) const 
 }
 
 std::vector<Neighbour> BvhF64::nearest(std::span<const Vec3<double>> points, std::size_t k) const {
-    std::vector<Neighbour> all;
-    if (!points.empty() && k > all.max_size() / points.size())
-        throw std::length_error("nearest: k answers to each point are more than memory holds");
-    all.resize(k * points.size());
+    std::vector<Neighbour> all = detail::neighbours_of(points.size(), k);
     constexpr std::size_t in_chunk = 64;
     const std::size_t chunks = (points.size() + in_chunk - 1) / in_chunk;
     around_.executor().for_each(chunks, [&](std::size_t chunk) {

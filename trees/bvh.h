@@ -34,8 +34,8 @@ struct BvhOptions {
     LayoutName layout = LayoutName::packed;
     unsigned threads = 1;
     std::shared_ptr<const Executor> executor = nullptr; ///< one of your own, instead of threads
-    /// update() builds again once the area of all nodes over that of the root is so many times what
-    /// it was when last built.
+    /// update() builds again once the area of the inner nodes (of packed: of all blocks) over that
+    /// of the root is so many times what it was when last built.
     double rebuild_above = 1.35;
 };
 
@@ -82,7 +82,8 @@ class Bvh : public BoxQueries {
 
 /// A tree of boxes in doubles: a Bvh of the float boxes around them finds what may be, and each
 /// answer is decided in doubles. Coordinates up to the largest float; beyond it, InvalidBox. Build,
-/// update, order of answers, functions and threads as those of Bvh (BoxQueries).
+/// update, order of answers and threads are those of Bvh (BoxQueries); a single query may hand its
+/// answers to a function, which one thread calls.
 class BvhF64 {
   public:
     explicit BvhF64(std::span<const Aabb<double>> boxes = {}, const BvhOptions& options = {});
@@ -95,6 +96,7 @@ class BvhF64 {
     void update(std::span<const Aabb<double>> boxes);
     void update(std::span<const Aabb<double>> boxes, std::span<const std::uint32_t> moved);
     void rebuild(std::span<const Aabb<double>> boxes);
+    std::size_t rebuilds() const { return around_.rebuilds(); }
 
     std::vector<Pair> self_pairs() const;
     void self_pairs(PairSink& sink) const;

@@ -136,7 +136,7 @@ TEST(Bvh, PairsOfTwoTrees) {
     }
     EXPECT_EQ(ascending(DynamicBvh(a).pairs(DynamicBvh(b))), wanted);
     EXPECT_THAT([&] { Bvh(a).pairs(DynamicBvh(b)); },
-                ThrowsMessage<std::invalid_argument>(HasSubstr("two trees of the layout")));
+                ThrowsMessage<std::invalid_argument>(HasSubstr("both must have one layout")));
 }
 
 TEST(Bvh, FunctionsAreCalledUntilTheySayFalse) {

@@ -75,8 +75,8 @@ class MeshBvh {
     void any_hits(std::span<const Ray<float>> rays, std::span<RayHit> hits) const;
     void all_hits(std::span<const Ray<float>> rays, HitSink& sink) const;
 
-    /// The nearest point of the mesh, on the lowest of the triangles that have it; nothing of an
-    /// empty mesh or a point that is not finite.
+    /// The nearest point of the mesh; of triangles at the same distance, as it is computed, on the
+    /// lowest. Nothing of an empty mesh or a point that is not finite.
     std::optional<SurfacePoint> closest_point(Vec3<float> point) const;
     /// Of many: `triangle` is Neighbour::none where there is nothing.
     std::vector<SurfacePoint> closest_points(std::span<const Vec3<float>> points) const;

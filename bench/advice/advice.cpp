@@ -3,6 +3,7 @@
 #include "bench/analysis/index.h"
 #include "bench/analysis/status.h"
 #include "bench/analysis/times.h"
+#include "bench/analysis/wording.h"
 #include "bench/io/bad_input.h"
 #include "trees/builder.h"
 
@@ -19,13 +20,6 @@ using results::Phase;
 double of_round(std::vector<double> values) {
     std::ranges::sort(values);
     return median_of_sorted(values);
-}
-
-std::vector<double> by_round(const Times::Rounds& rounds) {
-    std::vector<double> all;
-    for (const auto& [key, values] : rounds)
-        all.push_back(of_round(values));
-    return all;
 }
 
 /// "ploc_reinsertion" is "ploc+reinsertion" to who asks for it.
@@ -66,13 +60,12 @@ class Adviser {
             Way way;
             const results::Variant& variant = index_.variant(cell);
             way.cell_id = cell.cell_id;
-            way.build = median_interval(by_round(*build));
-            way.query = median_interval(by_round(*query));
+            way.build = median_interval(medians_by_round(*build));
+            way.query = median_interval(medians_by_round(*query));
             way.build_ns = way.build.mid;
             way.query_ns = way.query.mid;
             if (variant.is_peer) {
-                const std::string own = variant.name.substr(variant.name.find('.') + 1);
-                way.name = variant.library_title + ": " + own;
+                way.name = peer_text(variant);
                 rivals_.push_back(std::move(way));
                 continue;
             }
@@ -94,7 +87,7 @@ class Adviser {
             advice_.n_queries = 1; // one query finds all
     }
 
-    /// Which of the ways have queries that take less time than those of `from`, beyond noise.
+    /// Which of the ways take less time in this phase than `from`, beyond noise.
     std::vector<std::size_t> faster_than(std::size_t from, Phase phase) const {
         std::vector<Claim> claims;
         std::vector<std::size_t> of;
@@ -122,8 +115,8 @@ class Adviser {
         std::size_t at = 0;
         for (std::size_t i = 1; i < advice_.ways.size(); ++i) {
             const std::vector<std::size_t> cheaper = faster_than(i, Phase::build);
-            const bool is_told_apart = std::ranges::find(cheaper, std::size_t{0}) != cheaper.end();
-            if (!is_told_apart && advice_.ways[i].query_ns < advice_.ways[at].query_ns)
+            const bool is_dearer = std::ranges::find(cheaper, std::size_t{0}) != cheaper.end();
+            if (!is_dearer && advice_.ways[i].query_ns < advice_.ways[at].query_ns)
                 at = i;
         }
         advice_.front = {at};
@@ -144,7 +137,7 @@ class Adviser {
                 }
             }
             if (!next)
-                return;
+                break;
             step = step_from(at, *next);
             if (!(step.queries.mid > 0)) { // it is better in both
                 advice_.front.back() = *next;
@@ -156,6 +149,22 @@ class Adviser {
                 advice_.steps.push_back(step);
             }
             at = *next;
+        }
+        leave_out_what_is_never_best();
+    }
+
+    /// Of the front the ways that the next one passes no later than they pass the one before.
+    void leave_out_what_is_never_best() {
+        for (std::size_t i = 1; i < advice_.steps.size();) {
+            if (advice_.steps[i].queries.mid > advice_.steps[i - 1].queries.mid) {
+                ++i;
+                continue;
+            }
+            const auto at = static_cast<std::ptrdiff_t>(i);
+            advice_.front.erase(advice_.front.begin() + at);
+            advice_.steps.erase(advice_.steps.begin() + at);
+            advice_.steps[i - 1] = step_from(advice_.front[i - 1], advice_.front[i]);
+            i = std::max<std::size_t>(1, i - 1);
         }
     }
 
@@ -185,7 +194,7 @@ class Adviser {
     }
 
     double total_ns(const Way& way, double queries) const {
-        return way.build_ns + queries / advice_.n_queries * way.query_ns;
+        return bench::total_ns(advice_, way, queries);
     }
     /// One of the front where that costs next to nothing, so that the rule and this agree.
     std::size_t best_for(double queries) const {
@@ -217,42 +226,81 @@ class Adviser {
         return logs;
     }
 
-    double floor_of(const Way& way) const {
+    double floor_of(const Way& ours, const Way& way) const {
         return floors_
-            .of(index_.cell(advice_.ways[advice_.best].cell_id), index_.cell(way.cell_id),
-                Phase::build_and_query)
+            .of(index_.cell(ours.cell_id), index_.cell(way.cell_id), Phase::build_and_query)
             .value_or(default_delta);
     }
-    bool is_told_apart(const Way& way, double queries) const {
-        const std::uint32_t a = advice_.ways[advice_.best].cell_id, b = way.cell_id;
-        const Claim claim{total_logs(a, b, queries), floor_of(way)};
-        const results::Verdict verdict = decide({&claim, 1}, default_delta)[0].verdict;
+    /// Each of these against ours, for a build and so many queries, decided together.
+    std::vector<results::Verdict> verdicts(const Way& ours, const std::vector<const Way*>& others,
+                                           double queries) const {
+        std::vector<Claim> claims;
+        for (const Way* other : others)
+            claims.push_back(
+                {total_logs(ours.cell_id, other->cell_id, queries), floor_of(ours, *other)});
+        std::vector<results::Verdict> all;
+        for (const Ruling& ruling : decide(claims, default_delta))
+            all.push_back(ruling.verdict);
+        return all;
+    }
+    static bool is_distinct(results::Verdict verdict) {
         return verdict == results::Verdict::faster || verdict == results::Verdict::slower;
     }
 
     void find_as_good() {
         const double queries = advice_.wanted.value_or(advice_.n_queries);
-        for (std::size_t i = 0; i < advice_.ways.size(); ++i) {
+        const Way& best = advice_.ways[advice_.best];
+        std::vector<const Way*> others;
+        for (const Way& way : advice_.ways)
+            others.push_back(&way);
+        const std::vector<results::Verdict> found = verdicts(best, others, queries);
+        for (std::size_t i = 0; i < found.size(); ++i) {
             if (i == advice_.best)
                 continue;
-            advice_.floor = std::max(advice_.floor, floor_of(advice_.ways[i]));
-            if (!is_told_apart(advice_.ways[i], queries))
+            advice_.floor = std::max(advice_.floor, floor_of(best, advice_.ways[i]));
+            if (!is_distinct(found[i]))
                 advice_.as_good.push_back(i);
         }
         std::ranges::sort(advice_.as_good, {},
                           [&](std::size_t way) { return total_ns(advice_.ways[way], queries); });
     }
 
+    const Way& best_rival_for(double queries) const {
+        return *std::ranges::min_element(rivals_, {},
+                                         [&](const Way& way) { return total_ns(way, queries); });
+    }
+
     void find_rival() {
-        const double queries = advice_.wanted.value_or(advice_.n_queries);
-        for (const Way& way : rivals_)
-            if (!advice_.rival || total_ns(way, queries) < total_ns(*advice_.rival, queries))
-                advice_.rival = way;
-        if (!advice_.rival)
+        if (rivals_.empty())
             return;
-        advice_.rival_ratio = paired_ratio(
-            total_logs(advice_.ways[advice_.best].cell_id, advice_.rival->cell_id, queries));
-        advice_.is_rival_told_apart = is_told_apart(*advice_.rival, queries);
+        const double queries = advice_.wanted.value_or(advice_.n_queries);
+        const Way& best = advice_.ways[advice_.best];
+        advice_.rival = best_rival_for(queries);
+        advice_.rival_ratio =
+            paired_ratio(total_logs(best.cell_id, advice_.rival->cell_id, queries));
+        advice_.is_rival_distinct = is_distinct(verdicts(best, {&*advice_.rival}, queries)[0]);
+        find_losses();
+    }
+
+    void find_losses() {
+        constexpr double step = 1.1, last = 1e10;
+        bool goes_on = false;
+        for (double queries = 1; queries < last; queries *= step) {
+            const Way &ours = advice_.ways[best_for(queries)], &rival = best_rival_for(queries);
+            const bool is_lost = total_ns(rival, queries) < total_ns(ours, queries) &&
+                                 verdicts(ours, {&rival}, queries)[0] == results::Verdict::faster;
+            if (is_lost && !goes_on)
+                advice_.losses.push_back({queries, unknown, rival.name, unknown});
+            if (is_lost) {
+                Loss& loss = advice_.losses.back();
+                if (!loss.peers.ends_with(rival.name))
+                    loss.peers += " or " + rival.name;
+                loss.query_ratio = rival.query_ns / ours.query_ns;
+            } else if (goes_on) {
+                advice_.losses.back().to = queries;
+            }
+            goes_on = is_lost;
+        }
     }
 
     const results::Results& results_;

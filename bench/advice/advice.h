@@ -25,6 +25,13 @@ struct Step {
     PairedRatio query;      ///< the queries of the first over those of the next
 };
 
+/// Numbers of queries per build for which a peer takes less than all of ours, beyond noise.
+struct Loss {
+    double from = 0, to = unknown; ///< unknown: however many
+    std::string peers;             ///< which, "A or B"
+    double query_ratio = unknown;  ///< the time of its queries over that of ours that is best there
+};
+
 /// Which way to take, by the number of queries per build.
 struct Advice {
     std::string task, scene;
@@ -40,8 +47,14 @@ struct Advice {
     std::vector<std::size_t> as_good; ///< other ways that are not told apart from it there
     std::optional<Way> rival;         ///< the best peer for that number
     PairedRatio rival_ratio;          ///< its time over that of the best
-    bool is_rival_told_apart = false;
+    bool is_rival_distinct = false;
+    std::vector<Loss> losses; ///< by rising numbers
 };
+
+/// Of one build and so many queries.
+inline double total_ns(const Advice& advice, const Way& way, double queries) {
+    return way.build_ns + queries / advice.n_queries * way.query_ns;
+}
 
 /// Ways are told apart only by differences beyond noise: see decide. Of a result with one scene and
 /// one task that builds and queries. Throws BadInput if no way of ours was timed and right.

@@ -19,19 +19,17 @@ std::vector<std::string> kept(const Advice& first, std::string Way::*name,
                               const std::function<bool(const Way&)>& is_meant) {
     std::vector<std::string> names;
     for (double queries = 1; queries < 1e12; queries *= 2) {
-        const auto total_ns = [&](const Way& way) {
-            return way.build_ns + queries / first.n_queries * way.query_ns;
-        };
+        const auto total = [&](const Way& way) { return total_ns(first, way, queries); };
         double min_ns = std::numeric_limits<double>::infinity(), least_ns = min_ns;
         for (const Way& way : first.ways) {
-            least_ns = std::min(least_ns, total_ns(way));
+            least_ns = std::min(least_ns, total(way));
             if (is_meant(way))
-                min_ns = std::min(min_ns, total_ns(way));
+                min_ns = std::min(min_ns, total(way));
         }
         if (2 * least_ns < min_ns)
             continue; // for so many queries others are far ahead of all of these
         for (const Way& way : first.ways)
-            if (is_meant(way) && total_ns(way) <= 1.2 * min_ns && !is_bettered(way, first.ways) &&
+            if (is_meant(way) && total(way) <= 1.2 * min_ns && !is_bettered(way, first.ways) &&
                 std::ranges::find(names, way.*name) == names.end())
                 names.push_back(way.*name);
     }

@@ -1,10 +1,14 @@
 #include "bench/advice/advice.h"
 
+#include "bench/io/markup.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string_view>
+#include <utility>
 
 namespace boxwood::bench {
 namespace {
@@ -30,32 +34,36 @@ class Axis {
     double at(double ns) const {
         return pixel_lo_ + (pixel_hi_ - pixel_lo_) * std::log(ns / lo_) / std::log(hi_ / lo_);
     }
-    /// 1, 2 and 5 times powers of ten within it.
+    /// 1, 2 and 5 times powers of ten within it; where these are few, more.
     std::vector<double> ticks() const {
+        for (const std::vector<double>& digits :
+             {std::vector<double>{1, 2, 5},
+              {1, 1.5, 2, 3, 4, 5, 6, 8},
+              {1, 1.2, 1.4, 1.6, 1.8, 2,   2.5, 3,   3.5, 4,  4.5,
+               5, 5.5, 6,   6.5, 7,   7.5, 8,   8.5, 9,   9.5}})
+            if (std::vector<double> all = of_digits(digits); all.size() > 2)
+                return all;
+        return {lo_ * 1.01, hi_ / 1.01};
+    }
+
+  private:
+    std::vector<double> of_digits(const std::vector<double>& digits) const {
         std::vector<double> all;
         for (double power = 1e-3; power < 1e14; power *= 10)
-            for (const double digit : {1., 2., 5.})
+            for (const double digit : digits)
                 if (digit * power >= lo_ && digit * power <= hi_)
                     all.push_back(digit * power);
         return all;
     }
 
-  private:
     double pixel_lo_, pixel_hi_, lo_ = 1e300, hi_ = 0;
 };
 
 std::string tick_text(double ns) {
-    return ns < 1e3   ? fmt::format("{:g} ns", ns)
-           : ns < 1e6 ? fmt::format("{:g} us", ns / 1e3)
-           : ns < 1e9 ? fmt::format("{:g} ms", ns / 1e6)
-                      : fmt::format("{:g} s", ns / 1e9);
-}
-
-std::string escaped(std::string_view text) {
-    std::string out;
-    for (const char c : text)
-        out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-    return out;
+    return ns < 1e3   ? fmt::format("{:.3g} ns", ns)
+           : ns < 1e6 ? fmt::format("{:.3g} us", ns / 1e3)
+           : ns < 1e9 ? fmt::format("{:.3g} ms", ns / 1e6)
+                      : fmt::format("{:.3g} s", ns / 1e9);
 }
 
 class Picture {
@@ -91,6 +99,11 @@ class Picture {
             point(*advice_.rival, "rival");
         for (const std::size_t i : advice_.front)
             point(advice_.ways[i], "chosen");
+        for (const Way& way : advice_.ways)
+            taken_.push_back({build_.at(way.build_ns) - 6, query_.at(each(way.query_ns)), 12});
+        if (advice_.rival)
+            taken_.push_back({build_.at(advice_.rival->build_ns) - 6,
+                              query_.at(each(advice_.rival->query_ns)), 12});
         for (const std::size_t i : advice_.front)
             label(advice_.ways[i]);
         if (advice_.rival)
@@ -112,7 +125,8 @@ class Picture {
             "<style>:root{{color-scheme:light "
             "dark}}text{{fill:#222;paint-order:stroke;stroke:#fff;stroke-width:3px}}.page{{fill:#"
             "fff}}"
-            ".grid{{stroke:#ddd}}.front{{stroke:#0b63b5;stroke-width:2;fill:none}}"
+            ".grid{{stroke:#ddd}}.lead{{stroke:#999;stroke-width:.7}}.front{{stroke:#0b63b5;stroke-"
+            "width:2;fill:none}}"
             ".chosen{{fill:#0b63b5;stroke:#0b63b5}}.way{{fill:#8a8a8a;stroke:#8a8a8a}}"
             ".rival{{fill:#b5480b;stroke:#b5480b}}"
             "@media(prefers-color-scheme:dark){{text{{fill:#ddd;stroke:#181818}}.page{{fill:#"
@@ -121,8 +135,9 @@ class Picture {
             ".rival{{fill:#f0935a;stroke:#f0935a}}}}</style>\n"
             "<rect width=\"100%\" height=\"100%\" class=\"page\"/>\n"
             "<text x=\"{4:.0f}\" y=\"22\" font-weight=\"bold\">{2}</text>\n"
-            "<text x=\"{4:.0f}\" y=\"39\" font-size=\"12\">joined: what to take, by {5} per build; "
-            "lines: 95 % intervals; further down and further left is better</text>\n",
+            "<text x=\"{4:.0f}\" y=\"39\" font-size=\"12\">blue, joined: what to take, by {5} per "
+            "build; grey: ours; orange: the best peer; bars: 95 % intervals; down and left is "
+            "better</text>\n",
             width, height, escaped(advice_.scene), advice_.ways.size(), left, advice_.query_word);
     }
 
@@ -158,33 +173,52 @@ class Picture {
                              x, y, kind, escaped(way.name));
     }
 
-    /// Beside its point, at the first place where no other label is.
+    /// Near its point, at the nearest place that is taken by no other label and no point, else at
+    /// one without labels; a line leads there.
     void label(const Way& way) {
         const double x = build_.at(way.build_ns), y = query_.at(each(way.query_ns));
         const double wide = 7.2 * static_cast<double>(way.name.size());
-        const bool to_the_left = x + 10 + wide > width - right;
-        const double from = to_the_left ? x - 10 - wide : x + 10;
-        double at = y - 8;
-        for (int tries = 0; tries < 12; ++tries, at += (tries % 2 ? 16 : -16) * tries)
-            if (at > top + 10 && at < height - bottom - 4 &&
-                std::ranges::none_of(labels_, [&](const Label& other) {
-                    return std::abs(other.y - at) < 15 && from < other.x + other.wide &&
-                           other.x < from + wide;
-                }))
-                break;
-        labels_.push_back({from, at, wide});
-        body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n",
-                             to_the_left ? x - 10 : x + 10, at, to_the_left ? "end" : "start",
+        const auto is_free = [&](const Taken& place, const std::vector<Taken>& others) {
+            return std::ranges::none_of(others, [&](const Taken& other) {
+                return std::abs(other.y - place.y) < 14 && place.x < other.x + other.wide &&
+                       other.x < place.x + place.wide;
+            });
+        };
+        std::optional<Taken> best;
+        double best_far = 0;
+        bool is_best_free = false;
+        for (double up = -160; up <= 160; up += 8)
+            for (const double from : {x + 10, x - 10 - wide, x - wide / 2}) {
+                const Taken place{from, y + up, wide};
+                if (from < left + 2 || from + wide > width - right || place.y < top + 10 ||
+                    place.y > height - bottom - 8 || !is_free(place, labels_))
+                    continue;
+                const bool is_clear = is_free(place, taken_);
+                const double far = std::abs(up) + (from == x - wide / 2 ? 4 : 0);
+                if (!best || std::pair(!is_clear, far) < std::pair(!is_best_free, best_far)) {
+                    best = place;
+                    best_far = far;
+                    is_best_free = is_clear;
+                }
+            }
+        if (!best)
+            return; // its point still has its name as a title
+        labels_.push_back(*best);
+        if (best_far > 20)
+            body_ += fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" class=\"lead\"/>\n", x,
+                                 y, std::clamp(x, best->x, best->x + wide), best->y);
+        body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", best->x, best->y + 4,
                              escaped(way.name));
     }
 
-    struct Label {
+    /// What a text or a point takes: from x on, around y.
+    struct Taken {
         double x, y, wide;
     };
     const Advice& advice_;
     Axis build_, query_;
     std::string body_;
-    std::vector<Label> labels_;
+    std::vector<Taken> labels_, taken_;
 };
 
 } // namespace

@@ -13,11 +13,8 @@
 #include <algorithm>
 
 namespace boxwood::bench {
-namespace {
 
 using results::Phase;
-
-} // namespace
 
 PolicyAdvice advise_of_policies(const results::Results& results) {
     const Index index(results);
@@ -30,17 +27,10 @@ PolicyAdvice advise_of_policies(const results::Results& results) {
         if (!is_right(cell.status) || !rounds)
             continue;
         const results::Variant& variant = index.variant(cell);
-        std::vector<double> ns;
-        for (auto [key, values] : *rounds) {
-            std::ranges::sort(values);
-            ns.push_back(median_of_sorted(values));
-        }
         advice.policies.push_back(
-            {variant.is_peer
-                 ? variant.library_title + ": " + variant.name.substr(variant.name.find('.') + 1)
-                 : variant.name.substr(0, variant.name.find('.')),
+            {variant.is_peer ? peer_text(variant) : variant.name.substr(0, variant.name.find('.')),
              variant.is_peer != 0,
-             median_interval(ns),
+             median_interval(medians_by_round(*rounds)),
              {},
              false});
         cells.push_back(&cell);
@@ -95,6 +85,9 @@ std::string policies_text(const PolicyAdvice& advice) {
             interval_text(rival->over_best.ratio, rival->over_best.ci_lo, rival->over_best.ci_hi),
             rival->is_as_good ? ", which is not told apart from it beyond noise" : "");
     text += fmt::format("\nC++:\n    auto updater = boxwood::find_update(\"{}\").make({{}});\n"
+                        "    updater->start(boxes, boxwood::serial());\n"
+                        "    updater->update(boxes, moved, boxwood::serial()); // each frame\n"
+                        "    updater->self_pairs(boxwood::serial(), sink);\n"
                         "Python (its one policy refits, and builds again where that got loose):\n"
                         "    bvh = boxwood.Bvh(boxes)\n    bvh.update(boxes)\n\n",
                         best.name);

@@ -58,11 +58,25 @@ std::string rule_text(const Advice& advice) {
     for (std::size_t i = 0; i < advice.steps.size(); ++i) {
         const Step& step = advice.steps[i];
         const PairedRatio& query = step.query;
-        text += fmt::format(
-            "{} {} {} per build ({}) use {}, above it {} ({} {})\n", i == 0 ? "Up to" : "up to",
-            about(step.queries.mid), advice.query_word, range(step.queries), name(i), name(i + 1),
-            interval_text(query.ratio, query.ci_lo, query.ci_hi), "as fast once built");
+        text +=
+            fmt::format("Up to {} {} per build ({}) use {}, above it {} ({} as fast once built).\n",
+                        about(step.queries.mid), advice.query_word, range(step.queries), name(i),
+                        name(i + 1), interval_text(query.ratio, query.ci_lo, query.ci_hi));
     }
+    return text;
+}
+
+/// "From about 430,000 rays per build on Embree: x is faster than all of ours (...)."
+std::string losses_text(const Advice& advice) {
+    std::string text;
+    for (const Loss& loss : advice.losses)
+        text += fmt::format(
+            "{} {} per build {} {} faster than all of ours ({}x the time once built).\n",
+            std::isnan(loss.to)
+                ? fmt::format("From about {}", about(loss.from))
+                : fmt::format("From about {} to {}", about(loss.from), about(loss.to)),
+            advice.query_word, std::isnan(loss.to) ? "on, " + loss.peers : loss.peers, "is",
+            ratio_text(loss.query_ratio));
     return text;
 }
 
@@ -89,7 +103,8 @@ std::string advice_text(const Advice& advice) {
         text += fmt::format("{} would take {} as long{}.\n", advice.rival->name,
                             interval_text(advice.rival_ratio.ratio, advice.rival_ratio.ci_lo,
                                           advice.rival_ratio.ci_hi),
-                            advice.is_rival_told_apart ? "" : ", which is not told apart from it");
+                            advice.is_rival_distinct ? "" : ", which is not told apart from it");
+    text += losses_text(advice);
     text += fmt::format("\nC++:\n{}\nPython:\n{}\n", cpp_lines(advice, best),
                         python_line(advice, best));
     text += fmt::format("\n{:<34} {:>10} {:>12}\n", "timed", "build",
@@ -102,9 +117,7 @@ std::string advice_text(const Advice& advice) {
     constexpr std::size_t most = 24;
     const auto is_near = [&](const Way& way) {
         for (double n = 1; n < 1e12; n *= 4) {
-            const auto total = [&](const Way& w) {
-                return w.build_ns + n / advice.n_queries * w.query_ns;
-            };
+            const auto total = [&](const Way& w) { return total_ns(advice, w, n); };
             if (total(way) <= 1.1 * total(std::ranges::min(advice.ways, {}, total)))
                 return true;
         }
@@ -144,17 +157,23 @@ std::string advice_json(const Advice& advice) {
         steps += fmt::format(R"({}{{"break_even":{},"query_ratio":{}}})", steps.empty() ? "" : ",",
                              interval(step.queries.mid, step.queries.lo, step.queries.hi),
                              interval(step.query.ratio, step.query.ci_lo, step.query.ci_hi));
+    std::string losses;
+    for (const Loss& loss : advice.losses)
+        losses +=
+            fmt::format(R"({}{{"from":{},"to":{},"peers":{},"query_ratio":{}}})",
+                        losses.empty() ? "" : ",", json_number(loss.from), json_number(loss.to),
+                        json_string(loss.peers), json_number(loss.query_ratio));
     const Way& best = advice.ways[advice.best];
     return fmt::format(
         R"({{"task":{},"scene":{},"threads":{},"noise_floor":{},"queries_per_build":{},"best":{},)"
         R"("as_good":[{}],"front":[{}],"steps":[{}],"rival":{},"rival_ratio":{},)"
-        R"("is_rival_told_apart":{},"ways":[{}],"cpp":{},"python":{}}})"
+        R"("is_rival_distinct":{},"losses":[{}],"ways":[{}],"cpp":{},"python":{}}})"
         "\n",
         json_string(advice.task), json_string(advice.scene), advice.threads,
         json_number(advice.floor), json_number(advice.wanted.value_or(advice.n_queries)),
         json_string(best.name), as_good, front, steps, advice.rival ? way(*advice.rival) : "null",
         interval(advice.rival_ratio.ratio, advice.rival_ratio.ci_lo, advice.rival_ratio.ci_hi),
-        advice.is_rival_told_apart, ways, json_string(cpp_lines(advice, best)),
+        advice.is_rival_distinct, losses, ways, json_string(cpp_lines(advice, best)),
         json_string(python_line(advice, best)));
 }
 

@@ -240,7 +240,8 @@ FileComparison compare_files(const Results& base, const Results& head, const Fil
 
     const bool times_count = (result.is_same_cpu || options.any_processor) && !result.peers_moved;
     const bool is_timed = result.max_family > 0;
-    result.gate = result.lost.empty() && is_timed ? Gate::passes : Gate::open;
+    result.is_sealed = base.is_sealed && head.is_sealed;
+    result.gate = result.lost.empty() && is_timed && result.is_sealed ? Gate::passes : Gate::open;
     for (FileRow& row : result.rows) {
         row.gate = gate_of(row, options, times_count);
         result.gate = std::max(result.gate, row.gate);

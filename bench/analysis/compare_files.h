@@ -43,6 +43,7 @@ struct FileComparison {
     double peers_ratio = unknown;       ///< the middle one of the peers' timings, head over base
     bool peers_moved = false; ///< by more than the limit: the times say nothing of the code
     bool is_same_cpu = false, is_same_machine = false;
+    bool is_sealed = false; ///< both files are as they were written
     Gate gate = Gate::open; ///< of all
 };
 struct FileOptions {
@@ -59,8 +60,8 @@ struct FileOptions {
 /// A row fails if it is newly wrong, or its verdict is slower and the interval that decided lies
 /// above 1 + fail_if (1 without it); it passes if max_ratio is at most 1 + limit and the noise
 /// floor is no higher (or the verdict is faster), or if all its times are equal. All fail if one
-/// does; all pass if every row does, one is timed and nothing is lost. Where the peers moved, or on
-/// another processor unless any_processor, times neither fail nor pass.
+/// does; all pass if every row does, one is timed, nothing is lost and both files are sealed. Where
+/// the peers moved, or on another processor unless any_processor, times neither fail nor pass.
 FileComparison compare_files(const results::Results& base, const results::Results& head,
                              const FileOptions& options = {});
 

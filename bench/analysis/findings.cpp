@@ -49,6 +49,7 @@ void mark_headlines(std::vector<Draft>& drafts, const Index& index) {
 std::string question_text(const Draft& draft) {
     switch (draft.finding.topic) {
     case Topic::race:
+    case Topic::call:
     case Topic::device:
         return draft.question + draft.how + ", " + draft.where;
     case Topic::scene:
@@ -102,6 +103,9 @@ std::vector<Finding> findings_of(const Results& results) {
 std::vector<results::TopicRow> topics() {
     return {{Topic::race, "against the best rival, losses first", "rival's best time / our best",
              "build + query", "query alone", "interval (of which)"},
+            {Topic::call,
+             "a call of a kernel against the best rival, both always right, losses first",
+             "rival's best time / our best", "a call", "", "interval"},
             {Topic::kernel, "kernels on hard cases", "kernels on hard cases", "cheapest, a call",
              "against our fastest", "errors"},
             {Topic::scene, "moving scenes, a frame", "moving scenes", "what they require",

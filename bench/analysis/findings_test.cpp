@@ -211,6 +211,29 @@ TEST_F(Findings, AKernelThatSaysMaybeIsNotAlwaysRight) {
     EXPECT_EQ(only().together, "sure, 25.0 ns");
 }
 
+TEST_F(Findings, KernelsThatAreAlwaysRightRaceThePeersThatAreSo) {
+    add_kernel("plain", "no promise", 3, 5);
+    add_kernel("unsure", "certified", 0, 6, 1);
+    const auto ours = add_kernel("sure", "exact", 0, 20),
+               rival = add_kernel("fcl.exact", "", 0, 30);
+    add_kernel("embree.wrong", "", 2, 1);
+    add_kernel("bullet.silent", "", 0, 1, 4);
+    analyse(run.results);
+    std::vector<Finding> calls;
+    for (const Finding& row : run.results.findings)
+        if (row.topic == results::Topic::call)
+            calls.push_back(row);
+    ASSERT_EQ(calls.size(), 1u);
+    EXPECT_EQ(calls[0].ours, ours);
+    EXPECT_EQ(calls[0].rival, rival);
+    EXPECT_EQ(calls[0].together, "wins 1.50x over FCL");
+    EXPECT_EQ(calls[0].alone, "");
+    EXPECT_EQ(calls[0].certainty, "1.50 to 1.50");
+    EXPECT_EQ(calls[0].question, "triangle triangle, slivers 100");
+    EXPECT_TRUE(calls[0].is_headline);
+    EXPECT_FALSE(calls[0].is_loss);
+}
+
 TEST_F(Findings, AKernelThatErrsInALaterRoundIsNotExcusedByItsPromise) {
     const auto plain = add_kernel("plain", "no promise", 3, 10);
     analyse(run.results);

@@ -93,5 +93,35 @@ TEST(InputMedians, LieInTheIntervalOfAComparison) {
     EXPECT_EQ(rows[0].verdict, results::Verdict::faster);
 }
 
+TEST(NoiseFloor, OfSeveralTwinsIsTheFarthestMedianOrTheIntervalOfAllTheirRounds) {
+    Maker maker(9);
+    // Within 2 % but in one round of each, which is in the interval of that twin alone.
+    const auto shaky = [](std::uint32_t odd) {
+        return [odd](std::uint32_t round) {
+            return round == odd || round == odd + 1 ? 150. : round % 2 ? 100. : 102.;
+        };
+    };
+    for (const std::uint32_t odd : {0u, 3u, 6u}) {
+        const auto cell = maker.cell("cell " + std::to_string(odd), false);
+        maker.time(cell, Phase::query, steady(100));
+        maker.time(cell, Phase::query, shaky(odd), results::aa_twin);
+        if (odd == 0)
+            EXPECT_GT(NoiseFloors(maker.results, Times(maker.results)).highest(), .4);
+        else
+            EXPECT_NEAR(*NoiseFloors(maker.results, Times(maker.results)).highest(), .02, 1e-9);
+    }
+    const auto biased = maker.cell("biased", false);
+    maker.time(biased, Phase::query, steady(100));
+    maker.time(biased, Phase::query, steady(108), results::aa_twin);
+    EXPECT_NEAR(*NoiseFloors(maker.results, Times(maker.results)).highest(), .08,
+                1e-9); // no mean hides it
+}
+
+TEST(Times, MediansAreOfEachRound) {
+    EXPECT_EQ(medians_by_round({}), std::vector<double>{});
+    EXPECT_EQ(medians_by_round({{{"m", 0}, {3, 1, 2}}, {{"m", 1}, {4, 6}}}),
+              (std::vector<double>{2, 5}));
+}
+
 } // namespace
 } // namespace boxwood::bench

@@ -129,21 +129,37 @@ std::vector<std::uint32_t> Times::inputs(std::uint32_t a, std::uint32_t b, Phase
     return inputs;
 }
 
+std::vector<double> medians_by_round(const Rounds& rounds) {
+    std::vector<double> all;
+    for (auto [key, values] : rounds) {
+        std::ranges::sort(values);
+        all.push_back(median_of_sorted(values));
+    }
+    return all;
+}
+
 NoiseFloors::NoiseFloors(const Results& results, const Times& times) : times_(times) {
     std::map<std::uint32_t, const results::Cell*> cells;
     for (const results::Cell& cell : results.cells)
         cells[cell.cell_id] = &cell;
+    std::map<Likeness, std::vector<double>> rounds_of_all;
     for (const auto& [id, phases] : times_of(results, machines_of(results), true))
         for (const auto& [phase, twin] : phases) {
             const Rounds* const first = times.rounds(id, phase);
             if (!first || !cells.contains(id))
                 continue;
-            const PairedRatio ratio = paired_ratio(log_ratios(*first, twin));
+            const std::vector<double> logs = log_ratios(*first, twin);
+            const PairedRatio ratio = paired_ratio(logs);
             if (std::isnan(ratio.ci_lo))
                 continue;
-            double& floor = floors_[likeness(*cells.at(id), phase)];
-            floor = std::max({floor, ratio.ci_hi - 1, 1 / ratio.ci_lo - 1});
+            const Likeness alike = likeness(*cells.at(id), phase);
+            rounds_of_all[alike].insert(rounds_of_all[alike].end(), logs.begin(), logs.end());
+            floors_[alike] = std::max({floors_[alike], ratio.ratio - 1, 1 / ratio.ratio - 1});
         }
+    for (auto& [alike, floor] : floors_) {
+        const PairedRatio ratio = paired_ratio(rounds_of_all.at(alike));
+        floor = std::max({floor, ratio.ci_hi - 1, 1 / ratio.ci_lo - 1});
+    }
 }
 
 NoiseFloors::Likeness NoiseFloors::likeness(const results::Cell& cell, Phase phase) const {

@@ -43,15 +43,17 @@ class Times {
 };
 
 std::vector<double> log_ratios(const Times::Rounds& a, const Times::Rounds& b);
+/// The median of what was timed in each round.
+std::vector<double> medians_by_round(const Times::Rounds& rounds);
 /// The median times of a and of b in the rounds that both have; NaN if there is none.
 std::pair<double, double> paired_medians(const Times::Rounds& a, const Times::Rounds& b);
 
 std::set<std::string> machines_of(const results::Results& results);
 
-/// The A/A noise floors, as relative differences: the farthest end of the intervals of phases that
-/// were timed twice, by what is alike in noise: one thread or several, below a millisecond or not,
-/// cold or not, and whether a structure is built or changed in it, which takes and touches memory,
-/// or only read.
+/// The A/A noise floors, as relative differences, by what is alike in noise: one thread or several,
+/// below a millisecond or not, cold or not, and whether a structure is built or changed in it,
+/// which takes and touches memory, or only read. Each is the farthest of the medians of the phases
+/// that were timed twice, and of the ends of the interval of all their rounds.
 class NoiseFloors {
   public:
     /// Nothing from twins with fewer than 6 rounds.

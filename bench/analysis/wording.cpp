@@ -18,6 +18,10 @@ std::string count_words(std::uint64_t n) {
                                               : std::to_string(n);
 }
 
+std::string peer_text(const results::Variant& peer) {
+    return peer.library_title + ": " + peer.name.substr(peer.name.find('.') + 1);
+}
+
 Outcome outcome_of(const Comparison& row) {
     switch (row.verdict) {
     case Verdict::slower:

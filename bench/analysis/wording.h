@@ -32,4 +32,7 @@ std::string interval_text(double ratio, double lo, double hi);
 
 std::string count_words(std::uint64_t n); ///< "10k"
 
+/// "Embree: rtc_intersect1" of a library's.
+std::string peer_text(const results::Variant& peer);
+
 } // namespace boxwood::bench

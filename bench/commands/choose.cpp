@@ -43,7 +43,8 @@ constexpr Question questions[] = {
      "task = \"rays_closest\"\nrays = \"random\"\nn_rays = 20000\nray_order = \"single\"\n"
      "kernels = \"watertight\"\n",
      Query::rays, "wide8",
-     "\"embree.rtc_intersect1.robust\", \"embree.rtc_intersect1.robust.high\""},
+     "\"embree.rtc_intersect1.robust.low\", \"embree.rtc_intersect1.robust\", "
+     "\"embree.rtc_intersect1.robust.high\""},
     {"pairs", "which boxes overlap", "task = \"pairs\"\n", Query::self_pairs, "packed",
      "\"fcl.dynamic_aabb_tree_f32\", \"embree.rtc_collide.low\", \"embree.rtc_collide.medium\", "
      "\"cgal\", \"bullet.dbvt\""},
@@ -99,10 +100,14 @@ constexpr std::string_view choose_command_line = "boxwood choose";
 /// A sweep of blocks that are written for it.
 class OwnSweep {
   public:
-    explicit OwnSweep(const ChooseOptions& options)
-        : options_(options),
-          folder_(fs::temp_directory_path() / fmt::format("boxwood-choose-{}", getpid())) {
-        fs::create_directories(folder_);
+    explicit OwnSweep(const ChooseOptions& options) : options_(options) {
+        try {
+            folder_ = fs::temp_directory_path() / fmt::format("boxwood-choose-{}", getpid());
+            fs::create_directories(folder_);
+        } catch (const fs::filesystem_error& error) {
+            throw BadInput(fmt::format(
+                "choose: no folder for temporary files: {}; TMPDIR names one", error.what()));
+        }
     }
     ~OwnSweep() {
         std::error_code ignored;
@@ -122,6 +127,7 @@ class OwnSweep {
         sweep.budget_s = budget_s;
         sweep.wait_s = 10;
         sweep.is_quiet = true;
+        sweep.goes_on = false;
         sweep.command_line = choose_command_line;
         if (!options_.mesh.empty())
             sweep.overrides.meshes = {options_.mesh};
@@ -176,13 +182,13 @@ class Chooser {
             "timing {} x {}, {}and the peers\n", fmt::join(builders, ", "),
             fmt::join(layouts, ", "),
             fused.empty() ? "" : fmt::format("{} x {}, ", fmt::join(fused, ", "), fused_layout)));
+        const fs::path picture = fs::path(options_.out).replace_extension(".svg");
         fs::remove(options_.out); // what was timed before is not asked again
+        fs::remove(picture);
         if (const int code =
                 sweep_.run(blocks, options_.out, std::max(10., 60 * options_.minutes - spent)))
             return code;
         const Advice advice = advise(read_results(options_.out), options_.queries);
-        fs::path picture = options_.out;
-        picture.replace_extension(".svg");
         std::ofstream svg(picture);
         svg << advice_picture(advice);
         if (!svg.flush())
@@ -277,6 +283,11 @@ int choose_policy(const ChooseOptions& options) {
 
 /// What was measured before is measured again; but nobody else's file is lost.
 void require_own(const fs::path& out) {
+    const fs::path picture = fs::path(out).replace_extension(".svg");
+    if (!fs::exists(out) && fs::exists(picture))
+        throw BadInput(fmt::format("choose: the picture would go to '{}', which is there and not "
+                                   "from here; name another file by --out, or remove it",
+                                   picture.string()));
     if (!fs::exists(out))
         return;
     const results::Results there = read_results(out);
@@ -285,6 +296,16 @@ void require_own(const fs::path& out) {
         throw BadInput(fmt::format("choose: --out '{}' holds what another command measured; name "
                                    "another file, or remove it",
                                    out.string()));
+}
+
+/// Before time is spent.
+void require_writable(const fs::path& file) {
+    const bool was_there = fs::exists(file);
+    const bool is_open = std::ofstream(file, std::ios::app).is_open();
+    if (!was_there)
+        fs::remove(file);
+    if (!is_open)
+        throw BadInput(fmt::format("choose: '{}' cannot be written", file.string()));
 }
 
 int choose(ChooseOptions options) {
@@ -302,6 +323,8 @@ int choose(ChooseOptions options) {
             "choose: --task moving is for --scene and --motion, and these for nothing else");
     if (options.mesh.empty() && options.task == "rays")
         throw BadInput("choose: rays meet triangles; give --mesh FILE");
+    if (!std::isfinite(options.minutes))
+        throw BadInput("choose: --minutes: a number is wanted");
     if (options.queries && !(*options.queries > 0 && std::isfinite(*options.queries)))
         throw BadInput(
             fmt::format("choose: --queries {}: a number above 0 is wanted, of queries that "
@@ -322,6 +345,9 @@ int choose(ChooseOptions options) {
             fmt::format("choose: --out '{}': there is no folder {}; make it: mkdir -p {}",
                         options.out.string(), folder.string(), folder.string()));
     require_own(options.out);
+    require_writable(options.out);
+    if (!moves)
+        require_writable(fs::path(options.out).replace_extension(".svg"));
     return moves ? choose_policy(options) : Chooser(options).run();
 }
 
@@ -358,7 +384,7 @@ void add_choose(CLI::App& app, int& exit_code) {
                         "the result file with the evidence; a picture (.svg) goes beside it");
     command->add_flag("--json", options->as_json, "as one JSON object");
     command->footer(
-        "Example: boxwood choose --mesh bunny.obj --queries 50000\n"
+        "Example: boxwood choose --mesh scenes/examples/ball.obj --queries 50000 --minutes 0.2\n"
         "Each builder and layout is tried in three rounds; those that may be best for some number "
         "of queries\nare timed in rounds that take turns, until the time is spent.\n"
         "Exit codes: 0 done, 1 an answer was wrong, 2 bad input, 130 interrupted.");

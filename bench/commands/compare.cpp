@@ -103,6 +103,8 @@ std::string verdict_line(const FileComparison& comparison, const FileOptions& op
                 fmt::format("the answers of {} cell{} newly wrong", n, n > 1 ? "s" : ""));
         return "REGRESSION: " + comma_list(parts) + summary_text(comparison);
     }
+    if (!comparison.is_sealed)
+        parts.emplace_back(no_evidence);
     if (!comparison.is_same_cpu && !options.any_processor)
         parts.push_back("the processors differ, and so do times for that alone "
                         "(--any-processor compares all the same)");
@@ -327,7 +329,8 @@ void add_compare(CLI::App& app, int& exit_code) {
     compare->footer(
         "Example: boxwood compare base.h5 head.h5 --fail-if \"slower>5%\"\n"
         "Exit codes: 0 fine, 1 a regression, 2 bad input, 3 can't tell (too few or too noisy "
-        "rounds, the head lacks what the base has, another processor, or the peers changed too).");
+        "rounds, the head lacks what the base has, another processor, the peers changed too, or a "
+        "file was changed after it was written).");
     compare->callback([options, &exit_code] {
         const Results base = read_results(options->base), head = read_results(options->head);
         const auto pattern = [](const std::string& text) {

@@ -20,6 +20,10 @@ int exit_code_of(Gate gate);
 /// "passes", "open", "fails".
 std::string_view gate_word(Gate gate);
 
+/// Why a file whose seal is broken passes no gate.
+inline constexpr std::string_view no_evidence =
+    "a file was changed after it was written, and so need not say what was measured";
+
 /// The commit and machine of a file, and whether it was changed; one line or two.
 std::string file_text(std::string_view which, const results::Results& results);
 

@@ -55,6 +55,8 @@ std::string counts_verdict(const CountComparison& comparison, const CountOptions
                 fmt::format("the answers of {} cell{} newly wrong", n, n > 1 ? "s" : ""));
         return fmt::format("REGRESSION: {}{}", fmt::join(parts, ", "), worst_text(comparison));
     }
+    if (!comparison.is_sealed)
+        parts.emplace_back(no_evidence);
     if (with(Gate::open) > 0)
         parts.push_back(fmt::format("instructions were counted by {} and by {}, which give other "
                                     "numbers for the same code",

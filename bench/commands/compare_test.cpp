@@ -252,6 +252,17 @@ TEST(CompareCommand, AnEditedFileIsNamedOnTop) {
                 HasSubstr("\"sealed\": {\"base\": false, \"head\": false}"));
 }
 
+TEST(CompareCommand, AnEditedFileNeverPassesAndMayFail) {
+    for (const bool is_base : {true, false}) {
+        auto base = timed(100), head = timed(100), slower = timed(150);
+        (is_base ? base : head).is_sealed = slower.is_sealed = false;
+        EXPECT_EQ(exit_of(base, head), exit_cannot_tell);
+        EXPECT_THAT(text_of(base, head),
+                    StartsWith("CAN'T TELL: a file was changed after it was written"));
+        EXPECT_EQ(exit_of(base, slower), exit_failed);
+    }
+}
+
 TEST(CompareCommand, JsonHasEveryRowAndItsReason) {
     const auto base = timed(100, 3), head = timed(110, 3);
     const std::string json = comparison_json(base, head, compare_files(base, head));

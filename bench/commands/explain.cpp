@@ -9,8 +9,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iostream>
+#include <iterator>
 #include <memory>
 
 namespace boxwood::bench {
@@ -20,7 +22,7 @@ struct ExplainOptions {
     std::vector<std::uint32_t> items;
     std::string boxes, mesh, scene, rays, svg;
     std::vector<float> ray;
-    std::string builder = "hilbert";
+    std::string builder;
     std::uint64_t frame = 0;
 };
 
@@ -57,6 +59,11 @@ template <class Explain> void print(const ExplainOptions& options, const Explain
         std::cout << "\npicture  none: there is nothing to draw\n";
         return;
     }
+    std::ifstream there(options.svg);
+    std::string start(4, ' ');
+    if (there.read(start.data(), 4) && start != "<svg")
+        throw BadInput(fmt::format("explain: --svg '{}' is there and no picture; name another file",
+                                   options.svg));
     std::ofstream out(options.svg);
     out << answer.svg;
     if (!out.flush())
@@ -67,16 +74,27 @@ template <class Explain> void print(const ExplainOptions& options, const Explain
 void of_pair(const ExplainOptions& options) {
     if (options.boxes.empty() == options.mesh.empty())
         throw BadInput("explain pair: whose? give --boxes FILE or --mesh FILE");
-    const Scene scene =
-        options.boxes.empty() ? scene_of("mesh", options.mesh) : scene_of("boxes", options.boxes);
-    const Tree tree = tree_of(options.builder, scene.boxes);
+    std::vector<Box> boxes;
+    std::vector<Aabb<double>> exact;
+    if (options.boxes.empty()) {
+        boxes = scene_of("mesh", options.mesh).boxes;
+    } else {
+        exact = read_boxes(options.boxes);
+        std::ranges::transform(exact, std::back_inserter(boxes), rounded_to_floats);
+    }
+    const Tree tree = tree_of(options.builder, boxes);
     print(options,
-          [&] { return explain_pair(tree, scene.boxes, options.items[0], options.items[1]); });
+          [&] { return explain_pair(tree, boxes, options.items[0], options.items[1], exact); });
 }
 
 void of_ray(const ExplainOptions& options) {
     const Scene scene = scene_of("mesh", options.mesh);
     Ray<float> ray;
+    if (!options.ray.empty() && !options.items.empty())
+        throw BadInput(
+            fmt::format("explain ray: which ray {} is, --rays FILE says; --ray is the ray "
+                        "itself",
+                        options.items[0]));
     if (!options.ray.empty()) {
         const std::vector<float>& n = options.ray;
         ray.origin = {n[0], n[1], n[2]};
@@ -119,7 +137,8 @@ void add_explain(CLI::App& app, int&) {
     CLI::App* explain =
         app.add_subcommand("explain", "why a pair, a ray or a body gets the answer that it gets");
     explain->require_subcommand(1);
-    explain->footer("Example: boxwood explain pair 3 17 --boxes boxes.csv --svg why.svg");
+    explain->footer(
+        "Example: boxwood explain pair 0 1 --boxes scenes/examples/boxes.csv --svg why.svg");
     const auto add = [&](const char* name, const char* summary, const char* example, auto run) {
         auto options = std::make_shared<ExplainOptions>();
         CLI::App* command = explain->add_subcommand(name, summary);
@@ -130,7 +149,7 @@ void add_explain(CLI::App& app, int&) {
     };
     const auto [pair, of_two] =
         add("pair", "why two boxes are a pair, or none: the gap, and the way through the tree",
-            "boxwood explain pair 3 17 --boxes boxes.csv --svg why.svg", of_pair);
+            "boxwood explain pair 0 1 --boxes scenes/examples/boxes.csv --svg why.svg", of_pair);
     pair->add_option("items", of_two->items, "the two items, which count from 0")
         ->required()
         ->expected(2);
@@ -138,7 +157,7 @@ void add_explain(CLI::App& app, int&) {
     pair->add_option("--mesh", of_two->mesh, "a mesh: the boxes of its triangles");
     const auto [ray, of_one] =
         add("ray", "what a ray meets: the nodes that it enters, the triangles that are tested",
-            "boxwood explain ray --mesh bunny.obj --ray 0,0,5,0,0,-1", of_ray);
+            "boxwood explain ray --mesh scenes/examples/ball.obj --ray 0,0,5,0,0,-1", of_ray);
     ray->add_option("item", of_one->items, "which ray of --rays, from 0")->expected(0, 1);
     ray->add_option("--mesh", of_one->mesh, "a mesh (OBJ, PLY, STL, ...)")->required();
     CLI::Option* const from_file =
@@ -152,16 +171,20 @@ void add_explain(CLI::App& app, int&) {
             throw BadInput("explain ray: which? give --ray ox,oy,oz,dx,dy,dz or --rays FILE");
         of_ray(*options);
     });
+    of_two->builder = "hilbert";    // as Bvh builds
+    of_one->builder = "binned_sah"; // as MeshBvh builds
     for (const auto& [command, options] : {std::pair(pair, of_two), std::pair(ray, of_one)})
         command->add_option("--builder", options->builder, "of the tree; boxwood list builders")
             ->capture_default_str();
     const auto [body, of_body_options] =
         add("body", "with whom a body of a scene is a pair, and why not with others",
-            "boxwood explain body 12 --scene four_link_arm --frame 30", of_body);
+            "boxwood explain body 1 --scene four_link_arm --frame 30", of_body);
     body->add_option("body", of_body_options->items, "the body, from 0")->required()->expected(1);
     body->add_option("--scene", of_body_options->scene, "a moving scene, or a scene file (.toml)")
         ->required();
-    body->add_option("--frame", of_body_options->frame, "played up to it")->capture_default_str();
+    body->add_option("--frame", of_body_options->frame, "played up to it")
+        ->check(CLI::Range(0, 1'000'000))
+        ->capture_default_str();
 }
 
 } // namespace boxwood::bench

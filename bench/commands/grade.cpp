@@ -35,7 +35,9 @@ std::string line_of(const std::string& name, const Grade& g) {
 }
 
 int grade_file(const std::string& file, const std::string& table, bool as_json) {
-    const NodeTable theirs = read_node_table(file, table);
+    if (!table.empty() && fs::path(file).extension() == ".csv")
+        throw BadInput(fmt::format("grade: --table is for HDF5 files, and {} is a CSV file", file));
+    const NodeTable theirs = read_node_table(file, table.empty() ? "nodes" : table);
     if (const auto fault = fault_of(theirs)) {
         std::cout << (as_json ? fmt::format(R"({{"fault":{}}})"
                                             "\n",
@@ -76,7 +78,7 @@ int grade_file(const std::string& file, const std::string& table, bool as_json) 
 
 void add_grade(CLI::App& app, int& exit_code) {
     auto file = std::make_shared<std::string>();
-    auto table = std::make_shared<std::string>("nodes");
+    auto table = std::make_shared<std::string>();
     auto as_json = std::make_shared<bool>(false);
     CLI::App* grade = app.add_subcommand(
         "grade", "how good anybody's tree is, beside ours on the same boxes, without a clock");
@@ -86,7 +88,7 @@ void add_grade(CLI::App& app, int& exit_code) {
                      "table with columns of these names. Of a node item is -1, of the root parent "
                      "is -1; of an item node is -1")
         ->required();
-    grade->add_option("--table", *table, "the table of an HDF5 file")->capture_default_str();
+    grade->add_option("--table", *table, "the table of an HDF5 file; nodes if not said");
     grade->add_flag("--json", *as_json, "as one JSON object");
     grade->footer(
         "Example: boxwood grade my_tree.csv; boxwood grade mine.h5 --table frame_7/tree\n"

@@ -33,6 +33,13 @@ std::vector<std::string_view> effects_of(const MovingScene& scene, std::uint32_t
     return names;
 }
 
+/// Whether what is ignored of a whole group, or of neighbours alone, has this pair.
+bool is_left_out(const MovingScene& scene, std::uint32_t a, std::uint32_t b, bool of_group) {
+    return std::ranges::any_of(scene.ignored(), [&](const IgnoredPairs& ignored) {
+        return ignored.all == of_group && ignored.has(std::min(a, b), std::max(a, b));
+    });
+}
+
 } // namespace
 
 Explanation explain_body(const MovingScene& scene, std::uint32_t body) {
@@ -79,22 +86,30 @@ Explanation explain_body(const MovingScene& scene, std::uint32_t body) {
                                                "point, which is what `pairs` asks.\n",
                                                pairs.size(), pairs.size() == 1 ? "body" : "bodies",
                                                fmt::join(pairs, ", "));
-    if (!expected.empty())
-        answer.text += fmt::format("Left out as the scene file expects them (neighbours_ignored, "
-                                   "group_ignored): {}.\n",
-                                   fmt::join(expected, ", "));
+    for (const auto& [word, is_all] :
+         {std::pair("neighbours_ignored", false), {"group_ignored", true}}) {
+        std::vector<std::uint32_t> left_out;
+        for (const std::uint32_t other : expected)
+            if (is_left_out(scene, body, other, is_all))
+                left_out.push_back(other);
+        if (!left_out.empty())
+            answer.text +=
+                fmt::format("Their boxes share a point, too, and the scene file leaves them "
+                            "out by {}: {}.\n",
+                            word, fmt::join(left_out, ", "));
+    }
     if (nearest != body) {
         answer.text +=
             fmt::format("The nearest other: body {}, {:.6g} away.\n", nearest, nearest_gap);
         drawing.box(pair_box(scene, nearest), "second", fmt::format("{}", nearest));
     }
-    if (!pairs.empty() || !expected.empty()) {
+    if (!pairs.empty()) {
         const BoxedBodies boxed_bodies = boxed(bodies);
         const auto at = [&](std::uint32_t of) {
             return static_cast<std::uint32_t>(std::ranges::find(boxed_bodies.body, of) -
                                               boxed_bodies.body.begin());
         };
-        const std::uint32_t other = pairs.empty() ? expected.front() : pairs.front();
+        const std::uint32_t other = pairs.front();
         answer.text += fmt::format(
             "\nThe way to body {} (items are the present bodies):\n{}", other,
             explain_pair(boxed_bodies.tree, boxed_bodies.boxes, at(body), at(other)).text);

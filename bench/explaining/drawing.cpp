@@ -1,15 +1,12 @@
 #include "bench/explaining/drawing.h"
 
+#include "bench/io/markup.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 namespace boxwood::bench {
-
-std::string box_text(const Box& box) {
-    return fmt::format("({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})", box.min.x, box.min.y,
-                       box.min.z, box.max.x, box.max.y, box.max.z);
-}
 
 void Drawing::box(const Box& box, std::string_view kind, std::string label) {
     all_.extend(box);
@@ -41,7 +38,7 @@ std::string Drawing::svg() const {
         ".first,.item-a{{stroke:#6ab0f3}}.second,.item-b{{stroke:#f0935a}}}}</style>\n"
         "<rect width=\"100%\" height=\"100%\" class=\"page\"/>\n<text x=\"{3:.0f}\" y=\"24\" "
         "font-weight=\"bold\">{2} (seen along z)</text>\n",
-        width, height, title_, margin);
+        width, height, escaped(title_), margin);
     for (const Drawn& drawn : boxes_) {
         const Box& box = drawn.box;
         out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "

@@ -2,14 +2,19 @@
 
 #include "trees/tree.h"
 
+#include <fmt/format.h>
+
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace boxwood::bench {
 
-/// "(0, 0, 0) to (1, 1, 1)"
-std::string box_text(const Box& box);
+/// "(0, 0, 0) to (1, 1, 1)", so that no two boxes look alike.
+template <class T> std::string box_text(const Aabb<T>& box) {
+    return fmt::format("({}, {}, {}) to ({}, {}, {})", box.min.x, box.min.y, box.min.z, box.max.x,
+                       box.max.y, box.max.z);
+}
 
 /// Boxes, seen along z, on one scale: an SVG with real text.
 class Drawing {

@@ -6,6 +6,7 @@
 #include "trees/tree.h"
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 /// Why a tree answers as it does: for one answer the way through the tree, step by step. Every
@@ -18,8 +19,10 @@ struct Explanation {
 };
 
 /// Why boxes a and b are a pair, or none: the boxes, the gap or what they share, and the nodes that
-/// a search for pairs compares on the way to them.
-Explanation explain_pair(const Tree& tree, Boxes boxes, std::uint32_t a, std::uint32_t b);
+/// a search for pairs compares on the way to them. exact: the boxes that `boxes` are rounded from,
+/// which decide, as for `query pairs`; none where `boxes` are the items.
+Explanation explain_pair(const Tree& tree, Boxes boxes, std::uint32_t a, std::uint32_t b,
+                         std::span<const Aabb<double>> exact = {});
 
 /// What a ray meets: the nodes that it enters, nearest first, those it passes by, the triangles
 /// that are tested, and which of them it hits.

@@ -52,6 +52,20 @@ TEST(Explain, OneSharedPointIsAPairAndIsSaid) {
     EXPECT_THROW(explain_pair(tree, boxes, 1, 1), std::invalid_argument);
 }
 
+TEST(Explain, DoublesDecideWhereTheyAreGiven) {
+    const std::vector<Aabb<double>> exact{{{0, 0, 0}, {1, 1, 1}}, {{1.000000001, 0, 0}, {2, 1, 1}}};
+    const std::vector<Box> boxes{{{0, 0, 0}, {1, 1, 1}}, {{1, 0, 0}, {2, 1, 1}}};
+    const Tree tree = make_builder("hilbert")(boxes, serial());
+    const std::string text = explain_pair(tree, boxes, 0, 1, exact).text;
+    EXPECT_THAT(text, StartsWith("Items 0 and 1 are not a pair: their boxes are apart along x by "
+                                 "1e-09 (1 and 1.000000001)."));
+    EXPECT_THAT(text, HasSubstr("the pair is dropped"));
+    EXPECT_THAT(explain_pair(tree, boxes, 0, 1).text, HasSubstr("the pair is reported"));
+    const std::vector<Box> one_ulp{{{0, 0, 0}, {1, 1, 1}}, {{1.0000001f, 0, 0}, {2, 1, 1}}};
+    EXPECT_THAT(explain_pair(make_builder("hilbert")(one_ulp, serial()), one_ulp, 0, 1).text,
+                HasSubstr("(1 and 1.0000001)"));
+}
+
 TEST(Explain, RaysMeetWhatTheQueryFinds) {
     const Scene scene =
         make_scene({.generator = "triangle_soup", .n = 300, .rays = "random", .n_rays = 200});
@@ -88,7 +102,8 @@ TEST(Explain, BodiesAndWhatTheSceneExpects) {
     const MovingScene scene(load_scene("four_link_arm"));
     const Explanation why = explain_body(scene, 1);
     EXPECT_THAT(why.text, StartsWith("Body 1 of four_link_arm, frame 0: moved by joint_motion."));
-    EXPECT_THAT(why.text, HasSubstr("Left out as the scene file expects them"));
+    EXPECT_THAT(why.text, HasSubstr("the scene file leaves them out by neighbours_ignored: 0."));
+    EXPECT_THAT(why.text, Not(HasSubstr("the pair is reported")));
     EXPECT_THROW(explain_body(scene, 1000), std::invalid_argument);
 }
 

@@ -26,11 +26,11 @@ std::vector<std::size_t> way_to(const Tree& tree, std::uint32_t item) {
 }
 
 /// "apart along y by 0.25 (1.5 and 1.75)", of the widest gap; "share ..." where there is none.
-std::string between(const Box& a, const Box& b) {
+template <class T> std::string between(const Aabb<T>& a, const Aabb<T>& b) {
     int widest = -1;
     double gap = 0;
     for (int axis = 0; axis < 3; ++axis) {
-        const auto from_to = [&](const Box& first, const Box& second) {
+        const auto from_to = [&](const Aabb<T>& first, const Aabb<T>& second) {
             return static_cast<double>(second.min[axis]) - static_cast<double>(first.max[axis]);
         };
         const double here = std::max(from_to(a, b), from_to(b, a));
@@ -40,11 +40,10 @@ std::string between(const Box& a, const Box& b) {
         }
     }
     if (widest < 0) {
-        const Vec3<float> low = max(a.min, b.min), high = min(a.max, b.max);
-        return fmt::format("share {}", box_text({low, high}));
+        return fmt::format("share {}", box_text(Aabb<T>{max(a.min, b.min), min(a.max, b.max)}));
     }
     const bool a_first = a.max[widest] < b.min[widest];
-    return fmt::format("are apart along {} by {:.6g} ({:.6g} and {:.6g})", "xyz"[widest], gap,
+    return fmt::format("are apart along {} by {:.6g} ({} and {})", "xyz"[widest], gap,
                        a_first ? a.max[widest] : b.max[widest],
                        a_first ? b.min[widest] : a.min[widest]);
 }
@@ -56,17 +55,23 @@ std::string node_text(const Tree& tree, std::size_t node) {
 
 } // namespace
 
-Explanation explain_pair(const Tree& tree, Boxes boxes, std::uint32_t a, std::uint32_t b) {
+Explanation explain_pair(const Tree& tree, Boxes boxes, std::uint32_t a, std::uint32_t b,
+                         std::span<const Aabb<double>> exact) {
     if (a == b || a >= boxes.size() || b >= boxes.size())
         throw std::invalid_argument(fmt::format(
             "{} and {} are no two of {} items, which count from 0", a, b, boxes.size()));
-    const bool is_pair = overlaps(boxes[a], boxes[b]);
+    const bool is_pair =
+        exact.empty() ? overlaps(boxes[a], boxes[b]) : overlaps(exact[a], exact[b]);
+    const auto head = [&](const auto& of_a, const auto& of_b) {
+        return fmt::format("Items {} and {} {} a pair: their boxes {}.\n  {:<8} {}\n  {:<8} {}\n",
+                           a, b, is_pair ? "are" : "are not", between(of_a, of_b), a,
+                           box_text(of_a), b, box_text(of_b));
+    };
     Explanation answer;
-    answer.text =
-        fmt::format("Items {} and {} {} a pair: their boxes {}.\n  {:<8} {}\n  {:<8} {}\n"
-                    "\nThe tree: {} items, {} nodes. On the way to them:\n",
-                    a, b, is_pair ? "are" : "are not", between(boxes[a], boxes[b]), a,
-                    box_text(boxes[a]), b, box_text(boxes[b]), tree.size(), tree.nodes.size());
+    answer.text = exact.empty() ? head(boxes[a], boxes[b]) : head(exact[a], exact[b]);
+    answer.text +=
+        fmt::format("\nThe tree: {} items, {} nodes{}. On the way to them:\n", tree.size(),
+                    tree.nodes.size(), exact.empty() ? "" : ", of boxes rounded outward to floats");
     const std::vector<std::size_t> to_a = way_to(tree, a), to_b = way_to(tree, b);
     Drawing drawing(fmt::format("items {} and {}: {}", a, b, is_pair ? "a pair" : "no pair"));
     std::size_t depth = 0;
@@ -95,6 +100,12 @@ Explanation explain_pair(const Tree& tree, Boxes boxes, std::uint32_t a, std::ui
             break;
         }
         const bool a_ends = i + 1 == to_a.size(), b_ends = j + 1 == to_b.size();
+        if (a_ends && b_ends && !is_pair) {
+            answer.text +=
+                "\nSo they are a candidate, and the boxes as they are given, in doubles, "
+                "decide: they are apart, and the pair is dropped.\n";
+            break;
+        }
         if (a_ends && b_ends) {
             answer.text += fmt::format("\nSo the pair is reported, after {} of boxes. A "
                                        "point that both boxes have is enough.\n",

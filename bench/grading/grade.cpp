@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t n_queries = 2000; ///< of each kind
 
-/// Surface of a box, or its extent where it has none.
+/// Surface of a box.
 double area(const Box& box) { return 2 * box.half_area(); }
 
 /// The part of the faces of `item` that lies in `node`.
@@ -58,6 +58,8 @@ template <class Meets> Grade::Counted traverse(const NodeTable& tree, const Meet
 class Grader {
   public:
     Grader(const NodeTable& tree, std::uint64_t seed) : tree_(tree), random_(seed, "grade") {
+        for (const Box& box : tree.boxes())
+            all_.extend(box);
         ancestors_of_items();
     }
 
@@ -82,14 +84,14 @@ class Grader {
     }
 
     void shape() {
-        const double root = area(tree_.nodes()[0].box);
+        const double whole = area(all_);
         std::vector<std::uint64_t> depth(tree_.nodes().size());
         std::size_t leaves = 0;
         for (std::size_t i = 0; i < tree_.nodes().size(); ++i) {
             const NodeTable::Node& node = tree_.nodes()[i];
             depth[i] = parent_[i] == no_node ? 0 : depth[parent_[i]] + 1;
             grade_.depth = std::max(grade_.depth, depth[i]);
-            const double share = root > 0 ? area(node.box) / root : 1;
+            const double share = whole > 0 ? area(node.box) / whole : 1;
             grade_.sah_visits += node.n_children > 0 ? share : 0;
             grade_.sah_tests += node.n_items * share;
             leaves += node.n_items > 0;
@@ -167,18 +169,18 @@ class Grader {
     }
 
     Vec3<float> point(std::size_t i) const {
-        const Box& all = tree_.nodes()[0].box;
         auto draw = random_.item(i);
         Vec3<float> p;
         for (int axis = 0; axis < 3; ++axis)
-            p[axis] = static_cast<float>(static_cast<double>(all.min[axis]) +
-                                         draw.uniform() * (static_cast<double>(all.max[axis]) -
-                                                           static_cast<double>(all.min[axis])));
+            p[axis] = static_cast<float>(static_cast<double>(all_.min[axis]) +
+                                         draw.uniform() * (static_cast<double>(all_.max[axis]) -
+                                                           static_cast<double>(all_.min[axis])));
         return p;
     }
 
     static constexpr std::uint32_t no_node = ~std::uint32_t{0};
     const NodeTable& tree_;
+    Box all_; ///< of the items, whatever the root holds beside them
     Random random_;
     std::vector<std::uint32_t> parent_, node_of_;
     Grade grade_;
@@ -190,11 +192,11 @@ std::optional<std::string> fault_of(const NodeTable& tree) {
     for (std::size_t i = 0; i < tree.nodes().size(); ++i) {
         const NodeTable::Node& node = tree.nodes()[i];
         for (const std::uint32_t child : tree.children(node))
-            if (!node.box.contains(tree.nodes()[child].box))
+            if (!tree.given_nodes()[i].contains(tree.given_nodes()[child]))
                 return fmt::format("node {} does not hold its child {}", tree.name(i),
                                    tree.name(child));
         for (const std::uint32_t item : tree.items(node))
-            if (!node.box.contains(tree.boxes()[item]))
+            if (!tree.given_nodes()[i].contains(tree.given_items()[item]))
                 return fmt::format("node {} does not hold item {}", tree.name(i), item);
         if (node.n_children == 0 && node.n_items == 0)
             return fmt::format("node {} has neither children nor items", tree.name(i));

@@ -32,6 +32,21 @@ TEST(Grade, OfATreeByHand) {
     EXPECT_EQ(g.pairs.tests, 3);
 }
 
+TEST(Grade, GetsNoBetterByALooseRoot) {
+    const Box loose{{-1000, -1000, -1000}, {1000, 1000, 1000}};
+    const auto of_root = [](const Box& root) {
+        return grade(NodeTable(Rows{{0, -1, -1, root},
+                                    {1, 0, -1, left_box},
+                                    {2, 0, -1, right_box},
+                                    {-1, 1, 0, left_box},
+                                    {-1, 2, 1, right_box}}));
+    };
+    const Grade tight = of_root(whole), slack = of_root(loose);
+    EXPECT_GT(slack.sah(), tight.sah());
+    EXPECT_EQ(slack.points.tests, tight.points.tests);
+    EXPECT_EQ(slack.rays.tests, tight.rays.tests);
+}
+
 TEST(Grade, OfOursIsThatOfInspect) {
     const Scene scene = make_scene({.generator = "clusters", .n = 500, .overlaps = 10});
     for (const BuilderEntry& builder : builders()) {
@@ -71,6 +86,15 @@ TEST(Grade, FaultsAreNamed) {
     EXPECT_EQ(fault_of(small), "node 0 does not hold item 0");
     const NodeTable hollow(Rows{{0, -1, -1, whole}, {1, 0, -1, left_box}, {-1, 0, 0, right_box}});
     EXPECT_EQ(fault_of(hollow), "node 1 has neither children nor items");
+}
+
+TEST(Grade, FaultsAreThoseOfTheNumbersThatWereGiven) {
+    Rows rows{{0, -1, -1, left_box}, {-1, 0, 0, left_box}};
+    rows[0].given.max.x = 1.00000001;
+    rows[1].given.max.x = 1.00000002;
+    EXPECT_EQ(fault_of(NodeTable(rows)), "node 0 does not hold item 0");
+    rows[0].given.max.x = 1.00000002;
+    EXPECT_FALSE(fault_of(NodeTable(rows)));
 }
 
 TEST(Grade, WhatIsNoTreeIsRefused) {

@@ -56,6 +56,7 @@ NodeTable::NodeTable(std::span<const Row> rows, std::string_view row_word) {
                                        of[0]->number));
     }
     boxes_.resize(n_items);
+    given_items_.resize(n_items);
     std::vector<const Row*> row_of(n_items);
     std::vector<const Row*> reached{root};
     for (std::size_t i = 0; i < reached.size(); ++i) { // breadth first
@@ -77,11 +78,13 @@ NodeTable::NodeTable(std::span<const Row> rows, std::string_view row_word) {
                 throw twice("item", row->item, *row_of[item], *row);
             row_of[item] = row;
             boxes_[item] = row->box;
+            given_items_[item] = row->given;
             items_.push_back(static_cast<std::uint32_t>(item));
             ++node.n_items;
         }
         nodes_.push_back(node);
         names_.push_back(reached[i]->node);
+        given_nodes_.push_back(reached[i]->given);
     }
     if (nodes_.size() == nodes.size())
         return;
@@ -106,7 +109,10 @@ NodeTable::NodeTable(const Tree& tree, Boxes boxes) : boxes_(boxes.begin(), boxe
             node.n_children = 2;
         }
         nodes_.push_back(node);
+        given_nodes_.push_back(static_cast<Aabb<double>>(node.box));
     }
+    for (const Box& box : boxes_)
+        given_items_.push_back(static_cast<Aabb<double>>(box));
 }
 
 namespace {
@@ -115,16 +121,18 @@ namespace {
 NodeTable::Row row_of(std::span<const double> numbers, const std::string& place) {
     std::int64_t whole[3];
     for (std::size_t i = 0; i < 3; ++i) {
-        if (!(numbers[i] >= -1 && numbers[i] < 0x1p31 && numbers[i] == std::floor(numbers[i])))
-            throw BadInput(fmt::format("{}: {} is a whole number from 0, or -1; {} is none", place,
-                                       node_columns[i], numbers[i]));
+        if (!(numbers[i] >= -1 && numbers[i] < 0x1p53 && numbers[i] == std::floor(numbers[i])))
+            throw BadInput(fmt::format("{}: {} is a whole number from 0 to 2^53, or -1; {} is none",
+                                       place, node_columns[i], numbers[i]));
         whole[i] = static_cast<std::int64_t>(numbers[i]);
     }
     if ((whole[0] == -1) == (whole[2] == -1))
         throw BadInput(fmt::format("{}: a row is of a node, with item -1, or of an item, with node "
                                    "-1",
                                    place));
-    return {whole[0], whole[1], whole[2], box_of(numbers.subspan<3, 6>(), place)};
+    const auto box = numbers.subspan<3, 6>();
+    return {whole[0],           whole[1], whole[2],
+            box_of(box, place), 0,        {{box[0], box[1], box[2]}, {box[3], box[4], box[5]}}};
 }
 
 NodeTable from_hdf5(const std::filesystem::path& file, const std::string& table) {

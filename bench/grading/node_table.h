@@ -26,7 +26,8 @@ class NodeTable {
         static constexpr std::int64_t none = -1;
         std::int64_t node, parent, item;
         Box box;
-        std::uint64_t number = 0; ///< of its row or line, for messages
+        std::uint64_t number = 0;                            ///< of its row or line, for messages
+        Aabb<double> given = static_cast<Aabb<double>>(box); ///< of which `box` is rounded
     };
     /// Node 0 is the root; children come after their parents. Throws BadInput for rows that are no
     /// tree: a node with two rows, a parent that is not there, no root or several, a circle.
@@ -44,6 +45,9 @@ class NodeTable {
     }
     /// Of the items, by number.
     std::span<const Box> boxes() const { return boxes_; }
+    /// As they were given, of nodes and of items by number.
+    std::span<const Aabb<double>> given_nodes() const { return given_nodes_; }
+    std::span<const Aabb<double>> given_items() const { return given_items_; }
     /// How the node is called in the rows.
     std::int64_t name(std::size_t node) const {
         return names_.empty() ? static_cast<std::int64_t>(node) : names_[node];
@@ -54,6 +58,7 @@ class NodeTable {
     std::vector<std::int64_t> names_;
     std::vector<std::uint32_t> children_, items_;
     std::vector<Box> boxes_;
+    std::vector<Aabb<double>> given_nodes_, given_items_;
 };
 
 /// The columns of a table of nodes: parent is -1 of the root, item -1 of nodes; the row of an item

@@ -192,13 +192,17 @@ std::string ScenePicture::path(const std::vector<Polygon>& polygons, double scal
                                std::string_view style) const {
     if (polygons.empty())
         return "";
-    std::string out = fmt::format("<path {} d=\"", style);
+    const auto tenths = [scale](double length) { return std::lround(10 * scale * length); };
+    std::string out = fmt::format("<path vector-effect=\"non-scaling-stroke\" {} d=\"", style);
     for (const Polygon& polygon : polygons) {
-        char letter = 'M';
+        std::string_view before = "M";
+        long x = 0, y = 0;
         for (const Point p : polygon) {
-            out += fmt::format("{}{:.1f} {:.1f}", letter, (p.x - drawn_.min.x) * scale,
-                               (drawn_.max.y - p.y) * scale);
-            letter = 'L';
+            const long to_x = tenths(p.x - drawn_.min.x), to_y = tenths(drawn_.max.y - p.y);
+            out += fmt::format("{}{} {}", before, to_x - x, to_y - y);
+            before = before == "M" ? "l" : " ";
+            x = to_x;
+            y = to_y;
         }
         out += 'Z';
     }
@@ -237,7 +241,7 @@ std::string ScenePicture::svg() const {
     for (const Frame& frame : frames_) {
         has_queries |= !frame.queries.empty();
         out += fmt::format("<text x=\"{0:.0f}\" y=\"36\" fill=\"#444\">{1}</text>\n"
-                           "<g transform=\"translate({0:.0f} {2:.0f})\">\n",
+                           "<g transform=\"translate({0:.0f} {2:.0f}) scale(.1)\">\n",
                            x, frame.title, head);
         out += path(frame.resting, scale, resting) + path(frame.changed, scale, changing) +
                path(frame.meeting, scale, meeting) + path(frame.lines, scale, line) +

@@ -41,7 +41,7 @@ TEST(ScenePicture, DrawsEachBodyOnceAndTheTree) {
     EXPECT_THAT(svg, HasSubstr("frame 1: 1 bodies, 0 changed, 0 pairs"));
     EXPECT_THAT(svg, HasSubstr("tree, depth 0"));
     // A cube seen along an axis is a square as wide as the panel, and so is its tree's box.
-    EXPECT_THAT(svg, HasSubstr("d=\"M0.0 440.0L440.0 440.0L440.0 0.0L0.0 0.0Z\""));
+    EXPECT_THAT(svg, HasSubstr("d=\"M0 4400l4400 0 0 -4400 -4400 0Z\""));
 }
 
 TEST(ScenePicture, AbsentBodiesAreNotThere) {

@@ -67,7 +67,7 @@ std::set<std::string> choose_twins(const results::Results& prepared,
     double all_ns = 0;
     using Kind = std::tuple<bool, bool, bool>;                // a peer's, several threads, brief
     using Cost = std::tuple<bool, bool, double, std::string>; // wrong, fewer rounds, ns, name
-    std::map<Kind, Cost> least;
+    std::map<Kind, std::vector<Cost>> kinds;
     for (const results::Cell& cell : prepared.cells) {
         const auto found = calibrations.find(cell.name);
         if (found == calibrations.end())
@@ -78,20 +78,26 @@ std::set<std::string> choose_twins(const results::Results& prepared,
         const Kind kind =
             is_peer ? Kind{true, false, false}
                     : Kind{false, cell.threads > 1, std::max(c.build_ns, c.query_ns) < 1e6};
-        const Cost cost{wrong[cell.cell_id], in_fewer_rounds.contains(cell.name), round_ns(c),
-                        cell.name};
-        const auto [entry, is_new] = least.try_emplace(kind, cost);
-        if (!is_new)
-            entry->second = std::min(entry->second, cost);
+        kinds[kind].emplace_back(wrong[cell.cell_id], in_fewer_rounds.contains(cell.name),
+                                 round_ns(c), cell.name);
     }
-    std::vector<Cost> twins;
-    for (const auto& [kind, cost] : least)
-        twins.push_back(cost);
-    std::ranges::sort(twins);
+    std::vector<Cost> first, more;
+    for (auto& [kind, costs] : kinds) {
+        std::ranges::sort(costs);
+        first.push_back(costs.front());
+        for (const std::size_t place : {costs.size() / 4, costs.size() / 2})
+            more.push_back(costs[place]);
+    }
+    std::ranges::sort(first);
+    std::ranges::sort(more);
     std::set<std::string> names;
-    for (const auto& [is_wrong, is_rare, ns, name] : twins)
+    for (const auto& [is_wrong, is_rare, ns, name] : first)
         if (names.empty() || (!is_wrong && ns < all_ns / 10))
             names.insert(name);
+    double more_ns = 0;
+    for (const auto& [is_wrong, is_rare, ns, name] : more)
+        if (!is_wrong && !is_rare && more_ns + ns < all_ns / 10 && names.insert(name).second)
+            more_ns += ns;
     return names;
 }
 

@@ -77,18 +77,35 @@ TEST(Twins, AreTheCheapestOfEachKind) {
     cells.add(false, 1e5, results::Status::exact);
     cells.add(false, 9e6, results::Status::exact);
     cells.add(false, 3e6, results::Status::exact); // c44
-    EXPECT_EQ(cells.twins(), (Names{"c0", "c41", "c44"}));
+    const auto with = [](Names names) {            // and those farther up the order of their kind
+        names.insert({"c18", "c27", "c42"});       // equal peers stand in order of their names
+        return names;
+    };
+    EXPECT_EQ(cells.twins(), with({"c0", "c41", "c44"}));
     cells.add(false, 5e6, results::Status::exact);
     cells.prepared.cells.back().threads = 2;
-    EXPECT_EQ(cells.twins(), (Names{"c0", "c41", "c44", "c45"}));
+    EXPECT_EQ(cells.twins(), with({"c0", "c41", "c44", "c45"}));
     cells.add(false, 2e6, results::Status::wrong);
-    EXPECT_EQ(cells.twins(), (Names{"c0", "c41", "c44", "c45"}));
+    EXPECT_EQ(cells.twins(), with({"c0", "c41", "c44", "c45"}));
     cells.calibrations.erase("c44"); // not timed
-    EXPECT_EQ(cells.twins(), (Names{"c0", "c41", "c43", "c45"}));
+    EXPECT_EQ(cells.twins(), with({"c0", "c41", "c43", "c45"}));
     cells.add(false, 1e9, results::Status::exact); // of its kind alone, but too dear
     cells.prepared.cells.back().threads = 4;
     cells.calibrations["c45"].query_ns = 2e9;
-    EXPECT_EQ(cells.twins(), (Names{"c0", "c41", "c43"}));
+    EXPECT_EQ(cells.twins(), with({"c0", "c41", "c43"}));
+}
+
+TEST(Twins, AreThreeOfAKindWhileTheyTakeATenth) {
+    Cells cells;
+    for (int i = 0; i < 8; ++i)
+        cells.add(false, 1e5 + i, results::Status::exact);
+    const std::set<std::string> cheapest{"c0"};
+    EXPECT_EQ(cells.twins(), cheapest); // of few, one is more than a tenth
+    for (int i = 8; i < 40; ++i)
+        cells.add(false, 1e5 + i, results::Status::exact);
+    EXPECT_EQ(cells.twins(), (std::set<std::string>{"c0", "c10", "c20"}));
+    EXPECT_EQ(choose_twins(cells.prepared, cells.calibrations, {"c10"}),
+              (std::set<std::string>{"c0", "c11", "c21"}));
 }
 
 } // namespace

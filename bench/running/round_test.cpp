@@ -214,18 +214,17 @@ TEST_F(RoundTest, ARoundTimesEveryCellOnceAndTheAaCellTwice) {
     add("throws", Fault::throws);
     const results::Results p = prepared();
     const std::set<std::string> twins = choose_twins(p, calibrations_of(p.texts.at("calibration")));
-    ASSERT_EQ(twins.size(), 1u);
-    const std::string aa = *twins.begin();
+    ASSERT_GE(twins.size(), 1u); // a second one only where it is far cheaper than the rest
     max_alive = 0;
     std::set<std::vector<std::uint32_t>> orders;
     for (const unsigned round : {0u, 1u, 2u, 0u}) {
         reported.clear();
         const results::Results r = run_round(plan, p, round, report());
-        EXPECT_EQ(reported.size(), 6u);
+        EXPECT_EQ(reported.size(), 5 + twins.size());
         ASSERT_EQ(r.shards.size(), 1u);
         EXPECT_EQ(r.shards[0].round, round);
         EXPECT_EQ(r.sweep_hash, "hash");
-        ASSERT_EQ(r.samples.size(), 2u * 6);
+        ASSERT_EQ(r.samples.size(), 2 * (5 + twins.size()));
         std::map<std::string, int> times;
         std::vector<std::uint32_t> order;
         for (std::size_t i = 0; i < r.samples.size(); ++i) {
@@ -244,9 +243,11 @@ TEST_F(RoundTest, ARoundTimesEveryCellOnceAndTheAaCellTwice) {
             EXPECT_GE(s.cpu_ns, 0);
             order.push_back(s.cell_id);
         }
-        EXPECT_EQ(times.size(), 6u);
-        EXPECT_EQ(times[aa], 2);
-        EXPECT_EQ(times[aa + "'"], 2);
+        EXPECT_EQ(times.size(), 5 + twins.size());
+        for (const std::string& aa : twins) {
+            EXPECT_EQ(times[aa], 2);
+            EXPECT_EQ(times[aa + "'"], 2);
+        }
         orders.insert(order);
     }
     EXPECT_EQ(orders.size(), 3u); // another order in each round, the same one again for round 0

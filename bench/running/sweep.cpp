@@ -228,8 +228,11 @@ class Sweep {
                 continue;
             ++rounds_run_;
             if (!progress_.is_terminal())
-                progress_.say(fmt::format("round {}/{} done, {} left", *round + 1, plan_.rounds,
-                                          duration_text(eta.left_s(elapsed_s()))));
+                progress_.say(
+                    fmt::format("round {}/{} done, {} left", *round + 1, plan_.rounds,
+                                duration_text(std::max(
+                                    eta.left_s(elapsed_s()),
+                                    options_.budget_s > 0 ? options_.budget_s - elapsed_s() : 0))));
             ++round;
         }
         return true;
@@ -365,11 +368,15 @@ class Sweep {
 
     int stop() {
         const bool has_output = write_output();
-        progress_.say(
-            fmt::format("interrupted; {}. The same command goes on from here.",
-                        has_output ? fmt::format("{} rounds are in {}", rounds_in(merged_).size(),
-                                                 options_.out.string())
-                                   : std::string("no round was finished")));
+        progress_.say(!options_.goes_on
+                          ? "interrupted"
+                          : fmt::format("interrupted; {}. The same command goes on from here.",
+                                        has_output ? fmt::format("{} rounds are in {}",
+                                                                 rounds_in(merged_).size(),
+                                                                 options_.out.string())
+                                                   : std::string("no round was finished")));
+        if (!options_.goes_on)
+            shards_.remove();
         return exit_interrupted;
     }
 

@@ -23,6 +23,7 @@ struct SweepOptions {
     bool counts = false;      ///< instructions of our cells instead of rounds: see count.h
     std::string command_line; ///< recorded
     bool is_quiet = false;    ///< the findings are not printed
+    bool goes_on = true;      ///< the same command, given again, takes up what is there
 };
 
 /// Prints the cells of a sweep and how long it may take; if it counts, those that are counted.

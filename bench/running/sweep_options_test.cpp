@@ -30,15 +30,15 @@ TEST_F(SweepOptionsTest, ABudgetAddsRoundsAndTakesThemAway) {
 
 TEST_F(SweepOptionsTest, ACellThatHangsIsLeftOut) {
     write_config("n = 300\nbuilders = \"median\"\nlayouts = \"packed\"\n",
-                 4000); // a sample takes 4 s
-    EXPECT_EQ(sweep({"--give-up", "2s"}), 1);
+                 7000); // a sample takes 7 s
+    EXPECT_EQ(sweep({"--give-up", "4s"}), 1);
     EXPECT_THAT(text_of(log()), HasSubstr("the preparation stood still in uniform/n300-s1/pairs/"));
-    EXPECT_THAT(text_of(log()), HasSubstr("no sign of life for 2 s; that cell is left out from "
+    EXPECT_THAT(text_of(log()), HasSubstr("no sign of life for 4 s; that cell is left out from "
                                           "here on"));
     const results::Results got = results::read(out());
     ASSERT_EQ(got.checks.size(), 1u);
     EXPECT_EQ(got.checks[0].status, results::Status::wrong);
-    EXPECT_EQ(got.checks[0].witness, "crashed: no sign of life for 2 s in the preparation");
+    EXPECT_EQ(got.checks[0].witness, "crashed: no sign of life for 4 s in the preparation");
     EXPECT_TRUE(got.samples.empty());
 }
 

@@ -10,33 +10,34 @@ boxwood.results reads the result files of the command `boxwood`, boxwood.trimesh
 casts rays for trimesh.
 """
 
-import importlib
-import sys
+import importlib as _importlib
+import sys as _sys
 
 try:
     import numpy as _numpy  # noqa: F401
 except ImportError as cause:
-    raise ImportError(f"boxwood needs numpy, which {sys.executable} does not have") from cause
+    raise ImportError(f"boxwood needs numpy, which {_sys.executable} does not have") from cause
 
 from ._answers import (BodyContacts, BodyDistance, BodyDistances, ClosestPoints, Contacts, Distances, FirstContacts, Hits,
                        Items, MeshDistance, Nearest)
 
 __all__ = ["BodyContacts", "BodyDistance", "BodyDistances", "Bvh", "ClosestPoints", "Contacts", "Distances",
            "FirstContacts", "Hits", "Items", "Mesh", "MeshBvh", "MeshDistance", "Nearest", "Shape", "World",
-           "triangle_distances", "triangles_intersect"]
+           "builders", "layouts", "triangle_distances", "triangles_intersect"]
 
-_CORE = {"Bvh", "Mesh", "MeshBvh", "Shape", "World", "triangle_distances", "triangles_intersect", "__version__"}
+_CORE = {"Bvh", "Mesh", "MeshBvh", "Shape", "World", "builders", "layouts", "triangle_distances", "triangles_intersect",
+         "__version__"}
 
 
 def _compiled():
     try:
-        return importlib.import_module("boxwood._core")
+        return _importlib.import_module("boxwood._core")
     except ModuleNotFoundError as cause:
         if cause.name != "boxwood._core":
             raise
         raise ImportError(
-            f"boxwood's compiled part is not in {__path__[0]} for Python {sys.version_info.major}.{sys.version_info.minor} "
-            f"({sys.executable}): build it with `cmake --build build/release --target boxwood_python` for the Python that "
+            f"boxwood's compiled part is not in {__path__[0]} for Python {_sys.version_info.major}.{_sys.version_info.minor} "
+            f"({_sys.executable}): build it with `cmake --build build/release --target boxwood_python` for the Python that "
             "cmake found, or `pip install .`") from cause
 
 
@@ -46,9 +47,9 @@ def __getattr__(name):
     if name in _CORE:
         return getattr(_compiled(), name)
     if name in ("results", "trimesh"):
-        return importlib.import_module(f"boxwood.{name}")
+        return _importlib.import_module(f"boxwood.{name}")
     raise AttributeError(f"module 'boxwood' has no attribute '{name}'")
 
 
 def __dir__():
-    return sorted({*globals(), *__all__})
+    return sorted({*__all__, "results", "trimesh", "__doc__", "__version__"})

@@ -5,6 +5,9 @@ import numpy as np
 from . import MeshBvh
 
 
+FARTHEST = 2.0**126  # of an origin, from the middle of the mesh
+
+
 def _largest(vectors):
     """Of each the largest of its absolute coordinates; NaN if one is."""
     x, y, z = np.abs(vectors.T)
@@ -26,8 +29,8 @@ class RayMeshIntersector:
 
     mesh: a trimesh.Trimesh. The tree is made when it is first asked, and again once the mesh has
     changed. Coordinates are held in float32, measured from the middle of the mesh; places of hits
-    come from the triangles' own corners, in float64. A ray with a NaN, an infinity or no direction
-    meets nothing. Rays are of shape (n, 3), or (3,) for one; others raise ValueError.
+    come from the triangles' own corners, in float64. A ray with a NaN, an infinity, no direction or
+    an origin of 2^126 or more meets nothing. Rays are of shape (n, 3), or (3,) for one; others raise ValueError.
     threads: how many a query may use.
     """
 
@@ -44,7 +47,7 @@ class RayMeshIntersector:
         return {"mesh": self.mesh, "threads": self.threads, "_made_of": None}
 
     def _tree(self):
-        made_of = hash(self.mesh)
+        made_of = hash(self.mesh), self.threads
         if self._made_of != made_of:
             self._middle = self.mesh.bounds.mean(axis=0) if len(self.mesh.faces) else np.zeros(3)
             self._bvh = MeshBvh(self.mesh.vertices - self._middle, self.mesh.faces, threads=self.threads)
@@ -59,7 +62,7 @@ class RayMeshIntersector:
             raise ValueError(f"there are {len(origins)} ray_origins and {len(directions)} ray_directions")
         tree = self._tree()
         length = _largest(directions)
-        good = (length > 0) & (length < np.inf) & (_largest(origins) < np.inf)
+        good = (length > 0) & (length < np.inf) & (_largest(origins - self._middle) < FARTHEST)
         rays = np.flatnonzero(good)
         if len(rays) < len(origins):
             origins, directions, length = origins[rays], directions[rays], length[rays]

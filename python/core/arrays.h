@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/arithmetic/float_mode.h"
 #include "kernels/primitives/triangle.h"
 #include "kernels/primitives/vec3.h"
 
@@ -14,6 +15,7 @@
 #include <initializer_list>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -95,7 +97,9 @@ template <class T> class Rows {
                 throw py::value_error(name_ + ": row " + std::to_string(i / columns_) + " " + what);
     }
     void require_finite() const {
-        require([](T x) { return std::isfinite(x); }, "has a NaN or an infinity");
+        require([](T x) { return std::isfinite(x); },
+                std::is_same_v<T, float> ? "has a NaN, an infinity or a number beyond float32"
+                                         : "has a NaN or an infinity");
     }
 
   private:
@@ -155,9 +159,10 @@ template <class Number, class T> py::array array_of(std::vector<T> found, py::ss
 /// What the library took of all calls so far, for scripts/python_bench.
 inline std::atomic<std::int64_t> inside_ns = 0;
 
-/// Work without Python's lock.
+/// Work without Python's lock, in which denormals are kept.
 template <class Work> auto without_gil(const Work& work) {
     const py::gil_scoped_release release;
+    const DenormalFlushing off(false); // some module may have left it on
     struct Clock {
         std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
         ~Clock() { inside_ns += (std::chrono::steady_clock::now() - start).count(); }

@@ -17,6 +17,10 @@ namespace {
 template <class Real> class GivenBoxes {
   public:
     GivenBoxes(const py::handle& given, const std::string& name) {
+        if (py::isinstance<py::list>(given) && py::len(given) == 2 &&
+            numbers_of(given, name).ndim() == 3)
+            throw py::value_error(name +
+                                  ": mins and maxs are given as a tuple, (mins, maxs), not a list");
         if (!py::isinstance<py::tuple>(given)) {
             rows_.emplace(given, name, std::initializer_list<py::ssize_t>{6});
             boxes_ = rows_->template as<Aabb<Real>>();
@@ -209,21 +213,21 @@ class PyBvh {
 } // namespace
 
 void add_boxes(py::module_& to) {
-    py::class_<PyBvh>(to, "Bvh", R"(A tree of axis-aligned boxes (AABB tree, BVH).
+    py::class_<PyBvh> made(to, "Bvh", R"(A tree of axis-aligned boxes (AABB tree, BVH).
 
 Boxes are closed: one shared point counts. float32 and float16 are held in
 float32, all other numbers in float64; answers are exact for what is held.
 Queries of another dtype are converted to that of the tree.
 
 Any number of threads may query one tree at the same time (the GIL is
-released); who calls update() is alone with it meanwhile.)")
-        .def(py::init<const py::object&, const std::string&, const std::string&, std::int64_t>(),
+released); who calls update() is alone with it meanwhile.)");
+    refuse_copies(made);
+    made.def(py::init<const py::object&, const std::string&, const std::string&, std::int64_t>(),
              py::arg("boxes"), py::kw_only(), py::arg("builder") = "hilbert",
              py::arg("layout") = "packed", py::arg("threads") = 1, R"(
 boxes: shape (n, 6), each row min x, y, z, max x, y, z; or a tuple
     (mins, maxs) of shape (n, 3) each.
-builder, layout: names, as `boxwood list builders` and `boxwood list layouts`
-    print them. The defaults are the fastest for pairs; many points and
+builder, layout: names of boxwood.builders() and boxwood.layouts(). The defaults are the fastest for pairs; many points and
     regions gain from "binned_sah" with "wide8", which take longer to make.
 threads: how many a query of many, or a build, may use.
 
@@ -237,7 +241,8 @@ infinity or min > max, and for an unknown name; TypeError for no numbers.)")
              })
         .def_property_readonly("nbytes", &PyBvh::bytes, "Bytes of memory that the tree takes.")
         .def_property_readonly("dtype", &PyBvh::dtype, "float32 or float64: how boxes are held.")
-        .def_property_readonly("threads", &PyBvh::threads)
+        .def_property_readonly("threads", &PyBvh::threads,
+                               "How many a query of many, or a build, may use.")
         .def("update", &PyBvh::update, py::arg("boxes"), py::arg("moved") = py::none(),
              R"(The boxes moved: as many as there were are fitted into the tree, and it is
 built again where that made it too loose; of another number it is built again.

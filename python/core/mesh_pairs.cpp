@@ -142,8 +142,9 @@ void add_mesh_pairs(py::module_& to) {
     using py::arg;
     const auto at = arg("pose") = py::none();
     const auto other_at = arg("other_pose") = py::none();
-    py::class_<PyMesh>(to, "Mesh",
-                       R"(A mesh for questions about two: do they touch, how far apart are they.
+    py::class_<PyMesh> made(
+        to, "Mesh",
+        R"(A mesh for questions about two: do they touch, how far apart are they.
 
 The other is a Mesh, or a convex Shape (sphere, box, capsule, cylinder, cone,
 ellipsoid, half-space, plane, hull), which is solid: a mesh inside touches it.
@@ -154,8 +155,9 @@ the first one's frame in float64 and rounded once; answers are exact, or
 certified, for those. A mesh is its surface: what lies inside one without
 touching it is apart.
 
-Any number of threads may query one mesh at the same time (the GIL is released).)")
-        .def(py::init<const py::object&, const py::object&, const std::string&>(), arg("vertices"),
+Any number of threads may query one mesh at the same time (the GIL is released).)");
+    refuse_copies(made);
+    made.def(py::init<const py::object&, const py::object&, const std::string&>(), arg("vertices"),
              arg("faces"), py::kw_only(), arg("builder") = "binned_sah", R"(
 vertices: shape (n, 3). faces: shape (m, 3), integers, each row the vertices of
     a triangle.

@@ -176,7 +176,7 @@ of zero.)";
     using py::arg;
     const auto from = arg("t_min") = 0.0;
     const auto up_to = arg("t_max") = std::numeric_limits<double>::infinity();
-    py::class_<PyMeshBvh>(
+    py::class_<PyMeshBvh> made(
         to, "MeshBvh",
         R"(A tree of the triangles of a mesh: for rays, nearest points, inside and outside.
 
@@ -184,14 +184,15 @@ Vertices are held in float32: others are rounded to nearest. Rays with the
 default kernel are watertight: none slips between triangles with a common edge.
 
 Any number of threads may query one tree at the same time (the GIL is
-released); who calls update() is alone with it meanwhile.)")
-        .def(py::init<const py::object&, const py::object&, const std::string&, const std::string&,
+released); who calls update() is alone with it meanwhile.)");
+    refuse_copies(made);
+    made.def(py::init<const py::object&, const py::object&, const std::string&, const std::string&,
                       const std::string&, std::int64_t>(),
              arg("vertices"), arg("faces"), py::kw_only(), arg("builder") = "binned_sah",
              arg("layout") = "wide8", arg("kernel") = "watertight", arg("threads") = 1, R"(
 vertices: shape (n, 3). faces: shape (m, 3), integers, each row the vertices of
     a triangle.
-builder, layout: names, as `boxwood list builders` and `layouts` print them.
+builder, layout: names of boxwood.builders() and boxwood.layouts().
 kernel: how a ray meets a triangle; a misspelt one is answered by their names.
 threads: how many a query of many, or a build, may use.
 
@@ -205,8 +206,9 @@ vertex with a NaN or a number of 2^126 or more, and for an unknown name.)")
         .def_property_readonly(
             "nbytes", [](const PyMeshBvh& mesh) { return mesh.bvh().bytes(); },
             "Bytes of memory that mesh and tree take.")
-        .def_property_readonly("threads",
-                               [](const PyMeshBvh& mesh) { return mesh.bvh().options().threads; })
+        .def_property_readonly(
+            "threads", [](const PyMeshBvh& mesh) { return mesh.bvh().options().threads; },
+            "How many a query of many, or a build, may use.")
         .def_property_readonly(
             "open_edges", [](const PyMeshBvh& mesh) { return mesh.bvh().open_edges(); },
             "How many edges have an odd number of triangles, vertices at one place taken for one.")
@@ -237,7 +239,8 @@ each array of the Hits.
              R"(The point of the mesh that is nearest to each of the points, shape (n, 3).
 
 Returns ClosestPoints(points, triangle, distance) of shape (n, 3), (n,), (n,);
-triangle is -1 if the mesh is empty.)")
+triangle is -1 if the mesh is empty; of triangles at the same distance, as it
+is computed, the lowest.)")
         .def("contains", &PyMeshBvh::contains, arg("points"),
              R"(Whether each of the points, shape (n, 3), is inside the closed mesh or on it:
 shape (n,), bool. Exact for the float32 coordinates, also in line with edges

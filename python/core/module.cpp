@@ -2,6 +2,9 @@
 
 #include "arrays.h"
 
+#include "trees/builder.h"
+#include "trees/layout.h"
+
 #include <boxwood/version.h>
 
 namespace boxwood::python {
@@ -63,6 +66,19 @@ PYBIND11_MODULE(_core, module) {
     module.def(
         "_inside_ns", [] { return inside_ns.load(); },
         "Nanoseconds that the library took of all calls so far.");
+    const auto names = [&module](const char* name, auto entries, const char* of) {
+        module.def(
+            name,
+            [entries] {
+                py::dict all;
+                for (const auto& entry : entries())
+                    all[py::str(std::string(entry.name))] = std::string(entry.summary);
+                return all;
+            },
+            of);
+    };
+    names("builders", boxwood::builders, "The builders of trees: {name: what it does}.");
+    names("layouts", boxwood::layouts, "How trees lie in memory: {name: how}.");
     add_boxes(module);
     add_meshes(module);
     add_mesh_pairs(module);

@@ -56,7 +56,7 @@ of a mesh is built when two bodies first need it.)")
             "A closed mesh and what is inside. Raises ValueError for an open one.")
         .def_static(
             "sphere", [](double radius) { return BodyShape(convex::Sphere{radius}); },
-            arg("radius"))
+            arg("radius"), "A ball around the origin.")
         .def_static(
             "box",
             [](const py::object& sides) {
@@ -86,7 +86,7 @@ of a mesh is built when two bodies first need it.)")
             [](const py::object& radii) {
                 return BodyShape(convex::Ellipsoid{vector_of(radii, "radii")});
             },
-            arg("radii"))
+            arg("radii"), "Around the origin: radii along x, y and z.")
         .def_static(
             "half_space",
             [](const py::object& normal, double offset) {

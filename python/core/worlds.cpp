@@ -164,13 +164,15 @@ margin: the body is all that is at most so far from its shape.)")
         .def(
             "remove", [](PyWorld& self, Object body) { self.world().remove(self.body(body)); },
             arg("body"), "Its number may be given to a later body.")
-        .def("clear", [](PyWorld& self) { self.world().clear(); })
+        .def(
+            "clear", [](PyWorld& self) { self.world().clear(); }, "Removes all bodies.")
         .def(
             "set_pose",
             [](PyWorld& self, Object body, Object pose) {
                 self.world().set_pose(self.body(body), pose_of(pose, "pose"));
             },
-            arg("body"), arg("pose"))
+            arg("body"), arg("pose"),
+            "Of one body: its number or name, and shape (4, 4); None is no motion.")
         .def(
             "set_poses",
             [](PyWorld& self, Object bodies, Object poses) {
@@ -182,13 +184,14 @@ margin: the body is all that is at most so far from its shape.)")
             [](PyWorld& self, Object body, double margin) {
                 self.world().set_margin(self.body(body), margin);
             },
-            arg("body"), arg("margin"))
+            arg("body"), arg("margin"), "The body is all that is at most so far from its shape.")
         .def(
             "set_groups",
             [](PyWorld& self, Object body, std::uint32_t group, std::uint32_t mask) {
                 self.world().set_groups(self.body(body), group, mask);
             },
-            arg("body"), arg("group"), arg("mask"))
+            arg("body"), arg("group"), arg("mask"),
+            "Bits; two bodies may meet if each is in a group that the other's mask has.")
         .def(
             "allow",
             [](PyWorld& self, Object a, Object b, const std::string& reason,
@@ -203,7 +206,7 @@ margin: the body is all that is at most so far from its shape.)")
             [](PyWorld& self, Object a, Object b) {
                 self.world().disallow(self.body(a), self.body(b));
             },
-            arg("a"), arg("b"))
+            arg("a"), arg("b"), "The two are looked at again: the opposite of allow().")
         .def(
             "update", [](PyWorld& self) { without_gil([&] { self.world().update(); }); },
             "The tree takes in what changed; else the next query has it do so.");
@@ -230,8 +233,8 @@ void add_looks(py::class_<PyWorld>& to) {
         .def(
             "find",
             [](const PyWorld& self, const std::string& name) { return self.world().find(name); },
-            arg("name"))
-        .def("pose", &PyWorld::pose, arg("body"))
+            arg("name"), "The number of the body of this name; None if there is none.")
+        .def("pose", &PyWorld::pose, arg("body"), "Where the body is: shape (4, 4), float64.")
         .def("allowed", &PyWorld::allowed, arg("a"), arg("b"),
              "Why the two may collide; None if they may not.")
         .def(
@@ -281,7 +284,7 @@ void add_questions(py::class_<PyWorld>& to) {
                 return array_of<std::uint32_t>(
                     without_gil([&] { return self.world().collisions_of(i); }));
             },
-            arg("body"))
+            arg("body"), "The bodies that this one touches, ascending: shape (n,), uint32.")
         .def(
             "any_collision",
             [](const PyWorld& self) -> py::object {
@@ -325,6 +328,7 @@ between proven bounds of convex shapes; what is within rounding counts as yes.
 Queries may come from any number of threads at once (the GIL is released); who
 changes the world is alone with it meanwhile. A body that is not there raises
 ValueError.)");
+    refuse_copies(world);
     world.def(py::init<std::int64_t>(), py::kw_only(), py::arg("threads") = 1);
     add_changes(world);
     add_looks(world);

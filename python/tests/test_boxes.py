@@ -1,6 +1,9 @@
 """Bvh against numpy, pair by pair."""
 
+import copy
 import os
+import pickle
+import platform
 import subprocess
 import sys
 import threading
@@ -111,10 +114,33 @@ def test_every_way_to_give_boxes():
     ((np.zeros((4, 3)), np.zeros((5, 3))), "4 mins and 5 maxs"),
     ([[0, 0, 0, 1, 1, float("nan")]], "box 0: "),
     ([[0, 0, 0, 1, 1, 1], [0, 0, 0, -1, 1, 1]], "box 1: "),
+    ([np.zeros((4, 3)), np.ones((4, 3))], r"as a tuple, \(mins, maxs\)"),
 ])
 def test_bad_boxes_are_refused(given, message):
     with pytest.raises(ValueError, match=message):
         bw.Bvh(given)
+
+
+def test_denormals_are_kept_whatever_another_module_has_set():
+    """As a library built by -ffast-math leaves the thread."""
+    code = ("import ctypes, numpy as np, boxwood as bw\n"
+            "env = (ctypes.c_uint32 * 8)()\n"
+            "libm = ctypes.CDLL('libm.so.6')\n"
+            "libm.fegetenv(env); env[7] |= 0x8040; libm.fesetenv(env)\n"  # MXCSR of glibc's fenv_t on x86-64
+            "boxes = np.array([[1e-40] * 3 + [2e-40] * 3, [2e-40] * 3 + [3e-40] * 3])\n"
+            "print(bw.Bvh(boxes).nearest([[2e-40] * 3], k=2).items.tolist())")
+    if platform.machine() != "x86_64":
+        pytest.skip("the control word is that of x86-64")
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=ENVIRONMENT, check=True)
+    assert done.stdout.strip() == "[[0, 1]]"
+
+
+def test_names_are_listed_and_copies_refused():
+    assert "binned_sah" in bw.builders() and "wide8" in bw.layouts() and all(bw.layouts().values())
+    for made in (bw.Bvh([]), bw.World(), bw.MeshBvh(np.zeros((0, 3)), np.zeros((0, 3), int))):
+        for twice in (copy.copy, copy.deepcopy, pickle.dumps):
+            with pytest.raises(TypeError, match="is neither copied nor pickled: keep the arrays"):
+                twice(made)
 
 
 def test_other_bad_input_is_refused():

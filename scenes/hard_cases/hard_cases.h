@@ -128,7 +128,8 @@ struct HardCaseFamily {
     std::string_view name;    ///< registry name
     std::string_view summary; ///< one line
     Panel panel = Panel::generic;
-    std::string_view k_meaning{}; ///< what k is; empty if there is none
+    std::string_view k_meaning{};            ///< what k is; empty if there is none
+    std::string (*k_words)(int k) = nullptr; ///< a k for readers, where "k = 5" would say little
     int k_default = 0, k_min = 0, k_max = 0;
     int scale_min = 0, scale_max = 0; ///< where every coordinate stays exact
     bool reads_file = false;

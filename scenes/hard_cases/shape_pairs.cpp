@@ -55,6 +55,12 @@ ShapePairCase generic(ShapeKind kind_a, ShapeKind kind_b, Draws& draws, int perc
     return overlap ? overlapping(a, b, n, draws.uniform(0.01, 1))
                    : apart(a, b, n, draws.uniform(0.01, 1));
 }
+std::string share_of_overlaps(int percent) {
+    return percent == 0     ? "apart"
+           : percent == 100 ? "overlapping"
+                            : std::to_string(percent) + " % of them overlap";
+}
+
 template <ShapeKind a, ShapeKind b>
 HardCaseFamily pair_family(std::string_view name, std::string_view summary) {
     HardCaseFamily family =
@@ -65,6 +71,7 @@ HardCaseFamily pair_family(std::string_view name, std::string_view summary) {
                                   });
                               }),
                "per cent of the pairs that overlap", 50, 0, 100);
+    family.k_words = share_of_overlaps;
     family.scale_min = family.scale_max = 0; // the mixed families below have scales
     return family;
 }

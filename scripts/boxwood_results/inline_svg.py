@@ -20,6 +20,57 @@ def in_the_dark(colour):
     return "".join(f"{round(255 * part):02x}" for part in turned)
 
 
+STEP = re.compile(r"([ML])(-?[\d.]+) (-?[\d.]+)|z")
+CLIP = r' clip-path="(url\(#[^)]*\))"'
+CLIPPED = re.compile(rf"(?:<(?:path|use)(?=[^>]*{CLIP})[^>]*/>)+")
+
+
+def number_text(tenths):
+    """12 as '1.2', 30 as '3', -4 as '-.4'."""
+    text = f"{tenths / 10:g}"
+    return text.replace("0.", ".", 1) if 0 < abs(tenths) < 10 else text
+
+
+def short_path(path):
+    """The same lines in steps from point to point, in tenths; curves stay as they are."""
+    if STEP.sub("", path):
+        return path
+    parts, at, start, before = [], (0, 0), (0, 0), ""
+    for step in STEP.finditer(path):
+        if step[0] == "z":
+            parts.append("z")
+            at, before = start, "z"
+            continue
+        to = tuple(round(10 * float(number)) for number in step.group(2, 3))
+        x, y = (number_text(there - here) for here, there in zip(at, to))
+        if step[1] == "M":
+            parts.append(f"M{number_text(to[0])} {number_text(to[1])}")
+            start, before = to, "M"
+        elif to[1] == at[1] or to[0] == at[0]:
+            parts.append(f"h{x}" if to[1] == at[1] else f"v{y}")
+            before = "h"
+        else:
+            parts.append(("l" if before != "l" else "" if x.startswith("-") else " ") + f"{x} {y}")
+            before = "l"
+        at = to
+    return "".join(parts)
+
+
+def with_clips_together(svg):
+    """Neighbours that are clipped alike in one group."""
+    def grouped(run):
+        parts, last = [], ""
+        for tag in re.findall(r"<[^>]*/>", run[0]):
+            clip = re.search(CLIP, tag)[1]
+            if clip != last:
+                parts.append(f'{"</g>" if last else ""}<g clip-path="{clip}">')
+            parts.append(re.sub(CLIP, "", tag))
+            last = clip
+        return "".join([*parts, "</g>"])
+
+    return CLIPPED.sub(grouped, re.sub(rf"<g{CLIP}>(<use[^>]*)/></g>", r'\2 clip-path="\1"/>', svg))
+
+
 def without_bare_groups(svg):
     parts, kept = [], []
     for part in re.split(r"(</?g[^>]*>)", svg):
@@ -62,8 +113,8 @@ class InlineSvgs:
         svg = re.sub(r' id="([^"]*)"', lambda match: f' id="{ids[match[1]]}"' if match[1] in ids else "", svg)
         svg = REFERENCE.sub(lambda match: f"#{ids[match[1]]}", svg)
         svg = re.sub(r"<[^>]*>", lambda tag: DIGITS.sub(lambda number: f"{float(number[0]):.1f}", tag[0]), svg)
-        svg = re.sub(r' d="([^"]*)"', lambda path: f' d="{re.sub(" ?([A-Za-z]) ?", lambda c: c[1], " ".join(path[1].split()))}"', svg)
-        return without_bare_groups(svg), f"--w:{float(points[1]):.0f}pt"
+        svg = re.sub(r' d="([^"]*)"', lambda path: f' d="{short_path(re.sub(" ?([A-Za-z]) ?", lambda c: c[1], " ".join(path[1].split())))}"', svg)
+        return with_clips_together(without_bare_groups(svg)), f"--w:{float(points[1]):.0f}pt"
 
     def class_of(self, style):
         style = re.sub(r"([:;]) ", r"\1", font(style))

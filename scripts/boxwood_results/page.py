@@ -1,6 +1,5 @@
 """The report: one HTML file that needs no network and no script."""
 
-import base64
 from html import escape
 
 from . import history, registry
@@ -41,7 +40,7 @@ summary { cursor: pointer; font-size: .88rem; color: var(--link); }
 @media print { body { max-width: none; margin: 0; } figure, tr { break-inside: avoid; }
                .scroll, details .scroll { max-height: none; overflow: visible; } }
 """
-MAX_ROWS = 150  # of a table: the rest is in the file
+MAX_ROWS = 80  # of a table: the rest is in the file
 
 
 def shown(value):
@@ -172,15 +171,21 @@ def scenes_table_html(run):
     return folded(f"All {len(rows):,} scenes", table(("scene", "in words", "items", "seed", "content (XXH3)", "source", "licence"), rows))
 
 
+def data_url(svg):
+    """For an attribute in double quotes, as readable as it may stand there."""
+    for plain, coded in (("%", "%25"), ("#", "%23"), ("&", "%26"), ('"', "%22"), ("\n", " ")):
+        svg = svg.replace(plain, coded)
+    return f"data:image/svg+xml,{svg}"
+
+
 def scenes_html(run):
     """Frames of moving scenes. A picture from a file cannot run scripts as an image."""
     parts = []
     for name, svg in sorted(run.source.texts.items()):
         if name.startswith(STRIP):
             scene = name.removeprefix(STRIP)
-            data = base64.b64encode(svg.encode()).decode()
             parts.append(f"<h3>{escape(scene)}</h3><figure><img alt=\"Frames of the moving scene {escape(scene)}, side by "
-                         f"side, drawn with few bodies\" src=\"data:image/svg+xml;base64,{data}\"></figure>")
+                         f"side, drawn with few bodies\" src=\"{data_url(svg)}\"></figure>")
     return "".join(parts)
 
 

@@ -5,6 +5,7 @@ scenes are frozen by their content in tracks.csv."""
 import csv
 import hashlib
 import re
+import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -118,6 +119,7 @@ def source_of(one, run, version, root, up):
             f"[`{one.sweep}.h5`]({up}results/published/{one.sweep}.h5). Again: `{command_of(one, run.rounds)}`.*")
 
 
+EMPTY_LINE = "\n\n"
 PAGES = {"README.md": "", "results/published/tables.md": "../../"}  # and from there to the root
 
 
@@ -134,7 +136,8 @@ def table_block(one, root, up):
     if len(rows) == 1:
         raise BadFile(one.file(root), f"it holds nothing for the table '{one.name}'; is it too noisy?")
     version, _ = tracks(root).get(one.sweep, (0, ""))
-    return f"**{one.title}**\n\n{markdown(rows)}\n\n{source_of(one, run, version, root, up)}\n"
+    said = published_tables.behind(run, one.tasks)
+    return f"**{one.title}**\n\n{markdown(rows)}\n\n{f'*{said}*{EMPTY_LINE}' if said else ''}{source_of(one, run, version, root, up)}\n"
 
 
 def summary_block(root, up):
@@ -206,6 +209,44 @@ def draw(one, root, folder):
     return picture.save_png(made, folder / file, cell_text(run.source.attrs["run_uuid"]))
 
 
+ROUNDS_OF_AN_INPUT = 3  # of which an interval has to hold the median
+
+
+def faults(file):
+    """Why a measured file is not fit to be published, as lines of text."""
+    run, found = read(file), []
+    if file.stat().st_size > MAX_BYTES:
+        found.append(f"{file.stat().st_size:,} bytes; at most {MAX_BYTES:,}")
+    if not run.source.is_sealed:
+        found.append("changed after it was written (its seal is gone)")
+    wrong = recomputed.differences(run.source)
+    if wrong:
+        found.append(f"{len(wrong)} of its numbers do not follow from its samples; the first: {wrong[0]}")
+    if any(row["git_dirty"] for row in run.source["env"]):
+        found.append("measured with changes that are in no commit")
+    if any("(peers -O" in cell_text(row["flags"]) for row in run.source["env"]):
+        found.append("measured against peers that were hardly optimised, as preset ci compiles them")
+    if run.noise_floor != run.noise_floor:
+        found.append("too few rounds for a noise floor")
+    if run.health["is_too_noisy"]:
+        found.append("too noisy to be published")
+    if run.health["wrong_ours"] or run.health["broken_promises"]:
+        found.append(f"ours is wrong: {cell_text(run.health['correctness'])}")
+    if not sweep_text(run):
+        found.append("it does not hold the sweep that made it")
+    return [f"{file}: {fault}" for fault in found]
+
+
+def lacking_rounds(file):
+    """What is missing to a file that is to be published, as a list of at most one line: rounds of each input."""
+    run = read(file)
+    inputs = tomllib.loads(sweep_text(run)).get("inputs", 1)
+    if inputs == 1 or run.rounds >= ROUNDS_OF_AN_INPUT * inputs:
+        return []
+    return [f"{file}: {run.rounds} rounds for {inputs} inputs: its intervals cover inputs from {ROUNDS_OF_AN_INPUT} rounds of each, "
+            f"--rounds {ROUNDS_OF_AN_INPUT * inputs}"]
+
+
 def problems(root):
     """What does not fit together, as lines of text; none if all does."""
     found, machines, commits = [], set(), set()
@@ -222,27 +263,9 @@ def problems(root):
         run = read(file)
         machines |= {(row["host"], row["cpu"]) for row in run.source["env"]}
         commits |= {row["git_commit"] for row in run.source["env"]}
-        if file.stat().st_size > MAX_BYTES:
-            found.append(f"{file}: {file.stat().st_size:,} bytes; at most {MAX_BYTES:,}")
-        if not run.source.is_sealed:
-            found.append(f"{file}: changed after it was written (its seal is gone)")
-        wrong = recomputed.differences(run.source)
-        if wrong:
-            found.append(f"{file}: {len(wrong)} of its numbers do not follow from its samples; the first: {wrong[0]}")
-        if any(row["git_dirty"] for row in run.source["env"]):
-            found.append(f"{file}: measured with changes that are in no commit")
-        if any("(peers -O" in cell_text(row["flags"]) for row in run.source["env"]):
-            found.append(f"{file}: measured against peers that were hardly optimised, as preset ci compiles them")
+        found += faults(file)
         if scenes_of(run) != frozen:
             found.append(f"{file}: its scenes are not those of track {sweep}-{version}; scripts/published --freeze raises the version")
-        if run.noise_floor != run.noise_floor:
-            found.append(f"{file}: too few rounds for a noise floor")
-        if run.health["is_too_noisy"]:
-            found.append(f"{file}: too noisy to be published")
-        if run.health["wrong_ours"] or run.health["broken_promises"]:
-            found.append(f"{file}: ours is wrong: {cell_text(run.health['correctness'])}")
-        if not sweep_text(run):
-            found.append(f"{file}: it does not hold the sweep that made it")
         for one in (one for one in ALL if one.sweep == sweep and one.picture):
             shown = root / "scripts" / "pictures" / one.picture[2]
             if not shown.exists() or picture.stamp_of(shown) != cell_text(run.source.attrs["run_uuid"]):

@@ -182,6 +182,21 @@ def floors(run, tasks):
     return sorted({row.floor for question in questions(run, tasks) for row in question.known.values() if row.floor == row.floor})
 
 
+def behind(run, tasks):
+    """Which variant of each library the ratios stand on, and what it and ours were built for, in words."""
+    variants = {}
+    for question in questions(run, tasks):
+        for library, row in question.known.items():
+            variants.setdefault(library, {})[row.a.label.removeprefix(f"{library}.")] = row.a
+    packages = {row["library"]: row for row in run.source["packages"]}
+    texts = []
+    for library, known in sorted(variants.items(), key=lambda item: min(cell.place for cell in item[1].values())):
+        title, package = next(iter(known.values())).library_title, packages.get(library)
+        built = f" {package['version']} ({package['build'].split('; what is compiled here')[0]})" if package is not None else ""
+        texts.append(f"{title}{built} by {', '.join(known)}")
+    return f"Behind the ratios: {'; '.join(texts)}. Ours for {run.source['env'][0]['isa_used']}." if texts else ""
+
+
 def against_ourselves(run):
     """All stages over the required ones: ours against ours."""
     rows = [["scene", "bodies", "required, a frame", "all stages / required"]]

@@ -86,6 +86,7 @@ def test_tables_and_pictures_come_from_the_files(root):
     of_pairs = next(c for c in results.comparisons if c.family == "peers" and c.a.library == "embree" and c.b.job.task == "pairs"
                     and c.text in text)
     assert of_pairs and re.search(r"\*Track pairs-1, \d+ answers checked: 0 of ours wrong, \d+ of the peers' wrong. Run u of 2025-01-01", text) and "commit abcdef01, noise floor" in text
+    assert re.search(r"\*Behind the ratios: [^*]*Embree 3\.13\.5 \(a package of embree\) by [\w., ]+;[^*]* Ours for AVX2\.\*\n\n\*Track pairs-1", text)
     assert "| warehouse | 10,000 |" in text and "guigue_devillers_exact" in text and "not published yet" in text
 
     summary = (root / "README.md").read_text()
@@ -153,6 +154,13 @@ def test_what_does_not_fit_together_is_said(root, env, toml, problem):
             rows[column] = value
         tables["env"][:] = rows
     assert any(problem in line for line in published.problems(root))
+
+
+@pytest.mark.parametrize("inputs, rounds", [(1, 0), (5, 0), (6, 18)])
+def test_what_is_published_has_three_rounds_of_each_input(root, inputs, rounds):
+    file = file_of(root, "effects", synthetic.full(wrong=False), f"inputs = {inputs}")  # 15 rounds
+    said = published.lacking_rounds(file)
+    assert len(said) == (rounds > 0) and all(f"15 rounds for {inputs} inputs" in line and f"--rounds {rounds}" in line for line in said)
 
 
 def test_a_sweep_that_has_changed_since_is_said_on_the_page(root):

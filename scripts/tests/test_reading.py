@@ -208,6 +208,24 @@ def test_a_file_without_a_minor_version_is_taken_for_the_newest(tmp_path):
     assert synthetic.answer("show", path).returncode == 0
 
 
+def as_group(name):
+    def make(path):
+        synthetic.small().write(path)
+        with h5py.File(path, "a") as file:
+            del file[name]
+            file.create_group(name)
+
+    return make
+
+
+@pytest.mark.parametrize("make", [as_group("samples"), broken_header(schema_major="two"), lambda path: path.mkdir()])
+def test_odd_files_are_refused_in_one_way(tmp_path, make):
+    path = tmp_path / "odd.h5"
+    make(path)
+    with pytest.raises(reader.BadFile, match="cannot read result file"):
+        reader.load(path)
+
+
 DERIVES = "bad.h5 --out NEW.h5` derives it"
 ELSE = "use another copy, or measure again"
 @pytest.mark.parametrize(

@@ -21,6 +21,7 @@ int main() {
     std::uint32_t first = 0;
     world.meeting({.origin = {-1, .5f, .5f}, .direction = {1, 0, 0}},
                   [&](std::uint32_t body, const boxwood::Ray<float>& ray) {
+                      // Along x at this speed; boxwood::clip says it for every direction.
                       const float t = world.box(body).min.x - ray.origin.x;
                       if (t >= ray.t_max)
                           return ray.t_max;

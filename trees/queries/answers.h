@@ -12,7 +12,7 @@ template <class T> struct AnswersOf {
     std::vector<std::uint64_t> offsets; ///< n + 1
     std::vector<T> of;
 
-    std::size_t size() const { return offsets.size() - 1; }
+    std::size_t size() const { return offsets.empty() ? 0 : offsets.size() - 1; }
     std::span<const T> operator[](std::size_t i) const {
         return {of.data() + offsets[i], of.data() + offsets[i + 1]};
     }

@@ -84,12 +84,22 @@ std::vector<Neighbour> BoxQueries::nearest(Vec3<float> point, std::size_t k) con
 }
 std::vector<Neighbour> BoxQueries::nearest(std::span<const Vec3<float>> points,
                                            std::size_t k) const {
-    std::vector<Neighbour> found;
-    if (!points.empty() && k > found.max_size() / points.size())
-        throw std::length_error("nearest: k answers to each point are more than memory holds");
-    found.resize(k * points.size());
+    std::vector<Neighbour> found = detail::neighbours_of(points.size(), k);
     layout_->nearest(points, k, *executor_, found);
     return found;
+}
+
+std::vector<Neighbour> detail::neighbours_of(std::size_t n_points, std::size_t k) {
+    constexpr const char* too_many = "nearest: k answers to each point are more than memory holds";
+    std::vector<Neighbour> all;
+    if (n_points > 0 && k > all.max_size() / n_points)
+        throw std::length_error(too_many);
+    try {
+        all.resize(k * n_points);
+    } catch (const std::bad_alloc&) {
+        throw std::length_error(too_many);
+    }
+    return all;
 }
 
 std::shared_ptr<const Executor> detail::executor_of(std::shared_ptr<const Executor> given,

@@ -127,6 +127,9 @@ namespace detail {
 /// By query, from pairs (query, item) in that order.
 AnswersOf<std::uint32_t> answers_of_pairs(std::size_t n_queries, std::span<const Pair> pairs);
 
+/// k answers to each point, of none. Throws std::length_error for more than memory holds.
+std::vector<Neighbour> neighbours_of(std::size_t n_points, std::size_t k);
+
 /// That of the options: `given`, else one of so many threads. Throws std::invalid_argument for both
 /// and for no threads.
 std::shared_ptr<const Executor> executor_of(std::shared_ptr<const Executor> given,

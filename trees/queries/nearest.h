@@ -24,8 +24,8 @@ struct Neighbour {
     constexpr auto operator<=>(const Neighbour&) const = default;
 };
 
-/// The point of a mesh that is nearest to a query point, on the lowest of the triangles that have
-/// it; `triangle` is Neighbour::none if the mesh is empty.
+/// The point of a mesh that is nearest to a query point; of triangles at the same distance, as it
+/// is computed, on the lowest. `triangle` is Neighbour::none if the mesh is empty.
 struct SurfacePoint {
     Vec3<float> point{};
     std::uint32_t triangle = Neighbour::none;

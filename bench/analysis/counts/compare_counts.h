@@ -30,6 +30,7 @@ struct CountComparison {
     std::set<std::string> newly_wrong;  ///< cells: right in the base, wrong in the head
     std::string base_by, head_by;       ///< what instructions depend on beside our code
     bool has_instructions = false;      ///< in the base
+    bool is_sealed = false;             ///< both files are as they were written
     Gate gate = Gate::open;             ///< of all
 };
 struct CountOptions {

@@ -52,6 +52,14 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
+TEST(CompareCounts, AnEditedFileNeverPasses) {
+    Results head = with_counts();
+    head.is_sealed = false;
+    EXPECT_EQ(compare_counts(with_counts(), head).gate, Gate::open);
+    EXPECT_THAT(verdict_of(with_counts(), head),
+                StartsWith("CAN'T TELL: a file was changed after it was written"));
+}
+
 TEST(CompareCounts, EqualFilesPass) {
     const CountComparison same = compare_counts(with_counts(), with_counts());
     EXPECT_EQ(same.gate, Gate::passes);

@@ -1,4 +1,5 @@
 #include "bench/analysis/comparisons.h"
+#include "bench/analysis/figures/kernel_rows.h"
 #include "bench/analysis/findings/draft.h"
 #include "bench/analysis/job.h"
 #include "bench/analysis/status.h"
@@ -17,10 +18,14 @@ using results::Comparison;
 using results::Finding;
 using results::Phase;
 
-/// Our best against the best rival, for each job and class.
+/// Our best against the best rival, for each job and class; of kernels those that were never wrong
+/// and never without an answer.
 class Races {
   public:
     Races(const Index& index, const MedianIndex& medians) : index_(index), medians_(medians) {
+        for (const results::KernelRow& row : index.results().kernels)
+            if (is_judged(row) && row.wrong + row.maybe == 0)
+                always_right_.insert(row.cell_id);
         for (const Comparison& row : index.results().compare)
             compare_[{row.cell_a, row.cell_b, row.phase, row.contender_class}] = &row;
     }
@@ -28,7 +33,8 @@ class Races {
     std::vector<Draft> all() {
         std::map<std::pair<JobKey, std::string>, Sides> jobs; // and class
         for (const Cell& cell : index_.results().cells)
-            if (is_right(cell.status) && !index_.is_kernel(cell) && index_.stages(cell).empty())
+            if (is_right(cell.status) && index_.stages(cell).empty() &&
+                (!index_.is_kernel(cell) || always_right_.contains(cell.cell_id)))
                 for (const std::string& name : split_classes(cell.classes)) {
                     Sides& sides = jobs[{job_of(cell), name}];
                     (index_.is_peer(cell) ? sides.peers : sides.ours).push_back(&cell);
@@ -54,7 +60,7 @@ class Races {
         const Phase total = index_.task(first.task).total;
         Draft draft;
         Finding& row = draft.finding;
-        row.topic = results::Topic::race;
+        row.topic = index_.is_kernel(first) ? results::Topic::call : results::Topic::race;
         row.contender_class = name;
         const Comparison* together = best_pair(sides, total, name, row.ours, row.rival);
         const Comparison* alone =
@@ -140,6 +146,7 @@ class Races {
 
     const Index& index_;
     const MedianIndex& medians_;
+    std::set<std::uint32_t> always_right_; ///< kernels, on their family
     std::map<std::tuple<std::uint32_t, std::uint32_t, Phase, std::string>, const Comparison*>
         compare_;
     std::vector<Draft> drafts_;

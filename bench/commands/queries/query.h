@@ -68,6 +68,10 @@ struct PairsQuery {
 /// Prints every unordered pair of boxes that share a point, once, sorted. Exact in double. Throws
 /// BadInput if the list does not fit in the memory that is available, and Interrupted.
 void run(const PairsQuery& query, std::ostream& out);
+/// Of a file of boxes, which are finite; - for standard input. Throws BadInput naming the line.
+std::vector<Aabb<double>> read_boxes(const std::string& path);
+/// Outward, so that boxes that share a point still do; those beyond the range of floats end there.
+Box rounded_to_floats(const Aabb<double>& box);
 void add_query_pairs(CLI::App& query);
 
 struct RaysQuery {

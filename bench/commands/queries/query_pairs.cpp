@@ -32,6 +32,8 @@ namespace {
 constexpr CsvFormat box_format{"min_x,min_y,min_z,max_x,max_y,max_z", 6, 6};
 constexpr std::array box_columns{"min_x", "min_y", "min_z", "max_x", "max_y", "max_z"};
 
+} // namespace
+
 std::vector<Aabb<double>> read_boxes(const std::string& path) {
     const std::string source = source_name(path);
     std::vector<Aabb<double>> boxes;
@@ -51,13 +53,15 @@ std::vector<Aabb<double>> read_boxes(const std::string& path) {
     return boxes;
 }
 
-Box to_float(const Aabb<double>& box) {
+Box rounded_to_floats(const Aabb<double>& box) {
     constexpr float max_float = std::numeric_limits<float>::max();
     const Vec3<float> low{-max_float, -max_float, -max_float},
         high{max_float, max_float, max_float};
     const Box rounded = round_outward(box);
     return {min(max(rounded.min, low), high), min(max(rounded.max, low), high)};
 }
+
+namespace {
 
 /// The boxes of a query in a tree, which finds the pairs.
 class PairFinder {
@@ -72,7 +76,7 @@ class PairFinder {
         executor_ = chosen_executor(query.tree);
         boxes_ = read_boxes(query.boxes);
         std::vector<Box> float_boxes(boxes_.size());
-        std::transform(boxes_.begin(), boxes_.end(), float_boxes.begin(), to_float);
+        std::transform(boxes_.begin(), boxes_.end(), float_boxes.begin(), rounded_to_floats);
         if (device) {
             on_device_.emplace(float_boxes, device_options);
             return;

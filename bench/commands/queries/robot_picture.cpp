@@ -1,5 +1,7 @@
 #include "bench/commands/queries/robot_picture.h"
 
+#include "bench/io/markup.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,13 +11,6 @@ namespace boxwood::bench {
 namespace {
 
 constexpr double width = 720, height = 340, left = 72, right = 20, top = 52, bottom = 48;
-
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text)
-        out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-    return out;
-}
 
 /// 1, 2 or 5 times a power of ten: about five to the whole.
 double tick_of(double whole) {

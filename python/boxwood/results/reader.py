@@ -230,8 +230,18 @@ def load(path):
     """Reads a whole result file. Raises BadFile for one that is missing, damaged, foreign, incomplete, of another major
     version, or without what the figures need; and for words and ids that mean nothing."""
     path = Path(path)
-    if not path.is_file():
+    if path.exists() and not path.is_file():
+        raise BadFile(path, "that is no file of results, which scripts/sweep --quick makes")
+    if not path.exists():
         raise BadFile(path, "no such file; scripts/sweep --quick makes one")
+    try:
+        return load_tables(path)
+    except (AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
+        raise BadFile(path, f"damaged, or made by something else: {type(error).__name__}: {error}; {AGAIN}") from error
+
+
+def load_tables(path):
+    """As load, but for damage that h5py and numpy say in their own ways."""
     sealed = is_sealed(path)
     try:
         file = h5py.File(path, "r")

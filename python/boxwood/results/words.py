@@ -5,7 +5,7 @@ PHASES = ("", "build", "cold_build", "update", "query", "upload", "device_build"
           "build+query", "update+query", "cold_build+query")
 STATUSES = ("unchecked", "exact", "conservative", "within_bound", "unsupported", "wrong")
 FAMILIES = ("", "peers", "ours", "threads", "stages", "devices")
-TOPICS = ("", "race", "kernel", "scene", "device")
+TOPICS = ("", "race", "call", "kernel", "scene", "device")
 VERDICTS = ("", "faster", "slower", "same", "cannot_tell", "wrong")
 REASONS = ("", "too_few_rounds", "below_the_floor", "crosses_1", "unchecked", "too_noisy", "memory_layout")
 

@@ -24,31 +24,32 @@ def draw(run):
         if not adaptive:
             continue
         families = list(dict.fromkeys(p.cases for p in ours))
-        height, panel = 0.95 + 0.17 * len(families), 2.5
-        width = 2.3 + panel * len(adaptive)
+        height, names, panel = 1.15 + 0.17 * len(families), 2.2, 2.3
+        width = (names + panel + 0.2) * len(adaptive)
         figure = style.plt.figure(figsize=(width, height))
         rows = []
         for place, kernel in enumerate(adaptive):
-            ax = figure.add_axes(((2.2 + panel * place) / width, 0.55 / height, (panel - 0.2) / width,
+            ax = figure.add_axes((((names + panel + 0.2) * place + names) / width, 0.75 / height, panel / width,
                                   0.17 * len(families) / height))
             for point in [p for p in ours if p.kernel == kernel]:
                 y, left = families.index(point.cases), 0.0
                 for share, colour in zip(shares.get((kernel, point.cell.cell_id), ()), COLOURS):
-                    ax.barh(y, 100 * share, left=left, height=0.78, color=colour)
+                    if share > 0:
+                        ax.barh(y, 100 * share, left=left, height=0.78, color=colour)
                     left += 100 * share
                 rows.append((task, kernel, point.cases, point.n, *point.tiers))
             ax.set_xlim(0, 100)
             ax.set_ylim(len(families) - 0.4, -0.6)
-            ax.set_yticks(range(len(families)), families if place == 0 else [""] * len(families), fontsize=6.5)
+            ax.set_yticks(range(len(families)), families, fontsize=6.5)
             ax.tick_params(axis="y", length=0)
             ax.grid(False)
             ax.set_xlabel("% of the calls", fontsize=7.5)
             ax.tick_params(axis="x", labelsize=7)
             style.title(ax, kernel)
             ax.title.set_fontsize(8)
-        handles = [style.plt.Rectangle((0, 0), 1, 1, color=colour) for colour in COLOURS]
-        figure.legend(handles, ["tier 0", "tier 1", "tier 2", "tier 3"], loc="lower left", fontsize=6.5, frameon=False,
-                      ncols=2, handlelength=1, columnspacing=0.8, borderaxespad=0.1)
+            handles = [style.plt.Rectangle((0, 0), 1, 1, color=colour) for colour in COLOURS]
+            ax.legend(handles, [f"tier {tier}" for tier in range(4)], loc="upper center", fontsize=6.5, frameon=False,
+                      bbox_to_anchor=(0.5, -0.42 / (0.17 * len(families))), ncols=4, handlelength=1, columnspacing=0.8)
         pictures.append(Picture(f"{NAME}_{task}", figure, f"{TITLE}: {run.tasks[task].title}", f"Which share of the calls each tier of {len(adaptive)} adaptive kernels of {task} decided.",
                                 COLUMNS, rows))
     if not pictures:

@@ -4,6 +4,9 @@ import math
 
 import numpy as np
 from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
+from matplotlib.transforms import Affine2D
 
 from .. import style
 from ..kernels import MIN_ERROR, by_kernel_family
@@ -13,8 +16,8 @@ NAME = "robustness"
 TITLE = "Robustness"
 HOW_TO_READ = (
     "Each row is a family of hard cases, each column a kernel, ours left of the line, peers right of it (no line: no "
-    "peers). The number is wrong answers per million, green none; for distances it is the worst relative error, green "
-    "below 1e-9, and \"out\" counts answers beyond the bound that was given. The darker the worse. A number in brackets "
+    "peers). The number is wrong answers per million, green none; for distances it is the worst relative error, none where "
+    "it is below half an ulp, green below 1e-9, and \"out\" counts answers beyond the bound that was given. The darker the worse. A number in brackets "
     "counts what was left undecided per million. A dash: not supported."
 )
 COLUMNS = ("task", "cases", "kernel", "library", "n", "wrong", "maybe", "max_rel_err")
@@ -30,14 +33,14 @@ def entry(point, measured):
         if point.row["bound_violations"]:
             return f"{int(point.row['bound_violations'])} out", 1.0
         if not error > MIN_ERROR:
-            return "0", None
+            return "", None
         if error < 1e-9:
             return f"{error:.0e}", None
         return ("inf" if math.isinf(error) else f"{error:.0e}"), min(1.0, (math.log10(error) + 9) / 9)
     rate, undecided = float(point.row["wrong_per_million"]), float(point.row["maybe_per_million"])
-    text = "0" if not rate else style.count_text(float(f"{rate:.2g}"))
+    text = "" if not rate else style.count_text(float(f"{rate:.2g}"))
     if undecided:
-        text += f" ({style.count_text(float(f'{undecided:.2g}'))})"
+        text += f"{' ' if text else ''}({style.count_text(float(f'{undecided:.2g}'))})"
     return text, min(1.0, math.log10(max(rate, 1)) / 6) if rate else None
 
 
@@ -53,7 +56,7 @@ def draw(run):
         width, height = 2.6 + WIDE * len(columns), 1.9 + 0.2 * len(families)
         figure = style.plt.figure(figsize=(width, height))
         ax = figure.add_axes((2.4 / width, 0.1 / height, WIDE * len(columns) / width, 0.2 * len(families) / height))
-        rows = []
+        rows, cells = [], {}  # colour -> places
         for y, cases in enumerate(families):
             for x, column in enumerate(columns):
                 point = at.get((cases, column))
@@ -62,11 +65,14 @@ def draw(run):
                     continue
                 text, dark = entry(point, kernels[0].by_error)
                 colour = RIGHT if dark is None else COLOURS(dark)
-                ax.add_patch(style.plt.Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=colour, edgecolor="white"))
-                ax.text(x, y, text, ha="center", va="center", fontsize=6.2 if len(text) < 8 else 5.4,
-                        color="white" if dark is not None and dark > 0.7 else style.INK)
+                cells.setdefault(colour, []).append(Path.unit_rectangle().transformed(Affine2D().translate(x - 0.5, y - 0.5)))
+                if text:
+                    ax.text(x, y, text, ha="center", va="center", fontsize=6.2 if len(text) < 8 else 5.4,
+                            color="white" if dark is not None and dark > 0.7 else style.INK)
                 rows.append((task, cases, point.kernel, point.library, point.n, point.wrong,
                              int(point.row["maybe"]), point.error))
+        for colour, squares in cells.items():
+            ax.add_patch(PathPatch(Path.make_compound_path(*squares), facecolor=colour, edgecolor="white"))
         ours = len([name for ours_, _, name in columns if ours_])
         if 0 < ours < len(columns):
             ax.axvline(ours - 0.5, color=style.INK, linewidth=1.2)

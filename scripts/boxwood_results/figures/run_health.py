@@ -14,7 +14,7 @@ TITLE = "Did the machine hold still"
 HOW_TO_READ = (
     "Each square is one cell's query in one round, in the order it ran: white is its own median over "
     "the rounds, orange slower, purple faster. A stripe down or across means that the machine "
-    "drifted. A dot marks a sample that was disturbed (time stolen, or the process switched out); it is "
+    "drifted. A dash marks a sample that was disturbed (time stolen, or the process switched out); it is "
     "kept and counted."
 )
 COLUMNS = ("round", "position", "cell", "percent_off_median", "disturbed")
@@ -51,9 +51,11 @@ def draw(run):
     figure = style.plt.figure(figsize=(width + 2.0, height + 1.2))
     total = width + 2.0, height + 1.2
     ax = figure.add_axes((0.7 / total[0], 0.6 / total[1], width / total[0], height / total[1]))
-    mesh = ax.imshow(off, aspect="auto", cmap="PuOr_r", norm=TwoSlopeNorm(0, -LIMIT, LIMIT), interpolation="nearest")
+    mesh = ax.imshow(off, aspect="auto", cmap=style.plt.get_cmap("PuOr_r", 11), norm=TwoSlopeNorm(0, -LIMIT, LIMIT), interpolation="none")
     if dots:
-        ax.scatter([x for _, x in dots], [y for y, _ in dots], s=5, color="black", linewidths=0)
+        ax.plot([x + side for _, x in dots for side in (-0.4, 0.4, math.nan)], [y for y, _ in dots for _ in range(3)],
+                color="black", linewidth=1.6, solid_capstyle="butt")
+        ax.set_xlim(-0.5, len(columns) - 0.5)
     ax.grid(False)
     ax.set_yticks(range(len(shards)), [str(number) for number, _ in shards], fontsize=7)
     if len(shards) > 20:

@@ -187,8 +187,9 @@ template <class L, class Held = L> class LayoutModel final : public AnyLayout {
     const L& same(const AnyLayout& other) const {
         const auto* model = dynamic_cast<const LayoutModel*>(&other);
         if (!model)
-            throw std::invalid_argument("tree_pairs wants two trees of the layout '" +
-                                        std::string(L::name) + "'");
+            throw std::invalid_argument("pairs of two trees: both must have one layout, and the "
+                                        "first has '" +
+                                        std::string(L::name) + "'; build the other in it, too");
         model->require(Query::tree_pairs);
         return model->layout();
     }
