@@ -135,9 +135,8 @@ class Picture {
             ".rival{{fill:#f0935a;stroke:#f0935a}}}}</style>\n"
             "<rect width=\"100%\" height=\"100%\" class=\"page\"/>\n"
             "<text x=\"{4:.0f}\" y=\"22\" font-weight=\"bold\">{2}</text>\n"
-            "<text x=\"{4:.0f}\" y=\"39\" font-size=\"12\">blue, joined: what to take, by {5} per "
-            "build; grey: ours; orange: the best peer; bars: 95 % intervals; down and left is "
-            "better</text>\n",
+            "<text x=\"{4:.0f}\" y=\"39\" font-size=\"12\">blue: what to take, by {5} per build; "
+            "grey: ours; orange: the best peer; lower left is better; bars: 95 %</text>\n",
             width, height, escaped(advice_.scene), advice_.ways.size(), left, advice_.query_word);
     }
 

@@ -69,14 +69,16 @@ std::string rule_text(const Advice& advice) {
 /// "From about 430,000 rays per build on Embree: x is faster than all of ours (...)."
 std::string losses_text(const Advice& advice) {
     std::string text;
-    for (const Loss& loss : advice.losses)
-        text += fmt::format(
-            "{} {} per build {} {} faster than all of ours ({}x the time once built).\n",
+    for (const Loss& loss : advice.losses) {
+        const std::string range =
             std::isnan(loss.to)
-                ? fmt::format("From about {}", about(loss.from))
-                : fmt::format("From about {} to {}", about(loss.from), about(loss.to)),
-            advice.query_word, std::isnan(loss.to) ? "on, " + loss.peers : loss.peers, "is",
-            ratio_text(loss.query_ratio));
+                ? fmt::format("From about {} {} per build on,", about(loss.from), advice.query_word)
+                : fmt::format("From about {} to {} {} per build", about(loss.from), about(loss.to),
+                              advice.query_word);
+        text +=
+            fmt::format("{} {} is faster than all of ours; once built, it takes {}x the time.\n",
+                        range, loss.peers, ratio_text(loss.query_ratio));
+    }
     return text;
 }
 

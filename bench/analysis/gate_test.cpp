@@ -10,18 +10,17 @@
 namespace boxwood::bench {
 namespace {
 
+using results::Phase;
 using results::Results;
 
 /// Eight cells of ours, the first with a twin that is 2 % off, and three peers; 9 rounds.
 Results recorded() {
     Maker maker(9);
     for (int i = 0; i < 8; ++i)
-        maker.time(maker.cell("ours" + std::to_string(i), false), results::Phase::query,
-                   steady(100 + i));
-    maker.time(0, results::Phase::query, steady(102), results::aa_twin);
+        maker.time(maker.cell("ours" + std::to_string(i), false), Phase::query, steady(100 + i));
+    maker.time(0, Phase::query, steady(102), results::aa_twin);
     for (int i = 0; i < 3; ++i)
-        maker.time(maker.cell("peer" + std::to_string(i), true), results::Phase::query,
-                   steady(300 + i));
+        maker.time(maker.cell("peer" + std::to_string(i), true), Phase::query, steady(300 + i));
     set_statuses(maker.results);
     return maker.results;
 }
@@ -81,8 +80,8 @@ TEST(InputMedians, LieInTheIntervalOfAComparison) {
     const auto ours = maker.cell("ours", false), peer = maker.cell("peer", true);
     for (results::Shard& shard : maker.results.shards)
         shard.input = shard.round % 5;
-    maker.time(ours, results::Phase::query, [](std::uint32_t) { return 100.; });
-    maker.time(peer, results::Phase::query,
+    maker.time(ours, Phase::query, [](std::uint32_t) { return 100.; });
+    maker.time(peer, Phase::query,
                [](std::uint32_t round) { return round % 5 == 3 ? 110. : 200.; });
     set_statuses(maker.results);
     const auto rows = comparisons_of(maker.results, Times(maker.results), default_delta);
