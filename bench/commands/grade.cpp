@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -35,7 +36,7 @@ std::string line_of(const std::string& name, const Grade& g) {
 }
 
 int grade_file(const std::string& file, const std::string& table, bool as_json) {
-    if (!table.empty() && fs::path(file).extension() == ".csv")
+    if (!table.empty() && std::filesystem::path(file).extension() == ".csv")
         throw BadInput(fmt::format("grade: --table is for HDF5 files, and {} is a CSV file", file));
     const NodeTable theirs = read_node_table(file, table.empty() ? "nodes" : table);
     if (const auto fault = fault_of(theirs)) {
