@@ -251,16 +251,17 @@ class Adviser {
         const double queries = advice_.wanted.value_or(advice_.n_queries);
         const Way& best = advice_.ways[advice_.best];
         std::vector<const Way*> others;
-        for (const Way& way : advice_.ways)
-            others.push_back(&way);
+        std::vector<std::size_t> place;
+        for (std::size_t i = 0; i < advice_.ways.size(); ++i)
+            if (i != advice_.best) {
+                others.push_back(&advice_.ways[i]);
+                place.push_back(i);
+                advice_.floor = std::max(advice_.floor, floor_of(best, advice_.ways[i]));
+            }
         const std::vector<results::Verdict> found = verdicts(best, others, queries);
-        for (std::size_t i = 0; i < found.size(); ++i) {
-            if (i == advice_.best)
-                continue;
-            advice_.floor = std::max(advice_.floor, floor_of(best, advice_.ways[i]));
+        for (std::size_t i = 0; i < found.size(); ++i)
             if (!is_distinct(found[i]))
-                advice_.as_good.push_back(i);
-        }
+                advice_.as_good.push_back(place[i]);
         std::ranges::sort(advice_.as_good, {},
                           [&](std::size_t way) { return total_ns(advice_.ways[way], queries); });
     }
@@ -282,24 +283,39 @@ class Adviser {
         find_losses();
     }
 
+    /// The fastest of the rivals that are faster than ours for sure, all judged together.
+    const Way* faster_rival(const Way& ours, double queries) const {
+        std::vector<const Way*> rivals;
+        for (const Way& rival : rivals_)
+            rivals.push_back(&rival);
+        const std::vector<results::Verdict> found = verdicts(ours, rivals, queries);
+        const Way* fastest = nullptr;
+        for (std::size_t i = 0; i < found.size(); ++i)
+            if (found[i] == results::Verdict::faster &&
+                (!fastest || total_ns(*rivals[i], queries) < total_ns(*fastest, queries)))
+                fastest = rivals[i];
+        return fastest;
+    }
+
     void find_losses() {
-        constexpr double step = 1.1, last = 1e10;
-        bool goes_on = false;
+        constexpr double step = 1.1, last = 1e10, gap = 1.5; // a shorter gap is none
         for (double queries = 1; queries < last; queries *= step) {
-            const Way &ours = advice_.ways[best_for(queries)], &rival = best_rival_for(queries);
-            const bool is_lost = total_ns(rival, queries) < total_ns(ours, queries) &&
-                                 verdicts(ours, {&rival}, queries)[0] == results::Verdict::faster;
-            if (is_lost && !goes_on)
-                advice_.losses.push_back({queries, unknown, rival.name, unknown});
-            if (is_lost) {
-                Loss& loss = advice_.losses.back();
-                if (!loss.peers.ends_with(rival.name))
-                    loss.peers += " or " + rival.name;
-                loss.query_ratio = rival.query_ns / ours.query_ns;
-            } else if (goes_on) {
-                advice_.losses.back().to = queries;
+            const Way& ours = advice_.ways[best_for(queries)];
+            const Way* const rival = faster_rival(ours, queries);
+            std::vector<Loss>& losses = advice_.losses;
+            if (!rival) {
+                if (!losses.empty() && std::isnan(losses.back().to))
+                    losses.back().to = queries;
+                continue;
             }
-            goes_on = is_lost;
+            if (losses.empty() ||
+                (!std::isnan(losses.back().to) && queries > gap * losses.back().to))
+                losses.push_back({queries, unknown, rival->name, unknown});
+            Loss& loss = losses.back();
+            loss.to = unknown;
+            if (loss.peers.find(rival->name) == std::string::npos)
+                loss.peers += " or " + rival->name;
+            loss.query_ratio = rival->query_ns / ours.query_ns;
         }
     }
 

@@ -232,6 +232,11 @@ TEST_F(Findings, KernelsThatAreAlwaysRightRaceThePeersThatAreSo) {
     EXPECT_EQ(calls[0].question, "triangle triangle, slivers 100");
     EXPECT_TRUE(calls[0].is_headline);
     EXPECT_FALSE(calls[0].is_loss);
+    // Where errors are what counts, none of these is right because it is never wrong.
+    run.results.conditions.push_back({ours, 1, 100, 1e3, 1e-3});
+    analyse(run.results);
+    for (const Finding& row : run.results.findings)
+        EXPECT_NE(row.topic, results::Topic::call);
 }
 
 TEST_F(Findings, AKernelThatErrsInALaterRoundIsNotExcusedByItsPromise) {

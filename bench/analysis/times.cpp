@@ -142,23 +142,23 @@ NoiseFloors::NoiseFloors(const Results& results, const Times& times) : times_(ti
     std::map<std::uint32_t, const results::Cell*> cells;
     for (const results::Cell& cell : results.cells)
         cells[cell.cell_id] = &cell;
-    std::map<Likeness, std::vector<double>> rounds_of_all;
+    std::map<Likeness, std::vector<double>> farthest; // ends of intervals
     for (const auto& [id, phases] : times_of(results, machines_of(results), true))
         for (const auto& [phase, twin] : phases) {
             const Rounds* const first = times.rounds(id, phase);
             if (!first || !cells.contains(id))
                 continue;
-            const std::vector<double> logs = log_ratios(*first, twin);
-            const PairedRatio ratio = paired_ratio(logs);
+            const PairedRatio ratio = paired_ratio(log_ratios(*first, twin));
             if (std::isnan(ratio.ci_lo))
                 continue;
             const Likeness alike = likeness(*cells.at(id), phase);
-            rounds_of_all[alike].insert(rounds_of_all[alike].end(), logs.begin(), logs.end());
+            farthest[alike].push_back(std::max(ratio.ci_hi - 1, 1 / ratio.ci_lo - 1));
             floors_[alike] = std::max({floors_[alike], ratio.ratio - 1, 1 / ratio.ratio - 1});
         }
     for (auto& [alike, floor] : floors_) {
-        const PairedRatio ratio = paired_ratio(rounds_of_all.at(alike));
-        floor = std::max({floor, ratio.ci_hi - 1, 1 / ratio.ci_lo - 1});
+        std::vector<double>& ends = farthest.at(alike);
+        std::ranges::sort(ends);
+        floor = std::max(floor, ends[ends.size() / 2]);
     }
 }
 

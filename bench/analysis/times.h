@@ -52,8 +52,9 @@ std::set<std::string> machines_of(const results::Results& results);
 
 /// The A/A noise floors, as relative differences, by what is alike in noise: one thread or several,
 /// below a millisecond or not, cold or not, and whether a structure is built or changed in it,
-/// which takes and touches memory, or only read. Each is the farthest of the medians of the phases
-/// that were timed twice, and of the ends of the interval of all their rounds.
+/// which takes and touches memory, or only read. Each is the farthest of the medians of the
+/// phases that were timed twice, and of the interval that is in the middle of theirs (of two the
+/// farther): three twins claim less of what is none than one does, and no less of what is.
 class NoiseFloors {
   public:
     /// Nothing from twins with fewer than 6 rounds.

@@ -282,9 +282,9 @@ int choose_policy(const ChooseOptions& options) {
 }
 
 /// What was measured before is measured again; but nobody else's file is lost.
-void require_own(const fs::path& out) {
+void require_own(const fs::path& out, bool is_drawn) {
     const fs::path picture = fs::path(out).replace_extension(".svg");
-    if (!fs::exists(out) && fs::exists(picture))
+    if (is_drawn && !fs::exists(out) && fs::exists(picture))
         throw BadInput(fmt::format("choose: the picture would go to '{}', which is there and not "
                                    "from here; name another file by --out, or remove it",
                                    picture.string()));
@@ -300,7 +300,7 @@ void require_own(const fs::path& out) {
 
 /// Before time is spent.
 void require_writable(const fs::path& file) {
-    const bool was_there = fs::exists(file);
+    const bool was_there = fs::exists(fs::symlink_status(file)); // a link that leads nowhere stays
     const bool is_open = std::ofstream(file, std::ios::app).is_open();
     if (!was_there)
         fs::remove(file);
@@ -344,7 +344,7 @@ int choose(ChooseOptions options) {
         throw BadInput(
             fmt::format("choose: --out '{}': there is no folder {}; make it: mkdir -p {}",
                         options.out.string(), folder.string(), folder.string()));
-    require_own(options.out);
+    require_own(options.out, !moves);
     require_writable(options.out);
     if (!moves)
         require_writable(fs::path(options.out).replace_extension(".svg"));

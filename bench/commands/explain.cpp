@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -59,9 +60,8 @@ template <class Explain> void print(const ExplainOptions& options, const Explain
         std::cout << "\npicture  none: there is nothing to draw\n";
         return;
     }
-    std::ifstream there(options.svg);
-    std::string start(4, ' ');
-    if (there.read(start.data(), 4) && start != "<svg")
+    if (std::filesystem::is_regular_file(options.svg) &&
+        std::filesystem::file_size(options.svg) > 0 && std::ifstream(options.svg).get() != '<')
         throw BadInput(fmt::format("explain: --svg '{}' is there and no picture; name another file",
                                    options.svg));
     std::ofstream out(options.svg);

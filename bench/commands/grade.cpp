@@ -69,7 +69,8 @@ int grade_file(const std::string& file, const std::string& table, bool as_json) 
         std::cout << line_of(name, g);
     const std::size_t step = epo_step(theirs.boxes().size());
     std::cout << fmt::format(
-        "\nSAH: nodes and items that a random line meets. EPO: item surface in nodes that the item "
+        "\nSAH: nodes and items that a random line through the box of all items meets, areas over "
+        "that of this box. EPO: item surface in nodes that the item "
         "is not below{}.\nThe last three: a mean query's visits to nodes + tests of boxes.\n",
         step > 1 ? fmt::format(" (one item in {})", step) : "");
     return 0;

@@ -122,8 +122,9 @@ NodeTable::Row row_of(std::span<const double> numbers, const std::string& place)
     std::int64_t whole[3];
     for (std::size_t i = 0; i < 3; ++i) {
         if (!(numbers[i] >= -1 && numbers[i] < 0x1p53 && numbers[i] == std::floor(numbers[i])))
-            throw BadInput(fmt::format("{}: {} is a whole number from 0 to 2^53, or -1; {} is none",
-                                       place, node_columns[i], numbers[i]));
+            throw BadInput(
+                fmt::format("{}: {} is a whole number from 0 to below 2^53, or -1; {} is none",
+                            place, node_columns[i], numbers[i]));
         whole[i] = static_cast<std::int64_t>(numbers[i]);
     }
     if ((whole[0] == -1) == (whole[2] == -1))

@@ -35,11 +35,13 @@ BodyShape body_shape_of(const py::object& given, const std::string& name) {
 
 void add_shapes(py::module_& to) {
     using py::arg;
-    py::class_<BodyShape>(to, "Shape", R"(What a body of a World is made of, in a frame of its own.
+    py::class_<BodyShape> made(to, "Shape",
+                               R"(What a body of a World is made of, in a frame of its own.
 
 Made by one of the functions below; any number of bodies may share one. The tree
-of a mesh is built when two bodies first need it.)")
-        .def_static(
+of a mesh is built when two bodies first need it.)");
+    refuse_copies(made);
+    made.def_static(
             "surface",
             [](const py::object& vertices, const py::object& faces) {
                 return BodyShape::surface(mesh_of(vertices, faces));

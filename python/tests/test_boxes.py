@@ -137,7 +137,8 @@ def test_denormals_are_kept_whatever_another_module_has_set():
 
 def test_names_are_listed_and_copies_refused():
     assert "binned_sah" in bw.builders() and "wide8" in bw.layouts() and all(bw.layouts().values())
-    for made in (bw.Bvh([]), bw.World(), bw.MeshBvh(np.zeros((0, 3)), np.zeros((0, 3), int))):
+    for made in (bw.Bvh([]), bw.World(), bw.MeshBvh(np.zeros((0, 3)), np.zeros((0, 3), int)),
+                 bw.Shape.sphere(1)):
         for twice in (copy.copy, copy.deepcopy, pickle.dumps):
             with pytest.raises(TypeError, match="is neither copied nor pickled: keep the arrays"):
                 twice(made)

@@ -40,7 +40,7 @@ summary { cursor: pointer; font-size: .88rem; color: var(--link); }
 @media print { body { max-width: none; margin: 0; } figure, tr { break-inside: avoid; }
                .scroll, details .scroll { max-height: none; overflow: visible; } }
 """
-MAX_ROWS = 80  # of a table: the rest is in the file
+MAX_ROWS = 60  # of a table: the rest is in the file
 
 
 def shown(value):

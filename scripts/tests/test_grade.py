@@ -65,7 +65,7 @@ def changed(at, column, value):
         (changed(2, "max_x", np.nan), "row 2 of nodes: coordinates must be numbers"),
         (changed(3, "min_x", 5), "row 3 of nodes: min 5 is above max 4"),
         (changed(0, "item", 3), "row 0 of nodes: a row is of a node, with item -1"),
-        (changed(0, "parent", -2), "row 0 of nodes: parent is a whole number from 0 to 2^53, or -1; -2 is none"),
+        (changed(0, "parent", -2), "row 0 of nodes: parent is a whole number from 0 to below 2^53, or -1; -2 is none"),
         ([], "table nodes has no rows"),
     ],
 )

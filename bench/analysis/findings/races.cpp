@@ -19,12 +19,17 @@ using results::Finding;
 using results::Phase;
 
 /// Our best against the best rival, for each job and class; of kernels those that were never wrong
-/// and never without an answer.
+/// and never without an answer, where that is what a task is judged by.
 class Races {
   public:
     Races(const Index& index, const MedianIndex& medians) : index_(index), medians_(medians) {
+        std::set<std::string>
+            by_error; // tasks: that none is wrong says nothing of how near all are
+        for (const results::KernelCost& cost : index.results().kernel_costs)
+            if (cost.by_error)
+                by_error.insert(cost.task);
         for (const results::KernelRow& row : index.results().kernels)
-            if (is_judged(row) && row.wrong + row.maybe == 0)
+            if (is_judged(row) && row.wrong + row.maybe == 0 && !by_error.contains(row.task))
                 always_right_.insert(row.cell_id);
         for (const Comparison& row : index.results().compare)
             compare_[{row.cell_a, row.cell_b, row.phase, row.contender_class}] = &row;

@@ -8,7 +8,7 @@ NAME = "condition"
 TITLE = "Error against condition number"
 HOW_TO_READ = (
     "Lower is better. Each line is the worst relative error of one kernel over all cases of one decade of the condition "
-    "number (extent over distance), up to 10^20, beyond what doubles tell apart; the table has all. An error of 1 leaves no digit, and what is above 20 is drawn at 20. Hollow marks on "
+    "number (extent over distance), up to 10^20, beyond what doubles tell apart; the CSV file of scripts/plot has more. An error of 1 leaves no digit, and what is above 20 is drawn at 20. Hollow marks on "
     "dashed lines are peers. Dots and dashes: the bound that a certified kernel itself gave there, which its error may "
     "not pass. Dotted: u times the condition and u times its square, u = 2^-53."
 )

@@ -16,8 +16,8 @@ NAME = "robustness"
 TITLE = "Robustness"
 HOW_TO_READ = (
     "Each row is a family of hard cases, each column a kernel, ours left of the line, peers right of it (no line: no "
-    "peers). The number is wrong answers per million, green none; for distances it is the worst relative error, none where "
-    "it is below half an ulp, green below 1e-9, and \"out\" counts answers beyond the bound that was given. The darker the worse. A number in brackets "
+    "peers). The number is wrong answers per million, green none; for distances it is the worst relative error (0: below half "
+    "an ulp, ?: it gives none), green below 1e-9, and \"out\" counts answers beyond the bound that was given. The darker the worse. A number in brackets "
     "counts what was left undecided per million. A dash: not supported."
 )
 COLUMNS = ("task", "cases", "kernel", "library", "n", "wrong", "maybe", "max_rel_err")
@@ -32,15 +32,17 @@ def entry(point, measured):
         error = point.error
         if point.row["bound_violations"]:
             return f"{int(point.row['bound_violations'])} out", 1.0
-        if not error > MIN_ERROR:
-            return "", None
+        if error != error:
+            return "?", None
+        if error <= MIN_ERROR:
+            return "0", None
         if error < 1e-9:
             return f"{error:.0e}", None
         return ("inf" if math.isinf(error) else f"{error:.0e}"), min(1.0, (math.log10(error) + 9) / 9)
     rate, undecided = float(point.row["wrong_per_million"]), float(point.row["maybe_per_million"])
-    text = "" if not rate else style.count_text(float(f"{rate:.2g}"))
+    text = "0" if not rate else style.count_text(float(f"{rate:.2g}"))
     if undecided:
-        text += f"{' ' if text else ''}({style.count_text(float(f'{undecided:.2g}'))})"
+        text += f" ({style.count_text(float(f'{undecided:.2g}'))})"
     return text, min(1.0, math.log10(max(rate, 1)) / 6) if rate else None
 
 

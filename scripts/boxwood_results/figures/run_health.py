@@ -12,7 +12,7 @@ from ..run import AA_TWIN, DISTURBED
 NAME = "run_health"
 TITLE = "Did the machine hold still"
 HOW_TO_READ = (
-    "Each square is one cell's query in one round, in the order it ran: white is its own median over "
+    "Each square is one cell's query in one round, in the order it ran: white is within 2 % of its own median over "
     "the rounds, orange slower, purple faster. A stripe down or across means that the machine "
     "drifted. A dash marks a sample that was disturbed (time stolen, or the process switched out); it is "
     "kept and counted."
@@ -53,7 +53,8 @@ def draw(run):
     ax = figure.add_axes((0.7 / total[0], 0.6 / total[1], width / total[0], height / total[1]))
     mesh = ax.imshow(off, aspect="auto", cmap=style.plt.get_cmap("PuOr_r", 11), norm=TwoSlopeNorm(0, -LIMIT, LIMIT), interpolation="none")
     if dots:
-        ax.plot([x + side for _, x in dots for side in (-0.4, 0.4, math.nan)], [y for y, _ in dots for _ in range(3)],
+        reach = max(0.4, len(columns) / 500)
+        ax.plot([x + side for _, x in dots for side in (-reach, reach, math.nan)], [y for y, _ in dots for _ in range(3)],
                 color="black", linewidth=1.6, solid_capstyle="butt")
         ax.set_xlim(-0.5, len(columns) - 0.5)
     ax.grid(False)
