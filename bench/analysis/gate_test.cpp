@@ -102,7 +102,7 @@ TEST(NoiseFloor, OfSeveralTwinsIsTheFarthestMedianOrTheMiddleInterval) {
         return *NoiseFloors(maker.results, Times(maker.results)).highest();
     };
     EXPECT_GT(floor_with("shaken", 101, 150), .4); // three rounds of nine are off
-    EXPECT_GT(floor_with("quiet", 101, 101), .4);   // of two the farther
+    EXPECT_GT(floor_with("quiet", 101, 101), .4);  // of two the farther
     EXPECT_NEAR(floor_with("as steady", 102, 102), .02, 1e-9);
     EXPECT_NEAR(floor_with("biased", 108, 108), .08, 1e-9); // no other one hides it
 }
