@@ -297,6 +297,7 @@ class Adviser {
         return fastest;
     }
 
+    /// From few queries per build to more than anybody makes.
     void find_losses() {
         constexpr double step = 1.1, last = 1e10, gap = 1.5; // a shorter gap is none
         for (double queries = 1; queries < last; queries *= step) {
@@ -310,11 +311,11 @@ class Adviser {
             }
             if (losses.empty() ||
                 (!std::isnan(losses.back().to) && queries > gap * losses.back().to))
-                losses.push_back({queries, unknown, rival->name, unknown});
+                losses.push_back({queries, unknown, {}, unknown});
             Loss& loss = losses.back();
             loss.to = unknown;
-            if (loss.peers.find(rival->name) == std::string::npos)
-                loss.peers += " or " + rival->name;
+            if (std::ranges::find(loss.peers, rival->name) == loss.peers.end())
+                loss.peers.push_back(rival->name);
             loss.query_ratio = rival->query_ns / ours.query_ns;
         }
     }

@@ -27,9 +27,9 @@ struct Step {
 
 /// Numbers of queries per build for which a peer takes less than all of ours, beyond noise.
 struct Loss {
-    double from = 0, to = unknown; ///< unknown: however many
-    std::string peers;             ///< which, "A or B"
-    double query_ratio = unknown;  ///< the time of its queries over that of ours that is best there
+    double from = 0, to = unknown;  ///< unknown: however many
+    std::vector<std::string> peers; ///< which, each once
+    double query_ratio = unknown; ///< the time of its queries over that of ours that is best there
 };
 
 /// Which way to take, by the number of queries per build.

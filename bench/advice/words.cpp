@@ -5,6 +5,7 @@
 #include "bench/io/text_table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -77,7 +78,7 @@ std::string losses_text(const Advice& advice) {
                               advice.query_word);
         text +=
             fmt::format("{} {} is faster than all of ours; once built, it takes {}x the time.\n",
-                        range, loss.peers, ratio_text(loss.query_ratio));
+                        range, fmt::join(loss.peers, " or "), ratio_text(loss.query_ratio));
     }
     return text;
 }
@@ -162,9 +163,9 @@ std::string advice_json(const Advice& advice) {
     std::string losses;
     for (const Loss& loss : advice.losses)
         losses +=
-            fmt::format(R"({}{{"from":{},"to":{},"peers":{},"query_ratio":{}}})",
+            fmt::format(R"({}{{"from":{},"to":{},"peers":[{}],"query_ratio":{}}})",
                         losses.empty() ? "" : ",", json_number(loss.from), json_number(loss.to),
-                        json_string(loss.peers), json_number(loss.query_ratio));
+                        fmt::join(json_strings(loss.peers), ","), json_number(loss.query_ratio));
     const Way& best = advice.ways[advice.best];
     return fmt::format(
         R"({{"task":{},"scene":{},"threads":{},"noise_floor":{},"queries_per_build":{},"best":{},)"

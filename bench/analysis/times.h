@@ -54,7 +54,7 @@ std::set<std::string> machines_of(const results::Results& results);
 /// below a millisecond or not, cold or not, and whether a structure is built or changed in it,
 /// which takes and touches memory, or only read. Each is the farthest of the medians of the
 /// phases that were timed twice, and of the interval that is in the middle of theirs (of two the
-/// farther): three twins claim less of what is none than one does, and no less of what is.
+/// farther).
 class NoiseFloors {
   public:
     /// Nothing from twins with fewer than 6 rounds.

@@ -70,13 +70,6 @@ std::string counts_verdict(const CountComparison& comparison, const CountOptions
     return fmt::format("CAN'T TELL: {}\n", fmt::join(parts, ", "));
 }
 
-std::vector<std::string> json_strings(const auto& texts) {
-    std::vector<std::string> strings;
-    for (const std::string& text : texts)
-        strings.push_back(json_string(text));
-    return strings;
-}
-
 } // namespace
 
 std::string counts_text(const results::Results& base, const results::Results& head,

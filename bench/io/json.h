@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace boxwood::bench {
 
@@ -24,6 +25,14 @@ inline std::string json_string(std::string_view text) {
             out += c;
     }
     return out += '"';
+}
+
+/// Each of these texts so.
+inline std::vector<std::string> json_strings(const auto& texts) {
+    std::vector<std::string> strings;
+    for (const std::string& text : texts)
+        strings.push_back(json_string(text));
+    return strings;
 }
 
 /// A number in shortest round-trip form; JSON has no NaN or infinity, they become null.

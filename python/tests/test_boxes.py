@@ -130,7 +130,7 @@ def test_denormals_are_kept_whatever_another_module_has_set():
             "boxes = np.array([[1e-40] * 3 + [2e-40] * 3, [2e-40] * 3 + [3e-40] * 3])\n"
             "print(bw.Bvh(boxes).nearest([[2e-40] * 3], k=2).items.tolist())")
     if platform.machine() != "x86_64":
-        pytest.skip("the control word is that of x86-64")
+        pytest.skip("it sets MXCSR, which is a register of x86-64")
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=ENVIRONMENT, check=True)
     assert done.stdout.strip() == "[[0, 1]]"
 

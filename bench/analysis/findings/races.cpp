@@ -23,8 +23,8 @@ using results::Phase;
 class Races {
   public:
     Races(const Index& index, const MedianIndex& medians) : index_(index), medians_(medians) {
-        std::set<std::string>
-            by_error; // tasks: that none is wrong says nothing of how near all are
+        // Of these tasks: that no answer is wrong says nothing of how near all are.
+        std::set<std::string> by_error;
         for (const results::KernelCost& cost : index.results().kernel_costs)
             if (cost.by_error)
                 by_error.insert(cost.task);
