@@ -30,7 +30,8 @@ class RayMeshIntersector:
     mesh: a trimesh.Trimesh. The tree is made when it is first asked, and again once the mesh has
     changed. Coordinates are held in float32, measured from the middle of the mesh; places of hits
     come from the triangles' own corners, in float64. A ray with a NaN, an infinity, no direction or
-    an origin of 2^126 or more meets nothing. Rays are of shape (n, 3), or (3,) for one; others raise ValueError.
+    an origin of 2^126 or more meets nothing. Rays are of shape (n, 3), or (3,) for one; others
+    raise ValueError.
     threads: how many a query may use.
     """
 
@@ -61,14 +62,15 @@ class RayMeshIntersector:
         if len(origins) != len(directions):
             raise ValueError(f"there are {len(origins)} ray_origins and {len(directions)} ray_directions")
         tree = self._tree()
+        origins = origins - self._middle
         length = _largest(directions)
-        good = (length > 0) & (length < np.inf) & (_largest(origins - self._middle) < FARTHEST)
+        good = (length > 0) & (length < np.inf) & (_largest(origins) < FARTHEST)
         rays = np.flatnonzero(good)
         if len(rays) < len(origins):
             origins, directions, length = origins[rays], directions[rays], length[rays]
         if len(rays) and not 1e-3 < length.min() <= length.max() < 1e3:
             directions = directions / length[:, None]  # for float32 to hold it, and t
-        return getattr(tree, how)(origins - self._middle, directions), rays, len(good)
+        return getattr(tree, how)(origins, directions), rays, len(good)
 
     def _places(self, triangle, u, v):
         corners = self.mesh.vertices[self.mesh.faces[triangle]].view(np.ndarray)

@@ -227,8 +227,9 @@ released); who calls update() is alone with it meanwhile.)");
              py::arg("layout") = "packed", py::arg("threads") = 1, R"(
 boxes: shape (n, 6), each row min x, y, z, max x, y, z; or a tuple
     (mins, maxs) of shape (n, 3) each.
-builder, layout: names of boxwood.builders() and boxwood.layouts(). The defaults are the fastest for pairs; many points and
-    regions gain from "binned_sah" with "wide8", which take longer to make.
+builder, layout: names of boxwood.builders() and boxwood.layouts(). The
+    defaults are the fastest for pairs; many points and regions gain from
+    "binned_sah" with "wide8", which take longer to make.
 threads: how many a query of many, or a build, may use.
 
 Raises ValueError for a wrong shape, for the first box with a NaN, an

@@ -212,9 +212,9 @@ def draw(one, root, folder):
 ROUNDS_OF_AN_INPUT = 3  # of which an interval has to hold the median
 
 
-def faults(file):
+def faults(file, run):
     """Why a measured file is not fit to be published, as lines of text."""
-    run, found = read(file), []
+    found = []
     if file.stat().st_size > MAX_BYTES:
         found.append(f"{file.stat().st_size:,} bytes; at most {MAX_BYTES:,}")
     if not run.source.is_sealed:
@@ -237,9 +237,8 @@ def faults(file):
     return [f"{file}: {fault}" for fault in found]
 
 
-def lacking_rounds(file):
+def lacking_rounds(file, run):
     """What is missing to a file that is to be published, as a list of at most one line: rounds of each input."""
-    run = read(file)
     inputs = tomllib.loads(sweep_text(run)).get("inputs", 1)
     if inputs == 1 or run.rounds >= ROUNDS_OF_AN_INPUT * inputs:
         return []
@@ -263,7 +262,7 @@ def problems(root):
         run = read(file)
         machines |= {(row["host"], row["cpu"]) for row in run.source["env"]}
         commits |= {row["git_commit"] for row in run.source["env"]}
-        found += faults(file)
+        found += faults(file, run)
         if scenes_of(run) != frozen:
             found.append(f"{file}: its scenes are not those of track {sweep}-{version}; scripts/published --freeze raises the version")
         for one in (one for one in ALL if one.sweep == sweep and one.picture):
