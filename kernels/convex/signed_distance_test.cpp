@@ -326,8 +326,9 @@ TEST(Within, SaysWhatTheBoundsSay) {
     int decided = 0, all = 0;
     for (const ShapeKind i : bounded)
         for (const ShapeKind j : bounded)
-            for (int k = 0; k < 150; ++k) {
-                const PosedShape a = shapes.posed(i, 1.2), b = shapes.posed(j, 1.2);
+            for (int k = 0; k < 200; ++k) {
+                const double apart = k < 50 ? 0.05 : 1.2; // the first lie deep in one another
+                const PosedShape a = shapes.posed(i, apart), b = shapes.posed(j, apart);
                 const SignedDistance d = measure(a, b);
                 for (const double t :
                      {0.0, 0.5, d.distance * 1.01, d.distance * 0.99, d.lo, d.hi, -0.1}) {

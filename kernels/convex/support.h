@@ -73,6 +73,21 @@ inline double reach(const Triangle& s) {
     return std::max({a, b, c}) + 0 * (a + b + c); // NaN of any of them
 }
 
+/// At most the radius of the greatest ball around the origin that a core holds; -inf: not known.
+inline double inner_radius(Point) { return 0; }
+inline double inner_radius(Rod) { return 0; }
+inline double inner_radius(const Box& s) { return std::min({s.half.x, s.half.y, s.half.z}); }
+inline double inner_radius(const Cylinder& s) { return std::min(s.radius, s.half_length); }
+inline double inner_radius(const Cone& s) {
+    const double slant = std::sqrt(4 * s.half_length * s.half_length + s.radius * s.radius);
+    return slant > 0 ? s.half_length * std::min(1.0, s.radius / slant * (1 - 8 * u)) : 0;
+}
+inline double inner_radius(const EllipsoidCore& s) {
+    return std::max(0.0, std::min({s.radii.x, s.radii.y, s.radii.z}) * (1 - 8 * u) - s.ball);
+}
+inline double inner_radius(const Hull&) { return -inf; }
+inline double inner_radius(const Triangle&) { return -inf; }
+
 } // namespace detail
 
 /// A point of the shape whose product with d is the greatest, up to 8u of |d| times what the shape
