@@ -55,6 +55,35 @@ TEST(Support, OfAnEllipsoidsCoreAndTheBallIsThatOfTheEllipsoid) {
     EXPECT_NEAR(detail::radius_of(Ellipsoid{{3, 3, 3}}), 3, 1e-14);
 }
 
+TEST(InnerRadius, IsOfABallInTheShape) {
+    RandomShapes shapes(3);
+    for (const ShapeKind kind : bounded)
+        for (int k = 0; k < 500; ++k) {
+            const Shape s = shapes.shape(kind, -10, 10);
+            const double inner = s.visit([]<class S>(const S& x) -> double {
+                if constexpr (BoundedShape<S>)
+                    return detail::inner_radius(detail::core(x)) + detail::radius_of(x);
+                else
+                    return 0;
+            });
+            Wide least = std::numeric_limits<Wide>::infinity();
+            for (int i = 0; i < 200; ++i) {
+                const Wide extent =
+                    farthest(PosedShape{s, {}}, normalized(wide(shapes.random.unit_vector())));
+                EXPECT_GE(extent, inner * (1 - 1e-15L)) << to_string(kind);
+                least = std::min(least, extent);
+            }
+            if (kind == ShapeKind::sphere) {
+                EXPECT_NEAR(inner, static_cast<double>(least), 1e-14 * inner);
+            }
+        }
+    // As large as it can be.
+    EXPECT_NEAR(detail::inner_radius(Cone{1, 2}), 2 / std::sqrt(17.0), 1e-14);
+    EXPECT_EQ(detail::inner_radius(Cone{1, 0}), 0);
+    EXPECT_EQ(detail::inner_radius(Box{{3, 1, 2}}), 1);
+    EXPECT_EQ(detail::inner_radius(Cylinder{2, 5}), 2);
+}
+
 TEST(Support, OfDirectionsAlongAxes) {
     const Cylinder cylinder{1, 2};
     const Cone cone{1, 2};
