@@ -46,6 +46,9 @@ template <bool any, Boxes boxes> class SingleRays final : public Contender {
         prepared_.clear();
         std::vector<Bounds> bounds;
         std::vector<Vector> centres;
+        bounds.reserve(triangles_.size());
+        centres.reserve(triangles_.size());
+        prepared_.reserve(triangles_.size());
         for (const auto& triangle : triangles_) {
             bounds.push_back(triangle.get_bbox());
             centres.push_back(triangle.get_center());

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from boxwood.results.words import interval_text
 
 PEERS, OURS, THREADS, STAGES, DEVICES = "peers", "ours", "threads", "stages", "devices"  # families of /compare
-RACE = "race"  # the topic of /findings that is about times against rivals
+RACE, CALL = "race", "call"  # topics of /findings about times against rivals: of trees and meshes, of kernels alone
 
 
 @dataclass(frozen=True)

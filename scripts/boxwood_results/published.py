@@ -234,16 +234,14 @@ def faults(file, run):
         found.append(f"ours is wrong: {cell_text(run.health['correctness'])}")
     if not sweep_text(run):
         found.append("it does not hold the sweep that made it")
+    sweep = tomllib.loads(sweep_text(run))
+    if run.rounds < sweep.get("rounds", 0):
+        found.append(f"{run.rounds} rounds; its sweep asks for {sweep['rounds']}")
+    inputs = sweep.get("inputs", 1)
+    if inputs > 1 and run.rounds < ROUNDS_OF_AN_INPUT * inputs:
+        found.append(f"{run.rounds} rounds for {inputs} inputs: its intervals cover inputs from {ROUNDS_OF_AN_INPUT} rounds of each, "
+                     f"--rounds {ROUNDS_OF_AN_INPUT * inputs}")
     return [f"{file}: {fault}" for fault in found]
-
-
-def lacking_rounds(file, run):
-    """What is missing to a file that is to be published, as a list of at most one line: rounds of each input."""
-    inputs = tomllib.loads(sweep_text(run)).get("inputs", 1)
-    if inputs == 1 or run.rounds >= ROUNDS_OF_AN_INPUT * inputs:
-        return []
-    return [f"{file}: {run.rounds} rounds for {inputs} inputs: its intervals cover inputs from {ROUNDS_OF_AN_INPUT} rounds of each, "
-            f"--rounds {ROUNDS_OF_AN_INPUT * inputs}"]
 
 
 def problems(root):

@@ -1,10 +1,9 @@
 """The tables of a published run: run -> [header, row, ...] of texts."""
 
-import re
 from dataclasses import dataclass, field
 
 from .figures import forest
-from .findings import PEERS
+from .findings import CALL, PEERS
 from .moving import played_scenes
 from .run import Where
 from .selection import wrong_counts
@@ -90,20 +89,21 @@ def questions(run, tasks):
 
 
 def kernel_questions(run, tasks):
-    """Of kernels alone, family by family: the fastest of ours against each variant of a library that is always right."""
-    of_job = {}
+    """Of kernels alone, family by family: ours that the file races, else our fastest that always answers rightly, against each
+    variant of a library that does."""
+    of_job, raced = {}, {row.ours.job: row.ours for row in run.findings if row.topic == CALL and row.ours}
     for point in run.kernels:
         if point.task in tasks and point.cell.job.where == ONE and point.supported:
             of_job.setdefault(point.cell.job, []).append(point)
     compared = {(row.a.cell_id, row.b.cell_id): row for row in run.family(PEERS, "query")}
-    return [question for job, points in of_job.items() for question in kernel_question(run, job, points, compared)]
+    return [question for job, points in of_job.items() for question in kernel_question(run, points, raced.get(job), compared)]
 
 
-def kernel_question(run, job, points, compared):
-    ours = sorted((point for point in points if point.ours and point.cell.status != "wrong"), key=lambda point: point.ns)
-    if not ours:
+def kernel_question(run, points, raced, compared):
+    right = sorted((point for point in points if point.ours and not point.wrong and not point.maybe), key=lambda point: point.ns)
+    if not right:
         return []
-    best, rows, unanswered = ours[0].cell, [], {}
+    best, rows, unanswered = raced or right[0].cell, [], {}
     for point in points:
         if point.ours:
             continue
@@ -115,21 +115,9 @@ def kernel_question(run, job, points, compared):
         elif row:
             rows.append(row)
     known = {row.a.library for row in rows}
-    title = run.tasks[job.task].title
-    return [Question(f"{title}, {family_text(job.scene)}", title, f"{job.n:,} calls", f"{best.label} {time_text(best.median('query'))}",
+    title = run.tasks[points[0].task].title
+    return [Question(f"{title}, {best.scene_title}", title, "all the calls", f"{best.label} {time_text(best.median('query'))}",
                      tuple(rows), {library: why for library, why in unanswered.items() if library not in known})]
-
-
-SHARE = re.compile(r"(\w+_and_\w+)_k(\d+)$")
-
-
-def family_text(scene):
-    """'box_and_cone_k100' in words: of pairs of shapes k is how many of a hundred overlap, half if it is not said."""
-    shapes = SHARE.match(scene)
-    if not shapes:
-        return scene.replace("_", " ")
-    share = {"0": "apart", "100": "overlapping"}.get(shapes[2], f"{shapes[2]} % of them overlap")
-    return f"{shapes[1].replace('_', ' ')}, {share}"
 
 
 def against_peers(*tasks):

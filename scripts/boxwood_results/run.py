@@ -91,6 +91,7 @@ class Cell:
     counters: dict = field(default_factory=dict)
     tree: object = None
     scene_json: str = ""  # parameters of the scene
+    scene_title: str = ""  # the scene for readers
     frames: list = field(default_factory=list)  # rows of /frame_medians
     frame_stats: object = None
     stages: dict = field(default_factory=dict)  # name -> row of /stage_costs, in the order of the plan
@@ -211,6 +212,7 @@ def read_cells(source, tasks):
             bool(variant["is_peer"]), int(variant["place"]), bool(variant["is_plain"]),
             bool(variant["answers_from_cache"]), bool(variant["keeps_structure"]), variant["stages"],
             label=variant["name"], scene_json=column(scene, "params_json", ""),
+            scene_title=column(scene, "human_name", "") or scene["name"].replace("_", " "),
         )
     ours = {}
     for cell in cells.values():

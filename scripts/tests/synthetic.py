@@ -27,7 +27,7 @@ COLUMNS = {
             ("gpu_clock_ghz", F8), ("gpu_driver", WORD), ("gpu_l2_bytes", U8)],
     "packages": [("env_id", U4), ("library", WORD), ("version", WORD), ("build", TEXT), ("present", U4)],
     "scenes": [("scene_id", U4), ("name", NAME), ("generator", WORD), ("n_items", U8), ("seed", U8),
-               ("n_frames", U8), ("content_hash", U8), ("params_json", TEXT)],
+               ("n_frames", U8), ("content_hash", U8), ("params_json", TEXT), ("human_name", NAME)],
     "tasks": [("task", WORD), ("title", NAME), ("total", WORD), ("total_title", NAME)],
     "variants": [("variant_id", U4), ("name", NAME), ("library", WORD), ("library_title", WORD), ("builder", WORD),
                  ("layout", WORD), ("traversal", WORD), ("kernel", WORD), ("is_peer", U4), ("is_reference", U4),

@@ -6,6 +6,7 @@ from urllib.parse import unquote
 
 import pytest
 import synthetic
+from synthetic import SCRIPTS
 
 from boxwood_results import run
 from boxwood_results.page import main_findings_html, trust_html
@@ -90,6 +91,13 @@ def test_its_text_is_text_and_its_colours_follow_the_reader(page):
     for name in used:
         if re.fullmatch("--c[0-9a-f]{6}", name):
             assert f"{name}:#{name[3:]}" in light and f"{name}:#" in dark, name
+
+
+@pytest.mark.parametrize("file", sorted((SCRIPTS.parent / "results" / "published").glob("*.h5")), ids=lambda file: file.stem)
+def test_of_a_published_file_it_stays_below_a_megabyte(file, script, tmp_path):
+    done = script("report", file, "--out", tmp_path / "report.html")
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "report.html").stat().st_size < 1_000_000
 
 
 def test_contents_lead_to_sections_and_none_is_empty(page):

@@ -1,7 +1,7 @@
 #include "bench/peers/answering.h"
 #include "bench/peers/bullet/bullet_volume.h"
 #include "bench/peers/point_peers.h"
-#include "bench/tasks/detail/point_classes.h"
+#include "bench/peers/query_order.h"
 
 #include <fmt/format.h>
 
@@ -29,7 +29,8 @@ enum class Tree : std::uint8_t {
 
 class CollideVolumes final : public Contender {
   public:
-    CollideVolumes(const Job& job, PointQuery query, Tree kind) : scene_(*job.scene), kind_(kind) {
+    CollideVolumes(const Job& job, PointQuery query, Tree kind, Asked asked)
+        : scene_(*job.scene), kind_(kind), order_(job, query, asked) {
         for (const Aabb<float>& box : scene_.boxes)
             items_.push_back(volume_of(box));
         for (const Aabb<float>& box : query_boxes(scene_, query))
@@ -46,50 +47,56 @@ class CollideVolumes final : public Contender {
     }
 
     void query(Answers& answers) override {
+        order_.find();
         std::vector<Pair>& pairs = list_of<Pair>(answers);
         pairs.clear();
         AppendItems append(scene_);
         append.out = &pairs;
-        for (const btDbvtVolume& volume : queries_) {
-            tree_->collideTVNoStackAlloc(tree_->m_root, volume, stack_, append);
-            ++append.query;
+        for (std::size_t place = 0; place < order_.size(); ++place) {
+            append.query = order_[place];
+            tree_->collideTVNoStackAlloc(tree_->m_root, queries_[append.query], stack_, append);
         }
     }
 
   private:
     const Scene& scene_;
     Tree kind_;
+    QueryOrder order_;
     std::vector<btDbvtVolume> items_, queries_;
     std::unique_ptr<btDbvt> tree_;
     btNodeStack stack_;
 };
 
-ContenderEntry collide_tv(Tree kind) {
+ContenderEntry collide_tv(Tree kind, Asked asked) {
     const bool is_inserted = kind == Tree::inserted;
     ContenderEntry e;
     e.name = "bullet.dbvt.collide_tv";
     if (is_inserted)
         e.name += ".inserted";
+    e.name += name_of(asked);
     e.library = "bullet";
     e.summary = "Bullet's btDbvt queried with one volume after another";
-    e.notes =
-        fmt::format("build = insert each box{}; query = collideTVNoStackAlloc with one stack for "
-                    "all and a virtual callback, in the order that is given; points are flat "
-                    "boxes; balls go by their boxes and are tested in doubles by the callback; one "
-                    "thread",
-                    is_inserted ? "" : " + optimizeTopDown(32)");
+    e.notes = fmt::format(
+        "build = insert each box{}; query = collideTVNoStackAlloc with one stack for "
+        "all and a virtual callback, {}; points are flat boxes; balls go by their boxes "
+        "and are tested in doubles by the callback; one thread",
+        is_inserted ? "" : " + optimizeTopDown(32)", words_for(asked));
     e.precision = "f32";
     e.runs_on = RunsOn::one_thread;
-    e.classes = point_class::of_single_calls();
-    e.answers = {answering<CollideVolumes>("points", PointQuery::containing, kind),
-                 answering<CollideVolumes>("regions", PointQuery::overlapping, kind)};
+    e.classes = classes_of(asked);
+    e.answers = {answering<CollideVolumes>("points", PointQuery::containing, kind, asked),
+                 answering<CollideVolumes>("regions", PointQuery::overlapping, kind, asked)};
     return e;
 }
 
 } // namespace
 
 std::vector<ContenderEntry> bullet_points() {
-    return {collide_tv(Tree::top_down), collide_tv(Tree::inserted)};
+    std::vector<ContenderEntry> all;
+    for (const Asked asked : {Asked::as_given, Asked::along_a_curve})
+        for (const Tree kind : {Tree::top_down, Tree::inserted})
+            all.push_back(collide_tv(kind, asked));
+    return all;
 }
 
 } // namespace boxwood::bench
