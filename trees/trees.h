@@ -80,6 +80,7 @@
 #include "trees/world/allowed_pairs.h"
 #include "trees/world/bodies/body_shape.h"
 #include "trees/world/bodies/ledger.h"
+#include "trees/world/bodies/robot_bodies.h"
 #include "trees/world/bodies/shape_pairs.h"
 #include "trees/world/bodies/world.h"
 #include "trees/world/box_mesh.h"

@@ -27,7 +27,7 @@ void analyse(results::Results& results, double delta) {
     results.compare = comparisons_of(results, times, delta);
     results.size_scaling = size_scaling_of(results, times);
     results.break_even = trade_offs_of(results, floors.highest().value_or(0));
-    set_tree_fronts(results);
+    set_tree_fronts(results, floors.highest().value_or(0));
     set_kernel_rows(results);
     results.kernel_costs = kernel_costs_of(results);
     results.kernel_conditions = kernel_conditions_of(results);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <tuple>
 
@@ -50,7 +49,7 @@ std::vector<results::BreakEven> trade_offs_of(const results::Results& results, d
     return all;
 }
 
-void set_tree_fronts(results::Results& results) {
+void set_tree_fronts(results::Results& results, double floor) {
     struct Point {
         double build, cost;
         results::TreeRow* tree;
@@ -71,11 +70,16 @@ void set_tree_fronts(results::Results& results) {
     }
     for (auto& [job, points] : jobs) {
         std::ranges::sort(points, {}, [](const Point& p) { return std::pair(p.build, p.cost); });
-        double best = std::numeric_limits<double>::infinity();
+        std::vector<const Point*> front;
         for (const Point& point : points) {
-            point.tree->on_front = point.cost < best;
-            best = std::min(best, point.cost);
+            if (!front.empty() && point.cost >= front.back()->cost)
+                continue;
+            while (!front.empty() && point.build <= front.back()->build * (1 + floor))
+                front.pop_back(); // as quick for all that is known, and a worse tree
+            front.push_back(&point);
         }
+        for (const Point* point : front)
+            point->tree->on_front = 1;
     }
 }
 

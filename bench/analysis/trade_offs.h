@@ -13,7 +13,8 @@ namespace boxwood::bench {
 std::vector<results::BreakEven> trade_offs_of(const results::Results& results, double floor);
 
 /// Sets TreeRow::on_front: of each job the right contenders that no other betters in both the time
-/// to build and the surface-area cost of the tree. Needs Cell::status and /medians.
-void set_tree_fronts(results::Results& results);
+/// to build and the surface-area cost of the tree; of two whose times differ by less than the noise
+/// floor the better tree. Needs Cell::status and /medians.
+void set_tree_fronts(results::Results& results, double floor);
 
 } // namespace boxwood::bench

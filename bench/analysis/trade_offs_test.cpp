@@ -87,6 +87,9 @@ TEST(TradeOffs, MarkBuildersThatNoneBettersInTimeAndCost) {
     analyse(run.results);
     for (std::size_t i = 0; i < expected.size(); ++i)
         EXPECT_EQ(run.results.trees[i].on_front, expected[i]) << i;
+    set_tree_fronts(run.results, 2.5); // 30 is within that of 10
+    EXPECT_EQ(run.results.trees[1].on_front, 0u);
+    EXPECT_EQ(run.results.trees[3].on_front, 1u);
 }
 
 } // namespace

@@ -135,6 +135,10 @@ std::string notes_text(const FileComparison& comparison) {
     if (!std::isnan(comparison.peers_ratio))
         text += fmt::format("peers' timings: {}, the middle one takes {} of its time in the base\n",
                             comparison.peers.size(), ratio_text(comparison.peers_ratio));
+    else
+        text +=
+            "no peer was timed in both files: a change of the machine cannot be told from one of "
+            "ours\n";
     if (comparison.floor)
         text +=
             fmt::format("A/A noise floor up to +-{:.1f} %: no difference below that of its class "

@@ -2,18 +2,22 @@
 
 #include "bench/commands/command.h"
 #include "bench/commands/devices.h"
+#include "bench/io/bad_input.h"
 #include "bench/io/json.h"
 #include "bench/io/text_table.h"
 #include "bench/machine/environment.h"
 #include "bench/tasks/contender.h"
 #include "bench/tasks/instruction_sets.h"
 #include "scenes/meshes/mesh_file.h"
+#include "trees/queries/sides.h"
 #include "trees/world/mesh_triage.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <iterator>
 #include <system_error>
@@ -235,14 +239,16 @@ std::string some(const std::vector<std::uint32_t>& triangles) {
 } // namespace
 
 std::string doctor_of_mesh(const std::string& file, bool json) {
-    const MeshTriage found = triage(load_mesh(file));
+    const TriangleMesh mesh = load_mesh(file);
+    const MeshTriage found = triage(mesh);
+    const bool may_be_solid = open_edges(mesh) == 0; // as --solid and contains see it
     if (json)
         return fmt::format(
             "{{\"triangles\":{},\"vertices\":{},\"without_area\":{},\"repeated\":{},\"open_edges\":"
             "{},"
             "\"non_manifold_edges\":{},\"turned_edges\":{},\"is_closed\":{},\"is_clean\":{}}}\n",
             found.triangles, found.vertices, found.without_area.size(), found.repeated.size(),
-            found.open_edges, found.non_manifold_edges, found.turned_edges, found.is_closed(),
+            found.open_edges, found.non_manifold_edges, found.turned_edges, may_be_solid,
             found.is_clean());
     std::string text =
         fmt::format("{}: {} triangles, {} vertices (those at one place counted once)\n", file,
@@ -252,25 +258,51 @@ std::string doctor_of_mesh(const std::string& file, bool json) {
     text += fmt::format("  open edges                   {}\n", found.open_edges);
     text += fmt::format("  edges of three and more      {}\n", found.non_manifold_edges);
     text += fmt::format("  edges wound both ways        {}\n", found.turned_edges);
-    text += found.is_closed()
-                ? "It is closed: it may be a solid (query collide --solid, contains).\n"
+    text += may_be_solid ? "It is closed: it may be a solid (query collide --solid, contains).\n"
+            : found.is_closed()
+                ? "It is closed but for its triangles without area or that are repeated: without "
+                  "those (--out FILE.obj) it may be a solid.\n"
                 : "It is not closed: it is a surface, and no solid.\n";
     return text;
+}
+
+void write_good_triangles(const std::string& file, const std::string& out) {
+    if (std::filesystem::exists(out))
+        throw BadInput(fmt::format("--out {}: is there already; name a new file", out));
+    const TriangleMesh mesh = load_mesh(file);
+    const TriangleMesh good = without_bad_triangles(mesh, triage(mesh));
+    std::ofstream text(out, std::ios::binary);
+    for (const Vec3<float>& v : good.vertices)
+        text << fmt::format("v {} {} {}\n", v.x, v.y, v.z);
+    for (const auto& [a, b, c] : good.triangles)
+        text << fmt::format("f {} {} {}\n", a + 1, b + 1, c + 1);
+    text.close();
+    if (!text)
+        throw BadInput(fmt::format("--out {}: cannot be written", out));
 }
 
 void add_doctor(CLI::App& app, int&) {
     auto json = std::make_shared<bool>(false);
     auto mesh = std::make_shared<std::string>();
+    auto out = std::make_shared<std::string>();
     CLI::App* command = app.add_subcommand(
         "doctor", "what on this machine will spoil timings, and which peers were found; or what is "
                   "wrong with a mesh");
-    command->add_option("MESH", *mesh,
-                        "a mesh file: its triangles and edges are looked at instead");
+    auto* of_mesh = command->add_option(
+        "MESH", *mesh, "a mesh file: its triangles and edges are looked at instead");
+    command
+        ->add_option(
+            "--out", *out,
+            "write the mesh without its bad triangles as an OBJ file, the others as they are")
+        ->needs(of_mesh);
     command->add_flag("--json", *json, "print one JSON object");
     command->footer("It changes nothing; each note and warning says what you could do.\n"
-                    "Examples:\n  boxwood doctor\n  boxwood doctor gripper.stl");
-    command->callback([json, mesh] {
+                    "Examples:\n  boxwood doctor\n  boxwood doctor gripper.stl\n"
+                    "  boxwood doctor gripper.stl --out good.obj");
+    command->callback([json, mesh, out] {
         std::cout << (mesh->empty() ? doctor(*json) : doctor_of_mesh(*mesh, *json));
+        if (!out->empty())
+            write_good_triangles(*mesh, *out);
     });
 }
 

@@ -29,4 +29,8 @@ std::string doctor(bool json);
 /// What `boxwood doctor MESH` prints. Throws as load_mesh.
 std::string doctor_of_mesh(const std::string& file, bool json);
 
+/// What its option --out does: an OBJ file of the mesh without its bad triangles. Throws BadInput
+/// for a file that is there already or cannot be written, and as load_mesh.
+void write_good_triangles(const std::string& file, const std::string& out);
+
 } // namespace boxwood::bench

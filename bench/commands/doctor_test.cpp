@@ -168,10 +168,16 @@ TEST(Doctor, LooksAtAMesh) {
     EXPECT_THAT(text, HasSubstr("6 triangles"));
     EXPECT_THAT(text, HasSubstr("without area       1 (the first: triangle 4)"));
     EXPECT_THAT(text, HasSubstr("repeated  1 (the first: triangle 5)"));
-    EXPECT_THAT(text, HasSubstr("It is closed"));
+    EXPECT_THAT(text, HasSubstr("It is closed but for"));
     const std::string json = doctor_of_mesh(file.string(), true);
     EXPECT_THAT(json, HasSubstr("\"open_edges\":0"));
     EXPECT_THAT(json, HasSubstr("\"is_clean\":false}"));
+    const auto good = std::filesystem::temp_directory_path() / "boxwood_doctor_good.obj";
+    std::filesystem::remove(good);
+    write_good_triangles(file.string(), good.string());
+    EXPECT_THAT(doctor_of_mesh(good.string(), false), HasSubstr("It is closed: it may be a solid"));
+    EXPECT_THROW(write_good_triangles(file.string(), good.string()), BadInput);
+    std::filesystem::remove(good);
     std::filesystem::remove(file);
     EXPECT_THROW(doctor_of_mesh(file.string(), false), std::runtime_error);
 }

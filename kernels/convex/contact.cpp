@@ -1,6 +1,9 @@
 #include "kernels/convex/contact.h"
 
-#include "kernels/convex/detail/relative_pose.h"
+#include "kernels/convex/detail/gjk.h"
+#include "kernels/convex/unit_flat.h"
+
+#include <algorithm>
 
 namespace boxwood::convex {
 namespace {
@@ -63,34 +66,31 @@ Polygon corners(const Box& box, BoxFace face, const RelativePose& box_in_other) 
     return polygon;
 }
 
-/// Of up to eight points the deepest, the farthest from it, and on both sides of those two the
-/// farthest from their line.
-void keep_four(const std::array<ContactPoint, 8>& all, Index size, V normal, Contacts& contacts) {
-    Index deepest = 0;
-    for (Index i = 1; i < size; ++i)
-        if (all[i].depth > all[deepest].depth)
-            deepest = i;
-    const auto best = [&](auto measure) {
-        Index at = size;
-        double most = 0;
-        for (Index i = 0; i < size; ++i)
-            if (const double m = measure(all[i].point); m > most)
-                most = m, at = i;
-        return at;
+/// Of the points that each(visit) visits the deepest, the farthest from it, and on both sides of
+/// those two the farthest from their line; the deepest first.
+template <class Each> void keep_four(const Each& each, V normal, Contacts& contacts) {
+    const auto keep_best = [&](double least, auto measure) {
+        ContactPoint best;
+        bool found = false;
+        each([&](const ContactPoint& p) {
+            if (const double m = measure(p); m > least)
+                least = m, best = p, found = true;
+        });
+        if (found)
+            contacts.points[static_cast<Index>(contacts.count++)] = best;
+        return found;
     };
-    const auto keep = [&](Index i) {
-        if (i < size)
-            contacts.points[static_cast<Index>(contacts.count++)] = all[i];
-    };
-    const V p = all[deepest].point;
-    const Index far = best([&](V q) { return length(q - p); });
-    keep(deepest);
-    keep(far);
-    if (far == size)
+    if (!keep_best(-inf, [](const ContactPoint& p) { return p.depth; }))
         return;
-    const V across = cross(normal, all[far].point - p);
-    keep(best([&](V q) { return dot(across, q - p); }));
-    keep(best([&](V q) { return -dot(across, q - p); }));
+    const V deepest = contacts.points[0].point;
+    if (!keep_best(0, [&](const ContactPoint& p) { return length(p.point - deepest); }))
+        return;
+    const V across = cross(normal, contacts.points[1].point - deepest);
+    for (const double side : {1.0, -1.0})
+        keep_best(0, [&](const ContactPoint& p) { return side * dot(across, p.point - deepest); });
+    std::stable_sort(
+        contacts.points.begin(), contacts.points.begin() + contacts.count,
+        [](const ContactPoint& p, const ContactPoint& q) { return p.depth > q.depth; });
 }
 
 /// Cuts b's face to a's, which is the more square to the normal.
@@ -110,8 +110,66 @@ void face_contacts(const Box& a, const Pose& pose_a, BoxFace face, const Box& b,
         p[face.axis] += face.side * depth / 2;
         all[size++] = {pose_a(p), depth};
     }
-    if (size > 0)
-        keep_four(all, size, contacts.distance.normal, contacts);
+    const auto each = [&](const auto& visit) {
+        for (Index i = 0; i < size; ++i)
+            visit(all[i]);
+    };
+    keep_four(each, contacts.distance.normal, contacts);
+}
+
+/// The corners of a shape, or points of its rims, on which it may rest: down is where that is, in
+/// its frame, of unit length. Of round shapes none.
+template <class S, class Visit> void each_foot(const S&, V, const Visit&) {}
+template <class Visit> void each_foot(const Box& s, V, const Visit& visit) {
+    for (const double x : {s.half.x, -s.half.x})
+        for (const double y : {s.half.y, -s.half.y})
+            for (const double z : {s.half.z, -s.half.z})
+                visit(V{x, y, z});
+}
+template <class Visit> void each_foot(const Hull& s, V, const Visit& visit) {
+    for (const V& p : s.points())
+        visit(p);
+}
+template <class Visit> void each_foot(const Triangle& s, V, const Visit& visit) {
+    visit(s.a), visit(s.b), visit(s.c);
+}
+template <class Visit> void each_foot(const Capsule& s, V down, const Visit& visit) {
+    for (const double z : {s.half_length, -s.half_length})
+        visit(V{0, 0, z} + down * s.radius);
+}
+template <class Visit> void each_on_rim(double radius, double z, V down, const Visit& visit) {
+    const V along = unit_or({down.x, down.y, 0}, {1, 0, 0});
+    const V across{-along.y, along.x, 0};
+    for (const V& way : {along, across, -along, -across})
+        visit(way * radius + V{0, 0, z});
+}
+template <class Visit> void each_foot(const Cylinder& s, V down, const Visit& visit) {
+    for (const double z : {s.half_length, -s.half_length})
+        each_on_rim(s.radius, z, down, visit);
+}
+template <class Visit> void each_foot(const Cone& s, V down, const Visit& visit) {
+    visit(V{0, 0, s.half_length});
+    each_on_rim(s.radius, -s.half_length, down, visit);
+}
+
+/// Where a shape lies on a half-space or plane, of whose two sides it is on the one that `up` says.
+template <class S, class Flat>
+void flat_contacts(const S& shape, const Pose& pose, const Flat& flat, const Pose& pose_flat, V up,
+                   double margin, Contacts& contacts) {
+    const auto [unit, offset] = unit_flat(flat);
+    const V turned = times(pose_flat.rotation, unit);
+    const double side = dot(turned, up) < 0 ? -1 : 1;
+    const V normal = turned * side;
+    const auto each = [&](const auto& visit) {
+        each_foot(shape, unit_or(transposed_times(pose.rotation, -normal), {0, 0, -1}),
+                  [&](V foot) {
+                      const V p = pose(foot);
+                      const double depth = side * offset - dot(normal, p - pose_flat.translation);
+                      if (depth >= -margin)
+                          visit(ContactPoint{p + normal * (depth / 2), depth});
+                  });
+    };
+    keep_four(each, normal, contacts);
 }
 
 } // namespace
@@ -132,6 +190,14 @@ Contacts contacts(const Shape& a, const Pose& pose_a, const Shape& b, const Pose
         else if (face_b.alignment >= parallel)
             face_contacts(*box_b, pose_b, face_b, *box_a, pose_a, face_a, margin, found);
     }
+    a.visit([&]<class A>(const A& shape_a) {
+        b.visit([&]<class B>(const B& shape_b) {
+            if constexpr (BoundedShape<A> && !BoundedShape<B>)
+                flat_contacts(shape_a, pose_a, shape_b, pose_b, -d.normal, margin, found);
+            else if constexpr (!BoundedShape<A> && BoundedShape<B>)
+                flat_contacts(shape_b, pose_b, shape_a, pose_a, d.normal, margin, found);
+        });
+    });
     if (found.count == 0) {
         found.points[0] = {(d.point_a + d.point_b) * 0.5, -d.distance};
         found.count = 1;

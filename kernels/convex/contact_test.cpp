@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 namespace boxwood::convex {
 namespace {
 
@@ -40,7 +43,7 @@ TEST(Contacts, AreAllInBothShapesAndTheDeepestIsFirst) {
         EXPECT_NEAR(c.points[0].depth, -c.distance.distance, 1e-6);
         for (int i = 0; i < c.count; ++i) {
             const ContactPoint& p = c.points[static_cast<std::size_t>(i)];
-            EXPECT_LE(p.depth, c.points[0].depth);
+            EXPECT_LE(p.depth, c.points[static_cast<std::size_t>(std::max(i - 1, 0))].depth);
             EXPECT_GE(p.depth, 0);
             const Sphere point{0};
             for (const PosedShape& s : {a, b})
@@ -49,6 +52,67 @@ TEST(Contacts, AreAllInBothShapesAndTheDeepestIsFirst) {
         }
     }
     EXPECT_GT(many, 100);
+}
+
+TEST(Contacts, OfWhatLiesOnAFlatAreItsCorners) {
+    const HalfSpace floor{{0, 0, 2}, 0}; // z <= 0
+    const auto count = [&](const Shape& s, double z) {
+        const Contacts c = contacts(s, at(5, 6, z), floor, Pose{});
+        for (int i = 0; i < c.count; ++i) {
+            const ContactPoint& p = c.points[static_cast<std::size_t>(i)];
+            EXPECT_NEAR(p.depth, .125, 1e-14) << to_string(s.kind());
+            EXPECT_NEAR(p.point.z, -.0625, 1e-14);
+        }
+        return c.count;
+    };
+    EXPECT_EQ(count(Box{{1, 2, 1}}, .875), 4);
+    EXPECT_EQ(count(Cylinder{1, 1}, .875), 4);
+    EXPECT_EQ(count(Cone{1, 1}, .875), 4);
+    EXPECT_EQ(count(Capsule{1, 1}, 1.875), 1); // it stands
+    EXPECT_EQ(count(Sphere{1}, .875), 1);
+    const std::vector<Vec3<double>> corners{{0, 0, -1}, {1, 0, -1},   {0, 1, -1},
+                                            {1, 1, -1}, {.5, .5, -1}, {0, 0, 3}};
+    EXPECT_EQ(count(Hull(corners), .875), 4);
+    EXPECT_EQ(contacts(Box{{1, 2, 1}}, at(0, 0, 1.5), floor, Pose{}).count, 0);
+    EXPECT_EQ(contacts(Box{{1, 2, 1}}, at(0, 0, 1.5), floor, Pose{}, .5).count, 4);
+}
+
+TEST(Contacts, OnAFlatAreOfTheShapeDeepestFirstAndTheSameFromBothSides) {
+    RandomShapes shapes(4);
+    int many = 0;
+    for (const ShapeKind kind : {ShapeKind::box, ShapeKind::hull, ShapeKind::capsule,
+                                 ShapeKind::cylinder, ShapeKind::cone, ShapeKind::triangle})
+        for (int k = 0; k < 1000; ++k) {
+            const PosedShape s = shapes.posed(kind, 1);
+            const PosedShape flat =
+                shapes.posed(k % 2 ? ShapeKind::plane : ShapeKind::half_space, .5);
+            const Contacts c = contacts(s.shape, s.pose, flat.shape, flat.pose),
+                           back = contacts(flat.shape, flat.pose, s.shape, s.pose);
+            ASSERT_EQ(c.count, back.count);
+            if (c.count == 0)
+                continue;
+            many += c.count > 1;
+            EXPECT_NEAR(c.points[0].depth, -c.distance.distance, 1e-9) << to_string(kind);
+            for (int i = 0; i < c.count; ++i) {
+                const ContactPoint &p = c.points[static_cast<std::size_t>(i)],
+                                   &q = back.points[static_cast<std::size_t>(i)];
+                EXPECT_EQ(p.depth, q.depth);
+                EXPECT_LE(p.depth, c.points[static_cast<std::size_t>(std::max(i - 1, 0))].depth);
+                EXPECT_GE(p.depth, 0);
+                // Half its depth above, it is on the shape; half its depth below, on the flat.
+                const Vec3<double> on_shape = p.point + c.distance.normal * (p.depth / 2),
+                                   on_flat = p.point - c.distance.normal * (p.depth / 2);
+                const Sphere point{0};
+                EXPECT_LE(
+                    std::abs(signed_distance(point, {{}, on_shape}, s.shape, s.pose).distance),
+                    1e-9)
+                    << to_string(kind);
+                EXPECT_LE(
+                    std::abs(signed_distance(point, {{}, on_flat}, flat.shape, flat.pose).distance),
+                    1e-9);
+            }
+        }
+    EXPECT_GT(many, 1000);
 }
 
 TEST(Contacts, OfOtherShapesAreOnePoint) {

@@ -9,7 +9,7 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import picture, published_tables, python_times, recomputed, registry
+from . import dropin_times, picture, published_tables, python_times, recomputed, registry
 from .picture import cell_text
 from .published_tables import against_ourselves, against_peers, kernels_of, markdown
 from .run import read
@@ -177,9 +177,24 @@ def python_block(root, up):
             f"`{PYTHON_COMMAND} --rounds {len(times.rows[0].ours)}`.*\n")
 
 
+DROPIN = Path("results") / "published" / "dropin.json"
+DROPIN_COMMAND = f"scripts/dropin_bench --out {DROPIN}"
+
+
+def dropin_block(root, up):
+    """What a program gains that has FCL's or Coal's manager: of scripts/dropin_bench, which no sweep holds."""
+    if not (root / DROPIN).exists():
+        return f"*FclBroadPhase: not published yet. `{DROPIN_COMMAND}` measures it.*\n"
+    times = dropin_times.read(root / DROPIN)
+    env = times.env
+    return (f"{markdown(dropin_times.table(times))}\n\n*{env['created_utc'][:10]}, {times.rounds} rounds, {env['cpu']}, {env['ncpu']} cores, "
+            f"commit {env['git_commit'][:8]}; [`{DROPIN.name}`]({up}{DROPIN}). Again: `{DROPIN_COMMAND} --rounds {times.rounds}`.*\n")
+
+
 BLOCKS = {  # marker -> (root, up) -> text
     "summary": summary_block,
     "python": python_block,
+    "dropin": dropin_block,
     **{one.name: lambda root, up, one=one: table_block(one, root, up) for one in ALL},
     **{f"{one.name}_picture": lambda root, up, one=one: picture_block(one, root, up) for one in ALL if one.picture},
 }
@@ -269,13 +284,15 @@ def problems(root):
                 found.append(f"{shown}: not drawn from {file}")
     if (root / PYTHON).exists():
         times = python_times.read(root / PYTHON)
-        env = times.env
         if len(times.rows) < 14 or any(len(row.ours) < PYTHON_ROUNDS for row in times.rows):
             found.append(f"{root / PYTHON}: it lacks questions or rounds (7 questions of two sizes, {PYTHON_ROUNDS} rounds)")
-        machines.add((env["host"], env["cpu"]))
-        commits.add(env["git_commit"])
-        if env["git_dirty"]:
-            found.append(f"{root / PYTHON}: measured with changes that are in no commit")
+    for file, reader in ((PYTHON, python_times.read), (DROPIN, dropin_times.read)):
+        if (root / file).exists():
+            env = reader(root / file).env
+            machines.add((env["host"], env["cpu"]))
+            commits.add(env["git_commit"])
+            if env["git_dirty"]:
+                found.append(f"{root / file}: measured with changes that are in no commit")
     for what, values in (("machine", machines), ("commit", commits)):
         if len(values) > 1:
             found.append(f"results/published: files of more than one {what}: {', '.join(map(str, sorted(values)))}")

@@ -70,21 +70,18 @@ def asked_of(text, group, measured, rows, wrong=()):
 
 
 def questions(run, tasks):
-    found = [block for block in forest.blocks(run) if block.job.task in tasks and block.job.where in (ONE, TWO)]
+    found = [block for block in forest.races(run) if block.job.task in tasks and block.job.where in (ONE, TWO)]
     classes = {row["cell_id"]: row["class"] for row in run.source["cells"]}
-    cold_builds, races = cold(run), forest.races(run)
-    asked = []
-    for block in found:
+    cold_builds, asked = cold(run), []
+    for block in sorted(found, key=lambda block: (block.job.task, block.job.where, block.job.scene, block.job.n)):
         task, finding = run.tasks[block.job.task], block.finding
         group = ", ".join(filter(None, (task.title, block.contender_class, "" if block.job.where == ONE else "2 threads")))
         wrong = [cell for cell in run.cells if cell.job == block.job and cell.is_peer and cell.status == "wrong"
                  and classes[cell.cell_id] == block.contender_class]
         asked += asked_of(finding.question, group, task.total_title, block.together.values(), wrong)
         asked += asked_of(finding.question, group, "query alone", block.alone.values(), wrong)
-        for race in races:
-            if race.kind == block.kind and race.job.n >= block.job.n:
-                asked += asked_of(race.finding.question, group, "first build and query, fresh process",
-                                  cold_builds.get((race.job, race.contender_class), ()))
+        asked += asked_of(finding.question, group, "first build and query, fresh process",
+                          cold_builds.get((block.job, block.contender_class), ()))
     return asked + kernel_questions(run, tasks)
 
 
@@ -138,7 +135,7 @@ def against_peers(*tasks):
     return table
 
 
-SUMMARY = ["against the fastest peer", "measured", "questions", "won, lost, same", "open: above 1, around it, below", "least", "middle", "most"]
+SUMMARY = ["against the fastest peer", "measured", "questions", "won, lost, same", "open: above 1, around it, below", "least", "middle", "most", "libraries"]
 VERDICTS = ("faster", "slower", "same")
 
 
@@ -147,17 +144,19 @@ def summary(run, tasks):
     groups = {}
     for question in questions(run, tasks):
         if question.rows:
-            groups.setdefault((question.group, question.measured), []).append(question.closest)
+            groups.setdefault((question.group, question.measured), []).append(question)
     lines = []
-    for (group, measured), rows in groups.items():
+    for (group, measured), asked in groups.items():
+        rows = [question.closest for question in asked]
         ordered = sorted(rows, key=lambda row: row.gain.mid)
+        peers = sorted([row.a for question in asked for row in question.known.values()], key=lambda cell: cell.place)
         counts = [len([row for row in rows if row.verdict == verdict]) for verdict in VERDICTS]
         unsure = [row for row in rows if row.verdict not in VERDICTS]
         above, below = [row for row in unsure if row.gain.lo > 1], [row for row in unsure if row.gain.hi < 1]
         leaning = [len(above), len([row for row in unsure if row not in above and row not in below]), len(below)]
         middle = marked_ratio(ordered[(len(ordered) - 1) // 2]) if len(ordered) > 2 else ""
         lines.append([group, measured, str(len(rows)), ", ".join(map(str, counts)), ", ".join(map(str, leaning)),
-                      marked_ratio(ordered[0]), middle, marked_ratio(ordered[-1])])
+                      marked_ratio(ordered[0]), middle, marked_ratio(ordered[-1]), ", ".join(dict.fromkeys(cell.library_title for cell in peers))])
     return lines
 
 
@@ -180,7 +179,7 @@ def behind(run, tasks):
     texts = []
     for library, known in sorted(variants.items(), key=lambda item: min(cell.place for cell in item[1].values())):
         title, package = next(iter(known.values())).library_title, packages.get(library)
-        built = f" {package['version']} ({package['build'].split('; what is compiled here')[0]})" if package is not None else ""
+        built = f" {package['version']} ({package['build']})" if package is not None else ""
         texts.append(f"{title}{built} by {', '.join(known)}")
     return f"Behind the ratios: {'; '.join(texts)}. Ours for {run.source['env'][0]['isa_used']}." if texts else ""
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from math import comb
 from pathlib import Path
 
+from .checkout import ENV
 from boxwood.results.reader import BadFile
 from boxwood.results.words import interval_text, ratio_text, time_text
 
@@ -48,9 +49,6 @@ def median_interval(values):
     while 2 * sum(comb(n, k) for k in range(cut + 2)) <= 0.05 * 2**n:
         cut += 1
     return statistics.median(ordered), ordered[cut], ordered[n - 1 - cut]
-
-
-ENV = ("host", "cpu", "ncpu", "git_commit", "git_dirty", "created_utc", "versions")
 
 
 @dataclass(frozen=True)

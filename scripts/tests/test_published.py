@@ -11,7 +11,7 @@ import pytest
 import synthetic
 from synthetic import CASES, SCRIPTS
 
-from boxwood_results import published, published_tables, python_times, recomputed
+from boxwood_results import dropin_times, published, published_tables, python_times, recomputed
 from boxwood_results.findings import CALL
 from boxwood_results.run import Job
 from boxwood_results.selection import fullest
@@ -123,6 +123,26 @@ def test_what_python_takes_is_shown_with_its_intervals(root):
         (root / published.PYTHON).write_text(text)
         with pytest.raises(published.BadFile, match="no file of scripts/python_bench"):
             published.problems(root)
+
+
+def test_what_the_drop_in_gains_is_shown_by_its_fastest_rival(root):
+    def manager(name, ratio, wrong=0):
+        return {"manager": name, "shapes": False, "total_ns": 1e6 * ratio, "wrong": wrong,
+                "over_first": {"mid": ratio, "lo": 0.9 * ratio, "hi": 1.1 * ratio}}
+
+    runs = [dropin_times.Run(1000, 0.01, 50, [manager("boxwood.fcl_manager", 1), manager("fcl.slow", 9), manager("fcl.fast", 4),
+                                              manager("fcl.liar", 2, wrong=1), manager("coal.array", 1.05)])]
+    env = {"host": "h", "cpu": "a CPU", "ncpu": 2, "git_commit": "abcdef012345", "git_dirty": 0, "created_utc": "2026-11-26T10:00:00",
+           "versions": {}}
+    dropin_times.DropinTimes(15, runs, env).write(root / published.DROPIN)
+    published.write(root)
+    text = (root / "README.md").read_text()
+    assert "| 1,000 | 1 % | 1.00 ms for 50 frames | 4.00x (3.60 to 4.40) fcl.fast | 1.05x (0.945 to 1.16) ? coal.array |" in text
+    assert "15 rounds, a CPU, 2 cores, commit abcdef01" in text and published.problems(root) == []
+    runs[0].managers[0]["wrong"] = 1
+    dropin_times.DropinTimes(15, runs, env).write(root / published.DROPIN)
+    with pytest.raises(published.BadFile, match="ours is wrong"):
+        published.problems(root)
 
 
 @pytest.mark.parametrize("n, cut", [(1, 0), (5, 0), (6, 0), (8, 0), (9, 1), (11, 1), (12, 2), (30, 9)])

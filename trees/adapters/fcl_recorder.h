@@ -280,8 +280,8 @@ template <class S> class FclRecorder final : public fcl::BroadPhaseCollisionMana
                 found->second.is_registered = false;
     }
     /// Writes the object down if it is new or changed; one of another geometry at an address is
-    /// another object. False of a query of a registered one that has changed: the manager may look
-    /// at what it was.
+    /// another object, which takes the place of a registered one. False of a query of a registered
+    /// one that has changed: the manager may look at what it was.
     bool follow(const Object& object, recording::Call call) const {
         const Geometry* const geometry = object.collisionGeometry().get();
         std::array<double, 18> state;
@@ -295,9 +295,17 @@ template <class S> class FclRecorder final : public fcl::BroadPhaseCollisionMana
                 state[6 + 3 * at + static_cast<std::size_t>(column)] = pose.linear()(axis, column);
             state[15 + at] = pose.translation()[axis];
         }
+        const bool is_reported = call == recording::Call::add ||
+                                 call == recording::Call::update_all ||
+                                 call == recording::Call::update_some;
         const auto [found, is_new] = known_.try_emplace(&object);
         Known& known = found->second;
         const bool is_other = is_new || known.geometry != geometry;
+        const bool takes_place = is_other && known.is_registered;
+        if (takes_place && !is_reported)
+            return false;
+        if (takes_place)
+            add_call(recording::Call::remove, known.number);
         if (is_other) {
             known = {};
             known.number = n_objects_++;
@@ -307,9 +315,6 @@ template <class S> class FclRecorder final : public fcl::BroadPhaseCollisionMana
         known.is_registered |= call == recording::Call::add;
         if (!is_other && known.state == state)
             return true;
-        const bool is_reported = call == recording::Call::add ||
-                                 call == recording::Call::update_all ||
-                                 call == recording::Call::update_some;
         if (known.is_registered && !is_reported)
             return false;
         known.state = state;
@@ -318,22 +323,37 @@ template <class S> class FclRecorder final : public fcl::BroadPhaseCollisionMana
         std::ranges::copy(state, row.begin() + 1);
         tables_->states.add(row);
         ++n_states_;
+        if (takes_place) {
+            known.is_registered = true;
+            add_call(recording::Call::add, known.number);
+        }
         return true;
+    }
+    /// One that the program did not make by itself: of one object, with the states so far.
+    void add_call(recording::Call call, std::uint32_t object) const {
+        tables_->call_objects.add({static_cast<double>(object)});
+        tables_->calls.add({static_cast<double>(call), 1., n_states_, 0., 0., 0.,
+                            std::numeric_limits<double>::infinity(), 0.});
+        n_states_ = 0;
     }
     std::uint32_t number_of_geometry(const Object& object) const {
         const auto& geometry = object.collisionGeometry();
-        const auto [found, is_new] = number_of_geometry_.try_emplace(
-            geometry.get(), static_cast<std::uint32_t>(kept_.size()));
+        const auto [found, is_new] = number_of_geometry_.try_emplace(geometry.get(), 0u);
         if (!is_new)
             return found->second;
         kept_.push_back(geometry);
         const detail::RecordedGeometry of =
             geometry ? detail::recorded(*geometry) : detail::RecordedGeometry();
+        const std::uint64_t hash = of.hash();
+        const auto [same, is_first] = number_of_content_.try_emplace(
+            hash, static_cast<std::uint32_t>(number_of_content_.size()));
+        found->second = same->second;
+        if (!is_first)
+            return found->second;
         for (const auto& vertex : of.vertices)
             tables_->vertices.add(vertex);
         for (const auto& triangle : of.triangles)
             tables_->triangles.add(triangle);
-        const std::uint64_t hash = of.hash();
         tables_->geometries.add(
             {static_cast<double>(of.shape), of.numbers[0], of.numbers[1], of.numbers[2],
              of.numbers[3], static_cast<double>(of.vertices.size()),
@@ -347,6 +367,7 @@ template <class S> class FclRecorder final : public fcl::BroadPhaseCollisionMana
     mutable std::unique_ptr<Tables> tables_;
     mutable std::unordered_map<const Object*, Known> known_;
     mutable std::unordered_map<const Geometry*, std::uint32_t> number_of_geometry_;
+    mutable std::unordered_map<std::uint64_t, std::uint32_t> number_of_content_; ///< by hash
     mutable std::vector<std::shared_ptr<const Geometry>>
         kept_; ///< so that no other takes its place
     mutable std::uint32_t n_objects_ = 0;

@@ -1,5 +1,6 @@
 #include "trees/world/mesh_triage.h"
 
+#include "kernels/predicates/exact.h"
 #include "trees/detail/places.h"
 
 #include <algorithm>
@@ -10,11 +11,13 @@ namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
 
-/// Exactly: differences and products of floats lose nothing in doubles, but for those of exponents
-/// far apart, which then are no nearer to zero; and a difference is 0 for equal numbers alone.
+/// Exactly: whether it turns in one of the coordinate planes.
 bool has_area(const Triangle<float>& t) {
-    const Vec3<double> a(t.a), e = Vec3<double>(t.b) - a, f = Vec3<double>(t.c) - a;
-    return e.y * f.z != e.z * f.y || e.z * f.x != e.x * f.z || e.x * f.y != e.y * f.x;
+    const Vec3<double> a(t.a), b(t.b), c(t.c);
+    const auto turns = [&](int i, int j) {
+        return Exact::orient2d({a[i], a[j]}, {b[i], b[j]}, {c[i], c[j]}) != 0;
+    };
+    return turns(0, 1) || turns(1, 2) || turns(2, 0);
 }
 
 /// An edge between two places, and whether its triangle goes through it from the lower number.

@@ -55,6 +55,12 @@ TEST(MeshTriage, AreaIsExact) {
     }
 }
 
+TEST(MeshTriage, AreaIsExactWhereDoublesRoundProducts) {
+    const float hair = 0x1p-30f; // its cross product is -2^-60 + 1 - 1
+    const TriangleMesh mesh{{{-1, -1, 0}, {hair, 0, 0}, {0, -hair, 0}}, {{0, 1, 2}}};
+    EXPECT_EQ(triage(mesh).without_area.size(), 0u);
+}
+
 TEST(MeshTriage, CountsEdgesByPlace) {
     TriangleMesh open = cube_mesh(1);
     open.triangles.pop_back();

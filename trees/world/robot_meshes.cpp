@@ -14,19 +14,6 @@
 namespace boxwood {
 namespace {
 
-/// The solids that links may be.
-struct ShapeOfLink {
-    convex::Shape operator()(const LinkMesh&) const { return {}; }
-    convex::Shape operator()(const LinkBox& b) const { return convex::Box{0.5 * b.sides}; }
-    convex::Shape operator()(const LinkSphere& s) const { return convex::Sphere{s.radius}; }
-    convex::Shape operator()(const LinkCylinder& c) const {
-        return convex::Cylinder{c.radius, c.length / 2};
-    }
-    convex::Shape operator()(const LinkCapsule& c) const {
-        return convex::Capsule{c.radius, c.length / 2};
-    }
-};
-
 /// Of what is found beyond the limit no more is said than that.
 LinkDistance before(double limit, double distance, double lo, double hi) {
     if (!(lo < limit))
@@ -36,6 +23,25 @@ LinkDistance before(double limit, double distance, double lo, double hi) {
 
 } // namespace
 
+std::optional<convex::Shape> solid_of(const LinkShape& shape) {
+    struct Solid {
+        std::optional<convex::Shape> operator()(const LinkMesh&) const { return std::nullopt; }
+        std::optional<convex::Shape> operator()(const LinkBox& b) const {
+            return convex::Box{0.5 * b.sides};
+        }
+        std::optional<convex::Shape> operator()(const LinkSphere& s) const {
+            return convex::Sphere{s.radius};
+        }
+        std::optional<convex::Shape> operator()(const LinkCylinder& c) const {
+            return convex::Cylinder{c.radius, c.length / 2};
+        }
+        std::optional<convex::Shape> operator()(const LinkCapsule& c) const {
+            return convex::Capsule{c.radius, c.length / 2};
+        }
+    };
+    return std::visit(Solid{}, shape);
+}
+
 RobotMeshes::RobotMeshes(const Robot& robot, std::span<const TriangleMesh> meshes)
     : parts_(robot.links().size()) {
     std::map<std::tuple<std::uint32_t, double, double, double>, std::shared_ptr<const MeshTree>>
@@ -43,7 +49,7 @@ RobotMeshes::RobotMeshes(const Robot& robot, std::span<const TriangleMesh> meshe
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         const LinkDescription& link = robot.links()[i];
         for (const LinkGeometry& geometry : link.geometries) {
-            Part part{nullptr, std::visit(ShapeOfLink{}, geometry.shape), geometry.origin,
+            Part part{nullptr, solid_of(geometry.shape).value_or(convex::Shape{}), geometry.origin,
                       geometry.origin != Pose{}};
             if (const auto* mesh = std::get_if<LinkMesh>(&geometry.shape)) {
                 if (mesh->mesh >= meshes.size())

@@ -6,10 +6,14 @@
 #include "trees/world/robot_collision.h"
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace boxwood {
+
+/// The solid that the shape of a link is; a mesh is none.
+std::optional<convex::Shape> solid_of(const LinkShape& shape);
 
 /// The narrow phase of a robot. The mesh of a link is its surface; boxes, spheres, cylinders and
 /// capsules are solid, in doubles: what lies in one touches it. Of two meshes it is exact whether

@@ -257,8 +257,10 @@ std::vector<Contact> BodyPair::contacts_of_surfaces(const Pose& b_in_a,
     } else {
         const convex::Contacts all =
             convex::contacts(std::get<Shape>(a_), Pose{}, std::get<Shape>(b_), b_in_a);
-        for (int i = 0; i < all.count; ++i) {
-            const convex::ContactPoint& c = all.points[static_cast<std::size_t>(i)];
+        const std::size_t count = std::min(
+            {static_cast<std::size_t>(all.count), options.max_pairs, options.max_contacts});
+        for (std::size_t i = 0; i < count; ++i) {
+            const convex::ContactPoint& c = all.points[i];
             found.push_back({c.point, all.distance.normal, c.depth, {}});
         }
     }

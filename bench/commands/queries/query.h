@@ -147,10 +147,12 @@ struct RobotQuery {
     std::uint64_t seed = 1;
     std::optional<std::uint64_t> samples; ///< propose pairs by so many
     std::optional<std::string> write_srdf;
+    std::vector<std::string> obstacles; ///< bodies that stand around it, "BODY" or "BODY@x,y,z"
     Format format;
 };
 /// Prints links, joints and allowed pairs of a robot; and for each state the pairs of links whose
-/// boxes overlap, those of them that are tested and that collide, and the least distance.
+/// boxes overlap, those of them that are tested and that collide, and the least distance; and the same
+/// of links and obstacles, if there are any.
 void run(const RobotQuery& query, const MakeLinkNarrowPhase& narrow_phase, std::ostream& out);
 void add_query_robot(CLI::App& query, MakeLinkNarrowPhase narrow_phase);
 

@@ -4,6 +4,7 @@
 #include "bench/commands/queries/query.h"
 #include "bench/commands/queries/robot_case.h"
 #include "bench/commands/queries/robot_picture.h"
+#include "bench/commands/queries/surroundings.h"
 #include "bench/io/json.h"
 #include "bench/io/say.h"
 #include "kernels/suggest.h"
@@ -152,8 +153,8 @@ class RobotPrinter {
     RobotPrinter(const RobotCase& robot, std::ostream& out) : robot_(robot), text_(out) {}
     virtual ~RobotPrinter() = default;
     virtual void begin() = 0;
-    virtual void state(std::size_t i, std::span<const double> values,
-                       const SelfCollision& found) = 0;
+    virtual void state(std::size_t i, std::span<const double> values, const SelfCollision& found,
+                       const Surroundings* around) = 0;
     virtual void end() {}
 
   protected:
@@ -175,7 +176,8 @@ class RobotLines final : public RobotPrinter {
             text_ << "link,name,parent,geometries\njoint,name,type,lower,upper\n"
                      "allowed,link,link,reason\nvalue,state,joint,value\n"
                      "candidate,state,link,link\nfiltered,state,link,link\n"
-                     "colliding,state,link,link\nleast,state,link,link,distance,lo,hi\n";
+                     "colliding,state,link,link\nleast,state,link,link,distance,lo,hi\n"
+                     "hit,state,link,obstacle\nclearance,state,link,obstacle,distance,lo,hi\n";
         for (std::uint32_t i = 0; i < robot.links().size(); ++i) {
             const std::uint32_t parent = robot.kinematics().parents()[i];
             text_ << fmt::format("link,{},{},{}\n", link(i), parent == i ? "" : link(parent),
@@ -191,7 +193,8 @@ class RobotLines final : public RobotPrinter {
             text_ << fmt::format("allowed,{},{},{}\n", link(pair.a), link(pair.b),
                                  name_of(pair.reason));
     }
-    void state(std::size_t i, std::span<const double> values, const SelfCollision& found) override {
+    void state(std::size_t i, std::span<const double> values, const SelfCollision& found,
+               const Surroundings* around) override {
         for (std::size_t k = 0; k < values.size(); ++k)
             text_ << fmt::format("value,{},{},{}\n", i, robot_.robot.value_name(k), values[k]);
         pairs("candidate", i, found.candidates);
@@ -201,6 +204,15 @@ class RobotLines final : public RobotPrinter {
             text_ << fmt::format("least,{},{},{},{},{},{}\n", i, link(found.nearest->a),
                                  link(found.nearest->b), found.least.distance, found.least.lo,
                                  found.least.hi);
+        if (!around)
+            return;
+        for (const auto& [link_number, obstacle] : around->hits())
+            text_ << fmt::format("hit,{},{},{}\n", i, link(link_number), obstacle);
+        if (const auto nearest = around->nearest()) {
+            const auto& [between, d] = *nearest;
+            text_ << fmt::format("clearance,{},{},{},{},{},{}\n", i, link(between.link),
+                                 between.obstacle, d.distance, d.lo, d.hi);
+        }
     }
 
   private:
@@ -245,7 +257,8 @@ class RobotJson final : public RobotPrinter {
                                  name_of(allowed[k].reason), json_string(allowed[k].note));
         text_ << "],\"states\":[";
     }
-    void state(std::size_t i, std::span<const double> values, const SelfCollision& found) override {
+    void state(std::size_t i, std::span<const double> values, const SelfCollision& found,
+               const Surroundings* around) override {
         text_ << (i ? ",{" : "{") << "\"values\":{";
         for (std::size_t k = 0; k < values.size(); ++k)
             text_ << fmt::format("{}{}:{}", k ? "," : "", json_string(robot_.robot.value_name(k)),
@@ -255,16 +268,35 @@ class RobotJson final : public RobotPrinter {
         pairs("filtered_pairs", found.tested);
         pairs("colliding", found.colliding);
         text_ << fmt::format(
-            ",\"distance\":{},\"lo\":{},\"hi\":{},\"nearest\":{}}}",
+            ",\"distance\":{},\"lo\":{},\"hi\":{},\"nearest\":{}",
             json_number(found.least.distance), json_number(found.least.lo),
             json_number(found.least.hi),
             found.nearest ? fmt::format("[{},{}]", name(found.nearest->a), name(found.nearest->b))
                           : "null");
+        if (around)
+            obstacles(*around);
+        text_ << "}";
     }
     void end() override { text_ << "]}\n"; }
 
   private:
     std::string name(std::uint32_t i) const { return json_string(link(i)); }
+    std::string json_of(const Surroundings::Meeting& m) const {
+        return fmt::format("[{},{}]", name(m.link), json_string(m.obstacle));
+    }
+    void obstacles(const Surroundings& around) {
+        text_ << ",\"obstacles\":{\"hits\":[";
+        bool is_first = true;
+        for (const Surroundings::Meeting& m : around.hits()) {
+            text_ << (is_first ? "" : ",") << json_of(m);
+            is_first = false;
+        }
+        const auto nearest = around.nearest();
+        const BodyDistance d = nearest ? nearest->second : BodyDistance();
+        text_ << fmt::format("],\"distance\":{},\"lo\":{},\"hi\":{},\"nearest\":{}}}",
+                             json_number(d.distance), json_number(d.lo), json_number(d.hi),
+                             nearest ? json_of(nearest->first) : "null");
+    }
     void pairs(std::string_view key, std::span<const Pair> pairs) {
         text_ << fmt::format(",\"{}\":[", key);
         for (std::size_t k = 0; k < pairs.size(); ++k)
@@ -287,6 +319,9 @@ void run(const RobotQuery& query, const MakeLinkNarrowPhase& make_narrow_phase, 
             write_allowed(query, *robot);
         std::vector<double> values = chosen_state(query, *robot);
         RobotSelfCollision self(robot->robot, robot->boxes, robot->allowed, *narrow_phase);
+        std::optional<Surroundings> around;
+        if (!query.obstacles.empty())
+            around.emplace(*robot, query.obstacles);
         std::unique_ptr<RobotPrinter> printer;
         if (query.format.json)
             printer = std::make_unique<RobotJson>(*robot, out);
@@ -296,7 +331,9 @@ void run(const RobotQuery& query, const MakeLinkNarrowPhase& make_narrow_phase, 
         std::vector<LeastOfState> least;
         for_each_state(query, robot->robot, values, [&](std::uint64_t i, double time) {
             const SelfCollision& found = self.check(values);
-            printer->state(i, values, found);
+            if (around)
+                around->place(values);
+            printer->state(i, values, found, around ? &*around : nullptr);
             if (query.svg && found.nearest)
                 least.push_back({time, found.least, !found.colliding.empty()});
         });
@@ -337,17 +374,22 @@ void add_query_robot(CLI::App& query, MakeLinkNarrowPhase narrow_phase) {
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
     robot->add_option("--write-srdf", options->write_srdf,
                       "write the allowed pairs, with what --srdf holds else, as an SRDF file");
+    robot->add_option("--obstacle", options->obstacles, obstacle_forms);
     add_format_options(*robot, options->format);
     robot->footer(
         "Each line begins with what it is: link, joint, allowed, and for each state value,\n"
         "candidate (boxes of the links overlap), filtered (those that are not allowed), "
         "colliding,\n"
         "least (the least distance of links that are not allowed, 0 if two collide: the true one\n"
-        "lies between lo and hi). Without --srdf adjacent links are allowed to collide.\n\n"
+        "lies between lo and hi); with --obstacle, hit (a link touches one) and clearance (the "
+        "least\n"
+        "distance of a link and an obstacle). Without --srdf adjacent links are allowed to "
+        "collide.\n\n"
         "Examples:\n"
         "  boxwood query robot panda.urdf --srdf panda.srdf --joints \"panda_joint4=-2.3\"\n"
         "  boxwood query robot z1.urdf --samples 10000 --write-srdf z1.srdf --random 100 --seed 1\n"
-        "  boxwood query robot panda.urdf --random 8 --steps 50 --svg least.svg");
+        "  boxwood query robot panda.urdf --random 8 --steps 50 --svg least.svg\n"
+        "  boxwood query robot panda.urdf --obstacle box:2,2,.1@0,0,-.05 --obstacle shelf.obj");
     robot->callback([options, narrow_phase = std::move(narrow_phase)] {
         run(*options, narrow_phase, std::cout);
     });

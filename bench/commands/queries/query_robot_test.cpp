@@ -146,6 +146,24 @@ TEST_F(QueryRobot, JsonHoldsTheSame) {
                         "\"d\"]],\"distance\":0,\"lo\":0,\"hi\":0,\"nearest\":[\"a\",\"d\"]}]}\n"));
 }
 
+TEST_F(QueryRobot, ObstaclesAreHitOrClear) {
+    // Balls of .25 at 0, 1 and 2, and of .2 at 3; none of them is seen by another obstacle.
+    query_.obstacles = {"box:1,1,1@2,.6,0", "sphere:.5@3,0,1", "sphere:.1@2,.6,0"};
+    EXPECT_THAT(answer(),
+                HasSubstr("hit,0,c,box:1,1,1@2,.6,0\nclearance,0,c,box:1,1,1@2,.6,0,0,0,"));
+    query_.obstacles = {"sphere:.5@3,0,1"};
+    EXPECT_THAT(answer(),
+                AllOf(Not(HasSubstr("hit,")), HasSubstr("clearance,0,d,sphere:.5@3,0,1,0.3")));
+    query_.format.json = true;
+    EXPECT_THAT(answer(), HasSubstr("\"obstacles\":{\"hits\":[],\"distance\":0.3"));
+    query_.obstacles = {"sphere:.5@3,0"};
+    EXPECT_THAT(complaint(), HasSubstr("--obstacle sphere:.5@3,0"));
+    query_.obstacles = {"ball:.5"};
+    EXPECT_THAT(complaint(), HasSubstr("ball:.5: no such file"));
+    query_.obstacles = {(folder_ / "none.obj").string()};
+    EXPECT_THAT(complaint(), HasSubstr("none.obj"));
+}
+
 TEST_F(QueryRobot, AnSrdfFileSaysWhatIsAllowedAndNamesStates) {
     query_.files.srdf = put("balls.srdf", "<robot><disable_collisions link1='d' link2='a' "
                                           "reason='Never'/><group_state name='in'><joint name='bc' "

@@ -120,6 +120,8 @@ template <class S> void append_all(std::vector<ContenderEntry>& all) {
 std::vector<ContenderEntry> fcl_meshes() {
     std::vector<ContenderEntry> all;
     append_all<double>(all);
+    append_touches<fcl::kIOS<double>>(all);
+    append_distances<fcl::kIOS<double>>(all);
     append_all<float>(all);
     return all;
 }

@@ -106,13 +106,16 @@ template <class Volume> struct VolumeName {
     using S = typename Volume::S;
     static constexpr bool is_single = std::is_same_v<S, float>;
     static constexpr bool is_obb = std::is_same_v<Volume, fcl::OBB<S>>,
-                          is_rss = std::is_same_v<Volume, fcl::RSS<S>>;
+                          is_rss = std::is_same_v<Volume, fcl::RSS<S>>,
+                          is_kios = std::is_same_v<Volume, fcl::kIOS<S>>;
 
     static std::string word() {
-        const std::string name = is_obb ? "obb" : is_rss ? "rss" : "obbrss";
+        const std::string name = is_obb ? "obb" : is_rss ? "rss" : is_kios ? "kios" : "obbrss";
         return name + (is_single ? "_f32" : "");
     }
-    static std::string title() { return is_obb ? "OBB" : is_rss ? "RSS" : "OBBRSS"; }
+    static std::string title() {
+        return is_obb ? "OBB" : is_rss ? "RSS" : is_kios ? "kIOS" : "OBBRSS";
+    }
 };
 
 /// The row of a contender by MeshModels<Volume>, called fcl.VOLUME and after; queries: what its

@@ -205,6 +205,9 @@ class World {
     bool are_near(const Search& where, Pair pair, double tolerance) const;
     template <class Visit>
     void each_pair(const Search& where, double tolerance, Work* work, const Visit& visit) const;
+    const PackedLayout& layout_for_one() const;
+    std::vector<Pair> pairs_of_few(std::span<const Box> swept, std::span<const std::uint8_t> moving,
+                                   std::span<const std::uint32_t> wide, double tolerance) const;
     std::vector<std::uint32_t> near_to(std::uint32_t body, double tolerance) const;
     void build_trees(std::span<const Pair> pairs) const;
     std::vector<Pair> ready_pairs(double tolerance = 0) const;

@@ -17,18 +17,6 @@ namespace {
 using detail::Stage;
 using detail::StageCounts;
 
-/// Wider by a tolerance, rounded outwards.
-Box wider(const Box& box, double by) {
-    const double most = by * (1 + 0x1p-50);
-    const Vec3<double> all{most, most, most};
-    Aabb<double> wide{Vec3<double>(box.min) - all, Vec3<double>(box.max) + all};
-    for (int axis = 0; axis < 3; ++axis) { // and by what the sums are off
-        wide.min[axis] -= 0x1p-52 * std::abs(wide.min[axis]);
-        wide.max[axis] += 0x1p-52 * std::abs(wide.max[axis]);
-    }
-    return round_outward(wide);
-}
-
 /// Whether a half-space or plane may be that near to a box, which is finite.
 bool reaches(const PosedShape& unbounded, const Box& box, double tolerance) {
     if (!(tolerance < 0x1p60))
@@ -47,6 +35,17 @@ bool reaches(const PosedShape& unbounded, const Box& box, double tolerance) {
 }
 
 } // namespace
+
+Box detail::wider(const Box& box, double by) {
+    const double most = by * (1 + 0x1p-50);
+    const Vec3<double> all{most, most, most};
+    Aabb<double> wide{Vec3<double>(box.min) - all, Vec3<double>(box.max) + all};
+    for (int axis = 0; axis < 3; ++axis) { // and by what the sums are off
+        wide.min[axis] -= 0x1p-52 * std::abs(wide.min[axis]);
+        wide.max[axis] += 0x1p-52 * std::abs(wide.max[axis]);
+    }
+    return round_outward(wide);
+}
 
 void World::require_tolerance(double tolerance) {
     if (!(tolerance >= 0 && tolerance < 0x1p60))
@@ -72,6 +71,15 @@ World::Search World::search() const {
 }
 
 void World::update() { search(); }
+
+const PackedLayout& World::layout_for_one() const {
+    State& state = *state_;
+    if (state.tree.is_stale()) {
+        const StageCounts::Call call(state.counts, Stage::update, count_);
+        state.tree.layout_for_one();
+    }
+    return state.tree.layout_for_one();
+}
 
 bool World::boxes_are_near(const Search& where, Pair pair, double tolerance) const {
     const Box &a = where.box_of(bodies_, pair.a), &b = where.box_of(bodies_, pair.b);
@@ -135,11 +143,7 @@ std::vector<std::uint32_t> World::near_to(std::uint32_t body, double tolerance) 
     if (box.is_empty())
         return found;
     State& state = *state_;
-    if (state.tree.is_stale()) {
-        const StageCounts::Call call(state.counts, Stage::update, count_);
-        state.tree.layout_for_one();
-    }
-    const Search where{state.tree.layout_for_one(), nullptr, state.tree.wide()};
+    const Search where{layout_for_one(), nullptr, state.tree.wide()};
     StageCounts::Call call(state.counts, Stage::pairs);
     const auto pair_with = [&](std::uint32_t other) {
         return Pair{std::min(body, other), std::max(body, other)};
@@ -155,7 +159,7 @@ std::vector<std::uint32_t> World::near_to(std::uint32_t body, double tolerance) 
     } else {
         for (const std::uint32_t other : where.wide)
             try_one(other);
-        const Box region = tolerance > 0 ? wider(box, tolerance) : box;
+        const Box region = tolerance > 0 ? detail::wider(box, tolerance) : box;
         ForEachPair in_region([&](Pair answer) {
             if (answer.b != body && state.filter.may_meet(body, answer.b) &&
                 boxes_are_near(where, pair_with(answer.b), tolerance))

@@ -64,49 +64,60 @@ TEST(World, FindsTheNearestOfAllPairs) {
     }
 }
 
+/// How many pairs meet, which are those that all pairs tested one by one give.
+std::size_t expect_first_contacts_of_all_pairs(const MirroredWorld& mirror,
+                                               const std::vector<BodyMotion>& motions) {
+    const auto motion_of = [&](std::uint32_t body) {
+        return std::ranges::find(motions, body, &BodyMotion::body);
+    };
+    const auto moves = [&](std::uint32_t body) { return motion_of(body) != motions.end(); };
+    const auto moved = [&](std::uint32_t body) -> MovingShape {
+        const PosedShape now = mirror.posed(body);
+        if (!moves(body))
+            return {now.shape, now.pose, now.pose, MotionPath::linear, now.margin};
+        return {now.shape, now.pose, checked_pose(motion_of(body)->to), motion_of(body)->path,
+                now.margin};
+    };
+    std::vector<Pair> expected;
+    for (const Pair p : mirror.may_meet())
+        if ((moves(p.a) || moves(p.b)) && first_contact(moved(p.a), moved(p.b)).hit != Answer::no)
+            expected.push_back(p);
+    std::vector<Pair> pairs;
+    double before = 0;
+    for (const BodyFirstContact& one : mirror.world.first_contacts(motions)) {
+        pairs.push_back(one.bodies);
+        EXPECT_LE(before, one.contact.t_hit);
+        before = one.contact.t_hit;
+    }
+    EXPECT_EQ(sorted(pairs), expected);
+    return expected.size();
+}
+
 TEST(World, FindsFirstContactsAsAllPairsDo) {
-    std::size_t hits = 0;
+    std::size_t hits = 0, hits_of_few = 0;
     for (std::uint32_t seed = 0; seed < 3; ++seed) {
         MirroredWorld mirror(with_unbounded());
-        fill(mirror, seed, 24, 4);
+        fill(mirror, seed, 30, 4);
         RandomBodies random(seed + 20, mirror.shapes.size(), 4);
         std::vector<BodyMotion> motions;
-        for (std::uint32_t body = 0; body < 26; ++body) {
-            if (random.below(2) == 0)
-                continue;
+        for (std::uint32_t body = 0; body < 32; ++body) {
             BodyMotion motion{body, random.pose(),
                               random.below(2) ? MotionPath::screw : MotionPath::linear};
             if (!mirror.world.shape(body).is_bounded())
                 motion.to.rotation = mirror.world.pose(body).rotation;
             motions.push_back(motion);
         }
-        const auto moved = [&](std::uint32_t body) -> MovingShape {
-            const PosedShape now = mirror.posed(body);
-            for (const BodyMotion& motion : motions)
-                if (motion.body == body)
-                    return {now.shape, now.pose, checked_pose(motion.to), motion.path, now.margin};
-            return {now.shape, now.pose, now.pose, MotionPath::linear, now.margin};
-        };
-        const auto moves = [&](std::uint32_t body) {
-            return std::ranges::find(motions, body, &BodyMotion::body) != motions.end();
-        };
-        std::vector<Pair> expected;
-        for (const Pair p : mirror.may_meet())
-            if ((moves(p.a) || moves(p.b)) &&
-                first_contact(moved(p.a), moved(p.b)).hit != Answer::no)
-                expected.push_back(p);
-        const auto found = mirror.world.first_contacts(motions);
-        std::vector<Pair> pairs;
-        double before = 0;
-        for (const BodyFirstContact& one : found) {
-            pairs.push_back(one.bodies);
-            EXPECT_LE(before, one.contact.t_hit);
-            before = one.contact.t_hit;
+        // One or two of 32 are few, for which the world's own tree is asked.
+        for (std::size_t i = 0; i + 1 < motions.size(); i += 2) {
+            hits_of_few += expect_first_contacts_of_all_pairs(mirror, {motions[i]});
+            hits_of_few += expect_first_contacts_of_all_pairs(mirror, {motions[i], motions[i + 1]});
         }
-        EXPECT_EQ(sorted(pairs), expected);
-        hits += expected.size();
+        std::erase_if(motions, [&](const BodyMotion&) { return random.below(2) == 0; });
+        ASSERT_GT(motions.size(), 4u);
+        hits += expect_first_contacts_of_all_pairs(mirror, motions);
     }
     EXPECT_GT(hits, 50u);
+    EXPECT_GT(hits_of_few, 50u);
 }
 
 TEST(World, GroupsSaveTheWayDownTheTree) {

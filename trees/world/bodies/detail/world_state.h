@@ -22,6 +22,11 @@ struct World::State {
     detail::StageCounts counts;
 };
 
+namespace detail {
+/// Wider by a tolerance, rounded outwards.
+Box wider(const Box& box, double by);
+} // namespace detail
+
 /// Where pairs are looked for.
 struct World::Search {
     const PackedLayout& layout;
