@@ -10,7 +10,8 @@ FirstContact first_contact(const MeshTree& a, const Motion& motion_a, const Mesh
     check(options);
     if (a.empty() || b.empty())
         return {};
-    const Approach approach{motion_a.longest_way(a.bounds()) + motion_b.longest_way(b.bounds()),
+    const Approach approach{relative_speed(motion_a, a.bounds(), motion_b, b.bounds()),
+                            motion_a.longest_way(a.bounds()) + motion_b.longest_way(b.bounds()),
                             reach_of(a.bounds(), motion_a.at(0)) +
                                 reach_of(b.bounds(), motion_b.at(0)),
                             size_of(a.bounds()) + size_of(b.bounds())};

@@ -50,6 +50,41 @@ TEST(Motions, BeginAndEndWhereTheyShould) {
     EXPECT_EQ(Motion(moved(1, 2, 3)).longest_way(Aabb<float>{{-1, -1, -1}, {1, 1, 1}}), 0);
 }
 
+TEST(Motions, RelativeSpeedIsNoLessThanWhatPointsShow) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> place(-3, 3);
+    const auto pose = [&] {
+        return random_pose(random, {place(random), place(random), place(random)});
+    };
+    const Aabb<float> box{{-.5f, -.75f, -.25f}, {.5f, .25f, .75f}};
+    for (int k = 0; k < 200; ++k) {
+        Pose from_a = pose(), to_a = pose(), from_b = pose(), to_b = pose();
+        if (k % 4 == 0)
+            to_a.rotation = from_a.rotation;
+        if (k % 2 == 0) { // they go much the same way
+            to_b.rotation = from_b.rotation;
+            to_b.translation = from_b.translation + (to_a.translation - from_a.translation);
+        }
+        const Motion a(from_a, to_a, k % 3 ? MotionPath::linear : MotionPath::screw),
+            b(from_b, to_b, k % 5 ? MotionPath::linear : MotionPath::screw);
+        const double speed = relative_speed(a, box, b, box);
+        EXPECT_LE(speed, a.longest_way(box) + b.longest_way(box));
+        for (int corner = 0; corner < 64; ++corner) {
+            const auto of = [&](int bits) {
+                return Vec3<double>{bits & 1 ? .5 : -.5, bits & 2 ? .25 : -.75,
+                                    bits & 4 ? .75 : -.25};
+            };
+            const auto between = [&](double t) {
+                return b.at(t)(of(corner % 8)) - a.at(t)(of(corner / 8));
+            };
+            for (double t = 0; t < 1; t += .125)
+                EXPECT_LE(length(between(t + .125) - between(t)), .125 * speed + 1e-12);
+        }
+    }
+    const Motion together(moved(0, 0, 0), moved(5, 6, 7));
+    EXPECT_LT(relative_speed(together, box, together, box), 1e-13);
+}
+
 TEST(Motions, OfHalfATurnAreNoTrap) {
     Pose turned;
     turned.rotation = {{{-1, 0, 0}, {0, -1, 0}, {0, 0, 1}}};
@@ -98,6 +133,14 @@ TEST(Motions, OfSmallAnglesAreNoTrap) {
                           .125 * way * (1 + 1e-12));
         }
     }
+}
+
+TEST(FirstContact, OfMeshesThatGoTogetherTakesAStep) {
+    const MeshTree ball(noisy_sphere(16, 16, 0, 1, .05)), thin(plate(1, 0));
+    const FirstContact none = first_contact(ball, Motion(moved(.5, .5, .051), moved(90, 9, .051)),
+                                            thin, Motion(Pose{}, moved(89.5, 8.5, 0)));
+    EXPECT_EQ(none.hit, Answer::no);
+    EXPECT_LE(none.steps, 3u);
 }
 
 TEST(FirstContact, OfAThinPlateIsNotMissed) {

@@ -329,7 +329,8 @@ FirstContact first_contact(const MeshTree& mesh, const Motion& motion, const con
     const Aabb<float> box =
         box_of(shape, (reach_of(mesh.bounds(), start) + way + origin_way) * (1 + 0x1p-20));
     const bool is_flat = Envelope(shape, start).is_flat();
-    const Approach approach{way + shape_motion.longest_way(box),
+    const Approach approach{relative_speed(motion, mesh.bounds(), shape_motion, box),
+                            way + shape_motion.longest_way(box),
                             reach_of(mesh.bounds(), motion.at(0)) +
                                 reach_of(box, shape_motion.at(0)),
                             size_of(mesh.bounds()) + (is_flat ? 0 : size_of(box))};

@@ -82,13 +82,14 @@ Pose Motion::at(double t) const {
     return pose;
 }
 
-double Motion::longest_way(const Aabb<float>& box) const {
+double Motion::longest_turn(const Aabb<float>& box) const {
+    if (!(angle_ > 0))
+        return 0;
     // The speed of the origin across the axis at the start; that of a point does not change.
     Vec3<double> start{};
     if (is_screw_) {
         const double half = angle_ / 2;
-        start =
-            (half > 0 ? half / std::sin(half) : 1.0) * times(rotation_about(axis_, -half), across_);
+        start = half / std::sin(half) * times(rotation_about(axis_, -half), across_);
     }
     double fastest = 0, farthest = 0;
     for (int corner = 0; corner < 8; ++corner) {
@@ -99,11 +100,23 @@ double Motion::longest_way(const Aabb<float>& box) const {
         fastest = std::max(fastest, length(start + angle_ * cross(axis_, turned)));
         farthest = std::max(farthest, length(turned));
     }
-    // Across and along the axis of a screw the ways are at right angles.
-    const double slid = length(way_);
-    const double way = is_screw_ ? std::sqrt(fastest * fastest + slid * slid) : fastest + slid;
     // Axis times angle is off by a few units of rounding, however small the angle.
-    return way * (1 + 0x1p-40) + (angle_ > 0 ? 0x1p-48 * farthest : 0);
+    return fastest * (1 + 0x1p-40) + 0x1p-48 * farthest;
+}
+
+double Motion::longest_way(const Aabb<float>& box) const {
+    const double turned = longest_turn(box), slid = length(common_way());
+    // Across and along the axis of a screw the ways are at right angles.
+    const double way = is_screw_ ? std::sqrt(turned * turned + slid * slid) : turned + slid;
+    return way * (1 + 0x1p-40);
+}
+
+double relative_speed(const Motion& a, const Aabb<float>& box_a, const Motion& b,
+                      const Aabb<float>& box_b) {
+    const double together = length(a.common_way() - b.common_way()) * (1 + 0x1p-40) +
+                            0x1p-50 * (length(a.common_way()) + length(b.common_way())) +
+                            a.longest_turn(box_a) + b.longest_turn(box_b);
+    return std::min(together, a.longest_way(box_a) + b.longest_way(box_b));
 }
 
 } // namespace boxwood

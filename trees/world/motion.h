@@ -24,6 +24,10 @@ class Motion {
     /// The longest way that a point of a box of the body goes, rounded up: also the greatest speed
     /// per unit of t, as all rates are constant.
     double longest_way(const Aabb<float>& box) const;
+    /// What of a way is the same for all points, at a constant rate; and the longest that a point
+    /// of the box goes besides, rounded up.
+    Vec3<double> common_way() const { return angle_ > 0 ? way_ : way_ + across_; }
+    double longest_turn(const Aabb<float>& box) const;
 
   private:
     Pose from_;
@@ -33,5 +37,10 @@ class Motion {
     double angle_ = 0;
     bool is_screw_ = false;
 };
+
+/// The greatest speed, per unit of t, at which a point of one box and a point of the other change
+/// how they lie to each other, rounded up: of bodies that go together less than what each goes.
+double relative_speed(const Motion& a, const Aabb<float>& box_a, const Motion& b,
+                      const Aabb<float>& box_b);
 
 } // namespace boxwood

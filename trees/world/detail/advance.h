@@ -24,6 +24,7 @@ inline double reach_of(const Aabb<float>& box, const Pose& pose) {
 /// What bounds two bodies that approach each other.
 struct Approach {
     double speed; ///< their distance changes by at most this per unit of t
+    double way;   ///< the longest of both, together
     double reach; ///< the greatest coordinates of both at the start, together
     double size;  ///< of both together, for the default of the tolerance
 };
@@ -40,7 +41,7 @@ FirstContact advance(const Approach& approach, const ContinuousOptions& options,
                      const DistanceAt& distance_at) {
     FirstContact found;
     // What a pose may be off by moves corners by as much.
-    const double rounding = 0x1p-44 * (approach.speed + approach.reach);
+    const double rounding = 0x1p-44 * (approach.way + approach.reach);
     const double tolerance =
         std::max(options.tolerance > 0 ? options.tolerance : 0x1p-36 * approach.size, 4 * rounding);
     DistanceOptions near;
