@@ -73,7 +73,8 @@ FirstContact of_grown(const MovingShape& a, const MovingShape& b, const Continuo
     const auto size = [](const MovingShape& of, const Aabb<float>& box) {
         return of.shape.is_bounded() ? size_of(box) : 0;
     };
-    const Approach approach{motion_a.longest_way(box_a) + motion_b.longest_way(box_b),
+    const Approach approach{relative_speed(motion_a, box_a, motion_b, box_b),
+                            motion_a.longest_way(box_a) + motion_b.longest_way(box_b),
                             reach_of(box_a, a.from) + reach_of(box_b, b.from),
                             size(a, box_a) + size(b, box_b)};
     return advance(approach, options, [&](double t, const DistanceOptions& near) -> MeshDistance {
