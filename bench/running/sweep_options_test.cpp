@@ -53,7 +53,8 @@ TEST_F(SweepOptionsTest, PaddingIsDrawnByRound) {
 
 TEST_F(SweepOptionsTest, ColdBuildsAreThoseOfFreshProcesses) {
     using results::Phase;
-    write_config("n = 3000\nbuilders = \"median\"\npeers = \"brute_force\"\ncold_build = true\n", 2);
+    write_config("n = 3000\nbuilders = \"median\"\npeers = \"brute_force\"\ncold_build = true\n",
+                 2);
     ASSERT_EQ(sweep(), 0) << text_of(log());
     const results::Results got = results::read(out());
     std::map<Phase, std::vector<double>> ns;

@@ -99,17 +99,15 @@ TEST(Contacts, OnAFlatAreOfTheShapeDeepestFirstAndTheSameFromBothSides) {
                 EXPECT_EQ(p.depth, q.depth);
                 EXPECT_LE(p.depth, c.points[static_cast<std::size_t>(std::max(i - 1, 0))].depth);
                 EXPECT_GE(p.depth, 0);
-                // Half its depth above, it is on the shape; half its depth below, on the flat.
-                const Vec3<double> on_shape = p.point + c.distance.normal * (p.depth / 2),
-                                   on_flat = p.point - c.distance.normal * (p.depth / 2);
+                // Half its depth along the normal it is in the shape, half its depth back on the
+                // flat.
+                const Pose in_shape{Pose{}.rotation, p.point + c.distance.normal * (p.depth / 2)},
+                    on_flat{Pose{}.rotation, p.point - c.distance.normal * (p.depth / 2)};
                 const Sphere point{0};
-                EXPECT_LE(
-                    std::abs(signed_distance(point, {{}, on_shape}, s.shape, s.pose).distance),
-                    1e-9)
+                EXPECT_LE(signed_distance(point, in_shape, s.shape, s.pose).distance, 1e-9)
                     << to_string(kind);
-                EXPECT_LE(
-                    std::abs(signed_distance(point, {{}, on_flat}, flat.shape, flat.pose).distance),
-                    1e-9);
+                EXPECT_NEAR(signed_distance(point, on_flat, flat.shape, flat.pose).distance, 0,
+                            1e-9);
             }
         }
     EXPECT_GT(many, 1000);

@@ -233,7 +233,8 @@ void add_looks(py::class_<PyWorld>& to) {
         .def(
             "find",
             [](const PyWorld& self, const std::string& name) { return self.world().find(name); },
-            arg("name"), "The number of the body of this name; ValueError, with a suggestion, if there is none.")
+            arg("name"),
+            "The number of the body of this name; ValueError, with a suggestion, if there is none.")
         .def("pose", &PyWorld::pose, arg("body"), "Where the body is: shape (4, 4), float64.")
         .def("allowed", &PyWorld::allowed, arg("a"), arg("b"),
              "Why the two may collide; None if they may not.")

@@ -178,14 +178,25 @@ def data_url(svg):
     return f"data:image/svg+xml,{svg}"
 
 
+STRIPS_SIZE = 550_000  # characters that pictures of scenes take, so that a page of many scenes stays below a megabyte
+
+
 def scenes_html(run):
     """Frames of moving scenes. A picture from a file cannot run scripts as an image."""
-    parts = []
+    parts, left, left_out = [], STRIPS_SIZE, []
     for name, svg in sorted(run.source.texts.items()):
-        if name.startswith(STRIP):
-            scene = name.removeprefix(STRIP)
-            parts.append(f"<h3>{escape(scene)}</h3><figure><img alt=\"Frames of the moving scene {escape(scene)}, side by "
-                         f"side, drawn with few bodies\" src=\"{data_url(svg)}\"></figure>")
+        if not name.startswith(STRIP):
+            continue
+        scene, url = name.removeprefix(STRIP), data_url(svg)
+        left -= len(url)
+        if left < 0:
+            left_out.append(scene)
+            continue
+        parts.append(f"<h3>{escape(scene)}</h3><figure><img alt=\"Frames of the moving scene {escape(scene)}, side by "
+                     f"side, drawn with few bodies\" src=\"{url}\"></figure>")
+    if left_out:
+        parts.append(f"<p>Not drawn, to keep this page small: {escape(', '.join(left_out))}. <code>boxwood scene NAME --frame 0,10 "
+                     "--svg FILE.svg</code> draws one.</p>")
     return "".join(parts)
 
 

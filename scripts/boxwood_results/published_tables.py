@@ -200,7 +200,7 @@ def kernels_of(task):
         for kernel in run.kernel_costs:
             if kernel.task == task:
                 rate = f"0 (of {count_text(kernel.n)})" if not kernel.wrong else f"{kernel.per_million:,.0f}"
-                rows.append([kernel.panel, kernel.name, kernel.library, kernel.promise, time_text(kernel.ns), rate])
+                rows.append([kernel.panel, kernel.name, kernel.library, kernel.promise if kernel.ours else "", time_text(kernel.ns), rate])
         return rows
 
     return table

@@ -151,8 +151,8 @@ struct RobotQuery {
     Format format;
 };
 /// Prints links, joints and allowed pairs of a robot; and for each state the pairs of links whose
-/// boxes overlap, those of them that are tested and that collide, and the least distance; and the same
-/// of links and obstacles, if there are any.
+/// boxes overlap, those of them that are tested and that collide, and the least distance; and the
+/// same of links and obstacles, if there are any.
 void run(const RobotQuery& query, const MakeLinkNarrowPhase& narrow_phase, std::ostream& out);
 void add_query_robot(CLI::App& query, MakeLinkNarrowPhase narrow_phase);
 

@@ -301,8 +301,8 @@ Decision decide(const A& a, const Pose& pose_a, const B& b, const Pose& pose_b, 
         }
         const double limit = t + radius, error = search.error + 4 * u * std::abs(limit);
         // Balls around the middles that overlap: nothing is left to search.
-        const double inner_hi = length(search.b_in_a.translation) - inner_radius(core(a)) -
-                                inner_radius(core(b));
+        const double inner_hi =
+            length(search.b_in_a.translation) - inner_radius(core(a)) - inner_radius(core(b));
         if (inner_hi + error <= limit)
             return decided(-inf, inner_hi + error, limit);
         if constexpr (Search<A, B>::boxes)
