@@ -73,7 +73,8 @@ inline double reach(const Triangle& s) {
     return std::max({a, b, c}) + 0 * (a + b + c); // NaN of any of them
 }
 
-/// At most the radius of the greatest ball around the origin that a core holds; -inf: not known.
+/// At most the radius of the greatest ball around the origin that a core holds. Of hulls and
+/// triangles, which need not hold it, there is none.
 inline double inner_radius(Point) { return 0; }
 inline double inner_radius(Rod) { return 0; }
 inline double inner_radius(const Box& s) { return std::min({s.half.x, s.half.y, s.half.z}); }
@@ -85,8 +86,6 @@ inline double inner_radius(const Cone& s) {
 inline double inner_radius(const EllipsoidCore& s) {
     return std::max(0.0, std::min({s.radii.x, s.radii.y, s.radii.z}) * (1 - 8 * u) - s.ball);
 }
-inline double inner_radius(const Hull&) { return -inf; }
-inline double inner_radius(const Triangle&) { return -inf; }
 
 } // namespace detail
 

@@ -82,9 +82,9 @@ Pose Motion::at(double t) const {
     return pose;
 }
 
-double Motion::longest_turn(const Aabb<float>& box) const {
+Motion::Turn Motion::turn_of(const Aabb<float>& box) const {
     if (!(angle_ > 0))
-        return 0;
+        return {};
     // The speed of the origin across the axis at the start; that of a point does not change.
     Vec3<double> start{};
     if (is_screw_) {
@@ -101,14 +101,20 @@ double Motion::longest_turn(const Aabb<float>& box) const {
         farthest = std::max(farthest, length(turned));
     }
     // Axis times angle is off by a few units of rounding, however small the angle.
-    return fastest * (1 + 0x1p-40) + 0x1p-48 * farthest;
+    return {fastest, 0x1p-48 * farthest};
+}
+
+double Motion::longest_turn(const Aabb<float>& box) const {
+    const Turn turn = turn_of(box);
+    return turn.fastest * (1 + 0x1p-40) + turn.rounding;
 }
 
 double Motion::longest_way(const Aabb<float>& box) const {
-    const double turned = longest_turn(box), slid = length(common_way());
+    const auto [fastest, rounding] = turn_of(box);
+    const double slid = length(common_way());
     // Across and along the axis of a screw the ways are at right angles.
-    const double way = is_screw_ ? std::sqrt(turned * turned + slid * slid) : turned + slid;
-    return way * (1 + 0x1p-40);
+    const double way = is_screw_ ? std::sqrt(fastest * fastest + slid * slid) : fastest + slid;
+    return way * (1 + 0x1p-40) + rounding;
 }
 
 double relative_speed(const Motion& a, const Aabb<float>& box_a, const Motion& b,

@@ -30,6 +30,11 @@ class Motion {
     double longest_turn(const Aabb<float>& box) const;
 
   private:
+    struct Turn {
+        double fastest = 0, rounding = 0;
+    };
+    Turn turn_of(const Aabb<float>& box) const;
+
     Pose from_;
     Vec3<double> axis_{0, 0, 1};
     Vec3<double> way_{};    ///< of the origin, or of a screw along its axis

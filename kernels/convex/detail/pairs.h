@@ -19,6 +19,11 @@ concept HasFoot = requires(V p, const S& s) {
     foot(p, core(s));
 };
 
+template <class S>
+concept HasInnerBall = requires(const S& s) {
+    inner_radius(core(s));
+};
+
 /// NaN in all, as for NaN and for poses that are none.
 SignedDistance no_distance();
 inline bool in_range(double size) { return size >= smallest_size && size <= largest_size; }
@@ -300,11 +305,13 @@ Decision decide(const A& a, const Pose& pose_a, const B& b, const Pose& pose_b, 
             return decided(d.lo, d.hi, t);
         }
         const double limit = t + radius, error = search.error + 4 * u * std::abs(limit);
-        // Balls around the middles that overlap: nothing is left to search.
-        const double inner_hi =
-            length(search.b_in_a.translation) - inner_radius(core(a)) - inner_radius(core(b));
-        if (inner_hi + error <= limit)
-            return decided(-inf, inner_hi + error, limit);
+        if constexpr (HasInnerBall<A> && HasInnerBall<B>) {
+            // Balls around the middles that overlap: nothing is left to search.
+            const double inner_hi =
+                length(search.b_in_a.translation) - inner_radius(core(a)) - inner_radius(core(b));
+            if (inner_hi + error <= limit)
+                return decided(-inf, inner_hi + error, limit);
+        }
         if constexpr (Search<A, B>::boxes)
             if (limit <= 0) {
                 const BoxGaps gaps = box_gaps(a, b, search.b_in_a, search.size, limit + error);
