@@ -156,7 +156,7 @@ class Preparation {
             judgement.check.witness = *why;
         } else if (!skip_.contains(cell.name)) {
             try {
-                calibration = measure(cell, job, row.cell_id, judgement);
+                calibration = measure(cell, job, row, judgement);
                 row.iterations = calibration.query_iterations;
                 calibrations_.emplace(cell.name, calibration);
             } catch (const DeviceOutOfMemory& error) {
@@ -177,8 +177,9 @@ class Preparation {
     }
 
     /// Times each phase, judges the answers, counts the work and measures the structure.
-    Calibration measure(const PlannedCell& cell, const Job& job, std::uint32_t cell_id,
+    Calibration measure(const PlannedCell& cell, const Job& job, results::Cell& row,
                         Judgement& judgement) {
+        const std::uint32_t cell_id = row.cell_id;
         const Task& task = *cell.task;
         Truth& truth = truth_of(task);
         const KeepFloatingPointMode keep;
@@ -209,6 +210,8 @@ class Preparation {
         judgement = truth.judge(*answers, cell.contender);
         judgement.check.result_hash = task.phases() == Phases::frames ? hash : task.hash(*answers);
         count(task, *contender, *answers, cell_id, judgement);
+        if (const auto classes = contender->classes())
+            row.classes = Record::classes_text(job, *classes);
         if (const auto structure = contender->structure()) {
             out_.counters.push_back({cell_id, "bytes", structure->bytes});
             if (structure->tree && !structure->tree->empty() && !judgement.has_faulty_tree)

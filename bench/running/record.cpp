@@ -123,8 +123,7 @@ results::Cell Record::cell(std::string name, const Job& job, std::uint32_t scene
     row.scene_id = scene_id;
     row.variant_id = variant_id_of(contender);
     row.task = task.name();
-    row.classes = fmt::format(
-        "{}", fmt::join(classes_on(job.isa, classes_at(job.executor, contender.classes)), ","));
+    row.classes = classes_text(job, contender.classes);
     row.n_items = items_of(*job.scene);
     row.n_queries = task.n_queries(*job.scene);
     row.precision = contender.precision;
@@ -135,6 +134,11 @@ results::Cell Record::cell(std::string name, const Job& job, std::uint32_t scene
     else if (!contender.is_peer && !is_device(job.executor))
         row.isa = out.env.front().isa_used;
     return row;
+}
+
+std::string Record::classes_text(const Job& job, const std::vector<std::string>& classes) {
+    return fmt::format("{}",
+                       fmt::join(classes_on(job.isa, classes_at(job.executor, classes)), ","));
 }
 
 void Record::add(Judgement judgement, std::uint32_t cell_id, double query_ns) {

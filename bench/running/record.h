@@ -22,6 +22,9 @@ class Record {
     results::Cell cell(std::string name, const Job& job, std::uint32_t scene_id,
                        const ContenderEntry& contender);
 
+    /// How a cell's row says these classes of a contender.
+    static std::string classes_text(const Job& job, const std::vector<std::string>& classes);
+
     /// Check, kernel row and condition rows of a cell, whose query took so long.
     void add(Judgement judgement, std::uint32_t cell_id, double query_ns);
 

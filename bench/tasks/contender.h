@@ -81,6 +81,8 @@ class Contender {
     virtual std::optional<Work> counted_query(Answers&) { return std::nullopt; }
     /// Further counters, of the last counted query or of all frames since the build.
     virtual std::vector<NamedCount> more_counts() const { return {}; }
+    /// Of an entry whose classes depend on what it did: they, by the frames since the build.
+    virtual std::optional<std::vector<std::string>> classes() const { return std::nullopt; }
     virtual std::optional<StructureInfo> structure() const { return std::nullopt; }
     /// What each stage cost since the last build; null if it has no stages.
     virtual const Ledger* ledger() { return nullptr; }

@@ -22,25 +22,34 @@ namespace {
 
 class Follower final : public Contender {
   public:
-    Follower(const Job& job, std::unique_ptr<Updater> updater)
+    Follower(const Job& job, const UpdateEntry& policy, const Settings& settings)
         : scene_(*job.scene), executor_(make_executor(job.executor, job.threads)),
-          updater_(std::move(updater)) {}
+          updater_(policy.make(settings)),
+          chooses_(policy.may_cache_pairs && !policy.answers_from_cache) {}
 
     void build() override {
         updater_->start(scene_.boxes, *executor_);
-        placed_ = rebuilds_ = 0;
+        placed_ = rebuilds_ = from_cache_ = 0;
     }
     void update(const Frame& frame) override {
         updater_->update(frame.boxes, frame.moved, *executor_);
-        placed_ += updater_->last_step().placed;
-        rebuilds_ += updater_->last_step().rebuilt;
+        const UpdateStep step = updater_->last_step();
+        placed_ += step.placed;
+        rebuilds_ += step.rebuilt;
+        from_cache_ += step.answers_from_cache;
     }
     void query(Answers& answers) override { updater_->self_pairs(*executor_, pairs_.to(answers)); }
     std::optional<Work> counted_query(Answers& answers) override {
         return updater_->self_pairs_counted(pairs_.to(answers));
     }
     std::vector<NamedCount> more_counts() const override {
-        return {{"items_placed", placed_}, {"rebuilds", rebuilds_}};
+        return {
+            {"items_placed", placed_}, {"rebuilds", rebuilds_}, {"frames_from_cache", from_cache_}};
+    }
+    std::optional<std::vector<std::string>> classes() const override {
+        if (!chooses_)
+            return std::nullopt;
+        return from_cache_ > 0 ? std::vector{cached_pairs_class} : std::vector<std::string>{};
     }
     std::optional<StructureInfo> structure() const override {
         return StructureInfo{updater_->bytes(), nullptr, updater_->sah()};
@@ -51,7 +60,8 @@ class Follower final : public Contender {
     std::unique_ptr<Executor> executor_;
     std::unique_ptr<Updater> updater_;
     PairsInto pairs_;
-    std::uint64_t placed_ = 0, rebuilds_ = 0; ///< in all frames since the build
+    bool chooses_;                                             ///< whether to answer from a cache
+    std::uint64_t placed_ = 0, rebuilds_ = 0, from_cache_ = 0; ///< in all frames since the build
 };
 
 /// The boxes of a frame come from the host, and its pairs go there.
@@ -174,7 +184,7 @@ ContenderEntry moving_contender(const BuilderChoice& policy) {
     };
     entry.answers = {{"moving_pairs",
                       [&update, settings = policy.settings](const Job& job) {
-                          return std::make_unique<Follower>(job, update.make(settings));
+                          return std::make_unique<Follower>(job, update, settings);
                       },
                       on_device(policy)}};
     return entry;

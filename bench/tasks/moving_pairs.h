@@ -5,8 +5,9 @@
 
 namespace boxwood::bench {
 
-/// The class of contenders that may answer a frame with the pairs of earlier ones, corrected. All
-/// others find the pairs of each frame again, and are never compared with these.
+/// The class of contenders that answer a frame with the pairs of earlier ones, corrected. All
+/// others find the pairs of each frame again, and are never compared with these. A policy that
+/// chooses is in it where it did so in any frame.
 inline const std::string cached_pairs_class = "cached pairs";
 
 /// The contender "<policy>[_<setting><value>...].packed.self_pairs" of moving_pairs. Throws

@@ -95,6 +95,28 @@ TEST(MovingPairs, EveryPolicyAndPeerFollowsEveryEffect) {
     }
 }
 
+TEST(MovingPairs, APolicyThatChoosesIsInTheClassOfWhatItDid) {
+    using Classes = std::optional<std::vector<std::string>>;
+    const auto classes_of = [](const char* policy, EffectChoice effect) {
+        const auto file = uniform({std::move(effect)}, 3000, 12);
+        const Scene scene = start_of(file);
+        Frames frames(file);
+        const ContenderEntry entry = moving_contender({policy, {}});
+        const auto contender = entry.make({&scene, &moving_pairs(), "serial", 1});
+        AnswerList<Pair> answers;
+        std::vector<FrameTime> times(frames.size());
+        contender->build();
+        play(*contender, &frames, answers, times, [](std::size_t, const Frame&) {});
+        return contender->classes();
+    };
+    const EffectChoice all_jump{"teleport", {}, 1}, few_creep{"drift", {{"speed", .001}}, .01};
+    EXPECT_EQ(classes_of("auto", all_jump), Classes{std::vector<std::string>{}});
+    EXPECT_EQ(classes_of("auto", few_creep), Classes{std::vector{cached_pairs_class}});
+    EXPECT_EQ(classes_of("cached", all_jump), std::nullopt);
+    EXPECT_EQ(classes_of("rebuild", few_creep), std::nullopt);
+    EXPECT_EQ(moving_contender({"cached", {}}).classes, std::vector{cached_pairs_class});
+}
+
 TEST(MovingPairs, APeerThatCannotSaysWhy) {
     const Scene comers = start_of(uniform({{"spawn", {}, 1}}, 10)),
                 stayers = start_of(uniform({{"drift", {}, 1}}, 10));

@@ -67,7 +67,9 @@ inline double reach(const Cylinder& s) { return s.radius + s.half_length; }
 inline double reach(const Cone& s) { return s.radius + s.half_length; }
 inline double reach(const EllipsoidCore& s) { return (s.radii.x + s.radii.y + s.radii.z) - s.ball; }
 inline double reach(const Hull& s) { return s.reach(); }
-inline double norm1(Vec3<double> p) { return std::abs(p.x) + std::abs(p.y) + std::abs(p.z); }
+[[gnu::always_inline]] inline double norm1(Vec3<double> p) {
+    return std::abs(p.x) + std::abs(p.y) + std::abs(p.z);
+}
 inline double reach(const Triangle& s) {
     const double a = norm1(s.a), b = norm1(s.b), c = norm1(s.c);
     return std::max({a, b, c}) + 0 * (a + b + c); // NaN of any of them
@@ -121,12 +123,16 @@ inline Vec3<double> support(const Ellipsoid& s, Vec3<double> d) {
     return {s.radii.x * (e.x * scale), s.radii.y * (e.y * scale), s.radii.z * (e.z * scale)};
 }
 inline Vec3<double> support(const Hull& s, Vec3<double> d) {
-    Vec3<double> best{};
+    const std::span<const Vec3<double>> points = s.points();
+    std::size_t best = 0;
     double most = -detail::inf;
-    for (const Vec3<double>& p : s.points())
-        if (const double x = dot(p, d); x > most)
-            most = x, best = p;
-    return best;
+    for (std::size_t i = 0; i < points.size(); ++i) { // without a branch that is hard to foresee
+        const double x = dot(points[i], d);
+        const bool is_farther = x > most;
+        most = is_farther ? x : most;
+        best = is_farther ? i : best;
+    }
+    return best < points.size() ? points[best] : Vec3<double>{};
 }
 inline Vec3<double> support(const Triangle& s, Vec3<double> d) {
     const double a = dot(s.a, d), b = dot(s.b, d), c = dot(s.c, d);

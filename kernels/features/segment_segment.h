@@ -40,7 +40,8 @@ template <class Real> struct NearestPoints {
 /// "Real-Time Collision Detection", 5.1.9). Clamped; then the other's nearest to it, clamped; then
 /// the first again.
 template <bool by_cross, class Real>
-NearestPoints<Real> nearest_on_segments(const Segment<Real>& a, const Segment<Real>& b) {
+[[gnu::always_inline]] inline NearestPoints<Real> nearest_on_segments(const Segment<Real>& a,
+                                                                      const Segment<Real>& b) {
     const Vec3<Real> ea = a.b - a.a, eb = b.b - b.a, r = a.a - b.a;
     const Real aa = dot(ea, ea), bb = dot(eb, eb), ab = dot(ea, eb);
     const Real ca = dot(ea, r), fb = dot(eb, r);

@@ -11,10 +11,10 @@ namespace boxwood {
 using Rotation = std::array<Vec3<double>, 3>;
 
 /// The matrix times v, rounded; and the transposed one.
-inline Vec3<double> times(const Rotation& m, Vec3<double> v) {
+[[gnu::always_inline]] inline Vec3<double> times(const Rotation& m, Vec3<double> v) {
     return {dot(m[0], v), dot(m[1], v), dot(m[2], v)};
 }
-inline Vec3<double> transposed_times(const Rotation& m, Vec3<double> v) {
+[[gnu::always_inline]] inline Vec3<double> transposed_times(const Rotation& m, Vec3<double> v) {
     return v.x * m[0] + v.y * m[1] + v.z * m[2];
 }
 
@@ -24,6 +24,13 @@ inline Rotation product(const Rotation& a, const Rotation& b) {
     for (std::size_t i = 0; i < 3; ++i)
         out[i] = a[i].x * b[0] + a[i].y * b[1] + a[i].z * b[2];
     return out;
+}
+
+/// The product of a transposed and b, rounded.
+[[gnu::always_inline]] inline Rotation transposed_product(const Rotation& a, const Rotation& b) {
+    return {a[0].x * b[0] + a[1].x * b[1] + a[2].x * b[2],
+            a[0].y * b[0] + a[1].y * b[1] + a[2].y * b[2],
+            a[0].z * b[0] + a[1].z * b[1] + a[2].z * b[2]};
 }
 
 /// The product of two rotations that are orthonormal to 2^-28, orthonormal to 16 roundings: two

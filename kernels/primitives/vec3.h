@@ -53,7 +53,9 @@ template <class Real>
 [[gnu::always_inline]] BOXWOOD_BOTH constexpr Vec3<Real> cross(Vec3<Real> a, Vec3<Real> b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-template <class Real> Real length(Vec3<Real> a) { return std::sqrt(dot(a, a)); }
+template <class Real> [[gnu::always_inline]] inline Real length(Vec3<Real> a) {
+    return std::sqrt(dot(a, a));
+}
 
 /// Component-wise minimum and maximum; where `b` is NaN the result is `a`.
 template <class Real>

@@ -98,10 +98,13 @@ def command_of(one, rounds=None):
 
 def noise_of(one, run):
     """The noise floors of what a table shows, in words."""
-    floors = [f"{ratio_text(100 * floor)} %" for floor in published_tables.floors(run, one.tasks)]
-    if len(floors) < 2:
-        return f"noise floor {floors[0] if floors else f'{ratio_text(100 * run.noise_floor)} %'}"
-    return f"noise floors by class {', '.join(floors[:-1])} and {floors[-1]}"
+    def percent(*floors):
+        return " to ".join(dict.fromkeys(ratio_text(100 * floor) for floor in floors)) + " %"
+
+    floors = published_tables.floors(run, one.tasks)
+    if not floors:
+        return f"noise floor {percent(run.noise_floor)}"
+    return "noise floors: " + ", ".join(f"{measured} {percent(*of)}" for measured, of in floors.items())
 
 
 def sweep_text(run):

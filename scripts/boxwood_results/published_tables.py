@@ -7,7 +7,7 @@ from .findings import CALL, PEERS
 from .moving import played_scenes
 from .run import Where
 from .selection import wrong_counts
-from boxwood.results.words import count_text, ratio_text, time_text
+from boxwood.results.words import count_text, time_text
 
 ONE, TWO = Where("", 1), Where("", 2)
 OPEN = " ?"  # behind a ratio that the file calls open
@@ -135,7 +135,7 @@ def against_peers(*tasks):
     return table
 
 
-SUMMARY = ["against the fastest peer", "measured", "questions", "won, lost, same", "open: above 1, around it, below", "least", "middle", "most", "libraries"]
+SUMMARY = ["against the fastest peer", "measured", "questions", "won, lost, same", "open: above 1, around it, below", "least (interval)", "middle", "most", "libraries"]
 VERDICTS = ("faster", "slower", "same")
 
 
@@ -149,24 +149,29 @@ def summary(run, tasks):
     for (group, measured), asked in groups.items():
         rows = [question.closest for question in asked]
         ordered = sorted(rows, key=lambda row: row.gain.mid)
+        answering = {library for question in asked for library in question.known}
+        # Where a library is struck out it may have been the fastest: neither the middle nor the most.
+        fair = sorted((question.closest for question in asked if not answering & set(question.unanswered)), key=lambda row: row.gain.mid)
         peers = sorted([row.a for question in asked for row in question.known.values()], key=lambda cell: cell.place)
         counts = [len([row for row in rows if row.verdict == verdict]) for verdict in VERDICTS]
         unsure = [row for row in rows if row.verdict not in VERDICTS]
         above, below = [row for row in unsure if row.gain.lo > 1], [row for row in unsure if row.gain.hi < 1]
         leaning = [len(above), len([row for row in unsure if row not in above and row not in below]), len(below)]
-        middle = marked_ratio(ordered[(len(ordered) - 1) // 2]) if len(ordered) > 2 else ""
+        middle = ratio_of(fair[(len(fair) - 1) // 2]) if len(fair) > 2 else ""
         lines.append([group, measured, str(len(rows)), ", ".join(map(str, counts)), ", ".join(map(str, leaning)),
-                      marked_ratio(ordered[0]), middle, marked_ratio(ordered[-1]), ", ".join(dict.fromkeys(cell.library_title for cell in peers))])
+                      ratio_of(ordered[0]), middle, ratio_of(fair[-1]) if fair else "", ", ".join(dict.fromkeys(cell.library_title for cell in peers))])
     return lines
 
 
-def marked_ratio(row):
-    return marked(f"{ratio_text(row.gain.mid)}x", row)
-
-
 def floors(run, tasks):
-    """The noise floors of what a table shows, the least first."""
-    return sorted({row.floor for question in questions(run, tasks) for row in question.known.values() if row.floor == row.floor})
+    """{what is measured, on more threads than one so named: (least, greatest)} of the noise floors of what a table shows."""
+    found = {}
+    for question in questions(run, tasks):
+        for row in question.known.values():
+            if row.floor == row.floor:
+                threads = row.b.job.where.threads
+                found.setdefault(question.measured + (f" on {threads} threads" if threads > 1 else ""), []).append(row.floor)
+    return {measured: (min(of), max(of)) for measured, of in found.items()}
 
 
 def behind(run, tasks):
@@ -196,11 +201,12 @@ def against_ourselves(run):
 
 def kernels_of(task):
     def table(run):
-        rows = [["input", "kernel", "library", "promise", "a call", "wrong per million"]]
+        rows = [["input", "kernel", "library", "promise", "called", "a call", "wrong per million"]]
         for kernel in run.kernel_costs:
             if kernel.task == task:
                 rate = f"0 (of {count_text(kernel.n)})" if not kernel.wrong else f"{kernel.per_million:,.0f}"
-                rows.append([kernel.panel, kernel.name, kernel.library, kernel.promise if kernel.ours else "", time_text(kernel.ns), rate])
+                rows.append([kernel.panel, kernel.name, kernel.library, kernel.promise if kernel.ours else "",
+                             "in batches" if kernel.name.endswith("_batch") else "one by one", time_text(kernel.ns), rate])
         return rows
 
     return table

@@ -358,3 +358,19 @@ def test_first_builds_have_a_row_of_their_own(tmp_path):
     assert len(first) == 1 and first[0][2].startswith("median.wide8 ")
     named = {title: text for title, text in zip(rows[0], first[0]) if text}
     assert re.match(r"(1\.9|2|2\.0)\d*x \(", named["Embree"]) and "Fcl" not in named
+
+
+def test_a_question_with_a_library_struck_out_is_neither_the_middle_nor_the_most(monkeypatch):
+    def question(mid, libraries, struck=()):
+        gain = SimpleNamespace(mid=mid, lo=mid, hi=mid)
+        cells = {library: SimpleNamespace(library=library, library_title=library, place=place) for place, library in enumerate(libraries)}
+        row = SimpleNamespace(gain=gain, text=f"{mid}x", is_open=False, verdict="faster" if mid > 1 else "slower")
+        known = {library: SimpleNamespace(**vars(row), a=cell) for library, cell in cells.items()}
+        return SimpleNamespace(group="shapes", measured="all the calls", rows=(row,), closest=row, known=known,
+                               unanswered={library: (None, "wrong in 1") for library in struck})
+
+    asked = [question(0.5, ["fcl"], ["bullet"]), question(2, ["fcl", "bullet"]), question(3, ["fcl", "bullet"]),
+             question(4, ["fcl", "bullet"]), question(400, ["fcl"], ["bullet"]), question(5, ["fcl", "bullet"], ["never right"])]
+    monkeypatch.setattr(published_tables, "questions", lambda run, tasks: asked)
+    (line,) = published_tables.summary(None, ())
+    assert line[2:4] == ["6", "5, 1, 0"] and line[5:8] == ["0.5x", "3x", "5x"]

@@ -24,6 +24,8 @@ struct UpdateStep {
     bool pairs_rebuilt = false; ///< whether all of them were searched for again
     std::size_t examined = 0;   ///< pairs tested again
     std::size_t fast = 0;       ///< items whose pairs are not cached but found in every frame
+    /// Whether what is asked of this frame is answered with pairs that an earlier one found.
+    bool answers_from_cache = false;
 };
 
 /// A tree over boxes that move from frame to frame, by one policy. The memory is used again, the

@@ -20,8 +20,6 @@ class NearestItems {
     explicit NearestItems(std::span<Neighbour> out)
         : out_(out), is_sorted_(out.size() <= most_sorted) {}
 
-    /// Of several items the bound comes late.
-    bool is_bounded_by_one_leaf() const { return out_.size() == 1; }
     /// Nothing farther than this matters.
     double worst() const {
         return n_ < out_.size() ? std::numeric_limits<double>::infinity()
@@ -79,7 +77,6 @@ class NearestSurface {
   public:
     NearestSurface(Vec3<float> point, const TriangleMesh& mesh) : point_(point), mesh_(mesh) {}
 
-    static constexpr bool is_bounded_by_one_leaf() { return true; }
     double worst() const { return best_.squared_distance; }
     Triangle<float> triangle(std::uint32_t i) const { return mesh_.triangle(i); }
     void offer(std::uint32_t triangle) {
@@ -104,8 +101,6 @@ class NearestTraversal {
   public:
     NearestTraversal(std::size_t stack_room, Work* work)
         : stack_(stack_room + RegionTraversal::spare), work_(work) {}
-
-    static constexpr std::uint32_t no_ref = ~std::uint32_t{0};
 
     /// References that wait, each below the bits of a float bound from below of its squared
     /// distance: in order as numbers, they are in order of distance.

@@ -14,6 +14,7 @@
 #include "trees/traversals/triangle_lanes-inl.h"
 
 #include <bit>
+#include <type_traits>
 
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::detail::HWY_NAMESPACE {
@@ -21,19 +22,18 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The lanes of a block that may be no farther than `bound`, as NearestTraversal::waiting of their
-/// references, or of their numbers; the nearest last. Returns how many. Up to a register is
-/// overwritten behind them.
-template <bool Numbers, class Block>
-HWY_INLINE std::size_t append_near(const Block& block, Vec3<float> point, float scale, float bound,
+/// Of the lanes of a block those whose bound, of bounds_at(i), is at most `bound`, as
+/// NearestTraversal::waiting of their references, or of their numbers; the nearest last. Returns how
+/// many. Up to a register is overwritten behind them.
+template <bool Numbers, class Block, class BoundsAt>
+HWY_INLINE std::size_t append_near(const Block& block, const BoundsAt& bounds_at, float bound,
                                    std::uint64_t* to) {
     const BoundTag<Block> df;
     const hn::RebindToUnsigned<decltype(df)> du;
     std::size_t n = 0;
     for (std::size_t i = 0; i < Block::width; i += hn::Lanes(df)) {
-        const auto bounds = distance_bounds(block, i, point, scale);
-        const auto near = hn::And(hn::Le(bounds, hn::Set(df, bound)), used_lanes(df, block, i));
-        const auto hits = hn::RebindMask(du, near);
+        const auto bounds = bounds_at(i);
+        const auto hits = hn::RebindMask(du, hn::Le(bounds, hn::Set(df, bound)));
         const auto refs =
             Numbers ? hn::Iota(du, static_cast<std::uint32_t>(i)) : load_refs(block, i);
         hn::StoreInterleaved2(compressed(du, refs, hits),
@@ -51,23 +51,35 @@ HWY_INLINE std::size_t append_near(const Block& block, Vec3<float> point, float 
     return n;
 }
 
-/// The reference of the nearest lane.
+/// Bounds of the lanes of a block; NaN of those without anything.
 template <class Block>
-HWY_INLINE std::uint32_t nearest_lane(const Block& block, Vec3<float> point, float scale) {
+HWY_INLINE hn::Vec<BoundTag<Block>> used_bounds(const Block& block, std::size_t i,
+                                                Vec3<float> point, float scale) {
     const BoundTag<Block> df;
-    std::uint32_t lane = 0;
-    float min_bound = std::numeric_limits<float>::infinity();
+    return hn::IfThenElse(used_lanes(df, block, i), distance_bounds(block, i, point, scale),
+                          hn::Set(df, std::numeric_limits<float>::quiet_NaN()));
+}
+
+/// The reference of the nearest lane. to: the bounds of all others, NaN for itself.
+template <class Block>
+HWY_INLINE std::uint32_t nearest_lane(const Block& block, Vec3<float> point, float scale,
+                                      float* to) {
+    constexpr float inf = std::numeric_limits<float>::infinity();
+    const BoundTag<Block> df;
+    std::size_t lane = 0;
+    float min_bound = inf;
     for (std::size_t i = 0; i < Block::width; i += hn::Lanes(df)) {
-        const auto bounds =
-            hn::IfThenElse(used_lanes(df, block, i), distance_bounds(block, i, point, scale),
-                           hn::Set(df, std::numeric_limits<float>::infinity()));
-        const float here = hn::GetLane(hn::MinOfLanes(df, bounds));
+        const auto bounds = used_bounds(block, i, point, scale);
+        hn::Store(bounds, df, to + i);
+        const auto known = hn::IfThenElse(hn::Eq(bounds, bounds), bounds, hn::Set(df, inf));
+        const float here = hn::GetLane(hn::MinOfLanes(df, known));
         if (here < min_bound) {
             min_bound = here;
-            lane = static_cast<std::uint32_t>(
+            lane = static_cast<std::size_t>(
                 std::countr_zero(mask_bits(df, hn::Eq(bounds, hn::Set(df, here)), i)));
         }
     }
+    to[lane] = std::numeric_limits<float>::quiet_NaN();
     return block.ref[lane];
 }
 
@@ -82,7 +94,11 @@ struct Goal {
 template <bool Counted, class Leaf>
 HWY_INLINE void offer_all(const Leaf& leaf, Goal& goal, NearestItems& best, NearestTraversal&) {
     alignas(64) std::uint64_t lanes[2 * RegionTraversal::spare];
-    const std::size_t n = append_near<true>(leaf, goal.point, goal.scaled.scale, goal.bound, lanes);
+    const std::size_t n = append_near<true>(
+        leaf,
+        [&](std::size_t i)
+            HWY_ATTR { return used_bounds(leaf, i, goal.point, goal.scaled.scale); },
+        goal.bound, lanes);
     for (std::size_t i = n; i-- > 0 && NearestTraversal::bound(lanes[i]) <= goal.bound;) {
         const std::uint32_t lane = NearestTraversal::ref(lanes[i]);
         best.offer({leaf.ref[lane], squared_distance(goal.point, leaf.lane(lane))});
@@ -133,8 +149,9 @@ HWY_INLINE void offer_all(const Leaf& leaf, Goal& goal, NearestSurface& best,
             offer(i);
 }
 
-/// All that may be as near as the best so far, nearest first; after a way down to the nearest leaf,
-/// where that gives a bound that spares more than it costs.
+/// All that may be as near as the best so far: first a way down to the nearest leaf, whose bound
+/// leaves little of what was passed on the way, then that, the lowest first, and of each block the
+/// nearest first.
 template <bool Counted, class L, class Best>
 HWY_INLINE void search(const L& tree, Vec3<float> point, Best& best, NearestTraversal& traversal) {
     Goal goal{point, DistanceScale(point, tree.bounds())};
@@ -143,27 +160,44 @@ HWY_INLINE void search(const L& tree, Vec3<float> point, Best& best, NearestTrav
         traversal.template count<Counted>(L::width, waiting);
         offer_all<Counted>(tree.leaf(ref), goal, best, traversal);
     };
-    std::uint32_t opened = NearestTraversal::no_ref;
-    if (best.is_bounded_by_one_leaf()) {
-        opened = tree.root();
-        while (!L::is_leaf(opened)) {
-            opened = nearest_lane(tree.block(opened), point, scale);
-            traversal.template count<Counted>(L::width, 0);
-        }
-        open_leaf(opened, 0);
+    constexpr std::size_t longest_way = 24; // what is below, is searched as the rest
+    alignas(64) float passed[longest_way][L::width];
+    std::uint32_t way[longest_way];
+    std::size_t length = 0;
+    std::uint32_t end = tree.root();
+    for (; !L::is_leaf(end) && length < longest_way; ++length) {
+        way[length] = end;
+        end = nearest_lane(tree.block(end), point, scale, passed[length]);
+        traversal.template count<Counted>(L::width, 0);
     }
+    const bool is_at_leaf = L::is_leaf(end);
+    if (is_at_leaf)
+        open_leaf(end, 0);
 
     std::uint64_t* const stack = traversal.stack();
-    stack[0] = NearestTraversal::waiting(0, tree.root());
-    for (std::size_t top = 1; top != 0;) {
+    std::size_t top = 0;
+    for (std::size_t i = 0; i < length; ++i) {
+        const auto& block = tree.block(way[i]);
+        const BoundTag<std::remove_cvref_t<decltype(block)>> df;
+        top += append_near<false>(
+            block, [&](std::size_t j) HWY_ATTR { return hn::Load(df, passed[i] + j); }, goal.bound,
+            stack + top);
+    }
+    if (!is_at_leaf)
+        stack[top++] = NearestTraversal::waiting(0, end);
+    while (top != 0) {
         const std::uint64_t next = stack[--top];
         const std::uint32_t ref = NearestTraversal::ref(next);
-        if (NearestTraversal::bound(next) > goal.bound || ref == opened)
+        if (NearestTraversal::bound(next) > goal.bound)
             continue;
         if (L::is_leaf(ref)) {
             open_leaf(ref, top);
         } else {
-            top += append_near<false>(tree.block(ref), point, scale, goal.bound, stack + top);
+            const auto& block = tree.block(ref);
+            top += append_near<false>(
+                block,
+                [&](std::size_t i) HWY_ATTR { return used_bounds(block, i, point, scale); },
+                goal.bound, stack + top);
             traversal.template count<Counted>(L::width, top);
         }
     }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <new>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -19,10 +20,13 @@ template <class Input, class Function> class OneByOne final : public Contender {
 
     void build() override {}
     void query(Answers& answers) override {
-        auto& out = list_of<std::invoke_result_t<Function&, Input&>>(answers);
+        using Answer = std::invoke_result_t<Function&, Input&>;
+        static_assert(std::is_trivially_destructible_v<Answer>);
+        auto& out = list_of<Answer>(answers);
         out.resize(inputs_.size());
         for (std::size_t i = 0; i < inputs_.size(); ++i)
-            out[i] = function_(inputs_[i]);
+            new (&out[i])
+                Answer(function_(inputs_[i])); // no copy, which costs more than spheres do
     }
 
   private:

@@ -4,6 +4,8 @@
 #include "bench/truth/judging/verdict_truth.h"
 #include "kernels/convex/signed_distance.h"
 
+#include <algorithm>
+
 namespace boxwood::bench {
 namespace {
 
@@ -19,6 +21,9 @@ struct ConvexCollide {
 };
 
 bool shapes_touch(const ShapePairCase& c) { return c.hi < 0; }
+double gap_or_depth(const ShapePairCase& c) {
+    return std::max(c.lo, -c.hi) / (size_of(c.a) + size_of(c.b));
+}
 
 } // namespace
 
@@ -29,7 +34,7 @@ const Task& shape_collide_task() {
             return convex::collide(c.a.shape, c.a.pose, c.b.shape, c.b.pose);
         })},
         [](const CaseScene& scene) {
-            return make_verdict_truth<ShapePairCase>(scene, shapes_touch);
+            return make_verdict_truth<ShapePairCase>(scene, shapes_touch, nullptr, gap_or_depth);
         });
     return task;
 }

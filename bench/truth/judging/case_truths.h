@@ -23,13 +23,14 @@
 /// Wrong are: a false yes or no; a distance off by more than 64 u L (u the precision's roundoff, L
 /// the largest extent of the pair) or, of convex shapes, outside of what is known by construction
 /// by more than 1e-5 (in floats 2e-3) of their size, too small counted as a false yes and too large
-/// as a false no; a box that does not hold the exact one. What a kernel promises is judged by its
-/// promise instead: never-leaks must hit closed fans and meshes, never-miss may say yes too often
-/// (but not where it says that a yes is proven), never-false no, certified may say maybe and must
-/// enclose a distance, within the width it states, or a first touch. What exact encloses lies
-/// between neighbouring doubles; of exact kernels of rays t must be within 0.63 ulp, u and v within
-/// 2^-23, and the triangle one that is hit there. A tree's nearest hit is that of its kernel
-/// without a tree, bit for bit, and of several triangles at one t the lowest.
+/// as a false no, or of whether they touch a false yes or no farther than that from a touch; a box
+/// that does not hold the exact one. What a kernel promises is judged by its promise instead:
+/// never-leaks must hit closed fans and meshes, never-miss may say yes too often (but not where it
+/// says that a yes is proven), never-false no, certified may say maybe and must enclose a distance,
+/// within the width it states, or a first touch. What exact encloses lies between neighbouring
+/// doubles; of exact kernels of rays t must be within 0.63 ulp, u and v within 2^-23, and the
+/// triangle one that is hit there. A tree's nearest hit is that of its kernel without a tree, bit
+/// for bit, and of several triangles at one t the lowest.
 namespace boxwood::bench {
 
 /// What the truths of cases are made from. The scene outlives them; its cases are of their kind.

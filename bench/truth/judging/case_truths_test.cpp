@@ -396,6 +396,20 @@ TEST(CaseTruth, ShapesAreAsFarApartAsTheyWerePut) {
     };
     EXPECT_EQ(touch(Answer::no), Status::exact);
     EXPECT_EQ(touch(Answer::yes), Status::wrong);
+    // What promises nothing may take 3e-5 for a touch (of 1 + 2, in doubles), not twice that.
+    const auto of_gap = [&](double gap, const char* precision) {
+        Scene near = scene;
+        std::get<std::vector<ShapePairCase>>(near.cases)[0].lo = gap;
+        std::get<std::vector<ShapePairCase>>(near.cases)[0].hi = gap + 1e-9;
+        return judged(near, "shape_collide", verdicts({{Answer::yes, 0}}),
+                      named(Promise::none, precision));
+    };
+    EXPECT_EQ(of_gap(2e-5, "f64").status, Status::within_bound);
+    EXPECT_EQ(of_gap(2e-5, "f64").kernel->false_pos, 0u);
+    EXPECT_NEAR(of_gap(2e-5, "f64").kernel->max_rel_err, 2e-5 / 3, 1e-7);
+    EXPECT_EQ(of_gap(6e-5, "f64").status, Status::wrong);
+    EXPECT_EQ(of_gap(5e-3, "f32").status, Status::within_bound);
+    EXPECT_EQ(of_gap(7e-3, "f32").status, Status::wrong);
 
     std::get<std::vector<ShapePairCase>>(scene.cases)[0].lo = -.5;
     std::get<std::vector<ShapePairCase>>(scene.cases)[0].hi = -.25;

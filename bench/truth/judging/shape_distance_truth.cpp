@@ -14,9 +14,6 @@
 namespace boxwood::bench {
 namespace {
 
-/// What a library may be off, of the size of both shapes: FCL and Coal, which end at 1e-6, ten
-/// times that; in floats twice the 1e-3 at which Bullet ends.
-double peers_error(const std::string& precision) { return precision == "f32" ? 2e-3 : 1e-5; }
 /// An interval wider than this part of the distance says little.
 constexpr double wide_interval = 0x1p-16;
 

@@ -21,6 +21,10 @@ std::optional<FitCase> rounded_to_floats(const FitCase& c);
 std::optional<ShapePairCase> rounded_to_floats(const ShapePairCase& c);
 double size_of(const ShapeOfPair& of); ///< its greatest length
 
+/// What a library that promises nothing of convex shapes may be off, of the size of both: FCL and
+/// Coal, which end at 1e-6, ten times that; in floats twice the 1e-3 at which Bullet ends.
+inline double peers_error(const std::string& precision) { return precision == "f32" ? 2e-3 : 1e-5; }
+
 /// Whether all coordinates are finite.
 bool is_finite(const TrianglePairCase& c);
 bool is_finite(const ObbPairCase& c);

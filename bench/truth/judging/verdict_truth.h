@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,9 +18,12 @@ template <class Case> class VerdictTruth final : public CaseTruth {
   public:
     using Oracle = bool (*)(const Case&);
     using Command = std::string (*)(const ContenderEntry&);
+    /// How far a case is from where the answer turns, as a part of its size.
+    using Nearness = double (*)(const Case&);
 
-    VerdictTruth(const CaseScene& scene, Oracle oracle, Command command)
-        : scene_(scene), command_(command), cases_(std::get<std::vector<Case>>(scene.scene.cases)),
+    VerdictTruth(const CaseScene& scene, Oracle oracle, Command command, Nearness nearness)
+        : scene_(scene), command_(command), nearness_(nearness),
+          cases_(std::get<std::vector<Case>>(scene.scene.cases)),
           truths_(cases_, scene.threads, oracle) {}
 
     Judgement judge(const Answers& answers, const ContenderEntry& contender) override {
@@ -31,6 +35,8 @@ template <class Case> class VerdictTruth final : public CaseTruth {
             if (!truths[i])
                 continue;
             tally.called(verdicts[i].tier);
+            if (is_near_miss(i, verdicts[i].answer, *truths[i], contender, tally))
+                continue;
             tally.answered(i, verdicts[i].answer, *truths[i]);
         }
         return tally.finish([&](std::size_t i) {
@@ -52,18 +58,35 @@ template <class Case> class VerdictTruth final : public CaseTruth {
     }
 
   private:
+    /// What promises nothing may answer wrongly where it may be so far off; noted then.
+    bool is_near_miss(std::size_t i, Answer said, bool truth, const ContenderEntry& contender,
+                      Tally& tally) const {
+        if (!nearness_ || contender.promise != Promise::none || said == Answer::maybe ||
+            (said == Answer::yes) == truth)
+            return false;
+        const double off = nearness_(truths_.as_read(i, contender.precision));
+        if (!(off <= peers_error(contender.precision)))
+            return false;
+        tally.error(std::numeric_limits<double>::quiet_NaN(), off);
+        tally.note(i, Worth::within_bound);
+        return true;
+    }
+
     CaseScene scene_;
     Command command_;
+    Nearness nearness_;
     const std::vector<Case>& cases_;
     Truths<Case, bool> truths_;
 };
 
 /// Yes or no of each case. command: what a case in words can be piped into, if something.
+/// nearness: libraries are allowed peers_error by it, if given.
 template <class Case>
 std::unique_ptr<CaseTruth>
 make_verdict_truth(const CaseScene& scene, typename VerdictTruth<Case>::Oracle oracle,
-                   typename VerdictTruth<Case>::Command command = nullptr) {
-    return std::make_unique<VerdictTruth<Case>>(scene, oracle, command);
+                   typename VerdictTruth<Case>::Command command = nullptr,
+                   typename VerdictTruth<Case>::Nearness nearness = nullptr) {
+    return std::make_unique<VerdictTruth<Case>>(scene, oracle, command, nearness);
 }
 
 } // namespace boxwood::bench

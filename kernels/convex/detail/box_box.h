@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/convex/detail/gjk.h"
+#include "kernels/features/segment_segment.h"
 
 /// Two boxes by the 15 directions that can separate them: the normals of their faces, and the cross
 /// products of their edges. If they overlap, the greatest gap is the signed distance, as the faces
@@ -14,6 +15,7 @@ struct BoxGaps {
     double gap = -inf, hi = inf;
     Vec3<double> normal{0, 0, 1}; ///< in a's frame, from a to b
     Touch touch = Touch::face_of_a;
+    int edge_a = 0, edge_b = 0; ///< the axes of edges that touch
 };
 
 /// Stops at the first gap of more than `enough`, with hi unknown.
@@ -29,6 +31,7 @@ inline BoxGaps box_gaps(const Box& a, const Box& b, const RelativePose& b_in_a, 
     for (std::size_t i = 0; i < 3; ++i)
         q[i] = {std::abs(r[i].x), std::abs(r[i].y), std::abs(r[i].z)};
     BoxGaps best;
+#pragma GCC unroll 3
     for (int i = 0; i < 3; ++i) {
         const double gap =
             std::abs(t[i]) - (a.half[i] + dot(q[static_cast<std::size_t>(i)], b.half));
@@ -41,6 +44,7 @@ inline BoxGaps box_gaps(const Box& a, const Box& b, const RelativePose& b_in_a, 
         }
     }
     const Vec3<double> back = b_in_a.rotated_back(t), reach_a = transposed_times(q, a.half);
+#pragma GCC unroll 3
     for (int j = 0; j < 3; ++j) {
         const double gap = std::abs(back[j]) - (b.half[j] + reach_a[j]);
         if (gap > best.gap) {
@@ -51,7 +55,10 @@ inline BoxGaps box_gaps(const Box& a, const Box& b, const RelativePose& b_in_a, 
         }
     }
     double left_out = -1, hi = best.gap;
+    const double vague = (16 * u + b_in_a.lack) * size;
+#pragma GCC unroll 3
     for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
         for (int j = 0; j < 3; ++j) {
             const int i1 = i == 2 ? 0 : i + 1, i2 = i == 0 ? 2 : i - 1;
             const int j1 = j == 2 ? 0 : j + 1, j2 = j == 0 ? 2 : j - 1;
@@ -65,13 +72,18 @@ inline BoxGaps box_gaps(const Box& a, const Box& b, const RelativePose& b_in_a, 
             const double along = t[i2] * rij(i1) - t[i1] * rij(i2);
             const double halves = a.half[i1] * qij(i2, j) + a.half[i2] * qij(i1, j) +
                                   b.half[j1] * qij(i, j2) + b.half[j2] * qij(i, j1);
+            const double longest = std::abs(along) - halves, at_most = longest + vague;
+            // Below best.gap for sure, which is found without the root.
+            if (at_most < 0 && (best.gap >= 0 || at_most * at_most > best.gap * best.gap * squared))
+                continue;
             const double scale = 1 / std::sqrt(squared);
-            const double gap = (std::abs(along) - halves) * scale;
-            hi = std::max(hi, gap + (16 * u + b_in_a.lack) * size * scale);
+            const double gap = longest * scale;
+            hi = std::max(hi, at_most * scale);
             if (gap > best.gap) {
                 Vec3<double> n{};
                 n[i1] = -rij(i2) * scale, n[i2] = rij(i1) * scale;
                 best.gap = gap, best.touch = Touch::edges;
+                best.edge_a = i, best.edge_b = j;
                 best.normal = n * std::copysign(1.0, along);
                 if (gap > enough)
                     return best;
@@ -103,7 +115,18 @@ inline bool touching_point(const Box& a, const Box& b, const RelativePose& b_in_
     case Touch::edges:
         break;
     }
-    return false;
+    const auto edge = [](Vec3<double> corner, int axis) {
+        Vec3<double> other = corner;
+        other[axis] = -corner[axis];
+        return Segment<double>{corner, other};
+    };
+    const Segment<double> of_a = edge(support(a, n), best.edge_a),
+                          of_b = edge(support(b, b_in_a.rotated_back(-n)), best.edge_b);
+    const Vec3<double> out = n * best.gap;
+    const auto near = nearest_on_segments<true>(
+        of_a, Segment<double>{b_in_a(of_b.a) - out, b_in_a(of_b.b) - out});
+    on_a = near.a;
+    return length(near.offset) <= slack;
 }
 
 } // namespace boxwood::convex::detail

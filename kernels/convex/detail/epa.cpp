@@ -135,11 +135,10 @@ class Polytope {
         const double a = dot(n, w(i)), b = dot(n, w(j)), c = dot(n, w(k));
         faces_[face_count_] = {{i, j, k}, n, std::max({a, b, c})};
         offset_[face_count_] = std::min({a, b, c});
-        link(face_count_++);
+        link(face_count_++, i, j, k);
     }
 
-    void link(Index i) {
-        const auto [a, b, c] = faces_[i].corner;
+    void link(Index i, std::uint8_t a, std::uint8_t b, std::uint8_t c) {
         left_of_[a][b] = left_of_[b][c] = left_of_[c][a] = static_cast<std::uint16_t>(i);
     }
     void remove_face(Index i) {
@@ -148,7 +147,8 @@ class Polytope {
             return;
         faces_[i] = faces_[face_count_];
         offset_[i] = offset_[face_count_];
-        link(i);
+        const auto [a, b, c] = faces_[i].corner;
+        link(i, a, b, c);
     }
 
     bool is_sliver(const V& p, const V& q) const {
@@ -167,9 +167,13 @@ class Polytope {
         };
         const auto for_edges = [&](Index face, auto f) {
             const auto [a, b, c] = faces_[face].corner;
-            for (const Edge e : {Edge{a, b}, Edge{b, c}, Edge{c, a}})
-                if (const Index next = left_of_[e.to][e.from]; !in_hole[next])
-                    f(e, next);
+            const auto cross_over = [&](std::uint8_t from, std::uint8_t to) {
+                if (const Index next = left_of_[to][from]; !in_hole[next])
+                    f(Edge{from, to}, next);
+            };
+            cross_over(a, b);
+            cross_over(b, c);
+            cross_over(c, a);
         };
         take(seen);
         for (Index done = 0; done < hole_count_; ++done)

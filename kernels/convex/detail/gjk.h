@@ -62,7 +62,7 @@ struct CoreDistance {
 };
 
 /// d of unit length, or `other` if it has none.
-inline Vec3<double> unit_or(Vec3<double> d, Vec3<double> other) {
+[[gnu::always_inline]] inline Vec3<double> unit_or(Vec3<double> d, Vec3<double> other) {
     const double size = length(d);
     return size > 0x1p-500 && size < 0x1p500 ? d * (1 / size) : other;
 }

@@ -199,12 +199,20 @@ template <class A, class B> struct Search {
         const auto& inner_a = core(a);
         const auto& inner_b = core(b);
         const Difference difference{inner_a, inner_b, b_in_a};
+        V towards_b = start();
+        if constexpr (boxes) {
+            const BoxGaps gaps = box_gaps(a, b, b_in_a, size, touching_size(size));
+            if (gaps.hi < -error)
+                return boxes_depth(gaps, difference, goal);
+            if (gaps.gap > touching_size(size))
+                towards_b = start();
+        }
         Simplex simplex;
-        CoreDistance found = nearest_to_origin(difference, start(), goal, simplex);
+        CoreDistance found = nearest_to_origin(difference, towards_b, goal, simplex);
         if (!found.overlapping || goal.reached(found.lo, found.hi))
             return found;
         if constexpr (boxes)
-            return boxes_depth(difference, goal);
+            return boxes_depth(box_gaps(a, b, b_in_a, size, inf), difference, goal);
         const double lo = found.lo;
         const V normal = found.normal;
         found = depth_of_origin(AnyDifference(difference), simplex, goal);
@@ -214,8 +222,8 @@ template <class A, class B> struct Search {
     }
 
     /// By the 15 directions. The points come from GJK, with b moved out, where corners do not do.
-    template <class D> CoreDistance boxes_depth(const D& difference, const Goal& goal) const {
-        const BoxGaps gaps = box_gaps(a, b, b_in_a, size, inf);
+    template <class D>
+    CoreDistance boxes_depth(const BoxGaps& gaps, const D& difference, const Goal& goal) const {
         CoreDistance found;
         found.lo = gaps.gap;
         found.hi = gaps.hi;

@@ -10,11 +10,13 @@ namespace boxwood::convex::detail {
 using Rows = Rotation;
 using boxwood::times, boxwood::transposed_times;
 
-inline Vec3<double> third_column(const Rows& m) { return {m[0].z, m[1].z, m[2].z}; }
+[[gnu::always_inline]] inline Vec3<double> third_column(const Rows& m) {
+    return {m[0].z, m[1].z, m[2].z};
+}
 
 /// What a matrix lacks of being orthonormal: a bound on the norm of MM' - 1, which is also that of
 /// M'M - 1.
-inline double defect(const Rows& m) {
+[[gnu::always_inline]] inline double defect(const Rows& m) {
     const double xy = std::abs(dot(m[0], m[1])), yz = std::abs(dot(m[1], m[2])),
                  zx = std::abs(dot(m[2], m[0]));
     return std::max({std::abs(dot(m[0], m[0]) - 1) + xy + zx,
@@ -31,15 +33,10 @@ struct RelativePose {
     Vec3<double> translation;
     double lack; ///< of the two rotations together
 
-    RelativePose(const Pose& a, const Pose& b) {
-        const Rows& m = a.rotation;
-        const Vec3<double> between = b.translation - a.translation;
-        for (int k = 0; k < 3; ++k)
-            rotation[static_cast<std::size_t>(k)] =
-                m[0][k] * b.rotation[0] + m[1][k] * b.rotation[1] + m[2][k] * b.rotation[2];
-        translation = transposed_times(m, between);
-        lack = defect(a.rotation) + defect(b.rotation);
-    }
+    RelativePose(const Pose& a, const Pose& b)
+        : rotation(transposed_product(a.rotation, b.rotation)),
+          translation(transposed_times(a.rotation, b.translation - a.translation)),
+          lack(defect(a.rotation) + defect(b.rotation)) {}
 
     Vec3<double> operator()(Vec3<double> p) const { return times(rotation, p) + translation; }
     Vec3<double> rotated(Vec3<double> d) const { return times(rotation, d); }

@@ -99,6 +99,7 @@ TEST(CachedPairs, FewAreExaminedInASlowDriftAndNoneAtRest) {
         examined += static_cast<double>(step.examined);
         pairs_rebuilt += step.pairs_rebuilt;
         EXPECT_EQ(step.fast, 0u);
+        EXPECT_EQ(step.answers_from_cache, !step.pairs_rebuilt);
         CountPairs sink;
         const Work work = caching.updater->self_pairs_counted(sink);
         EXPECT_EQ(work.box_tests, step.examined);

@@ -50,6 +50,7 @@ template <UpdatePolicy P> class UpdaterOf final : public Updater {
         tree_.step = {};
         if (caches_pairs || !moved.empty())
             policy_.update(tree_, boxes, moved, executor);
+        tree_.step.answers_from_cache = valid_pairs() && !tree_.step.pairs_rebuilt;
     }
     void self_pairs(const Executor& executor, PairSink& sink) const override {
         if (const CachedPairs* cached = valid_pairs())
