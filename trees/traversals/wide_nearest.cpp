@@ -23,8 +23,8 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Of the lanes of a block those whose bound, of bounds_at(i), is at most `bound`, as
-/// NearestTraversal::waiting of their references, or of their numbers; the nearest last. Returns how
-/// many. Up to a register is overwritten behind them.
+/// NearestTraversal::waiting of their references, or of their numbers; the nearest last. Returns
+/// how many. Up to a register is overwritten behind them.
 template <bool Numbers, class Block, class BoundsAt>
 HWY_INLINE std::size_t append_near(const Block& block, const BoundsAt& bounds_at, float bound,
                                    std::uint64_t* to) {
@@ -96,8 +96,7 @@ HWY_INLINE void offer_all(const Leaf& leaf, Goal& goal, NearestItems& best, Near
     alignas(64) std::uint64_t lanes[2 * RegionTraversal::spare];
     const std::size_t n = append_near<true>(
         leaf,
-        [&](std::size_t i)
-            HWY_ATTR { return used_bounds(leaf, i, goal.point, goal.scaled.scale); },
+        [&](std::size_t i) HWY_ATTR { return used_bounds(leaf, i, goal.point, goal.scaled.scale); },
         goal.bound, lanes);
     for (std::size_t i = n; i-- > 0 && NearestTraversal::bound(lanes[i]) <= goal.bound;) {
         const std::uint32_t lane = NearestTraversal::ref(lanes[i]);
@@ -195,8 +194,7 @@ HWY_INLINE void search(const L& tree, Vec3<float> point, Best& best, NearestTrav
         } else {
             const auto& block = tree.block(ref);
             top += append_near<false>(
-                block,
-                [&](std::size_t i) HWY_ATTR { return used_bounds(block, i, point, scale); },
+                block, [&](std::size_t i) HWY_ATTR { return used_bounds(block, i, point, scale); },
                 goal.bound, stack + top);
             traversal.template count<Counted>(L::width, top);
         }
