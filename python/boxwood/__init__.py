@@ -19,10 +19,11 @@ except ImportError as cause:
     raise ImportError(f"boxwood needs numpy, which {_sys.executable} does not have") from cause
 
 from ._answers import (BodyContacts, BodyDistance, BodyDistances, ClosestPoints, Contacts, Distances, FirstContacts, Hits,
-                       Items, MeshDistance, Nearest)
+                       Items, LedgerRow, MeshDistance, MeshFirstContact, Nearest, PlannedStage)
 
 __all__ = ["BodyContacts", "BodyDistance", "BodyDistances", "Bvh", "ClosestPoints", "Contacts", "Distances",
-           "FirstContacts", "Hits", "Items", "Mesh", "MeshBvh", "MeshDistance", "Nearest", "Shape", "World",
+           "FirstContacts", "Hits", "Items", "LedgerRow", "Mesh", "MeshBvh", "MeshDistance", "MeshFirstContact", "Nearest",
+           "PlannedStage", "Shape", "World",
            "builders", "layouts", "triangle_distances", "triangles_intersect"]
 
 _CORE = {"Bvh", "Mesh", "MeshBvh", "Shape", "World", "builders", "layouts", "triangle_distances", "triangles_intersect",

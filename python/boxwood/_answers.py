@@ -56,6 +56,16 @@ class MeshDistance(NamedTuple):
     triangle_b: int
 
 
+class MeshFirstContact(NamedTuple):
+    """When two meshes on their way first touch: not before t_free, and by t_hit if is_certain; -1 without triangles."""
+
+    t_free: float
+    t_hit: float
+    is_certain: bool
+    triangle_a: int
+    triangle_b: int
+
+
 class Contacts(NamedTuple):
     """Where two meshes touch, the deepest first."""
 
@@ -100,6 +110,24 @@ class BodyContacts(NamedTuple):
     normals: np.ndarray  # (n, 3) float64, of length 1, from the first to the second
     depths: np.ndarray  # (n,) float64
     parts: np.ndarray  # (n, 2) int32
+
+
+class PlannedStage(NamedTuple):
+    """One stage of a world's plan."""
+
+    stage: str
+    is_required: bool
+    why: str
+
+
+class LedgerRow(NamedTuple):
+    """What one stage did."""
+
+    stage: str
+    calls: int
+    items: int
+    ns: float  # 0 where the world is not timed
+    bytes: int  # held now
 
 
 class FirstContacts(NamedTuple):

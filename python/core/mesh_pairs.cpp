@@ -3,12 +3,14 @@
 #include "poses.h"
 #include "shapes.h"
 
+#include "trees/world/continuous.h"
 #include "trees/world/mesh_contacts.h"
 #include "trees/world/mesh_shape.h"
 
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 namespace boxwood::python {
@@ -42,6 +44,14 @@ std::vector<Pose> poses_of(const py::object& given, const std::string& name) {
         poses.push_back(
             named_pose(rows.numbers().subspan(16 * i, 16), name + ": row " + std::to_string(i)));
     return poses;
+}
+
+MotionPath path_of(const std::string& name) {
+    if (name == "linear")
+        return MotionPath::linear;
+    if (name == "screw")
+        return MotionPath::screw;
+    throw py::value_error("path: linear or screw is wanted, not '" + name + "'");
 }
 
 PyMesh::PyMesh(const py::object& vertices, const py::object& faces, const std::string& builder) {
@@ -88,23 +98,45 @@ class Posed {
 bool is_yes(bool yes) { return yes; }
 bool is_yes(Decision decision) { return decision.answer != Answer::no; }
 
-std::vector<Pair> touching(const MeshTree& a, const MeshTree& b, const Pose& b_in_a) {
-    return touching_triangles(a, b, b_in_a);
+std::vector<Pair> touching(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
+                           std::size_t limit) {
+    return touching_triangles(a, b, b_in_a, limit);
 }
-std::vector<Pair> touching(const MeshTree& a, const convex::Shape& b, const Pose& b_in_a) {
+std::vector<Pair> touching(const MeshTree& a, const convex::Shape& b, const Pose& b_in_a,
+                           std::size_t limit) {
     std::vector<Pair> pairs;
     for (const Contact& contact : contacts(a, b, b_in_a))
         pairs.push_back(contact.triangles);
     std::ranges::sort(pairs);
+    pairs.resize(std::min(limit, pairs.size()));
     return pairs;
 }
 
+/// The pair of triangles to start from: two numbers.
+std::optional<Pair> start_of(const py::object& given, const PyMesh& mesh, const py::object& other) {
+    if (given.is_none())
+        return std::nullopt;
+    if (!py::isinstance<PyMesh>(other))
+        throw py::type_error("start: only two meshes have triangles to start from");
+    const auto [a, b] = py::cast<std::pair<std::int64_t, std::int64_t>>(given);
+    const auto n_a = static_cast<std::int64_t>(mesh.tree().size());
+    const auto n_b = static_cast<std::int64_t>(py::cast<const PyMesh&>(other).tree().size());
+    if (a < 0 || a >= n_a || b < 0 || b >= n_b)
+        throw py::value_error("start: triangles (" + std::to_string(a) + ", " + std::to_string(b) +
+                              ") are not those of meshes of " + std::to_string(n_a) + " and " +
+                              std::to_string(n_b));
+    return Pair{static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)};
+}
+
 py::object distance_of(const PyMesh& mesh, const py::object& other, const py::object& pose,
-                       const py::object& other_pose, double relative, double absolute) {
+                       const py::object& other_pose, double relative, double absolute,
+                       const py::object& start, double limit) {
     const Posed posed(mesh, other, pose, other_pose);
     DistanceOptions options;
     options.relative = relative;
     options.absolute = absolute;
+    options.start = start_of(start, mesh, other);
+    options.limit = limit;
     const MeshDistance d = posed.answer([&](const MeshTree& a, const auto& b, const Pose& b_in_a) {
         return distance(a, b, b_in_a, options);
     });
@@ -114,6 +146,29 @@ py::object distance_of(const PyMesh& mesh, const py::object& other, const py::ob
     return named_tuple("MeshDistance")(d.distance, d.lo, d.hi, point_of(posed.at(d.point_a)),
                                        point_of(posed.at(d.point_b)), triangle(d.triangles.a),
                                        triangle(d.triangles.b, posed.is_mesh()));
+}
+
+py::object first_contact_of(const PyMesh& mesh, const PyMesh& other, const py::object& to,
+                            const py::object& other_to, const py::object& pose,
+                            const py::object& other_pose, const std::string& path,
+                            double tolerance) {
+    const auto motion = [&](const py::object& from, const char* from_name, const py::object& end,
+                            const char* end_name) {
+        const Pose start = pose_of(from, from_name);
+        return Motion(start, end.is_none() ? start : pose_of(end, end_name), path_of(path));
+    };
+    const Motion a = motion(pose, "pose", to, "to"),
+                 b = motion(other_pose, "other_pose", other_to, "other_to");
+    ContinuousOptions options;
+    options.tolerance = tolerance;
+    const FirstContact found =
+        without_gil([&] { return first_contact(mesh.tree(), a, other.tree(), b, options); });
+    if (found.hit == Answer::no)
+        return py::none();
+    const auto triangle = [](std::uint32_t i) { return i == ~0u ? -1 : std::int64_t{i}; };
+    return named_tuple("MeshFirstContact")(found.t_free, found.t_hit, found.hit == Answer::yes,
+                                           triangle(found.triangles.a),
+                                           triangle(found.triangles.b));
 }
 
 py::object contacts_of(const PyMesh& mesh, const py::object& other, const py::object& pose,
@@ -188,19 +243,22 @@ vertex with a NaN or a number of 2^60 or more, and for an unknown name.)")
         .def(
             "touching",
             [](const PyMesh& mesh, const py::object& other, const py::object& pose,
-               const py::object& other_pose) {
+               const py::object& other_pose, const std::optional<std::size_t>& most) {
                 const Posed posed(mesh, other, pose, other_pose);
                 return array_of<std::uint32_t>(
-                    posed.answer([](const MeshTree& a, const auto& b, const Pose& b_in_a) {
-                        return touching(a, b, b_in_a);
+                    posed.answer([&](const MeshTree& a, const auto& b, const Pose& b_in_a) {
+                        return touching(a, b, b_in_a,
+                                        most.value_or(std::numeric_limits<std::size_t>::max()));
                     }),
                     2);
             },
-            arg("other"), at, other_at,
+            arg("other"), at, other_at, py::kw_only(), arg("max_pairs") = py::none(),
             "The pairs of triangles, of this mesh and of the other (of a Shape 0, and also those "
-            "that are apart by no more than rounding), that touch: shape (m, 2), uint32.")
+            "that are apart by no more than rounding), that touch: shape (m, 2), uint32. "
+            "max_pairs: the search ends at so many.")
         .def("distance", &distance_of, arg("other"), at, other_at, py::kw_only(),
-             arg("relative") = 0.0, arg("absolute") = 0.0,
+             arg("relative") = 0.0, arg("absolute") = 0.0, arg("start") = py::none(),
+             arg("limit") = std::numeric_limits<double>::infinity(),
              R"(How far apart the two are.
 
 Returns MeshDistance(distance, lo, hi, point_a, point_b, triangle_a,
@@ -210,7 +268,23 @@ the bounds are 2e-14 of the size of both wider (of cylinders, cones and
 ellipsoids in rare cases 2^-19 of the distance). The points are in world
 coordinates.
 relative, absolute: the answer may be farther than the least distance, so that
-    hi <= (lo + absolute) / (1 - relative).)")
+    hi <= (lo + absolute) / (1 - relative).
+start: the triangles of the last answer along a motion (two meshes): the search
+    is then quicker, the answer as good.
+limit: nothing at this distance or beyond is looked for; lo is then at least
+    this, the others infinite and the triangles -1.)")
+        .def("first_contact", &first_contact_of, arg("other"), arg("to") = py::none(),
+             arg("other_to") = py::none(), arg("pose") = py::none(), arg("other_pose") = py::none(),
+             py::kw_only(), arg("path") = "linear", arg("tolerance") = 0.0,
+             R"(When this mesh and another first touch on their ways, t from 0 to 1.
+
+to, other_to: where each goes from pose and other_pose; None is that it stays.
+path: linear (the origin on a line, turning about it at a constant rate) or
+    screw (about one axis of space and along it).
+tolerance: nearer than this they touch; 0 is 2^-36 of their sizes.
+Returns MeshFirstContact(t_free, t_hit, is_certain, triangle_a, triangle_b):
+until t_free they surely do not touch, nothing thin is passed through, and at
+t_hit they do if is_certain; None if they never touch.)")
         .def(
             "within",
             [](const PyMesh& mesh, const py::object& other, double tolerance,

@@ -3,6 +3,7 @@
 #include "arrays.h"
 
 #include "trees/world/mesh_tree.h"
+#include "trees/world/motion.h"
 #include "trees/world/pose.h"
 
 #include <memory>
@@ -14,6 +15,7 @@ namespace boxwood::python {
 /// A 4 x 4 matrix, or None for no motion; several, of shape (n, 4, 4).
 Pose pose_of(const py::object& given, const std::string& name);
 std::vector<Pose> poses_of(const py::object& given, const std::string& name);
+MotionPath path_of(const std::string& name); ///< linear or screw
 
 inline py::array point_of(const Vec3<double>& p) {
     return array_of<double>(std::vector<double>{p.x, p.y, p.z});

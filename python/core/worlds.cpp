@@ -48,18 +48,11 @@ AllowedReason reason_of(const std::string& name) {
                           name + "'");
 }
 
-MotionPath path_of(const std::string& name) {
-    if (name == "linear")
-        return MotionPath::linear;
-    if (name == "screw")
-        return MotionPath::screw;
-    throw py::value_error("path: linear or screw is wanted, not '" + name + "'");
-}
-
 /// A World of Python: bodies by their numbers or names.
 class PyWorld {
   public:
-    explicit PyWorld(std::int64_t threads) : world_({.threads = threads_of(threads)}) {}
+    PyWorld(std::int64_t threads, bool is_timed)
+        : world_({.threads = threads_of(threads), .is_timed = is_timed}) {}
 
     World& world() { return world_; }
     const World& world() const { return world_; }
@@ -114,9 +107,27 @@ class PyWorld {
     }
 
     py::object contacts(const std::optional<std::size_t>& most) const {
-        ContactOptions options;
-        options.max_contacts = most.value_or(options.max_contacts);
-        return answer_of(without_gil([&] { return world_.contacts(options); }));
+        return answer_of(without_gil([&] { return world_.contacts(at_most(most)); }));
+    }
+    py::object contacts_between(const py::object& a, const py::object& b,
+                                const std::optional<std::size_t>& most) const {
+        const std::uint32_t i = body(a), j = body(b);
+        return answer_of(without_gil([&] { return world_.contacts(i, j, at_most(most)); }));
+    }
+
+    py::object plan() const {
+        py::list rows;
+        for (const PlannedStage& stage : world_.plan(every_query))
+            rows.append(named_tuple("PlannedStage")(stage.name, stage.is_required, stage.why));
+        return rows;
+    }
+    py::object ledger() const {
+        const Ledger kept = world_.ledger(every_query);
+        py::list rows;
+        for (const LedgerRow& row : kept.rows())
+            rows.append(
+                named_tuple("LedgerRow")(row.stage, row.calls, row.items, row.ns, row.bytes));
+        return rows;
     }
 
     py::object first_contacts(const py::object& bodies_given, const py::object& to,
@@ -146,6 +157,16 @@ class PyWorld {
     }
 
   private:
+    static constexpr WorldQuery every_query[] = {WorldQuery::candidates, WorldQuery::collide,
+                                                 WorldQuery::distance,   WorldQuery::within,
+                                                 WorldQuery::contacts,   WorldQuery::first_contact};
+
+    static ContactOptions at_most(const std::optional<std::size_t>& contacts) {
+        ContactOptions options;
+        options.max_contacts = contacts.value_or(options.max_contacts);
+        return options;
+    }
+
     World world_;
 };
 
@@ -243,8 +264,15 @@ void add_looks(py::class_<PyWorld>& to) {
             [](const PyWorld& self, Object a, Object b) {
                 return self.world().may_meet(self.body(a), self.body(b));
             },
-            arg("a"), arg("b"),
-            "Whether they are looked at: by groups, masks and what is allowed.");
+            arg("a"), arg("b"), "Whether they are looked at: by groups, masks and what is allowed.")
+        .def("plan", &PyWorld::plan,
+             "PlannedStage of every stage there is, and whether these bodies require it for any "
+             "question.")
+        .def("ledger", &PyWorld::ledger,
+             "LedgerRow of each stage: what it did since the start or clear_ledger().")
+        .def(
+            "clear_ledger", [](PyWorld& self) { self.world().clear_ledger(); },
+            "Calls, items and times count from 0 again.");
 }
 
 void add_questions(py::class_<PyWorld>& to) {
@@ -257,6 +285,15 @@ void add_questions(py::class_<PyWorld>& to) {
           },
           arg("tolerance") = 0.0,
           "Pairs that may meet whose boxes are at most `tolerance` apart: shape (m, 2).")
+        .def(
+            "candidates_of",
+            [](const PyWorld& self, Object body, double tolerance) {
+                const std::uint32_t i = self.body(body);
+                return array_of<std::uint32_t>(
+                    without_gil([&] { return self.world().candidates_of(i, tolerance); }));
+            },
+            arg("body"), arg("tolerance") = 0.0,
+            "The bodies that this one may meet, boxes at most `tolerance` apart: shape (n,).")
         .def(
             "collides",
             [](const PyWorld& self, Object a, Object b) {
@@ -272,6 +309,19 @@ void add_questions(py::class_<PyWorld>& to) {
                 return answer_of(without_gil([&] { return self.world().distance(i, j); }));
             },
             arg("a"), arg("b"), "BodyDistance of the two, whether or not they may meet.")
+        .def(
+            "are_within",
+            [](const PyWorld& self, Object a, Object b, double tolerance) {
+                const std::uint32_t i = self.body(a), j = self.body(b);
+                return without_gil([&] { return self.world().within(i, j, tolerance); }) !=
+                       Answer::no;
+            },
+            arg("a"), arg("b"), arg("tolerance"),
+            "Whether the two are at most so far apart, or may be within rounding; whether or not "
+            "they may meet.")
+        .def("contacts_between", &PyWorld::contacts_between, arg("a"), arg("b"), py::kw_only(),
+             arg("max_contacts") = py::none(),
+             "BodyContacts of the two, the deepest first, whether or not they may meet.")
         .def(
             "collisions",
             [](const PyWorld& self) {
@@ -299,6 +349,15 @@ void add_questions(py::class_<PyWorld>& to) {
                 return answer_of(without_gil([&] { return self.world().least_distance(limit); }));
             },
             arg("limit") = no_limit, "BodyDistance of the nearest pair; None from the limit on.")
+        .def(
+            "least_distance_of",
+            [](const PyWorld& self, Object body, double limit) {
+                const std::uint32_t i = self.body(body);
+                return answer_of(
+                    without_gil([&] { return self.world().least_distance_of(i, limit); }));
+            },
+            arg("body"), arg("limit") = no_limit,
+            "BodyDistance of this body and what is nearest to it; None from the limit on.")
         .def(
             "within",
             [](const PyWorld& self, double tolerance) {
@@ -330,7 +389,9 @@ Queries may come from any number of threads at once (the GIL is released); who
 changes the world is alone with it meanwhile. A body that is not there raises
 ValueError.)");
     refuse_copies(world);
-    world.def(py::init<std::int64_t>(), py::kw_only(), py::arg("threads") = 1);
+    world.def(py::init<std::int64_t, bool>(), py::kw_only(), py::arg("threads") = 1,
+              py::arg("is_timed") = false,
+              "threads: of questions about many pairs. is_timed: whether the ledger has times.");
     add_changes(world);
     add_looks(world);
     add_questions(world);

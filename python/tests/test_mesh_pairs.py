@@ -90,3 +90,47 @@ def test_what_is_wrong_is_said():
     empty = bw.Mesh(np.zeros((0, 3)), np.zeros((0, 3), int))
     answer = cube.distance(empty)
     assert not cube.collides(empty) and answer.triangle_a == -1 and answer.distance == np.inf
+
+
+def test_meshes_on_their_way_meet_where_they_are_near():
+    cube = bw.Mesh(CUBE, FACES)
+    met = cube.first_contact(cube, to=at(4), other_pose=at(3))
+    assert met.is_certain and met.t_free <= 0.5 <= met.t_hit + 1e-9 and met.t_hit - met.t_free < 1e-6
+    assert met.triangle_a >= 0 and met.triangle_b >= 0
+    assert not cube.within(cube, 1e-3, at(4 * met.t_free * 0.999), at(3)) and cube.within(cube, 1e-6, at(4 * met.t_hit), at(3))
+    both = cube.first_contact(cube, at(2), at(1), None, at(3))
+    assert both.t_free <= 0.5 <= both.t_hit + 1e-9
+    assert cube.first_contact(cube, to=at(0, 9), other_pose=at(3)) is None
+    early = cube.first_contact(cube, to=at(4), other_pose=at(3), tolerance=0.5)
+    assert 0.375 - 1e-9 <= early.t_hit <= met.t_hit and cube.within(cube, 0.5, at(4 * early.t_hit), at(3))
+    # A plate of no thickness, flown at by a step that is far longer than the cube.
+    plate = bw.Mesh([[50, -9, -9], [50, 9, -9], [50, 0, 18]], [[0, 1, 2]])
+    through = cube.first_contact(plate, to=at(1000))
+    assert through.is_certain and through.t_hit == pytest.approx(0.049, abs=1e-6)
+    turn = np.diag([-1.0, -1.0, 1.0, 1.0])  # half a turn about z
+    assert cube.first_contact(cube, to=turn, other_pose=at(-0.5, -3)) is None
+    assert cube.first_contact(cube, to=turn, other_pose=at(-0.9, -0.9), path="screw") is not None
+    with pytest.raises(ValueError, match="path"):
+        cube.first_contact(cube, to=at(4), path="bent")
+    with pytest.raises(ValueError, match="to: "):
+        cube.first_contact(cube, to=2 * np.eye(4))
+
+
+def test_a_search_may_start_somewhere_and_end_early():
+    vertices, faces = soup(200, 3)
+    mesh, pose = bw.Mesh(vertices, faces), turned(5)
+    pose[:3, 3] += 6
+    cold = mesh.distance(mesh, other_pose=pose)
+    warm = mesh.distance(mesh, other_pose=pose, start=(cold.triangle_a, cold.triangle_b))
+    assert warm.lo <= cold.hi and cold.lo <= warm.hi
+    beyond = mesh.distance(mesh, other_pose=pose, limit=cold.lo / 2)
+    assert beyond.lo >= cold.lo / 2 and beyond.hi == np.inf and beyond.triangle_a == -1
+    assert mesh.distance(mesh, other_pose=pose, limit=cold.hi * 2).triangle_a >= 0
+    for start in ((200, 0), (0, -1)):
+        with pytest.raises(ValueError, match="start"):
+            mesh.distance(mesh, start=start)
+    with pytest.raises(TypeError, match="start"):
+        mesh.distance(bw.Shape.sphere(1), start=(0, 0))
+    beside = at(0.05)
+    assert len(mesh.touching(mesh, other_pose=beside)) > 5 and len(mesh.touching(mesh, other_pose=beside, max_pairs=5)) == 5
+    assert len(mesh.touching(bw.Shape.box([9, 9, 9]), max_pairs=7)) == 7

@@ -55,6 +55,26 @@ def test_against_all_pairs(threads):
     assert {tuple(pair) for pair in contacts.bodies.tolist()} == set(touching)
     assert np.allclose(np.linalg.norm(contacts.normals, axis=1), 1) and (contacts.depths > -1e-9).all()
     assert world.least_distance().distance == 0
+    assert [world.are_within(*pair, 0.1) for pair in pairs] == [d.lo <= 0.1 for d in distances]
+    assert world.candidates_of(5, 0.1).tolist() == sorted({a + b - 5 for a, b in world.candidates(0.1).tolist() if 5 in (a, b)})
+    of_9 = [d.distance for pair, d in zip(pairs, distances) if 9 in pair]
+    assert world.least_distance_of("body 9").distance == pytest.approx(max(min(of_9), 0), abs=1e-12)
+    between = world.contacts_between(*touching[0], max_contacts=2)
+    of_pair = (contacts.bodies == touching[0]).all(axis=1)
+    assert np.allclose(between.depths, contacts.depths[of_pair]) and between.bodies.tolist() == [list(touching[0])] * len(between.depths)
+
+
+def test_a_world_says_what_it_did():
+    world = random_world(4, is_timed=True)
+    plan = world.plan()
+    assert len(plan) > 4 and any(stage.is_required for stage in plan) and all(stage.why for stage in plan)
+    world.collisions()
+    ledger = world.ledger()
+    assert [row.stage for row in ledger] == [stage.stage for stage in plan]
+    busy = [row for row in ledger if row.calls]
+    assert busy and sum(row.ns for row in busy) > 0 and max(row.items for row in busy) > 0
+    world.clear_ledger()
+    assert not any(row.calls for row in world.ledger())
 
 
 def test_spheres_against_numpy():
