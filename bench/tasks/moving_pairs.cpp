@@ -24,8 +24,7 @@ class Follower final : public Contender {
   public:
     Follower(const Job& job, const UpdateEntry& policy, const Settings& settings)
         : scene_(*job.scene), executor_(make_executor(job.executor, job.threads)),
-          updater_(policy.make(settings)),
-          chooses_(policy.may_cache_pairs && !policy.answers_from_cache) {}
+          updater_(policy.make(settings)), may_cache_(policy.may_cache_pairs) {}
 
     void build() override {
         updater_->start(scene_.boxes, *executor_);
@@ -47,7 +46,7 @@ class Follower final : public Contender {
             {"items_placed", placed_}, {"rebuilds", rebuilds_}, {"frames_from_cache", from_cache_}};
     }
     std::optional<std::vector<std::string>> classes() const override {
-        if (!chooses_)
+        if (!may_cache_)
             return std::nullopt;
         return from_cache_ > 0 ? std::vector{cached_pairs_class} : std::vector<std::string>{};
     }
@@ -60,7 +59,7 @@ class Follower final : public Contender {
     std::unique_ptr<Executor> executor_;
     std::unique_ptr<Updater> updater_;
     PairsInto pairs_;
-    bool chooses_;                                             ///< whether to answer from a cache
+    bool may_cache_;                                           ///< pairs, and answer with them
     std::uint64_t placed_ = 0, rebuilds_ = 0, from_cache_ = 0; ///< in all frames since the build
 };
 

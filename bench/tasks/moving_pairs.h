@@ -6,8 +6,8 @@
 namespace boxwood::bench {
 
 /// The class of contenders that answer a frame with the pairs of earlier ones, corrected. All
-/// others find the pairs of each frame again, and are never compared with these. A policy that
-/// chooses is in it where it did so in any frame.
+/// others find the pairs of each frame again, and are never compared with these. Ours are
+/// in it where they did so in any frame.
 inline const std::string cached_pairs_class = "cached pairs";
 
 /// The contender "<policy>[_<setting><value>...].packed.self_pairs" of moving_pairs. Throws

@@ -95,7 +95,7 @@ TEST(MovingPairs, EveryPolicyAndPeerFollowsEveryEffect) {
     }
 }
 
-TEST(MovingPairs, APolicyThatChoosesIsInTheClassOfWhatItDid) {
+TEST(MovingPairs, APolicyThatMayCacheIsInTheClassOfWhatItDid) {
     using Classes = std::optional<std::vector<std::string>>;
     const auto classes_of = [](const char* policy, EffectChoice effect) {
         const auto file = uniform({std::move(effect)}, 3000, 12);
@@ -112,7 +112,8 @@ TEST(MovingPairs, APolicyThatChoosesIsInTheClassOfWhatItDid) {
     const EffectChoice all_jump{"teleport", {}, 1}, few_creep{"drift", {{"speed", .001}}, .01};
     EXPECT_EQ(classes_of("auto", all_jump), Classes{std::vector<std::string>{}});
     EXPECT_EQ(classes_of("auto", few_creep), Classes{std::vector{cached_pairs_class}});
-    EXPECT_EQ(classes_of("cached", all_jump), std::nullopt);
+    EXPECT_EQ(classes_of("cached", all_jump), Classes{std::vector<std::string>{}});
+    EXPECT_EQ(classes_of("cached", few_creep), Classes{std::vector{cached_pairs_class}});
     EXPECT_EQ(classes_of("rebuild", few_creep), std::nullopt);
     EXPECT_EQ(moving_contender({"cached", {}}).classes, std::vector{cached_pairs_class});
 }
