@@ -103,6 +103,11 @@ def test_meshes_on_their_way_meet_where_they_are_near():
     assert cube.first_contact(cube, to=at(0, 9), other_pose=at(3)) is None
     early = cube.first_contact(cube, to=at(4), other_pose=at(3), tolerance=0.5)
     assert 0.375 - 1e-9 <= early.t_hit <= met.t_hit and cube.within(cube, 0.5, at(4 * early.t_hit), at(3))
+    assert cube.first_contact(cube, to=at(8), other_pose=at(3, 1.125)) is None
+    aside = cube.first_contact(cube, to=at(8), other_pose=at(3, 1.125), tolerance=0.25)
+    assert aside.is_certain and cube.within(cube, 0.25, at(8 * aside.t_hit), at(3, 1.125))
+    with pytest.raises(ValueError, match="tolerance"):
+        cube.first_contact(cube, tolerance=-1)
     # A plate of no thickness, flown at by a step that is far longer than the cube.
     plate = bw.Mesh([[50, -9, -9], [50, 9, -9], [50, 0, 18]], [[0, 1, 2]])
     through = cube.first_contact(plate, to=at(1000))

@@ -190,8 +190,9 @@ def dropin_block(root, up):
         return f"*FclBroadPhase: not published yet. `{DROPIN_COMMAND}` measures it.*\n"
     times = dropin_times.read(root / DROPIN)
     env = times.env
+    bodies = " ".join(map(str, dict.fromkeys(run.bodies for run in times.runs)))
     return (f"{markdown(dropin_times.table(times))}\n\n*{env['created_utc'][:10]}, {times.rounds} rounds, {env['cpu']}, {env['ncpu']} cores, "
-            f"commit {env['git_commit'][:8]}; [`{DROPIN.name}`]({up}{DROPIN}). Again: `{DROPIN_COMMAND} --rounds {times.rounds}`.*\n")
+            f"commit {env['git_commit'][:8]}; [`{DROPIN.name}`]({up}{DROPIN}). Again: `{DROPIN_COMMAND} --rounds {times.rounds} --bodies {bodies}`.*\n")
 
 
 BLOCKS = {  # marker -> (root, up) -> text

@@ -139,6 +139,7 @@ def test_what_the_drop_in_gains_is_shown_by_its_fastest_rival(root):
     text = (root / "README.md").read_text()
     assert "| 1,000 | 1 % | 1.00 ms for 50 frames | 4.00x (3.60 to 4.40) fcl.fast | 1.05x (0.945 to 1.16) ? coal.array |" in text
     assert "15 rounds, a CPU, 2 cores, commit abcdef01" in text and published.problems(root) == []
+    assert "dropin.json --rounds 15 --bodies 1000`" in text
     runs[0].managers[0]["wrong"] = 1
     dropin_times.DropinTimes(15, runs, env).write(root / published.DROPIN)
     with pytest.raises(published.BadFile, match="ours is wrong"):

@@ -1,6 +1,7 @@
 #include "kernels/features/point_triangle.h"
 #include "kernels/testing/every_target.h"
 #include "trees/builder.h"
+#include "trees/builders/top_down.h"
 #include "trees/layout.h"
 #include "trees/testing/box_families.h"
 #include "trees/testing/each_builder.h"
@@ -172,6 +173,26 @@ TEST(Points, ManyAtOnceAreAnsweredAsOneByOne) {
                 EXPECT_EQ(alone, together);
             }
         }
+    }
+}
+
+/// One item beside all others, and so on: wide layouts are a hundred blocks deep.
+TEST(Points, ADeepTreeIsSearchedToItsEnd) {
+    std::vector<Box> items;
+    QueriesOfRegions q;
+    for (int i = 0; i < 1500; ++i) {
+        const float x = static_cast<float>(i);
+        items.push_back({{x, 0, 0}, {x + .5f, .5f, .5f}});
+        q.points.push_back({x + .6f, .2f, .75f});
+        q.balls.push_back({q.points.back(), .3f});
+        q.boxes.push_back({q.points.back(), q.points.back() + Vec3<float>{.6f, .1f, .1f}});
+    }
+    const Expected e = brute_force(items, q);
+    const Tree chain =
+        build_top_down(items, serial(), [](std::span<BuildItem>) { return std::size_t{1}; });
+    for (const LayoutEntry& entry : layouts_answering({Query::nearest})) {
+        SCOPED_TRACE(entry.name);
+        expect_answers(*entry.make(chain, serial()), q, e, serial());
     }
 }
 

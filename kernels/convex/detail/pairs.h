@@ -199,16 +199,11 @@ template <class A, class B> struct Search {
         const auto& inner_a = core(a);
         const auto& inner_b = core(b);
         const Difference difference{inner_a, inner_b, b_in_a};
-        V towards_b = start();
-        if constexpr (boxes) {
-            const BoxGaps gaps = box_gaps(a, b, b_in_a, size, touching_size(size));
-            if (gaps.hi < -error)
+        if constexpr (boxes)
+            if (const BoxGaps gaps = box_gaps(a, b, b_in_a, size, 0); gaps.hi < -error)
                 return boxes_depth(gaps, difference, goal);
-            if (gaps.gap > touching_size(size))
-                towards_b = start();
-        }
         Simplex simplex;
-        CoreDistance found = nearest_to_origin(difference, towards_b, goal, simplex);
+        CoreDistance found = nearest_to_origin(difference, start(), goal, simplex);
         if (!found.overlapping || goal.reached(found.lo, found.hi))
             return found;
         if constexpr (boxes)
