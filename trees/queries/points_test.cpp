@@ -1,7 +1,7 @@
 #include "kernels/features/point_triangle.h"
 #include "kernels/testing/every_target.h"
 #include "trees/builder.h"
-#include "trees/builders/top_down.h"
+#include "trees/inspect/validate.h"
 #include "trees/layout.h"
 #include "trees/testing/box_families.h"
 #include "trees/testing/each_builder.h"
@@ -188,8 +188,15 @@ TEST(Points, ADeepTreeIsSearchedToItsEnd) {
         q.boxes.push_back({q.points.back(), q.points.back() + Vec3<float>{.6f, .1f, .1f}});
     }
     const Expected e = brute_force(items, q);
-    const Tree chain =
-        build_top_down(items, serial(), [](std::span<BuildItem>) { return std::size_t{1}; });
+    const auto n = static_cast<std::uint32_t>(items.size());
+    Tree chain(n);
+    for (std::uint32_t i = 0; i < n; ++i) {
+        chain.order[i] = i;
+        if (i + 1 < n)
+            chain.nodes[2 * i] = {{items[i].min, items.back().max}, i, n - i};
+        chain.nodes[i + 1 < n ? 2 * i + 1 : 2 * i] = {items[i], i, 1};
+    }
+    ASSERT_EQ(validate(chain, items, Bounds::tight), std::nullopt);
     for (const LayoutEntry& entry : layouts_answering({Query::nearest})) {
         SCOPED_TRACE(entry.name);
         expect_answers(*entry.make(chain, serial()), q, e, serial());
