@@ -39,9 +39,10 @@ class Expansion {
     }
 
   private:
-    /// Equal cells collapse; two cells of one name that are not equal are an error.
+    /// Equal cells collapse.
     void add_cell(const Block& block, PlannedCell cell) {
         const SceneSpec& spec = cell.scene;
+        refuse_another(spec, block);
         cell.name = format_cell_name(
             {scene_name(spec), spec.n, spec.seed, std::string(cell.task->name()),
              cell.contender.name, cell.contender.precision, cell.executor, cell.threads, cell.isa});
@@ -55,15 +56,20 @@ class Expansion {
             rounds = std::max(*rounds, *block.rounds);
         else
             rounds.reset();
-        const SceneSpec& other = cells_[seen->second].scene;
+    }
+
+    /// A scene is made once for all of its cells, whatever their tasks: by one of them.
+    void refuse_another(const SceneSpec& spec, const Block& block) {
+        const auto [seen, is_new] = scenes_.try_emplace(scene_key(spec), spec);
+        const SceneSpec& other = seen->second;
         if (other.overlaps != spec.overlaps || other.n_rays != spec.n_rays ||
             other.n_points != spec.n_points || other.n_poses != spec.n_poses ||
             other.file != spec.file)
-            throw BadInput(fmt::format("{}: the cell {} stands twice with different scenes "
+            throw BadInput(fmt::format("{}: the scene {} stands twice and differs "
                                        "(overlaps {} and {}, n_rays {} and {}, n_points {} and "
                                        "{}, n_poses {} and {}, file \"{}\" and \"{}\"); make them "
                                        "equal",
-                                       block.reader.place(), cell.name, other.overlaps,
+                                       block.reader.place(), seen->first, other.overlaps,
                                        spec.overlaps, other.n_rays, spec.n_rays, other.n_points,
                                        spec.n_points, other.n_poses, spec.n_poses,
                                        other.file.string(), spec.file.string()));
@@ -71,6 +77,7 @@ class Expansion {
 
     std::vector<PlannedCell>& cells_;
     std::map<std::string, std::size_t, std::less<>> index_of_;
+    std::map<std::string, SceneSpec, std::less<>> scenes_; ///< by scene_key
 };
 
 struct OwnOption {
@@ -237,6 +244,10 @@ std::vector<std::size_t> shuffled_order(std::size_t count, std::uint64_t order_s
     for (std::size_t i = count; i > 1; --i)
         std::swap(order[i - 1], order[random() % i]);
     return order;
+}
+
+std::string scene_key(const SceneSpec& spec) {
+    return fmt::format("{}/n{}-s{}", scene_name(spec), spec.n, spec.seed);
 }
 
 } // namespace boxwood::bench

@@ -23,6 +23,9 @@ struct Overrides {
     std::vector<std::string> arguments() const;
 };
 
+/// What tells two scenes of a plan apart.
+std::string scene_key(const SceneSpec& spec);
+
 /// One thing to time: a contender that does a task on a scene.
 struct PlannedCell {
     std::string name; ///< see cell_name.h

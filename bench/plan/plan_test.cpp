@@ -97,6 +97,12 @@ TEST(Plan, RefusesOneNameForTwoScenes) {
     EXPECT_THAT([&] { plan_of(rays + "n_rays = 10\n" + rays + "n_rays = 20\n"); },
                 testing::ThrowsMessage<BadInput>(
                     testing::AllOf(HasSubstr("x.toml:7"), HasSubstr("n_rays 10"))));
+    const std::string closest = "[[cells]]\nscene = \"sphere_mesh\"\ntask = \"rays_closest\"\n"
+                                "rays = \"random\"\nbuilders = \"median\"\n";
+    EXPECT_THAT([&] { plan_of(rays + "n_rays = 10\n" + closest + "n_rays = 20\n"); },
+                testing::ThrowsMessage<BadInput>(
+                    testing::AllOf(HasSubstr("the scene sphere_mesh_random/n1000-s1 stands twice"),
+                                   HasSubstr("n_rays 10 and 20"))));
 }
 
 TEST(Plan, SerialStaysOnOneThread) {

@@ -320,8 +320,4 @@ bool mark_crashed(results::Results& prepared, const std::string& cell, const std
     return is_new;
 }
 
-std::string scene_key(const SceneSpec& spec) {
-    return fmt::format("{}/n{}-s{}", scene_name(spec), spec.n, spec.seed);
-}
-
 } // namespace boxwood::bench

@@ -21,7 +21,4 @@ results::Results prepare(const Plan& plan, const results::Env& env,
 /// witness, and it is not timed any more. False if it is out already.
 bool mark_crashed(results::Results& prepared, const std::string& cell, const std::string& witness);
 
-/// What tells two scenes of a plan apart.
-std::string scene_key(const SceneSpec& spec);
-
 } // namespace boxwood::bench

@@ -101,14 +101,15 @@ def kernel_question(run, points, raced, compared):
     if not right:
         return []
     best, rows, unanswered = raced or right[0].cell, [], {}
-    for point in points:
+    for point in sorted(points, key=lambda point: point.ns):
         if point.ours:
             continue
+        in_time = f" ({time_text(point.cell.median('query'))})"
         row = compared.get((point.cell.cell_id, best.cell_id))
         if point.cell.status == "wrong":
-            unanswered.setdefault(point.library, (point.cell, f"wrong in {point.wrong:,} of {point.n:,}"))
+            unanswered.setdefault(point.library, (point.cell, f"wrong in {point.wrong:,} of {point.n:,}{in_time}"))
         elif point.maybe:
-            unanswered.setdefault(point.library, (point.cell, f"no answer in {point.maybe:,} of {point.n:,}"))
+            unanswered.setdefault(point.library, (point.cell, f"no answer in {point.maybe:,} of {point.n:,}{in_time}"))
         elif row:
             rows.append(row)
     known = {row.a.library for row in rows}

@@ -60,10 +60,9 @@ __device__ void traverse_binary_tree(const BinaryTree& tree, std::uint32_t at, c
 }
 
 /// One leaf of `a`; within one tree it meets the leaves after its own.
-template <bool is_self, Pass pass>
-__device__ void binary_pairs_of(const BinaryTree& a, const BinaryTree& b, const PairsTo& to,
-                                std::uint32_t slot) {
-    ThreadAnswers<pass, Pair> answers(to, slot);
+template <bool is_self, class Answers>
+__device__ void binary_pairs_of(const BinaryTree& a, const BinaryTree& b, std::uint32_t slot,
+                                Answers& answers) {
     const Box box = a.leaf(slot);
     traverse_binary_tree(
         b, is_self ? b.next(slot | RadixNode::leaf_bit) : *b.view.root,
@@ -71,7 +70,6 @@ __device__ void binary_pairs_of(const BinaryTree& a, const BinaryTree& b, const 
         [&](std::uint32_t other) {
             answers.add(pair_of<is_self>(a.view.items[slot], b.view.items[other]));
         });
-    answers.finish();
 }
 
 /// A thread per leaf of `a`, of those from `first` on to `end`.
@@ -79,8 +77,8 @@ template <bool is_self, Pass pass>
 __global__ void binary_pairs(BinaryTree a, BinaryTree b, PairsTo to, std::uint32_t first,
                              std::uint32_t end) {
     const std::uint32_t slot = first + blockIdx.x * blockDim.x + threadIdx.x;
-    if (slot < end)
-        binary_pairs_of<is_self, pass>(a, b, to, slot);
+    answer_pairs<pass>(to, slot, slot < end,
+                       [&](auto& answers) { binary_pairs_of<is_self>(a, b, slot, answers); });
 }
 
 template <bool is_self, Pass pass>

@@ -34,14 +34,10 @@ __device__ bool admits_part(const PackedView& tree, unsigned level, std::uint32_
 template <class Test>
 __device__ void for_slots(const PackedView& tree, unsigned lanes, std::uint32_t leaves,
                           const Test& test) {
-    while (lanes != 0) {
-        const unsigned first = take_lane(lanes);
-        const bool two = lanes != 0;
-        const unsigned second = two ? take_lane(lanes) : first;
-        const bool is_first = threadIdx.x % 32 < tree.width;
-        const std::uint32_t leaf = __shfl_sync(~0u, leaves, is_first ? first : second);
+    for (LanesByTwo two(lanes); two.next();) {
+        const std::uint32_t leaf = __shfl_sync(~0u, leaves, two.lane);
         const std::uint32_t slot = leaf * tree.width + threadIdx.x % tree.width;
-        test(slot, (is_first || two) && slot < tree.n);
+        test(slot, two.is_there && slot < tree.n);
     }
 }
 
@@ -50,6 +46,8 @@ template <Pass pass, class Region>
 __global__ void packed_regions(PackedView tree, unsigned level, const Region* regions,
                                std::uint32_t n, AnswersTo<RegionAnswer<pass>> to) {
     __shared__ std::uint32_t stacks[traversal_warps][PackedTraversal::room];
+    __shared__ RegionAnswer<pass> held[traversal_warps]
+                                      [WarpAnswers<pass, RegionAnswer<pass>>::n_held];
     const unsigned warp = threadIdx.x / 32;
     const std::uint64_t place = std::uint64_t{blockIdx.x} * traversal_warps + warp;
     const auto query = static_cast<std::uint32_t>(place / tree.size(level)),
@@ -58,16 +56,18 @@ __global__ void packed_regions(PackedView tree, unsigned level, const Region* re
         return;
     const Region region = regions[query];
     const auto admits = admits_of(region);
-    WarpAnswers<pass, RegionAnswer<pass>> answers(to, place);
+    WarpAnswers<pass, RegionAnswer<pass>> answers(to, place, held[warp]);
     if (holds_any(region) && admits_part(tree, level, part, admits))
         PackedTraversal(tree, stacks[warp])
-            .run(tree.first[level] + part, 0, admits, [&](unsigned lanes, std::uint32_t leaves) {
-                for_slots(tree, lanes, leaves, [&](std::uint32_t slot, bool has) {
-                    const bool hit =
-                        has && admits(lane_box(tree.blocks[slot / tree.width], slot % tree.width));
-                    answers.add(hit, [&] { return region_answer<pass>(query, tree.items[slot]); });
-                });
-            });
+            .run(tree.first[level] + part, 0, admits,
+                 [&](unsigned lanes, std::uint32_t leaves, const Box&) {
+                     for_slots(tree, lanes, leaves, [&](std::uint32_t slot, bool has) {
+                         const bool hit = has && admits(lane_box(tree.blocks[slot / tree.width],
+                                                                 slot % tree.width));
+                         answers.add(hit,
+                                     [&] { return region_answer<pass>(query, tree.items[slot]); });
+                     });
+                 });
     answers.finish();
 }
 
@@ -110,23 +110,24 @@ template <RayKernel K> __global__ void packed_rays(RaysView<PackedView> view, Ra
             return clip(slabs, box, ray.t_min, best.t).hit();
         };
         PackedTraversal(view.tree, stacks[warp])
-            .run(view.tree.root(), 0, admits, [&](unsigned lanes, std::uint32_t leaves) {
-                for_slots(view.tree, lanes, leaves, [&](std::uint32_t slot, bool has) {
-                    RayHit hit{};
-                    const bool is_hit =
-                        has &&
-                        admits(lane_box(view.tree.blocks[slot / view.tree.width],
-                                        slot % view.tree.width)) &&
-                        K::intersect(per_ray, ray, view.triangles[slot], best.t, hit);
-                    if (!__any_sync(~0u, is_hit))
-                        return;
-                    if (is_hit) {
-                        hit.triangle = view.tree.items[slot];
-                        best = BeforeInAnswers{}(hit, best) ? hit : best;
-                    }
-                    best = closest_of_warp(best);
-                });
-            });
+            .run(view.tree.root(), 0, admits,
+                 [&](unsigned lanes, std::uint32_t leaves, const Box&) {
+                     for_slots(view.tree, lanes, leaves, [&](std::uint32_t slot, bool has) {
+                         RayHit hit{};
+                         const bool is_hit =
+                             has &&
+                             admits(lane_box(view.tree.blocks[slot / view.tree.width],
+                                             slot % view.tree.width)) &&
+                             K::intersect(per_ray, ray, view.triangles[slot], best.t, hit);
+                         if (!__any_sync(~0u, is_hit))
+                             return;
+                         if (is_hit) {
+                             hit.triangle = view.tree.items[slot];
+                             best = BeforeInAnswers{}(hit, best) ? hit : best;
+                         }
+                         best = closest_of_warp(best);
+                     });
+                 });
     }
     if (threadIdx.x % 32 == 0)
         hits[view.ray(i)] = best.hit() ? best : RayHit{};

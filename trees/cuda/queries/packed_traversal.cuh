@@ -19,13 +19,15 @@ class PackedTraversal {
     __device__ PackedTraversal(const PackedView& tree, std::uint32_t* stack)
         : tree_(tree), stack_(stack), lane_(threadIdx.x % 32) {}
 
-    /// meet(lanes, leaf), for all lanes together: of the leaves below block `start` those whose
-    /// bounds `admits` takes and which are leaf `from` or a later one: `leaf` of each of `lanes`.
+    /// meet(lanes, leaf, bounds), for all lanes together: of the leaves below block `start` those
+    /// whose bounds `admits` takes and which are leaf `from` or a later one: `leaf` of each of
+    /// `lanes`, and its bounds.
     template <class Admits, class Meet>
     __device__ void run(std::uint32_t start, std::uint32_t from, const Admits& admits,
                         const Meet& meet) {
         if (start < tree_.leaves())
-            return meet(1u, start);
+            return meet(1u, start,
+                        half_warp_bounds(lane_box(tree_.blocks[start], lane_ % tree_.width)));
         std::uint32_t size = 1;
         if (lane_ == 0)
             stack_[0] = start;
@@ -45,11 +47,15 @@ class PackedTraversal {
             const std::uint32_t child = (block - tree_.first[level]) * tree_.width + k;
             // The last leaf below the child, and one more.
             const std::uint64_t end = (std::uint64_t{child} + 1) << (4 * (level - 1));
-            const bool hit = (is_first || two) && child < tree_.size(level - 1) && end > from &&
-                             admits(lane_box(tree_.blocks[block], k));
+            Box bounds;
+            bool hit = (is_first || two) && child < tree_.size(level - 1) && end > from;
+            if (hit) {
+                bounds = lane_box(tree_.blocks[block], k);
+                hit = admits(bounds);
+            }
             const unsigned hits = __ballot_sync(~0u, hit);
             if (level == 1) {
-                meet(hits, child);
+                meet(hits, child, bounds);
                 continue;
             }
             if (hit)
@@ -70,5 +76,27 @@ __device__ inline unsigned take_lane(unsigned& mask) {
     mask &= mask - 1;
     return lane;
 }
+
+/// Of the lanes of the mask two by two, until none is left: of this half of the warp that lane, and
+/// whether there is one.
+class LanesByTwo {
+  public:
+    __device__ explicit LanesByTwo(unsigned lanes) : lanes_(lanes) {}
+    __device__ bool next() {
+        if (lanes_ == 0)
+            return false;
+        const unsigned first = take_lane(lanes_);
+        const bool is_first = threadIdx.x % 32 < PackedView::width, two = lanes_ != 0;
+        const unsigned second = two ? take_lane(lanes_) : first;
+        lane = is_first ? first : second;
+        is_there = is_first || two;
+        return true;
+    }
+    unsigned lane = 0;
+    bool is_there = false;
+
+  private:
+    unsigned lanes_;
+};
 
 } // namespace boxwood::cuda

@@ -47,10 +47,9 @@ __device__ void traverse_radix_tree(const RadixTreeView& tree, std::uint32_t at,
 
 /// One leaf of `a`. Within one tree (is_self) it meets the leaves after its own: from the right
 /// child of its own node on, by ropes.
-template <bool is_self, Pass pass, Traversal traversal>
-__device__ void radix_pairs_of(const RadixTreeView& a, const RadixTreeView& b, const PairsTo& to,
-                               std::uint32_t slot) {
-    ThreadAnswers<pass, Pair> answers(to, slot);
+template <bool is_self, Traversal traversal, class Answers>
+__device__ void radix_pairs_of(const RadixTreeView& a, const RadixTreeView& b, std::uint32_t slot,
+                               Answers& answers) {
     const Box box = a.leaves[slot];
     if (!is_self || slot + 1 < a.n)
         traverse_radix_tree<traversal>(
@@ -59,7 +58,6 @@ __device__ void radix_pairs_of(const RadixTreeView& a, const RadixTreeView& b, c
             [&](std::uint32_t other) {
                 answers.add(pair_of<is_self>(a.items[slot], b.items[other]));
             });
-    answers.finish();
 }
 
 /// A thread per leaf of `a`, of those from `first` on to `end`.
@@ -67,8 +65,9 @@ template <bool is_self, Pass pass, Traversal traversal>
 __global__ void radix_pairs(RadixTreeView a, RadixTreeView b, PairsTo to, std::uint32_t first,
                             std::uint32_t end) {
     const std::uint32_t slot = first + blockIdx.x * blockDim.x + threadIdx.x;
-    if (slot < end)
-        radix_pairs_of<is_self, pass, traversal>(a, b, to, slot);
+    answer_pairs<pass>(to, slot, slot < end, [&](auto& answers) {
+        radix_pairs_of<is_self, traversal>(a, b, slot, answers);
+    });
 }
 
 template <bool is_self, Pass pass, Traversal traversal>

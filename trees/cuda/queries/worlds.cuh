@@ -79,19 +79,17 @@ inline void order_worlds(const WorldsView& worlds, std::uint32_t n_boxes, Stream
 template <Pass pass>
 __global__ void world_pairs(WorldsView worlds, RadixTreeView tree, PairsTo to) {
     const std::uint32_t slot = blockIdx.x * blockDim.x + threadIdx.x;
-    if (slot >= tree.n)
-        return;
-    ThreadAnswers<pass, Pair> answers(to, slot);
-    const std::uint32_t end = worlds.first[WorldsView::world(worlds.codes[slot]) + 1];
-    const Box box = tree.leaves[slot];
-    if (slot + 1 < end)
-        traverse_radix_tree<Traversal::ropes>(
-            tree, tree.nodes[slot].right, end,
-            [&](const Box& other) { return overlaps(box, other); },
-            [&](std::uint32_t other) {
-                answers.add(pair_of<true>(tree.items[slot], tree.items[other]));
-            });
-    answers.finish();
+    answer_pairs<pass>(to, slot, slot < tree.n, [&](auto& answers) {
+        const std::uint32_t end = worlds.first[WorldsView::world(worlds.codes[slot]) + 1];
+        const Box box = tree.leaves[slot];
+        if (slot + 1 < end)
+            traverse_radix_tree<Traversal::ropes>(
+                tree, tree.nodes[slot].right, end,
+                [&](const Box& other) { return overlaps(box, other); },
+                [&](std::uint32_t other) {
+                    answers.add(pair_of<true>(tree.items[slot], tree.items[other]));
+                });
+    });
 }
 
 /// The pairs of each world. By count and fill, with at[slot] those of each slot, they are sorted by
