@@ -206,7 +206,7 @@ std::vector<Table> figure_tables() {
              {"device_ns", &DeviceGain::device_ns, "ns",
               "what the device itself took of end to end"},
              {"limit_ns", &DeviceGain::limit_ns, "ns",
-              "lower bound of any algorithm from end to end"},
+              "what copies from and to pageable memory and the device's memory take, end to end"},
              {"ratio", &DeviceGain::ratio, "",
               "of compare: end to end over the fastest on processors"},
              {"ci_lo", &DeviceGain::ci_lo, "", "of compare"},

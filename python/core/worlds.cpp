@@ -310,6 +310,21 @@ void add_questions(py::class_<PyWorld>& to) {
             },
             arg("a"), arg("b"), "BodyDistance of the two, whether or not they may meet.")
         .def(
+            "signed_distance",
+            [](const PyWorld& self, Object a, Object b, double tolerance) {
+                const std::uint32_t i = self.body(a), j = self.body(b);
+                return answer_of(
+                    without_gil([&] { return self.world().signed_distance(i, j, tolerance); }));
+            },
+            arg("a"), arg("b"), py::kw_only(), arg("tolerance") = 0.0,
+            R"(BodyDistance of two convex shapes or of two solids; below 0 they overlap.
+
+Then -distance is how deep: of convex shapes the least way that parts them, of
+solids the farthest that a point of one's surface inside the other is from the
+other's. tolerance: how far lo and hi may be apart then (of solids); 0 is a
+hundredth of the smaller one's size. Raises ValueError where one is a surface,
+or one is convex and the other a solid.)")
+        .def(
             "are_within",
             [](const PyWorld& self, Object a, Object b, double tolerance) {
                 const std::uint32_t i = self.body(a), j = self.body(b);

@@ -64,6 +64,19 @@ def test_against_all_pairs(threads):
     assert np.allclose(between.depths, contacts.depths[of_pair]) and between.bodies.tolist() == [list(touching[0])] * len(between.depths)
 
 
+def test_a_signed_distance_goes_below_zero():
+    world = bw.World()
+    ball = world.insert(bw.Shape.sphere(0.5), at(3))
+    box = world.insert(bw.Shape.box((2, 2, 2)), at(1.75))
+    deep = world.signed_distance(box, ball)
+    assert deep.distance == pytest.approx(-0.25) and deep.lo <= deep.distance <= deep.hi
+    solids = [world.insert(bw.Shape.solid(2 * CUBE, FACES), at(x)) for x in (10, 11.5)]
+    found = world.signed_distance(*solids, tolerance=0.01)
+    assert found.hi - found.lo <= 0.0101 and world.distance(*solids).distance == 0 and found.distance < -0.1
+    with pytest.raises(ValueError, match="two convex shapes or of two"):
+        world.signed_distance(box, solids[0])
+
+
 def test_a_world_says_what_it_did():
     world = random_world(4, is_timed=True)
     plan = world.plan()

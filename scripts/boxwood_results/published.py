@@ -31,6 +31,7 @@ class Published:
     table: object  # run -> [header, row, ...] of texts
     tasks: tuple = ()  # whose races against peers it holds
     picture: tuple = ()  # (figure, picture's name, file below scripts/pictures)
+    on_device: bool = False  # measured where there is a GPU: on another machine, and for as many rounds as it is there
 
     @property
     def config(self):
@@ -55,6 +56,8 @@ ALL = (
     Published("effects", "effects", "All stages over the required ones, ours against ourselves", against_ourselves),
     Published("accuracy", "accuracy", "Triangle against triangle: what a call costs and how often it is wrong",
               kernels_of("triangle_triangle"), (), ("accuracy", "accuracy_triangle_triangle", "accuracy_triangles.png")),
+    Published("gpu", "gpu", "On a GPU, beside the processors of its machine", published_tables.on_a_device, (),
+              ("device_gains", "device_gains_pairs", "gpu.png"), on_device=True),
 )
 BY_NAME = {one.name: one for one in ALL}
 
@@ -92,8 +95,13 @@ def freeze(root):
     return raised
 
 
-def command_of(one, rounds=None):
-    return f"scripts/reproduce {one.name}" + (f" -- --rounds {rounds}" if rounds else "")
+def command_of(one, run=None):
+    """What measures it: of a run what was left out, too, and whether it waited for a quiet machine."""
+    if run is None:
+        return f"scripts/reproduce {one.name}"
+    argv = run.source.texts.get("argv", "") if one.on_device else ""
+    options = [f"{option} '{value}'" for option in ("--wait", "--only") for value in re.findall(rf"{option} (\S+)", argv)]
+    return " ".join([f"scripts/reproduce {one.name} -- --rounds {run.rounds}", *options])
 
 
 def noise_of(one, run):
@@ -101,6 +109,8 @@ def noise_of(one, run):
     def percent(*floors):
         return " to ".join(dict.fromkeys(ratio_text(100 * floor) for floor in floors)) + " %"
 
+    if one.on_device:
+        return re.search(r"noise floor [^:]*?%|$", cell_text(run.health["trust"]))[0]
     floors = published_tables.floors(run, one.tasks)
     if not floors:
         return f"noise floor {percent(run.noise_floor)}"
@@ -116,10 +126,11 @@ def source_of(one, run, version, root, up):
     """Which run it was, of which track, how right it was, and how to make it again. up: from the page to the root."""
     env = run.source["env"][0]
     as_it_was = "" if sweep_text(run) == (root / one.config).read_text(encoding="utf-8") else " as it was then"
+    device = cell_text(env["gpu"]) + ", " if one.on_device else ""
     return (f"*Track {one.sweep}-{version}, {run.health['correctness'].split(' (')[0].rstrip('.')}. Run {cell_text(run.source.attrs['run_uuid'])[:8]} of {cell_text(run.source.attrs['created_utc'])[:10]}: "
-            f"[`{one.config}`]({up}{one.config}){as_it_was}, {run.rounds} rounds, {env['cpu']}, {env['ncpu']} cores, commit "
+            f"[`{one.config}`]({up}{one.config}){as_it_was}, {run.rounds} rounds, {device}{env['cpu']}, {env['ncpu']} cores, commit "
             f"{env['git_commit'][:8]}, {noise_of(one, run)}; "
-            f"[`{one.sweep}.h5`]({up}results/published/{one.sweep}.h5). Again: `{command_of(one, run.rounds)}`.*")
+            f"[`{one.sweep}.h5`]({up}results/published/{one.sweep}.h5). Again: `{command_of(one, run)}`.*")
 
 
 EMPTY_LINE = "\n\n"
@@ -145,13 +156,16 @@ def table_block(one, root, up):
 
 def summary_block(root, up):
     """A line for each kind of question against peers."""
-    rows, missing = [], []
+    rows, missing, commits = [], [], {}
     for one in ALL:
         if one.tasks and one.file(root).exists():
-            rows += published_tables.summary(read(one.file(root)), one.tasks)
+            run = read(one.file(root))
+            rows += published_tables.summary(run, one.tasks)
+            commits.setdefault(run.source["env"][0]["git_commit"][:8], []).append(one.name)
         elif one.tasks:
             missing.append(not_published(one))
-    table = [markdown([published_tables.SUMMARY, *rows]) + "\n"] if rows else []
+    of_commits = "; ".join(f"{', '.join(names)}: commit {commit}" for commit, names in commits.items())
+    table = [markdown([published_tables.SUMMARY, *rows]) + f"\n\n*{of_commits}.*\n"] if rows else []
     return "\n".join(table + missing)
 
 
@@ -231,7 +245,7 @@ def draw(one, root, folder):
 ROUNDS_OF_AN_INPUT = 3  # of which an interval has to hold the median
 
 
-def faults(file, run):
+def faults(file, run, on_device=False):
     """Why a measured file is not fit to be published, as lines of text."""
     found = []
     if file.stat().st_size > MAX_BYTES:
@@ -241,6 +255,10 @@ def faults(file, run):
     wrong = recomputed.differences(run.source)
     if wrong:
         found.append(f"{len(wrong)} of its numbers do not follow from its samples; the first: {wrong[0]}")
+    if len({(row["host"], row["cpu"], row["gpu"], row["git_commit"]) for row in run.source["env"]}) > 1:
+        found.append("of more than one machine or commit")
+    if on_device and not cell_text(run.source["env"][0]["gpu"]):
+        found.append("measured without a GPU")
     if any(row["git_dirty"] for row in run.source["env"]):
         found.append("measured with changes that are in no commit")
     if any("(peers -O" in cell_text(row["flags"]) for row in run.source["env"]):
@@ -254,7 +272,7 @@ def faults(file, run):
     if not sweep_text(run):
         found.append("it does not hold the sweep that made it")
     sweep = tomllib.loads(sweep_text(run))
-    if run.rounds < sweep.get("rounds", 0):
+    if run.rounds < sweep.get("rounds", 0) and not on_device:
         found.append(f"{run.rounds} rounds; its sweep asks for {sweep['rounds']}")
     inputs = sweep.get("inputs", 1)
     if inputs > 1 and run.rounds < ROUNDS_OF_AN_INPUT * inputs:
@@ -265,7 +283,7 @@ def faults(file, run):
 
 def problems(root):
     """What does not fit together, as lines of text; none if all does."""
-    found, machines, commits = [], set(), set()
+    found, machines = [], set()
     frozen_tracks = tracks(root)
     for sweep in sorted({one.sweep for one in ALL}):
         file = root / "results" / "published" / f"{sweep}.h5"
@@ -277,9 +295,10 @@ def problems(root):
                              f"`{command_of(one)} --publish` measures it")
             continue
         run = read(file)
-        machines |= {(row["host"], row["cpu"]) for row in run.source["env"]}
-        commits |= {row["git_commit"] for row in run.source["env"]}
-        found += faults(file, run)
+        on_device = any(one.on_device for one in ALL if one.sweep == sweep)
+        if not on_device:
+            machines |= {(row["host"], row["cpu"]) for row in run.source["env"]}
+        found += faults(file, run, on_device)
         if scenes_of(run) != frozen:
             found.append(f"{file}: its scenes are not those of track {sweep}-{version}; scripts/published --freeze raises the version")
         for one in (one for one in ALL if one.sweep == sweep and one.picture):
@@ -294,12 +313,10 @@ def problems(root):
         if (root / file).exists():
             env = reader(root / file).env
             machines.add((env["host"], env["cpu"]))
-            commits.add(env["git_commit"])
             if env["git_dirty"]:
                 found.append(f"{root / file}: measured with changes that are in no commit")
-    for what, values in (("machine", machines), ("commit", commits)):
-        if len(values) > 1:
-            found.append(f"results/published: files of more than one {what}: {', '.join(map(str, sorted(values)))}")
+    if len(machines) > 1:
+        found.append(f"results/published: files of more than one machine: {', '.join(map(str, sorted(machines)))}")
     strays = {path.stem for path in (root / "results" / "published").glob("*.h5")} - {one.sweep for one in ALL}
     found += [f"results/published/{name}.h5: no table stands on it" for name in sorted(strays)]
     found += [f"{root / page}: a table differs from its file; scripts/published rewrites it" for page in PAGES

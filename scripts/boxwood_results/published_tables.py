@@ -1,9 +1,10 @@
 """The tables of a published run: run -> [header, row, ...] of texts."""
 
 from dataclasses import dataclass, field
+from math import isnan
 
 from .figures import forest
-from .findings import CALL, PEERS
+from .findings import CALL, PEERS, Ratio
 from .moving import played_scenes
 from .run import Where
 from .selection import wrong_counts
@@ -197,6 +198,24 @@ def against_ourselves(run):
         if scene.all_stages_cost:
             rows.append([scene.job.scene, f"{scene.job.n:,}", time_text(scene.all_stages_cost.without_ns),
                          marked(scene.all_stages_cost.ratio.text, scene.all_stages_cost.comparison)])
+    return rows
+
+
+DEVICE_TIMES = {"cpu_2_ns": "2 threads", "cpu_all_ns": "all threads", "end_to_end_ns": "end to end", "device_ns": "of it the device",
+                "limit_ns": "its limit", "resident_ns": "resident", "graph_ns": "resident, by a graph"}
+
+
+def on_a_device(run):
+    """Our best on a device beside our best on processors, size by size."""
+    cells = {cell.cell_id: cell for cell in run.cells}
+    rows = [["question", *DEVICE_TIMES.values(), "the fastest processors / end to end"]]
+    for row in run.source["device_gains"]:
+        cell = cells[row["cell_device"]]
+        gain = Ratio(float(row["ratio"]), float(row["ci_lo"]), float(row["ci_hi"])).inverse()
+        times = ["" if isnan(row[column]) else time_text(row[column]) for column in DEVICE_TIMES]
+        rays = f"{cell.job.scene.rsplit('_', 1)[-1]} rays, " if row["task"].startswith("rays_") else ""
+        rows.append([f"{run.tasks[row['task']].title}, {rays}{cell.scene_title}", *times,
+                     f"{gain.text}{OPEN if row['verdict'] == 'cannot_tell' else ''}"])
     return rows
 
 

@@ -37,7 +37,7 @@ int main() {
                 first[0].contact.t_hit);
 
     world.set_pose(hand, at(1, .302));
-    for (const BodyContact& contact : world.contacts())
+    for (const BodyContact& contact : world.contacts({.max_contacts = 1})) // the deepest of a pair
         std::printf("%u and %u touch, %.2f deep\n", contact.bodies.a, contact.bodies.b,
                     contact.depth);
     world.allow(first[0].bodies.a, hand); // it is to be held

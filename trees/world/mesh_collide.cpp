@@ -1,10 +1,11 @@
-/// Which triangles of two meshes share a point.
+/// Which triangles of two meshes share a point, or are near each other.
 ///
 /// First the boxes around all of both, along 15 axes. Then a step takes a pair of blocks and opens
 /// both at once. B's eight boxes are moved into A's frame and tested against the box around A's
 /// block; each that is left against A's eight boxes. Pairs of leaves: B's corners are moved in
 /// doubles, boxes of triangles are compared, and what is left goes to the exact kernel, 64 pairs at
-/// a time, or eight where the first hit will do.
+/// a time, or eight where the first hit will do. For near ones all boxes of one side reach so much
+/// farther, and the certified distance decides, pair by pair.
 
 // Compiled once per instruction set; the best one is chosen at run time.
 #undef HWY_TARGET_INCLUDE
@@ -14,6 +15,7 @@
 #include <hwy/highway.h>
 
 #include "kernels/arithmetic/float_mode.h"
+#include "kernels/triangle_distance/certified.h"
 #include "kernels/triangle_triangle/guigue_devillers_batch.h"
 #include "trees/world/detail/entry_stack.h"
 #include "trees/world/detail/leaf_lanes-inl.h"
@@ -23,36 +25,50 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <stdexcept>
 #include <utility>
+
+#ifndef BOXWOOD_MESH_COLLIDE_ONCE
+#define BOXWOOD_MESH_COLLIDE_ONCE
+namespace boxwood::detail {
+
+/// Which pairs of triangles are looked for.
+enum class Wanted : std::uint8_t { first_touch, touches, near };
+
+} // namespace boxwood::detail
+#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::detail::HWY_NAMESPACE {
 namespace {
 
-/// The lanes of eight boxes that one box may overlap, as bits; their greatest gaps if wanted.
+/// The lanes of eight boxes that one box may overlap, or whose gap is at most `most`, as bits;
+/// their greatest gaps if wanted.
 template <bool with_gaps, class Centre>
 HWY_INLINE std::uint32_t overlapping(const SeenBox& one, const Centre& centre,
                                      const float (&axis)[3][3][8], const float (&half)[3][8],
-                                     std::uint32_t count, float error, float* gaps) {
+                                     std::uint32_t count, float most, float* gaps) {
     std::uint32_t bits = 0;
     for (std::size_t i = 0; i < 8; i += hn::Lanes(d8)) {
         const F8 gap = SixAxes(one, centre, axis, half, i).greatest_gap();
         if constexpr (with_gaps)
             hn::StoreU(gap, d8, gaps + i);
         std::uint8_t part[8] = {};
-        hn::StoreMaskBits(d8, hn::Le(gap, hn::Set(d8, error)), part);
+        hn::StoreMaskBits(d8, hn::Le(gap, hn::Set(d8, most)), part);
         bits |= static_cast<std::uint32_t>(part[0]) << i;
     }
     return bits & ((1u << count) - 1);
 }
 
-template <bool first_hit, bool counted> class Collision {
+template <Wanted wanted, bool counted> class Collision {
+    static constexpr bool first_hit = wanted == Wanted::first_touch;
+
   public:
-    /// The frame must outlive it.
+    /// The frame must outlive it. reach: of near ones.
     Collision(const MeshTree& a, const MeshTree& b, const PairFrame& frame, std::size_t limit,
-              std::vector<Pair>* pairs, Work* work)
+              std::vector<Pair>* pairs, Work* work, double reach = 0)
         : a_(a), b_(b), frame_(frame), stack_(max_entries(a.depth(), b.depth())), limit_(limit),
-          pairs_(pairs), work_(work) {}
+          pairs_(pairs), work_(work), reach_(reach) {}
 
     bool run() { return run({a_.root(), b_.root()}) || finish(); }
 
@@ -91,6 +107,13 @@ template <bool first_hit, bool counted> class Collision {
 
   private:
     static bool are_leaves(Pair pair) { return is_leaf(pair.a) && is_leaf(pair.b); }
+    /// How large a gap in floats may be, of boxes of these two.
+    HWY_INLINE float most(const Vec3<double>& t, const PosedBox& a, const PosedBox& b) const {
+        const float error = frame_.error(t, a, b);
+        if constexpr (wanted == Wanted::near)
+            return static_cast<float>((double{error} + reach_) * (1 + 0x1p-20));
+        return error;
+    }
 
     /// Not two leaves.
     HWY_INLINE void open(Pair pair) {
@@ -106,11 +129,11 @@ template <bool first_hit, bool counted> class Collision {
         const ObbBlock& a = a_.block(open.a);
         const ObbBlock& b = b_.block(open.b);
         const Vec3<double> t = frame_.between(a.own.centre, b.own.centre);
-        const float error = frame_.error(t, a.own, b.own);
+        const float most = this->most(t, a.own, b.own);
         SeenBoxes seen;
         see_lanes(b, frame_, t, seen);
         std::uint32_t near = overlapping<false>(PairFrame::seen_a(a.own), seen.centre, seen.axis,
-                                                b.half, b.count, error, nullptr);
+                                                b.half, b.count, most, nullptr);
         count_tests(8);
         const std::size_t first = stack_.size();
         std::size_t deepest = first;
@@ -118,8 +141,8 @@ template <bool first_hit, bool counted> class Collision {
         for (; near != 0; near &= near - 1) {
             const auto j = static_cast<std::size_t>(std::countr_zero(near));
             alignas(32) float gaps[8];
-            std::uint32_t hits = overlapping<first_hit>(seen.lane(j), a.centre, a.axis, a.half,
-                                                        a.count, error, gaps);
+            std::uint32_t hits =
+                overlapping<first_hit>(seen.lane(j), a.centre, a.axis, a.half, a.count, most, gaps);
             count_tests(8);
             for (; hits != 0; hits &= hits - 1) {
                 const auto i = static_cast<std::size_t>(std::countr_zero(hits));
@@ -140,9 +163,8 @@ template <bool first_hit, bool counted> class Collision {
         const Vec3<double> t = frame_.between(own.centre, b.own.centre);
         SeenBoxes seen;
         see_lanes(b, frame_, t, seen);
-        std::uint32_t near =
-            overlapping<false>(PairFrame::seen_a(own), seen.centre, seen.axis, b.half, b.count,
-                               frame_.error(t, own, b.own), nullptr);
+        std::uint32_t near = overlapping<false>(PairFrame::seen_a(own), seen.centre, seen.axis,
+                                                b.half, b.count, most(t, own, b.own), nullptr);
         count_tests(8);
         for (; near != 0; near &= near - 1)
             stack_.push({open.a, b.ref[static_cast<std::size_t>(std::countr_zero(near))]});
@@ -153,7 +175,7 @@ template <bool first_hit, bool counted> class Collision {
         const PosedBox& own = b_.leaf(open.b).own;
         const Vec3<double> t = frame_.between(a.own.centre, own.centre);
         std::uint32_t near = overlapping<false>(frame_.seen_b(own, t), a.centre, a.axis, a.half,
-                                                a.count, frame_.error(t, a.own, own), nullptr);
+                                                a.count, most(t, a.own, own), nullptr);
         count_tests(8);
         for (; near != 0; near &= near - 1)
             stack_.push({a.ref[static_cast<std::size_t>(std::countr_zero(near))], open.b});
@@ -165,7 +187,10 @@ template <bool first_hit, bool counted> class Collision {
         const TriangleLeaf& b = b_.leaf(open.b);
         const MovedLeaf moved(b, frame_.pose);
         const NearCorners near_a(a, a.own.centre), near_b(moved, a.own.centre);
-        const NearBoxes boxes_a(near_a), boxes_b(near_b);
+        NearBoxes boxes_a(near_a);
+        const NearBoxes boxes_b(near_b);
+        if constexpr (wanted == Wanted::near)
+            grow(boxes_a, most(frame_.between(a.own.centre, b.own.centre), a.own, b.own));
         const std::uint32_t used = (1u << b.count) - 1;
         for (std::size_t i = 0; i < a.count; ++i) {
             std::uint32_t near = 0;
@@ -188,7 +213,17 @@ template <bool first_hit, bool counted> class Collision {
         return (first_hit ? queue_.size() >= 8 : !queue_.has_room_for(64)) && decide();
     }
 
+    static void grow(NearBoxes& boxes, float by) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            for (std::size_t lane = 0; lane < 8; ++lane) {
+                boxes.low[axis][lane] -= by;
+                boxes.high[axis][lane] += by;
+            }
+    }
+
     HWY_NOINLINE bool decide() {
+        if constexpr (wanted == Wanted::near)
+            return decide_near();
         queue_.pad();
         const std::size_t n = queue_.size();
         GuigueDevillersExactBatch::intersect(queue_.blocks(), {decisions_, n});
@@ -205,6 +240,22 @@ template <bool first_hit, bool counted> class Collision {
                     pairs_->push_back(queue_.triangles(i));
                     done = pairs_->size() >= limit_;
                 }
+            }
+        queue_.clear();
+        return done;
+    }
+
+    bool decide_near() {
+        if constexpr (counted)
+            work_->triangle_tests += queue_.size();
+        bool done = false;
+        for (std::size_t i = 0; i < queue_.size() && !done; ++i)
+            if (CertifiedDistance::distance(queue_.triangle(0, i), queue_.triangle(1, i)).lo <=
+                reach_) {
+                if constexpr (counted)
+                    ++work_->answers;
+                pairs_->push_back(queue_.triangles(i));
+                done = pairs_->size() >= limit_;
             }
         queue_.clear();
         return done;
@@ -229,16 +280,18 @@ template <bool first_hit, bool counted> class Collision {
     std::size_t limit_;
     std::vector<Pair>* pairs_;
     Work* work_;
+    double reach_;
 };
 
 /// Most pairs of bodies whose boxes along the axes overlap lie apart: one test of the boxes around
 /// all of them, before eight by eight.
-bool roots_parted(const MeshTree& a, const MeshTree& b, const PairFrame& frame, Work* work) {
+bool roots_parted(const MeshTree& a, const MeshTree& b, const PairFrame& frame, Work* work,
+                  double reach = 0) {
     if (work) {
         ++work->node_visits;
         ++work->box_tests;
     }
-    return frame.parted(a.own(a.root()), b.own(b.root()));
+    return frame.parted(a.own(a.root()), b.own(b.root()), reach);
 }
 
 bool first_touch(const MeshTree& a, const MeshTree& b, const Pose& pose, Work* work) {
@@ -246,8 +299,8 @@ bool first_touch(const MeshTree& a, const MeshTree& b, const Pose& pose, Work* w
     if (roots_parted(a, b, frame, work))
         return false;
     if (work)
-        return Collision<true, true>(a, b, frame, 1, nullptr, work).run();
-    return Collision<true, false>(a, b, frame, 1, nullptr, nullptr).run();
+        return Collision<Wanted::first_touch, true>(a, b, frame, 1, nullptr, work).run();
+    return Collision<Wanted::first_touch, false>(a, b, frame, 1, nullptr, nullptr).run();
 }
 void all_touches(const MeshTree& a, const MeshTree& b, const Pose& pose, std::size_t limit,
                  std::vector<Pair>& pairs, Work* work) {
@@ -255,16 +308,24 @@ void all_touches(const MeshTree& a, const MeshTree& b, const Pose& pose, std::si
     if (roots_parted(a, b, frame, work))
         return;
     if (work)
-        Collision<false, true>(a, b, frame, limit, &pairs, work).run();
+        Collision<Wanted::touches, true>(a, b, frame, limit, &pairs, work).run();
     else
-        Collision<false, false>(a, b, frame, limit, &pairs, nullptr).run();
+        Collision<Wanted::touches, false>(a, b, frame, limit, &pairs, nullptr).run();
+}
+void all_near(const MeshTree& a, const MeshTree& b, const Pose& pose, double reach,
+              std::size_t limit, std::vector<Pair>& pairs, Work* work) {
+    const PairFrame frame(a, b, pose);
+    if (roots_parted(a, b, frame, work, reach))
+        return;
+    Work unused;
+    Collision<Wanted::near, true>(a, b, frame, limit, &pairs, work ? work : &unused, reach).run();
 }
 
 void all_touches_by(const MeshTree& a, const MeshTree& b, const Pose& pose,
                     const Executor& executor, std::vector<Pair>& pairs) {
     constexpr std::size_t enough = 256, in_task = 8;
     constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
-    using AllTouches = Collision<false, false>;
+    using AllTouches = Collision<Wanted::touches, false>;
     const PairFrame frame(a, b, pose);
     if (roots_parted(a, b, frame, nullptr))
         return;
@@ -292,6 +353,7 @@ namespace boxwood {
 namespace detail {
 HWY_EXPORT(first_touch);
 HWY_EXPORT(all_touches);
+HWY_EXPORT(all_near);
 HWY_EXPORT(all_touches_by);
 } // namespace detail
 
@@ -319,6 +381,20 @@ std::vector<Pair> touching_triangles(const MeshTree& a, const MeshTree& b, const
                                      std::size_t limit, Work* work) {
     std::vector<Pair> pairs;
     touching_triangles(a, b, b_in_a, limit, pairs, work);
+    return pairs;
+}
+
+std::vector<Pair> near_triangles(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
+                                 double reach, std::size_t limit, Work* work) {
+    if (!(reach >= 0 && reach < 0x1p100))
+        throw std::invalid_argument("a reach must be at least 0, and below 2^100");
+    std::vector<Pair> pairs;
+    if (a.empty() || b.empty() || limit == 0)
+        return pairs;
+    without_flushing([&] {
+        using namespace detail;
+        HWY_DYNAMIC_DISPATCH(all_near)(a, b, b_in_a, reach, limit, pairs, work);
+    });
     return pairs;
 }
 

@@ -106,6 +106,16 @@ std::vector<Contact> spread(const std::vector<Contact>& all, std::size_t count) 
     return chosen;
 }
 
+/// Of two that touch, or are apart.
+Contact near_contact(const Triangle<double>& a, const Triangle<double>& b) {
+    const Distance d = CertifiedDistance::distance(a, b);
+    const Vec3<double> apart = d.point_b - d.point_a;
+    const double size = length(apart);
+    if (d.lo == 0 || !(size > 0))
+        return contact_of(a, b);
+    return {0.5 * (d.point_a + d.point_b), (1 / size) * apart, -d.distance, {}};
+}
+
 bool deeper(const Contact& x, const Contact& y) {
     return std::tuple(-x.depth, x.triangles) < std::tuple(-y.depth, y.triangles);
 }
@@ -149,8 +159,13 @@ Contact contact_of(const Triangle<double>& a, const Triangle<double>& b) {
 std::vector<Contact> contacts(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
                               const ContactOptions& options, Work* work) {
     std::vector<Contact> found;
-    for (const Pair pair : touching_triangles(a, b, b_in_a, options.max_pairs, work)) {
-        found.push_back(contact_of(a.triangle(pair.a, Pose{}), b.triangle(pair.b, b_in_a)));
+    const bool is_near = options.margin > 0;
+    const std::vector<Pair> pairs =
+        is_near ? near_triangles(a, b, b_in_a, options.margin, options.max_pairs, work)
+                : touching_triangles(a, b, b_in_a, options.max_pairs, work);
+    for (const Pair pair : pairs) {
+        const Triangle<double> of_a = a.triangle(pair.a, Pose{}), of_b = b.triangle(pair.b, b_in_a);
+        found.push_back(is_near ? near_contact(of_a, of_b) : contact_of(of_a, of_b));
         found.back().triangles = pair;
     }
     return deepest_first(std::move(found), options);

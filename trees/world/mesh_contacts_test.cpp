@@ -1,5 +1,6 @@
 #include "trees/world/mesh_contacts.h"
 
+#include "kernels/triangle_distance/certified.h"
 #include "trees/testing/test_meshes.h"
 #include "trees/world/mesh_shape.h"
 #include "trees/world/solid.h"
@@ -10,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <stdexcept>
 
 namespace boxwood {
@@ -24,6 +26,75 @@ TEST(Contacts, WindingChangesNothing) {
         EXPECT_NEAR(contact.depth, .001, 1e-15);
         EXPECT_EQ(contact.normal, (Vec3<double>{0, 0, 1}));
         EXPECT_LT(length(contact.point), .002);
+    }
+}
+
+/// Of near triangles, by all pairs: those that surely are, and those that may be within rounding.
+TEST(Contacts, AMarginMakesNearTrianglesMeet) {
+    std::mt19937 random(9);
+    const TriangleMesh a = noisy_sphere(10, 11, .2, 1), b = noisy_sphere(9, 10, .2, 2);
+    const MeshTree tree_a(a), tree_b(b);
+    std::size_t near = 0, touching = 0;
+    for (const double reach : {0.0, .01, .2, 1.0})
+        for (int k = 0; k < 6; ++k) {
+            const Pose pose = random_pose(random, {1.3 + .3 * k, .4, .2});
+            std::vector<Pair> found = near_triangles(tree_a, tree_b, pose, reach);
+            const std::vector<Pair> first = near_triangles(tree_a, tree_b, pose, reach, 3);
+            EXPECT_TRUE(std::ranges::equal(first, std::span(found).first(first.size())));
+            std::ranges::sort(found);
+            const std::vector<Contact> all = contacts(tree_a, tree_b, pose, {.margin = reach});
+            EXPECT_TRUE(std::ranges::is_sorted(all, {}, [](const Contact& c) { return -c.depth; }));
+            std::size_t expected = 0;
+            for (std::uint32_t i = 0; i < tree_a.size(); ++i)
+                for (std::uint32_t j = 0; j < tree_b.size(); ++j) {
+                    const Distance d = CertifiedDistance::distance(tree_a.triangle(i, Pose{}),
+                                                                   tree_b.triangle(j, pose));
+                    ASSERT_EQ(std::ranges::binary_search(found, Pair{i, j}), d.lo <= reach);
+                    expected += d.lo <= reach;
+                }
+            EXPECT_EQ(found.size(), expected);
+            EXPECT_EQ(all.size(), expected);
+            for (const Contact& c : all) {
+                const Distance d = CertifiedDistance::distance(
+                    tree_a.triangle(c.triangles.a, Pose{}), tree_b.triangle(c.triangles.b, pose));
+                EXPECT_NEAR(length(c.normal), 1, 1e-12);
+                ++(d.lo > 0 ? near : touching);
+                if (d.lo > 0) {
+                    EXPECT_NEAR(c.depth, -d.distance, 1e-12);
+                    EXPECT_NEAR(dot(c.normal, d.point_b - d.point_a), d.distance, 1e-9);
+                } else {
+                    EXPECT_GE(c.depth, 0);
+                }
+            }
+        }
+    EXPECT_GT(near, 1000u);
+    EXPECT_GT(touching, 100u);
+    EXPECT_TRUE(near_triangles(tree_a, MeshTree(TriangleMesh{}), {}, 1).empty());
+    EXPECT_THROW(near_triangles(tree_a, tree_b, {}, -1), std::invalid_argument);
+    EXPECT_THROW(near_triangles(tree_a, tree_b, {}, std::nan("")), std::invalid_argument);
+}
+
+TEST(Contacts, AMarginMakesTrianglesNearAShapeMeet) {
+    const TriangleMesh mesh = noisy_sphere(12, 13, .2, 1);
+    const MeshTree tree(mesh);
+    const Pose pose{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {1.3, .1, 0}};
+    const convex::Shape shape(convex::Sphere{.4});
+    for (const double margin : {0.0, .05, .4}) {
+        const std::vector<Contact> all = contacts(tree, shape, pose, {.margin = margin});
+        std::size_t expected = 0;
+        for (std::uint32_t i = 0; i < tree.size(); ++i)
+            expected += convex::signed_distance(convex::Triangle(tree.triangle(i, Pose{})), Pose{},
+                                                shape, pose)
+                            .lo <= margin;
+        EXPECT_EQ(all.size(), expected);
+        EXPECT_GT(expected, margin == 0 ? 3u : 10u);
+        for (const Contact& c : all) {
+            const double distance =
+                convex::signed_distance(convex::Triangle(tree.triangle(c.triangles.a, Pose{})),
+                                        Pose{}, shape, pose)
+                    .distance;
+            EXPECT_NEAR(c.depth, -distance, 1e-9);
+        }
     }
 }
 

@@ -35,6 +35,14 @@ void touching_triangles(const MeshTree& a, const MeshTree& b, const Pose& b_in_a
 std::vector<Pair> touching_triangles(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
                                      const Executor& executor);
 
+/// The pairs of triangles (of A, of B) that are at most `reach` apart, or within rounding of that,
+/// up to `limit` of them, in an order that depends on the meshes, the pose and the reach alone.
+/// Throws std::invalid_argument for a reach that is negative, NaN or beyond 2^100.
+std::vector<Pair> near_triangles(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
+                                 double reach,
+                                 std::size_t limit = std::numeric_limits<std::size_t>::max(),
+                                 Work* work = nullptr);
+
 struct DistanceOptions {
     /// The answer may be farther than the least distance: hi <= (lo + absolute) / (1 - relative),
     /// up to 2^-32 of it.

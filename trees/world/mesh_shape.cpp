@@ -160,20 +160,26 @@ struct FirstTouch {
     }
 };
 
-/// All that touch or may.
+/// All that touch or may, or are within a margin.
 struct AllTouches {
     PlacedShape shape;
     std::size_t limit;
+    double margin;
     std::vector<Contact> found{};
 
-    bool wants(double bound) const { return !(bound > 0); }
+    bool wants(double bound) const { return !(bound > margin); }
     bool take(std::uint32_t i, const Triangle<double>& t) {
         const PlacedTriangle placed(t);
-        if (shape.touches(placed) == Answer::no)
+        const bool may_touch = shape.touches(placed) != Answer::no;
+        if (!may_touch && margin == 0)
             return false;
         const convex::SignedDistance d = shape.measure(placed);
-        found.push_back(
-            {0.5 * (d.point_a + d.point_b), d.normal, std::max(0.0, -d.distance), {i, 0}});
+        if (!may_touch && d.lo > margin)
+            return false;
+        found.push_back({0.5 * (d.point_a + d.point_b),
+                         d.normal,
+                         may_touch ? std::max(0.0, -d.distance) : -d.distance,
+                         {i, 0}});
         return found.size() >= limit;
     }
 };
@@ -304,7 +310,7 @@ MeshWithin within(const MeshTree& mesh, const convex::Shape& shape, const Pose& 
 std::vector<Contact> contacts(const MeshTree& mesh, const convex::Shape& shape,
                               const Pose& shape_in_mesh, const ContactOptions& options,
                               Work* work) {
-    AllTouches touches{{shape, shape_in_mesh}, options.max_pairs};
+    AllTouches touches{{shape, shape_in_mesh}, options.max_pairs, options.margin};
     without_flushing([&] {
         const Envelope envelope(shape, shape_in_mesh);
         if (!mesh.empty() && options.max_pairs > 0)

@@ -38,9 +38,10 @@ MeshWithin within(const MeshTree& mesh, const convex::Shape& shape, const Pose& 
                   double tolerance, Work* work = nullptr);
 
 /// One of each triangle that touches the shape, or may within rounding (then about 0 deep), so that
-/// there are none exactly where collide says no; the deepest first and then by triangles (a; b is
-/// 0). The shape leaves the triangle when it moves by depth * normal, the least that does, and the
-/// point is midway between the two places that part last, in the mesh's frame.
+/// there are none exactly where collide says no; and of each that is within options.margin, whose
+/// depth is then minus its distance; the deepest first and then by triangles (a; b is 0). The shape
+/// leaves the triangle when it moves by depth * normal, the least that does, and the point is
+/// midway between the two places that part last, in the mesh's frame.
 std::vector<Contact> contacts(const MeshTree& mesh, const convex::Shape& shape,
                               const Pose& shape_in_mesh, const ContactOptions& options = {},
                               Work* work = nullptr);

@@ -105,6 +105,7 @@ struct MeshesQuery {
     std::string kernel;         ///< the one there is, if empty
     std::optional<double> tolerance;
     bool solid = false;            ///< closed meshes, and what lies inside touches
+    bool is_signed = false;        ///< distance: below 0 where they overlap
     bool reduce = false;           ///< contacts: at most four
     std::size_t limit = 1'000'000; ///< touching pairs of triangles that are looked at
     Format format;

@@ -6,7 +6,10 @@
 #include "bench/commands/queries/body_pair.h"
 #include "bench/commands/queries/query.h"
 #include "bench/io/json.h"
+#include "kernels/convex/signed_distance.h"
 #include "kernels/suggest.h"
+#include "kernels/triangle_distance/certified.h"
+#include "trees/world/bodies/shape_pairs.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -71,11 +74,8 @@ void answer_collide(const Bodies& bodies, const MeshesQuery& query, std::ostream
     text << fmt::format("],\"kernel\":{}}}\n", json_string(kernel));
 }
 
-void answer_distance(const Bodies& bodies, const MeshesQuery& query, std::ostream& out) {
-    const std::string_view kernel = bodies.pair().distance_kernel();
-    require_kernel(query.kernel, kernel);
-    const MeshDistance d = bodies.pair().distance(bodies.b_in_a());
-    const Vec3<double> a = bodies.point(d.point_a), b = bodies.point(d.point_b);
+void print_distance(const MeshDistance& d, const Vec3<double>& a, const Vec3<double>& b,
+                    std::string_view kernel, const MeshesQuery& query, std::ostream& out) {
     if (query.format.json)
         out << fmt::format("{{\"distance\":{},\"lo\":{},\"hi\":{},\"point_a\":{},\"point_b\":{},"
                            "\"triangle_a\":{},\"triangle_b\":{},\"kernel\":{}}}\n",
@@ -85,6 +85,37 @@ void answer_distance(const Bodies& bodies, const MeshesQuery& query, std::ostrea
     else
         out << (query.format.header ? "distance,lo,hi\n" : "")
             << fmt::format("{},{},{}\n", d.distance, d.lo, d.hi);
+}
+
+void answer_distance(const Bodies& bodies, const MeshesQuery& query, std::ostream& out) {
+    const std::string_view kernel = bodies.pair().distance_kernel();
+    require_kernel(query.kernel, kernel);
+    const MeshDistance d = bodies.pair().distance(bodies.b_in_a());
+    print_distance(d, bodies.point(d.point_a), bodies.point(d.point_b), kernel, query, out);
+}
+
+/// What has an inside: a primitive, or a closed mesh, and a box beside one.
+BodyShape solid_body(const std::string& text, bool is_mesh) {
+    if (const std::optional<convex::Shape> primitive = read_primitive(text); primitive && !is_mesh)
+        return *primitive;
+    return named(text, [&] { return BodyShape::solid(read_body(text)); });
+}
+
+void answer_signed_distance(const MeshesQuery& query, std::ostream& out) {
+    const bool is_mesh = !read_primitive(query.a) || !read_primitive(query.b);
+    const std::string_view kernel = is_mesh ? CertifiedDistance::name : convex::gjk_epa_info.name;
+    require_kernel(query.kernel, kernel);
+    for (const std::string* text : {&query.a, &query.b})
+        if (const std::optional<convex::Shape> primitive = read_primitive(*text);
+            is_mesh && primitive && primitive->kind() != convex::ShapeKind::box)
+            throw BadInput(fmt::format("{}: --signed takes two primitives, or two of closed meshes "
+                                       "and boxes",
+                                       *text));
+    const BodyShape a = solid_body(query.a, is_mesh), b = solid_body(query.b, is_mesh);
+    const BodyDistance d = signed_distance(PosedShape{a, read_pose(query.pose_a, "--pose-a")},
+                                           PosedShape{b, read_pose(query.pose_b, "--pose-b")});
+    print_distance({d.distance, d.lo, d.hi, d.point_a, d.point_b}, d.point_a, d.point_b, kernel,
+                   query, out);
 }
 
 void answer_tolerance(const Bodies& bodies, const MeshesQuery& query, std::ostream& out) {
@@ -132,6 +163,8 @@ void answer_contacts(const Bodies& bodies, const MeshesQuery& query, std::ostrea
 } // namespace
 
 void run(const MeshesQuery& query, std::ostream& out) {
+    if (query.is_signed)
+        return answer_signed_distance(query, out);
     const Bodies bodies(query);
     switch (query.question) {
     case Question::collide:
@@ -158,9 +191,10 @@ void add_query_meshes(CLI::App& query) {
          "--pose-b \"1 0 0 .1 0 1 0 0 0 0 1 0 0 0 0 1\""},
         {Question::distance, "distance", "how far two meshes or primitives are apart",
          "Prints distance,lo,hi: the true distance lies between lo and hi, of meshes 2^-32 of it "
-         "apart; all are 0 where the two\ncertainly touch.\n\nExample:\n  boxwood query distance "
-         "gripper.stl "
-         "cup.obj --json"},
+         "apart; all are 0 where the two\ncertainly touch. With --signed minus the depth there: of "
+         "primitives the least way that parts them, of closed\nmeshes the farthest that a point of "
+         "one inside the other is from its surface, within a hundredth of the smaller "
+         "one.\n\nExample:\n  boxwood query distance gripper.stl cup.obj --json"},
         {Question::tolerance, "tolerance",
          "whether two meshes or primitives are at most so far apart",
          "Prints 1 or 0.\n\nExample:\n  boxwood query tolerance gripper.stl cup.obj --tolerance "
@@ -184,6 +218,10 @@ void add_query_meshes(CLI::App& query) {
                             "the kernel that decides; there is one so far, which is the default");
         command->add_flag("--solid", options->solid,
                           "closed meshes are solids: what lies inside one touches it");
+        if (row.question == Question::distance)
+            command->add_flag(
+                "--signed", options->is_signed,
+                "of primitives, closed meshes and boxes: below 0 they overlap, and how deep");
         if (row.question == Question::tolerance)
             command->add_option("--tolerance", options->tolerance, "how far, scene units");
         if (row.question == Question::collide || row.question == Question::contacts)

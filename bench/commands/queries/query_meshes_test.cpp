@@ -96,6 +96,23 @@ TEST_F(QueryMeshes, DistancesAreCertifiedAndInWorldCoordinates) {
     EXPECT_THAT(answer(query), HasSubstr("{\"distance\":0,\"lo\":0,\"hi\":0,"));
 }
 
+TEST_F(QueryMeshes, SignedDistancesGoBelowZero) {
+    MeshesQuery query = cubes(Question::distance, at("1.5"));
+    query.is_signed = true;
+    for (const char* b : {"box:2,2,2", "sphere:1"}) {
+        query.b = b;
+        EXPECT_NEAR(numbers(query)[0], -.5, 1e-12);
+    }
+    query.b = put("cube.obj", "v -1 -1 -1\nv 1 -1 -1\nv -1 1 -1\nv 1 1 -1\nv -1 -1 1\nv 1 -1 1\n"
+                              "v -1 1 1\nv 1 1 1\nf 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\n"
+                              "f 1 5 7 3\nf 2 4 8 6\n");
+    const auto [distance, lo, hi] = numbers(query);
+    EXPECT_NEAR(distance, -.5, .02);
+    EXPECT_TRUE(lo <= -.5 && hi >= -.5);
+    query.a = "sphere:1";
+    EXPECT_THAT(complaint(query), HasSubstr("sphere:1: --signed takes two primitives"));
+}
+
 TEST_F(QueryMeshes, ToleranceIsAYesOrNo) {
     MeshesQuery query = cubes(Question::tolerance, at("5"));
     EXPECT_THAT(complaint(query), HasSubstr("--tolerance T"));

@@ -12,8 +12,8 @@ NAME = "device_gains"
 TITLE = "From which size a device wins"
 HOW_TO_READ = (
     "Lower is better; both axes are logarithmic. End to end is from the host's boxes to the host's answers; resident, all "
-    "stays on the device; the device alone is what its own clock says of end to end. The dotted line is the least "
-    "that any algorithm could take there end to end. The upright line is the smallest measured size from which on the "
+    "stays on the device; the device alone is what its own clock says of end to end. The dotted line is what "
+    "copies from and to pageable memory take, and the device's own memory. The upright line is the smallest measured size from which on the "
     "device wins against the fastest of one, two and all threads."
 )
 COLUMNS = ("task", "scene", "n", "what", "threads", "contender", "time_ns", "wins_from", "loses_to")
@@ -107,6 +107,8 @@ def draw(run):
     pictures = []
     for task in dict.fromkeys(key[0] for key in groups):
         panels = {key: rows for key, rows in groups.items() if key[0] == task}
+        # One size is no line: where others have several, the table has it.
+        panels = {key: rows for key, rows in panels.items() if len(rows) > 2} or panels
         figure, axes = style.panels(len(panels), width=4.1, labels_right=1.9)
         rows, said = [], []
         for ax, (key, of_panel) in zip(axes, panels.items()):

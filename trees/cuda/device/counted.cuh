@@ -38,6 +38,7 @@ template <class Count> Counted counted(std::size_t places, Workplace& in, const 
     Counted found{DeviceArray<std::uint64_t>(places + 1, in.place)};
     std::uint64_t* const at = found.at.span().data;
     count(at);
+    fill_bytes(at + places, 0, sizeof(std::uint64_t), in.stream); // what a scan reads, and drops
     scan(at, places, in.spare, in.stream);
     found.n = number_at(static_cast<const std::uint64_t*>(at) + places, in.stream);
     return found;

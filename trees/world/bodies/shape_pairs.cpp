@@ -1,6 +1,7 @@
 #include "trees/world/bodies/shape_pairs.h"
 
 #include "kernels/convex/contact.h"
+#include "kernels/convex/signed_distance.h"
 #include "trees/world/bodies/detail/surface_pairs.h"
 #include "trees/world/mesh_shape.h"
 
@@ -43,9 +44,10 @@ BodyContact posed(const Contact& contact, const Pose& pose, double margin) {
             contact.triangles};
 }
 
-/// Those of surfaces that touch; of convex shapes also those that are near enough.
-std::vector<BodyContact> touching(const PosedShape& a, const PosedShape& b, double margin,
-                                  const ContactOptions& options, Work* work) {
+/// Those of surfaces that are at most `reach` apart, at 0 of those that touch; of convex shapes
+/// also those that are near enough for the margin.
+std::vector<BodyContact> within_reach(const PosedShape& a, const PosedShape& b, double margin,
+                                      double reach, const ContactOptions& options, Work* work) {
     std::vector<BodyContact> found;
     if (a.shape.empty() || b.shape.empty())
         return found;
@@ -63,7 +65,7 @@ std::vector<BodyContact> touching(const PosedShape& a, const PosedShape& b, doub
         return found;
     }
     if (is_convex(a)) {
-        found = touching(b, a, margin, options, work);
+        found = within_reach(b, a, margin, reach, options, work);
         for (BodyContact& contact : found) {
             contact.normal = -contact.normal;
             std::swap(contact.parts.a, contact.parts.b);
@@ -72,9 +74,11 @@ std::vector<BodyContact> touching(const PosedShape& a, const PosedShape& b, doub
     }
     const MeshTree& mesh = a.shape.tree();
     const Pose b_in_a = relative_pose(a.pose, b.pose);
+    ContactOptions near = options;
+    near.margin = reach;
     const std::vector<Contact> all =
-        is_convex(b) ? contacts(mesh, b.shape.convex_shape(), b_in_a, options, work)
-                     : contacts(mesh, b.shape.tree(), b_in_a, options, work);
+        is_convex(b) ? contacts(mesh, b.shape.convex_shape(), b_in_a, near, work)
+                     : contacts(mesh, b.shape.tree(), b_in_a, near, work);
     for (const Contact& contact : all) {
         found.push_back(posed(contact, a.pose, margin));
         if (is_convex(b))
@@ -131,15 +135,54 @@ BodyDistance distance(const PosedShape& a, const PosedShape& b, const DistanceOp
     return grown(found, margin);
 }
 
+BodyDistance signed_distance(const PosedShape& a, const PosedShape& b, double tolerance,
+                             Work* work) {
+    if (!(tolerance >= 0))
+        throw std::invalid_argument("a tolerance must be at least 0");
+    const ShapeClass kind = a.shape.shape_class();
+    if (kind != b.shape.shape_class() || kind == ShapeClass::surface)
+        throw std::invalid_argument("a signed distance is that of two convex shapes or of two "
+                                    "solids (BodyShape::solid): a surface has no inside");
+    const double margin = margin_of(a, b);
+    const auto less_margin = [&](double x, double way) { // rounded that way
+        return margin > 0 && std::isfinite(x)
+                   ? (x - margin) + way * 0x1p-51 * (std::abs(x) + margin)
+                   : x;
+    };
+    const auto grown_by_margin = [&](double distance, double lo, double hi) {
+        BodyDistance found;
+        found.lo = less_margin(lo, -1);
+        found.hi = less_margin(hi, 1);
+        found.distance = std::clamp(less_margin(distance, 0), found.lo, found.hi);
+        return found;
+    };
+    if (kind == ShapeClass::convex) {
+        const convex::SignedDistance d =
+            convex::signed_distance(a.shape.convex_shape(), a.pose, b.shape.convex_shape(), b.pose);
+        BodyDistance found = grown_by_margin(d.distance, d.lo, d.hi);
+        found.point_a = d.point_a;
+        found.point_b = d.point_b;
+        return found;
+    }
+    const SolidDistance d = signed_distance(a.shape.solid(), b.shape.solid(),
+                                            relative_pose(a.pose, b.pose), tolerance, work);
+    BodyDistance found = grown_by_margin(d.distance, d.lo, d.hi);
+    found.point_a = a.pose(d.point_a);
+    found.point_b = a.pose(d.point_b);
+    return found;
+}
+
 std::vector<BodyContact> contacts(const PosedShape& a, const PosedShape& b,
                                   const ContactOptions& options, Work* work) {
     const double margin = margin_of(a, b);
-    std::vector<BodyContact> found = touching(a, b, margin, options, work);
+    std::vector<BodyContact> found = within_reach(a, b, margin, 0, options, work);
     if (!found.empty() || options.max_contacts == 0 || options.max_pairs == 0)
         return found;
     if (inside(a, b).answer == Answer::yes)
         return {between(surface_distance(a, b, {}, work), -1, margin)};
-    if (margin > 0) {
+    if (margin > 0)
+        found = within_reach(a, b, margin, margin, options, work);
+    if (found.empty() && margin > 0) {
         DistanceOptions near;
         near.limit = margin * (1 + 0x1p-30);
         const BodyDistance d = surface_distance(a, b, near, work);

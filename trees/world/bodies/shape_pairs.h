@@ -52,6 +52,15 @@ struct BodyDistance {
 BodyDistance distance(const PosedShape& a, const PosedShape& b, const DistanceOptions& options = {},
                       Work* work = nullptr);
 
+/// As `distance`, of two convex shapes or of two solids; below 0 they overlap and -distance is how
+/// deep: of convex shapes the least way that parts them (and tolerance has no effect), of solids
+/// the farthest that a point of one's surface inside the other is from the other's, where hi - lo
+/// is at most `tolerance`, or as solid.h says of 0. Margins are added to either. Points of two
+/// solids that overlap are one. Throws std::invalid_argument where one is a surface or points, or
+/// one is convex and the other a solid, and for a tolerance below 0 or NaN.
+BodyDistance signed_distance(const PosedShape& a, const PosedShape& b, double tolerance = 0,
+                             Work* work = nullptr);
+
 /// A place where two bodies meet. By its depth along the normal b has to move for the two parts
 /// there only to touch.
 struct BodyContact {
@@ -61,10 +70,11 @@ struct BodyContact {
     double depth = 0;             ///< scene units; infinite for two flats that no motion parts
     Pair parts{~0u, ~0u};         ///< triangles or points; ~0u of what has none
 };
-/// The deepest first: of meshes one of each pair of parts that touch, of convex shapes at most
-/// four. Where only margins meet, one at the nearest points. Where a body lies within a solid whose
-/// surface it does not touch, one at the nearest points, whose depth is at most the true one. None,
-/// perhaps, where `collide` says maybe.
+/// The deepest first: of meshes one of each pair of parts that touch or, where none does, that are
+/// near enough for the margins (options.margin has no effect); of convex shapes at most four. (What
+/// is near where others touch may be on either side of a surface.) Where a body lies within a solid
+/// whose surface it does not touch, one at the nearest points, whose depth is at most the true one.
+/// None, perhaps, where `collide` says maybe.
 std::vector<BodyContact> contacts(const PosedShape& a, const PosedShape& b,
                                   const ContactOptions& options = {}, Work* work = nullptr);
 

@@ -106,6 +106,68 @@ TEST(ShapePairs, ReachAsFarAsTheirMargins) {
     EXPECT_GT(seen, 100u);
 }
 
+TEST(ShapePairs, MarginsMakeAllThatIsNearMeet) {
+    const BodyShape ball = BodyShape::surface(noisy_sphere(12, 13, 0, 1)),
+                    solid = BodyShape::solid(noisy_sphere(12, 13, 0, 1));
+    const std::vector<BodyContact> near = contacts({ball, {}, .1}, {ball, pose_at(2.05), .1});
+    EXPECT_GT(near.size(), 10u);
+    for (const BodyContact& contact : near)
+        EXPECT_TRUE(contact.depth > -1e-12 && contact.depth < .2 && contact.normal.x > 0);
+    // Where some touch, those alone: others are near on this side of the surface and on that.
+    const std::size_t touching = contacts({ball}, {ball, pose_at(1.9)}).size();
+    EXPECT_GT(touching, 0u);
+    EXPECT_EQ(contacts({ball, {}, .1}, {ball, pose_at(1.9), .1}).size(), touching);
+    // Near the surface of a solid, and within it: out of it is the way.
+    const BodyShape small = BodyShape::solid(cube_mesh(.1f));
+    const std::vector<BodyContact> in = contacts({solid, {}, .1}, {small, pose_at(.8)});
+    ASSERT_EQ(in.size(), 1u);
+    EXPECT_GT(in.front().depth, .1);
+    EXPECT_LT(in.front().normal.x, 1.01);
+    EXPECT_GT(dot(in.front().normal, Vec3<double>{1, 0, 0}), .5);
+}
+
+TEST(ShapePairs, SignedDistancesGoBelowZero) {
+    std::size_t deep = 0, apart = 0, refused = 0;
+    for_pairs_of_shapes(3, 3, .8, [&](const PosedShape& a, const PosedShape& b) {
+        const ShapeClass kind = a.shape.shape_class();
+        if (kind == ShapeClass::surface || kind != b.shape.shape_class()) {
+            ++refused;
+            EXPECT_THROW(signed_distance(a, b), std::invalid_argument);
+            return;
+        }
+        const BodyDistance s = signed_distance(a, b), back = signed_distance(b, a);
+        const BodyDistance d = distance(a, b);
+        if (!std::isfinite(s.lo)) // two flats that cross everywhere
+            return;
+        EXPECT_TRUE(s.lo <= s.distance && s.distance <= s.hi);
+        EXPECT_TRUE(s.lo <= back.hi && back.lo <= s.hi);
+        EXPECT_TRUE(std::max(0.0, s.lo) <= d.hi && d.lo <= std::max(0.0, s.hi));
+        const BodyDistance grown =
+            signed_distance(PosedShape{a.shape, a.pose, .25}, PosedShape{b.shape, b.pose, .125});
+        EXPECT_NEAR(grown.distance, s.distance - .375, 1e-12);
+        EXPECT_TRUE(grown.lo <= s.lo - .375 && s.hi - .375 <= grown.hi);
+        deep += s.hi < 0;
+        apart += s.lo > 0;
+        if (kind == ShapeClass::convex && s.hi < 0) { // the least way that parts them does
+            Pose parted = b.pose;
+            parted.translation = parted.translation + (s.point_a - s.point_b);
+            EXPECT_NEAR(signed_distance(a, {b.shape, parted}).distance, 0, 1e-5);
+        }
+    });
+    EXPECT_GT(deep, 40u);
+    EXPECT_GT(apart, 20u);
+    EXPECT_GT(refused, 100u);
+
+    const BodyShape cube = BodyShape::solid(cube_mesh(1));
+    const BodyDistance half = signed_distance({cube}, {cube, pose_at(1.5)}, .01);
+    EXPECT_NEAR(half.distance, -.5, .01);
+    EXPECT_LE(half.hi - half.lo, .0101);
+    EXPECT_NEAR(signed_distance({cube}, {cube, pose_at(3)}).distance, 1, 1e-9);
+    EXPECT_THROW(signed_distance({cube}, {cube}, -1), std::invalid_argument);
+    const BodyShape none = BodyShape::solid(TriangleMesh{});
+    EXPECT_EQ(signed_distance({cube, {}, 1}, {none}).lo, std::numeric_limits<double>::infinity());
+}
+
 TEST(ShapePairs, SolidsHoldWhatLiesInside) {
     const BodyShape solid = BodyShape::solid(cube_mesh(2)),
                     shell = BodyShape::surface(cube_mesh(2));

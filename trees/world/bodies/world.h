@@ -139,6 +139,8 @@ class World {
     Answer within(std::uint32_t a, std::uint32_t b, double tolerance) const;
     BodyDistance distance(std::uint32_t a, std::uint32_t b,
                           const DistanceOptions& options = {}) const;
+    /// As shape_pairs.h says, and throws.
+    BodyDistance signed_distance(std::uint32_t a, std::uint32_t b, double tolerance = 0) const;
     std::vector<BodyContact> contacts(std::uint32_t a, std::uint32_t b,
                                       const ContactOptions& options = {}) const;
 

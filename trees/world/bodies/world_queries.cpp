@@ -23,6 +23,16 @@ std::vector<Pair> not_denied(std::span<const Pair> pairs, std::span<const Answer
 
 Pair sorted(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
+/// What was found of the two in their order, as of a and b.
+BodyDistance of_bodies(BodyDistance found, std::uint32_t a, std::uint32_t b) {
+    found.bodies = {a, b};
+    if (a > b) {
+        std::swap(found.point_a, found.point_b);
+        std::swap(found.parts.a, found.parts.b);
+    }
+    return found;
+}
+
 std::vector<Pair> pairs_with(std::uint32_t body, std::span<const std::uint32_t> others) {
     std::vector<Pair> pairs;
     for (const std::uint32_t other : others)
@@ -59,13 +69,12 @@ BodyDistance World::distance(std::uint32_t a, std::uint32_t b,
     DistanceOptions of_pair = options;
     if (a > b && options.start)
         of_pair.start = Pair{options.start->b, options.start->a};
-    BodyDistance found = boxwood::distance(posed(pair.a), posed(pair.b), of_pair);
-    found.bodies = {a, b};
-    if (a > b) {
-        std::swap(found.point_a, found.point_b);
-        std::swap(found.parts.a, found.parts.b);
-    }
-    return found;
+    return of_bodies(boxwood::distance(posed(pair.a), posed(pair.b), of_pair), a, b);
+}
+
+BodyDistance World::signed_distance(std::uint32_t a, std::uint32_t b, double tolerance) const {
+    const Pair pair = sorted(a, b);
+    return of_bodies(boxwood::signed_distance(posed(pair.a), posed(pair.b), tolerance), a, b);
 }
 
 std::vector<BodyContact> World::contacts(std::uint32_t a, std::uint32_t b,

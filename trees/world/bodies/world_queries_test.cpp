@@ -93,6 +93,20 @@ std::size_t expect_first_contacts_of_all_pairs(const MirroredWorld& mirror,
     return expected.size();
 }
 
+TEST(World, SaysHowDeepTwoAre) {
+    World world;
+    const std::uint32_t ball = world.insert(convex::Sphere{.5}, pose_at(3));
+    const std::uint32_t box = world.insert(convex::Box{{1, 1, 1}}, pose_at(1.75), {.margin = .125});
+    const BodyDistance deep = world.signed_distance(box, ball);
+    EXPECT_NEAR(deep.distance, -.375, 1e-12);
+    EXPECT_EQ(deep.bodies, (Pair{box, ball}));
+    EXPECT_NEAR(deep.point_a.x, 2.75, 1e-9); // on the box, without its margin
+    EXPECT_NEAR(deep.point_b.x, 2.5, 1e-9);
+    EXPECT_NEAR(world.signed_distance(ball, box).point_a.x, 2.5, 1e-9);
+    const std::uint32_t shell = world.insert(BodyShape::surface(cube_mesh(1)));
+    EXPECT_THROW(world.signed_distance(ball, shell), std::invalid_argument);
+}
+
 TEST(World, FindsFirstContactsAsAllPairsDo) {
     std::size_t hits = 0, hits_of_few = 0;
     for (std::uint32_t seed = 0; seed < 3; ++seed) {

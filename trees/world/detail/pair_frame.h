@@ -74,10 +74,11 @@ struct PairFrame {
         }
         return seen;
     }
-    /// Whether a plane parts two boxes, along one of their six axes or across one of each. In
-    /// doubles: error() is then for axes that are not quite orthonormal, each by less than 2u,
-    /// which takes less than 14u S from a gap, whatever the length of its direction, at most 1.
-    bool parted(const PosedBox& a, const PosedBox& b) const {
+    /// Whether a plane parts two boxes by more than `reach`, along one of their six axes or across
+    /// one of each. In doubles: error() is then for axes that are not quite orthonormal, each by
+    /// less than 2u, which takes less than 14u S from a gap, whatever the length of its direction,
+    /// at most 1.
+    bool parted(const PosedBox& a, const PosedBox& b, double reach = 0) const {
         const auto vec = [](const float(&v)[3]) {
             return Vec3<double>{double{v[0]}, double{v[1]}, double{v[2]}};
         };
@@ -88,7 +89,7 @@ struct PairFrame {
              {pose.rotated(vec(b.axis[0])), pose.rotated(vec(b.axis[1])),
               pose.rotated(vec(b.axis[2]))},
              vec(b.half)});
-        const double most = double{error(t, a, b)};
+        const double most = (double{error(t, a, b)} + reach) * (1 + 0x1p-50);
         for (int i = 0; i < 3; ++i)
             if (pair.face_of_a(i) > most || pair.face_of_b(i) > most)
                 return true;
