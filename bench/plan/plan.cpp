@@ -64,15 +64,16 @@ class Expansion {
         const SceneSpec& other = seen->second;
         if (other.overlaps != spec.overlaps || other.n_rays != spec.n_rays ||
             other.n_points != spec.n_points || other.n_poses != spec.n_poses ||
-            other.file != spec.file)
+            other.file != spec.file || other.rays_file != spec.rays_file)
             throw BadInput(fmt::format("{}: the scene {} stands twice and differs "
                                        "(overlaps {} and {}, n_rays {} and {}, n_points {} and "
-                                       "{}, n_poses {} and {}, file \"{}\" and \"{}\"); make them "
-                                       "equal",
+                                       "{}, n_poses {} and {}, file \"{}\" and \"{}\", rays \"{}\" "
+                                       "and \"{}\"); make them equal",
                                        block.reader.place(), seen->first, other.overlaps,
                                        spec.overlaps, other.n_rays, spec.n_rays, other.n_points,
                                        spec.n_points, other.n_poses, spec.n_poses,
-                                       other.file.string(), spec.file.string()));
+                                       other.file.string(), spec.file.string(),
+                                       other.rays_file.string(), spec.rays_file.string()));
     }
 
     std::vector<PlannedCell>& cells_;

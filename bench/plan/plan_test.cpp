@@ -282,8 +282,9 @@ TEST(Plan, RefusesAPatternThatIsNoneOrLeavesNothing) {
 }
 
 TEST(Plan, ShippedSweepFilesAreGood) {
-    for (const char* name : {"quick", "default", "pairs", "builders", "rays", "dynamic", "effects",
-                             "queries", "accuracy", "counts", "narrow", "shapes"}) {
+    for (const char* name :
+         {"quick", "default", "pairs", "builders", "rays", "dynamic", "effects", "queries",
+          "accuracy", "counts", "narrow", "shapes", "gpu", "policies", "instruction_sets"}) {
         const std::string file = std::string("bench/configs/") + name + ".toml";
         const Plan plan = make_plan(read_text(file), file, {});
         EXPECT_GE(plan.rounds, 9u);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -106,21 +107,16 @@ std::vector<Contact> spread(const std::vector<Contact>& all, std::size_t count) 
     return chosen;
 }
 
-/// Of two that touch, or are apart.
-Contact near_contact(const Triangle<double>& a, const Triangle<double>& b) {
-    const Distance d = CertifiedDistance::distance(a, b);
-    const Vec3<double> apart = d.point_b - d.point_a;
-    const double size = length(apart);
-    if (d.lo == 0 || !(size > 0))
-        return contact_of(a, b);
-    return {0.5 * (d.point_a + d.point_b), (1 / size) * apart, -d.distance, {}};
-}
-
 bool deeper(const Contact& x, const Contact& y) {
     return std::tuple(-x.depth, x.triangles) < std::tuple(-y.depth, y.triangles);
 }
 
 } // namespace
+
+void check(const ContactOptions& options) {
+    if (!(options.margin >= 0 && options.margin < 0x1p100))
+        throw std::invalid_argument("a margin must be at least 0, and below 2^100");
+}
 
 Contact contact_of(const Triangle<double>& a, const Triangle<double>& b) {
     const Corners corners_a = corners_of(a), corners_b = corners_of(b);
@@ -156,8 +152,29 @@ Contact contact_of(const Triangle<double>& a, const Triangle<double>& b) {
     return contact;
 }
 
+namespace {
+
+/// Of two that touch, or are apart. Where they are so near that rounding turns the way between
+/// their nearest points, the normal is that of two that touch.
+Contact near_contact(const Triangle<double>& a, const Triangle<double>& b) {
+    const Distance d = CertifiedDistance::distance(a, b);
+    if (d.lo == 0)
+        return contact_of(a, b);
+    const Vec3<double> apart = d.point_b - d.point_a;
+    const double size = length(apart);
+    if (!(size > 0x1p-40 * (length(d.point_a) + length(d.point_b)))) {
+        Contact contact = contact_of(a, b);
+        contact.depth = -d.distance;
+        return contact;
+    }
+    return {0.5 * (d.point_a + d.point_b), (1 / size) * apart, -d.distance, {}};
+}
+
+} // namespace
+
 std::vector<Contact> contacts(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
                               const ContactOptions& options, Work* work) {
+    check(options);
     std::vector<Contact> found;
     const bool is_near = options.margin > 0;
     const std::vector<Pair> pairs =

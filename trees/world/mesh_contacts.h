@@ -26,9 +26,11 @@ struct ContactOptions {
     std::size_t max_pairs = std::numeric_limits<std::size_t>::max();
     /// Of more contacts the deepest, and then those that span the most: for a solver, 4.
     std::size_t max_contacts = std::numeric_limits<std::size_t>::max();
-    /// Triangles that are apart, but not more than this, are contacts, too. At least 0.
+    /// Triangles that are apart, but not more than this, are contacts, too. At least 0, and below
+    /// 2^100; else contacts() throws std::invalid_argument.
     double margin = 0;
 };
+void check(const ContactOptions& options);
 
 /// The contacts of two surfaces, one of each pair of triangles that share a point or are within the
 /// margin, the deepest first and then by triangles. B stands at `b_in_a`, as in mesh_pairs.h.

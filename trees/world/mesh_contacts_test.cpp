@@ -72,30 +72,64 @@ TEST(Contacts, AMarginMakesNearTrianglesMeet) {
     EXPECT_TRUE(near_triangles(tree_a, MeshTree(TriangleMesh{}), {}, 1).empty());
     EXPECT_THROW(near_triangles(tree_a, tree_b, {}, -1), std::invalid_argument);
     EXPECT_THROW(near_triangles(tree_a, tree_b, {}, std::nan("")), std::invalid_argument);
+    for (const double margin : {-1.0, std::nan(""), 0x1p100}) {
+        EXPECT_THROW(contacts(tree_a, tree_b, {}, {.margin = margin}), std::invalid_argument);
+        EXPECT_THROW(contacts(tree_a, convex::Sphere{1}, {}, {.margin = margin}),
+                     std::invalid_argument);
+    }
+}
+
+/// Far from the origin, large and small: what all pairs say.
+TEST(Contacts, NearTrianglesOfAllSizesAndPlaces) {
+    for (const double scale : {0x1p-60, 1.0, 0x1p38})
+        for (const double place : {0.0, 1e3, 1e6}) {
+            TriangleMesh a = noisy_sphere(6, 7, .2, 1), b = noisy_sphere(5, 6, .2, 2);
+            for (TriangleMesh* mesh : {&a, &b})
+                for (Vec3<float>& v : mesh->vertices)
+                    v = Vec3<float>(scale * (Vec3<double>(v) + Vec3<double>{place, 0, -place}));
+            const MeshTree tree_a(a), tree_b(b);
+            Pose pose;
+            pose.translation = scale * Vec3<double>{1.9, .1, 0};
+            for (const double reach : {1e-12, .05, .5}) {
+                std::vector<Pair> found = near_triangles(tree_a, tree_b, pose, scale * reach);
+                std::ranges::sort(found);
+                std::vector<Pair> expected;
+                for (std::uint32_t i = 0; i < tree_a.size(); ++i)
+                    for (std::uint32_t j = 0; j < tree_b.size(); ++j)
+                        if (CertifiedDistance::distance(tree_a.triangle(i, Pose{}),
+                                                        tree_b.triangle(j, pose))
+                                .lo <= scale * reach)
+                            expected.push_back({i, j});
+                EXPECT_EQ(found, expected) << scale << " " << place << " " << reach;
+                EXPECT_TRUE(reach < .1 || expected.size() > 5);
+            }
+        }
 }
 
 TEST(Contacts, AMarginMakesTrianglesNearAShapeMeet) {
     const TriangleMesh mesh = noisy_sphere(12, 13, .2, 1);
     const MeshTree tree(mesh);
     const Pose pose{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {1.3, .1, 0}};
-    const convex::Shape shape(convex::Sphere{.4});
-    for (const double margin : {0.0, .05, .4}) {
-        const std::vector<Contact> all = contacts(tree, shape, pose, {.margin = margin});
-        std::size_t expected = 0;
-        for (std::uint32_t i = 0; i < tree.size(); ++i)
-            expected += convex::signed_distance(convex::Triangle(tree.triangle(i, Pose{})), Pose{},
-                                                shape, pose)
-                            .lo <= margin;
-        EXPECT_EQ(all.size(), expected);
-        EXPECT_GT(expected, margin == 0 ? 3u : 10u);
-        for (const Contact& c : all) {
-            const double distance =
-                convex::signed_distance(convex::Triangle(tree.triangle(c.triangles.a, Pose{})),
-                                        Pose{}, shape, pose)
-                    .distance;
-            EXPECT_NEAR(c.depth, -distance, 1e-9);
+    for (const convex::Shape& shape :
+         {convex::Shape(convex::Sphere{.4}), convex::Shape(convex::Cone{.4, .5}),
+          convex::Shape(convex::Ellipsoid{{.3, .4, .5}}), convex::Shape(convex::Box{{.3, .3, .4}})})
+        for (const double margin : {0.0, .05, .4}) {
+            const std::vector<Contact> all = contacts(tree, shape, pose, {.margin = margin});
+            std::size_t expected = 0;
+            for (std::uint32_t i = 0; i < tree.size(); ++i)
+                expected += convex::signed_distance(convex::Triangle(tree.triangle(i, Pose{})),
+                                                    Pose{}, shape, pose)
+                                .lo <= margin;
+            EXPECT_EQ(all.size(), expected);
+            EXPECT_GT(expected, margin == 0 ? 2u : 5u);
+            for (const Contact& c : all) {
+                const double distance =
+                    convex::signed_distance(convex::Triangle(tree.triangle(c.triangles.a, Pose{})),
+                                            Pose{}, shape, pose)
+                        .distance;
+                EXPECT_NEAR(c.depth, -distance, 1e-6);
+            }
         }
-    }
 }
 
 TEST(Contacts, MovingByTheDepthPartsThem) {

@@ -310,6 +310,7 @@ MeshWithin within(const MeshTree& mesh, const convex::Shape& shape, const Pose& 
 std::vector<Contact> contacts(const MeshTree& mesh, const convex::Shape& shape,
                               const Pose& shape_in_mesh, const ContactOptions& options,
                               Work* work) {
+    check(options);
     AllTouches touches{{shape, shape_in_mesh}, options.max_pairs, options.margin};
     without_flushing([&] {
         const Envelope envelope(shape, shape_in_mesh);

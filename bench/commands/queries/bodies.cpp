@@ -83,6 +83,11 @@ TriangleMesh read_body(const std::string& body) {
     throw BadInput(fmt::format("{}: of primitives only boxes are meshes", body));
 }
 
+double rounding_of_mesh(const convex::Shape& shape) {
+    const auto* box = shape.get_if<convex::Box>();
+    return box ? length(Vec3<double>(Vec3<float>(box->half)) - box->half) * (1 + 0x1p-40) : 0;
+}
+
 Pose read_pose(const std::string& text, const std::string& option) {
     if (text.empty())
         return {};

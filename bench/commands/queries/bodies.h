@@ -28,6 +28,9 @@ std::optional<convex::Shape> read_primitive(const std::string& text);
 /// The triangles of a mesh file, or of a box. Throws BadInput, and as load_mesh.
 TriangleMesh read_body(const std::string& body);
 
+/// How far the corners of a box's triangles are off, as floats, rounded up; 0 of other shapes.
+double rounding_of_mesh(const convex::Shape& shape);
+
 /// 16 numbers, row by row, parted by spaces or commas; the identity if empty. Throws BadInput,
 /// which names the option.
 Pose read_pose(const std::string& text, const std::string& option);

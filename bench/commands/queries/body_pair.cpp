@@ -36,14 +36,6 @@ std::optional<Shape> box_of(const std::string& text, bool is_mesh) {
     return primitive && primitive->kind() == convex::ShapeKind::box ? primitive : std::nullopt;
 }
 
-/// How far the corners of its mesh are off (box_mesh), rounded up.
-double rounding_of(const std::optional<Shape>& box) {
-    if (!box)
-        return 0;
-    const Vec3<double>& half = box->get_if<convex::Box>()->half;
-    return length(Vec3<double>(Vec3<float>(half)) - half) * (1 + 0x1p-40);
-}
-
 /// What was found of B and A, in B's frame, as of A and B, in A's.
 MeshDistance swapped(MeshDistance d, const Pose& b_in_a) {
     std::swap(d.point_a, d.point_b);
@@ -89,7 +81,8 @@ Contact turned(Contact c, const Pose& b_in_a) {
 
 BodyPair::BodyPair(const std::string& a, const std::string& b, bool solid)
     : a_(read(a, is_round(b), solid)), b_(read(b, is_round(a), solid)), box_a_(box_of(a, mesh(a_))),
-      box_b_(box_of(b, mesh(b_))), rounded_(rounding_of(box_a_) + rounding_of(box_b_)) {}
+      box_b_(box_of(b, mesh(b_))), rounded_((box_a_ ? rounding_of_mesh(*box_a_) : 0) +
+                                            (box_b_ ? rounding_of_mesh(*box_b_) : 0)) {}
 
 BodyPair::Body BodyPair::read(const std::string& text, bool beside_round, bool solid) {
     if (const std::optional<Shape> primitive = read_primitive(text))

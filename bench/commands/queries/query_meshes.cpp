@@ -105,15 +105,21 @@ void answer_signed_distance(const MeshesQuery& query, std::ostream& out) {
     const bool is_mesh = !read_primitive(query.a) || !read_primitive(query.b);
     const std::string_view kernel = is_mesh ? CertifiedDistance::name : convex::gjk_epa_info.name;
     require_kernel(query.kernel, kernel);
+    double rounded = 0;
     for (const std::string* text : {&query.a, &query.b})
         if (const std::optional<convex::Shape> primitive = read_primitive(*text);
-            is_mesh && primitive && primitive->kind() != convex::ShapeKind::box)
-            throw BadInput(fmt::format("{}: --signed takes two primitives, or two of closed meshes "
-                                       "and boxes",
-                                       *text));
+            is_mesh && primitive) {
+            if (primitive->kind() != convex::ShapeKind::box)
+                throw BadInput(fmt::format("{}: --signed takes two primitives, or two of closed "
+                                           "meshes and boxes",
+                                           *text));
+            rounded += rounding_of_mesh(*primitive);
+        }
     const BodyShape a = solid_body(query.a, is_mesh), b = solid_body(query.b, is_mesh);
-    const BodyDistance d = signed_distance(PosedShape{a, read_pose(query.pose_a, "--pose-a")},
-                                           PosedShape{b, read_pose(query.pose_b, "--pose-b")});
+    BodyDistance d = signed_distance(PosedShape{a, read_pose(query.pose_a, "--pose-a")},
+                                     PosedShape{b, read_pose(query.pose_b, "--pose-b")});
+    d.lo -= rounded;
+    d.hi += rounded;
     print_distance({d.distance, d.lo, d.hi, d.point_a, d.point_b}, d.point_a, d.point_b, kernel,
                    query, out);
 }
@@ -221,7 +227,7 @@ void add_query_meshes(CLI::App& query) {
         if (row.question == Question::distance)
             command->add_flag(
                 "--signed", options->is_signed,
-                "of primitives, closed meshes and boxes: below 0 they overlap, and how deep");
+                "of primitives, or of solids (closed meshes and boxes): below 0 they overlap");
         if (row.question == Question::tolerance)
             command->add_option("--tolerance", options->tolerance, "how far, scene units");
         if (row.question == Question::collide || row.question == Question::contacts)

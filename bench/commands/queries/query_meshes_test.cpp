@@ -109,6 +109,11 @@ TEST_F(QueryMeshes, SignedDistancesGoBelowZero) {
     const auto [distance, lo, hi] = numbers(query);
     EXPECT_NEAR(distance, -.5, .02);
     EXPECT_TRUE(lo <= -.5 && hi >= -.5);
+    query.a = "box:.2,.2,.2"; // .1 is no float: 1.5e-9 off
+    query.pose_b = at("2");
+    const auto [apart, from, to] = numbers(query);
+    EXPECT_NEAR(apart, .9, 1e-8);
+    EXPECT_TRUE(from <= .9 && to >= .9 && to - from < 1e-8);
     query.a = "sphere:1";
     EXPECT_THAT(complaint(query), HasSubstr("sphere:1: --signed takes two primitives"));
 }

@@ -16,6 +16,8 @@ namespace {
 using namespace detail;
 
 constexpr std::uint32_t none = ~0u;
+/// Of parts that only a margin makes meet: with a wide one that may be each with each.
+constexpr std::size_t max_near_pairs = std::size_t{1} << 16;
 
 /// x - margin as doubles below and above it, at least 0. A difference rounds once.
 double below(double x, double margin) {
@@ -180,14 +182,25 @@ std::vector<BodyContact> contacts(const PosedShape& a, const PosedShape& b,
         return found;
     if (inside(a, b).answer == Answer::yes)
         return {between(surface_distance(a, b, {}, work), -1, margin)};
-    if (margin > 0)
-        found = within_reach(a, b, margin, margin, options, work);
-    if (found.empty() && margin > 0) {
-        DistanceOptions near;
-        near.limit = margin * (1 + 0x1p-30);
-        const BodyDistance d = surface_distance(a, b, near, work);
-        if (d.found() && d.lo <= margin)
-            found.push_back(between(d, 1, margin));
+    if (!(margin > 0))
+        return found;
+    if (!is_convex(a) || !is_convex(b)) {
+        ContactOptions some = options;
+        some.max_pairs = std::min(options.max_pairs, max_near_pairs);
+        found = within_reach(a, b, margin, margin, some, work);
+    }
+    DistanceOptions near; // the nearest, which may not be among so many
+    near.limit = margin * (1 + 0x1p-30);
+    const BodyDistance d = surface_distance(a, b, near, work);
+    if (!d.found() || d.lo > margin)
+        return found;
+    const BodyContact nearest = between(d, 1, margin);
+    if (found.empty() ||
+        (nearest.depth > found.front().depth &&
+         std::ranges::find(found, nearest.parts, &BodyContact::parts) == found.end())) {
+        found.insert(found.begin(), nearest);
+        if (found.size() > options.max_contacts)
+            found.pop_back();
     }
     return found;
 }

@@ -113,6 +113,13 @@ TEST(ShapePairs, MarginsMakeAllThatIsNearMeet) {
     EXPECT_GT(near.size(), 10u);
     for (const BodyContact& contact : near)
         EXPECT_TRUE(contact.depth > -1e-12 && contact.depth < .2 && contact.normal.x > 0);
+    ContactOptions few; // the nearest is one of them
+    few.max_pairs = 3;
+    const std::vector<BodyContact> some = contacts({ball, {}, .1}, {ball, pose_at(2.05), .1}, few);
+    EXPECT_LE(some.size(), 4u);
+    EXPECT_NEAR(some.front().depth, near.front().depth, 1e-12);
+    few.max_contacts = 1;
+    EXPECT_EQ(contacts({ball, {}, .1}, {ball, pose_at(2.05), .1}, few).size(), 1u);
     // Where some touch, those alone: others are near on this side of the surface and on that.
     const std::size_t touching = contacts({ball}, {ball, pose_at(1.9)}).size();
     EXPECT_GT(touching, 0u);
