@@ -283,7 +283,7 @@ def faults(file, run, on_device=False):
 
 def problems(root):
     """What does not fit together, as lines of text; none if all does."""
-    found, machines = [], set()
+    found, machines, commits = [], set(), set()
     frozen_tracks = tracks(root)
     for sweep in sorted({one.sweep for one in ALL}):
         file = root / "results" / "published" / f"{sweep}.h5"
@@ -298,6 +298,7 @@ def problems(root):
         on_device = any(one.on_device for one in ALL if one.sweep == sweep)
         if not on_device:
             machines |= {(row["host"], row["cpu"]) for row in run.source["env"]}
+            commits |= {row["git_commit"] for row in run.source["env"]}
         found += faults(file, run, on_device)
         if scenes_of(run) != frozen:
             found.append(f"{file}: its scenes are not those of track {sweep}-{version}; scripts/published --freeze raises the version")
@@ -313,10 +314,13 @@ def problems(root):
         if (root / file).exists():
             env = reader(root / file).env
             machines.add((env["host"], env["cpu"]))
+            commits.add(env["git_commit"])
             if env["git_dirty"]:
                 found.append(f"{root / file}: measured with changes that are in no commit")
-    if len(machines) > 1:
-        found.append(f"results/published: files of more than one machine: {', '.join(map(str, sorted(machines)))}")
+    # Two commits: tracks are measured again one by one, and the pages say which is of which.
+    for most, what, values in ((1, "one machine", machines), (2, "two commits", commits)):
+        if len(values) > most:
+            found.append(f"results/published: files of more than {what}: {', '.join(map(str, sorted(values)))}")
     strays = {path.stem for path in (root / "results" / "published").glob("*.h5")} - {one.sweep for one in ALL}
     found += [f"results/published/{name}.h5: no table stands on it" for name in sorted(strays)]
     found += [f"{root / page}: a table differs from its file; scripts/published rewrites it" for page in PAGES

@@ -152,6 +152,18 @@ def test_intervals_of_medians_are_those_of_the_sign_test(n, cut):
     assert (lo, hi) == (cut, n - 1 - cut)
 
 
+def test_files_are_of_two_commits_at_most(root):
+    for sweep, commit in (("effects", "a"), ("pairs", "b"), ("accuracy", "c")):
+        file = file_of(root, sweep, synthetic.full(wrong=False))
+        with h5py.File(file, "a") as tables:
+            rows = tables["env"][:]
+            rows["git_commit"] = commit
+            tables["env"][:] = rows
+        published.freeze(root)
+        published.write(root)
+        assert any("more than two commits: a, b, c" in line for line in published.problems(root)) == (commit == "c")
+
+
 def test_what_was_measured_on_a_gpu_is_of_another_machine_and_of_fewer_rounds(root):
     file_of(root, "effects", synthetic.full(wrong=False))
     file_of(root, "gpu", synthetic.full(wrong=False), "rounds = 99", host="another", gpu="a GPU")

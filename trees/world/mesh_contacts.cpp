@@ -107,6 +107,22 @@ std::vector<Contact> spread(const std::vector<Contact>& all, std::size_t count) 
     return chosen;
 }
 
+/// Of two that touch, or are apart. Where they are so near that rounding turns the way between
+/// their nearest points, the normal is that of two that touch.
+Contact near_contact(const Triangle<double>& a, const Triangle<double>& b) {
+    const Distance d = CertifiedDistance::distance(a, b);
+    if (d.lo == 0)
+        return contact_of(a, b);
+    const Vec3<double> apart = d.point_b - d.point_a;
+    const double size = length(apart);
+    if (!(size > 0x1p-40 * (length(d.point_a) + length(d.point_b)))) {
+        Contact contact = contact_of(a, b);
+        contact.depth = -d.distance;
+        return contact;
+    }
+    return {0.5 * (d.point_a + d.point_b), (1 / size) * apart, -d.distance, {}};
+}
+
 bool deeper(const Contact& x, const Contact& y) {
     return std::tuple(-x.depth, x.triangles) < std::tuple(-y.depth, y.triangles);
 }
@@ -151,26 +167,6 @@ Contact contact_of(const Triangle<double>& a, const Triangle<double>& b) {
     contact.point = *point;
     return contact;
 }
-
-namespace {
-
-/// Of two that touch, or are apart. Where they are so near that rounding turns the way between
-/// their nearest points, the normal is that of two that touch.
-Contact near_contact(const Triangle<double>& a, const Triangle<double>& b) {
-    const Distance d = CertifiedDistance::distance(a, b);
-    if (d.lo == 0)
-        return contact_of(a, b);
-    const Vec3<double> apart = d.point_b - d.point_a;
-    const double size = length(apart);
-    if (!(size > 0x1p-40 * (length(d.point_a) + length(d.point_b)))) {
-        Contact contact = contact_of(a, b);
-        contact.depth = -d.distance;
-        return contact;
-    }
-    return {0.5 * (d.point_a + d.point_b), (1 / size) * apart, -d.distance, {}};
-}
-
-} // namespace
 
 std::vector<Contact> contacts(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
                               const ContactOptions& options, Work* work) {

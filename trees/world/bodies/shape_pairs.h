@@ -73,9 +73,8 @@ struct BodyContact {
 /// The deepest first: of meshes one of each pair of parts that touch or, where none does, that are
 /// near enough for the margins, 65,536 of them at most and the nearest (options.margin has no
 /// effect); of convex shapes at most four. (What is near where others touch may be on either side
-/// of a surface.) Where a body lies within a solid
-/// whose surface it does not touch, one at the nearest points, whose depth is at most the true one.
-/// None, perhaps, where `collide` says maybe.
+/// of a surface.) Where a body lies within a solid whose surface it does not touch, one at the
+/// nearest points, whose depth is at most the true one. None, perhaps, where `collide` says maybe.
 std::vector<BodyContact> contacts(const PosedShape& a, const PosedShape& b,
                                   const ContactOptions& options = {}, Work* work = nullptr);
 
