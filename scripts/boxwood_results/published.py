@@ -156,16 +156,15 @@ def table_block(one, root, up):
 
 def summary_block(root, up):
     """A line for each kind of question against peers."""
-    rows, missing, commits = [], [], {}
+    rows, missing, commits = [], [], set()
     for one in ALL:
         if one.tasks and one.file(root).exists():
             run = read(one.file(root))
             rows += published_tables.summary(run, one.tasks)
-            commits.setdefault(run.source["env"][0]["git_commit"][:8], []).append(one.name)
+            commits.add(run.source["env"][0]["git_commit"][:8])
         elif one.tasks:
             missing.append(not_published(one))
-    of_commits = "; ".join(f"{', '.join(names)}: commit {commit}" for commit, names in commits.items())
-    table = [markdown([published_tables.SUMMARY, *rows]) + f"\n\n*{of_commits}.*\n"] if rows else []
+    table = [markdown([published_tables.SUMMARY, *rows]) + f"\n\n*Commit {', '.join(sorted(commits))}.*\n"] if rows else []
     return "\n".join(table + missing)
 
 
@@ -317,9 +316,8 @@ def problems(root):
             commits.add(env["git_commit"])
             if env["git_dirty"]:
                 found.append(f"{root / file}: measured with changes that are in no commit")
-    # Two commits: tracks are measured again one by one, and the pages say which is of which.
-    for most, what, values in ((1, "one machine", machines), (2, "two commits", commits)):
-        if len(values) > most:
+    for what, values in (("one machine", machines), ("one commit", commits)):
+        if len(values) > 1:
             found.append(f"results/published: files of more than {what}: {', '.join(map(str, sorted(values)))}")
     strays = {path.stem for path in (root / "results" / "published").glob("*.h5")} - {one.sweep for one in ALL}
     found += [f"results/published/{name}.h5: no table stands on it" for name in sorted(strays)]
