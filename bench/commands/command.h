@@ -24,6 +24,7 @@ void add_plan(CLI::App& app, int& exit_code);
 void add_explain(CLI::App& app, int& exit_code);
 void add_grade(CLI::App& app, int& exit_code);
 void add_query(CLI::App& app, int& exit_code);
+void add_record(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
 
 } // namespace boxwood::bench

@@ -238,21 +238,23 @@ std::string some(const std::vector<std::uint32_t>& triangles) {
 
 } // namespace
 
-std::string doctor_of_mesh(const std::string& file, bool json) {
-    const TriangleMesh mesh = load_mesh(file);
+std::string doctor_of_mesh(const TriangleMesh& mesh, const std::string& file, bool json) {
     const MeshTriage found = triage(mesh);
-    const bool may_be_solid = open_edges(mesh) == 0; // as --solid and contains see it
+    // As --solid and contains see it.
+    const bool may_be_solid = found.not_finite.empty() && open_edges(mesh) == 0;
     if (json)
         return fmt::format(
-            "{{\"triangles\":{},\"vertices\":{},\"without_area\":{},\"repeated\":{},\"open_edges\":"
+            "{{\"triangles\":{},\"vertices\":{},\"not_finite\":{},\"without_area\":{},\"repeated\":"
+            "{},\"open_edges\":"
             "{},"
             "\"non_manifold_edges\":{},\"turned_edges\":{},\"is_closed\":{},\"is_clean\":{}}}\n",
-            found.triangles, found.vertices, found.without_area.size(), found.repeated.size(),
-            found.open_edges, found.non_manifold_edges, found.turned_edges, may_be_solid,
-            found.is_clean());
+            found.triangles, found.vertices, found.not_finite.size(), found.without_area.size(),
+            found.repeated.size(), found.open_edges, found.non_manifold_edges, found.turned_edges,
+            may_be_solid, found.is_clean());
     std::string text =
         fmt::format("{}: {} triangles, {} vertices (those at one place counted once)\n", file,
                     found.triangles, found.vertices);
+    text += fmt::format("  triangles with a NaN or inf  {}\n", some(found.not_finite));
     text += fmt::format("  triangles without area       {}\n", some(found.without_area));
     text += fmt::format("  triangles that are repeated  {}\n", some(found.repeated));
     text += fmt::format("  open edges                   {}\n", found.open_edges);
@@ -260,20 +262,19 @@ std::string doctor_of_mesh(const std::string& file, bool json) {
     text += fmt::format("  edges wound both ways        {}\n", found.turned_edges);
     text += may_be_solid ? "It is closed: it may be a solid (query collide --solid, contains).\n"
             : found.is_closed()
-                ? "It is closed but for its triangles without area or that are repeated: without "
-                  "those (--out FILE.obj) it may be a solid.\n"
+                ? "It is closed but for its bad triangles, those of the first three rows: without "
+                  "them (--out FILE.obj) it may be a solid.\n"
                 : "It is not closed: it is a surface, and no solid.\n";
     return text;
 }
 
-void write_good_triangles(const std::string& file, const std::string& out) {
+void write_good_triangles(const TriangleMesh& mesh, const std::string& out) {
     if (std::filesystem::exists(out))
         throw BadInput(fmt::format("--out {}: is there already; name a new file", out));
-    const TriangleMesh mesh = load_mesh(file);
     const TriangleMesh good = without_bad_triangles(mesh, triage(mesh));
     std::ofstream text(out, std::ios::binary);
     for (const Vec3<float>& v : good.vertices)
-        text << fmt::format("v {} {} {}\n", v.x, v.y, v.z);
+        text << (is_finite(v) ? fmt::format("v {} {} {}\n", v.x, v.y, v.z) : "v 0 0 0\n");
     for (const auto& [a, b, c] : good.triangles)
         text << fmt::format("f {} {} {}\n", a + 1, b + 1, c + 1);
     text.close();
@@ -300,9 +301,14 @@ void add_doctor(CLI::App& app, int&) {
                     "Examples:\n  boxwood doctor\n  boxwood doctor gripper.stl\n"
                     "  boxwood doctor gripper.stl --out good.obj");
     command->callback([json, mesh, out] {
-        std::cout << (mesh->empty() ? doctor(*json) : doctor_of_mesh(*mesh, *json));
+        if (mesh->empty()) {
+            std::cout << doctor(*json);
+            return;
+        }
+        const TriangleMesh looked_at = load_mesh(*mesh, NotFinite::keep);
+        std::cout << doctor_of_mesh(looked_at, *mesh, *json);
         if (!out->empty())
-            write_good_triangles(*mesh, *out);
+            write_good_triangles(looked_at, *out);
     });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bench/machine/machine.h"
+#include "kernels/primitives/triangle.h"
 
 #include <string>
 #include <vector>
@@ -26,11 +27,11 @@ std::vector<Finding> examine_disk(const std::filesystem::path& folder);
 /// What `boxwood doctor` prints; measures the memory bandwidth (about 0.3 s).
 std::string doctor(bool json);
 
-/// What `boxwood doctor MESH` prints. Throws as load_mesh.
-std::string doctor_of_mesh(const std::string& file, bool json);
+/// What `boxwood doctor MESH` prints of a mesh, whose coordinates may be no numbers.
+std::string doctor_of_mesh(const TriangleMesh& mesh, const std::string& file, bool json);
 
 /// What its option --out does: an OBJ file of the mesh without its bad triangles. Throws BadInput
-/// for a file that is there already or cannot be written, and as load_mesh.
-void write_good_triangles(const std::string& file, const std::string& out);
+/// for a file that is there already or cannot be written.
+void write_good_triangles(const TriangleMesh& mesh, const std::string& out);
 
 } // namespace boxwood::bench

@@ -4,6 +4,7 @@
 #include "bench/commands/list.h"
 #include "bench/commands/queries/query.h"
 #include "bench/io/bad_input.h"
+#include "scenes/meshes/mesh_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -161,25 +162,28 @@ TEST(Devices, ListAndQuerySayWhyThereIsNone) {
 }
 
 TEST(Doctor, LooksAtAMesh) {
-    const auto file = std::filesystem::temp_directory_path() / "boxwood_doctor.obj";
-    std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 2 0 0\n"
-                           "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 1 2 5\nf 3 2 1\n";
-    const std::string text = doctor_of_mesh(file.string(), false);
-    EXPECT_THAT(text, HasSubstr("6 triangles"));
+    const auto folder = std::filesystem::temp_directory_path();
+    const auto file = folder / "boxwood_doctor.obj", good = folder / "boxwood_doctor_good.obj";
+    std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 2 0 0\nv nan 0 1e39\n"
+                           "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 1 2 5\nf 3 2 1\nf 1 2 3 6\n";
+    EXPECT_THROW(load_mesh(file), std::runtime_error);
+    const TriangleMesh mesh = load_mesh(file, NotFinite::keep);
+    const std::string text = doctor_of_mesh(mesh, "a.obj", false);
+    EXPECT_THAT(text, HasSubstr("a.obj: 8 triangles"));
+    EXPECT_THAT(text, HasSubstr("NaN or inf  1 "));
     EXPECT_THAT(text, HasSubstr("without area       1 (the first: triangle 4)"));
-    EXPECT_THAT(text, HasSubstr("repeated  1 (the first: triangle 5)"));
     EXPECT_THAT(text, HasSubstr("It is closed but for"));
-    const std::string json = doctor_of_mesh(file.string(), true);
+    const std::string json = doctor_of_mesh(mesh, "a.obj", true);
+    EXPECT_THAT(json, HasSubstr("\"not_finite\":1,"));
     EXPECT_THAT(json, HasSubstr("\"open_edges\":0"));
     EXPECT_THAT(json, HasSubstr("\"is_clean\":false}"));
-    const auto good = std::filesystem::temp_directory_path() / "boxwood_doctor_good.obj";
     std::filesystem::remove(good);
-    write_good_triangles(file.string(), good.string());
-    EXPECT_THAT(doctor_of_mesh(good.string(), false), HasSubstr("It is closed: it may be a solid"));
-    EXPECT_THROW(write_good_triangles(file.string(), good.string()), BadInput);
+    write_good_triangles(mesh, good.string());
+    EXPECT_THAT(doctor_of_mesh(load_mesh(good), "b.obj", false),
+                HasSubstr("It is closed: it may be a solid"));
+    EXPECT_THROW(write_good_triangles(mesh, good.string()), BadInput);
     std::filesystem::remove(good);
     std::filesystem::remove(file);
-    EXPECT_THROW(doctor_of_mesh(file.string(), false), std::runtime_error);
 }
 
 } // namespace

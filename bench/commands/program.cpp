@@ -134,6 +134,7 @@ int run(int argc, char** argv) {
     add_scene(app, exit_code);
     add_plan(app, exit_code);
     add_query(app, exit_code);
+    add_record(app, exit_code);
     add_replay(app, exit_code);
 
     if (argc < 2) {

@@ -270,10 +270,10 @@ void add_replay(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand(
         "replay",
         "run again the calls of a program to its FCL manager, with every manager there is");
-    CLI::Option* const file =
-        command->add_option("recording", options->file,
-                            "a file that boxwood::FclRecorder wrote; without it a program is made "
-                            "up: bodies drift, the pairs are queried frame by frame");
+    CLI::Option* const file = command->add_option(
+        "recording", options->file,
+        "a file that `boxwood record` or a recorder wrote; without it a program is made "
+        "up: bodies drift, the pairs are queried frame by frame");
     command->add_option("--bodies", options->made.bodies, "of a made program")
         ->check(CLI::Range(std::size_t{1}, std::size_t{10'000'000}))
         ->excludes(file)
@@ -314,16 +314,18 @@ void add_replay(CLI::App& app, int& exit_code) {
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
     command->add_flag("--json", options->json, "print one JSON object");
-    command->footer("To record, put a recorder before the manager of your program:\n"
-                    "  #include <boxwood/trees/adapters/fcl_recorder.h>\n"
-                    "  boxwood::FclRecorder<double> recorder(manager, \"program.h5\");\n"
-                    "and call `recorder` where you called `manager`. Compile with FCL and HDF5.\n"
-                    "Examples:\n  boxwood replay program.h5\n"
-                    "  boxwood replay --bodies 10000 --moved 0.01\n"
-                    "  boxwood replay --bodies 1000 --triangles 1000 --distances 100\n"
-                    "  boxwood replay program.h5 --only 'boxwood|array' --rounds 21 --json\n"
-                    "Exit codes: 0 done, 1 a manager of Boxwood's gave wrong pairs of bounds,\n"
-                    "2 no recording, 130 interrupted (what was done is printed).");
+    command->footer(
+        "To record, run your program as `boxwood record ./program`, or, if it uses FCL in\n"
+        "floats or Coal, put a recorder before its manager:\n"
+        "  #include <boxwood/trees/adapters/fcl_recorder.h>\n"
+        "  boxwood::FclRecorder<double> recorder(manager, \"program.h5\");\n"
+        "and call `recorder` where you called `manager`. Compile with FCL and HDF5.\n"
+        "Examples:\n  boxwood replay program.h5\n"
+        "  boxwood replay --bodies 10000 --moved 0.01\n"
+        "  boxwood replay --bodies 1000 --triangles 1000 --distances 100\n"
+        "  boxwood replay program.h5 --only 'boxwood|array' --rounds 21 --json\n"
+        "Exit codes: 0 done, 1 a manager of Boxwood's gave wrong pairs of bounds,\n"
+        "2 no recording, 130 interrupted (what was done is printed).");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

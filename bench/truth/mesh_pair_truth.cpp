@@ -20,8 +20,9 @@ class TouchTruth final : public Truth {
             const std::vector<Pair> pairs =
                 touching_pairs(mesh, triangles_at(scene.mesh, scene.poses[i]), threads);
             touches_.push_back(!pairs.empty());
-            for (const Pair pair : pairs)
-                pairs_.push_back({i, pair.a, pair.b});
+            if (wants_pairs)
+                for (const Pair pair : pairs)
+                    pairs_.push_back({i, pair.a, pair.b});
         }
     }
 
@@ -73,7 +74,7 @@ class TouchTruth final : public Truth {
 
     bool wants_pairs_;
     std::vector<std::uint8_t> touches_;
-    std::vector<PosedPair> pairs_; ///< ascending
+    std::vector<PosedPair> pairs_; ///< ascending; where they are wanted
 };
 
 /// What floats may be off by, poses rounded to them included, of the distance and the size.

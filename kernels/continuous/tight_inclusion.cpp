@@ -30,7 +30,8 @@ template <int n> struct Piece {
 template <int n> class Search {
   public:
     Search(const TightInclusion& settings, const LinearMotion& motion, std::uint64_t bits)
-        : settings_(settings), f_(motion, bits), tolerance_(settings.tolerance * f_.size) {}
+        : settings_(settings), f_(motion, bits), separation_(f_.scaled(settings.separation)),
+          tolerance_(settings.tolerance * f_.size) {}
 
     Impact run() {
         if (apart_on_an_axis())
@@ -57,10 +58,11 @@ template <int n> class Search {
     struct Corners {
         std::array<Vector, n> start, end;
     };
-    /// d.F at the corners: positive beyond `margin` from `from` until `until`.
+    /// d.F at the corners: beyond `margin` from `from` until `until`.
     struct Plane {
         std::array<double, n> start, end;
-        double margin;
+        double margin;  ///< of rounding, and the separation
+        double landing; ///< where a step ends, so that it is still beyond the margin
         double until;
     };
 
@@ -74,7 +76,7 @@ template <int n> class Search {
                 high = max(high, value);
             }
         for (int axis = 0; axis < 3; ++axis) {
-            const double margin = f_.bound[axis] + f_.min_error;
+            const double margin = f_.bound[axis] + f_.min_error + separation_;
             if (low[axis] > margin || high[axis] < -margin)
                 return true;
         }
@@ -84,7 +86,9 @@ template <int n> class Search {
     /// Whether the plane through the origin across d has F on its positive side at time `from`,
     /// and until when.
     bool separates(const Corners& corners, Vector d, double from, Plane& plane) const {
-        plane.margin = f_.margin(d);
+        const double rounding = f_.margin(d);
+        plane.margin = rounding + separation_ * length(d) * (1 + 0x1p-50);
+        plane.landing = plane.margin + rounding;
         bool positive = true;
         for (std::size_t i = 0; i < n; ++i) {
             plane.start[i] = dot(d, corners.start[i]);
@@ -93,13 +97,13 @@ template <int n> class Search {
         }
         if (!positive)
             return false;
-        // At each corner the value is linear in t: positive at both ends of a step is positive
-        // all along. The step ends where the first one comes down to twice the margin.
+        // At each corner the value is linear in t: beyond the margin at both ends of a step is
+        // beyond it all along. The step ends where the first one comes down to the landing.
         plane.until = 1;
         for (std::size_t i = 0; i < n; ++i)
             if (!(plane.end[i] > plane.margin))
                 plane.until =
-                    std::min(plane.until, falls_to(2 * plane.margin, plane.start[i], plane.end[i]));
+                    std::min(plane.until, falls_to(plane.landing, plane.start[i], plane.end[i]));
         for (std::size_t i = 0; i < n; ++i)
             positive = positive && mean(plane.start[i], plane.end[i], plane.until) > plane.margin;
         return positive && plane.until > from;
@@ -135,8 +139,8 @@ template <int n> class Search {
                 if (piece.time - time_ >= good_part * (until_of(nearest, plane) - time_))
                     continue;
             }
-            const bool is_near = nearest.distance <= tolerance_ ||
-                                 nearest.distance <= 4 * f_.margin(nearest.direction);
+            const double beyond = nearest.distance - separation_;
+            const bool is_near = beyond <= tolerance_ || beyond <= 4 * f_.margin(nearest.direction);
             if (is_near || piece.depth == max_halvings) {
                 note_touch(piece.patch, nearest);
                 return Outcome::near;
@@ -160,8 +164,7 @@ template <int n> class Search {
             start += nearest.weights[i] * plane.start[i];
             end += nearest.weights[i] * plane.end[i];
         }
-        return end > plane.margin ? 1
-                                  : std::clamp(falls_to(2 * plane.margin, start, end), 0.0, 1.0);
+        return end > plane.margin ? 1 : std::clamp(falls_to(plane.landing, start, end), 0.0, 1.0);
     }
 
     /// Across the longest side, as it is now.
@@ -195,7 +198,7 @@ template <int n> class Search {
     Impact conclude(Outcome outcome) const {
         if (outcome == Outcome::limit)
             return {Answer::maybe, time_, 1, 3};
-        if (const auto hit = proven_touch(f_, near_))
+        if (const auto hit = separation_ > 0 ? std::nullopt : proven_touch(f_, near_))
             return {Answer::yes, time_, *hit, tier_};
         return {Answer::maybe, time_, 1, tier_};
     }
@@ -223,7 +226,7 @@ template <int n> class Search {
 
     const TightInclusion& settings_;
     const Inclusion<n> f_;
-    const double tolerance_;
+    const double separation_, tolerance_;
     std::array<Piece<n>, capacity> pieces_; ///< a heap, the earliest in front
     std::size_t size_ = 0, checks_ = 0;
     double time_ = 0; ///< no touch before it
@@ -232,8 +235,9 @@ template <int n> class Search {
     std::chrono::steady_clock::time_point began_;
 };
 
-/// Whether the boxes around the paths of two sets of points are apart: comparisons alone.
-template <int n> bool paths_apart(const LinearMotion& motion) {
+/// Whether the boxes around the paths of two sets of points are farther apart than `separation`:
+/// differences are rounded, which keeps their order.
+template <int n> bool paths_apart(const LinearMotion& motion, double separation) {
     constexpr std::size_t first = n == 3 ? 1 : 2; // points of the first feature
     Vector low[2], high[2];
     for (std::size_t i = 0; i < 4; ++i) {
@@ -244,8 +248,8 @@ template <int n> bool paths_apart(const LinearMotion& motion) {
         low[side] = is_new ? from : min(low[side], from);
         high[side] = is_new ? to : max(high[side], to);
     }
-    return low[0].x > high[1].x || low[0].y > high[1].y || low[0].z > high[1].z ||
-           low[1].x > high[0].x || low[1].y > high[0].y || low[1].z > high[0].z;
+    const Vector gap = max(low[0] - high[1], low[1] - high[0]);
+    return gap.x > separation || gap.y > separation || gap.z > separation;
 }
 
 template <int n> Impact solve(const TightInclusion& settings, const LinearMotion& motion) {
@@ -253,7 +257,7 @@ template <int n> Impact solve(const TightInclusion& settings, const LinearMotion
     if (bits >= std::bit_cast<std::uint64_t>(std::numeric_limits<double>::infinity()))
         return {Answer::maybe, 0, 1, 0};
     return without_flushing([&]() -> Impact {
-        if (paths_apart<n>(motion))
+        if (paths_apart<n>(motion, settings.separation))
             return {};
         return Search<n>(settings, motion, bits).run();
     });

@@ -44,6 +44,9 @@ struct TightInclusion {
     /// one of the other during the motion. What is nearer than that is not halved further. Smaller
     /// means fewer maybes and a later t_free; 0 means as far as rounding can decide.
     double tolerance = 1e-6;
+    /// Scene units: what comes at most this near counts as a touch. Then no yes is proven, maybe is
+    /// the most that is said, and before t_free they are farther from each other than this.
+    double separation = 0;
     /// Planes tried at most; after that maybe, with the time reached as t_free.
     std::size_t max_checks = 100'000;
     /// Seconds at most, looked at every 64 planes; answers then depend on the machine.

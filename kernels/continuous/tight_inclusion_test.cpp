@@ -1,6 +1,8 @@
 #include "kernels/continuous/tight_inclusion.h"
 
 #include "kernels/arithmetic/float_mode.h"
+#include "kernels/features/point_triangle.h"
+#include "kernels/features/segment_segment.h"
 #include "kernels/oracle/rational.h"
 
 #include <gtest/gtest.h>
@@ -216,6 +218,51 @@ TEST(TightInclusion, ToleranceBuysWork) {
         given_up_before = given_up;
     }
     EXPECT_GT(given_up_before, 30);
+}
+
+TEST(TightInclusion, KeepsASeparation) {
+    const auto apart = [](bool is_face, const LinearMotion& m, double t) {
+        std::array<Vector, 4> p;
+        for (std::size_t k = 0; k < 4; ++k)
+            p[k] = m.start[k] * (1 - t) + m.end[k] * t;
+        return is_face ? PointTriangleCross::distance(p[0], {p[1], p[2], p[3]}).distance
+                       : SegmentSegmentCross::distance({p[0], p[1]}, {p[2], p[3]}).distance;
+    };
+    Motions motions(11);
+    int free = 0, stopped = 0;
+    for (int i = 0; i < 1600; ++i) {
+        const LinearMotion m = motions.next(i % Motions::ways);
+        for (const bool is_face : both_kinds)
+            for (const double separation : {1e-9, 1e-3, .2}) {
+                TightInclusion kernel;
+                kernel.separation = separation;
+                const Impact said = impact(kernel, is_face, m);
+                ASSERT_NE(said.answer, Answer::yes);
+                const bool is_free = said.answer == Answer::no;
+                for (int k = 0; k < 32; ++k) {
+                    const double t = said.t_free * k / (is_free ? 31 : 32);
+                    if (is_free || t < said.t_free) {
+                        EXPECT_GT(apart(is_face, m, t), separation * (1 - 1e-12) - 1e-14) << i;
+                    }
+                }
+                free += is_free;
+                if (!is_free && said.tier < 3) {
+                    ++stopped;
+                    EXPECT_LT(apart(is_face, m, said.t_free), separation + 1e-5) << i;
+                }
+            }
+    }
+    EXPECT_GT(free, 1000);
+    EXPECT_GT(stopped, 1000);
+
+    const LinearMotion fall{{{{.25, .25, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}},
+                            {{{.25, .25, -1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}};
+    TightInclusion kernel;
+    kernel.separation = .25;
+    EXPECT_NEAR(kernel.vertex_face(fall).t_free, .375, 1e-6);
+    kernel.separation = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(kernel.vertex_face(fall).answer, Answer::maybe);
+    EXPECT_EQ(kernel.vertex_face(fall).t_free, 0);
 }
 
 TEST(TightInclusion, LimitsAreConservative) {

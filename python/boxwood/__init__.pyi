@@ -75,7 +75,7 @@ class Mesh:
     def distance(self, other: Mesh | Shape, pose: ArrayLike | None = None, other_pose: ArrayLike | None = None, *,
                  relative: float = 0.0, absolute: float = 0.0, start: tuple[int, int] | None = None,
                  limit: float = ...) -> MeshDistance: ...
-    def first_contact(self, other: Mesh, to: ArrayLike | None = None, other_to: ArrayLike | None = None,
+    def first_contact(self, other: Mesh | Shape, to: ArrayLike | None = None, other_to: ArrayLike | None = None,
                       pose: ArrayLike | None = None, other_pose: ArrayLike | None = None, *, path: str = "linear",
                       tolerance: float = 0.0) -> MeshFirstContact | None: ...
     def within(self, other: Mesh | Shape, tolerance: float, pose: ArrayLike | None = None,

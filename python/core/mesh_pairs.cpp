@@ -63,35 +63,49 @@ PyMesh::PyMesh(const py::object& vertices, const py::object& faces, const std::s
 
 namespace {
 
-/// A mesh, and another or a convex shape seen from it.
-class Posed {
+/// What a mesh is asked about: a mesh or a convex shape.
+class Other {
   public:
-    Posed(const PyMesh& mesh, const py::object& other, const py::object& pose,
-          const py::object& other_pose)
-        : at(pose_of(pose, "pose")), a_(mesh.shared_tree()),
-          b_in_a_(relative_pose(at, pose_of(other_pose, "other_pose"))) {
-        if (py::isinstance<PyMesh>(other)) {
-            b_ = py::cast<const PyMesh&>(other).shared_tree();
+    explicit Other(const py::object& given) {
+        if (py::isinstance<PyMesh>(given)) {
+            mesh_ = py::cast<const PyMesh&>(given).shared_tree();
             return;
         }
-        shape_ = body_shape_of(other, "other");
+        shape_ = body_shape_of(given, "other");
         if (shape_->shape_class() != ShapeClass::convex)
             throw py::type_error("other: a boxwood.Mesh or a convex boxwood.Shape is wanted; a "
                                  "World takes every shape");
     }
-    bool is_mesh() const { return b_ != nullptr; }
+    bool is_mesh() const { return mesh_ != nullptr; }
+    template <class F> auto answer(F&& f) const {
+        return mesh_ ? f(*mesh_) : f(shape_->convex_shape());
+    }
+
+  private:
+    std::shared_ptr<const MeshTree> mesh_;
+    std::optional<BodyShape> shape_; ///< where mesh_ is null
+};
+
+/// A mesh, and the other seen from it.
+class Posed {
+  public:
+    Posed(const PyMesh& mesh, const py::object& other, const py::object& pose,
+          const py::object& other_pose)
+        : at(pose_of(pose, "pose")), a_(mesh.shared_tree()), b_(other),
+          b_in_a_(relative_pose(at, pose_of(other_pose, "other_pose"))) {}
+    bool is_mesh() const { return b_.is_mesh(); }
     Vec3<double> direction(const Vec3<double>& v) const { return at.rotated(v); }
     /// f(mesh, the other, its pose in the mesh's frame) without the interpreter's lock.
     template <class F> auto answer(F&& f) const {
         return without_gil(
-            [&] { return b_ ? f(*a_, *b_, b_in_a_) : f(*a_, shape_->convex_shape(), b_in_a_); });
+            [&] { return b_.answer([&](const auto& b) { return f(*a_, b, b_in_a_); }); });
     }
 
     Pose at;
 
   private:
-    std::shared_ptr<const MeshTree> a_, b_;
-    std::optional<BodyShape> shape_; ///< where b_ is null
+    std::shared_ptr<const MeshTree> a_;
+    Other b_;
     Pose b_in_a_;
 };
 
@@ -148,7 +162,7 @@ py::object distance_of(const PyMesh& mesh, const py::object& other, const py::ob
                                        triangle(d.triangles.b, posed.is_mesh()));
 }
 
-py::object first_contact_of(const PyMesh& mesh, const PyMesh& other, const py::object& to,
+py::object first_contact_of(const PyMesh& mesh, const py::object& other, const py::object& to,
                             const py::object& other_to, const py::object& pose,
                             const py::object& other_pose, const std::string& path,
                             double tolerance) {
@@ -161,14 +175,19 @@ py::object first_contact_of(const PyMesh& mesh, const PyMesh& other, const py::o
                  b = motion(other_pose, "other_pose", other_to, "other_to");
     ContinuousOptions options;
     options.tolerance = tolerance;
-    const FirstContact found =
-        without_gil([&] { return first_contact(mesh.tree(), a, other.tree(), b, options); });
+    const Other of(other);
+    const FirstContact found = without_gil([&] {
+        return of.answer(
+            [&](const auto& what) { return first_contact(mesh.tree(), a, what, b, options); });
+    });
     if (found.hit == Answer::no)
         return py::none();
-    const auto triangle = [](std::uint32_t i) { return i == ~0u ? -1 : std::int64_t{i}; };
+    const auto triangle = [](std::uint32_t i, bool is_mesh = true) {
+        return is_mesh && i != ~0u ? std::int64_t{i} : -1;
+    };
     return named_tuple("MeshFirstContact")(found.t_free, found.t_hit, found.hit == Answer::yes,
                                            triangle(found.triangles.a),
-                                           triangle(found.triangles.b));
+                                           triangle(found.triangles.b, of.is_mesh()));
 }
 
 py::object contacts_of(const PyMesh& mesh, const py::object& other, const py::object& pose,
@@ -276,12 +295,13 @@ limit: nothing at this distance or beyond is looked for; lo is then at least
         .def("first_contact", &first_contact_of, arg("other"), arg("to") = py::none(),
              arg("other_to") = py::none(), arg("pose") = py::none(), arg("other_pose") = py::none(),
              py::kw_only(), arg("path") = "linear", arg("tolerance") = 0.0,
-             R"(When this mesh and another first touch on their ways, t from 0 to 1.
+             R"(When this mesh and the other first touch on their ways, t from 0 to 1.
 
 to, other_to: where each goes from pose and other_pose; None is that it stays.
 path: linear (the origin on a line, turning about it at a constant rate) or
     screw (about one axis of space and along it).
 tolerance: nearer than this they touch; 0 is 2^-36 of their sizes.
+A Shape is solid, but for a plane, and its triangle_b is -1.
 Returns MeshFirstContact(t_free, t_hit, is_certain, triangle_a, triangle_b):
 until t_free they surely do not touch, nothing thin is passed through, and at
 t_hit they do if is_certain; None if they never touch.)")

@@ -10,6 +10,8 @@
 
 #include <bit>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 namespace boxwood {
 namespace {
@@ -37,13 +39,13 @@ std::string extension_of(const fs::path& file) {
 }
 
 /// Before any post-processing, which would follow a bad index. True if there are polygons to cut.
-bool check_import(const aiScene& scene) {
+bool check_import(const aiScene& scene, NotFinite not_finite) {
     bool polygons = false;
     for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
         const aiMesh& mesh = *scene.mMeshes[m];
         for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
             const aiVector3D& p = mesh.mVertices[v];
-            if (!is_finite(Vec3<float>{p.x, p.y, p.z}))
+            if (not_finite == NotFinite::refuse && !is_finite(Vec3<float>{p.x, p.y, p.z}))
                 throw MeshError(fmt::format("mesh {}, vertex {}: the coordinates ({}, {}, {}) are "
                                             "not finite floats",
                                             m, v, p.x, p.y, p.z));
@@ -65,6 +67,8 @@ bool check_import(const aiScene& scene) {
 /// Joins the meshes of a scene; vertices with equal coordinates (-0 equals 0) become one.
 class Joiner {
   public:
+    explicit Joiner(NotFinite not_finite) : not_finite_(not_finite) {}
+
     void add(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent) {
         const aiMatrix4x4 transform = parent * node.mTransformation;
         for (unsigned m = 0; m < node.mNumMeshes; ++m)
@@ -104,38 +108,58 @@ class Joiner {
 
     std::uint32_t index_of(const aiVector3D& p) {
         const Vec3<float> vertex{p.x, p.y, p.z};
-        if (!is_finite(vertex)) // NaN equals nothing and would never be found again
-            throw MeshError("a node's transform takes a vertex beyond the range of a float");
         const auto next = static_cast<std::uint32_t>(mesh.vertices.size());
+        if (!is_finite(vertex)) { // NaN equals nothing and would never be found again
+            if (not_finite_ == NotFinite::refuse)
+                throw MeshError("a node's transform takes a vertex beyond the range of a float");
+            mesh.vertices.push_back(vertex);
+            return next;
+        }
         const auto [entry, is_new] = indices_.try_emplace(vertex, next);
         if (is_new)
             mesh.vertices.push_back(vertex);
         return entry->second;
     }
 
+    NotFinite not_finite_;
     std::unordered_map<Vec3<float>, std::uint32_t, Hash> indices_;
 };
 
-TriangleMesh load(const fs::path& file) {
+/// The polygons cut, in assimp's memory. It gets to see no coordinate that is none.
+const aiScene* cut_polygons(Assimp::Importer& importer, const aiScene& scene) {
+    std::vector<std::pair<aiVector3D*, aiVector3D>> not_finite;
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m)
+        for (unsigned v = 0; v < scene.mMeshes[m]->mNumVertices; ++v)
+            if (aiVector3D& p = scene.mMeshes[m]->mVertices[v];
+                !is_finite(Vec3<float>{p.x, p.y, p.z}))
+                not_finite.emplace_back(&p, std::exchange(p, {}));
+    const aiScene* const cut = importer.ApplyPostProcessing(aiProcess_Triangulate);
+    if (cut)
+        for (const auto& [place, p] : not_finite)
+            *place = p;
+    return cut;
+}
+
+TriangleMesh load(const fs::path& file, NotFinite not_finite) {
     const std::string bytes = read_bytes(file);
     const std::string extension = extension_of(file);
     std::string ply;
     if (extension == ".obj")
-        ply = scan_obj(bytes);
+        ply = scan_obj(bytes, not_finite);
     else if (extension == ".ply")
-        ply = scan_ply(bytes);
+        ply = scan_ply(bytes, not_finite);
     else if (extension == ".stl")
-        scan_stl(bytes);
+        scan_stl(bytes, not_finite);
 
     Assimp::Importer importer;
     const aiScene* scene = ply.empty()
                                ? importer.ReadFile(file.string(), 0)
                                : importer.ReadFileFromMemory(ply.data(), ply.size(), 0, "ply");
-    if (scene && check_import(*scene))
-        scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+    if (scene && check_import(*scene, not_finite))
+        scene = cut_polygons(importer, *scene);
     if (!scene)
         throw MeshError(importer.GetErrorString());
-    Joiner joiner;
+    Joiner joiner(not_finite);
     if (scene->mRootNode)
         joiner.add(*scene, *scene->mRootNode, aiMatrix4x4());
     if (joiner.mesh.triangles.empty())
@@ -145,9 +169,9 @@ TriangleMesh load(const fs::path& file) {
 
 } // namespace
 
-TriangleMesh load_mesh(const fs::path& file) {
+TriangleMesh load_mesh(const fs::path& file, NotFinite not_finite) {
     try {
-        return load(file);
+        return load(file, not_finite);
     } catch (const MeshError& error) {
         throw std::runtime_error(fmt::format("mesh {}: {}", file.string(), error.what()));
     }

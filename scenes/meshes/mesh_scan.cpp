@@ -7,10 +7,11 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 namespace boxwood {
 
-float coordinate(std::string_view token, std::size_t line) {
+float coordinate(std::string_view token, std::size_t line, NotFinite not_finite) {
     std::string_view digits = token;
     if (digits.starts_with('+') && !digits.starts_with("+-"))
         digits.remove_prefix(1);
@@ -21,10 +22,14 @@ float coordinate(std::string_view token, std::size_t line) {
     // Out of range is above the largest float, or below the smallest, which rounds to 0.
     const bool tiny = error == std::errc::result_out_of_range &&
                       std::abs(std::strtod(std::string(digits).c_str(), nullptr)) < 1;
-    if ((error != std::errc{} && !tiny) || !std::isfinite(value))
+    if (tiny)
+        return 0;
+    if (error == std::errc{} && std::isfinite(value))
+        return value;
+    if (not_finite == NotFinite::refuse)
         throw MeshError(
             fmt::format("line {}: the coordinate '{}' is not a finite float", line, token));
-    return tiny ? 0 : value;
+    return std::isnan(value) ? value : std::numeric_limits<float>::infinity();
 }
 
 /// assimp skips line ends between the header and the first byte, so that is none.

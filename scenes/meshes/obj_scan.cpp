@@ -55,7 +55,7 @@ std::int64_t vertex_of(Token corner, std::int64_t n_vertices) {
 
 } // namespace
 
-std::string scan_obj(std::string_view text) {
+std::string scan_obj(std::string_view text, NotFinite not_finite) {
     PlyMesh mesh;
     std::vector<std::int64_t> corners;
     std::vector<Token> words;
@@ -76,7 +76,7 @@ std::string scan_obj(std::string_view text) {
                                 words.size() - 1));
             std::array<float, 3> point;
             for (std::size_t k = 0; k < 3; ++k)
-                point[k] = coordinate(words[k + 1].text, words[k + 1].line);
+                point[k] = coordinate(words[k + 1].text, words[k + 1].line, not_finite);
             mesh.add_vertex(point);
             ++n_vertices;
         } else if (words[0].text == "f") {

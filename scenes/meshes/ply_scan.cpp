@@ -116,8 +116,8 @@ Header take_header(std::string_view& bytes) {
 /// The values after a header, one after another. As text one element stands on one line.
 class Body {
   public:
-    Body(std::string_view bytes, const Header& header)
-        : bytes_(bytes), is_text_(header.format == "ascii"),
+    Body(std::string_view bytes, const Header& header, NotFinite not_finite)
+        : bytes_(bytes), not_finite_(not_finite), is_text_(header.format == "ascii"),
           is_big_(header.format == "binary_big_endian"), line_(header.n_lines) {
         if (!is_text_ && !is_big_ && header.format != "binary_little_endian")
             throw MeshError(fmt::format("'{}' is not a PLY format", header.format));
@@ -145,9 +145,9 @@ class Body {
     float coordinate(const Type& type) {
         const std::string_view raw = take(type);
         if (is_text_)
-            return boxwood::coordinate(raw, line_);
+            return boxwood::coordinate(raw, line_, not_finite_);
         const auto x = static_cast<float>(value(raw, type));
-        if (!std::isfinite(x))
+        if (!std::isfinite(x) && not_finite_ == NotFinite::refuse)
             throw MeshError(fmt::format("{}: the coordinate {} is not a finite float", place(), x));
         return x;
     }
@@ -208,6 +208,7 @@ class Body {
     }
 
     std::string_view bytes_, text_; ///< text_: the line's rest
+    NotFinite not_finite_;
     bool is_text_, is_big_;
     std::size_t line_;
     const Element* element_ = nullptr;
@@ -229,7 +230,7 @@ void add_strip(PlyMesh& mesh, std::span<const std::int64_t> corners) {
 
 } // namespace
 
-std::string scan_ply(std::string_view bytes) {
+std::string scan_ply(std::string_view bytes, NotFinite not_finite) {
     const Header header = take_header(bytes);
     std::uint64_t n_vertices = 0; // faces may come first
     for (const Element& element : header.elements)
@@ -237,7 +238,7 @@ std::string scan_ply(std::string_view bytes) {
             check_vertex(element);
             n_vertices = element.count;
         }
-    Body body(bytes, header);
+    Body body(bytes, header, not_finite);
     PlyMesh mesh;
     std::vector<std::int64_t> corners;
     constexpr std::string_view axes = "xyz";

@@ -8,7 +8,7 @@ namespace boxwood {
 
 /// Binary: 80 bytes of header (which may begin with "solid" as well), the number of triangles, 50
 /// bytes each. So the size distinguishes the two kinds.
-void scan_stl(std::string_view bytes) {
+void scan_stl(std::string_view bytes, NotFinite not_finite) {
     constexpr std::size_t header = 84, per_triangle = 50;
     std::uint32_t count = 0;
     if (bytes.size() >= header)
@@ -32,7 +32,7 @@ void scan_stl(std::string_view bytes) {
         const std::string_view word = take_token(rest);
         if (word == "vertex")
             for (int axis = 0; axis < 3; ++axis)
-                coordinate(take_token(rest), line);
+                coordinate(take_token(rest), line, not_finite);
         ended = word == "endsolid" || (ended && word.empty());
     }
     if (!ended)

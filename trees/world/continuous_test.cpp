@@ -1,5 +1,6 @@
 #include "trees/world/continuous.h"
 
+#include "kernels/oracle/rational.h"
 #include "kernels/primitives/rotation.h"
 #include "trees/testing/shapes_at_random.h"
 #include "trees/testing/test_meshes.h"
@@ -193,6 +194,123 @@ TEST(FirstContact, IsNotAfterWhatSamplesFind) {
     }
     EXPECT_GT(hits, 10u);
     EXPECT_LT(hits, 55u);
+}
+
+/// Along a floor, just above it: a step of the distance is a millionth of the way.
+TEST(FirstContact, OfWhatSlidesJustAboveIsDecided) {
+    const MeshTree cube(cube_mesh(.5f)), floor(plate(4, 0)), ball(noisy_sphere(24, 24, 0, 1, .5)),
+        bumpy(plate(24, 0, .01));
+    for (const double gap : {1e-3, 1e-6, 1e-9}) {
+        const Motion slide(moved(-3, .5, .5 + gap), moved(3, .5, .5 + gap));
+        for (const MeshTree* body : {&cube, &ball}) {
+            const FirstContact none = first_contact(*body, slide, floor, Motion());
+            EXPECT_EQ(none.hit, Answer::no) << gap;
+            EXPECT_EQ(none.t_free, 1);
+            EXPECT_LT(none.steps, 200u) << gap;
+        }
+        // It turns about the upright meanwhile.
+        Pose turned = moved(3, .5, .5 + gap);
+        turned.rotation = rotation_about({0, 0, 1}, 1);
+        const FirstContact turning =
+            first_contact(cube, Motion(moved(-3, .5, .5 + gap), turned), floor, Motion());
+        EXPECT_EQ(turning.hit, Answer::no) << gap;
+        // It sinks a little more than the gap.
+        const Motion sinking(moved(-3, .5, .5 + gap), moved(3, .5, .5 - gap / 8));
+        const FirstContact late = first_contact(cube, sinking, floor, Motion());
+        EXPECT_EQ(late.hit, Answer::no) << gap; // by then it is past the floor
+        const Motion sunk(moved(-3, .5, .5 + gap), moved(3, .5, .5 - gap));
+        const FirstContact hit = first_contact(cube, sunk, floor, Motion());
+        EXPECT_EQ(hit.hit, Answer::yes);
+        EXPECT_NEAR(hit.t_hit, .5, 5e-2); // nearer than the tolerance before
+        EXPECT_LT(hit.steps, 60u) << gap;
+    }
+    EXPECT_EQ(first_contact(ball, Motion(moved(-3, .5, .5), moved(3, .5, .5)), bumpy, Motion()).hit,
+              Answer::yes);
+}
+
+/// The first touch of the features of two meshes that do not turn, exact for whole coordinates.
+Impact exact_first_touch(const TriangleMesh& a, Vec3<double> from_a, Vec3<double> to_a,
+                         const TriangleMesh& b, Vec3<double> from_b, Vec3<double> to_b) {
+    const auto corners = [](const TriangleMesh& mesh, std::size_t t) {
+        const Triangle<float> triangle = mesh.triangle(static_cast<std::uint32_t>(t));
+        return std::array{Vec3<double>(triangle.a), Vec3<double>(triangle.b),
+                          Vec3<double>(triangle.c)};
+    };
+    Impact first;
+    const auto note = [&](const Impact& impact) {
+        if (impact.answer == Answer::yes && impact.t_hit < first.t_hit)
+            first = impact;
+    };
+    const oracle::ExactContinuous kernel;
+    for (std::size_t i = 0; i < a.triangles.size(); ++i)
+        for (std::size_t j = 0; j < b.triangles.size(); ++j) {
+            const auto of_a = corners(a, i), of_b = corners(b, j);
+            for (std::size_t k = 0; k < 3; ++k) {
+                LinearMotion of_vertex_a{{of_a[k] + from_a}, {of_a[k] + to_a}},
+                    of_vertex_b{{of_b[k] + from_b}, {of_b[k] + to_b}};
+                for (std::size_t l = 0; l < 3; ++l) {
+                    of_vertex_a.start[l + 1] = of_b[l] + from_b;
+                    of_vertex_a.end[l + 1] = of_b[l] + to_b;
+                    of_vertex_b.start[l + 1] = of_a[l] + from_a;
+                    of_vertex_b.end[l + 1] = of_a[l] + to_a;
+                    const std::size_t next_k = (k + 1) % 3, next_l = (l + 1) % 3;
+                    note(kernel.edge_edge({{of_a[k] + from_a, of_a[next_k] + from_a,
+                                            of_b[l] + from_b, of_b[next_l] + from_b},
+                                           {of_a[k] + to_a, of_a[next_k] + to_a, of_b[l] + to_b,
+                                            of_b[next_l] + to_b}}));
+                }
+                note(kernel.vertex_face(of_vertex_a));
+                note(kernel.vertex_face(of_vertex_b));
+            }
+        }
+    return first;
+}
+
+/// Whole coordinates, so that corners meet corners and faces slide on faces.
+TEST(FirstContact, OfWhatDoesNotTurnIsThatOfExactFeatures) {
+    std::mt19937 random(5);
+    std::uniform_int_distribution<int> place(-4, 4), corner(-2, 2);
+    const auto tetrahedron = [&] {
+        TriangleMesh mesh;
+        mesh.triangles = {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}};
+        for (int i = 0; i < 4; ++i)
+            mesh.vertices.push_back({static_cast<float>(corner(random)),
+                                     static_cast<float>(corner(random)),
+                                     static_cast<float>(corner(random))});
+        return mesh;
+    };
+    const auto somewhere = [&] {
+        return Vec3<double>{double(place(random)), double(place(random)), double(place(random))};
+    };
+    int hits = 0, misses = 0;
+    for (int k = 0; k < 1500; ++k) {
+        const TriangleMesh a = tetrahedron(), b = tetrahedron();
+        const Vec3<double> from_a = somewhere(), to_a = somewhere(), from_b = somewhere(),
+                           to_b = somewhere();
+        const auto motion = [](Vec3<double> from, Vec3<double> to) {
+            return Motion(moved(from.x, from.y, from.z), moved(to.x, to.y, to.z));
+        };
+        const MeshTree tree_a(a), tree_b(b);
+        const Motion motion_a = motion(from_a, to_a), motion_b = motion(from_b, to_b);
+        const FirstContact found = first_contact(tree_a, motion_a, tree_b, motion_b);
+        // One inside the other at the start, surfaces apart, is a start like any.
+        const bool at_once = collide(tree_a, tree_b, relative_pose(motion_a.at(0), motion_b.at(0)));
+        const Impact truth = exact_first_touch(a, from_a, to_a, b, from_b, to_b);
+        if (at_once) {
+            EXPECT_EQ(found.hit, Answer::yes) << k;
+            EXPECT_EQ(found.t_free, 0) << k;
+        } else if (truth.answer == Answer::yes) {
+            ++hits;
+            EXPECT_EQ(found.hit, Answer::yes) << k;
+            EXPECT_LE(found.t_free, truth.t_hit) << k;
+            EXPECT_GE(found.t_hit, truth.t_free - 1e-4) << k;
+        } else {
+            ++misses;
+            EXPECT_EQ(found.hit, Answer::no) << k;
+        }
+    }
+    EXPECT_GT(hits, 300);
+    EXPECT_GT(misses, 300);
 }
 
 TEST(FirstContact, OfNothingNever) {

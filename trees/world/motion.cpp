@@ -109,6 +109,10 @@ double Motion::longest_turn(const Aabb<float>& box) const {
     return turn.fastest * (1 + 0x1p-40) + turn.rounding;
 }
 
+double Motion::longest_bend(const Aabb<float>& box) const {
+    return angle_ * (1 + 0x1p-40) * longest_turn(box);
+}
+
 double Motion::longest_way(const Aabb<float>& box) const {
     const auto [fastest, rounding] = turn_of(box);
     const double slid = length(common_way());

@@ -28,6 +28,9 @@ class Motion {
     /// of the box goes besides, rounded up.
     Vec3<double> common_way() const { return angle_ > 0 ? way_ : way_ + across_; }
     double longest_turn(const Aabb<float>& box) const;
+    /// The greatest acceleration of a point of a box, per square of t, rounded up: in a time h no
+    /// point is farther than h^2 / 8 of it from where it would be if it went straight.
+    double longest_bend(const Aabb<float>& box) const;
 
   private:
     struct Turn {

@@ -75,7 +75,8 @@ template <int n> struct Inclusion {
     };
     Ends start, end;
     Vec3<double> bound;
-    double size = 0; ///< the largest |F| on any axis, not below by more than rounding
+    double size = 0;   ///< the largest |F| on any axis, not below by more than rounding
+    double half, rest; ///< their product is the scale
 
     static constexpr double min_error = 0x1p-1060;
 
@@ -84,8 +85,8 @@ template <int n> struct Inclusion {
         // 2^-exponent in two factors, as it may be beyond the doubles.
         const int exponent =
             bits == 0 ? 0 : std::ilogb(std::bit_cast<double>(bits)) + 1; // |x| < 2^exponent
-        const double half = std::ldexp(1.0, -exponent / 2);
-        const double rest = std::ldexp(1.0, -exponent - -exponent / 2);
+        half = std::ldexp(1.0, -exponent / 2);
+        rest = std::ldexp(1.0, -exponent - -exponent / 2);
         start = ends(motion.start, half, rest);
         end = ends(motion.end, half, rest);
         Vec3<double> w{}, r{};
@@ -103,6 +104,11 @@ template <int n> struct Inclusion {
     /// |error| of a computed d.F(t, u, v), the mean over t included, for |d| <= 1 on each axis.
     double margin(Vec3<double> d) const {
         return dot(absolute(d), bound) * (1 + 0x1p-50) + min_error;
+    }
+
+    /// A length at that scale, rounded up.
+    double scaled(double length) const {
+        return length <= 0 ? 0 : (length * half) * rest * (1 + 0x1p-50) + min_error;
     }
 
     static Vec3<double> absolute(Vec3<double> a) {

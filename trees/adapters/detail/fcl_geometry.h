@@ -1,6 +1,6 @@
 #pragma once
 
-#include "trees/adapters/recording.h"
+#include "trees/adapters/detail/recorded_geometry.h"
 
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/box.h>
@@ -14,48 +14,19 @@
 #include <fcl/geometry/shape/sphere.h>
 
 #include <array>
-#include <bit>
 #include <cstddef>
-#include <cstdint>
-#include <span>
 #include <vector>
 
 namespace boxwood::detail {
-
-/// What a geometry is made of, as recordings hold it.
-struct RecordedGeometry {
-    recording::Shape shape = recording::Shape::other;
-    std::array<double, 4> numbers{};
-    std::vector<std::array<double, 3>> vertices, triangles; ///< triangles: rows of vertices
-
-    std::uint64_t hash() const {
-        std::uint64_t all = 0xcbf29ce484222325; // FNV-1a, of numbers
-        const auto add = [&](double number) {
-            all = (all ^ std::bit_cast<std::uint64_t>(number + 0.)) * 0x100000001b3; // 0, not -0
-            all ^= all >> 32;
-        };
-        add(static_cast<double>(shape));
-        for (const double number : numbers)
-            add(number);
-        for (const auto* rows : {&vertices, &triangles})
-            for (const auto& row : *rows)
-                for (const double number : row)
-                    add(number);
-        return all;
-    }
-};
 
 template <class S, class Volume>
 void take_mesh(const fcl::CollisionGeometry<S>& from, RecordedGeometry& to) {
     const auto& model = static_cast<const fcl::BVHModel<Volume>&>(from);
     to.shape = recording::Shape::mesh;
     for (int i = 0; i < model.num_vertices; ++i)
-        to.vertices.push_back({model.vertices[i][0], model.vertices[i][1], model.vertices[i][2]});
-    for (int i = 0; i < model.num_tris; ++i) {
-        const fcl::Triangle& of = model.tri_indices[i];
-        to.triangles.push_back(
-            {static_cast<double>(of[0]), static_cast<double>(of[1]), static_cast<double>(of[2])});
-    }
+        to.add_vertex(model.vertices[i]);
+    for (int i = 0; i < model.num_tris; ++i)
+        to.add_triangle(model.tri_indices[i]);
 }
 
 template <class S> RecordedGeometry recorded(const fcl::CollisionGeometry<S>& from) {
@@ -128,13 +99,11 @@ template <class S> RecordedGeometry recorded(const fcl::CollisionGeometry<S>& fr
         const auto& of = static_cast<const fcl::Convex<S>&>(from);
         to.shape = Shape::convex;
         for (const auto& vertex : of.getVertices())
-            to.vertices.push_back({vertex[0], vertex[1], vertex[2]});
+            to.add_vertex(vertex);
         const std::vector<int>& faces = of.getFaces(); // number of corners, corners, ...
         for (std::size_t at = 0; at < faces.size(); at += static_cast<std::size_t>(faces[at]) + 1)
             for (std::size_t i = 3; i <= static_cast<std::size_t>(faces[at]); ++i)
-                to.triangles.push_back({static_cast<double>(faces[at + 1]),
-                                        static_cast<double>(faces[at + i - 1]),
-                                        static_cast<double>(faces[at + i])});
+                to.add_triangle(std::array{faces[at + 1], faces[at + i - 1], faces[at + i]});
         break;
     }
     default:

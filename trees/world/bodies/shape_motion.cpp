@@ -4,6 +4,7 @@
 #include "kernels/convex/first_contact.h"
 #include "trees/world/bodies/detail/swept_box.h"
 #include "trees/world/detail/advance.h"
+#include "trees/world/detail/straight_ways.h"
 #include "trees/world/mesh_shape.h"
 
 #include <algorithm>
@@ -76,12 +77,19 @@ FirstContact of_grown(const MovingShape& a, const MovingShape& b, const Continuo
     const Approach approach{relative_speed(motion_a, box_a, motion_b, box_b),
                             motion_a.longest_way(box_a) + motion_b.longest_way(box_b),
                             reach_of(box_a, a.from) + reach_of(box_b, b.from),
-                            size(a, box_a) + size(b, box_b)};
-    return advance(approach, options, [&](double t, const DistanceOptions& near) -> MeshDistance {
+                            size(a, box_a) + size(b, box_b),
+                            motion_a.longest_bend(box_a) + motion_b.longest_bend(box_b)};
+    const auto distance_at = [&](double t, const DistanceOptions& near) -> MeshDistance {
         const BodyDistance d = distance(PosedShape{a.shape, motion_a.at(t), a.margin},
                                         PosedShape{b.shape, motion_b.at(t), b.margin}, near, work);
         return {d.distance, d.lo, d.hi, d.point_a, d.point_b, d.parts};
-    });
+    };
+    if (a.shape.shape_class() == ShapeClass::convex || b.shape.shape_class() == ShapeClass::convex)
+        return advance(approach, options, distance_at);
+    const MovingMeshes meshes{a.shape.tree(), motion_a, b.shape.tree(), motion_b,
+                              margin_of({a.shape, a.from, a.margin}, {b.shape, b.from, b.margin})};
+    return advance(approach, options, distance_at,
+                   [&](const Stretch& stretch) { return free_stretch(meshes, stretch, work); });
 }
 
 /// Two half-spaces or planes of which one turns.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 namespace boxwood::detail {
@@ -23,10 +24,29 @@ inline double reach_of(const Aabb<float>& box, const Pose& pose) {
 
 /// What bounds two bodies that approach each other.
 struct Approach {
-    double speed; ///< their distance changes by at most this per unit of t
-    double way;   ///< the longest of both, together
-    double reach; ///< the greatest coordinates of both at the start, together
-    double size;  ///< of both together, for the default of the tolerance
+    double speed;    ///< their distance changes by at most this per unit of t
+    double way;      ///< the longest of both, together
+    double reach;    ///< the greatest coordinates of both at the start, together
+    double size;     ///< of both together, for the default of the tolerance
+    double bend = 0; ///< of both together (Motion::longest_bend)
+};
+
+/// A stretch of the way, from a time when the two are apart.
+struct Stretch {
+    double from, to;
+    double reach;      ///< what is farther apart at the start does not come near
+    double separation; ///< as near as this, all going straight, they may touch
+    double tolerance;  ///< of the separation, relative to features
+};
+
+/// Until when nothing comes near in a stretch; if it is not its end, which parts then do.
+struct FreeStretch {
+    double until;
+    Pair near{~0u, ~0u};
+};
+
+struct NoStretches {
+    std::optional<FreeStretch> operator()(const Stretch&) const { return std::nullopt; }
 };
 
 inline void check(const ContinuousOptions& options) {
@@ -34,11 +54,15 @@ inline void check(const ContinuousOptions& options) {
         throw std::invalid_argument("a tolerance must be at least 0");
 }
 
+inline constexpr double least_ahead = 4; ///< steps that are worth a stretch
+
 /// Conservative advancement. distance_at(t, options): the MeshDistance of the two at t. Its poses
-/// may be rounded: by 2^-44 of the reach and the way together.
-template <class DistanceAt>
+/// may be rounded: by 2^-44 of the reach and the way together. free_in(stretch): the FreeStretch,
+/// or nothing where that is too dear: steps of the least distance are short where bodies slide
+/// along each other, or turn fast beside what they approach.
+template <class DistanceAt, class FreeIn = NoStretches>
 FirstContact advance(const Approach& approach, const ContinuousOptions& options,
-                     const DistanceAt& distance_at) {
+                     const DistanceAt& distance_at, const FreeIn& free_in = {}) {
     FirstContact found;
     // What a pose may be off by moves corners by as much.
     const double rounding = 0x1p-44 * (approach.way + approach.reach);
@@ -46,6 +70,7 @@ FirstContact advance(const Approach& approach, const ContinuousOptions& options,
         std::max(options.tolerance > 0 ? options.tolerance : 0x1p-36 * approach.size, 4 * rounding);
     DistanceOptions near;
     double t = 0;
+    double steps_ahead = 1; // that a stretch spans
     while (found.steps < options.max_steps) {
         const MeshDistance d = distance_at(t, near);
         ++found.steps;
@@ -68,8 +93,31 @@ FirstContact advance(const Approach& approach, const ContinuousOptions& options,
         // Nearer than the tolerance, so that the end is reached.
         const double free = std::max(d.lo - 2 * rounding, 0.0);
         const double step = approach.speed > 0 ? free / approach.speed * (1 - 0x1p-40) : 1;
-        found.t_free = t = std::min(1.0, t + step);
         near.start = d.triangles;
+        double next = std::min(1.0, t + step);
+        if (next < 1 && steps_ahead >= least_ahead) {
+            // No longer than what all bends in it leave sure.
+            const double straight = approach.bend > 0 ? 2 * std::sqrt(free / approach.bend) : 1;
+            const double h = std::min({1 - t, steps_ahead * step, straight});
+            const double separation = approach.bend * h * h / 8 * (1 + 0x1p-40) + 4 * rounding;
+            const Stretch stretch{t, std::min(1.0, t + h),
+                                  approach.speed * h * (1 + 0x1p-40) + separation, separation,
+                                  tolerance / (4 * approach.size)};
+            if (h > 2 * step && stretch.separation < free) {
+                if (const auto ahead = free_in(stretch)) {
+                    next = std::max(next, ahead->until);
+                    if (ahead->near.a != ~0u)
+                        near.start = ahead->near;
+                    else
+                        steps_ahead *= 4;
+                } else {
+                    steps_ahead /= 8;
+                }
+            }
+        } else {
+            steps_ahead *= 2;
+        }
+        found.t_free = t = next;
         // Far apart a rough distance will do.
         near.relative = d.lo > 64 * tolerance ? .1 : 0;
     }

@@ -1,0 +1,77 @@
+"""`boxwood record` on a program that knows nothing of it: what it prints stays as it was, and what it asked can be replayed."""
+
+import json
+import subprocess
+
+import h5py
+import pytest
+from test_boxwood import PROGRAM
+
+USES_FCL = PROGRAM.parent / "bench" / "boxwood_program_of_fcl"
+MANAGERS = ("dynamic_tree", "dynamic_tree_array", "sap", "ssap", "interval_tree", "naive")
+COLLIDE_SELF = 6  # trees/adapters/recording.h
+
+pytestmark = pytest.mark.skipif(
+    not USES_FCL.exists(), reason=f"{USES_FCL} is not here: the build has no FCL, or no tests"
+)
+
+
+def run(*command, **options):
+    return subprocess.run([*map(str, command)], capture_output=True, text=True, timeout=300, **options)
+
+
+def test_what_it_prints_is_as_without(tmp_path):
+    alone = run(USES_FCL, "--a", "b c")
+    recorded = run(PROGRAM, "record", "--out", tmp_path / "program.h5", USES_FCL, "--a", "b c")
+    assert recorded.returncode == 0, recorded.stderr
+    assert recorded.stdout == alone.stdout
+    files = sorted(tmp_path.iterdir())
+    # Two managers of each kind; the last two are where the first two were, or elsewhere.
+    assert 2 * len(MANAGERS) <= len(files) <= 2 * len(MANAGERS) + 2
+    for file in files:
+        assert f"boxwood replay {file}" in recorded.stderr
+
+
+def test_it_can_be_replayed(tmp_path):
+    file = tmp_path / "program.h5"
+    recorded = run(PROGRAM, "record", "--out", file, USES_FCL)
+    assert recorded.returncode == 0, recorded.stderr
+    shown = {line.split()[0]: line.split()[1:] for line in recorded.stdout.splitlines()}
+    for i, manager in enumerate(MANAGERS):
+        of_manager = file if i == 0 else tmp_path / f"program-{2 * i + 1}.h5"
+        replayed = run(PROGRAM, "replay", of_manager, "--rounds", 1, "--json")
+        assert replayed.returncode == 0, replayed.stderr
+        report = json.loads(replayed.stdout)
+        # FCL's array tree and its sweep lose pairs of this program, as the replay tells.
+        assert (report["missed"] > 0) == (manager in ("dynamic_tree_array", "sap")), manager
+        assert report["queries"] == report["checked"], manager
+        assert report["queries"] >= 4, manager
+        ours = [one for one in report["managers"] if one["manager"].startswith("boxwood") and not one["shapes"]]
+        assert ours and all(one["wrong"] == 0 for one in ours), manager
+    with h5py.File(file) as tables:
+        calls = tables["calls"]
+        own_pairs = calls["shown"][:][calls["call"][:] == COLLIDE_SELF]
+    assert set(own_pairs) == {int(shown["dynamic_tree"][0])}
+
+
+def test_the_status_is_the_programs(tmp_path):
+    assert run(PROGRAM, "record", "--out", tmp_path / "a.h5", USES_FCL, "--fail").returncode == 7
+    assert run(PROGRAM, "record", "--out", tmp_path / "b.h5", USES_FCL, "other").returncode == 3
+    assert run(PROGRAM, "record", "--out", tmp_path / "c.h5", tmp_path / "none").returncode == 127
+    nothing = run(PROGRAM, "record", "--out", tmp_path / "d.h5", "true")
+    assert nothing.returncode == 1
+    assert "called no manager" in nothing.stderr
+
+
+def test_bad_usage_is_told(tmp_path):
+    there = tmp_path / "there.h5"
+    there.write_text("mine")
+    for arguments, said in (
+        (("--out", there, USES_FCL), "is there already"),
+        (("--out", tmp_path / "no" / "a.h5", USES_FCL), "there is no folder"),
+        ((), "name a program"),
+    ):
+        told = run(PROGRAM, "record", *arguments)
+        assert told.returncode == 2, told.stderr
+        assert said in told.stderr
+    assert there.read_text() == "mine"
