@@ -54,7 +54,10 @@ inline void check(const ContinuousOptions& options) {
         throw std::invalid_argument("a tolerance must be at least 0");
 }
 
-inline constexpr double least_ahead = 4; ///< steps that are worth a stretch
+/// A stretch costs as much as many steps: the first is tried after so many, on end, that left more
+/// than this part of the distance, and the next after twice as many if it was in vain.
+inline constexpr int slow_steps = 16;
+inline constexpr double slow_part = .98;
 
 /// Conservative advancement. distance_at(t, options): the MeshDistance of the two at t. Its poses
 /// may be rounded: by 2^-44 of the reach and the way together. free_in(stretch): the FreeStretch,
@@ -70,7 +73,10 @@ FirstContact advance(const Approach& approach, const ContinuousOptions& options,
         std::max(options.tolerance > 0 ? options.tolerance : 0x1p-36 * approach.size, 4 * rounding);
     DistanceOptions near;
     double t = 0;
-    double steps_ahead = 1; // that a stretch spans
+    double before = 0; // the distance of the step before
+    int slow = 0;      // steps on end that hardly came nearer
+    int wait = slow_steps;
+    double steps_ahead = 16; // that a stretch spans
     while (found.steps < options.max_steps) {
         const MeshDistance d = distance_at(t, near);
         ++found.steps;
@@ -95,7 +101,9 @@ FirstContact advance(const Approach& approach, const ContinuousOptions& options,
         const double step = approach.speed > 0 ? free / approach.speed * (1 - 0x1p-40) : 1;
         near.start = d.triangles;
         double next = std::min(1.0, t + step);
-        if (next < 1 && steps_ahead >= least_ahead) {
+        slow = d.lo > slow_part * before ? slow + 1 : 0;
+        before = d.lo;
+        if (next < 1 && slow >= wait) {
             // No longer than what all bends in it leave sure.
             const double straight = approach.bend > 0 ? 2 * std::sqrt(free / approach.bend) : 1;
             const double h = std::min({1 - t, steps_ahead * step, straight});
@@ -103,19 +111,20 @@ FirstContact advance(const Approach& approach, const ContinuousOptions& options,
             const Stretch stretch{t, std::min(1.0, t + h),
                                   approach.speed * h * (1 + 0x1p-40) + separation, separation,
                                   tolerance / (4 * approach.size)};
-            if (h > 2 * step && stretch.separation < free) {
-                if (const auto ahead = free_in(stretch)) {
+            if (h > 2 * step && separation < free) {
+                const auto ahead = free_in(stretch);
+                const bool is_far = ahead && ahead->until >= t + 4 * step;
+                if (ahead) {
                     next = std::max(next, ahead->until);
                     if (ahead->near.a != ~0u)
                         near.start = ahead->near;
-                    else
-                        steps_ahead *= 4;
-                } else {
-                    steps_ahead /= 8;
                 }
+                steps_ahead = !ahead                 ? std::max(steps_ahead / 4, 4.)
+                              : ahead->near.a == ~0u ? 2 * steps_ahead
+                                                     : steps_ahead;
+                wait = is_far ? 2 : 2 * wait;
+                slow = is_far ? slow : 0;
             }
-        } else {
-            steps_ahead *= 2;
         }
         found.t_free = t = next;
         // Far apart a rough distance will do.

@@ -48,7 +48,7 @@ LinearMotion edge_edge(const MovingTriangle& a, std::size_t i, const MovingTrian
 }
 
 /// With more triangles in a stretch a step of the distance costs less.
-constexpr std::size_t most_near = 512;
+constexpr std::size_t most_near = 256;
 
 } // namespace
 
