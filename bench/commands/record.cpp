@@ -36,6 +36,10 @@ fs::path record_library() {
         throw BadInput(fmt::format("{} is not here: this boxwood was built without FCL; install "
                                    "libfcl-dev (scripts/setup does) and build again",
                                    library.string()));
+    if (library.string().find_first_of(" :") != std::string::npos)
+        throw BadInput(fmt::format("{}: the loader takes no path with a blank or a colon; build in "
+                                   "another folder",
+                                   library.string()));
     return library;
 }
 
@@ -132,7 +136,12 @@ void add_record(CLI::App& app, int& exit_code) {
         "poses, geometries once, what callbacks were shown, times. A file for each manager, the\n"
         "second FILE-2.h5; `boxwood replay FILE.h5` runs it with every manager there is.\n"
         "It must load libfcl 0.7 (ldd PROGRAM shows it) and use doubles; others, and those with\n"
-        "Boxwood's own manager, call a recorder: trees/adapters/README.md.\n"
+        "Boxwood's own manager, call a recorder: trees/adapters/README.md. Not seen are calls "
+        "that\n"
+        "a compiler has put in place; forked children record nothing, and should end by _exit; a\n"
+        "program must end by itself for its last 4096 calls to be kept. Threads that query wait "
+        "for\n"
+        "each other meanwhile. No Python modules that bring an FCL or HDF5 of their own.\n"
         "Examples:\n  boxwood record ./my_planner --scene kitchen.yaml\n"
         "  boxwood record --out kitchen.h5 ./my_planner\n  boxwood replay kitchen.h5\n"
         "Exit codes: the program's; 1 if nothing was recorded, 2 bad usage, 127 no such program.");

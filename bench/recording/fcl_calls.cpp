@@ -10,6 +10,7 @@
 #include <pthread.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -51,6 +52,8 @@ class Recorders {
 
     /// Null if this manager is not recorded.
     Recorder* of(Manager* manager) {
+        if (is_child_) // before a lock that another thread of the parent may have held
+            return nullptr;
         const std::lock_guard lock(mutex_);
         const auto [found, is_new] = by_manager_.try_emplace(manager);
         if (is_new && !is_over_)
@@ -60,6 +63,8 @@ class Recorders {
     /// A manager has been made, maybe where another one was.
     void made(Manager* manager) {
         Recorder* recorder = nullptr;
+        if (is_child_)
+            return;
         {
             const std::lock_guard lock(mutex_);
             if (const auto found = by_manager_.find(manager); found != by_manager_.end())
@@ -72,7 +77,7 @@ class Recorders {
   private:
     Recorders() {
         pthread_atfork(nullptr, nullptr,
-                       [] { all().is_over_ = true; }); // the files are the parent's
+                       [] { all().is_child_ = true; }); // the files are the parent's
     }
 
     std::unique_ptr<Recorder> begin(Manager& manager) {
@@ -104,6 +109,8 @@ class Recorders {
         return std::nullopt;
     }
     void end() {
+        if (is_child_)
+            return;
         const std::lock_guard lock(mutex_);
         if (std::exchange(is_over_, true))
             return;
@@ -119,6 +126,7 @@ class Recorders {
     std::mutex mutex_;
     std::map<Manager*, std::unique_ptr<Recorder>> by_manager_;
     bool has_end_ = false, is_over_ = false;
+    std::atomic<bool> is_child_ = false;
 };
 
 template <class Callback> class Shown {
