@@ -83,16 +83,23 @@ class Recorders {
     std::unique_ptr<Recorder> begin(Manager& manager) {
         if (const auto file = claimed()) {
             try {
-                auto recorder = std::make_unique<Recorder>(manager, *file);
-                // After HDF5 has asked for the same, and so before it ends.
-                if (!std::exchange(has_end_, true))
+                // HDF5 itself would crash at the exit if the disk is full; end() does what it does.
+                if (!std::exchange(has_end_, true)) {
+                    ends_hdf5_ = H5dont_atexit() >= 0;
                     std::atexit([] { all().end(); });
+                }
+                auto recorder = std::make_unique<Recorder>(manager, *file);
+                recorder->on_failure([](const std::exception& error) { all().fail(error); });
                 return recorder;
             } catch (const std::exception& error) {
-                std::fprintf(stderr, "boxwood record: %s\n", error.what());
+                fail(error);
             }
         }
         return nullptr;
+    }
+    void fail(const std::exception& error) {
+        has_failed_ = true;
+        std::fprintf(stderr, "boxwood record: %s\n", error.what());
     }
     static std::optional<std::filesystem::path> claimed() {
         const char* const first = std::getenv(boxwood::recording::file_variable);
@@ -119,14 +126,17 @@ class Recorders {
                 if (recorder)
                     recorder->close();
             } catch (const std::exception& error) {
-                std::fprintf(stderr, "boxwood record: %s\n", error.what());
+                fail(error);
             }
+        if (ends_hdf5_ && !has_failed_)
+            H5close();
     }
 
     std::mutex mutex_;
     std::map<Manager*, std::unique_ptr<Recorder>> by_manager_;
     bool has_end_ = false, is_over_ = false;
-    std::atomic<bool> is_child_ = false;
+    bool ends_hdf5_ = false;
+    std::atomic<bool> is_child_ = false, has_failed_ = false;
 };
 
 template <class Callback> class Shown {
@@ -187,17 +197,20 @@ void take(Manager* manager, const GoOn& go_on, const Record& record) {
 #define BOXWOOD_OTHERS "PNS_26BroadPhaseCollisionManagerIdEE"
 #define BOXWOOD_CALLBACK(OBJECT, SECOND, DATA, MORE) "PvPFb" OBJECT SECOND DATA MORE "E"
 
-#define BOXWOOD_MANAGER(ID, CLASS)                                                                 \
-    extern "C" [[gnu::visibility("default")]] void ID##_made(Manager* self) asm("_ZN3fcl" CLASS    \
-                                                                                "IdEC1Ev");        \
-    void ID##_made(Manager* self) {                                                                \
-        static const auto next = in_fcl<void(Manager*)>("_ZN3fcl" CLASS "IdEC1Ev");                \
+#define BOXWOOD_MADE(NAME, SYMBOL)                                                                 \
+    extern "C" [[gnu::visibility("default")]] void NAME(Manager* self) asm(SYMBOL);                \
+    void NAME(Manager* self) {                                                                     \
+        static const auto next = in_fcl<void(Manager*)>(SYMBOL);                                   \
         const bool is_call = !is_within;                                                           \
         const Within call(true);                                                                   \
         next(self);                                                                                \
         if (is_call)                                                                               \
             Recorders::all().made(self);                                                           \
-    }                                                                                              \
+    }
+
+#define BOXWOOD_MANAGER(ID, CLASS)                                                                 \
+    BOXWOOD_MADE(ID##_made, "_ZN3fcl" CLASS "IdEC1Ev")                                             \
+    BOXWOOD_MADE(ID##_made_base, "_ZN3fcl" CLASS "IdEC2Ev") /* of a class derived from it */       \
     BOXWOOD_TAKE(ID##_add, "_ZN3fcl" CLASS "IdE14registerObjectE" BOXWOOD_OBJECT,                  \
                  (Manager * self, Object * object), (self, object), to.registerObject(object))     \
     BOXWOOD_TAKE(ID##_add_all, "_ZN3fcl" CLASS "IdE15registerObjectsE" BOXWOOD_OBJECTS,            \

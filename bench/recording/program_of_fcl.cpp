@@ -100,6 +100,21 @@ template <class Kind> void run(const char* name) {
     manager.clear();
 }
 
+/// Calls that a compiler knows the target of, of a class that is derived from a manager.
+struct Derived : fcl::DynamicAABBTreeCollisionManagerd {};
+
+void run_direct(const char* name) {
+    const Objects objects = made(0), others = made(8);
+    Derived manager;
+    for (const auto& object : objects)
+        manager.registerObject(object.get());
+    manager.setup();
+    Count self, one;
+    manager.collide(&self, Count::add);
+    manager.collide(others[0].get(), &one, Count::add);
+    std::printf("%s %zu %zu\n", name, self.shown, one.shown);
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -112,6 +127,8 @@ int main(int argc, char** argv) {
     run<fcl::IntervalTreeCollisionManagerd>("interval_tree");
     run<fcl::NaiveCollisionManagerd>("naive");
     run<fcl::DynamicAABBTreeCollisionManagerd>("dynamic_tree_again");
+    run_direct("direct");
+    run_direct("direct_again");
     std::printf("arguments:");
     for (int i = 1; i < argc; ++i)
         std::printf(" %s", argv[i]);

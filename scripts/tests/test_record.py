@@ -1,6 +1,8 @@
 """`boxwood record` on a program that knows nothing of it: what it prints stays as it was, and what it asked can be replayed."""
 
 import json
+import resource
+import signal
 import subprocess
 
 import h5py
@@ -52,6 +54,32 @@ def test_it_can_be_replayed(tmp_path):
         calls = tables["calls"]
         own_pairs = calls["shown"][:][calls["call"][:] == COLLIDE_SELF]
     assert set(own_pairs) == {int(shown["dynamic_tree"][0])}
+
+
+def test_calls_of_a_known_class_are_seen(tmp_path):
+    recorded = run(PROGRAM, "record", "--out", tmp_path / "a.h5", USES_FCL)
+    printed = [line.split() for line in recorded.stdout.splitlines() if line.startswith("direct")]
+    assert len(printed) == 2 and printed[0][1:] == printed[1][1:]
+    last = []  # of each recording: what its last two queries were shown
+    for file in tmp_path.iterdir():
+        with h5py.File(file) as tables:
+            calls = tables["calls"]
+            shown = calls["shown"][:][calls["call"][:] >= COLLIDE_SELF]
+            last.append([int(n) for n in shown[-2:]])
+    # The second one stands where the first one was, or elsewhere.
+    assert [int(n) for n in printed[0][1:]] in last, (printed, last)
+
+
+def test_a_full_disk_is_told_and_leaves_the_program_alone(tmp_path):
+    def little_space():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (40_000, 40_000))
+
+    alone = run(USES_FCL)
+    recorded = run(PROGRAM, "record", "--out", tmp_path / "a.h5", USES_FCL, preexec_fn=little_space)
+    assert recorded.stdout == alone.stdout
+    assert recorded.returncode == 0
+    assert "cannot be written" in recorded.stderr
 
 
 def test_the_status_is_the_programs(tmp_path):

@@ -4,71 +4,52 @@
 /// replay` runs again. Compiled by whoever includes it and has Coal 3 and HDF5; not part of
 /// trees.h.
 
-#include "trees/adapters/detail/call_recorder.h"
 #include "trees/adapters/detail/coal_geometry.h"
+#include "trees/adapters/detail/recorded_manager.h"
 
 #include <coal/broadphase/broadphase_callbacks.h>
 #include <coal/broadphase/broadphase_collision_manager.h>
 
-#include <cstddef>
 #include <filesystem>
 #include <vector>
 
 namespace boxwood {
+namespace detail {
+
+/// What a recorder has to know of Coal.
+struct CoalLibrary {
+    using Object = coal::CollisionObject;
+    using Manager = coal::BroadPhaseCollisionManager;
+    using Geometry = coal::CollisionGeometry;
+    static constexpr double bits = 8 * sizeof(coal::CoalScalar);
+
+    static RecordedGeometry recorded(const Geometry& geometry) {
+        return detail::recorded(geometry);
+    }
+    static auto rotation(const Object& object) { return object.getTransform().getRotation(); }
+    static auto translation(const Object& object) { return object.getTransform().getTranslation(); }
+    static std::vector<Object*> objects_of(const Manager& manager) {
+        std::vector<Object*> objects;
+        manager.getObjects(objects);
+        return objects;
+    }
+};
+
+} // namespace detail
 
 /// Hands every call to a manager of Coal's interface, and writes it down: as FclRecorder does.
 /// Bounds of objects are those that they have (computeAABB).
-class CoalRecorder final : public coal::BroadPhaseCollisionManager {
+class CoalRecorder final : public detail::RecordedManager<detail::CoalLibrary> {
+    using Library = detail::CoalLibrary;
+    using Base = detail::RecordedManager<Library>;
+
   public:
-    using Object = coal::CollisionObject;
-    using Objects = std::vector<Object*>;
-    using Manager = coal::BroadPhaseCollisionManager;
+    using Base::Base, Base::getObjects;
 
-    CoalRecorder(Manager& manager, const std::filesystem::path& file) : calls_(manager, file) {}
-
-    /// The end of the recording; calls are handed on, and not written down any more.
-    void close() { calls_.close(); }
-
-    void registerObject(Object* object) override {
-        calls_.record(recording::Call::add, {object}, [&] { to().registerObject(object); });
-    }
-    void registerObjects(const Objects& objects) override {
-        calls_.record(recording::Call::add, objects, [&] { to().registerObjects(objects); });
-    }
-    void unregisterObject(Object* object) override {
-        calls_.record(recording::Call::remove, {object}, [&] { to().unregisterObject(object); });
-    }
-    void clear() override {
-        calls_.record(recording::Call::clear, {}, [&] { to().clear(); });
-    }
-    void setup() override {
-        calls_.record(recording::Call::setup, {}, [&] { to().setup(); });
-    }
-    void update() override {
-        const auto lock = calls_.locked();
-        calls_.record(recording::Call::update_all, Library::objects_of(to()),
-                      [&] { to().update(); });
-    }
-    void update(Object* object) override {
-        calls_.record(recording::Call::update_some, {object}, [&] { to().update(object); });
-    }
-    void update(const Objects& objects) override {
-        calls_.record(recording::Call::update_some, objects, [&] { to().update(objects); });
-    }
-    void getObjects(Objects& objects) const override {
-        const auto lock = calls_.locked();
-        to().getObjects(objects);
-    }
     Objects getObjects() const override {
         const auto lock = calls_.locked();
         return Library::objects_of(to());
     }
-    bool empty() const override { return size() == 0; }
-    std::size_t size() const override {
-        const auto lock = calls_.locked();
-        return to().size();
-    }
-
     void collide(Object* object, coal::CollisionCallBackBase* callback) const override {
         Shown shown(*this, callback);
         calls_.record(recording::Call::collide_object, {object}, shown,
@@ -109,27 +90,6 @@ class CoalRecorder final : public coal::BroadPhaseCollisionManager {
     }
 
   private:
-    struct Library {
-        using Object = coal::CollisionObject;
-        using Manager = coal::BroadPhaseCollisionManager;
-        using Geometry = coal::CollisionGeometry;
-        static constexpr double bits = 8 * sizeof(coal::CoalScalar);
-
-        static detail::RecordedGeometry recorded(const Geometry& geometry) {
-            return detail::recorded(geometry);
-        }
-        static auto rotation(const Object& object) { return object.getTransform().getRotation(); }
-        static auto translation(const Object& object) {
-            return object.getTransform().getTranslation();
-        }
-        static Objects objects_of(const Manager& manager) {
-            Objects objects;
-            manager.getObjects(objects);
-            return objects;
-        }
-    };
-    using Calls = detail::CallRecorder<Library>;
-
     struct Shown final : Calls::Answer, coal::CollisionCallBackBase {
         const CoalRecorder& recorder;
         coal::CollisionCallBackBase& callback;
@@ -155,19 +115,6 @@ class CoalRecorder final : public coal::BroadPhaseCollisionManager {
             return ended;
         }
     };
-    /// Another manager, or the one that another recorder is before; both are locked meanwhile.
-    struct Within {
-        Within(const CoalRecorder& one, Manager* other)
-            : recorder(dynamic_cast<const CoalRecorder*>(other)),
-              both(one.calls_, recorder ? &recorder->calls_ : nullptr),
-              manager(recorder ? &recorder->to() : other) {}
-        const CoalRecorder* recorder;
-        Calls::Both both;
-        Manager* manager;
-    };
-    Manager& to() const { return calls_.manager(); }
-
-    mutable Calls calls_;
 };
 
 } // namespace boxwood

@@ -20,21 +20,38 @@
 
 namespace boxwood {
 
+/// Meanwhile HDF5 prints nothing of its own in this thread: failures are told by what is thrown.
+class QuietHdf5 {
+  public:
+    QuietHdf5() {
+        H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
+        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    }
+    QuietHdf5(const QuietHdf5&) = delete;
+    QuietHdf5& operator=(const QuietHdf5&) = delete;
+    ~QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
+
+  private:
+    H5E_auto2_t print_ = nullptr;
+    void* data_ = nullptr;
+};
+
 /// The tables of a recording, which grow. What was flushed is
 /// readable if the program ends badly later, but while it writes.
 class RecordingFile {
   public:
     /// Throws std::runtime_error, "FILE: ...", if it cannot be made. What was there is lost.
     explicit RecordingFile(const std::filesystem::path& path) : path_(path.string()) {
-        H5E_BEGIN_TRY { // which else prints what HDF5 has to say
-            file_ = H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-        }
-        H5E_END_TRY
+        const QuietHdf5 quiet;
+        file_ = H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
         check(file_);
     }
     RecordingFile(const RecordingFile&) = delete;
     RecordingFile& operator=(const RecordingFile&) = delete;
-    ~RecordingFile() { H5Fclose(file_); }
+    ~RecordingFile() {
+        const QuietHdf5 quiet;
+        H5Fclose(file_);
+    }
 
     class Table {
       public:
@@ -51,6 +68,7 @@ class RecordingFile {
         Table(const Table&) = delete;
         Table& operator=(const Table&) = delete;
         ~Table() {
+            const QuietHdf5 quiet;
             for (const Column& column : columns_)
                 H5Dclose(column.set);
         }
@@ -63,6 +81,7 @@ class RecordingFile {
         void add(std::initializer_list<double> row) { add(std::span(row.begin(), row.size())); }
         /// To be flushed at once: HDF5 keeps a part of it.
         void write() {
+            const QuietHdf5 quiet;
             for (Column& column : columns_)
                 column.write(file_);
         }
@@ -96,7 +115,10 @@ class RecordingFile {
         std::vector<Column> columns_;
     };
 
-    void flush() const { check(H5Fflush(file_, H5F_SCOPE_GLOBAL)); }
+    void flush() const {
+        const QuietHdf5 quiet;
+        check(H5Fflush(file_, H5F_SCOPE_GLOBAL));
+    }
 
   private:
     static constexpr hsize_t rows_at_once = 16384;

@@ -9,11 +9,14 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <mutex>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace boxwood::detail {
@@ -33,6 +36,7 @@ template <class Library> class CallRecorder {
         tables_->format.add({recording::version, Library::bits});
         if (const Objects there = Library::objects_of(manager); !there.empty())
             record(recording::Call::add, there, [] {});
+        write();
     }
     CallRecorder(const CallRecorder&) = delete;
     CallRecorder& operator=(const CallRecorder&) = delete;
@@ -48,6 +52,10 @@ template <class Library> class CallRecorder {
             return;
         const std::unique_ptr<Tables> last = std::move(tables_);
         last->write();
+    }
+
+    void on_failure(std::function<void(const std::exception&)> tell) {
+        on_failure_ = std::move(tell);
     }
 
     Manager& manager() const { return manager_; }
@@ -116,11 +124,24 @@ template <class Library> class CallRecorder {
         n_states_ = 0;
         if (call == recording::Call::remove || call == recording::Call::clear)
             forget(call, objects);
-        if (++n_calls_ % 4096 == 0 || tables_->states.n_unwritten() > 1'000'000)
-            tables_->write();
+        if (++n_calls_ % 4096 == 0 || tables_->states.n_unwritten() > 1'000'000 ||
+            begun - written_ > std::chrono::seconds(1))
+            write();
     }
 
   private:
+    void write() {
+        try {
+            tables_->write();
+        } catch (const std::exception& error) {
+            if (!on_failure_)
+                throw;
+            tables_.reset();
+            on_failure_(error);
+        }
+        written_ = std::chrono::steady_clock::now();
+    }
+
     struct Tables {
         explicit Tables(const std::filesystem::path& path) : file(path) {}
         void write() {
@@ -248,6 +269,8 @@ template <class Library> class CallRecorder {
     Manager& manager_;
     std::recursive_mutex calling_; ///< a callback may query again
     std::unique_ptr<Tables> tables_;
+    std::function<void(const std::exception&)> on_failure_;
+    std::chrono::steady_clock::time_point written_; ///< when it was last
     std::unordered_map<const Object*, Known> known_;
     std::unordered_map<const Geometry*, std::uint32_t> number_of_geometry_;
     std::unordered_map<std::uint64_t, std::uint32_t> number_of_content_; ///< by hash

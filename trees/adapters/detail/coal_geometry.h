@@ -14,15 +14,8 @@ namespace boxwood::detail {
 inline RecordedGeometry recorded(const coal::CollisionGeometry& from) {
     using recording::Shape;
     RecordedGeometry to;
-    const auto take = [&](Shape shape, std::array<double, 4> numbers) {
-        to.shape = shape;
-        to.numbers = numbers;
-    };
     const auto round = [&]<class Of>(Shape shape, const Of& of) {
-        take(shape, {of.radius, 2 * of.halfLength});
-    };
-    const auto flat = [&]<class Of>(Shape shape, const Of& of) {
-        take(shape, {of.n[0], of.n[1], of.n[2], of.d});
+        to.take(shape, {of.radius, 2 * of.halfLength});
     };
     if (const auto* model = dynamic_cast<const coal::BVHModelBase*>(&from)) {
         if (!model->vertices || !model->tri_indices)
@@ -40,16 +33,16 @@ inline RecordedGeometry recorded(const coal::CollisionGeometry& from) {
     switch (from.getNodeType()) {
     case coal::GEOM_BOX: {
         const auto& half = static_cast<const coal::Box&>(from).halfSide;
-        take(Shape::box, {2 * half[0], 2 * half[1], 2 * half[2]});
+        to.take(Shape::box, {2 * half[0], 2 * half[1], 2 * half[2]});
         break;
     }
     case coal::GEOM_ELLIPSOID: {
         const auto& radii = static_cast<const coal::Ellipsoid&>(from).radii;
-        take(Shape::ellipsoid, {radii[0], radii[1], radii[2]});
+        to.take(Shape::ellipsoid, {radii[0], radii[1], radii[2]});
         break;
     }
     case coal::GEOM_SPHERE:
-        take(Shape::sphere, {static_cast<const coal::Sphere&>(from).radius});
+        to.take(Shape::sphere, {static_cast<const coal::Sphere&>(from).radius});
         break;
     case coal::GEOM_CAPSULE:
         round(Shape::capsule, static_cast<const coal::Capsule&>(from));
@@ -61,10 +54,10 @@ inline RecordedGeometry recorded(const coal::CollisionGeometry& from) {
         round(Shape::cylinder, static_cast<const coal::Cylinder&>(from));
         break;
     case coal::GEOM_PLANE:
-        flat(Shape::plane, static_cast<const coal::Plane&>(from));
+        to.take_flat(Shape::plane, static_cast<const coal::Plane&>(from));
         break;
     case coal::GEOM_HALFSPACE:
-        flat(Shape::half_space, static_cast<const coal::Halfspace&>(from));
+        to.take_flat(Shape::half_space, static_cast<const coal::Halfspace&>(from));
         break;
     case coal::GEOM_CONVEX: {
         const auto* of = dynamic_cast<const coal::Convex<coal::Triangle>*>(&from);

@@ -32,15 +32,8 @@ void take_mesh(const fcl::CollisionGeometry<S>& from, RecordedGeometry& to) {
 template <class S> RecordedGeometry recorded(const fcl::CollisionGeometry<S>& from) {
     using recording::Shape;
     RecordedGeometry to;
-    const auto take = [&](Shape shape, std::array<double, 4> numbers) {
-        to.shape = shape;
-        to.numbers = numbers;
-    };
     const auto round = [&]<class Of>(Shape shape, const Of& of) {
-        take(shape, {of.radius, of.lz});
-    };
-    const auto flat = [&]<class Of>(Shape shape, const Of& of) {
-        take(shape, {of.n[0], of.n[1], of.n[2], of.d});
+        to.take(shape, {of.radius, of.lz});
     };
     switch (from.getNodeType()) {
     case fcl::BV_AABB:
@@ -69,16 +62,16 @@ template <class S> RecordedGeometry recorded(const fcl::CollisionGeometry<S>& fr
         break;
     case fcl::GEOM_BOX: {
         const auto& side = static_cast<const fcl::Box<S>&>(from).side;
-        take(Shape::box, {side[0], side[1], side[2]});
+        to.take(Shape::box, {side[0], side[1], side[2]});
         break;
     }
     case fcl::GEOM_ELLIPSOID: {
         const auto& radii = static_cast<const fcl::Ellipsoid<S>&>(from).radii;
-        take(Shape::ellipsoid, {radii[0], radii[1], radii[2]});
+        to.take(Shape::ellipsoid, {radii[0], radii[1], radii[2]});
         break;
     }
     case fcl::GEOM_SPHERE:
-        take(Shape::sphere, {static_cast<const fcl::Sphere<S>&>(from).radius});
+        to.take(Shape::sphere, {static_cast<const fcl::Sphere<S>&>(from).radius});
         break;
     case fcl::GEOM_CAPSULE:
         round(Shape::capsule, static_cast<const fcl::Capsule<S>&>(from));
@@ -90,10 +83,10 @@ template <class S> RecordedGeometry recorded(const fcl::CollisionGeometry<S>& fr
         round(Shape::cylinder, static_cast<const fcl::Cylinder<S>&>(from));
         break;
     case fcl::GEOM_PLANE:
-        flat(Shape::plane, static_cast<const fcl::Plane<S>&>(from));
+        to.take_flat(Shape::plane, static_cast<const fcl::Plane<S>&>(from));
         break;
     case fcl::GEOM_HALFSPACE:
-        flat(Shape::half_space, static_cast<const fcl::Halfspace<S>&>(from));
+        to.take_flat(Shape::half_space, static_cast<const fcl::Halfspace<S>&>(from));
         break;
     case fcl::GEOM_CONVEX: {
         const auto& of = static_cast<const fcl::Convex<S>&>(from);

@@ -15,6 +15,14 @@ struct RecordedGeometry {
     std::array<double, 4> numbers{};
     std::vector<std::array<double, 3>> vertices, triangles; ///< triangles: rows of vertices
 
+    void take(recording::Shape as, const std::array<double, 4>& its_numbers) {
+        shape = as;
+        numbers = its_numbers;
+    }
+    /// A plane or a half-space.
+    template <class Of> void take_flat(recording::Shape as, const Of& of) {
+        take(as, {of.n[0], of.n[1], of.n[2], of.d});
+    }
     template <class Point> void add_vertex(const Point& p) {
         vertices.push_back({p[0], p[1], p[2]});
     }

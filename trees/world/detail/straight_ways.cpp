@@ -1,6 +1,7 @@
 #include "trees/world/detail/straight_ways.h"
 
 #include "kernels/continuous/tight_inclusion.h"
+#include "trees/world/detail/aabb_gap.h"
 #include "trees/world/mesh_pairs.h"
 
 #include <array>
@@ -28,11 +29,6 @@ struct MovingTriangle {
   private:
     static std::array<Point, 3> corners(const Triangle<double>& t) { return {t.a, t.b, t.c}; }
 };
-
-bool farther(const Aabb<double>& a, const Aabb<double>& b, double separation) {
-    const Point gap = max(a.min - b.max, b.min - a.max);
-    return gap.x > separation || gap.y > separation || gap.z > separation;
-}
 
 LinearMotion vertex_face(const MovingTriangle& of_vertex, std::size_t i,
                          const MovingTriangle& face) {
@@ -69,7 +65,7 @@ std::optional<FreeStretch> free_stretch(const MovingMeshes& meshes, const Stretc
     FreeStretch free{stretch.to};
     for (const Pair pair : near) {
         const MovingTriangle a(mesh_a, pair.a, from_a, to_a), b(mesh_b, pair.b, from_b, to_b);
-        if (farther(a.box(), b.box(), kernel.separation))
+        if (gap_below(a.box(), b.box()) > kernel.separation)
             continue;
         const auto note = [&](const Impact& impact) {
             if (impact.answer != Answer::no && impact.t_free < t_free) {
