@@ -385,5 +385,24 @@ TEST(BodyShapes, OfHeightsAreTriangulatedInOrder) {
     EXPECT_EQ(found.parts.a, 2u);
 }
 
+/// With a margin, too, a mesh that slides just beyond it is not left open.
+TEST(ShapePairs, OfMeshesWithAMarginThatSlideAreDecided) {
+    const BodyShape cube = BodyShape::surface(cube_mesh(.5f)),
+                    floor = BodyShape::surface(plate(4, 0));
+    const auto slide = [&](double gap) {
+        Pose from, to;
+        from.translation = {-3, .5, .5 + gap};
+        to.translation = {3, .5, .5 + gap};
+        return first_contact({cube, from, to, MotionPath::linear, .1},
+                             {floor, {}, {}, MotionPath::linear, .05});
+    };
+    for (const double beyond : {1e-3, 1e-6, 1e-8}) {
+        const FirstContact none = slide(.15 + beyond);
+        EXPECT_EQ(none.hit, Answer::no) << beyond;
+        EXPECT_LT(none.steps, 1000u) << beyond;
+        EXPECT_EQ(slide(.15 - beyond).hit, Answer::yes) << beyond;
+    }
+}
+
 } // namespace
 } // namespace boxwood
