@@ -69,7 +69,7 @@ struct KernelCost {
     /// By which kernels are ranked: wrong_per_million; by errors max_rel_err, 0 up to half an ulp
     /// of a double and infinite above 1, where no digit is right.
     double badness = missing;
-    std::uint32_t on_front = 0; ///< 1 if ours and no faster one of ours errs less
+    std::uint32_t on_front = 0; ///< 1 if ours, never undecided, and no faster such one errs less
 };
 
 /// What a topic of findings is called, and the columns of its rows.

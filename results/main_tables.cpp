@@ -422,7 +422,7 @@ std::vector<Table> main_tables() {
              {"badness", &KernelCost::badness, "",
               "wrong per million; or the error, 0 up to half an ulp, infinite above 1"},
              {"on_front", &KernelCost::on_front, "",
-              "1 if ours and no faster one of ours errs less"},
+              "1 if ours, never undecided, and no faster such one of ours errs less"},
          },
          derived},
     };

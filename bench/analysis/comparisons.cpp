@@ -147,12 +147,41 @@ bool trades_off(const Index& index, const Times& times, const Cell& a, const Cel
     return paired_ratio(logs).ratio < 1 ? of_b > equal * of_a : of_a > equal * of_b;
 }
 
+/// A contender and what it does, whatever its threads.
+using Contender = std::tuple<std::uint32_t, std::string, std::uint32_t, std::string, std::string>;
+Contender contender_of(const Cell& cell) {
+    return {cell.scene_id, cell.task, cell.variant_id, cell.precision, cell.classes};
+}
+
+/// On one thread, of the usual executor if there is one.
+std::map<Contender, const Cell*> on_one_thread(const Index& index) {
+    const std::string_view usual = default_executor(1);
+    std::map<Contender, const Cell*> single;
+    for (const Cell& cell : index.results().cells)
+        if (cell.threads == 1 && !is_device(cell) && !index.is_kernel(cell)) {
+            const Cell*& kept = single[contender_of(cell)];
+            if (!kept || (kept->executor != usual && cell.executor == usual))
+                kept = &cell;
+        }
+    return single;
+}
+
 void against_peers(const Index& index, const Times& times, Judge& judge) {
     std::map<std::pair<JobKey, std::string>, std::vector<const Cell*>> peers_of; // and class
     for (const Cell& cell : index.results().cells)
         if (index.is_peer(cell))
             for (const std::string& name : split_classes(cell.classes))
                 peers_of[{job_of(cell), name}].push_back(&cell);
+    const std::map<Contender, const Cell*> single = on_one_thread(index);
+    const auto at_its_best = [&](const Cell& peer, Phase phase) -> const Cell& {
+        const auto one =
+            peer.threads > 1 && !is_device(peer) ? single.find(contender_of(peer)) : single.end();
+        if (one == single.end() || !is_right(one->second->status))
+            return peer;
+        const std::vector<double> logs =
+            times.log_ratios(one->second->cell_id, peer.cell_id, phase);
+        return !logs.empty() && paired_ratio(logs).ratio > 1 ? *one->second : peer;
+    };
     for (const Cell& ours : index.results().cells) {
         if (index.is_peer(ours))
             continue;
@@ -162,7 +191,7 @@ void against_peers(const Index& index, const Times& times, Judge& judge) {
                     if ((phase == Phase::build_and_query || phase == Phase::update_and_query ||
                          phase == Phase::cold_build_and_query || index.divide_alike(ours, *peer)) &&
                         !trades_off(index, times, *peer, ours, phase))
-                        judge.claim(*peer, ours, phase, name);
+                        judge.claim(at_its_best(*peer, phase), ours, phase, name);
             }
     }
     judge.close(Family::peers);
@@ -196,19 +225,7 @@ void against_ours(const Index& index, const Times& times, Judge& judge) {
 }
 
 void against_one_thread(const Index& index, const Times& times, Judge& judge) {
-    using Contender =
-        std::tuple<std::uint32_t, std::string, std::uint32_t, std::string, std::string>;
-    const auto contender_of = [](const Cell& cell) {
-        return Contender{cell.scene_id, cell.task, cell.variant_id, cell.precision, cell.classes};
-    };
-    const std::string_view usual = default_executor(1);
-    std::map<Contender, const Cell*> single; // of the usual executor if there is one
-    for (const Cell& cell : index.results().cells)
-        if (cell.threads == 1 && !is_device(cell) && !index.is_kernel(cell)) {
-            const Cell*& kept = single[contender_of(cell)];
-            if (!kept || (kept->executor != usual && cell.executor == usual))
-                kept = &cell;
-        }
+    const std::map<Contender, const Cell*> single = on_one_thread(index);
     Grouped<JobKey> claims;
     for (const Cell& cell : index.results().cells)
         if (cell.threads > 1)

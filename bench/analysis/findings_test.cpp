@@ -81,6 +81,27 @@ TEST_F(Findings, HoldTheBestOfOursAgainstTheBestRival) {
     EXPECT_FALSE(is_promise_broken(run.results));
 }
 
+TEST_F(Findings, APeerThatTwoThreadsSlowDownStandsWithOne) {
+    const auto ours = add("uniform", "pairs", "quick.packed", 100, 300, 2),
+               one = add("uniform", "pairs", "embree.bvh", 100, 1100),
+               two = add("uniform", "pairs", "embree.bvh", 50, 1450, 2);
+    add("uniform", "pairs", "fcl.tree", 100, 500); // has no threads: not asked about two
+    const auto rivals = [&] {
+        analyse(run.results);
+        std::vector<std::uint32_t> cells;
+        for (const results::Comparison& row : run.results.compare)
+            if (row.family == results::Family::peers && row.cell_b == ours)
+                cells.push_back(row.cell_a);
+        return cells;
+    };
+    EXPECT_THAT(rivals(), ElementsAre(two, one, one)); // build, query, their sum
+    EXPECT_EQ(run.results.findings.at(0).rival, one);
+    EXPECT_EQ(run.results.findings.at(0).together, "wins 3.00x over Embree on 1 thread");
+    run.results.checks[one].status = results::Status::wrong;
+    EXPECT_THAT(rivals(), ElementsAre(two, two, two));
+    EXPECT_EQ(run.results.findings.at(0).together, "wins 3.75x over Embree");
+}
+
 TEST_F(Findings, NameTheKindOfRaysAndTheScene) {
     for (const char* name : {"ours.wide8.rays", "embree.rtc"})
         add("sphere_mesh_primary", "rays_closest", name, 10, 100);
@@ -197,7 +218,9 @@ TEST_F(Findings, AKernelWithoutAPromiseMayErrAndOneWithMayNot) {
     EXPECT_EQ(promises_text(run.results), "Every promise is kept.\n");
     EXPECT_EQ(run.results.health[0].wrong_ours, 0u);
     add_kernel("liar", "never-miss", 1, 5);
-    EXPECT_THAT(screen(), HasSubstr("PROMISE BROKEN: liar on slivers"));
+    analyse(run.results);
+    EXPECT_THAT(run.results.health[0].correctness, HasSubstr("PROMISE BROKEN: liar on slivers"));
+    EXPECT_EQ(run.results.health[0].wrong_ours, 1u);
     EXPECT_TRUE(is_promise_broken(run.results));
     EXPECT_THAT(promises_text(run.results),
                 HasSubstr("BROKEN PROMISE: liar promises never-miss on slivers/"
@@ -243,6 +266,10 @@ TEST_F(Findings, AKernelThatErrsInALaterRoundIsNotExcusedByItsPromise) {
     const auto plain = add_kernel("plain", "no promise", 3, 10);
     analyse(run.results);
     EXPECT_EQ(run.results.health[0].wrong_ours, 0u); // it promised nothing
+    EXPECT_EQ(run.results.health[0].answers, 1u);
+    EXPECT_THAT(
+        run.results.health[0].correctness,
+        HasSubstr("1 answers checked: 0 of ours wrong against a promise and 1 without one"));
     run.results.checks[plain].status = results::Status::exact;
     run.results.samples.front().flags |= results::wrong_answer; // not what was checked
     analyse(run.results);
@@ -347,7 +374,8 @@ TEST_F(Findings, WrongKernelsOfPeersAreCounted) {
     add_kernel("plain", "no promise", 3, 10); // ours: it promised nothing
     add_kernel("sure", "exact", 0, 25);
     add_kernel("fcl.triangles", "no promise", 5, 10);
-    EXPECT_THAT(screen(), HasSubstr("2 answers checked: 0 of ours wrong, 1 of the peers' wrong"));
+    EXPECT_THAT(screen(), HasSubstr("3 answers checked: 0 of ours wrong against a promise and 1 "
+                                    "without one, 1 of the peers' wrong"));
 }
 
 TEST_F(Findings, OneScreenHoldsAHundredQuestions) {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace boxwood::bench {
@@ -18,23 +19,32 @@ using results::Health;
 using results::Results;
 using results::Status;
 
-/// Counts the answers; gives the name of the first wrong one of ours.
-std::string count_answers(const Results& results, Health& health) {
+struct Counted {
+    std::string first_wrong;      ///< name of the first of ours that is to blame
+    std::uint64_t unpromised = 0; ///< of ours, wrong where it promises no right answer
+};
+
+Counted count_answers(const Results& results, Health& health) {
     const Index index(results);
-    std::string first_wrong;
+    std::set<std::uint32_t> broken;
+    for (const results::KernelRow& row : results.kernels)
+        if (row.is_broken)
+            broken.insert(row.cell_id);
+    Counted counted;
     for (const results::Cell& cell : results.cells) {
         const bool is_wrong = cell.status == Status::wrong;
         const bool is_peer = index.is_peer(cell);
-        if (cell.status == Status::unchecked || cell.status == Status::unsupported ||
-            (is_wrong && !is_peer && is_judged_by_promise(results, cell)))
+        if (cell.status == Status::unchecked || cell.status == Status::unsupported)
             continue;
         ++health.answers;
         if (is_wrong && is_peer)
             ++health.wrong_peers;
+        else if (is_wrong && is_judged_by_promise(results, cell) && !broken.contains(cell.cell_id))
+            ++counted.unpromised;
         else if (is_wrong && ++health.wrong_ours == 1)
-            first_wrong = cell.name;
+            counted.first_wrong = cell.name;
     }
-    return first_wrong;
+    return counted;
 }
 
 /// Of the cell that was timed in the most of them.
@@ -77,12 +87,15 @@ std::string trust_text(const Health& health, double lowest, std::ptrdiff_t busy)
 
 /// Names the first of our wrong answers, and the kernels that break a promise, the first ones at
 /// least.
-std::string correctness_text(const Results& results, const Health& health,
-                             const std::string& first_wrong) {
+std::string correctness_text(const Results& results, const Health& health, const Counted& counted) {
     constexpr std::uint64_t max_named = 2;
     std::string text = fmt::format(
-        "{} answers checked: {} of ours wrong{}, {} of the peers' wrong", health.answers,
-        health.wrong_ours, first_wrong.empty() ? "" : " (" + first_wrong + ")", health.wrong_peers);
+        "{} answers checked: {} of ours wrong{}{}, {} of the peers' wrong", health.answers,
+        health.wrong_ours,
+        counted.unpromised
+            ? fmt::format(" against a promise and {} without one", counted.unpromised)
+            : "",
+        counted.first_wrong.empty() ? "" : " (" + counted.first_wrong + ")", health.wrong_peers);
     std::uint64_t named = 0;
     for (const results::KernelRow& row : results.kernels)
         if (row.is_broken && named++ < max_named)
@@ -105,13 +118,13 @@ Health health_of(const Results& results, const NoiseFloors& floors, double delta
     health.delta = delta;
     const double lowest = floors.lowest().value_or(0);
     health.is_too_noisy = lowest > max_floor;
-    const std::string first_wrong = count_answers(results, health);
+    const Counted counted = count_answers(results, health);
     health.broken_promises = broken_promises(results);
     health.trust =
         trust_text(health, lowest, std::ranges::count_if(results.shards, [](const auto& shard) {
                        return shard.other_cores > results::quiet_cores;
                    }));
-    health.correctness = correctness_text(results, health, first_wrong);
+    health.correctness = correctness_text(results, health, counted);
     if (health.is_too_noisy)
         health.advice = fmt::format("REPEAT THIS: the same work timed twice differed by more than "
                                     "{:.0f} %, so no time here means anything. Close other "

@@ -40,7 +40,7 @@ void set_rates_and_front(std::vector<KernelCost>& costs, const std::set<std::str
         cost.badness = badness_of(cost);
         if (best && (best->task != cost.task || best->panel != cost.panel))
             best = nullptr;
-        cost.on_front = !cost.is_peer && (!best || cost.badness < best->badness);
+        cost.on_front = !cost.is_peer && cost.maybe == 0 && (!best || cost.badness < best->badness);
         if (cost.on_front)
             best = &cost;
     }

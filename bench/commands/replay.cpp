@@ -188,13 +188,15 @@ std::string as_json(const RecordedProgram& program, const ReplayReport& report) 
         const auto first =
             std::ranges::find(report.outcomes, outcome.has_shapes, &ReplayOutcome::has_shapes);
         const MedianInterval over = ratio(outcome, *first);
+        std::string rounds;
+        for (const double ns : outcome.total_ns)
+            rounds += (rounds.empty() ? "" : ",") + json_number(ns);
         outcomes += fmt::format(
-            "{}{{\"manager\":{},\"shapes\":{},\"total_ns\":{}{},\"over_first\":{{\"mid\":{},\"lo\":"
-            "{},\"hi\":{}}}"
-            ",\"wrong\":{}}}",
+            "{}{{\"manager\":{},\"shapes\":{},\"total_ns\":{}{},\"rounds_ns\":[{}],"
+            "\"over_first\":{{\"mid\":{},\"lo\":{},\"hi\":{}}},\"wrong\":{}}}",
             outcomes.empty() ? "" : ",\n  ", json_string(outcome.name), outcome.has_shapes,
-            json_number(median_interval(outcome.total_ns).mid), parts, json_number(over.mid),
-            json_number(over.lo), json_number(over.hi), outcome.wrong);
+            json_number(median_interval(outcome.total_ns).mid), parts, rounds,
+            json_number(over.mid), json_number(over.lo), json_number(over.hi), outcome.wrong);
     }
     return fmt::format("{{\"objects\":{},\"calls\":{},\"queries\":{},\"checked\":{},\"missed\":{},"
                        "\n \"managers\":[\n  {}]}}\n",

@@ -97,9 +97,13 @@ std::vector<results::Package> package_rows() {
         row.present = version != "absent";
         row.version = row.present ? version : "";
         for (const Peer& peer : peers())
-            if (peer.name == name)
-                row.build =
-                    fmt::format("{}; what is compiled here: {}", peer.build, of(flags, name));
+            if (peer.name == name) {
+                const std::string own = of(flags, name);
+                row.build = fmt::format("{}; what is compiled here: {}{}", peer.build, own,
+                                        own.find(" -m") == std::string::npos
+                                            ? ", for the baseline instruction set (no -m)"
+                                            : "");
+            }
         if (row.present)
             row.revision = of(revisions, name);
         rows.push_back(row);

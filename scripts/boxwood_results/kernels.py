@@ -3,6 +3,8 @@
 from collections import defaultdict
 from dataclasses import dataclass
 
+from boxwood.results.words import count_text
+
 MIN_ERROR = 2.0**-53  # a relative error below half an ulp of a double is none
 
 
@@ -87,8 +89,13 @@ class Kernel:
     unexcluded: float  # of a million: what so many right answers do not exclude; NaN if some are wrong
     by_error: bool  # its task is judged by errors, not by yes or no
     badness: float  # wrong of a million; or the error, 0 where there is none to speak of, infinite where no digit is right
-    on_front: bool  # no faster one of ours errs less
+    on_front: bool  # ours, never undecided, and no faster such one errs less
     peer: object = None  # a cell of its library, if that is another
+
+    @property
+    def open_text(self):
+        """How many of its cases it does not decide; empty if none."""
+        return f"{count_text(self.maybe)} of {count_text(self.n)}" if self.maybe else ""
 
 
 def read_costs(table, peers):

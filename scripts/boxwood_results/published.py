@@ -5,6 +5,7 @@ scenes are frozen by their content in tracks.csv."""
 import csv
 import hashlib
 import re
+import subprocess
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
@@ -323,6 +324,21 @@ def problems(root):
     found += [f"results/published/{name}.h5: no table stands on it" for name in sorted(strays)]
     found += [f"{root / page}: a table differs from its file; scripts/published rewrites it" for page in PAGES
               if rewritten(page, root) != text_of(page, root)]
+    return found
+
+
+TIMED = ("CMakeLists.txt", "kernels", "trees", "scenes", "bench/peers", "bench/tasks", "bench/running", "bench/stages", "bench/replay")
+
+
+def changed_since(root):
+    """[(commit of published files, names of files of code that is timed that have changed since)]; without git nothing is known."""
+    commits = {row["git_commit"] for one in ALL if one.file(root).exists() for row in read(one.file(root)).source["env"]}
+    found = []
+    for commit in sorted(commits):
+        done = subprocess.run(["git", "-C", root, "diff", "--name-only", commit, "--", *TIMED], capture_output=True, text=True, check=False)
+        names = [name for name in done.stdout.split() if not re.search(r"_test\.c|/testing/|\.md$", name)]
+        if names:
+            found.append((commit, names))
     return found
 
 

@@ -24,7 +24,9 @@ def time_of(row):
 
 
 def ratio_of(row):
-    return marked(row.text, row)
+    """A peer that several threads slow down stands with what it took on one."""
+    by_one = row.a.job.where == ONE and row.b.job.where != ONE
+    return marked(row.text, row) + (" on 1 thread" if by_one else "")
 
 
 COLD = "cold_build+query"
@@ -66,7 +68,11 @@ class Question:
 def asked_of(text, group, measured, rows, wrong=()):
     rows = tuple(rows)
     answered = {row.a.library for row in rows}
-    unanswered = {cell.library: (cell, wrong_counts(cell)) for cell in wrong if cell.library not in answered}
+    unanswered = {}
+    for cell in sorted(wrong, key=lambda cell: cell.median("query")):
+        if cell.library not in answered:
+            in_time = f" (query {time_text(cell.median('query'))})" if cell.has("query") else ""
+            unanswered.setdefault(cell.library, (cell, f"{wrong_counts(cell)}{in_time}"))
     return [Question(text, group, measured, f"{rows[0].b.label} {time_of(rows[0])}", rows, unanswered)] if rows else []
 
 
@@ -221,12 +227,13 @@ def on_a_device(run):
 
 def kernels_of(task):
     def table(run):
-        rows = [["input", "kernel", "library", "promise", "called", "a call", "wrong per million"]]
+        rows = [["input", "kernel", "library", "promise", "called", "a call", "wrong per million", "undecided"]]
         for kernel in run.kernel_costs:
             if kernel.task == task:
                 rate = f"0 (of {count_text(kernel.n)})" if not kernel.wrong else f"{kernel.per_million:,.0f}"
                 rows.append([kernel.panel, kernel.name, kernel.library, kernel.promise if kernel.ours else "",
-                             "in batches" if kernel.name.endswith("_batch") else "one by one", time_text(kernel.ns), rate])
+                             "in batches" if kernel.name.endswith("_batch") else "one by one", time_text(kernel.ns), rate,
+                             kernel.open_text])
         return rows
 
     return table

@@ -56,6 +56,17 @@ class PythonTimes:
     rows: list
     env: dict  # of ENV
 
+    def add(self, of_round):
+        """A round: [[question, n, {whose: (ns, of it inside the library)}], ...], ours under ""."""
+        for place, (question, n, times) in enumerate(of_round):
+            if place == len(self.rows):
+                self.rows.append(Row(question, n, [], [], {whose: [] for whose in times if whose}))
+            row = self.rows[place]
+            row.ours.append(times[""][0])
+            row.inside.append(times[""][1])
+            for whose, of in row.others.items():
+                of.append(times[whose][0])
+
     def write(self, path):
         rows = [vars(row) for row in self.rows]
         part = Path(f"{path}.part")

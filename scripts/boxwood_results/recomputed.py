@@ -4,7 +4,7 @@ import math
 from collections import defaultdict
 from statistics import median
 
-from .run import AA_TWIN
+from .run import AA_TWIN, WHOLE_QUERY
 
 SUMS = {"build+query": ("build", "query"), "update+query": ("update", "query")}
 MIN_ROUNDS_OF_INPUT = 3  # fewer have no median that one disturbed round leaves alone
@@ -68,8 +68,72 @@ def is_held(row):
 
 
 def differences(source):
-    """What of /medians and /compare does not follow from /samples, as texts; none if all does."""
+    """What the tables that are published do not have from /samples and from what was counted, as texts; none if all follows."""
     times = rounds_by_cell(source)
+    return [*medians_and_ratios(source, times), *kernels(source, times), *kernel_costs(source), *device_gains(source, times)]
+
+
+def kernels(source, times):
+    for row in source["kernels"]:
+        values = [ns for of_round in times.get((row["cell_id"], "query"), {}).values() for ns in of_round]
+        n, wrong = int(row["n"]), sum(int(row[column]) for column in ("false_pos", "false_neg", "bound_violations"))
+        name = f"/kernels, cell {row['cell_id']}, {row['kernel']} on {row['family']}"
+        if n and values and not is_near(median(values) / n, row["ns"]):
+            yield f"{name}: not the time of its samples"
+        if wrong != row["wrong"] or (n and not is_near(1e6 * wrong / n, row["wrong_per_million"])):
+            yield f"{name}: not as many wrong as were counted"
+
+
+def kernel_costs(source):
+    variants = {row["variant_id"]: row for row in source["variants"]}
+    of_cell = {row["cell_id"]: variants[row["variant_id"]] for row in source["cells"]}
+    judged = defaultdict(list)
+    for row in source["kernels"]:
+        if row["family"] != WHOLE_QUERY and row["n"] and row["status"] != "unsupported" and row["ns"] == row["ns"]:
+            variant = of_cell[row["cell_id"]]
+            judged[row["task"], row["panel"], bool(variant["is_peer"]), variant["library"], row["label"]].append(row)
+    best = {}  # (task, panel): badness of the last on the front
+    for row in source["kernel_costs"]:
+        key = row["task"], row["panel"], bool(row["is_peer"]), row["library"], row["kernel"]
+        rows, name = judged.pop(key, []), f"/kernel_costs, {row['task']}, {row['panel']}, {row['kernel']}"
+        n, wrong, maybe = (sum(int(one[column]) for one in rows) for column in ("n", "wrong", "maybe"))
+        if not rows or (n, wrong, maybe) != (row["n"], row["wrong"], row["maybe"]) or not is_near(1e6 * wrong / n, row["wrong_per_million"]):
+            yield f"{name}: not the sums of its families"
+        elif not is_near(sum(float(one["ns"]) for one in rows) / len(rows), row["ns"]):
+            yield f"{name}: not the mean of its families"
+        front = not row["is_peer"] and not maybe and (key[:2] not in best or row["badness"] < best[key[:2]])
+        if front != bool(row["on_front"]):
+            yield f"{name}: " + ("no faster one that always decides betters it, and it is not on the front" if front else
+                                 "on the front, though it leaves cases open or a faster one betters it")
+        if front:
+            best[key[:2]] = row["badness"]
+    for task, panel, _, _, label in judged:
+        yield f"/kernel_costs, {task}, {panel}, {label}: missing"
+
+
+def device_gains(source, times):
+    totals = {row["task"]: row["total"] for row in source["tasks"]}
+    ratios = {(row["cell_a"], row["cell_b"], row["phase"]): row for row in source["compare"] if row["family"] == "devices"}
+
+    def shared(cell, other, phase):
+        """The median of a cell in the rounds that another has, too."""
+        own, of_other = times.get((cell, phase), {}), times.get((other, phase), {})
+        values = [ns for key in own.keys() & of_other.keys() for ns, _ in pairs(own, of_other, key)]
+        return median(values) if values else math.nan
+
+    for row in source["device_gains"]:
+        device, total = row["cell_device"], totals[row["task"]]
+        name = f"/device_gains, {row['task']}, {row['n']}"
+        for column, cell in (("cpu_1_ns", "cell_1"), ("cpu_2_ns", "cell_2"), ("cpu_all_ns", "cell_all"), ("end_to_end_ns", "cell_device"),
+                             ("resident_ns", "cell_resident"), ("graph_ns", "cell_graph")):
+            if row[column] == row[column] and not is_near(shared(row[cell], device, total), row[column]):
+                yield f"{name}: {column} is not the median of its samples"
+        compared = ratios.get((row["cell_cpu"], device, total))
+        if row["ratio"] == row["ratio"] and (compared is None or any(row[column] != compared[column] for column in ("ratio", "ci_lo", "ci_hi", "verdict"))):
+            yield f"{name}: not the ratio of its comparison"
+
+
+def medians_and_ratios(source, times):
     machine = {row["env_id"]: row["env_hash"] for row in source["env"]}
     input_of = {(machine[row["env_id"]], row["round"]): row["input"] for row in source["shards"]}
     found = []

@@ -21,7 +21,7 @@ MEMBERS = {"ns", "wrong", "maybe", "error", "per_million", "unexcluded", "tiers"
            "without_ns", "extra_ns", "times_fastest", "noise_floor", "n", "n_queries", "counters", "frame_stats", "work"}
 LAYOUT = {"labels.py", "style.py"}  # where texts and axes stand; they know no result file
 CHECKS = {"recomputed.py"}  # holds what a file says against its samples, and shows nothing
-COMPUTES = {"python_times.py"}  # of samples that no C++ program takes
+COMPUTES = {"python_times.py", "dropin_times.py"}  # of samples that no result file holds
 ALLOWED = {
     ("figures/builder_tradeoff.py", "draw_panel"): "where the number beside a line stands",
     ("figures/ledger.py", "height_of"): "inches that bars and their text take",

@@ -127,23 +127,35 @@ def test_what_python_takes_is_shown_with_its_intervals(root):
 
 def test_what_the_drop_in_gains_is_shown_by_its_fastest_rival(root):
     def manager(name, ratio, wrong=0):
-        return {"manager": name, "shapes": False, "total_ns": 1e6 * ratio, "wrong": wrong,
+        spread = [1.0] * 9 if ratio == 1 else [0.8, 0.9, 1, 1, 1, 1, 1, 1.1, 1.2]
+        return {"manager": name, "shapes": False, "wrong": wrong, "rounds_ns": [1e6 * ratio * factor for factor in spread],
                 "over_first": {"mid": ratio, "lo": 0.9 * ratio, "hi": 1.1 * ratio}}
 
     runs = [dropin_times.Run(1000, 0.01, 50, [manager("boxwood.fcl_manager", 1), manager("fcl.slow", 9), manager("fcl.fast", 4),
-                                              manager("fcl.liar", 2, wrong=1), manager("coal.array", 1.05)])]
+                                              manager("fcl.liar", 2, wrong=1), manager("boxwood.coal_manager", 2),
+                                              manager("coal.array", 2.1)])]
     env = {"host": "h", "cpu": "a CPU", "ncpu": 2, "git_commit": "abcdef012345", "git_dirty": 0, "created_utc": "2026-11-26T10:00:00",
            "versions": {}}
-    dropin_times.DropinTimes(15, runs, env).write(root / published.DROPIN)
+    runs[0].managers[-2]["rounds_ns"].reverse()  # a round's times belong together
+    dropin_times.DropinTimes(9, runs, env).write(root / published.DROPIN)
     published.write(root)
     text = (root / "README.md").read_text()
-    assert "| 1,000 | 1 % | 1.00 ms for 50 frames | 4.00x (3.60 to 4.40) fcl.fast | 1.05x (0.945 to 1.16) ? coal.array |" in text
-    assert "15 rounds, a CPU, 2 cores, commit abcdef01" in text and published.problems(root) == []
-    assert "dropin.json --rounds 15 --bodies 1000`" in text
+    assert ("| 1,000 | 1 % | 1.00 ms for 50 frames | 4.00x (3.60 to 4.40) fcl.fast | 2.00 ms for 50 frames | "
+            "1.05x (0.859 to 1.28) ? coal.array |") in text
+    assert "9 rounds, a CPU, 2 cores, commit abcdef01" in text and published.problems(root) == []
+    assert "dropin.json --rounds 9 --bodies 1000`" in text
+
+    def refused(why):
+        dropin_times.DropinTimes(9, runs, env).write(root / published.DROPIN)
+        with pytest.raises(published.BadFile, match=why):
+            published.problems(root)
+
+    runs[0].managers[2]["rounds_ns"] = [1.01 * ns for ns in runs[0].managers[2]["rounds_ns"]]
+    refused("fcl.fast: its ratio does not follow from its rounds")
+    runs[0].managers[1]["rounds_ns"].pop()
+    refused("fcl.slow has not a time above 0 of each of 9 rounds at least")
     runs[0].managers[0]["wrong"] = 1
-    dropin_times.DropinTimes(15, runs, env).write(root / published.DROPIN)
-    with pytest.raises(published.BadFile, match="ours is wrong"):
-        published.problems(root)
+    refused("boxwood.fcl_manager is wrong")
 
 
 @pytest.mark.parametrize("n, cut", [(1, 0), (5, 0), (6, 0), (8, 0), (9, 1), (11, 1), (12, 2), (30, 9)])
@@ -389,8 +401,9 @@ def test_a_question_with_a_library_struck_out_is_neither_the_middle_nor_the_most
     def question(mid, libraries, struck=()):
         gain = SimpleNamespace(mid=mid, lo=mid, hi=mid)
         cells = {library: SimpleNamespace(library=library, library_title=library, place=place) for place, library in enumerate(libraries)}
-        row = SimpleNamespace(gain=gain, text=f"{mid}x", is_open=False, verdict="faster" if mid > 1 else "slower")
-        known = {library: SimpleNamespace(**vars(row), a=cell) for library, cell in cells.items()}
+        job = SimpleNamespace(job=SimpleNamespace(where=published_tables.ONE))
+        row = SimpleNamespace(gain=gain, text=f"{mid}x", is_open=False, verdict="faster" if mid > 1 else "slower", a=job, b=job)
+        known = {library: SimpleNamespace(**{**vars(row), "a": cell}) for library, cell in cells.items()}
         return SimpleNamespace(group="shapes", measured="all the calls", rows=(row,), closest=row, known=known,
                                unanswered={library: (None, "wrong in 1") for library in struck})
 

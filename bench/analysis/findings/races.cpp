@@ -32,14 +32,16 @@ class Races {
             if (is_judged(row) && row.wrong + row.maybe == 0 && !by_error.contains(row.task))
                 always_right_.insert(row.cell_id);
         for (const Comparison& row : index.results().compare)
-            compare_[{row.cell_a, row.cell_b, row.phase, row.contender_class}] = &row;
+            if (row.family == results::Family::peers)
+                against_.insert({{row.cell_b, row.phase, row.contender_class}, &row});
+            else if (row.family == results::Family::ours)
+                compare_[{row.cell_a, row.cell_b, row.phase}] = &row;
     }
 
     std::vector<Draft> all() {
         std::map<std::pair<JobKey, std::string>, Sides> jobs; // and class
         for (const Cell& cell : index_.results().cells)
-            if (is_right(cell.status) && index_.stages(cell).empty() &&
-                (!index_.is_kernel(cell) || always_right_.contains(cell.cell_id)))
+            if (may_race(cell))
                 for (const std::string& name : split_classes(cell.classes)) {
                     Sides& sides = jobs[{job_of(cell), name}];
                     (index_.is_peer(cell) ? sides.peers : sides.ours).push_back(&cell);
@@ -113,18 +115,20 @@ class Races {
             return nullptr;
         const Comparison* best = nullptr;
         if (sides.peers.empty()) {
-            best = compared(*reference_of(index_, *ours), *ours, phase, "");
+            const auto found =
+                compare_.find({reference_of(index_, *ours)->cell_id, ours->cell_id, phase});
+            best = found == compare_.end() ? nullptr : found->second;
         } else {
             // One that is faster beyond doubt, if there is one; else the fastest.
             const auto rank = [&](const Comparison& row) {
                 return std::pair(row.verdict != results::Verdict::slower,
                                  medians_.ns(row.cell_a, phase));
             };
-            for (const Cell* peer : sides.peers) {
-                const Comparison* row = compared(*peer, *ours, phase, name);
-                if (row && (!best || rank(*row) < rank(*best)))
-                    best = row;
-            }
+            const auto [first, last] = against_.equal_range({ours->cell_id, phase, name});
+            for (auto found = first; found != last; ++found)
+                if (const Comparison& row = *found->second;
+                    may_race(index_.cell(row.cell_a)) && (!best || rank(row) < rank(*best)))
+                    best = &row;
         }
         if (best) {
             ours_id = best->cell_b;
@@ -133,17 +137,18 @@ class Races {
         return best;
     }
 
-    const Comparison* compared(const Cell& a, const Cell& b, Phase phase,
-                               const std::string& name) const {
-        const auto found = compare_.find({a.cell_id, b.cell_id, phase, name});
-        return found == compare_.end() ? nullptr : found->second;
+    /// Of kernels those alone that answered each case, and rightly.
+    bool may_race(const Cell& cell) const {
+        return is_right(cell.status) && index_.stages(cell).empty() &&
+               (!index_.is_kernel(cell) || always_right_.contains(cell.cell_id));
     }
 
     /// A peer's library; of ours what tells it from our best.
     std::string rival_words(std::uint32_t rival_id, std::uint32_t ours_id) const {
         const results::Variant& rival = index_.variant(index_.cell(rival_id));
         const results::Variant& ours = index_.variant(index_.cell(ours_id));
-        return rival.is_peer                   ? rival.library_title
+        const bool by_one = index_.cell(rival_id).threads == 1 && index_.cell(ours_id).threads > 1;
+        return rival.is_peer ? rival.library_title + (by_one ? " on 1 thread" : "")
                : rival.builder != ours.builder ? rival.builder
                : rival.layout != ours.layout   ? rival.layout
                                                : rival.kernel;
@@ -152,8 +157,9 @@ class Races {
     const Index& index_;
     const MedianIndex& medians_;
     std::set<std::uint32_t> always_right_; ///< kernels, on their family
-    std::map<std::tuple<std::uint32_t, std::uint32_t, Phase, std::string>, const Comparison*>
-        compare_;
+    /// By our cell, phase and class.
+    std::multimap<std::tuple<std::uint32_t, Phase, std::string>, const Comparison*> against_;
+    std::map<std::tuple<std::uint32_t, std::uint32_t, Phase>, const Comparison*> compare_;
     std::vector<Draft> drafts_;
 };
 

@@ -10,7 +10,8 @@ from ..picture import Picture, Skip
 NAME = "accuracy"
 TITLE = "What accuracy costs"
 HOW_TO_READ = (
-    "Lower left is better. The line joins our kernels that no faster one of ours betters; hollow marks are peers. "
+    "Lower left is better. The line joins our kernels that always decide and that no faster such one betters; hollow marks are "
+    "peers. A mark that is filled to the half leaves some cases open ('maybe'), which counts as no wrong answer. "
     "A kernel in the zero band at the bottom gave no wrong answer; its bar reaches up to 3/N, the rate that so "
     "many right answers cannot exclude (95 %). Distances are drawn by their worst relative error; their zero band "
     "is half an ulp or less, their band at the top all above 1, where no digit is right. Times are means over the "
@@ -60,8 +61,9 @@ def draw_panel(ax, panel, found, measured):
             ax.plot([kernel.ns, kernel.ns], [band, kernel.unexcluded], color=colour, linewidth=1, alpha=0.45, zorder=2)
             lines.append([(kernel.ns, band), (kernel.ns, kernel.unexcluded)])
         ax.plot([kernel.ns], [y], marker=marker, markersize=7, linestyle="", zorder=5, markeredgewidth=1.3,
-                markeredgecolor=colour if not kernel.ours else "white",
-                markerfacecolor="white" if not kernel.ours else colour)
+                markeredgecolor="white" if kernel.ours and not kernel.maybe else colour,
+                fillstyle="left" if kernel.maybe else "full", markerfacecoloralt="white",
+                markerfacecolor="white" if not (kernel.ours or kernel.maybe) else colour)
         marks.append((kernel.ns, y, kernel.name, style.readable(colour)))
     best = [(kernel.ns, height(v)) for kernel, v in zip(found, values) if kernel.on_front]
     ax.plot([x for x, _ in best], [y for _, y in best], color=style.FAINT, linewidth=1.1, zorder=1)

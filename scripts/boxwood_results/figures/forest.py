@@ -101,7 +101,9 @@ def races(run):
 
 def said_of(comparison):
     words = comparison.verdict_text
-    return f"{comparison.b.library_title} {words}" if comparison.verdict in ("faster", "slower") else words
+    if comparison.verdict in ("faster", "slower"):
+        words = f"{comparison.b.library_title} {words}"
+    return words if comparison.a.job == comparison.b.job else f"{words}; it on {comparison.a.job.where}"
 
 
 def ratio_axis(ax, comparisons):
