@@ -70,7 +70,8 @@ def is_held(row):
 def differences(source):
     """What the tables that are published do not have from /samples and from what was counted, as texts; none if all follows."""
     times = rounds_by_cell(source)
-    return [*medians_and_ratios(source, times), *kernels(source, times), *kernel_costs(source), *device_gains(source, times)]
+    return [*medians_and_ratios(source, times), *kernels(source, times), *kernel_costs(source), *effect_costs(source, times),
+            *device_gains(source, times)]
 
 
 def kernels(source, times):
@@ -111,25 +112,48 @@ def kernel_costs(source):
         yield f"/kernel_costs, {task}, {panel}, {label}: missing"
 
 
-def device_gains(source, times):
+def shared(times, cell, other, phase):
+    """The median of a cell in the rounds that another has, too."""
+    own, of_other = times.get((cell, phase), {}), times.get((other, phase), {})
+    values = [ns for key in own.keys() & of_other.keys() for ns, _ in pairs(own, of_other, key)]
+    return median(values) if values else math.nan
+
+
+def totals_of_cells(source):
     totals = {row["task"]: row["total"] for row in source["tasks"]}
-    ratios = {(row["cell_a"], row["cell_b"], row["phase"]): row for row in source["compare"] if row["family"] == "devices"}
+    return {row["cell_id"]: totals[row["task"]] for row in source["cells"]}
 
-    def shared(cell, other, phase):
-        """The median of a cell in the rounds that another has, too."""
-        own, of_other = times.get((cell, phase), {}), times.get((other, phase), {})
-        values = [ns for key in own.keys() & of_other.keys() for ns, _ in pairs(own, of_other, key)]
-        return median(values) if values else math.nan
 
+def compared(source, family):
+    return {(row["cell_a"], row["cell_b"], row["phase"]): row for row in source["compare"] if row["family"] == family}
+
+
+def is_of(row, comparison, columns=("ratio", "ci_lo", "ci_hi")):
+    return row["ratio"] != row["ratio"] or (comparison is not None and all(row[column] == comparison[column] for column in columns))
+
+
+def effect_costs(source, times):
+    totals, ratios = totals_of_cells(source), compared(source, "stages")
+    for row in source["effect_costs"]:
+        of, without, total = row["cell_with"], row["cell_without"], totals[row["cell_with"]]
+        name = f"/effect_costs, cell {of}, {row['what']}"
+        if not (is_near(shared(times, of, without, total), row["with_ns"]) and is_near(shared(times, without, of, total), row["without_ns"])):
+            yield f"{name}: not the medians of its samples"
+        if not is_of(row, ratios.get((without, of, total))):
+            yield f"{name}: not the ratio of its comparison"
+
+
+def device_gains(source, times):
+    totals, ratios = totals_of_cells(source), compared(source, "devices")
     for row in source["device_gains"]:
-        device, total = row["cell_device"], totals[row["task"]]
+        device = row["cell_device"]
+        total = totals[device]
         name = f"/device_gains, {row['task']}, {row['n']}"
         for column, cell in (("cpu_1_ns", "cell_1"), ("cpu_2_ns", "cell_2"), ("cpu_all_ns", "cell_all"), ("end_to_end_ns", "cell_device"),
                              ("resident_ns", "cell_resident"), ("graph_ns", "cell_graph")):
-            if row[column] == row[column] and not is_near(shared(row[cell], device, total), row[column]):
+            if row[column] == row[column] and not is_near(shared(times, row[cell], device, total), row[column]):
                 yield f"{name}: {column} is not the median of its samples"
-        compared = ratios.get((row["cell_cpu"], device, total))
-        if row["ratio"] == row["ratio"] and (compared is None or any(row[column] != compared[column] for column in ("ratio", "ci_lo", "ci_hi", "verdict"))):
+        if not is_of(row, ratios.get((row["cell_cpu"], device, total)), ("ratio", "ci_lo", "ci_hi", "verdict")):
             yield f"{name}: not the ratio of its comparison"
 
 

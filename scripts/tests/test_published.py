@@ -257,7 +257,17 @@ def edited(file, table, column, change):
     ("medians", "median_ns", lambda ns: 1.01 * ns, "not the median of its samples"),
     ("compare", "ratio", lambda ratio: 2 * ratio, "not the ratio of its samples"),
     ("compare", "ci_hi", lambda hi: 0.999 * hi, "not an interval of its samples"),
-    ("compare", "floor", lambda floor: 1000 + 0 * floor, "its interval or the noise floor does not")])
+    ("compare", "floor", lambda floor: 1000 + 0 * floor, "its interval or the noise floor does not"),
+    ("kernels", "ns", lambda ns: 1.01 * ns, "not the time of its samples"),
+    ("kernels", "wrong", lambda wrong: wrong + 1, "not as many wrong as were counted"),
+    ("kernel_costs", "ns", lambda ns: 1.01 * ns, "not the mean of its families"),
+    ("kernel_costs", "maybe", lambda maybe: maybe + 1, "not the sums of its families"),
+    ("kernel_costs", "on_front", lambda front: 1 + 0 * front, "on the front, though"),
+    ("kernel_costs", "on_front", lambda front: 0 * front, "it is not on the front"),
+    ("effect_costs", "without_ns", lambda ns: 1.01 * ns, "not the medians of its samples"),
+    ("effect_costs", "ci_lo", lambda lo: 0.99 * lo, "not the ratio of its comparison"),
+    ("device_gains", "end_to_end_ns", lambda ns: 1.01 * ns, "end_to_end_ns is not the median of its samples"),
+    ("device_gains", "ratio", lambda ratio: 1.01 * ratio, "not the ratio of its comparison")])
 def test_numbers_that_do_not_follow_from_the_samples_are_said(root, table, column, change, problem):
     file = file_of(root, "pairs", synthetic.full(wrong=False))
     published.freeze(root)
