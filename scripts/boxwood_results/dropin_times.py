@@ -14,30 +14,41 @@ from boxwood.results.words import interval_text, time_text
 
 # What stands in the place of a library's managers, whose names begin with the library's.
 OURS = {"fcl": "boxwood.fcl_manager", "coal": "boxwood.coal_manager"}
+WORLD = "boxwood.world"  # with a narrow phase of its own
+WITH_FCL = "boxwood.fcl_manager, FCL's shapes"  # with FCL's
 NEAR = 1e-6  # of the program's own ratio and that of its samples
 
 
 @dataclass(frozen=True)
 class Run:
-    """A made program: so many bodies, of which a share moves in each of its frames."""
+    """A made program: so many bodies, of which a share moves in each of its frames. With triangles it asks which touch, and in each
+    frame for some distances; else for pairs of bounds."""
 
     bodies: int
     moved: float
     frames: int
-    managers: list  # as `boxwood replay --json` has them, of bounds alone, the first of them ours
+    managers: list  # as `boxwood replay --json` has them, of bounds alone or of shapes, the first of them ours
+    triangles: int = 0  # of each body
+    distances: int = 0  # that are asked for in a frame
+
+    def ours(self, library):
+        return WORLD if self.triangles else OURS.get(library, "")
 
     def times(self, name):
         """Of a manager, by round; None if it was not there."""
         return next((row["rounds_ns"] for row in self.managers if row["manager"] == name), None)
+
+    def over(self, manager, ours):
+        """(median, lo, hi) of its time over ours, round by round."""
+        return median_interval([theirs / own for theirs, own in zip(self.times(manager), self.times(ours))])
 
     def fastest(self):
         """{library: (its manager that takes the least of those that answer rightly, (median, lo, hi) of its time over ours)}."""
         found = {}
         for row in self.managers:
             library = row["manager"].split(".")[0]
-            ours = self.times(OURS.get(library, ""))
-            if ours and not row["wrong"]:
-                over = median_interval([theirs / own for theirs, own in zip(row["rounds_ns"], ours)])
+            if library in OURS and self.times(self.ours(library)) and not row["wrong"]:
+                over = self.over(row["manager"], self.ours(library))
                 if library not in found or over < found[library][1]:
                     found[library] = row["manager"], over
         return found
@@ -46,13 +57,13 @@ class Run:
         """Why these rows are not to be used; empty if they are."""
         for row in self.managers:
             times, first = row["rounds_ns"], self.managers[0]["rounds_ns"]
-            if row["manager"] in OURS.values() and row["wrong"]:
+            if row["manager"] in (*OURS.values(), WORLD) and row["wrong"]:
                 return f"{row['manager']} is wrong"
             if len(times) != len(first) or len(times) < MIN_ROUNDS or not min(times) > 0:
                 return f"{row['manager']} has not a time above 0 of each of {MIN_ROUNDS} rounds at least"
             if not math.isclose(statistics.median(ns / own for ns, own in zip(times, first)), row["over_first"]["mid"], rel_tol=NEAR):
                 return f"{row['manager']}: its ratio does not follow from its rounds"
-        return "" if self.times(OURS["fcl"]) else f"{OURS['fcl']} is missing"
+        return "" if self.times(self.ours("fcl")) else f"{self.ours('fcl')} is missing"
 
 
 MIN_ROUNDS = 9
@@ -85,16 +96,39 @@ def read(path):
         raise BadFile(path, f"it is no file of scripts/dropin_bench --out ({error})") from error
 
 
+def moved_text(run):
+    return "all" if run.moved == 1 else f"{100 * run.moved:g} %"
+
+
+def times_text(run, name):
+    own = run.times(name)
+    return f"{time_text(statistics.median(own))} for {run.frames} frames" if own else ""
+
+
+def over_text(over, what=""):
+    return f"{interval_text(*over)}{open_mark(over)} {what}".rstrip()
+
+
 def table(times):
-    """[header, row, ...] of texts."""
+    """[header, row, ...] of texts: of bounds."""
     rows = [["bodies", "that move in a frame", "boxwood::FclBroadPhase", "FCL's fastest / it", "boxwood::CoalBroadPhase", "Coal's fastest / it"]]
     for run in times.runs:
-        row = [f"{run.bodies:,}", "all" if run.moved == 1 else f"{100 * run.moved:g} %"]
-        fastest = run.fastest()
-        for library, name in OURS.items():
-            own = run.times(name)
-            row.append(f"{time_text(statistics.median(own))} for {run.frames} frames" if own else "")
-            manager, over = fastest.get(library, ("", None))
-            row.append(f"{interval_text(*over)}{open_mark(over)} {manager}" if over else "")
-        rows.append(row)
+        if not run.triangles:
+            rows.append([f"{run.bodies:,}", moved_text(run)])
+            for library, name in OURS.items():
+                manager, over = run.fastest().get(library, ("", None))
+                rows[-1] += [times_text(run, name), over_text(over, manager) if over else ""]
+    return rows
+
+
+def worlds_table(times):
+    """[header, row, ...] of texts: of bodies that are meshes."""
+    rows = [["bodies", "triangles of each", "that move in a frame", "distances in a frame", "boxwood::World", "FCL / it", "Coal / it",
+             "FclBroadPhase with FCL's shapes / it"]]
+    for run in times.runs:
+        if run.triangles:
+            fastest = run.fastest()
+            rows.append([f"{run.bodies:,}", f"{run.triangles:,}", moved_text(run), f"{run.distances:,}", times_text(run, WORLD),
+                         *(over_text(fastest[library][1]) if library in fastest else "" for library in OURS),
+                         over_text(run.over(WITH_FCL, WORLD)) if run.times(WITH_FCL) else ""])
     return rows

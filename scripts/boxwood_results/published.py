@@ -198,21 +198,26 @@ DROPIN = Path("results") / "published" / "dropin.json"
 DROPIN_COMMAND = f"scripts/dropin_bench --out {DROPIN}"
 
 
-def dropin_block(root, up):
+def dropin_block(root, up, table=dropin_times.table):
     """What a program gains that has FCL's or Coal's manager: of scripts/dropin_bench, which no sweep holds."""
     if not (root / DROPIN).exists():
         return f"*FclBroadPhase: not published yet. `{DROPIN_COMMAND}` measures it.*\n"
     times = dropin_times.read(root / DROPIN)
+    if len(table(times)) == 1:
+        return f"*Not published yet. `{DROPIN_COMMAND}` measures it.*\n"
     env = times.env
-    bodies = " ".join(map(str, dict.fromkeys(run.bodies for run in times.runs)))
-    return (f"{markdown(dropin_times.table(times))}\n\n*{env['created_utc'][:10]}, {times.rounds} rounds, {env['cpu']}, {env['ncpu']} cores, "
-            f"commit {env['git_commit'][:8]}; [`{DROPIN.name}`]({up}{DROPIN}). Again: `{DROPIN_COMMAND} --rounds {times.rounds} --bodies {bodies}`.*\n")
+    bodies, meshes = (" ".join(map(str, dict.fromkeys(run.bodies for run in times.runs if bool(run.triangles) == are_meshes)))
+                      for are_meshes in (False, True))
+    return (f"{markdown(table(times))}\n\n*{env['created_utc'][:10]}, {times.rounds} rounds, {env['cpu']}, {env['ncpu']} cores, "
+            f"commit {env['git_commit'][:8]}; [`{DROPIN.name}`]({up}{DROPIN}). Again: `{DROPIN_COMMAND} --rounds {times.rounds} --bodies {bodies} "
+            f"--meshes {meshes}".rstrip() + "`.*\n")
 
 
 BLOCKS = {  # marker -> (root, up) -> text
     "summary": summary_block,
     "python": python_block,
     "dropin": dropin_block,
+    "worlds": lambda root, up: dropin_block(root, up, dropin_times.worlds_table),
     **{one.name: lambda root, up, one=one: table_block(one, root, up) for one in ALL},
     **{f"{one.name}_picture": lambda root, up, one=one: picture_block(one, root, up) for one in ALL if one.picture},
 }
