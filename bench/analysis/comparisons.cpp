@@ -173,11 +173,24 @@ void against_peers(const Index& index, const Times& times, Judge& judge) {
             for (const std::string& name : split_classes(cell.classes))
                 peers_of[{job_of(cell), name}].push_back(&cell);
     const std::map<Contender, const Cell*> single = on_one_thread(index);
+    for (auto& [key, peers] : peers_of)
+        if (const auto& [scene, task, threads, device] = key.first; threads > 1 && device.empty()) {
+            std::set<std::uint32_t> with_threads;
+            for (const Cell* peer : peers)
+                with_threads.insert(peer->variant_id);
+            for (const auto& [contender, cell] : single)
+                if (cell->scene_id == scene && cell->task == task && index.is_peer(*cell) &&
+                    is_right(cell->status) && !with_threads.contains(cell->variant_id) &&
+                    std::ranges::count(split_classes(cell->classes), key.second))
+                    peers.push_back(cell);
+        }
     const auto at_its_best = [&](const Cell& peer, Phase phase) -> const Cell& {
         const auto one =
             peer.threads > 1 && !is_device(peer) ? single.find(contender_of(peer)) : single.end();
         if (one == single.end() || !is_right(one->second->status))
             return peer;
+        if (peer.status == Status::unsupported)
+            return *one->second;
         const std::vector<double> logs =
             times.log_ratios(one->second->cell_id, peer.cell_id, phase);
         return !logs.empty() && paired_ratio(logs).ratio > 1 ? *one->second : peer;

@@ -15,7 +15,8 @@ namespace boxwood::bench {
 /// the sums with the query. The claims of one line about one task are decided together:
 /// - peers: each cell of ours against the peers of its class in its job (see job.h). Where one side
 ///   alone keeps a structure, the query of the other holds all the work: only the sum is compared.
-///   A peer that several threads slow down stands with its cell on one thread, if there is one.
+///   On several threads a peer that they slow down, or that has none, stands with its cell on one,
+///   if any peer has several there.
 /// - ours: each cell of ours against the reference of its job (see reference_of).
 /// - threads: several threads against one, of each contender.
 /// - stages: all stages against only the required ones, and a scene with an effect against the same

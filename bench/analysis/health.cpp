@@ -21,7 +21,7 @@ using results::Status;
 
 struct Counted {
     std::string first_wrong;      ///< name of the first of ours that is to blame
-    std::uint64_t unpromised = 0; ///< of ours, wrong where it promises no right answer
+    std::uint64_t unpromised = 0; ///< of ours, wrong where no promise covers it
 };
 
 Counted count_answers(const Results& results, Health& health) {
@@ -93,7 +93,7 @@ std::string correctness_text(const Results& results, const Health& health, const
         "{} answers checked: {} of ours wrong{}{}, {} of the peers' wrong", health.answers,
         health.wrong_ours,
         counted.unpromised
-            ? fmt::format(" against a promise and {} without one", counted.unpromised)
+            ? fmt::format(" against a promise and {} that none covers", counted.unpromised)
             : "",
         counted.first_wrong.empty() ? "" : " (" + counted.first_wrong + ")", health.wrong_peers);
     std::uint64_t named = 0;

@@ -111,6 +111,29 @@ std::string calls_of(const RecordedProgram& program) {
     return table.text();
 }
 
+/// What its callbacks asked about the shapes of pairs; empty if that is not known.
+std::string requests_of(const RecordedProgram& program) {
+    TextTable table({"asked about shapes", ">times", ">time in the program"});
+    for (std::size_t i = 0; i < program.requests.size(); ++i) {
+        double n = 0, ns = 0;
+        for (const RecordedProgram::Asked& row : program.asked)
+            if (row.request == i) {
+                n += row.n;
+                ns += row.ns;
+            }
+        const auto [question, most, contacts, points, is_signed] = program.requests[i];
+        const std::string many =
+            most < 1e9 ? fmt::format("at most {:.0f}", most) : std::string("all");
+        table.add({question == 0 && contacts == 0 && most == 1 ? "do they touch"
+                   : question == 0 ? fmt::format("do they touch, {} {}", many,
+                                                 contacts != 0 ? "contacts" : "pairs of parts")
+                                   : fmt::format("how far apart{}{}", points != 0 ? ", where" : "",
+                                                 is_signed != 0 ? ", below 0 if they overlap" : ""),
+                   fmt::format("{:.0f}", n), time_text(ns)});
+    }
+    return table.empty() ? "" : table.text() + "\n";
+}
+
 std::string answers_text(const ReplayOutcome& outcome, const ReplayOutcome& first,
                          std::size_t n_checked) {
     if (&outcome == &first && outcome.has_shapes)
@@ -154,18 +177,19 @@ std::string table_of(const ReplayReport& report, bool with_shapes) {
 
 std::string as_text(const ReplayOptions& options, const RecordedProgram& program,
                     const ReplayReport& report) {
-    std::string text =
-        fmt::format("{}: {} objects ({}), {} calls, numbers of {} bits\n\n{}\n",
-                    options.file.empty() ? "a made program" : options.file, program.n_objects(),
-                    shapes_of(program), program.calls.size(), program.bits, calls_of(program));
+    std::string text = fmt::format("{}: {} objects ({}), {} calls, numbers of {} bits\n\n{}\n{}",
+                                   options.file.empty() ? "a made program" : options.file,
+                                   program.n_objects(), shapes_of(program), program.calls.size(),
+                                   program.bits, calls_of(program), requests_of(program));
     const auto rounds = report.outcomes.front().total_ns.size();
     if (!report.outcomes.front().has_shapes)
         text += fmt::format("Pairs alone: a callback takes note, and does no narrow phase (medians "
                             "of {} rounds in turns)\n{}\n",
                             rounds, table_of(report, false));
     if (report.outcomes.back().has_shapes)
-        text += fmt::format("With the shapes: which pairs touch, and the least distance; objects "
+        text += fmt::format("With the shapes: which pairs touch{}, and the least distance; objects "
                             "are moved within the time\n{}\n",
+                            program.touch.contacts ? ", with their contacts" : "",
                             table_of(report, true));
     text +=
         fmt::format("{} of {} queries were checked by testing all pairs{}.\n", report.n_checked,

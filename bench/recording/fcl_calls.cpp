@@ -1,6 +1,7 @@
 /// Loaded by `boxwood record` before the libraries of a program: has the symbols of FCL's managers
-/// in libfcl, so that their calls come here, and go on to FCL by way of a recorder. Each process
-/// claims files of its own, BOXWOOD_RECORD and then the same with -2, -3 ...
+/// in libfcl, so that their calls come here, and go on to FCL by way of a recorder; and those of
+/// the functions that callbacks ask about shapes. Each process claims files of its own,
+/// BOXWOOD_RECORD and then the same with -2, -3 ...
 
 #include "bench/recording/recording_names.h"
 #include "trees/adapters/fcl_recorder.h"
@@ -17,6 +18,13 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+
+#define BOXWOOD_COLLIDE                                                                            \
+    "_ZN3fcl7collideIdEEmPKNS_15CollisionObjectIT_EES5_"                                           \
+    "RKNS_16CollisionRequestIS2_EERNS_15CollisionResultIS2_EE"
+#define BOXWOOD_DISTANCE                                                                           \
+    "_ZN3fcl8distanceIdEET_PKNS_15CollisionObjectIS1_EES5_"                                        \
+    "RKNS_15DistanceRequestIS1_EERNS_14DistanceResultIS1_EE"
 
 namespace {
 
@@ -180,7 +188,35 @@ void take(Manager* manager, const GoOn& go_on, const Record& record) {
         go_on();
 }
 
+/// answer() about the shapes of a pair, written down if a callback of a recorded call asks.
+template <class Request, class Answer> auto ask(const Request& request, const Answer& answer) {
+    if (is_within)
+        return answer();
+    return Recorder::asking(request, [&] {
+        const Within question(true); // FCL asks itself on
+        return answer();
+    });
+}
+
 } // namespace
+
+extern "C" [[gnu::visibility("default")]] std::size_t
+boxwood_record_collide(const Object* a, const Object* b, const fcl::CollisionRequestd& request,
+                       fcl::CollisionResultd& result) asm(BOXWOOD_COLLIDE);
+std::size_t boxwood_record_collide(const Object* a, const Object* b,
+                                   const fcl::CollisionRequestd& request,
+                                   fcl::CollisionResultd& result) {
+    static const auto next = in_fcl<decltype(boxwood_record_collide)>(BOXWOOD_COLLIDE);
+    return ask(request, [&] { return next(a, b, request, result); });
+}
+extern "C" [[gnu::visibility("default")]] double
+boxwood_record_distance(const Object* a, const Object* b, const fcl::DistanceRequestd& request,
+                        fcl::DistanceResultd& result) asm(BOXWOOD_DISTANCE);
+double boxwood_record_distance(const Object* a, const Object* b,
+                               const fcl::DistanceRequestd& request, fcl::DistanceResultd& result) {
+    static const auto next = in_fcl<decltype(boxwood_record_distance)>(BOXWOOD_DISTANCE);
+    return ask(request, [&] { return next(a, b, request, result); });
+}
 
 // A member function is called as a function with the object as its first argument. NAME is of the
 // function here, SYMBOL that of the member.

@@ -1,6 +1,6 @@
 /// A program for tests of `boxwood record`, which knows nothing of Boxwood: every manager in turn,
-/// every kind of call, a query within a callback, a manager where another one was. Prints what came
-/// out. With "other" it calls no manager, and ends with 3.
+/// every kind of call, a query within a callback, a manager where another one was, threads. Prints
+/// what came out. With "other" it calls no manager, and ends with 3.
 
 #include <fcl/broadphase/broadphase_SSaP.h>
 #include <fcl/broadphase/broadphase_SaP.h>
@@ -10,12 +10,16 @@
 #include <fcl/broadphase/broadphase_interval_tree.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/sphere.h>
+#include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 
+#include <barrier>
 #include <cstdio>
 #include <memory>
 #include <string_view>
+#include <thread>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -36,6 +40,13 @@ struct Count {
             self.within->collide(a, &inner, add);
             self.inner += inner.shown;
         }
+        return false;
+    }
+    static bool touch(Object* a, Object* b, void* to) {
+        Count& self = *static_cast<Count*>(to);
+        ++self.shown;
+        fcl::CollisionResultd result;
+        self.inner += fcl::collide(a, b, fcl::CollisionRequestd(4, true), result);
         return false;
     }
     static bool measure(Object* a, Object* b, void* to, double& least) {
@@ -83,20 +94,22 @@ template <class Kind> void run(const char* name) {
     move(*objects[5], .25);
     manager.update();
     manager.unregisterObject(objects[19].get());
-    Count self, one, two, nested, far, near, apart;
+    Count self, one, two, nested, touching, far, near, apart;
     nested.within = &other;
     manager.collide(&self, Count::add);
     manager.collide(others[0].get(), &one, Count::add);
     manager.collide(&other, &two, Count::add);
     manager.collide(others[1].get(), &nested, Count::add);
+    manager.collide(&touching, Count::touch);
     if constexpr (!std::is_same_v<Kind,
                                   fcl::SaPCollisionManagerd>) { // whose own read beyond an end
         manager.distance(&far, Count::measure);
         manager.distance(others[0].get(), &near, Count::measure);
         manager.distance(&other, &apart, Count::measure);
     }
-    std::printf("%s %zu %zu %zu %zu %zu\n", name, self.shown, one.shown, two.shown, nested.shown,
-                nested.inner);
+    std::printf("%s %zu %zu %zu %zu %zu %zu %zu %zu\n", name, self.shown, one.shown, two.shown,
+                nested.shown, nested.inner, touching.shown, touching.inner,
+                far.shown + near.shown + apart.shown);
     manager.clear();
 }
 
@@ -106,13 +119,48 @@ struct Derived : fcl::DynamicAABBTreeCollisionManagerd {};
 void run_direct(const char* name) {
     const Objects objects = made(0), others = made(8);
     Derived manager;
-    for (const auto& object : objects)
-        manager.registerObject(object.get());
+    for (std::size_t i = 0; i < 12; ++i) // so that its answers are its own
+        manager.registerObject(objects[i].get());
     manager.setup();
     Count self, one;
     manager.collide(&self, Count::add);
     manager.collide(others[0].get(), &one, Count::add);
     std::printf("%s %zu %zu\n", name, self.shown, one.shown);
+}
+
+/// Two threads, each within a query of one manager, ask the other one at the same time. A recorder
+/// that locks its manager while a callback runs never comes back from it.
+void run_crossed(const char* name) {
+    const Objects objects = made(0), others = made(8);
+    fcl::DynamicAABBTreeCollisionManagerd one, two;
+    for (const auto& object : objects)
+        one.registerObject(object.get());
+    for (const auto& object : others)
+        two.registerObject(object.get());
+    one.setup();
+    two.setup();
+    std::barrier<> both(2);
+    struct Asking {
+        const Manager* other;
+        std::barrier<>* both;
+        bool has_met = false;
+        std::size_t shown = 0, inner = 0;
+
+        static bool ask(Object* a, Object*, void* to) {
+            Asking& self = *static_cast<Asking*>(to);
+            if (!std::exchange(self.has_met, true))
+                self.both->arrive_and_wait();
+            ++self.shown;
+            Count inner;
+            self.other->collide(a, &inner, Count::add);
+            self.inner += inner.shown;
+            return false;
+        }
+    } first{&two, &both}, second{&one, &both};
+    std::thread thread([&] { one.collide(&first, Asking::ask); });
+    two.collide(&second, Asking::ask);
+    thread.join();
+    std::printf("%s %zu %zu %zu %zu\n", name, first.shown, first.inner, second.shown, second.inner);
 }
 
 } // namespace
@@ -129,6 +177,7 @@ int main(int argc, char** argv) {
     run<fcl::DynamicAABBTreeCollisionManagerd>("dynamic_tree_again");
     run_direct("direct");
     run_direct("direct_again");
+    run_crossed("crossed");
     std::printf("arguments:");
     for (int i = 1; i < argc; ++i)
         std::printf(" %s", argv[i]);

@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -79,15 +81,31 @@ void read_geometries(const std::filesystem::path& file, RecordedProgram& program
     }
 }
 
+void read_requests(const std::filesystem::path& file, RecordedProgram& program) {
+    const Table requests(file, "requests", recording::requests);
+    for (std::size_t row = 0; row < requests.size(); ++row)
+        for (std::size_t i = 0; double& number : program.requests.emplace_back())
+            number = static_cast<double>(requests.integer(row, i++, 0x1p65));
+    const Table asked(file, "asked", recording::asked);
+    const auto n_calls = static_cast<double>(program.calls.size()),
+               n_requests = static_cast<double>(program.requests.size());
+    for (std::size_t row = 0; row < asked.size(); ++row)
+        program.asked.push_back({static_cast<std::size_t>(asked.integer(row, 0, n_calls)),
+                                 static_cast<std::size_t>(asked.integer(row, 1, n_requests)),
+                                 static_cast<double>(asked.integer(row, 2, 0x1p53)),
+                                 asked.number(row, 3)});
+}
+
 } // namespace
 
 RecordedProgram read_program(const std::filesystem::path& file) {
     RecordedProgram program;
     const Table format(file, "format", recording::format);
-    if (format.size() != 1 || format.number(0, 0) != recording::version)
+    const double version = format.size() == 1 ? format.number(0, 0) : 0;
+    if (version != 1 && version != recording::version)
         throw std::runtime_error(
-            fmt::format("{}: no recording of version {}; record the program again with this "
-                        "boxwood's fcl_recorder.h",
+            fmt::format("{}: no recording of version 1 to {}; record the program again with this "
+                        "boxwood",
                         file.string(), recording::version));
     program.bits = format.number(0, 1) == 32 ? 32 : 64;
 
@@ -141,7 +159,30 @@ RecordedProgram read_program(const std::filesystem::path& file) {
         call.min_distance = calls.number(row, 6);
         call.ns = calls.number(row, 7);
     }
+    if (version > 1)
+        read_requests(file, program);
+    program.touch = most_asked(program);
     return program;
+}
+
+RecordedProgram::Touch most_asked(const RecordedProgram& program) {
+    double without = 0, with = 0;
+    std::map<double, double> times; // of those with contacts, by how many at most
+    for (const RecordedProgram::Asked& row : program.asked) {
+        const auto [question, most, contacts, points, is_signed] = program.requests[row.request];
+        if (question == 0 && contacts != 0) {
+            with += row.n;
+            times[most] += row.n;
+        } else if (question == 0) {
+            without += row.n;
+        }
+    }
+    if (with == 0 || with < without)
+        return {};
+    const double most =
+        std::ranges::max_element(times, {}, [](const auto& entry) { return entry.second; })->first;
+    // Programs ask for all contacts by the greatest number there is.
+    return {static_cast<std::size_t>(std::clamp(most, 1., 1e9)), true};
 }
 
 } // namespace boxwood::bench

@@ -36,6 +36,18 @@ struct RecordedProgram {
         std::uint64_t hash = 0;
     };
 
+    /// How often a call's callbacks asked a request about shapes, and how long it took.
+    struct Asked {
+        std::size_t call = 0, request = 0;
+        double n = 0, ns = 0;
+    };
+
+    /// What is asked about two shapes that may touch: a yes or no, or contacts.
+    struct Touch {
+        std::size_t most = 1; ///< contacts
+        bool contacts = false;
+    };
+
     unsigned bits = 64; ///< of the program's numbers
     std::vector<Call> calls;
     std::vector<State> states;
@@ -44,6 +56,9 @@ struct RecordedProgram {
     std::vector<Geometry> geometries;
     std::vector<Vec3<double>> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles; ///< vertices of their geometry
+    std::vector<recording::Request> requests;
+    std::vector<Asked> asked;
+    Touch touch{}; ///< as callbacks asked most often; a yes or no where that is not known
 
     std::size_t n_objects() const { return geometry_of.size(); }
     std::span<const State> states_of(const Call& call) const {
@@ -75,6 +90,9 @@ inline bool is_with_others(recording::Call call) {
     return call == recording::Call::collide_others || call == recording::Call::distance_others;
 }
 inline bool is_distance(recording::Call call) { return call >= recording::Call::distance_self; }
+
+/// Of `asked`.
+RecordedProgram::Touch most_asked(const RecordedProgram& program);
 
 /// Throws std::runtime_error, "FILE: cause and what to do", for what is no recording, or a damaged
 /// one.

@@ -9,11 +9,11 @@
 
 namespace boxwood::bench {
 
-/// A Replay with the shapes of a library behind a manager of its Api: which pairs touch, by yes or
-/// no, and distances without points. A Library has
+/// A Replay with the shapes of a library behind a manager of its Api: which pairs touch, as the
+/// program asked most often, and distances without points. A Library has
 ///   Api, Geometry (a shared pointer), Rotation, Translation,
 ///   Geometry geometry_of(program, RecordedProgram::Geometry),
-///   bool touch(Object*, Object*),
+///   bool touch(Object*, Object*, RecordedProgram::Touch),
 ///   Nearest (of a query: the nearest pair so far, which spares others their search) and
 ///   double distance(Object*, Object*, Nearest&), that of the nearest pair with this one.
 template <class Library> class ShapeReplayer final : public Replay {
@@ -26,7 +26,7 @@ template <class Library> class ShapeReplayer final : public Replay {
     using Make = std::function<std::unique_ptr<Manager>()>;
 
     ShapeReplayer(const RecordedProgram& program, Make make)
-        : program_(program), make_(std::move(make)) {
+        : program_(program), touch_(program.touch), make_(std::move(make)) {
         std::vector<typename Library::Geometry> geometries;
         for (const RecordedProgram::Geometry& geometry : program.geometries)
             geometries.push_back(Library::geometry_of(program, geometry));
@@ -46,7 +46,7 @@ template <class Library> class ShapeReplayer final : public Replay {
             const bool is_made = is_replayed(call, i, includes);
             if (is_made)
                 to_manager_.take(program_, call, objects_);
-            Seen seen{calls[i], call.ended};
+            Seen seen{calls[i], call.ended, touch_};
             const auto begun = std::chrono::steady_clock::now();
             for (const RecordedProgram::State& state : program_.states_of(call))
                 move(state);
@@ -63,10 +63,11 @@ template <class Library> class ShapeReplayer final : public Replay {
     struct Seen {
         ReplayedCall& to;
         bool ends; ///< at the first pair that touches
+        RecordedProgram::Touch touch;
         typename Library::Nearest nearest{};
 
         bool add(Object* a, Object* b) {
-            if (a == b || !Library::touch(a, b))
+            if (a == b || !Library::touch(a, b, touch))
                 return false;
             ++to.shown;
             to.keys = recording::sum(to.keys, recording::key(number(a), number(b)));
@@ -98,6 +99,7 @@ template <class Library> class ShapeReplayer final : public Replay {
     }
 
     const RecordedProgram& program_;
+    RecordedProgram::Touch touch_;
     Make make_;
     std::vector<std::unique_ptr<Object>> objects_;
     CallsOf<Api> to_manager_;

@@ -53,7 +53,8 @@ BodyShape shape_of(const RecordedProgram& program, const RecordedProgram::Geomet
 class WorldReplay final : public Replay {
   public:
     explicit WorldReplay(const RecordedProgram& program)
-        : program_(program), poses_(program.n_objects()), body_of_(program.n_objects()) {
+        : program_(program), touch_(program.touch), poses_(program.n_objects()),
+          body_of_(program.n_objects()) {
         for (const RecordedProgram::Geometry& geometry : program.geometries)
             shapes_.push_back(shape_of(program, geometry));
         for (const BodyShape& shape : shapes_)
@@ -116,7 +117,10 @@ class WorldReplay final : public Replay {
         if (body_of_[object])
             world_.remove(*std::exchange(body_of_[object], std::nullopt));
     }
+    /// Two that touch, with their contacts if the program wants them.
     void note(ReplayedCall& to, std::uint32_t a, std::uint32_t b) const {
+        if (touch_.contacts)
+            world_.contacts(a, b, {.max_contacts = touch_.most});
         ++to.shown;
         to.keys = recording::sum(to.keys, recording::key(object_of_[a], object_of_[b]));
     }
@@ -180,6 +184,7 @@ class WorldReplay final : public Replay {
     }
 
     const RecordedProgram& program_;
+    RecordedProgram::Touch touch_;
     std::vector<BodyShape> shapes_;                     ///< by geometry
     std::vector<Pose> poses_;                           ///< by object
     std::vector<std::optional<std::uint32_t>> body_of_; ///< by object

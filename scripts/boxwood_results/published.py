@@ -208,7 +208,7 @@ def dropin_block(root, up, table=dropin_times.table):
     env = times.env
     bodies, meshes = (" ".join(map(str, dict.fromkeys(run.bodies for run in times.runs if bool(run.triangles) == are_meshes)))
                       for are_meshes in (False, True))
-    return (f"{markdown(table(times))}\n\n*{env['created_utc'][:10]}, {times.rounds} rounds, {env['cpu']}, {env['ncpu']} cores, "
+    return (f"{markdown(table(times))}\n\n*{env['created_utc'][:10]}, {times.rounds} rounds in turns within one process, {env['cpu']}, {env['ncpu']} cores, "
             f"commit {env['git_commit'][:8]}; [`{DROPIN.name}`]({up}{DROPIN}). Again: `{DROPIN_COMMAND} --rounds {times.rounds} --bodies {bodies} "
             f"--meshes {meshes}".rstrip() + "`.*\n")
 

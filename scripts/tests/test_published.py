@@ -142,7 +142,7 @@ def test_what_the_drop_in_gains_is_shown_by_its_fastest_rival(root):
     text = (root / "README.md").read_text()
     assert ("| 1,000 | 1 % | 1.00 ms for 50 frames | 4.00x (3.60 to 4.40) fcl.fast | 2.00 ms for 50 frames | "
             "1.05x (0.859 to 1.28) ? coal.array |") in text
-    assert "9 rounds, a CPU, 2 cores, commit abcdef01" in text and published.problems(root) == []
+    assert "9 rounds in turns within one process, a CPU, 2 cores, commit abcdef01" in text and published.problems(root) == []
     assert "dropin.json --rounds 9 --bodies 1000 --meshes`" in text
 
     world = [manager("boxwood.world", 1), manager("boxwood.fcl_manager, FCL's shapes", 4), manager("fcl.tree, FCL's shapes", 8),

@@ -9,7 +9,10 @@
 
 #include <coal/broadphase/broadphase_callbacks.h>
 #include <coal/broadphase/broadphase_collision_manager.h>
+#include <coal/collision.h>
+#include <coal/distance.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <vector>
 
@@ -46,10 +49,7 @@ class CoalRecorder final : public detail::RecordedManager<detail::CoalLibrary> {
   public:
     using Base::Base, Base::getObjects;
 
-    Objects getObjects() const override {
-        const auto lock = calls_.locked();
-        return Library::objects_of(to());
-    }
+    Objects getObjects() const override { return Library::objects_of(to()); }
     void collide(Object* object, coal::CollisionCallBackBase* callback) const override {
         Shown shown(*this, callback);
         calls_.record(recording::Call::collide_object, {object}, shown,
@@ -64,8 +64,7 @@ class CoalRecorder final : public detail::RecordedManager<detail::CoalLibrary> {
         if (other == this)
             return collide(callback);
         Shown shown(*this, callback);
-        const Within within(*this, other);
-        Manager* const with = within.manager;
+        Manager* const with = &Base::behind(other);
         calls_.record(recording::Call::collide_others, Library::objects_of(*with), shown,
                       [&] { to().collide(with, &shown); });
     }
@@ -83,10 +82,25 @@ class CoalRecorder final : public detail::RecordedManager<detail::CoalLibrary> {
         if (other == this)
             return distance(callback);
         Measured measured(*this, callback);
-        const Within within(*this, other);
-        Manager* const with = within.manager;
+        Manager* const with = &Base::behind(other);
         calls_.record(recording::Call::distance_others, Library::objects_of(*with), measured,
                       [&] { to().distance(with, &measured); });
+    }
+
+    /// In callbacks, in the place of coal::collide and coal::distance: what is asked about shapes
+    /// is written down, too. Without a recorder, and outside of its calls, they do the same.
+    static std::size_t collide(const Object* a, const Object* b,
+                               const coal::CollisionRequest& request,
+                               coal::CollisionResult& result) {
+        return Calls::asking({0, static_cast<double>(request.num_max_contacts),
+                              request.enable_contact ? 1. : 0., 0, 0},
+                             [&] { return coal::collide(a, b, request, result); });
+    }
+    static coal::CoalScalar distance(const Object* a, const Object* b,
+                                     const coal::DistanceRequest& request,
+                                     coal::DistanceResult& result) {
+        return Calls::asking({1, 0, 0, 1, request.enable_signed_distance ? 1. : 0.},
+                             [&] { return coal::distance(a, b, request, result); });
     }
 
   private:

@@ -8,7 +8,10 @@
 #include "trees/adapters/detail/recorded_manager.h"
 
 #include <fcl/broadphase/broadphase_collision_manager.h>
+#include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/distance.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <vector>
 
@@ -38,15 +41,18 @@ template <class S> struct FclLibrary {
 
 /// Hands every call to a manager of FCL's interface, which outlives it, and writes it down: objects
 /// with their bounds and poses, geometries once, what callbacks were shown, how long it took.
-/// Objects that the manager has already are registered in the recording, too. Any number of threads
-/// may call; one waits for another. `close`, or the destructor, ends the file; all but the calls
-/// of the last second or so are readable if the program ends badly, but while it writes.
+/// Objects that the manager has already are registered in the recording, too. Threads may call it
+/// at a time as they may call the manager, and wait for each other only while something is noted or
+/// written; calls are written in the order in which they begin. A forked child's calls are handed
+/// on, and not written. `close`, or the destructor, ends the file; if the program ends badly, but
+/// while it writes, all is readable but the last second or so, and what began after a call that was
+/// not done.
 /// Throws std::runtime_error, "FILE: ...", where the file cannot be written.
 template <class S> class FclRecorder final : public detail::RecordedManager<detail::FclLibrary<S>> {
     using Library = detail::FclLibrary<S>;
     using Base = detail::RecordedManager<Library>;
     using Base::calls_, Base::to;
-    using typename Base::Calls, typename Base::Within;
+    using typename Base::Calls;
 
   public:
     using Base::Base;
@@ -67,8 +73,7 @@ template <class S> class FclRecorder final : public detail::RecordedManager<deta
         if (other == this)
             return collide(data, callback);
         Shown shown(*this, data, callback);
-        const Within within(*this, other);
-        Manager* const with = within.manager;
+        Manager* const with = &Base::behind(other);
         calls_.record(recording::Call::collide_others, Library::objects_of(*with), shown,
                       [&] { to().collide(with, &shown, Shown::show); });
     }
@@ -86,10 +91,34 @@ template <class S> class FclRecorder final : public detail::RecordedManager<deta
         if (other == this)
             return distance(data, callback);
         Measured measured(*this, data, callback);
-        const Within within(*this, other);
-        Manager* const with = within.manager;
+        Manager* const with = &Base::behind(other);
         calls_.record(recording::Call::distance_others, Library::objects_of(*with), measured,
                       [&] { to().distance(with, &measured, Measured::show); });
+    }
+
+    /// In callbacks, in the place of fcl::collide and fcl::distance: what is asked about shapes is
+    /// written down, too. Without a recorder, and outside of its calls, they do the same.
+    static std::size_t collide(const Object* a, const Object* b,
+                               const fcl::CollisionRequest<S>& request,
+                               fcl::CollisionResult<S>& result) {
+        return asking(request, [&] { return fcl::collide(a, b, request, result); });
+    }
+    static S distance(const Object* a, const Object* b, const fcl::DistanceRequest<S>& request,
+                      fcl::DistanceResult<S>& result) {
+        return asking(request, [&] { return fcl::distance(a, b, request, result); });
+    }
+    /// answer(), which is FCL's to this request.
+    template <class Ask>
+    static auto asking(const fcl::CollisionRequest<S>& request, const Ask& answer) {
+        return Calls::asking({0, static_cast<double>(request.num_max_contacts),
+                              request.enable_contact ? 1. : 0., 0, 0},
+                             answer);
+    }
+    template <class Ask>
+    static auto asking(const fcl::DistanceRequest<S>& request, const Ask& answer) {
+        return Calls::asking({1, 0, 0, request.enable_nearest_points ? 1. : 0.,
+                              request.enable_signed_distance ? 1. : 0.},
+                             answer);
     }
 
   private:

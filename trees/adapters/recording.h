@@ -10,7 +10,7 @@
 
 namespace boxwood::recording {
 
-inline constexpr std::uint32_t version = 1; ///< of the tables; /format/version
+inline constexpr std::uint32_t version = 2; ///< of the tables; /format/version. 1: none asked
 
 enum class Call : std::uint8_t {
     add,    ///< objects are registered
@@ -60,7 +60,8 @@ inline constexpr std::array<std::string_view, 11> shape_names = {
 /// states belong to it and follow those of the calls before. Of queries: what callbacks were shown
 /// (how many pairs of two objects, the sum of their keys), whether one ended the query (or it was
 /// of a registered object that had moved since its update), and of distances what was the least at
-/// the end, else infinity. `ns`: nanoseconds, callbacks and the recorder's count in it.
+/// the end, else infinity. One whose callback threw, or that was not done when the recording ended,
+/// counts as ended. `ns`: nanoseconds, callbacks and the recorder's count in it.
 inline constexpr std::array<std::string_view, 8> calls = {
     "call", "n_objects", "n_states", "shown", "keys", "ended", "min_distance", "ns"};
 inline constexpr std::array<std::string_view, 1> call_objects = {"object"};
@@ -78,6 +79,13 @@ inline constexpr std::array<std::string_view, 9> geometries = {
     "shape", "a", "b", "c", "d", "n_vertices", "n_triangles", "hash_high", "hash_low"};
 inline constexpr std::array<std::string_view, 3> vertices = {"x", "y", "z"};
 inline constexpr std::array<std::string_view, 3> triangles = {"a", "b", "c"};
+/// What callbacks asked about the shapes of pairs: whether they touch (0) or how far apart they are
+/// (1), at most so many contacts, whether with contacts, nearest points and distances below 0.
+inline constexpr std::array<std::string_view, 5> requests = {"question", "most", "contacts",
+                                                             "points", "signed"};
+using Request = std::array<double, requests.size()>; ///< a row
+/// How often a call's callbacks did, and how long it took, ns.
+inline constexpr std::array<std::string_view, 4> asked = {"call", "request", "n", "ns"};
 /// One row: version, and the bits of the program's numbers (32 or 64).
 inline constexpr std::array<std::string_view, 2> format = {"version", "bits"};
 

@@ -6,11 +6,15 @@
 
 #include <hdf5.h>
 
+#include <pthread.h>
+
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <filesystem>
 #include <initializer_list>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -20,7 +24,8 @@
 
 namespace boxwood {
 
-/// Meanwhile HDF5 prints nothing of its own in this thread: failures are told by what is thrown.
+/// Meanwhile HDF5 prints nothing of its own: failures are told by what is thrown. One thread at a
+/// time has one, as HDF5 may be built without threads.
 class QuietHdf5 {
   public:
     QuietHdf5() {
@@ -32,8 +37,30 @@ class QuietHdf5 {
     ~QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
 
   private:
+    friend class Forks;
+    static inline std::recursive_mutex one_at_a_time_;
+    const std::lock_guard<std::recursive_mutex> lock_{one_at_a_time_};
     H5E_auto2_t print_ = nullptr;
     void* data_ = nullptr;
+};
+
+/// How often this process has been forked, as a child of its parents. Nothing is forked while a
+/// recording is written, so that HDF5 has nothing left to write of it in a child.
+class Forks {
+  public:
+    static unsigned count() {
+        static const int is_told = pthread_atfork([] { QuietHdf5::one_at_a_time_.lock(); },
+                                                  [] { QuietHdf5::one_at_a_time_.unlock(); },
+                                                  [] { // whose thread is not the one that locked
+                                                      std::construct_at(&QuietHdf5::one_at_a_time_);
+                                                      ++n_;
+                                                  });
+        static_cast<void>(is_told);
+        return n_;
+    }
+
+  private:
+    static inline std::atomic<unsigned> n_ = 0;
 };
 
 /// The tables of a recording, which grow. What was flushed is
@@ -57,6 +84,7 @@ class RecordingFile {
       public:
         Table(RecordingFile& file, std::string_view name, std::span<const std::string_view> columns)
             : file_(file), columns_(columns.size()) {
+            const QuietHdf5 quiet;
             const std::string group(name);
             const hid_t made =
                 H5Gcreate2(file.file_, group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);

@@ -61,9 +61,10 @@ struct CoalShapes {
             return mesh_of(program, of).model<coal::OBBRSS>();
         }
     }
-    static bool touch(const Object* a, const Object* b) {
+    static bool touch(const Object* a, const Object* b, RecordedProgram::Touch touch) {
         coal::CollisionRequest request;
-        request.enable_contact = false;
+        request.enable_contact = touch.contacts;
+        request.num_max_contacts = touch.most;
         request.break_distance = 0; // no lower bound of the distance is wanted
         request.distance_upper_bound = 0;
         coal::CollisionResult result;

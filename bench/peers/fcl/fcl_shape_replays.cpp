@@ -88,8 +88,8 @@ struct FclShapes {
             return mesh_of(program, of);
         }
     }
-    static bool touch(const Object* a, const Object* b) {
-        const fcl::CollisionRequestd request;
+    static bool touch(const Object* a, const Object* b, RecordedProgram::Touch touch) {
+        const fcl::CollisionRequestd request(touch.most, touch.contacts);
         fcl::CollisionResultd result;
         return fcl::collide(a, b, request, result) > 0;
     }

@@ -13,8 +13,11 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <list>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -36,7 +39,7 @@ template <class Library> class CallRecorder {
         tables_->format.add({recording::version, Library::bits});
         if (const Objects there = Library::objects_of(manager); !there.empty())
             record(recording::Call::add, there, [] {});
-        write();
+        tables_->write();
     }
     CallRecorder(const CallRecorder&) = delete;
     CallRecorder& operator=(const CallRecorder&) = delete;
@@ -46,10 +49,17 @@ template <class Library> class CallRecorder {
         } catch (...) { // a destructor cannot report it
         }
     }
+    /// Calls that are not done yet are written as queries that were ended.
     void close() {
-        const auto lock = locked();
+        if (is_elsewhere()) {
+            static_cast<void>(tables_.release());
+            return;
+        }
+        const std::lock_guard lock(writing_);
         if (!tables_)
             return;
+        for (const Pending& call : pending_)
+            add(call);
         const std::unique_ptr<Tables> last = std::move(tables_);
         last->write();
     }
@@ -59,23 +69,6 @@ template <class Library> class CallRecorder {
     }
 
     Manager& manager() const { return manager_; }
-    std::unique_lock<std::recursive_mutex> locked() { return std::unique_lock(calling_); }
-    /// Locks this one, and the other one if there is one.
-    class Both {
-      public:
-        Both(CallRecorder& one, CallRecorder* other)
-            : one_(one.calling_, std::defer_lock), other_(one.calling_, std::defer_lock) {
-            if (other) {
-                other_ = std::unique_lock(other->calling_, std::defer_lock);
-                std::lock(one_, other_);
-            } else {
-                one_.lock();
-            }
-        }
-
-      private:
-        std::unique_lock<std::recursive_mutex> one_, other_;
-    };
 
     /// What a query's callback was shown.
     struct Answer {
@@ -87,11 +80,16 @@ template <class Library> class CallRecorder {
             if (a == b)
                 return; // some managers show a registered object itself, some do not
             ++shown;
+            if (recorder.is_elsewhere())
+                return;
+            const std::lock_guard lock(recorder.writing_);
             keys =
                 recording::sum(keys, recording::key(recorder.number_of(a), recorder.number_of(b)));
         }
     };
-    /// done() hands the call on.
+    /// done() hands the call on. Nothing is locked meanwhile; threads wait for each other only
+    /// while what they were shown is noted, or the file is written. Calls are written in the order
+    /// in which they begin.
     template <class Do> void record(recording::Call call, const Objects& objects, const Do& done) {
         const Answer none;
         record(call, objects, none, done);
@@ -99,54 +97,196 @@ template <class Library> class CallRecorder {
     template <class Do>
     void record(recording::Call call, const Objects& objects, const Answer& answer,
                 const Do& done) {
-        const std::lock_guard lock(calling_);
-        bool is_certain = true;
-        if (tables_)
-            for (const Object* object : objects)
-                if (object)
-                    is_certain &= follow(*object, call);
+        const std::optional<Open> open = begin(call, objects);
+        const Inside inside(*this, open ? &**open : nullptr);
         const auto begun = std::chrono::steady_clock::now();
-        done();
+        const auto taken = [&] {
+            return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() -
+                                                            begun)
+                .count();
+        };
+        try {
+            done();
+        } catch (...) {
+            if (open && !is_elsewhere()) {
+                Answer so_far = answer;
+                so_far.ended = true;
+                const std::lock_guard lock(writing_);
+                finish(*open, so_far, taken());
+            }
+            throw;
+        }
+        if (open && !is_elsewhere())
+            end(*open, answer, taken());
+    }
+
+    /// answer() about two shapes, timed, and written down where a callback of a recorded call of
+    /// this thread asks.
+    template <class Ask> static auto asking(const recording::Request& request, const Ask& answer) {
+        const auto begun = std::chrono::steady_clock::now();
+        const auto found = answer();
         const std::chrono::duration<double, std::nano> taken =
             std::chrono::steady_clock::now() - begun;
-        if (!tables_)
-            return;
-        double n_objects = 0;
-        if (call != recording::Call::update_all)
-            for (const Object* object : objects)
-                if (object) {
-                    tables_->call_objects.add({static_cast<double>(number_of(object))});
-                    ++n_objects;
-                }
-        tables_->calls.add({static_cast<double>(call), n_objects, n_states_, answer.shown,
-                            static_cast<double>(answer.keys), answer.ended || !is_certain ? 1. : 0.,
-                            answer.min_distance, taken.count()});
-        n_states_ = 0;
-        if (call == recording::Call::remove || call == recording::Call::clear)
-            forget(call, objects);
-        if (++n_calls_ % 4096 == 0 || tables_->states.n_unwritten() > 1'000'000 ||
-            begun - written_ > std::chrono::seconds(1))
-            write();
+        if (inside_.call && !inside_.recorder->is_elsewhere())
+            inside_.recorder->note(*inside_.call, request, taken.count());
+        return found;
     }
 
   private:
-    void write() {
+    using State = std::array<double, 19>; ///< a row of states
+
+    /// A call that has begun: a row of calls, and the rows that belong to it.
+    struct Pending {
+        explicit Pending(recording::Call made) : call(made) { answer.ended = true; }
+
+        recording::Call call;
+        std::vector<std::uint32_t> objects;
+        std::vector<State> states;
+        bool is_certain = true, is_done = false, is_written = false;
+        Answer answer; ///< while it is not done, of a query that was ended
+        double ns = 0;
+        struct Asked {
+            double n = 0, ns = 0;
+        };
+        std::map<std::size_t, Asked> asked; ///< by request
+    };
+    using Open = typename std::list<Pending>::iterator;
+    /// The innermost recorded call that this thread is in.
+    class Inside {
+      public:
+        Inside(CallRecorder& recorder, Pending* call)
+            : before_(std::exchange(inside_, {&recorder, call})) {}
+        ~Inside() { inside_ = before_; }
+        Inside(const Inside&) = delete;
+        Inside& operator=(const Inside&) = delete;
+
+        struct Call {
+            CallRecorder* recorder = nullptr;
+            Pending* call = nullptr;
+        };
+
+      private:
+        Call before_;
+    };
+    static inline thread_local typename Inside::Call inside_;
+
+    void note(Pending& call, const recording::Request& request, double ns) {
+        const std::lock_guard lock(writing_);
+        if (!tables_)
+            return;
+        const auto [found, is_new] = requests_.try_emplace(request, requests_.size());
+        if (is_new)
+            tables_->requests.add(request);
+        auto& [n, all_ns] = call.asked[found->second];
+        ++n;
+        all_ns += ns;
+    }
+    /// Nothing after the end.
+    std::optional<Open> begin(recording::Call call, const Objects& objects) {
+        if (is_elsewhere())
+            return std::nullopt;
+        const std::lock_guard lock(writing_);
+        if (!tables_)
+            return std::nullopt;
+        Pending row(call);
+        for (const Object* object : objects)
+            if (object)
+                row.is_certain &= follow(*object, row);
+        if (call != recording::Call::update_all)
+            for (const Object* object : objects)
+                if (object)
+                    row.objects.push_back(number_of(object));
+        if (call == recording::Call::remove || call == recording::Call::clear)
+            forget(call, objects);
+        return pending_.insert(pending_.end(), std::move(row));
+    }
+    void finish(Open call, const Answer& answer, double ns) {
+        call->answer = answer;
+        call->ns = ns;
+        call->is_done = true;
+        if (call->is_written)
+            written_early_.erase(call);
+    }
+    void end(Open call, const Answer& answer, double ns) {
+        std::exception_ptr failure;
+        {
+            const std::lock_guard lock(writing_);
+            finish(call, answer, ns);
+            if (!tables_)
+                return;
+            settle();
+            if (n_calls_ >= 4096 || tables_->states.n_unwritten() > 1'000'000 ||
+                std::chrono::steady_clock::now() - written_ > std::chrono::seconds(1))
+                failure = write();
+        }
+        if (failure)
+            tell(failure);
+    }
+    /// Adds the rows of all that is done, up to the first that is not; of too many that wait for
+    /// one, that one's, too.
+    void settle() {
+        constexpr std::size_t most = 65536;
+        while (!pending_.empty()) {
+            Pending& first = pending_.front();
+            if (!first.is_done && pending_.size() <= most)
+                return;
+            add(first);
+            if (first.is_done) {
+                pending_.pop_front();
+            } else {
+                first.is_written = true;
+                written_early_.splice(written_early_.end(), pending_, pending_.begin());
+            }
+        }
+    }
+    void add(const Pending& row) {
+        for (const std::uint32_t object : row.objects)
+            tables_->call_objects.add({static_cast<double>(object)});
+        for (const State& state : row.states)
+            tables_->states.add(state);
+        tables_->calls.add({static_cast<double>(row.call), static_cast<double>(row.objects.size()),
+                            static_cast<double>(row.states.size()), row.answer.shown,
+                            static_cast<double>(row.answer.keys),
+                            row.answer.ended || !row.is_certain ? 1. : 0., row.answer.min_distance,
+                            row.ns});
+        for (const auto& [request, of] : row.asked)
+            tables_->asked.add({n_rows_, static_cast<double>(request), of.n, of.ns});
+        ++n_rows_;
+        ++n_calls_;
+    }
+    /// Whether this is a forked child: the file is its parent's, and so may the lock be.
+    bool is_elsewhere() const { return Forks::count() != forks_; }
+
+    /// Why it could not be written; then, if somebody is to be told, the recording has ended.
+    std::exception_ptr write() {
+        n_calls_ = 0;
+        written_ = std::chrono::steady_clock::now();
         try {
             tables_->write();
+            return nullptr;
+        } catch (const std::exception&) {
+            if (on_failure_)
+                tables_.reset();
+            return std::current_exception();
+        }
+    }
+    void tell(const std::exception_ptr& failure) const {
+        try {
+            std::rethrow_exception(failure);
         } catch (const std::exception& error) {
             if (!on_failure_)
                 throw;
-            tables_.reset();
             on_failure_(error);
         }
-        written_ = std::chrono::steady_clock::now();
     }
 
     struct Tables {
         explicit Tables(const std::filesystem::path& path) : file(path) {}
         void write() {
-            for (RecordingFile::Table* table : {&format, &geometries, &vertices, &triangles,
-                                                &objects, &states, &call_objects, &calls})
+            const QuietHdf5 whole;
+            for (RecordingFile::Table* table :
+                 {&format, &geometries, &vertices, &triangles, &objects, &states, &call_objects,
+                  &calls, &requests, &asked})
                 table->write();
             file.flush();
         }
@@ -158,11 +298,11 @@ template <class Library> class CallRecorder {
             triangles{file, "triangles", recording::triangles},
             objects{file, "objects", recording::objects}, states{file, "states", recording::states},
             call_objects{file, "call_objects", recording::call_objects},
+            requests{file, "requests", recording::requests}, asked{file, "asked", recording::asked},
             calls{file, "calls", recording::calls};
     };
     struct Known {
-        std::uint32_t number = 0;
-        const Geometry* geometry = nullptr;
+        std::uint32_t number = 0, geometry = 0;
         bool is_registered = false;
         std::array<double, 18> state{}; ///< as written last
     };
@@ -194,15 +334,15 @@ template <class Library> class CallRecorder {
             if (const auto found = known_.find(object); found != known_.end())
                 found->second.is_registered = false;
     }
-    /// Writes the object down if it is new or changed; one of another geometry at an address is
-    /// another object, which takes the place of a registered one. False of a query of a registered
-    /// one that has changed: the manager may look at what it was.
-    bool follow(const Object& object, recording::Call call) {
-        const Geometry* const geometry = object.collisionGeometry().get();
+    /// Adds the object's state to a call if it is new or changed; one of another geometry at an
+    /// address is another object, which takes the place of a registered one. False of a query of a
+    /// registered one that has changed: the manager may look at what it was.
+    bool follow(const Object& object, Pending& call) {
+        const std::uint32_t geometry = number_of_geometry(object);
         const std::array<double, 18> state = state_of(object);
-        const bool is_reported = call == recording::Call::add ||
-                                 call == recording::Call::update_all ||
-                                 call == recording::Call::update_some;
+        const bool is_reported = call.call == recording::Call::add ||
+                                 call.call == recording::Call::update_all ||
+                                 call.call == recording::Call::update_some;
         const auto [found, is_new] = known_.try_emplace(&object);
         Known& known = found->second;
         const bool is_other = is_new || known.geometry != geometry;
@@ -210,50 +350,54 @@ template <class Library> class CallRecorder {
         if (takes_place && !is_reported)
             return false;
         if (takes_place)
-            add_call(recording::Call::remove, known.number);
+            add_call(recording::Call::remove, known.number, call);
         if (is_other) {
             known = {};
             known.number = n_objects_++;
             known.geometry = geometry;
-            tables_->objects.add({static_cast<double>(number_of_geometry(object))});
+            tables_->objects.add({static_cast<double>(geometry)});
         }
-        known.is_registered |= call == recording::Call::add;
+        known.is_registered |= call.call == recording::Call::add;
         if (!is_other && known.state == state)
             return true;
         if (known.is_registered && !is_reported)
             return false;
         known.state = state;
-        std::array<double, 19> row;
+        State& row = call.states.emplace_back();
         row[0] = known.number;
         std::ranges::copy(state, row.begin() + 1);
-        tables_->states.add(row);
-        ++n_states_;
         if (takes_place) {
             known.is_registered = true;
-            add_call(recording::Call::add, known.number);
+            add_call(recording::Call::add, known.number, call);
         }
         return true;
     }
     /// One that the program did not make by itself: of one object, with the states so far.
-    void add_call(recording::Call call, std::uint32_t object) {
-        tables_->call_objects.add({static_cast<double>(object)});
-        tables_->calls.add({static_cast<double>(call), 1., n_states_, 0., 0., 0.,
-                            std::numeric_limits<double>::infinity(), 0.});
-        n_states_ = 0;
+    void add_call(recording::Call what, std::uint32_t object, Pending& before) {
+        Pending made(what);
+        made.objects = {object};
+        made.is_done = true;
+        made.answer.ended = false;
+        std::swap(made.states, before.states);
+        pending_.push_back(std::move(made));
     }
     std::uint32_t number_of_geometry(const Object& object) {
-        const auto& geometry = object.collisionGeometry();
-        const auto [found, is_new] = number_of_geometry_.try_emplace(geometry.get(), 0u);
-        if (!is_new)
-            return found->second;
-        kept_.push_back(geometry);
+        const std::shared_ptr<const Geometry> geometry = object.collisionGeometry();
+        if (number_of_geometry_.size() > 2 * n_kept_ + 1024) {
+            std::erase_if(number_of_geometry_,
+                          [](const auto& entry) { return entry.second.geometry.expired(); });
+            n_kept_ = number_of_geometry_.size();
+        }
+        Numbered& known = number_of_geometry_[geometry.get()];
+        if (known.is_numbered && (geometry.use_count() == 0 || known.geometry.lock() == geometry))
+            return known.number; // else another one has taken its place
         const RecordedGeometry of = geometry ? Library::recorded(*geometry) : RecordedGeometry();
         const std::uint64_t hash = of.hash();
         const auto [same, is_first] = number_of_content_.try_emplace(
             hash, static_cast<std::uint32_t>(number_of_content_.size()));
-        found->second = same->second;
+        known = {geometry, same->second, true};
         if (!is_first)
-            return found->second;
+            return known.number;
         for (const auto& vertex : of.vertices)
             tables_->vertices.add(vertex);
         for (const auto& triangle : of.triangles)
@@ -263,21 +407,31 @@ template <class Library> class CallRecorder {
              of.numbers[3], static_cast<double>(of.vertices.size()),
              static_cast<double>(of.triangles.size()), static_cast<double>(hash >> 32),
              static_cast<double>(hash & 0xffffffff)});
-        return found->second;
+        return known.number;
     }
 
+    struct Numbered {
+        std::weak_ptr<const Geometry> geometry;
+        std::uint32_t number = 0;
+        bool is_numbered = false;
+    };
+
     Manager& manager_;
-    std::recursive_mutex calling_; ///< a callback may query again
+    const unsigned forks_ = Forks::count();
+    mutable std::mutex writing_; ///< of all below
     std::unique_ptr<Tables> tables_;
+    std::list<Pending> pending_;       ///< the first of them is not done
+    std::list<Pending> written_early_; ///< not done, and written
     std::function<void(const std::exception&)> on_failure_;
     std::chrono::steady_clock::time_point written_; ///< when it was last
     std::unordered_map<const Object*, Known> known_;
-    std::unordered_map<const Geometry*, std::uint32_t> number_of_geometry_;
+    std::unordered_map<const Geometry*, Numbered> number_of_geometry_;
     std::unordered_map<std::uint64_t, std::uint32_t> number_of_content_; ///< by hash
-    std::vector<std::shared_ptr<const Geometry>> kept_; ///< so that no other takes its place
+    std::size_t n_kept_ = 0; ///< geometries that were there when expired ones were taken out
     std::uint32_t n_objects_ = 0;
-    double n_states_ = 0; ///< since the last call
-    std::size_t n_calls_ = 0;
+    std::map<recording::Request, std::size_t> requests_;
+    double n_rows_ = 0;       ///< of calls
+    std::size_t n_calls_ = 0; ///< that are not written
 };
 
 } // namespace boxwood::detail

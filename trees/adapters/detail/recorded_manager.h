@@ -43,7 +43,6 @@ template <class Library> class RecordedManager : public Library::Manager {
         calls_.record(recording::Call::setup, {}, [&] { to().setup(); });
     }
     void update() override {
-        const auto lock = calls_.locked();
         calls_.record(recording::Call::update_all, Library::objects_of(to()),
                       [&] { to().update(); });
     }
@@ -53,29 +52,18 @@ template <class Library> class RecordedManager : public Library::Manager {
     void update(const Objects& objects) override {
         calls_.record(recording::Call::update_some, objects, [&] { to().update(objects); });
     }
-    void getObjects(Objects& objects) const override {
-        const auto lock = calls_.locked();
-        to().getObjects(objects);
-    }
-    bool empty() const override { return size() == 0; }
-    std::size_t size() const override {
-        const auto lock = calls_.locked();
-        return to().size();
-    }
+    void getObjects(Objects& objects) const override { to().getObjects(objects); }
+    bool empty() const override { return to().empty(); }
+    std::size_t size() const override { return to().size(); }
 
   protected:
     using Calls = CallRecorder<Library>;
 
-    /// Another manager, or the one that another recorder is before; both are locked meanwhile.
-    struct Within {
-        Within(const RecordedManager& one, Manager* other)
-            : recorder(dynamic_cast<const RecordedManager*>(other)),
-              both(one.calls_, recorder ? &recorder->calls_ : nullptr),
-              manager(recorder ? &recorder->to() : other) {}
-        const RecordedManager* recorder;
-        typename Calls::Both both;
-        Manager* manager;
-    };
+    /// Another manager, or the one that another recorder is before.
+    static Manager& behind(Manager* other) {
+        const auto* const recorder = dynamic_cast<const RecordedManager*>(other);
+        return recorder ? recorder->to() : *other;
+    }
     Manager& to() const { return calls_.manager(); }
 
     mutable Calls calls_;
