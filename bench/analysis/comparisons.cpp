@@ -200,11 +200,13 @@ void against_peers(const Index& index, const Times& times, Judge& judge) {
             continue;
         for (const std::string& name : split_classes(ours.classes))
             for (const Phase phase : phases_of(times, ours)) {
-                for (const Cell* peer : peers_of[{job_of(ours), name}])
+                for (const Cell* peer : peers_of[{job_of(ours), name}]) {
+                    const Cell& rival = at_its_best(*peer, phase);
                     if ((phase == Phase::build_and_query || phase == Phase::update_and_query ||
-                         phase == Phase::cold_build_and_query || index.divide_alike(ours, *peer)) &&
-                        !trades_off(index, times, *peer, ours, phase))
-                        judge.claim(at_its_best(*peer, phase), ours, phase, name);
+                         phase == Phase::cold_build_and_query || index.divide_alike(ours, rival)) &&
+                        !trades_off(index, times, rival, ours, phase))
+                        judge.claim(rival, ours, phase, name);
+                }
             }
     }
     judge.close(Family::peers);

@@ -99,7 +99,7 @@ TEST_F(Findings, APeerThatTwoThreadsSlowDownStandsWithOne) {
                                                without, without, without));
     EXPECT_EQ(run.results.findings.at(0).rival, one);
     EXPECT_EQ(run.results.findings.at(0).together, "wins 3.00x over Embree on 1 thread");
-    // One that was asked on two threads, and cannot, is as one that was not asked.
+    // One that does not support two threads is as one without a cell there.
     const auto refused = run.cell("uniform", 10, "pairs", "fcl.tree", 2);
     run.results.checks[refused].status = results::Status::unsupported;
     EXPECT_THAT(rivals(), UnorderedElementsAre(two, one, one, without, without, without));

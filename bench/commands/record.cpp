@@ -133,7 +133,7 @@ void add_record(CLI::App& app, int& exit_code) {
         "The program is not changed or built again: a library is loaded before its own, which\n"
         "writes down every call to FCL's broad-phase managers (all but the spatial hash): "
         "objects,\n"
-        "poses, geometries once, what callbacks were shown and asked of fcl::collide and\n"
+        "poses, geometries once, what callbacks were shown, their requests to fcl::collide and\n"
         "fcl::distance about two objects, times. A file for each manager, the\n"
         "second FILE-2.h5; `boxwood replay FILE.h5` runs it with every manager there is.\n"
         "It must load libfcl 0.7 (ldd PROGRAM shows it) and use doubles; others, and those with\n"

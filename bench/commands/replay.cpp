@@ -111,20 +111,20 @@ std::string calls_of(const RecordedProgram& program) {
     return table.text();
 }
 
-/// What its callbacks asked about the shapes of pairs; empty if that is not known.
+/// The queries of its callbacks about the shapes of pairs; empty if that is not known.
 std::string requests_of(const RecordedProgram& program) {
-    TextTable table({"asked about shapes", ">times", ">time in the program"});
+    TextTable table({"queries of shapes", ">times", ">time in the program"});
     for (std::size_t i = 0; i < program.requests.size(); ++i) {
         double n = 0, ns = 0;
-        for (const RecordedProgram::Asked& row : program.asked)
+        for (const RecordedProgram::RequestCount& row : program.request_counts)
             if (row.request == i) {
                 n += row.n;
                 ns += row.ns;
             }
-        const auto [question, most, contacts, points, is_signed] = program.requests[i];
+        const auto [question, max_contacts, contacts, points, is_signed] = program.requests[i];
         const std::string many =
-            most < 1e9 ? fmt::format("at most {:.0f}", most) : std::string("all");
-        table.add({question == 0 && contacts == 0 && most == 1 ? "do they touch"
+            max_contacts < 1e9 ? fmt::format("at most {:.0f}", max_contacts) : std::string("all");
+        table.add({question == 0 && contacts == 0 && max_contacts == 1 ? "do they touch"
                    : question == 0 ? fmt::format("do they touch, {} {}", many,
                                                  contacts != 0 ? "contacts" : "pairs of parts")
                                    : fmt::format("how far apart{}{}", points != 0 ? ", where" : "",

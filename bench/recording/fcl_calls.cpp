@@ -1,6 +1,6 @@
 /// Loaded by `boxwood record` before the libraries of a program: has the symbols of FCL's managers
 /// in libfcl, so that their calls come here, and go on to FCL by way of a recorder; and those of
-/// the functions that callbacks ask about shapes. Each process claims files of its own,
+/// the functions by which callbacks query shapes. Each process claims files of its own,
 /// BOXWOOD_RECORD and then the same with -2, -3 ...
 
 #include "bench/recording/recording_names.h"
@@ -188,12 +188,13 @@ void take(Manager* manager, const GoOn& go_on, const Record& record) {
         go_on();
 }
 
-/// answer() about the shapes of a pair, written down if a callback of a recorded call asks.
-template <class Request, class Answer> auto ask(const Request& request, const Answer& answer) {
+/// answer() about the shapes of a pair, written down if a callback of a recorded call makes the
+/// query.
+template <class Request, class Query> auto timed(const Request& request, const Query& answer) {
     if (is_within)
         return answer();
-    return Recorder::asking(request, [&] {
-        const Within question(true); // FCL asks itself on
+    return Recorder::timed(request, [&] {
+        const Within query(true); // FCL calls itself
         return answer();
     });
 }
@@ -207,7 +208,7 @@ std::size_t boxwood_record_collide(const Object* a, const Object* b,
                                    const fcl::CollisionRequestd& request,
                                    fcl::CollisionResultd& result) {
     static const auto next = in_fcl<decltype(boxwood_record_collide)>(BOXWOOD_COLLIDE);
-    return ask(request, [&] { return next(a, b, request, result); });
+    return timed(request, [&] { return next(a, b, request, result); });
 }
 extern "C" [[gnu::visibility("default")]] double
 boxwood_record_distance(const Object* a, const Object* b, const fcl::DistanceRequestd& request,
@@ -215,7 +216,7 @@ boxwood_record_distance(const Object* a, const Object* b, const fcl::DistanceReq
 double boxwood_record_distance(const Object* a, const Object* b,
                                const fcl::DistanceRequestd& request, fcl::DistanceResultd& result) {
     static const auto next = in_fcl<decltype(boxwood_record_distance)>(BOXWOOD_DISTANCE);
-    return ask(request, [&] { return next(a, b, request, result); });
+    return timed(request, [&] { return next(a, b, request, result); });
 }
 
 // A member function is called as a function with the object as its first argument. NAME is of the

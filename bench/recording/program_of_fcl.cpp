@@ -29,7 +29,7 @@ using Object = fcl::CollisionObjectd;
 using Objects = std::vector<std::unique_ptr<Object>>;
 
 struct Count {
-    const Manager* within = nullptr; ///< asked again for each pair
+    const Manager* within = nullptr; ///< queried again for each pair
     std::size_t shown = 0, inner = 0;
 
     static bool add(Object* a, Object*, void* to) {
@@ -128,8 +128,8 @@ void run_direct(const char* name) {
     std::printf("%s %zu %zu\n", name, self.shown, one.shown);
 }
 
-/// Two threads, each within a query of one manager, ask the other one at the same time. A recorder
-/// that locks its manager while a callback runs never comes back from it.
+/// Two threads, each within a query of one manager, query the other one at the same time. A
+/// recorder that locks its manager while a callback runs never comes back from it.
 void run_crossed(const char* name) {
     const Objects objects = made(0), others = made(8);
     fcl::DynamicAABBTreeCollisionManagerd one, two;
@@ -140,14 +140,14 @@ void run_crossed(const char* name) {
     one.setup();
     two.setup();
     std::barrier<> both(2);
-    struct Asking {
+    struct Crossing {
         const Manager* other;
         std::barrier<>* both;
         bool has_met = false;
         std::size_t shown = 0, inner = 0;
 
-        static bool ask(Object* a, Object*, void* to) {
-            Asking& self = *static_cast<Asking*>(to);
+        static bool show(Object* a, Object*, void* to) {
+            Crossing& self = *static_cast<Crossing*>(to);
             if (!std::exchange(self.has_met, true))
                 self.both->arrive_and_wait();
             ++self.shown;
@@ -157,8 +157,8 @@ void run_crossed(const char* name) {
             return false;
         }
     } first{&two, &both}, second{&one, &both};
-    std::thread thread([&] { one.collide(&first, Asking::ask); });
-    two.collide(&second, Asking::ask);
+    std::thread thread([&] { one.collide(&first, Crossing::show); });
+    two.collide(&second, Crossing::show);
     thread.join();
     std::printf("%s %zu %zu %zu %zu\n", name, first.shown, first.inner, second.shown, second.inner);
 }

@@ -86,14 +86,14 @@ void read_requests(const std::filesystem::path& file, RecordedProgram& program) 
     for (std::size_t row = 0; row < requests.size(); ++row)
         for (std::size_t i = 0; double& number : program.requests.emplace_back())
             number = static_cast<double>(requests.integer(row, i++, 0x1p65));
-    const Table asked(file, "asked", recording::asked);
+    const Table counts(file, "request_counts", recording::request_counts);
     const auto n_calls = static_cast<double>(program.calls.size()),
                n_requests = static_cast<double>(program.requests.size());
-    for (std::size_t row = 0; row < asked.size(); ++row)
-        program.asked.push_back({static_cast<std::size_t>(asked.integer(row, 0, n_calls)),
-                                 static_cast<std::size_t>(asked.integer(row, 1, n_requests)),
-                                 static_cast<double>(asked.integer(row, 2, 0x1p53)),
-                                 asked.number(row, 3)});
+    for (std::size_t row = 0; row < counts.size(); ++row)
+        program.request_counts.push_back(
+            {static_cast<std::size_t>(counts.integer(row, 0, n_calls)),
+             static_cast<std::size_t>(counts.integer(row, 1, n_requests)),
+             static_cast<double>(counts.integer(row, 2, 0x1p53)), counts.number(row, 3)});
 }
 
 } // namespace
@@ -161,28 +161,29 @@ RecordedProgram read_program(const std::filesystem::path& file) {
     }
     if (version > 1)
         read_requests(file, program);
-    program.touch = most_asked(program);
+    program.touch = most_frequent_touch(program);
     return program;
 }
 
-RecordedProgram::Touch most_asked(const RecordedProgram& program) {
+RecordedProgram::Touch most_frequent_touch(const RecordedProgram& program) {
     double without = 0, with = 0;
-    std::map<double, double> times; // of those with contacts, by how many at most
-    for (const RecordedProgram::Asked& row : program.asked) {
-        const auto [question, most, contacts, points, is_signed] = program.requests[row.request];
+    std::map<double, double> times; // of those with contacts, by max_contacts
+    for (const RecordedProgram::RequestCount& row : program.request_counts) {
+        const auto [question, max_contacts, contacts, points, is_signed] =
+            program.requests[row.request];
         if (question == 0 && contacts != 0) {
             with += row.n;
-            times[most] += row.n;
+            times[max_contacts] += row.n;
         } else if (question == 0) {
             without += row.n;
         }
     }
     if (with == 0 || with < without)
         return {};
-    const double most =
+    const double usual =
         std::ranges::max_element(times, {}, [](const auto& entry) { return entry.second; })->first;
     // Programs ask for all contacts by the greatest number there is.
-    return {static_cast<std::size_t>(std::clamp(most, 1., 1e9)), true};
+    return {static_cast<std::size_t>(std::clamp(usual, 1., 1e9)), true};
 }
 
 } // namespace boxwood::bench

@@ -36,15 +36,15 @@ struct RecordedProgram {
         std::uint64_t hash = 0;
     };
 
-    /// How often a call's callbacks asked a request about shapes, and how long it took.
-    struct Asked {
+    /// How often a call's callbacks made a request about shapes, and how long these took.
+    struct RequestCount {
         std::size_t call = 0, request = 0;
         double n = 0, ns = 0;
     };
 
-    /// What is asked about two shapes that may touch: a yes or no, or contacts.
+    /// A query of two shapes that may touch: a yes or no, or contacts.
     struct Touch {
-        std::size_t most = 1; ///< contacts
+        std::size_t max_contacts = 1;
         bool contacts = false;
     };
 
@@ -57,8 +57,8 @@ struct RecordedProgram {
     std::vector<Vec3<double>> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles; ///< vertices of their geometry
     std::vector<recording::Request> requests;
-    std::vector<Asked> asked;
-    Touch touch{}; ///< as callbacks asked most often; a yes or no where that is not known
+    std::vector<RequestCount> request_counts;
+    Touch touch{}; ///< the most frequent; a yes or no where that is not known
 
     std::size_t n_objects() const { return geometry_of.size(); }
     std::span<const State> states_of(const Call& call) const {
@@ -91,8 +91,8 @@ inline bool is_with_others(recording::Call call) {
 }
 inline bool is_distance(recording::Call call) { return call >= recording::Call::distance_self; }
 
-/// Of `asked`.
-RecordedProgram::Touch most_asked(const RecordedProgram& program);
+/// Of `requests` and `request_counts`.
+RecordedProgram::Touch most_frequent_touch(const RecordedProgram& program);
 
 /// Throws std::runtime_error, "FILE: cause and what to do", for what is no recording, or a damaged
 /// one.

@@ -18,7 +18,9 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -37,6 +39,10 @@ class Recorders : public testing::Test {
     ~Recorders() override { std::filesystem::remove(file_); }
 
     RecordedProgram read() const { return read_program(file_); }
+    std::string bytes() const {
+        std::ifstream file(file_, std::ios::binary);
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
 
     Object& add(Recorder& to, const std::shared_ptr<fcl::CollisionGeometryd>& shape, double x) {
         Object& made = *objects_.emplace_back(std::make_unique<Object>(shape));
@@ -85,7 +91,7 @@ TEST_F(Recorders, ACallbackMayThrow) {
     EXPECT_EQ(program.calls.back().shown, 5u);
 }
 
-TEST_F(Recorders, MayBeClosedWhileTheyAreAsked) {
+TEST_F(Recorders, MayBeClosedWithinAQuery) {
     Recorder recorder(manager_, file_);
     add_balls(recorder);
     OfPair closing = [&](Object*, Object*) {
@@ -108,18 +114,18 @@ TEST_F(Recorders, ACallThatIsNotDoneHoldsNothingBackForEver) {
         add_balls(recorder);
         OfPair none = [](Object*, Object*) { return true; };
         bool is_first = true;
-        OfPair asking = [&](Object*, Object*) {
+        OfPair querying = [&](Object*, Object*) {
             if (std::exchange(is_first, false)) {
                 for (std::size_t i = 0; i < many; ++i)
                     recorder.collide(objects_[0].get(), &none, hand_on);
                 const std::filesystem::path copy = file_.string() + ".copy"; // file_ is locked
                 std::filesystem::copy_file(file_, copy);
-                behind = read_program(copy).calls.size(); // while this one is asked
+                behind = read_program(copy).calls.size(); // while this query goes on
                 std::filesystem::remove(copy);
             }
             return false;
         };
-        recorder.collide(&asking, hand_on);
+        recorder.collide(&querying, hand_on);
     }
     EXPECT_GT(behind, many / 2);
     const RecordedProgram program = read();
@@ -133,6 +139,7 @@ TEST_F(Recorders, AForkedChildWritesNothing) {
         Recorder recorder(manager_, file_);
         add_balls(recorder);
         OfPair forking = [&](Object*, Object*) {
+            const std::string before = bytes();
             const pid_t child = fork();
             if (child == 0) {
                 OfPair all = [](Object*, Object*) { return false; };
@@ -146,6 +153,7 @@ TEST_F(Recorders, AForkedChildWritesNothing) {
             int status = 0;
             EXPECT_EQ(waitpid(child, &status, 0), child);
             EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+            EXPECT_TRUE(bytes() == before);
             return true;
         };
         recorder.collide(&forking, hand_on);
@@ -176,45 +184,45 @@ TEST_F(Recorders, AGeometryInThePlaceOfAnotherIsAnother) {
     EXPECT_EQ(program.geometries[program.geometry_of[1]].numbers[0], 2);
 }
 
-TEST_F(Recorders, WriteDownWhatCallbacksAsk) {
+TEST_F(Recorders, WriteDownQueriesOfShapes) {
     std::size_t touching = 0;
     {
         Recorder recorder(manager_, file_);
         add_balls(recorder);
-        OfPair asking = [&](Object* a, Object* b) {
+        OfPair querying = [&](Object* a, Object* b) {
             fcl::CollisionResultd touch;
             touching += Recorder::collide(a, b, fcl::CollisionRequestd(3, true), touch) > 0;
             fcl::DistanceResultd far;
             Recorder::distance(a, b, fcl::DistanceRequestd(true), far);
             return false;
         };
-        recorder.collide(&asking, hand_on);
-        asking(objects_[0].get(), objects_[1].get()); // in no call
+        recorder.collide(&querying, hand_on);
+        querying(objects_[0].get(), objects_[1].get()); // in no call
     }
     EXPECT_EQ(touching, 6u);
     const RecordedProgram program = read();
     EXPECT_THAT(program.requests, testing::ElementsAre(recording::Request{0, 3, 1, 0, 0},
                                                        recording::Request{1, 0, 0, 1, 0}));
-    ASSERT_EQ(program.asked.size(), 2u);
-    for (const RecordedProgram::Asked& row : program.asked) {
+    ASSERT_EQ(program.request_counts.size(), 2u);
+    for (const RecordedProgram::RequestCount& row : program.request_counts) {
         EXPECT_EQ(row.call, 7u);
         EXPECT_EQ(row.n, 5);
         EXPECT_GT(row.ns, 0);
     }
     EXPECT_TRUE(program.touch.contacts);
-    EXPECT_EQ(program.touch.most, 3u);
+    EXPECT_EQ(program.touch.max_contacts, 3u);
 }
 
-TEST_F(Recorders, AYesOrNoIsAskedWhereMostAskNoContacts) {
+TEST_F(Recorders, AYesOrNoIsReplayedWhereMostRequestsHaveNoContacts) {
     RecordedProgram program;
-    EXPECT_FALSE(most_asked(program).contacts);
+    EXPECT_FALSE(most_frequent_touch(program).contacts);
     program.requests = {{0, 1, 0, 0, 0}, {0, 4, 1, 0, 0}, {0, 9, 1, 0, 0}, {1, 0, 0, 0, 0}};
-    program.asked = {{0, 0, 10, 1}, {0, 1, 4, 1}, {1, 2, 5, 1}, {1, 3, 100, 1}};
-    EXPECT_FALSE(most_asked(program).contacts);
-    EXPECT_EQ(most_asked(program).most, 1u);
-    program.asked.push_back({2, 1, 3, 1});
-    EXPECT_TRUE(most_asked(program).contacts);
-    EXPECT_EQ(most_asked(program).most, 4u);
+    program.request_counts = {{0, 0, 10, 1}, {0, 1, 4, 1}, {1, 2, 5, 1}, {1, 3, 100, 1}};
+    EXPECT_FALSE(most_frequent_touch(program).contacts);
+    EXPECT_EQ(most_frequent_touch(program).max_contacts, 1u);
+    program.request_counts.push_back({2, 1, 3, 1});
+    EXPECT_TRUE(most_frequent_touch(program).contacts);
+    EXPECT_EQ(most_frequent_touch(program).max_contacts, 4u);
 }
 
 TEST_F(Recorders, RecordingsOfVersion1AreRead) {

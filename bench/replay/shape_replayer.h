@@ -9,8 +9,8 @@
 
 namespace boxwood::bench {
 
-/// A Replay with the shapes of a library behind a manager of its Api: which pairs touch, as the
-/// program asked most often, and distances without points. A Library has
+/// A Replay with the shapes of a library behind a manager of its Api: which pairs touch, by the
+/// program's most frequent request, and distances without points. A Library has
 ///   Api, Geometry (a shared pointer), Rotation, Translation,
 ///   Geometry geometry_of(program, RecordedProgram::Geometry),
 ///   bool touch(Object*, Object*, RecordedProgram::Touch),

@@ -120,7 +120,7 @@ class WorldReplay final : public Replay {
     /// Two that touch, with their contacts if the program wants them.
     void note(ReplayedCall& to, std::uint32_t a, std::uint32_t b) const {
         if (touch_.contacts)
-            world_.contacts(a, b, {.max_contacts = touch_.most});
+            world_.contacts(a, b, {.max_contacts = touch_.max_contacts});
         ++to.shown;
         to.keys = recording::sum(to.keys, recording::key(object_of_[a], object_of_[b]));
     }

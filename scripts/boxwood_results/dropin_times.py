@@ -16,6 +16,7 @@ from boxwood.results.words import interval_text, time_text
 OURS = {"fcl": "boxwood.fcl_manager", "coal": "boxwood.coal_manager"}
 WORLD = "boxwood.world"  # with a narrow phase of its own
 WITH_FCL = "boxwood.fcl_manager, FCL's shapes"  # with FCL's
+MIN_ROUNDS = 9  # that an interval takes
 NEAR = 1e-6  # of the program's own ratio and that of its samples
 
 
@@ -66,9 +67,6 @@ class Run:
         return "" if self.times(self.ours("fcl")) else f"{self.ours('fcl')} is missing"
 
 
-MIN_ROUNDS = 9
-
-
 @dataclass(frozen=True)
 class DropinTimes:
     rounds: int
@@ -114,9 +112,10 @@ def table(times):
     rows = [["bodies", "that move in a frame", "boxwood::FclBroadPhase", "FCL's fastest / it", "boxwood::CoalBroadPhase", "Coal's fastest / it"]]
     for run in times.runs:
         if not run.triangles:
+            fastest = run.fastest()
             rows.append([f"{run.bodies:,}", moved_text(run)])
             for library, name in OURS.items():
-                manager, over = run.fastest().get(library, ("", None))
+                manager, over = fastest.get(library, ("", None))
                 rows[-1] += [times_text(run, name), over_text(over, manager) if over else ""]
     return rows
 

@@ -71,16 +71,16 @@ def test_calls_of_a_known_class_are_seen(tmp_path):
     assert found == 2, printed
 
 
-def test_what_callbacks_ask_about_shapes_is_known(tmp_path):
+def test_queries_of_shapes_by_callbacks_are_known(tmp_path):
     file = tmp_path / "a.h5"
     recorded = run(PROGRAM, "record", "--out", file, USES_FCL)
     printed = next(line.split()[1:] for line in recorded.stdout.splitlines() if line.startswith("dynamic_tree "))
     with h5py.File(file) as tables:
-        requests = list(zip(*(tables["requests"][name][:] for name in ("question", "most", "contacts", "points", "signed"))))
+        requests = list(zip(*(tables["requests"][name][:] for name in ("question", "max_contacts", "contacts", "points", "signed"))))
         calls = tables["calls/call"][:]
         rows = [(int(calls[int(call)]), requests[int(request)], int(n), ns)
-                for call, request, n, ns in zip(*(tables["asked"][name][:] for name in ("call", "request", "n", "ns")))]
-    n = len(rows) // (2 if len(rows) > 4 else 1)  # the last manager of this kind may stand where the first one was, and ask the same
+                for call, request, n, ns in zip(*(tables["request_counts"][name][:] for name in ("call", "request", "n", "ns")))]
+    n = len(rows) // (2 if len(rows) > 4 else 1)  # the last manager of this kind may stand where the first one was, and make the same queries
     assert [row[:3] for row in rows[:n]] == [row[:3] for row in rows[-n:]]
     rows = rows[:n]
     touch, far = (0, 4, 1, 0, 0), (1, 0, 0, 0, 0)
@@ -105,7 +105,7 @@ def test_threads_are_as_free_as_without(tmp_path):
             calls = tables["calls"]
             kinds, numbers = calls["call"][:], calls["shown"][:]
         own = [i for i, call in enumerate(kinds) if call == COLLIDE_SELF][-1:]
-        # After its own last query those that the other's callback asked of it while that one ran.
+        # After its own last query those that the other's callback made of it while that one ran.
         found += [(numbers[i], sum(numbers[i + 1:])) for i in own if set(kinds[i + 1:]) == {COLLIDE_SELF + 1}]
     assert (shown, others_inner) in found and (others_shown, inner) in found, (crossed, found)
 

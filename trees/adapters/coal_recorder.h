@@ -87,20 +87,20 @@ class CoalRecorder final : public detail::RecordedManager<detail::CoalLibrary> {
                       [&] { to().distance(with, &measured); });
     }
 
-    /// In callbacks, in the place of coal::collide and coal::distance: what is asked about shapes
+    /// In callbacks, in the place of coal::collide and coal::distance: the query
     /// is written down, too. Without a recorder, and outside of its calls, they do the same.
     static std::size_t collide(const Object* a, const Object* b,
                                const coal::CollisionRequest& request,
                                coal::CollisionResult& result) {
-        return Calls::asking({0, static_cast<double>(request.num_max_contacts),
-                              request.enable_contact ? 1. : 0., 0, 0},
-                             [&] { return coal::collide(a, b, request, result); });
+        return Calls::timed({0, static_cast<double>(request.num_max_contacts),
+                             request.enable_contact ? 1. : 0., 0, 0},
+                            [&] { return coal::collide(a, b, request, result); });
     }
     static coal::CoalScalar distance(const Object* a, const Object* b,
                                      const coal::DistanceRequest& request,
                                      coal::DistanceResult& result) {
-        return Calls::asking({1, 0, 0, 1, request.enable_signed_distance ? 1. : 0.},
-                             [&] { return coal::distance(a, b, request, result); });
+        return Calls::timed({1, 0, 0, 1, request.enable_signed_distance ? 1. : 0.},
+                            [&] { return coal::distance(a, b, request, result); });
     }
 
   private:

@@ -96,29 +96,29 @@ template <class S> class FclRecorder final : public detail::RecordedManager<deta
                       [&] { to().distance(with, &measured, Measured::show); });
     }
 
-    /// In callbacks, in the place of fcl::collide and fcl::distance: what is asked about shapes is
+    /// In callbacks, in the place of fcl::collide and fcl::distance: the query is
     /// written down, too. Without a recorder, and outside of its calls, they do the same.
     static std::size_t collide(const Object* a, const Object* b,
                                const fcl::CollisionRequest<S>& request,
                                fcl::CollisionResult<S>& result) {
-        return asking(request, [&] { return fcl::collide(a, b, request, result); });
+        return timed(request, [&] { return fcl::collide(a, b, request, result); });
     }
     static S distance(const Object* a, const Object* b, const fcl::DistanceRequest<S>& request,
                       fcl::DistanceResult<S>& result) {
-        return asking(request, [&] { return fcl::distance(a, b, request, result); });
+        return timed(request, [&] { return fcl::distance(a, b, request, result); });
     }
     /// answer(), which is FCL's to this request.
-    template <class Ask>
-    static auto asking(const fcl::CollisionRequest<S>& request, const Ask& answer) {
-        return Calls::asking({0, static_cast<double>(request.num_max_contacts),
-                              request.enable_contact ? 1. : 0., 0, 0},
-                             answer);
+    template <class Query>
+    static auto timed(const fcl::CollisionRequest<S>& request, const Query& answer) {
+        return Calls::timed({0, static_cast<double>(request.num_max_contacts),
+                             request.enable_contact ? 1. : 0., 0, 0},
+                            answer);
     }
-    template <class Ask>
-    static auto asking(const fcl::DistanceRequest<S>& request, const Ask& answer) {
-        return Calls::asking({1, 0, 0, request.enable_nearest_points ? 1. : 0.,
-                              request.enable_signed_distance ? 1. : 0.},
-                             answer);
+    template <class Query>
+    static auto timed(const fcl::DistanceRequest<S>& request, const Query& answer) {
+        return Calls::timed({1, 0, 0, request.enable_nearest_points ? 1. : 0.,
+                             request.enable_signed_distance ? 1. : 0.},
+                            answer);
     }
 
   private:

@@ -10,7 +10,7 @@
 
 namespace boxwood::recording {
 
-inline constexpr std::uint32_t version = 2; ///< of the tables; /format/version. 1: none asked
+inline constexpr std::uint32_t version = 2; ///< of the tables; /format/version. 1: without requests
 
 enum class Call : std::uint8_t {
     add,    ///< objects are registered
@@ -79,13 +79,13 @@ inline constexpr std::array<std::string_view, 9> geometries = {
     "shape", "a", "b", "c", "d", "n_vertices", "n_triangles", "hash_high", "hash_low"};
 inline constexpr std::array<std::string_view, 3> vertices = {"x", "y", "z"};
 inline constexpr std::array<std::string_view, 3> triangles = {"a", "b", "c"};
-/// What callbacks asked about the shapes of pairs: whether they touch (0) or how far apart they are
+/// Queries of callbacks about the shapes of pairs: whether they touch (0) or how far apart they are
 /// (1), at most so many contacts, whether with contacts, nearest points and distances below 0.
-inline constexpr std::array<std::string_view, 5> requests = {"question", "most", "contacts",
+inline constexpr std::array<std::string_view, 5> requests = {"question", "max_contacts", "contacts",
                                                              "points", "signed"};
 using Request = std::array<double, requests.size()>; ///< a row
-/// How often a call's callbacks did, and how long it took, ns.
-inline constexpr std::array<std::string_view, 4> asked = {"call", "request", "n", "ns"};
+/// How often a call's callbacks made one, and how long these took, ns.
+inline constexpr std::array<std::string_view, 4> request_counts = {"call", "request", "n", "ns"};
 /// One row: version, and the bits of the program's numbers (32 or 64).
 inline constexpr std::array<std::string_view, 2> format = {"version", "bits"};
 

@@ -24,8 +24,8 @@
 
 namespace boxwood {
 
-/// Meanwhile HDF5 prints nothing of its own: failures are told by what is thrown. One thread at a
-/// time has one, as HDF5 may be built without threads.
+/// Meanwhile HDF5 prints nothing of its own: failures are reported by what is thrown. One thread at
+/// a time has one, as HDF5 may be built without threads.
 class QuietHdf5 {
   public:
     QuietHdf5() {
@@ -49,13 +49,13 @@ class QuietHdf5 {
 class Forks {
   public:
     static unsigned count() {
-        static const int is_told = pthread_atfork([] { QuietHdf5::one_at_a_time_.lock(); },
-                                                  [] { QuietHdf5::one_at_a_time_.unlock(); },
-                                                  [] { // whose thread is not the one that locked
-                                                      std::construct_at(&QuietHdf5::one_at_a_time_);
-                                                      ++n_;
-                                                  });
-        static_cast<void>(is_told);
+        static const int is_registered = pthread_atfork(
+            [] { QuietHdf5::one_at_a_time_.lock(); }, [] { QuietHdf5::one_at_a_time_.unlock(); },
+            [] { // whose thread is not the one that locked
+                std::construct_at(&QuietHdf5::one_at_a_time_);
+                ++n_;
+            });
+        static_cast<void>(is_registered);
         return n_;
     }
 

@@ -64,7 +64,7 @@ struct CoalShapes {
     static bool touch(const Object* a, const Object* b, RecordedProgram::Touch touch) {
         coal::CollisionRequest request;
         request.enable_contact = touch.contacts;
-        request.num_max_contacts = touch.most;
+        request.num_max_contacts = touch.max_contacts;
         request.break_distance = 0; // no lower bound of the distance is wanted
         request.distance_upper_bound = 0;
         coal::CollisionResult result;

@@ -89,7 +89,7 @@ struct FclShapes {
         }
     }
     static bool touch(const Object* a, const Object* b, RecordedProgram::Touch touch) {
-        const fcl::CollisionRequestd request(touch.most, touch.contacts);
+        const fcl::CollisionRequestd request(touch.max_contacts, touch.contacts);
         fcl::CollisionResultd result;
         return fcl::collide(a, b, request, result) > 0;
     }

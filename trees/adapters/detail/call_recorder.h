@@ -121,8 +121,9 @@ template <class Library> class CallRecorder {
     }
 
     /// answer() about two shapes, timed, and written down where a callback of a recorded call of
-    /// this thread asks.
-    template <class Ask> static auto asking(const recording::Request& request, const Ask& answer) {
+    /// this thread makes the query.
+    template <class Query>
+    static auto timed(const recording::Request& request, const Query& answer) {
         const auto begun = std::chrono::steady_clock::now();
         const auto found = answer();
         const std::chrono::duration<double, std::nano> taken =
@@ -145,10 +146,10 @@ template <class Library> class CallRecorder {
         bool is_certain = true, is_done = false, is_written = false;
         Answer answer; ///< while it is not done, of a query that was ended
         double ns = 0;
-        struct Asked {
+        struct RequestCount {
             double n = 0, ns = 0;
         };
-        std::map<std::size_t, Asked> asked; ///< by request
+        std::map<std::size_t, RequestCount> request_counts; ///< by request
     };
     using Open = typename std::list<Pending>::iterator;
     /// The innermost recorded call that this thread is in.
@@ -177,7 +178,7 @@ template <class Library> class CallRecorder {
         const auto [found, is_new] = requests_.try_emplace(request, requests_.size());
         if (is_new)
             tables_->requests.add(request);
-        auto& [n, all_ns] = call.asked[found->second];
+        auto& [n, all_ns] = call.request_counts[found->second];
         ++n;
         all_ns += ns;
     }
@@ -220,15 +221,15 @@ template <class Library> class CallRecorder {
                 failure = write();
         }
         if (failure)
-            tell(failure);
+            report(failure);
     }
     /// Adds the rows of all that is done, up to the first that is not; of too many that wait for
     /// one, that one's, too.
     void settle() {
-        constexpr std::size_t most = 65536;
+        constexpr std::size_t max_pending = 65536;
         while (!pending_.empty()) {
             Pending& first = pending_.front();
-            if (!first.is_done && pending_.size() <= most)
+            if (!first.is_done && pending_.size() <= max_pending)
                 return;
             add(first);
             if (first.is_done) {
@@ -249,15 +250,15 @@ template <class Library> class CallRecorder {
                             static_cast<double>(row.answer.keys),
                             row.answer.ended || !row.is_certain ? 1. : 0., row.answer.min_distance,
                             row.ns});
-        for (const auto& [request, of] : row.asked)
-            tables_->asked.add({n_rows_, static_cast<double>(request), of.n, of.ns});
+        for (const auto& [request, of] : row.request_counts)
+            tables_->request_counts.add({n_rows_, static_cast<double>(request), of.n, of.ns});
         ++n_rows_;
         ++n_calls_;
     }
     /// Whether this is a forked child: the file is its parent's, and so may the lock be.
     bool is_elsewhere() const { return Forks::count() != forks_; }
 
-    /// Why it could not be written; then, if somebody is to be told, the recording has ended.
+    /// Why it could not be written; with an `on_failure` the recording has ended then.
     std::exception_ptr write() {
         n_calls_ = 0;
         written_ = std::chrono::steady_clock::now();
@@ -270,7 +271,7 @@ template <class Library> class CallRecorder {
             return std::current_exception();
         }
     }
-    void tell(const std::exception_ptr& failure) const {
+    void report(const std::exception_ptr& failure) const {
         try {
             std::rethrow_exception(failure);
         } catch (const std::exception& error) {
@@ -283,10 +284,10 @@ template <class Library> class CallRecorder {
     struct Tables {
         explicit Tables(const std::filesystem::path& path) : file(path) {}
         void write() {
-            const QuietHdf5 whole;
+            const QuietHdf5 quiet;
             for (RecordingFile::Table* table :
                  {&format, &geometries, &vertices, &triangles, &objects, &states, &call_objects,
-                  &calls, &requests, &asked})
+                  &calls, &requests, &request_counts})
                 table->write();
             file.flush();
         }
@@ -298,7 +299,8 @@ template <class Library> class CallRecorder {
             triangles{file, "triangles", recording::triangles},
             objects{file, "objects", recording::objects}, states{file, "states", recording::states},
             call_objects{file, "call_objects", recording::call_objects},
-            requests{file, "requests", recording::requests}, asked{file, "asked", recording::asked},
+            requests{file, "requests", recording::requests},
+            request_counts{file, "request_counts", recording::request_counts},
             calls{file, "calls", recording::calls};
     };
     struct Known {
