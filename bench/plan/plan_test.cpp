@@ -292,6 +292,18 @@ TEST(Plan, ShippedSweepFilesAreGood) {
     }
 }
 
+TEST(Plan, ShippedSweepFilesForTheUsersOwnAreGood) {
+    Overrides overrides;
+    overrides.robots = {"scenes/examples/arm.urdf"};
+    const auto n_cells = [&](const std::string& file) {
+        return make_plan(read_text(file), file, overrides).cells.size();
+    };
+    EXPECT_GE(n_cells("bench/configs/robots.toml"), 2u);
+    EXPECT_EQ(n_cells("bench/configs/poses.toml"), 1u);
+    overrides.meshes = {"scenes/examples/ball.obj"};
+    EXPECT_EQ(n_cells("bench/configs/poses.toml"), 13u);
+}
+
 TEST(Order, IsASeededPermutationOfAllCells) {
     const auto first = shuffled_order(100, order_seed_of(1, 0));
     EXPECT_EQ(first, shuffled_order(100, order_seed_of(1, 0)));

@@ -1,7 +1,11 @@
 #include "trees/world/pose.h"
 
+#include "trees/testing/test_meshes.h"
+
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <random>
 #include <stdexcept>
 
 #if __has_include(<Eigen/Geometry>)
@@ -19,6 +23,29 @@ TEST(Poses, RelativeOnesLeadBack) {
         for (int column = 0; column < 3; ++column)
             EXPECT_EQ(b.rotation[row][column], static_cast<int>(row) == column ? 1 : 0);
     EXPECT_EQ(b.translation, (Vec3<double>{}));
+}
+
+TEST(Poses, MustBeRigid) {
+    Pose pose;
+    pose.rotation[0] = {1.0003, 0, 0};
+    EXPECT_DOUBLE_EQ(checked_pose(pose).rotation[0].x, 1);
+    pose.rotation[0] = {1.1, 0, 0};
+    EXPECT_THROW(checked_pose(pose), std::invalid_argument);
+    pose.rotation[0] = {-1, 0, 0};
+    EXPECT_THROW(checked_pose(pose), std::invalid_argument);
+    pose = {};
+    pose.translation.x = std::numeric_limits<double>::infinity();
+    EXPECT_THROW(checked_pose(pose), std::invalid_argument);
+}
+
+TEST(Poses, RelativeOnesBringPointsBack) {
+    std::mt19937 random(6);
+    for (int k = 0; k < 20; ++k) {
+        const Pose a = random_pose(random, {1, 2, 3}), b = random_pose(random, {-4, 5, .5});
+        const Vec3<double> p{.3, -.2, .7};
+        const Vec3<double> apart = a(relative_pose(a, b)(p)) - b(p);
+        EXPECT_LT(length(apart), 1e-14);
+    }
 }
 
 #if __has_include(<Eigen/Geometry>)

@@ -197,6 +197,31 @@ TEST(FirstContact, IsNotAfterWhatSamplesFind) {
 }
 
 /// Along a floor, just above it: a step of the distance is a millionth of the way.
+TEST(FirstContact, IsTheSameWhereBothAreMovedTogether) {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> place(-3, 3);
+    const MeshTree a(noisy_sphere(7, 9, .2, 1)), b(noisy_sphere(8, 6, .3, 2));
+    const auto pose = [&] {
+        return random_pose(random, {place(random), place(random), place(random)});
+    };
+    std::size_t hits = 0;
+    for (int k = 0; k < 60; ++k) {
+        const auto path = k % 2 == 0 ? MotionPath::linear : MotionPath::screw;
+        const Pose from_a = pose(), to_a = pose(), from_b = pose(), to_b = pose(), moved = pose();
+        const auto contact = [&](const Pose& by) {
+            return first_contact(a, Motion(compose(by, from_a), compose(by, to_a), path), b,
+                                 Motion(compose(by, from_b), compose(by, to_b), path));
+        };
+        const FirstContact before = contact({}), after = contact(moved);
+        EXPECT_EQ(before.hit, after.hit);
+        EXPECT_LE(before.t_free, after.t_hit + 1e-9);
+        EXPECT_LE(after.t_free, before.t_hit + 1e-9);
+        hits += before.hit == Answer::yes;
+    }
+    EXPECT_GT(hits, 15u);
+    EXPECT_LT(hits, 55u);
+}
+
 TEST(FirstContact, OfWhatSlidesJustAboveIsDecided) {
     const MeshTree cube(cube_mesh(.5f)), floor(plate(4, 0)), ball(noisy_sphere(24, 24, 0, 1, .5)),
         bumpy(plate(24, 0, .01));

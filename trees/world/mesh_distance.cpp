@@ -1,12 +1,13 @@
 /// How far two meshes are apart.
 ///
-/// First a few times straight down to the nearest leaves, for an upper bound. Then depth first, the
-/// nearest pair of blocks on top. A step opens both blocks at once: bounds of the
-/// distances of boxes in floats, eight at a time; where a bound is just below what is wanted, the
-/// gap in doubles. Pairs of leaves: bounds of the distances of triangles by their boxes and along
-/// their normals; what is left is gathered and measured eight pairs at a time. Each measured pair
-/// is bounded from below by the gap along the line of its nearest points. Where that does not do,
-/// the certified kernel decides, at the end, for what is then still near enough.
+/// First straight down to leaves a few times, for an upper bound: by the centres of blocks, then by
+/// the bounds of their distances. Then the pair of blocks with the least bound first, or depth
+/// first where too many wait. A step opens both blocks at once: bounds of the distances of boxes in
+/// floats, eight at a time; where rounding leaves it open whether a bound is below what is wanted,
+/// the gap in doubles. Pairs of leaves: bounds of the distances of triangles by their boxes and
+/// along their normals; what is left is gathered and measured eight pairs at a time. Each measured
+/// pair is bounded from below by the gap along the line of its nearest points. Where that does not
+/// do, the certified kernel decides, at the end, for what is then still near enough.
 
 // Compiled once per instruction set; the best one is chosen at run time.
 #undef HWY_TARGET_INCLUDE
@@ -17,6 +18,7 @@
 
 #include "kernels/arithmetic/float_mode.h"
 #include "kernels/triangle_distance/features_batch.h"
+#include "trees/world/detail/bound_queue.h"
 #include "trees/world/detail/box_gap.h"
 #include "trees/world/detail/entry_stack.h"
 #include "trees/world/detail/leaf_bounds-inl.h"
@@ -27,19 +29,7 @@
 #include <bit>
 #include <limits>
 #include <stdexcept>
-
-#ifndef BOXWOOD_MESH_DISTANCE_ONCE
-#define BOXWOOD_MESH_DISTANCE_ONCE
-namespace boxwood::detail {
-
-/// A pair of blocks that waits, with a bound of its distance and what it is ordered by.
-struct NearEntry {
-    float bound, key;
-    std::uint32_t a, b;
-};
-
-} // namespace boxwood::detail
-#endif
+#include <utility>
 
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::detail::HWY_NAMESPACE {
@@ -58,29 +48,50 @@ template <bool counted> class Search {
     }
 
     MeshDistance run() {
-        stack_.push({0, 0, a_.root(), b_.root()});
-        while (!stack_.empty() && !nearest_.is_done()) {
-            const NearEntry open = stack_.pop();
-            if (open.bound >= nearest_.wanted_f32())
-                continue;
-            count_visit(stack_.size() + 1);
-            if (is_leaf(open.a) && is_leaf(open.b))
-                compare_leaves(open);
-            else if (is_leaf(open.a))
-                open_b(open);
-            else if (is_leaf(open.b))
-                open_a(open);
-            else
-                open_both(open);
+        descend_by_bounds();
+        BoundQueue open(nearest_.wanted_f32());
+        for (;;) {
+            if (!open.has_room_for(stack_.size()))
+                go_down(open.size());
+            while (!stack_.empty())
+                open.push(stack_.pop());
+            if (open.empty() || nearest_.is_done())
+                break;
+            const NearEntry next = open.pop();
+            if (next.bound < nearest_.wanted_f32())
+                expand(next, open.size());
         }
         measure_queue();
         return nearest_.certified();
     }
 
   private:
+    static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+    /// The parts go on the stack.
+    HWY_INLINE void expand(const NearEntry& open, std::size_t waiting) {
+        count_visit(waiting + 1);
+        if (is_leaf(open.a) && is_leaf(open.b))
+            compare_leaves(open);
+        else if (is_leaf(open.a))
+            open_b(open);
+        else if (is_leaf(open.b))
+            open_a(open);
+        else
+            open_both(open);
+    }
+    /// All that is on the stack, to the leaves.
+    HWY_NOINLINE void go_down(std::size_t waiting) {
+        while (!stack_.empty() && !nearest_.is_done()) {
+            const NearEntry open = stack_.pop();
+            if (open.bound < nearest_.wanted_f32())
+                expand(open, waiting + stack_.size());
+        }
+    }
+
     // The descents.
 
-    static constexpr int descents = 4;
+    static constexpr int descents = 2;
 
     void descend() {
         std::uint32_t tried = 0; // lanes of a root
@@ -95,10 +106,35 @@ template <bool counted> class Search {
             if (at == last)
                 continue;
             count_visit(0);
-            compare_leaves({0, 0, at.a, at.b});
+            compare_leaves({0, at.a, at.b});
             measure_queue();
             last = at;
         }
+    }
+
+    /// Straight down once more, to the part with the least bound; the others stay on the stack.
+    void descend_by_bounds() {
+        if (nearest_.is_done())
+            return;
+        NearEntry at{0, a_.root(), b_.root()};
+        while (!is_leaf(at.a) || !is_leaf(at.b)) {
+            count_visit(stack_.size() + 1);
+            nearest_part_ = {};
+            if (is_leaf(at.a))
+                open_b<true>(at);
+            else if (is_leaf(at.b))
+                open_a<true>(at);
+            else
+                open_both<true>(at);
+            if (nearest_part_.place == none)
+                return;
+            NearEntry& part = *stack_.from(nearest_part_.place);
+            at = part;
+            part = stack_.pop();
+        }
+        count_visit(stack_.size() + 1);
+        compare_leaves(at);
+        measure_queue();
     }
 
     /// To the lane of B whose centre is nearest to A's, if B is no leaf, then to the lane of A that
@@ -169,7 +205,7 @@ template <bool counted> class Search {
 
     // A step.
 
-    template <class Centre>
+    template <bool with_keys, class Centre>
     HWY_INLINE std::uint32_t bound_lanes(const SeenBox& one, const Centre& centre,
                                          const float (&axis)[3][3][8], const float (&half)[3][8],
                                          std::uint32_t count, float error, float* bounds,
@@ -181,7 +217,7 @@ template <bool counted> class Search {
             const F8 bound = hn::Max(hn::Sub(six.distance_bound(one, half, i), hn::Set(d8, error)),
                                      hn::Zero(d8));
             hn::StoreU(bound, d8, bounds + i);
-            if (keys)
+            if constexpr (with_keys)
                 hn::StoreU(six.centres_squared(), d8, keys + i);
             std::uint8_t part[8] = {};
             hn::StoreMaskBits(d8, hn::Lt(bound, wanted), part);
@@ -191,78 +227,74 @@ template <bool counted> class Search {
             work_->box_tests += 8;
         return bits & ((1u << count) - 1);
     }
-    /// Whether floats leave open what doubles might not.
-    bool is_tie(float bound) const { return bound > 0.99f * nearest_.wanted_f32(); }
+    /// keys: what parts with one bound are ordered by, the distances of the centres.
+    struct NearestPart {
+        float bound = std::numeric_limits<float>::infinity(), key = bound;
+        std::size_t place = none; ///< on the stack
+    };
+    template <bool descending>
+    HWY_INLINE void put(float bound, float key, std::uint32_t a, std::uint32_t b) {
+        if constexpr (descending)
+            if (std::pair(bound, key) < std::pair(nearest_part_.bound, nearest_part_.key))
+                nearest_part_ = {bound, key, stack_.size()};
+        stack_.push({bound, a, b});
+    }
 
-    HWY_INLINE void open_both(const NearEntry& open) {
+    /// The bounds, from which `error` was taken, that leave open what doubles might not.
+    float ties_from(float error) const {
+        return nearest_.wanted_f32() * (1 - 0x1p-18f) - 2 * error;
+    }
+
+    template <bool descending = false> HWY_INLINE void open_both(const NearEntry& open) {
         const ObbBlock& a = a_.block(open.a);
         const ObbBlock& b = b_.block(open.b);
         const Vec3<double> t = frame_.between(a.own.centre, b.own.centre);
-        const float error = 2 * frame_.error(t, a.own, b.own);
+        const float error = 2 * frame_.error(t, a.own, b.own), tie = ties_from(error);
         SeenBoxes seen;
         see_lanes(b, frame_, t, seen);
         alignas(64) float bounds[8], keys[8];
-        std::uint32_t near = bound_lanes(PairFrame::seen_a(a.own), seen.centre, seen.axis, b.half,
-                                         b.count, error, bounds, nullptr);
-        const std::size_t first = stack_.size();
+        std::uint32_t near = bound_lanes<descending>(
+            PairFrame::seen_a(a.own), seen.centre, seen.axis, b.half, b.count, error, bounds, keys);
         for (; near != 0; near &= near - 1) {
             const auto j = static_cast<std::size_t>(std::countr_zero(near));
-            std::uint32_t hits =
-                bound_lanes(seen.lane(j), a.centre, a.axis, a.half, a.count, error, bounds, keys);
+            std::uint32_t hits = bound_lanes<descending>(seen.lane(j), a.centre, a.axis, a.half,
+                                                         a.count, error, bounds, keys);
             for (; hits != 0; hits &= hits - 1) {
                 const auto i = static_cast<std::size_t>(std::countr_zero(hits));
-                if (is_tie(bounds[i]) &&
-                    box_gap(BoxF64(a, i), BoxF64(b, j), frame_) >= nearest_.wanted())
-                    continue;
-                stack_.push({bounds[i], keys[i], a.ref[i], b.ref[j]});
+                if (bounds[i] < tie ||
+                    box_gap(BoxF64(a, i), BoxF64(b, j), frame_) < nearest_.wanted())
+                    put<descending>(bounds[i], keys[i], a.ref[i], b.ref[j]);
             }
         }
-        order(first);
     }
-    HWY_INLINE void open_b(const NearEntry& open) {
+    template <bool descending = false> HWY_INLINE void open_b(const NearEntry& open) {
         const PosedBox& own = a_.leaf(open.a).own;
         const ObbBlock& b = b_.block(open.b);
         const Vec3<double> t = frame_.between(own.centre, b.own.centre);
+        const float error = 2 * frame_.error(t, own, b.own), tie = ties_from(error);
         SeenBoxes seen;
         see_lanes(b, frame_, t, seen);
         alignas(64) float bounds[8], keys[8];
-        std::uint32_t near = bound_lanes(PairFrame::seen_a(own), seen.centre, seen.axis, b.half,
-                                         b.count, 2 * frame_.error(t, own, b.own), bounds, keys);
-        const std::size_t first = stack_.size();
+        std::uint32_t near = bound_lanes<descending>(PairFrame::seen_a(own), seen.centre, seen.axis,
+                                                     b.half, b.count, error, bounds, keys);
         for (; near != 0; near &= near - 1) {
             const auto j = static_cast<std::size_t>(std::countr_zero(near));
-            if (!is_tie(bounds[j]) ||
-                box_gap(BoxF64(own), BoxF64(b, j), frame_) < nearest_.wanted())
-                stack_.push({bounds[j], keys[j], open.a, b.ref[j]});
+            if (bounds[j] < tie || box_gap(BoxF64(own), BoxF64(b, j), frame_) < nearest_.wanted())
+                put<descending>(bounds[j], keys[j], open.a, b.ref[j]);
         }
-        order(first);
     }
-    HWY_INLINE void open_a(const NearEntry& open) {
+    template <bool descending = false> HWY_INLINE void open_a(const NearEntry& open) {
         const ObbBlock& a = a_.block(open.a);
         const PosedBox& own = b_.leaf(open.b).own;
         const Vec3<double> t = frame_.between(a.own.centre, own.centre);
+        const float error = 2 * frame_.error(t, a.own, own), tie = ties_from(error);
         alignas(64) float bounds[8], keys[8];
-        std::uint32_t near = bound_lanes(frame_.seen_b(own, t), a.centre, a.axis, a.half, a.count,
-                                         2 * frame_.error(t, a.own, own), bounds, keys);
-        const std::size_t first = stack_.size();
+        std::uint32_t near = bound_lanes<descending>(frame_.seen_b(own, t), a.centre, a.axis,
+                                                     a.half, a.count, error, bounds, keys);
         for (; near != 0; near &= near - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(near));
-            if (!is_tie(bounds[i]) ||
-                box_gap(BoxF64(a, i), BoxF64(own), frame_) < nearest_.wanted())
-                stack_.push({bounds[i], keys[i], a.ref[i], open.b});
-        }
-        order(first);
-    }
-    /// The nearest of those pushed last on top.
-    HWY_INLINE void order(std::size_t first) {
-        NearEntry* const entries = stack_.from(first);
-        const std::size_t n = stack_.size() - first;
-        for (std::size_t i = 1; i < n; ++i) {
-            const NearEntry x = entries[i];
-            std::size_t k = i;
-            for (; k > 0 && entries[k - 1].key < x.key; --k)
-                entries[k] = entries[k - 1];
-            entries[k] = x;
+            if (bounds[i] < tie || box_gap(BoxF64(a, i), BoxF64(own), frame_) < nearest_.wanted())
+                put<descending>(bounds[i], keys[i], a.ref[i], open.b);
         }
     }
 
@@ -292,21 +324,22 @@ template <bool counted> class Search {
         const auto add = [&](const Near& pair) HWY_ATTR {
             queue_.add(a, pair.lanes / 8, b, leaves.moved(), pair.lanes % 8);
         };
-        if (n <= 8) {
-            for (std::size_t k = 0; k < n; ++k)
-                add(found[k]);
-        } else { // the nearest first, eight at a time
-            std::sort(found, found + n,
-                      [](const Near& x, const Near& y) { return x.bound < y.bound; });
-            for (std::size_t k = 0;
-                 k < n && found[k].bound < nearest_.wanted_f32() && !nearest_.is_done();) {
-                const std::size_t end = std::min(n, k + 8 - queue_.size() % 8);
-                for (; k < end; ++k)
-                    add(found[k]);
-                if (queue_.size() % 8 == 0)
-                    measure_queue();
-            }
+        Near* from = found;
+        Near* end = found + n;
+        while (end - from > 8) { // the nearest first, eight at a time
+            Near* const next = from + (8 - queue_.size() % 8);
+            std::nth_element(from, next, end,
+                             [](const Near& x, const Near& y) { return x.bound < y.bound; });
+            for (; from != next; ++from)
+                add(*from);
+            measure_queue();
+            if (nearest_.is_done())
+                return;
+            end = std::remove_if(from, end,
+                                 [&](const Near& x) { return x.bound >= nearest_.wanted_f32(); });
         }
+        for (; from != end; ++from)
+            add(*from);
         if (queue_.size() >= 8)
             measure_queue();
     }
@@ -327,41 +360,15 @@ template <bool counted> class Search {
     }
 
     /// Up to eight measured pairs: lowers the best, and keeps what may still be nearer than it was
-    /// measured. The gap along any direction n is a bound: min n.b - max n.a over the corners,
-    /// over |n|; each product sum is off by less than 4 2^-53 |n|_1 times the greatest
-    /// |coordinate|, which `moved` exceeds 32 times over.
+    /// measured.
     HWY_INLINE void judge(std::size_t begin, std::size_t count) {
-        const hn::CappedTag<double, 8> d;
-        using D8 = hn::Vec<decltype(d)>;
         alignas(64) double way[3][8], lower[8];
         for (std::size_t i = 0; i < 8; ++i) {
             const Distance& found = distances_[begin + std::min(i, count - 1)];
             const Vec3<double> n = found.point_b - found.point_a;
             way[0][i] = n.x, way[1][i] = n.y, way[2][i] = n.z;
         }
-        const TrianglePairBlock<double>& block = queue_.blocks()[begin / 8];
-        for (std::size_t i = 0; i < 8; i += hn::Lanes(d)) {
-            const D8 n[3] = {hn::Load(d, way[0] + i), hn::Load(d, way[1] + i),
-                             hn::Load(d, way[2] + i)};
-            const auto heights = [&](int side, bool least) HWY_ATTR {
-                D8 h[3];
-                for (std::size_t k = 0; k < 3; ++k) {
-                    const auto& corner = block.corner[side][k];
-                    h[k] = hn::Add(hn::Add(hn::Mul(n[0], hn::Load(d, corner[0] + i)),
-                                           hn::Mul(n[1], hn::Load(d, corner[1] + i))),
-                                   hn::Mul(n[2], hn::Load(d, corner[2] + i)));
-                }
-                return least ? hn::Min(hn::Min(h[0], h[1]), h[2])
-                             : hn::Max(hn::Max(h[0], h[1]), h[2]);
-            };
-            const D8 gap = hn::Sub(heights(1, true), heights(0, false));
-            const D8 length = hn::Sqrt(
-                hn::Add(hn::Add(hn::Mul(n[0], n[0]), hn::Mul(n[1], n[1])), hn::Mul(n[2], n[2])));
-            const D8 bound = hn::Sub(
-                hn::Mul(hn::Div(gap, hn::Max(length, hn::Set(d, 1e-150))), hn::Set(d, 1 - 0x1p-48)),
-                hn::Set(d, frame_.moved));
-            hn::Store(bound, d, lower + i);
-        }
+        gaps_along(way, queue_.blocks()[begin / 8], frame_.moved, lower);
         for (std::size_t i = 0; i < count && !nearest_.is_done(); ++i) {
             const Distance& found = distances_[begin + i];
             if (found.distance < nearest_.best() || lower[i] < nearest_.wanted())
@@ -380,8 +387,9 @@ template <bool counted> class Search {
     PairFrame frame_;
     NearestCandidates nearest_;
     EntryStack<NearEntry> stack_;
-    PairBlocks<128> queue_;
-    Distance distances_[128];
+    PairBlocks<16> queue_; // seven, and eight more
+    Distance distances_[16];
+    NearestPart nearest_part_; ///< of those put on the stack in a step of descend_by_bounds
     Work* work_;
 };
 

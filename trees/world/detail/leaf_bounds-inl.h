@@ -215,6 +215,35 @@ class LeafPair {
     float error_;
 };
 
+/// Bounds of the distances of eight pairs of triangles: the gap along any direction n is one, min
+/// n.b - max n.a over the corners, over |n|; each product sum is off by less than 4 2^-53 |n|_1
+/// times the greatest |coordinate|, which `moved` exceeds 32 times over.
+HWY_INLINE void gaps_along(const double (&way)[3][8], const TrianglePairBlock<double>& pairs,
+                           double moved, double (&gaps)[8]) {
+    const hn::CappedTag<double, 8> d;
+    using D8 = hn::Vec<decltype(d)>;
+    for (std::size_t i = 0; i < 8; i += hn::Lanes(d)) {
+        const D8 n[3] = {hn::Load(d, way[0] + i), hn::Load(d, way[1] + i), hn::Load(d, way[2] + i)};
+        const auto heights = [&](int side, bool least) HWY_ATTR {
+            D8 h[3];
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto& corner = pairs.corner[side][k];
+                h[k] = hn::Add(hn::Add(hn::Mul(n[0], hn::Load(d, corner[0] + i)),
+                                       hn::Mul(n[1], hn::Load(d, corner[1] + i))),
+                               hn::Mul(n[2], hn::Load(d, corner[2] + i)));
+            }
+            return least ? hn::Min(hn::Min(h[0], h[1]), h[2]) : hn::Max(hn::Max(h[0], h[1]), h[2]);
+        };
+        const D8 gap = hn::Sub(heights(1, true), heights(0, false));
+        const D8 length = hn::Sqrt(
+            hn::Add(hn::Add(hn::Mul(n[0], n[0]), hn::Mul(n[1], n[1])), hn::Mul(n[2], n[2])));
+        const D8 bound = hn::Sub(
+            hn::Mul(hn::Div(gap, hn::Max(length, hn::Set(d, 1e-150))), hn::Set(d, 1 - 0x1p-48)),
+            hn::Set(d, moved));
+        hn::Store(bound, d, gaps + i);
+    }
+}
+
 } // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
