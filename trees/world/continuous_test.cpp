@@ -196,7 +196,6 @@ TEST(FirstContact, IsNotAfterWhatSamplesFind) {
     EXPECT_LT(hits, 55u);
 }
 
-/// Along a floor, just above it: a step of the distance is a millionth of the way.
 TEST(FirstContact, IsTheSameWhereBothAreMovedTogether) {
     std::mt19937 random(8);
     std::uniform_real_distribution<double> place(-3, 3);
@@ -222,6 +221,7 @@ TEST(FirstContact, IsTheSameWhereBothAreMovedTogether) {
     EXPECT_LT(hits, 55u);
 }
 
+/// Along a floor, just above it: a step of the distance is a millionth of the way.
 TEST(FirstContact, OfWhatSlidesJustAboveIsDecided) {
     const MeshTree cube(cube_mesh(.5f)), floor(plate(4, 0)), ball(noisy_sphere(24, 24, 0, 1, .5)),
         bumpy(plate(24, 0, .01));

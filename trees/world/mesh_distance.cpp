@@ -49,18 +49,8 @@ template <bool counted> class Search {
 
     MeshDistance run() {
         descend_by_bounds();
-        BoundQueue open(nearest_.wanted_f32());
-        for (;;) {
-            if (!open.has_room_for(stack_.size()))
-                go_down(open.size());
-            while (!stack_.empty())
-                open.push(stack_.pop());
-            if (open.empty() || nearest_.is_done())
-                break;
-            const NearEntry next = open.pop();
-            if (next.bound < nearest_.wanted_f32())
-                expand(next, open.size());
-        }
+        if (!stack_.empty() && !nearest_.is_done())
+            search_the_rest();
         measure_queue();
         return nearest_.certified();
     }
@@ -68,9 +58,25 @@ template <bool counted> class Search {
   private:
     static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
+    void search_the_rest() {
+        BoundQueue waiting(nearest_.wanted_f32());
+        for (;;) {
+            if (!waiting.has_room_for(stack_.size()))
+                go_down(waiting.size());
+            if (nearest_.is_done()) // what is left on the stack may not have room
+                return;
+            while (!stack_.empty())
+                waiting.push(stack_.pop());
+            if (waiting.empty())
+                return;
+            const NearEntry next = waiting.pop();
+            if (next.bound < nearest_.wanted_f32())
+                expand(next, waiting.size());
+        }
+    }
     /// The parts go on the stack.
-    HWY_INLINE void expand(const NearEntry& open, std::size_t waiting) {
-        count_visit(waiting + 1);
+    HWY_INLINE void expand(const NearEntry& open, std::size_t n_waiting) {
+        count_visit(n_waiting + 1);
         if (is_leaf(open.a) && is_leaf(open.b))
             compare_leaves(open);
         else if (is_leaf(open.a))
@@ -80,12 +86,18 @@ template <bool counted> class Search {
         else
             open_both(open);
     }
-    /// All that is on the stack, to the leaves.
-    HWY_NOINLINE void go_down(std::size_t waiting) {
+    /// All that is on the stack, to the leaves, of each step the nearest part first.
+    HWY_NOINLINE void go_down(std::size_t n_waiting) {
         while (!stack_.empty() && !nearest_.is_done()) {
             const NearEntry open = stack_.pop();
-            if (open.bound < nearest_.wanted_f32())
-                expand(open, waiting + stack_.size());
+            if (open.bound >= nearest_.wanted_f32())
+                continue;
+            const std::size_t first = stack_.size();
+            expand(open, n_waiting + first);
+            NearEntry* const end = stack_.from(stack_.size());
+            if (stack_.size() > first)
+                std::swap(*std::ranges::min_element(stack_.from(first), end, {}, &NearEntry::bound),
+                          end[-1]);
         }
     }
 
@@ -253,8 +265,8 @@ template <bool counted> class Search {
         SeenBoxes seen;
         see_lanes(b, frame_, t, seen);
         alignas(64) float bounds[8], keys[8];
-        std::uint32_t near = bound_lanes<descending>(
-            PairFrame::seen_a(a.own), seen.centre, seen.axis, b.half, b.count, error, bounds, keys);
+        std::uint32_t near = bound_lanes<false>(PairFrame::seen_a(a.own), seen.centre, seen.axis,
+                                                b.half, b.count, error, bounds, keys);
         for (; near != 0; near &= near - 1) {
             const auto j = static_cast<std::size_t>(std::countr_zero(near));
             std::uint32_t hits = bound_lanes<descending>(seen.lane(j), a.centre, a.axis, a.half,

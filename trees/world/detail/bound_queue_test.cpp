@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <random>
@@ -17,11 +18,15 @@ TEST(BoundQueue, PopsTheLeastBoundButForABucketsWidth) {
     constexpr float greatest = 3;
     BoundQueue queue(greatest);
     std::vector<NearEntry> inside;
+    bool was_full = false;
+    std::size_t times_empty = 0;
     std::uniform_real_distribution<float> bounds(0, 1.2f * greatest);
     for (std::uint32_t id = 0; id < 50'000; ++id) {
-        // Grows to the brim, then shrinks, again and again.
-        const bool grows = id / 2000 % 2 == 0;
-        if (queue.has_room_for(1) && (queue.empty() || random() % 4 != (grows ? 0u : 1u))) {
+        // Grows to the brim, then shrinks to nothing, again and again.
+        const bool grows = id / 4000 % 2 == 0;
+        was_full |= !queue.has_room_for(1);
+        times_empty += queue.empty();
+        if (queue.has_room_for(1) && (queue.empty() || (random() % 4 != 0) == grows)) {
             const NearEntry entry{random() % 8 == 0 ? 0 : bounds(random), id, 0};
             queue.push(entry);
             inside.push_back(entry);
@@ -37,6 +42,8 @@ TEST(BoundQueue, PopsTheLeastBoundButForABucketsWidth) {
         ASSERT_EQ(queue.size(), inside.size());
         ASSERT_EQ(queue.empty(), inside.empty());
     }
+    EXPECT_TRUE(was_full);
+    EXPECT_GT(times_empty, 5u);
 }
 
 TEST(BoundQueue, IsAStackWhereTheGreatestBoundIsInfinite) {

@@ -216,8 +216,8 @@ class LeafPair {
 };
 
 /// Bounds of the distances of eight pairs of triangles: the gap along any direction n is one, min
-/// n.b - max n.a over the corners, over |n|; each product sum is off by less than 4 2^-53 |n|_1
-/// times the greatest |coordinate|, which `moved` exceeds 32 times over.
+/// n.b - max n.a over the corners, over |n|. Of a unit vector n each of the two sums of products is
+/// off by less than 7 2^-53 times the greatest |coordinate|, both by less than half of `moved`.
 HWY_INLINE void gaps_along(const double (&way)[3][8], const TrianglePairBlock<double>& pairs,
                            double moved, double (&gaps)[8]) {
     const hn::CappedTag<double, 8> d;

@@ -31,8 +31,11 @@ struct SeenBox {
 struct PairFrame {
     PairFrame(const MeshTree& a, const MeshTree& b, const Pose& b_in_a) : pose(b_in_a) {
         const auto& [r0, r1, r2] = pose.rotation;
-        if (!is_finite(r0) || !is_finite(r1) || !is_finite(r2) || !is_finite(pose.translation))
-            throw std::invalid_argument("a pose has a number that is not finite");
+        const auto is_usable = [](const Vec3<double>& v) {
+            return std::abs(v.x) <= 0x1p62 && std::abs(v.y) <= 0x1p62 && std::abs(v.z) <= 0x1p62;
+        };
+        if (!is_usable(r0) || !is_usable(r1) || !is_usable(r2) || !is_usable(pose.translation))
+            throw std::invalid_argument("a pose has a number that is not finite or beyond 2^62");
         for (std::size_t i = 0; i < 3; ++i) {
             const Vec3<double>& row = pose.rotation[i];
             rotation[i][0] = static_cast<float>(row.x);
