@@ -64,6 +64,10 @@ inline TriangleMesh cube_mesh(float half, Vec3<float> centre = {}) {
     return mesh;
 }
 
+inline TriangleMesh one_triangle(const Vec3<float>& a, const Vec3<float>& b, const Vec3<float>& c) {
+    return {{a, b, c}, {{0, 1, 2}}};
+}
+
 /// Any rotation, at a place.
 inline Pose random_pose(std::mt19937& random, Vec3<double> at) {
     std::normal_distribution<double> normal;

@@ -40,7 +40,8 @@ template <bool counted> class Search {
     Search(const MeshTree& a, const MeshTree& b, const Pose& pose, const DistanceGoal& goal,
            Work* work)
         : a_(a), b_(b), frame_(a, b, pose), nearest_(goal, 0x1p18 * frame_.moved),
-          stack_(max_entries(a.depth(), b.depth())), work_(work) {
+          stack_(max_entries(a.depth(), b.depth())), stops_at_first_(goal.stop_at > 0),
+          work_(work) {
         if (goal.options.start)
             measure_start(*goal.options.start);
         else
@@ -49,7 +50,9 @@ template <bool counted> class Search {
 
     MeshDistance run() {
         descend_by_bounds();
-        if (!stack_.empty() && !nearest_.is_done())
+        if (stops_at_first_)
+            go_down(0);
+        else if (!stack_.empty() && !nearest_.is_done())
             search_the_rest();
         measure_queue();
         return nearest_.certified();
@@ -75,16 +78,17 @@ template <bool counted> class Search {
         }
     }
     /// The parts go on the stack.
+    template <bool descending = false>
     HWY_INLINE void expand(const NearEntry& open, std::size_t n_waiting) {
         count_visit(n_waiting + 1);
         if (is_leaf(open.a) && is_leaf(open.b))
             compare_leaves(open);
         else if (is_leaf(open.a))
-            open_b(open);
+            open_b<descending>(open);
         else if (is_leaf(open.b))
-            open_a(open);
+            open_a<descending>(open);
         else
-            open_both(open);
+            open_both<descending>(open);
     }
     /// All that is on the stack, to the leaves, of each step the nearest part first.
     HWY_NOINLINE void go_down(std::size_t n_waiting) {
@@ -92,12 +96,10 @@ template <bool counted> class Search {
             const NearEntry open = stack_.pop();
             if (open.bound >= nearest_.wanted_f32())
                 continue;
-            const std::size_t first = stack_.size();
-            expand(open, n_waiting + first);
-            NearEntry* const end = stack_.from(stack_.size());
-            if (stack_.size() > first)
-                std::swap(*std::ranges::min_element(stack_.from(first), end, {}, &NearEntry::bound),
-                          end[-1]);
+            nearest_part_ = {};
+            expand<true>(open, n_waiting + stack_.size());
+            if (nearest_part_.place != none)
+                std::swap(*stack_.from(nearest_part_.place), *stack_.from(stack_.size() - 1));
         }
     }
 
@@ -130,22 +132,15 @@ template <bool counted> class Search {
             return;
         NearEntry at{0, a_.root(), b_.root()};
         while (!is_leaf(at.a) || !is_leaf(at.b)) {
-            count_visit(stack_.size() + 1);
             nearest_part_ = {};
-            if (is_leaf(at.a))
-                open_b<true>(at);
-            else if (is_leaf(at.b))
-                open_a<true>(at);
-            else
-                open_both<true>(at);
+            expand<true>(at, stack_.size());
             if (nearest_part_.place == none)
                 return;
             NearEntry& part = *stack_.from(nearest_part_.place);
             at = part;
             part = stack_.pop();
         }
-        count_visit(stack_.size() + 1);
-        compare_leaves(at);
+        expand(at, stack_.size());
         measure_queue();
     }
 
@@ -239,7 +234,7 @@ template <bool counted> class Search {
             work_->box_tests += 8;
         return bits & ((1u << count) - 1);
     }
-    /// keys: what parts with one bound are ordered by, the distances of the centres.
+    /// That with the least bound, of equal ones (many are 0) with the nearest centres.
     struct NearestPart {
         float bound = std::numeric_limits<float>::infinity(), key = bound;
         std::size_t place = none; ///< on the stack
@@ -257,7 +252,7 @@ template <bool counted> class Search {
         return nearest_.wanted_f32() * (1 - 0x1p-18f) - 2 * error;
     }
 
-    template <bool descending = false> HWY_INLINE void open_both(const NearEntry& open) {
+    template <bool descending> HWY_INLINE void open_both(const NearEntry& open) {
         const ObbBlock& a = a_.block(open.a);
         const ObbBlock& b = b_.block(open.b);
         const Vec3<double> t = frame_.between(a.own.centre, b.own.centre);
@@ -279,7 +274,7 @@ template <bool counted> class Search {
             }
         }
     }
-    template <bool descending = false> HWY_INLINE void open_b(const NearEntry& open) {
+    template <bool descending> HWY_INLINE void open_b(const NearEntry& open) {
         const PosedBox& own = a_.leaf(open.a).own;
         const ObbBlock& b = b_.block(open.b);
         const Vec3<double> t = frame_.between(own.centre, b.own.centre);
@@ -295,7 +290,7 @@ template <bool counted> class Search {
                 put<descending>(bounds[j], keys[j], open.a, b.ref[j]);
         }
     }
-    template <bool descending = false> HWY_INLINE void open_a(const NearEntry& open) {
+    template <bool descending> HWY_INLINE void open_a(const NearEntry& open) {
         const ObbBlock& a = a_.block(open.a);
         const PosedBox& own = b_.leaf(open.b).own;
         const Vec3<double> t = frame_.between(a.own.centre, own.centre);
@@ -401,7 +396,8 @@ template <bool counted> class Search {
     EntryStack<NearEntry> stack_;
     PairBlocks<16> queue_; // seven, and eight more
     Distance distances_[16];
-    NearestPart nearest_part_; ///< of those put on the stack in a step of descend_by_bounds
+    NearestPart nearest_part_; ///< of those put on the stack in a step of a descent
+    bool stops_at_first_;      ///< at the first that is near enough: then straight to leaves
     Work* work_;
 };
 

@@ -235,10 +235,6 @@ TEST(MeshPairs, TolerancesSaveWorkAndKeepTheirBound) {
 
 // Hard cases with known answers: ../shared/reference/hard-cases.md names them.
 
-TriangleMesh one_triangle(const Vec3<float>& a, const Vec3<float>& b, const Vec3<float>& c) {
-    return {{a, b, c}, {{0, 1, 2}}};
-}
-
 TEST(MeshPairs, TinyTrianglesHaveADistance) {
     for (const float s : {1.7e-4f, 1e-4f, 1e-5f, 1e-12f}) {
         const float h = s / 10, q = s / 4;
@@ -329,6 +325,11 @@ TEST(MeshPairs, WhatTheQueueHasNoRoomForIsLookedAtAtOnce) {
             EXPECT_TRUE(within(inner, outer, no_pose, d.hi * (1 + more)).within);
             EXPECT_FALSE(within(inner, outer, no_pose, d.lo * (1 - more)).within);
         }
+        for (std::size_t vertex = 20; vertex < b.vertices.size(); vertex += 90) {
+            TriangleMesh spiked = b;
+            spiked.vertices[vertex] = .9f * spiked.vertices[vertex];
+            EXPECT_EQ(distance(inner, MeshTree(spiked), no_pose).hi, 0);
+        }
     }
 }
 
@@ -358,8 +359,7 @@ TEST(MeshPairs, ARigidMotionOfBothChangesLittle) {
         const Pose at_a = random_pose(random, {}), moved = random_pose(random, {30, -20, 10});
         const Pose at_b = random_pose(random, {place(random), place(random), 0});
         const Pose after = relative_pose(compose(moved, at_a), compose(moved, at_b));
-        const MeshDistance d = distance(a, b, relative_pose(at_a, at_b));
-        const MeshDistance e = distance(a, b, after);
+        const MeshDistance d = distance(a, b, relative_pose(at_a, at_b)), e = distance(a, b, after);
         EXPECT_NEAR(d.distance, e.distance, 1e-12);
         expect_between(e, distance_of_all_pairs(a.mesh(), b.mesh(), after));
         touching += d.hi == 0;
