@@ -1,8 +1,9 @@
 /// How far two meshes are apart.
 ///
 /// First straight down to leaves a few times, for an upper bound: by the centres of blocks, then by
-/// the bounds of their distances. Then the pair of blocks with the least bound first, or depth
-/// first where too many wait. A step opens both blocks at once: bounds of the distances of boxes in
+/// the bounds of their distances. Then the pair of blocks with the least bound first; depth first,
+/// the nearest part on top, where too many wait, and where the first pair that is near enough ends
+/// it. A step opens both blocks at once: bounds of the distances of boxes in
 /// floats, eight at a time; where rounding leaves it open whether a bound is below what is wanted,
 /// the gap in doubles. Pairs of leaves: bounds of the distances of triangles by their boxes and
 /// along their normals; what is left is gathered and measured eight pairs at a time. Each measured
@@ -40,7 +41,7 @@ template <bool counted> class Search {
     Search(const MeshTree& a, const MeshTree& b, const Pose& pose, const DistanceGoal& goal,
            Work* work)
         : a_(a), b_(b), frame_(a, b, pose), nearest_(goal, 0x1p18 * frame_.moved),
-          stack_(max_entries(a.depth(), b.depth())), stops_at_first_(goal.stop_at > 0),
+          stack_(max_entries(a.depth(), b.depth())), ends_at_first_(goal.ends_at_first),
           work_(work) {
         if (goal.options.start)
             measure_start(*goal.options.start);
@@ -50,7 +51,7 @@ template <bool counted> class Search {
 
     MeshDistance run() {
         descend_by_bounds();
-        if (stops_at_first_)
+        if (ends_at_first_)
             go_down(0);
         else if (!stack_.empty() && !nearest_.is_done())
             search_the_rest();
@@ -74,13 +75,13 @@ template <bool counted> class Search {
                 return;
             const NearEntry next = waiting.pop();
             if (next.bound < nearest_.wanted_f32())
-                expand(next, waiting.size());
+                expand<false>(next, waiting.size());
         }
     }
-    /// The parts go on the stack.
-    template <bool descending = false>
-    HWY_INLINE void expand(const NearEntry& open, std::size_t n_waiting) {
-        count_visit(n_waiting + 1);
+    /// The parts go on the stack; descending: the nearest of them on top.
+    template <bool descending> HWY_INLINE void expand(const NearEntry& open, std::size_t waiting) {
+        nearest_part_ = {};
+        count_visit(waiting + 1);
         if (is_leaf(open.a) && is_leaf(open.b))
             compare_leaves(open);
         else if (is_leaf(open.a))
@@ -89,17 +90,15 @@ template <bool counted> class Search {
             open_a<descending>(open);
         else
             open_both<descending>(open);
+        if (nearest_part_.place != none)
+            std::swap(*stack_.from(nearest_part_.place), *stack_.from(stack_.size() - 1));
     }
-    /// All that is on the stack, to the leaves, of each step the nearest part first.
-    HWY_NOINLINE void go_down(std::size_t n_waiting) {
+    /// All that is on the stack, to the leaves.
+    HWY_NOINLINE void go_down(std::size_t waiting) {
         while (!stack_.empty() && !nearest_.is_done()) {
             const NearEntry open = stack_.pop();
-            if (open.bound >= nearest_.wanted_f32())
-                continue;
-            nearest_part_ = {};
-            expand<true>(open, n_waiting + stack_.size());
-            if (nearest_part_.place != none)
-                std::swap(*stack_.from(nearest_part_.place), *stack_.from(stack_.size() - 1));
+            if (open.bound < nearest_.wanted_f32())
+                expand<true>(open, waiting + stack_.size());
         }
     }
 
@@ -108,6 +107,8 @@ template <bool counted> class Search {
     static constexpr int descents = 2;
 
     void descend() {
+        if (is_leaf(a_.root()) && is_leaf(b_.root()))
+            return;              // descend_by_bounds compares them
         std::uint32_t tried = 0; // lanes of a root
         Pair last{~0u, ~0u};
         for (int i = 0; i < descents && !nearest_.is_done(); ++i) {
@@ -132,15 +133,14 @@ template <bool counted> class Search {
             return;
         NearEntry at{0, a_.root(), b_.root()};
         while (!is_leaf(at.a) || !is_leaf(at.b)) {
-            nearest_part_ = {};
-            expand<true>(at, stack_.size());
-            if (nearest_part_.place == none)
+            const std::size_t before = stack_.size();
+            expand<true>(at, before);
+            if (stack_.size() == before)
                 return;
-            NearEntry& part = *stack_.from(nearest_part_.place);
-            at = part;
-            part = stack_.pop();
+            at = stack_.pop();
         }
-        expand(at, stack_.size());
+        count_visit(stack_.size() + 1);
+        compare_leaves(at);
         measure_queue();
     }
 
@@ -396,8 +396,8 @@ template <bool counted> class Search {
     EntryStack<NearEntry> stack_;
     PairBlocks<16> queue_; // seven, and eight more
     Distance distances_[16];
-    NearestPart nearest_part_; ///< of those put on the stack in a step of a descent
-    bool stops_at_first_;      ///< at the first that is near enough: then straight to leaves
+    NearestPart nearest_part_; ///< of those put on the stack in this step
+    bool ends_at_first_;       ///< then what is nearest is looked at first, down to the leaves
     Work* work_;
 };
 
@@ -439,7 +439,10 @@ MeshDistance distance(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
 
 MeshWithin within(const MeshTree& a, const MeshTree& b, const Pose& b_in_a, double tolerance,
                   Work* work) {
-    return detail::within_by(search(a, b, b_in_a, detail::goal_within(tolerance), work), tolerance);
+    return without_flushing([&] {
+        return detail::within_by(search(a, b, b_in_a, detail::goal_within(tolerance), work),
+                                 tolerance);
+    });
 }
 
 } // namespace boxwood

@@ -4,6 +4,7 @@
 #include "kernels/primitives/rotation.h"
 #include "kernels/triangle_distance/certified.h"
 #include "trees/builders/lbvh.h"
+#include "trees/testing/all_pairs.h"
 #include "trees/testing/every_executor.h"
 #include "trees/testing/test_meshes.h"
 #include "trees/testing/triangle_soup.h"
@@ -31,33 +32,9 @@ std::vector<Pair> touching_by_rationals(const TriangleMesh& a, const TriangleMes
     return pairs;
 }
 
-struct Bounds {
-    double lo = std::numeric_limits<double>::infinity(), hi = lo;
-};
-Bounds distance_of_all_pairs(const TriangleMesh& a, const TriangleMesh& b, const Pose& pose) {
-    Bounds bounds;
-    for (std::size_t i = 0; i < a.triangles.size(); ++i)
-        for (std::size_t j = 0; j < b.triangles.size(); ++j) {
-            const Distance d =
-                CertifiedDistance::distance(triangle_at(a, i), triangle_at(b, j, pose));
-            bounds.lo = std::min(bounds.lo, d.lo);
-            bounds.hi = std::min(bounds.hi, d.hi);
-        }
-    return bounds;
-}
-
 /// How far a point is from a triangle, as one of three equal corners.
 double distance_to(const Vec3<double>& p, const Triangle<double>& t) {
     return CertifiedDistance::distance({p, p, p}, t).hi;
-}
-
-void expect_between(const MeshDistance& got, const Bounds& truth) {
-    EXPECT_LE(got.lo, truth.hi);
-    EXPECT_GE(got.hi, truth.lo);
-    EXPECT_LE(got.lo, got.distance);
-    EXPECT_LE(got.distance, got.hi);
-    EXPECT_EQ(got.hi == 0, truth.hi == 0);
-    EXPECT_LE(got.hi - got.lo, got.hi * 0x1p-32 + 0x1p-1073);
 }
 
 class RandomPoses : public testing::TestWithParam<MeshVolume> {};
@@ -309,28 +286,6 @@ TEST(MeshPairs, NestedSpheresOpenLeavesNotTriangles) {
     const MeshDistance d = distance(inner, outer, no_pose, {}, &work);
     EXPECT_GT(d.lo, 9.9e-4);
     EXPECT_LT(work.triangle_tests, 4 * inner.size());
-}
-
-TEST(MeshPairs, WhatTheQueueHasNoRoomForIsLookedAtAtOnce) {
-    // Nearly equal distances all around: none of the pairs of blocks can be left out early.
-    for (const std::uint32_t seed : {1u, 2u, 3u, 4u}) {
-        const TriangleMesh a = noisy_sphere(32, 32, 1e-3, seed),
-                           b = noisy_sphere(32, 32, 1e-3, seed + 9, 1.05);
-        const MeshTree inner(a), outer(b);
-        Work work;
-        const MeshDistance d = distance(inner, outer, no_pose, {}, &work);
-        EXPECT_GT(work.stack_max, 1024u);
-        expect_between(d, distance_of_all_pairs(a, b, no_pose));
-        for (const double more : {1e-9, 1e-6, 1e-4, 1e-3, 1e-2, .03, .1, .3}) {
-            EXPECT_TRUE(within(inner, outer, no_pose, d.hi * (1 + more)).within);
-            EXPECT_FALSE(within(inner, outer, no_pose, d.lo * (1 - more)).within);
-        }
-        for (std::size_t vertex = 20; vertex < b.vertices.size(); vertex += 90) {
-            TriangleMesh spiked = b;
-            spiked.vertices[vertex] = .9f * spiked.vertices[vertex];
-            EXPECT_EQ(distance(inner, MeshTree(spiked), no_pose).hi, 0);
-        }
-    }
 }
 
 // Metamorphic.

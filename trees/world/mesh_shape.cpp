@@ -304,7 +304,10 @@ MeshDistance distance(const MeshTree& mesh, const convex::Shape& shape, const Po
 
 MeshWithin within(const MeshTree& mesh, const convex::Shape& shape, const Pose& shape_in_mesh,
                   double tolerance, Work* work) {
-    return within_by(search(mesh, shape, shape_in_mesh, goal_within(tolerance), work), tolerance);
+    return without_flushing([&] {
+        return within_by(search(mesh, shape, shape_in_mesh, goal_within(tolerance), work),
+                         tolerance);
+    });
 }
 
 std::vector<Contact> contacts(const MeshTree& mesh, const convex::Shape& shape,

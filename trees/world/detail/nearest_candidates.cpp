@@ -21,7 +21,7 @@ DistanceGoal goal_of(const DistanceOptions& options) {
         !(options.limit >= 0))
         throw std::invalid_argument("a relative tolerance must be in [0, 1), an absolute one and a "
                                     "limit at least 0");
-    return {options, 0};
+    return {options};
 }
 
 DistanceGoal goal_within(double tolerance) {
@@ -29,7 +29,7 @@ DistanceGoal goal_within(double tolerance) {
         throw std::invalid_argument("a tolerance must be at least 0");
     DistanceOptions options;
     options.limit = tolerance * (1 + 0x1p-31) + std::numeric_limits<double>::denorm_min();
-    return {options, tolerance};
+    return {options, tolerance, true};
 }
 
 NearestCandidates::NearestCandidates(const DistanceGoal& goal, double near_contact)

@@ -13,6 +13,7 @@ namespace boxwood::detail {
 struct DistanceGoal {
     DistanceOptions options;
     double stop_at = 0;
+    bool ends_at_first = false; ///< at the first pair that is so near
 };
 /// Throw std::invalid_argument for tolerances and limits that make no sense. goal_within: what
 /// decides whether two are at most so far apart.
