@@ -131,7 +131,7 @@ struct ContenderEntry {
     std::function<std::optional<std::string>(const Job&)> cannot;
     std::string params_json = "{}";
     Promise promise = Promise::none; ///< ours, of a kernel
-    double relative_width = 0;       ///< KernelInfo::relative_width
+    double relative_width = 0;       ///< KernelInfo::relative_width; of meshes, what is allowed
     bool yes_is_proven = false;      ///< KernelInfo::yes_is_proven
     bool has_witnesses = true;       ///< KernelInfo::has_witnesses
 

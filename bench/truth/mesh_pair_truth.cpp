@@ -117,7 +117,7 @@ class MeshDistanceTruth final : public Truth {
         };
         if (got.triangles.a >= mesh_.size() || got.triangles.b >= mesh_.size())
             return complain(check.missing, "no triangles are named");
-        if (!(std::isfinite(got.distance) && got.lo <= got.distance && got.distance <= got.hi))
+        if (!(std::isfinite(got.hi) && got.lo <= got.distance && got.distance <= got.hi))
             return complain(check.missing,
                             fmt::format("{} is no distance between its bounds {} and {}",
                                         got.distance, got.lo, got.hi));
@@ -133,7 +133,8 @@ class MeshDistanceTruth final : public Truth {
         const double slack = !is_certified && contender.precision == "f32"
                                  ? float_slack * (truth + size_)
                                  : 1e-9 * truth + 1e-13 * size_;
-        if (got.distance > truth + slack)
+        const double allowed = contender.relative_width * got.hi;
+        if (got.distance > truth + slack + allowed)
             complain(check.missing, fmt::format("said to be {} apart, and a pair is {} apart",
                                                 got.distance, truth));
         else if (named > got.distance + slack)
@@ -142,6 +143,11 @@ class MeshDistanceTruth final : public Truth {
         else if (is_certified && (got.lo > truth * (1 + 0x1p-50) || got.hi < lo * (1 - 0x1p-50))) {
             ++check.bound_violations;
             complain(check.extra, fmt::format("[{}, {}] does not hold {}", got.lo, got.hi, truth));
+        } else if (is_certified && contender.relative_width > 0 &&
+                   got.hi - got.lo > allowed + 0x1p-1073) {
+            ++check.bound_violations;
+            complain(check.extra, fmt::format("[{}, {}] is wider than {} of it", got.lo, got.hi,
+                                              contender.relative_width));
         }
     }
 

@@ -45,15 +45,14 @@ std::vector<SceneSpec> MeshPairTask::posed_scenes(const BlockReader& block) cons
 void MeshPairTask::expand(const BlockReader& block, AddCell add) const {
     std::vector<ContenderEntry> ours;
     for (const BuilderChoice& builder : block.builders())
-        for (const std::string& volume : block.names("volumes", names_of(volumes), {"obb"}))
-            for (const bool is_warm : warm_starts(block)) {
-                Choice choice;
-                choice.builder = builder.name;
-                choice.settings = builder.settings;
-                choice.layout = volume;
-                choice.warm_start = is_warm;
-                ours.push_back(contender(choice));
-            }
+        for (const std::string& volume : block.names("volumes", names_of(volumes), {"obb"})) {
+            Choice choice;
+            choice.builder = builder.name;
+            choice.settings = builder.settings;
+            choice.layout = volume;
+            for (const Choice& way : ways(block, choice))
+                ours.push_back(contender(way));
+        }
     const std::vector<ContenderEntry> peers = block.peers(name());
     if (ours.empty() && !block.has("peers"))
         block.fail("[[cells]] needs builders, peers, or both");
@@ -70,17 +69,13 @@ ContenderEntry MeshPairTask::contender(const Choice& choice) const {
     entry.layout = volume.name;
     entry.traversal = name();
     entry.promise = promise();
-    entry.name = fmt::format("{}.{}.{}{}", entry.builder, entry.layout, entry.traversal,
-                             choice.warm_start ? ".warm" : "");
+    entry.name = fmt::format("{}.{}.{}", entry.builder, entry.layout, entry.traversal);
     entry.summary = fmt::format("{}; {}", builder.summary, volume.summary);
     entry.notes = fmt::format("build: one tree, which stands for the mesh and for its copy; query: "
                               "{}; the copy's corners are moved in doubles, boxes are bounded in "
                               "floats, those of the roots in doubles",
                               query_notes());
-    if (choice.warm_start) {
-        entry.notes += "; each begins at the triangles of the answer before";
-        entry.classes = {warm_start_class};
-    }
+    tell_way(choice, entry);
     entry.runs_on = runs_on();
     entry.answers = {{std::string(name()),
                       [build = make_builder(choice.builder, choice.settings), kind = volume.volume,

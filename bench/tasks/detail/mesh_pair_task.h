@@ -56,13 +56,17 @@ class MeshPairTask : public Task {
     std::uint64_t n_queries(const Scene& scene) const override { return scene.poses.size(); }
 
   protected:
-    using Make = std::unique_ptr<Contender> (*)(const Job& job, BuildFunction build,
-                                                MeshVolume volume);
+    using Make = std::function<std::unique_ptr<Contender>(const Job& job, BuildFunction build,
+                                                          MeshVolume volume)>;
     virtual Make make(const Choice& choice) const = 0;
     virtual Promise promise() const = 0;
     virtual RunsOn runs_on() const { return RunsOn::one_thread; }
-    /// Whether contenders of a block start at the answer before; the same again for each.
-    virtual std::vector<bool> warm_starts(const BlockReader&) const { return {false}; }
+    /// One of a builder and a volume in each way that the block wants.
+    virtual std::vector<Choice> ways(const BlockReader&, const Choice& choice) const {
+        return {choice};
+    }
+    /// Writes into the entry what the way makes of it: its name ends in it.
+    virtual void tell_way(const Choice&, ContenderEntry&) const {}
     /// What a query is of, for the notes.
     virtual std::string_view query_notes() const { return "pose after pose"; }
     /// The kinds of poses of a block that names none.

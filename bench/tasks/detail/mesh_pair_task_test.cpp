@@ -29,9 +29,13 @@ std::vector<ContenderEntry> contenders_of(const Task& task) {
             choice.builder = builder;
             choice.layout = volume;
             all.push_back(task.contender(choice));
-            choice.warm_start = task.name() == "distance";
-            if (choice.warm_start)
-                all.push_back(task.contender(choice));
+            if (task.name() != "distance")
+                continue;
+            choice.relative_error = .1;
+            all.push_back(task.contender(choice));
+            choice.relative_error = 0;
+            choice.warm_start = true;
+            all.push_back(task.contender(choice));
         }
     return all;
 }
@@ -104,6 +108,38 @@ TEST(MeshPairTasks, AWarmStartSavesWorkAlongAWay) {
         tests[is_warm] = contender->counted_query(*answers)->triangle_tests;
     }
     EXPECT_LT(tests[true], tests[false]);
+}
+
+TEST(MeshPairTasks, AnErrorThatIsAllowedSavesWorkAndIsJudged) {
+    const Task& task = *find_task("distance");
+    for (const char* kind : {"apart", "near"}) {
+        const Scene scene = posed(kind, 6000);
+        const auto truth = task.make_truth(scene, 2);
+        std::uint64_t visits[2], wrong[2];
+        for (const bool may_err : {true, false}) {
+            Choice choice;
+            choice.layout = "obb";
+            choice.relative_error = may_err ? .2 : 0;
+            const ContenderEntry entry = task.contender(choice);
+            EXPECT_EQ(entry.name.ends_with(".distance.within_0.2"), may_err);
+            EXPECT_EQ(entry.classes.empty(), !may_err);
+            const auto contender = entry.make({&scene, &task});
+            contender->build();
+            const auto answers = task.make_answers();
+            visits[may_err] = contender->counted_query(*answers)->node_visits;
+            EXPECT_NE(truth->judge(*answers, entry).status, Status::wrong);
+            // As wide as a fifth, less a little: too wide for one that may not err.
+            for (PosedDistance& d : list_of<PosedDistance>(*answers))
+                d.lo = d.hi * .81;
+            wrong[may_err] = truth->judge(*answers, entry).check.bound_violations;
+            for (PosedDistance& d : list_of<PosedDistance>(*answers))
+                d.lo = d.hi * .79;
+            EXPECT_EQ(truth->judge(*answers, entry).check.bound_violations, scene.poses.size());
+        }
+        EXPECT_LT(visits[true], visits[false]) << kind;
+        EXPECT_EQ(wrong[true], 0u) << kind;
+        EXPECT_EQ(wrong[false], scene.poses.size()) << kind;
+    }
 }
 
 TEST(MeshPairTasks, TouchesAreTheSameByTwoThreads) {

@@ -1,8 +1,10 @@
 /// How far a mesh and a copy of it are apart.
 
+#include "bench/plan/block_reader.h"
 #include "bench/tasks/detail/mesh_pair_task.h"
 #include "bench/truth/mesh_pair_truth.h"
 
+#include <fmt/format.h>
 #include <xxhash.h>
 
 #include <bit>
@@ -10,22 +12,29 @@
 namespace boxwood::bench {
 namespace {
 
-template <bool is_warm> class LeastDistance final : public MeshPairContender {
+class LeastDistance final : public MeshPairContender {
   public:
-    using MeshPairContender::MeshPairContender;
+    LeastDistance(const Job& job, BuildFunction build, MeshVolume volume, bool is_warm,
+                  double relative_error)
+        : MeshPairContender(job, std::move(build), volume), is_warm_(is_warm) {
+        options_.relative = relative_error;
+    }
 
   private:
     void run(Answers& answers, Work* work) override {
         std::vector<PosedDistance>& distances = list_of<PosedDistance>(answers);
         distances.clear();
-        DistanceOptions options;
+        DistanceOptions options = options_;
         for (const Pose& pose : scene_.poses) {
             const MeshDistance d = distance(*tree_, *tree_, pose, options, work);
             distances.push_back({d.distance, d.lo, d.hi, d.triangles});
-            if (is_warm && d.found())
+            if (is_warm_ && d.found())
                 options.start = d.triangles;
         }
     }
+
+    DistanceOptions options_;
+    bool is_warm_;
 };
 
 class DistanceOfMeshes final : public MeshPairTask {
@@ -37,7 +46,7 @@ class DistanceOfMeshes final : public MeshPairTask {
     }
     std::vector<std::string_view> keys() const override {
         std::vector<std::string_view> all = MeshPairTask::keys();
-        all.push_back("starts");
+        all.insert(all.end(), {"starts", "relative_errors"});
         return all;
     }
     std::unique_ptr<Answers> make_answers() const override {
@@ -59,15 +68,39 @@ class DistanceOfMeshes final : public MeshPairTask {
     }
 
   protected:
-    std::vector<bool> warm_starts(const BlockReader& block) const override {
-        std::vector<bool> starts;
+    std::vector<Choice> ways(const BlockReader& block, const Choice& choice) const override {
+        std::vector<Choice> all;
         for (const std::string& start : block.names("starts", {"cold", "warm"}, {"cold"}))
-            starts.push_back(start == "warm");
-        return starts;
+            for (const double error : block.numbers("relative_errors", 0, 0.99, {0.0})) {
+                all.push_back(choice);
+                all.back().warm_start = start == "warm";
+                all.back().relative_error = error;
+            }
+        return all;
+    }
+    void tell_way(const Choice& choice, ContenderEntry& entry) const override {
+        std::string of_class;
+        entry.relative_width = choice.relative_error + 0x1p-32;
+        if (choice.warm_start) {
+            entry.name += ".warm";
+            entry.notes += "; each begins at the triangles of the answer before";
+            of_class = warm_start_class;
+        }
+        if (choice.relative_error > 0) {
+            entry.name += fmt::format(".within_{}", choice.relative_error);
+            entry.notes += fmt::format("; up to {} of the answer too far", choice.relative_error);
+            entry.params_json = fmt::format(R"({{"relative_error": {}}})", choice.relative_error);
+            of_class += fmt::format("{}relative error {}", of_class.empty() ? "" : " with ",
+                                    choice.relative_error);
+        }
+        if (!of_class.empty())
+            entry.classes = {of_class};
     }
     Make make(const Choice& choice) const override {
-        return choice.warm_start ? mesh_pair_contender<LeastDistance<true>>
-                                 : mesh_pair_contender<LeastDistance<false>>;
+        return [is_warm = choice.warm_start, error = choice.relative_error](
+                   const Job& job, BuildFunction build, MeshVolume volume) {
+            return std::make_unique<LeastDistance>(job, std::move(build), volume, is_warm, error);
+        };
     }
     Promise promise() const override { return Promise::certified; }
 };
