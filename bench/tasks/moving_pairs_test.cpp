@@ -70,7 +70,7 @@ TEST(MovingPairs, EveryPolicyAndPeerFollowsEveryEffect) {
         {{"despawn", {{"often", 1}}, 1}},               // and here, from the first frame on
     };
     for (const auto& effects : scenes) {
-        const auto file = uniform(effects, 1500);
+        const auto file = uniform(effects, 500);
         const Scene scene = start_of(file);
         Frames frames(file);
         const auto truth = moving_pairs().make_truth(scene, 2);

@@ -35,7 +35,7 @@ TEST(ColumnSweep, FindsThePairsOfEveryScene) {
         for (const double overlap : {.3, 10., 60.}) {
             SCOPED_TRACE(entry.name);
             expect_right(make_scene({.generator = std::string(entry.name),
-                                     .n = 5000,
+                                     .n = 2000,
                                      .seed = 3,
                                      .overlaps = overlap})
                              .boxes);
@@ -51,7 +51,7 @@ TEST(ColumnSweep, CountsWhatTouches) {
         return static_cast<float>(random() % (max_value + 1));
     };
     for (const unsigned places : {2u, 9u, 40u}) {
-        std::vector<Box> boxes(4000);
+        std::vector<Box> boxes(2000);
         for (Box& box : boxes) {
             box.min = {number(places), number(places), number(places)};
             box.max = box.min + Vec3<float>{number(2), number(2), number(2)};

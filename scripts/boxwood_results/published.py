@@ -52,6 +52,7 @@ ALL = (
     races("queries", "queries", "Points, regions and nearest items", ("points", "regions", "nearest", "closest_points")),
     races("narrow", "narrow", "Mesh against mesh",
           ("collide", "collide_all", "contacts", "distance", "tolerance", "continuous")),
+    Published("errors", "narrow", "What accuracy costs: the distance of two meshes, all places", published_tables.by_error),
     races("shapes", "shapes", "Convex shape against convex shape", ("shape_collide", "shape_distance", "signed_shape_distance")),
     races("moving", "dynamic", "Moving boxes, update and query of a frame", ("moving_pairs",)),
     Published("effects", "effects", "All stages over the required ones, ours against ourselves", against_ourselves),

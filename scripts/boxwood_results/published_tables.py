@@ -207,6 +207,23 @@ def against_ourselves(run):
     return rows
 
 
+def by_error(run):
+    """What a query takes by the error that it may make, ours alone: what accuracy costs."""
+    found = {}
+    for cell in run.cells:
+        if cell.ours and cell.has("query") and cell.status != "wrong":
+            of_scene = found.setdefault((cell.job, cell.contender.removesuffix(f".within_{cell.relative_error:g}")), {})
+            of_scene[cell.relative_error] = cell
+    found = {key: of_error for key, of_error in found.items() if len(of_error) > 1}
+    errors = sorted({error for of_error in found.values() for error in of_error})
+    rows = [["the answer may be too far by", "ours", *(f"{100 * error:g} %" if error else "nothing" for error in errors)]]
+    for (_, name), of_error in found.items():
+        cell = next(iter(of_error.values()))
+        rows.append([f"{cell.task.title}, {cell.scene_title}", name.removesuffix(f".{cell.traversal}"),
+                     *(time_text(of_error[error].median("query")) if error in of_error else "" for error in errors)])
+    return rows
+
+
 DEVICE_TIMES = {"cpu_2_ns": "2 threads", "cpu_all_ns": "all threads", "end_to_end_ns": "end to end", "device_ns": "of it the device",
                 "limit_ns": "its limit", "resident_ns": "resident", "graph_ns": "resident, by a graph"}
 

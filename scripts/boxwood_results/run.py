@@ -1,5 +1,6 @@
 """A result file as cells: what each contender took, in each round, for each phase of each job."""
 
+import json
 import math
 from dataclasses import dataclass, field
 
@@ -86,6 +87,7 @@ class Cell:
     keeps_structure: bool  # else its build only copies the input
     stages_played: str  # of ways to play a scene: required, all, or the effect left out
     label: str  # short, for use within one job
+    relative_error: float = 0  # of a distance: how much of the answer it may be too far
     check: object = None
     medians: dict = field(default_factory=dict)  # phase -> row of /medians
     counters: dict = field(default_factory=dict)
@@ -211,7 +213,8 @@ def read_cells(source, tasks):
             int(row["n_queries"]), row["status"], tasks[row["task"]], variant["library_title"],
             bool(variant["is_peer"]), int(variant["place"]), bool(variant["is_plain"]),
             bool(variant["answers_from_cache"]), bool(variant["keeps_structure"]), variant["stages"],
-            label=variant["name"], scene_json=column(scene, "params_json", ""),
+            label=variant["name"], relative_error=json.loads(column(variant, "params_json", "{}")).get("relative_error", 0),
+            scene_json=column(scene, "params_json", ""),
             scene_title=column(scene, "human_name", "") or scene["name"].replace("_", " "),
         )
     ours = {}

@@ -416,6 +416,19 @@ def test_first_builds_have_a_row_of_their_own(tmp_path):
     assert re.match(r"(1\.9|2|2\.0)\d*x \(", named["Embree"]) and "Fcl" not in named
 
 
+def test_what_an_error_saves_has_a_row_for_each_scene():
+    def cell(scene, error, us, **other):
+        usual = {"ours": True, "status": "certified", "has": lambda phase: True}
+        return SimpleNamespace(job=scene, task=SimpleNamespace(title="distance"), scene_title=scene, traversal="distance", relative_error=error,
+                               contender="median.obb.distance" + (f".within_{error:g}" if error else ""), median=lambda phase: 1e3 * us, **usual | other)
+
+    cells = [cell("far", 0.1, 2), cell("far", 0, 5), cell("near", 0, 7), cell("near", 0.001, 6), cell("alone", 0, 9),
+             cell("peer", 0, 9, ours=False), cell("peer", 0.1, 8, ours=False), cell("wrong", 0, 9), cell("wrong", 0.1, 8, status="wrong")]
+    header, *rows = published_tables.by_error(SimpleNamespace(cells=cells))
+    assert header[2:] == ["nothing", "0.1 %", "10 %"]
+    assert rows == [["distance, far", "median.obb", "5.00 us", "", "2.00 us"], ["distance, near", "median.obb", "7.00 us", "6.00 us", ""]]
+
+
 def test_a_question_with_a_library_struck_out_is_neither_the_middle_nor_the_most(monkeypatch):
     def question(mid, libraries, struck=()):
         gain = SimpleNamespace(mid=mid, lo=mid, hi=mid)

@@ -315,7 +315,7 @@ TEST(MeshPairTasks, TheTruthSeesWhatIsWrongOfContacts) {
 TEST(MeshPairTasks, AreAnsweredInMotionAsTheTruthSays) {
     for (const char* motion : {"linear", "screw"})
         for (const char* kind : {"apart", "near"})
-            expect_right_answers(*find_task("continuous"), posed(kind, 700, motion), kind);
+            expect_right_answers(*find_task("continuous"), posed(kind, 300, motion), kind);
 }
 
 TEST(MeshPairTasks, TheTruthSeesAMeetingTooLate) {
