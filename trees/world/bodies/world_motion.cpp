@@ -3,6 +3,7 @@
 
 #include "kernels/arithmetic/rounding.h"
 #include "trees/queries/regions.h"
+#include "trees/world/bodies/detail/sort_pairs.h"
 #include "trees/world/bodies/detail/swept_box.h"
 #include "trees/world/bodies/detail/world_state.h"
 
@@ -58,7 +59,7 @@ std::vector<Pair> World::pairs_of_few(std::span<const Box> swept,
         });
         regions(where.layout, std::span(&region, 1), serial(), in_region);
     }
-    std::ranges::sort(pairs);
+    detail::sort_pairs(pairs, bodies_.size());
     call.items = pairs.size();
     return pairs;
 }
@@ -113,7 +114,7 @@ std::vector<BodyFirstContact> World::first_contacts(std::span<const BodyMotion> 
                           pairs.push_back(pair);
                       return true;
                   });
-        std::ranges::sort(pairs);
+        detail::sort_pairs(pairs, bodies_.size());
         call.items = pairs.size();
     }
 

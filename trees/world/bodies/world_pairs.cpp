@@ -3,6 +3,7 @@
 #include "kernels/arithmetic/rounding.h"
 #include "kernels/convex/signed_distance.h"
 #include "trees/queries/regions.h"
+#include "trees/world/bodies/detail/sort_pairs.h"
 #include "trees/world/bodies/detail/world_state.h"
 #include "trees/world/detail/aabb_gap.h"
 
@@ -132,7 +133,7 @@ std::vector<Pair> World::candidates(double tolerance) const {
     std::vector<Pair> found;
     AppendPairs sink(found);
     candidates(sink, tolerance);
-    std::ranges::sort(found);
+    detail::sort_pairs(found, bodies_.size());
     return found;
 }
 
