@@ -4,6 +4,7 @@
 #include "bench/tasks/detail/mesh_pair_answers.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -13,7 +14,10 @@
 ///     CollisionRequest; collide_at(pose, request) -> number of contacts
 ///     for_each_contact(visit): of the last collide_at; contacts with b1, b2, pos, normal
 ///     depth_of(contact): above 0 where the two overlap
-///     DistanceRequest; distance_at(pose, request) -> result with min_distance, b1, b2
+///     S, its number
+///     DistanceRequest; distance_at(pose, request, below) -> result with min_distance, b1, b2, -1
+///         where none is nearer than `below`, infinite if it is not given
+///     apart(triangles, pose): how far two triangles are
 namespace boxwood::bench {
 
 /// A library's vector, of floats or doubles.
@@ -85,6 +89,40 @@ class LeastDistance final : public PosedQuery<M, typename M::DistanceRequest, Po
         const PosedPair pair = posed_pair(i, result);
         distances.push_back({d, d, d, {pair.a, pair.b}});
     }
+};
+
+/// Each result starts at how far the nearest triangles of the pose before are apart in this one.
+template <class M>
+class WarmDistance final : public PosedQuery<M, typename M::DistanceRequest, PosedDistance> {
+    using PosedQuery<M, typename M::DistanceRequest, PosedDistance>::PosedQuery;
+    void append(std::size_t i, std::vector<PosedDistance>& distances) override {
+        using Number = typename M::S;
+        Pair triangles = distances.empty() ? Pair{} : distances.back().triangles;
+        const Number start =
+            distances.empty() ? std::numeric_limits<Number>::max() : this->apart(triangles, i);
+        const auto& result = this->distance_at(i, this->request_, start);
+        if (result.b1 >= 0)
+            triangles = {static_cast<std::uint32_t>(result.b1),
+                         static_cast<std::uint32_t>(result.b2)};
+        const auto d = static_cast<double>(result.min_distance);
+        distances.push_back({d, d, d, triangles});
+    }
+};
+
+/// Whether the two are nearer than the tolerance, where each result starts.
+template <class M>
+class Nearer final : public PosedQuery<M, typename M::DistanceRequest, std::uint8_t> {
+    using Query = PosedQuery<M, typename M::DistanceRequest, std::uint8_t>;
+
+  public:
+    Nearer(const Job& job, typename M::DistanceRequest request, double tolerance)
+        : Query(job, std::move(request)), tolerance_(static_cast<typename M::S>(tolerance)) {}
+
+  private:
+    void append(std::size_t i, std::vector<std::uint8_t>& nearer) override {
+        nearer.push_back(this->distance_at(i, this->request_, tolerance_).b1 >= 0);
+    }
+    typename M::S tolerance_;
 };
 
 } // namespace boxwood::bench

@@ -137,7 +137,7 @@ class MeshDistanceTruth final : public Truth {
         if (got.distance > truth + slack + allowed)
             complain(check.missing, fmt::format("said to be {} apart, and a pair is {} apart",
                                                 got.distance, truth));
-        else if (named > got.distance + slack)
+        else if (named > got.distance + slack || (is_certified && got.distance > named + slack))
             complain(check.extra, fmt::format("said to be {} apart by triangles that are {} apart",
                                               got.distance, named));
         else if (is_certified && (got.lo > truth * (1 + 0x1p-50) || got.hi < lo * (1 - 0x1p-50))) {

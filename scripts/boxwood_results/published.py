@@ -32,6 +32,7 @@ class Published:
     table: object  # run -> [header, row, ...] of texts
     tasks: tuple = ()  # whose races against peers it holds
     picture: tuple = ()  # (figure, picture's name, file below scripts/pictures)
+    noise_tasks: tuple = ()  # whose noise floors it shows, where it has no races
     on_device: bool = False  # measured where there is a GPU: on another machine, and for as many rounds as it is there
 
     @property
@@ -52,7 +53,8 @@ ALL = (
     races("queries", "queries", "Points, regions and nearest items", ("points", "regions", "nearest", "closest_points")),
     races("narrow", "narrow", "Mesh against mesh",
           ("collide", "collide_all", "contacts", "distance", "tolerance", "continuous")),
-    Published("errors", "narrow", "What accuracy costs: the distance of two meshes, all places", published_tables.by_error),
+    Published("errors", "narrow", "What accuracy costs: the distance of two meshes, query alone, all poses together",
+              published_tables.by_error, noise_tasks=("distance",)),
     races("shapes", "shapes", "Convex shape against convex shape", ("shape_collide", "shape_distance", "signed_shape_distance")),
     races("moving", "dynamic", "Moving boxes, update and query of a frame", ("moving_pairs",)),
     Published("effects", "effects", "All stages over the required ones, ours against ourselves", against_ourselves),
@@ -113,7 +115,7 @@ def noise_of(one, run):
 
     if one.on_device:
         return re.search(r"noise floor [^:]*?%|$", cell_text(run.health["trust"]))[0]
-    floors = published_tables.floors(run, one.tasks)
+    floors = published_tables.floors(run, one.tasks or one.noise_tasks)
     if not floors:
         return f"noise floor {percent(run.noise_floor)}"
     return "noise floors: " + ", ".join(f"{measured} {percent(*of)}" for measured, of in floors.items())

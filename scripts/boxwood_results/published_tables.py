@@ -1,5 +1,6 @@
 """The tables of a published run: run -> [header, row, ...] of texts."""
 
+import re
 from dataclasses import dataclass, field
 from math import isnan
 
@@ -207,12 +208,15 @@ def against_ourselves(run):
     return rows
 
 
+WITHIN = re.compile(r"\.within_[0-9.]+$")
+
+
 def by_error(run):
     """What a query takes by the error that it may make, ours alone: what accuracy costs."""
     found = {}
     for cell in run.cells:
         if cell.ours and cell.has("query") and cell.status != "wrong":
-            of_scene = found.setdefault((cell.job, cell.contender.removesuffix(f".within_{cell.relative_error:g}")), {})
+            of_scene = found.setdefault((cell.job, WITHIN.sub("", cell.contender)), {})
             of_scene[cell.relative_error] = cell
     found = {key: of_error for key, of_error in found.items() if len(of_error) > 1}
     errors = sorted({error for of_error in found.values() for error in of_error})

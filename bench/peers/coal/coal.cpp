@@ -149,6 +149,11 @@ struct MeshRow {
     CoalVolume volume;
     CoalMeshQuery query;
 };
+constexpr const char* warm = "distance, not signed, where the result starts at how far the "
+                             "triangles of the answer before are apart in the new pose";
+constexpr const char* from_tolerance = "distance, not signed, where the result starts at the "
+                                       "tolerance: what is farther is left out, and a nearer pair "
+                                       "does not end it";
 constexpr MeshRow mesh_rows[] = {
     {"obbrss", "collide", "collide for one contact, enable_contact off", CoalVolume::obbrss,
      CoalMeshQuery::first_touch},
@@ -169,6 +174,11 @@ constexpr MeshRow mesh_rows[] = {
      CoalMeshQuery::least_distance},
     {"rss.distance", "distance", "distance, not signed", CoalVolume::rss,
      CoalMeshQuery::least_distance},
+    {"obbrss.distance.warm", "distance", warm, CoalVolume::obbrss, CoalMeshQuery::warm_distance},
+    {"rss.distance.warm", "distance", warm, CoalVolume::rss, CoalMeshQuery::warm_distance},
+    {"obbrss.tolerance.distance", "tolerance", from_tolerance, CoalVolume::obbrss,
+     CoalMeshQuery::nearer},
+    {"rss.tolerance.distance", "tolerance", from_tolerance, CoalVolume::rss, CoalMeshQuery::nearer},
     {"obbrss.tolerance", "tolerance",
      "collide for one contact, enable_contact off, where the tolerance is the security margin: it "
      "ends at the first pair of triangles that is near enough",
@@ -181,7 +191,8 @@ constexpr MeshRow mesh_rows[] = {
 
 ContenderEntry meshes(const MeshRow& of) {
     constexpr const char* volumes[] = {"OBBRSS", "OBB", "RSS"};
-    const bool is_distance = of.query == CoalMeshQuery::least_distance;
+    const bool is_margin = of.query == CoalMeshQuery::within_margin;
+    const bool is_distance = !is_margin && of.query >= CoalMeshQuery::least_distance;
     ContenderEntry e = row(
         of.name,
         fmt::format("BVHModel of {}, {}", volumes[static_cast<std::size_t>(of.volume)], of.how),
@@ -190,15 +201,17 @@ ContenderEntry meshes(const MeshRow& of) {
                     "one thread",
                     of.how,
                     is_distance ? "triangles by PQP's distance"
-                                : "triangles by GJK; break_distance 0, as nobody reads the "
-                                  "distance that its default of 1e-3 is for"));
+                                : "triangles by GJK; break_distance and distance_upper_bound "
+                                  "0, as nobody reads the distance that their defaults are for"));
     e.answers = {{of.task, [of](const Job& job) {
-                      const bool needs_tolerance = of.query == CoalMeshQuery::within_margin;
+                      const bool needs_tolerance = of.query >= CoalMeshQuery::nearer;
                       return module().meshes(job, of.volume, of.query,
                                              needs_tolerance ? median_distance(*job.scene) : 0);
                   }}};
     if (of.query == CoalMeshQuery::first_contact)
         e.classes = {with_contact_class};
+    if (of.query == CoalMeshQuery::warm_distance)
+        e.classes = {warm_start_class};
     return e;
 }
 

@@ -47,7 +47,8 @@ struct MeshOfCoal {
 };
 
 /// break_distance: boxes nearer than this are opened, so that a better lower bound of the distance
-/// is found, which nobody reads here.
+/// is found, which nobody reads here. distance_upper_bound 0: GJK ends as soon as it knows that two
+/// triangles are farther apart than the margin.
 inline coal::CollisionRequest request_of(std::size_t max_contacts, bool with_contact,
                                          double margin = 0) {
     coal::CollisionRequest request;
@@ -55,6 +56,7 @@ inline coal::CollisionRequest request_of(std::size_t max_contacts, bool with_con
     request.enable_contact = with_contact;
     request.security_margin = margin;
     request.break_distance = 0;
+    request.distance_upper_bound = 0;
     return request;
 }
 

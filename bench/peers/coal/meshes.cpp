@@ -4,7 +4,9 @@
 
 #include <coal/collision.h>
 #include <coal/distance.h>
+#include <coal/internal/intersect.h>
 
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -16,6 +18,7 @@ namespace {
 /// bench/peers/mesh_queries.h asks of it.
 template <class Volume> class MeshModels : public Contender {
   public:
+    using S = coal::CoalScalar;
     using CollisionRequest = coal::CollisionRequest;
     using DistanceRequest = coal::DistanceRequest;
 
@@ -40,10 +43,20 @@ template <class Volume> class MeshModels : public Contender {
     }
     /// Coal's depth is a signed distance, below 0 where the two overlap.
     static double depth_of(const coal::Contact& contact) { return -contact.penetration_depth; }
-    const coal::DistanceResult& distance_at(std::size_t i, const DistanceRequest& request) {
+    const coal::DistanceResult& distance_at(std::size_t i, const DistanceRequest& request,
+                                            S below = std::numeric_limits<S>::max()) {
         nearest_.clear();
+        nearest_.min_distance = below;
         coal::distance(model_.get(), in_place_, model_.get(), poses_[i], request, nearest_);
         return nearest_;
+    }
+    S apart(Pair triangles, std::size_t i) const {
+        coal::Vec3s a[3], b[3], on_a, on_b;
+        for (int k = 0; k < 3; ++k) {
+            a[k] = (*model_->vertices)[(*model_->tri_indices)[triangles.a][k]];
+            b[k] = poses_[i].transform((*model_->vertices)[(*model_->tri_indices)[triangles.b][k]]);
+        }
+        return std::sqrt(coal::TriangleDistance::sqrTriDistance(a, b, on_a, on_b));
     }
 
   private:
@@ -78,6 +91,10 @@ std::unique_ptr<Contender> mesh_contender(const Job& job, CoalMeshQuery query, d
         return std::make_unique<AllContacts<Models>>(job, request_of(no_limit, true));
     case CoalMeshQuery::least_distance:
         return std::make_unique<LeastDistance<Models>>(job, unsigned_distance());
+    case CoalMeshQuery::warm_distance:
+        return std::make_unique<WarmDistance<Models>>(job, unsigned_distance());
+    case CoalMeshQuery::nearer:
+        return std::make_unique<Nearer<Models>>(job, unsigned_distance(), tolerance);
     case CoalMeshQuery::within_margin:
         return std::make_unique<FirstTouch<Models>>(job, request_of(1, false, tolerance));
     }

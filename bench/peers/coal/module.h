@@ -51,9 +51,11 @@ enum class CoalMeshQuery : std::uint8_t {
     all_touches,
     all_contacts,
     least_distance,
-    within_margin ///< the tolerance is a security margin
+    warm_distance, ///< each result starts at the triangles of the one before
+    nearer,        ///< each starts at the tolerance
+    within_margin  ///< the tolerance is a security margin
 };
-/// tolerance: of within_margin, scene units. In meshes.cpp, within the module.
+/// tolerance: of the last two, scene units. In meshes.cpp, within the module.
 std::unique_ptr<Contender> make_coal_meshes(const Job& job, CoalVolume volume, CoalMeshQuery query,
                                             double tolerance);
 

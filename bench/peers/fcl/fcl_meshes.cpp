@@ -4,62 +4,11 @@
 #include "bench/peers/mesh_queries.h"
 #include "bench/tasks/detail/median_distance.h"
 
-#include <fcl/narrowphase/detail/primitive_shape_algorithm/triangle_distance.h>
-
 #include <limits>
+#include <memory>
 
 namespace boxwood::bench {
 namespace {
-
-template <class Volume> class Nearer final : public MeshModels<Volume> {
-  public:
-    using Models = MeshModels<Volume>;
-    using S = typename Models::S;
-    explicit Nearer(const Job& job)
-        : Models(job), tolerance_(static_cast<S>(median_distance(*job.scene))) {}
-    void query(Answers& answers) override {
-        std::vector<std::uint8_t>& nearer = list_of<std::uint8_t>(answers);
-        nearer.clear();
-        for (const fcl::Transform3<S>& pose : this->poses_)
-            nearer.push_back(this->distance_at(pose, request_, tolerance_).b1 !=
-                             fcl::DistanceResult<S>::NONE);
-    }
-
-  private:
-    S tolerance_;
-    typename Models::DistanceRequest request_{false};
-};
-
-/// Each result starts at how far the nearest triangles of the pose before are apart in this one.
-template <class Volume>
-class WarmDistance final
-    : public PosedQuery<MeshModels<Volume>, fcl::DistanceRequest<typename Volume::S>,
-                        PosedDistance> {
-    using S = typename Volume::S;
-    using PosedQuery<MeshModels<Volume>, fcl::DistanceRequest<S>, PosedDistance>::PosedQuery;
-
-    void append(std::size_t i, std::vector<PosedDistance>& distances) override {
-        const fcl::Transform3<S>& pose = this->poses_[i];
-        Pair triangles = distances.empty() ? Pair{} : distances.back().triangles;
-        const S start = distances.empty() ? std::numeric_limits<S>::max() : apart(triangles, pose);
-        const auto& result = this->distance_at(pose, this->request_, start);
-        if (result.b1 != fcl::DistanceResult<S>::NONE)
-            triangles = {static_cast<std::uint32_t>(result.b1),
-                         static_cast<std::uint32_t>(result.b2)};
-        const auto d = static_cast<double>(result.min_distance);
-        distances.push_back({d, d, d, triangles});
-    }
-
-    S apart(const Pair& triangles, const fcl::Transform3<S>& pose) const {
-        const fcl::BVHModel<Volume>& model = *this->model_;
-        fcl::Vector3<S> a[3], b[3], on_a, on_b;
-        for (int k = 0; k < 3; ++k) {
-            a[k] = model.vertices[model.tri_indices[triangles.a][k]];
-            b[k] = model.vertices[model.tri_indices[triangles.b][k]];
-        }
-        return fcl::detail::TriangleDistance<S>::triDistance(a, b, pose, on_a, on_b);
-    }
-};
 
 template <class Volume>
 ContenderEntry entry_of_meshes(const std::string& after, const std::string& how) {
@@ -99,13 +48,16 @@ template <class Volume> void append_distances(std::vector<ContenderEntry>& all) 
         ".distance.warm",
         "distance with nearest points, where the result starts at how far the triangles of the "
         "answer before are apart in the new pose"));
-    warm.answers = {answering<WarmDistance<Volume>>("distance", Request(true))};
+    warm.answers = {answering<WarmDistance<Models>>("distance", Request(true))};
     warm.classes = {warm_start_class};
     ContenderEntry& nearer = all.emplace_back(entry_of_meshes<Volume>(
         ".tolerance",
         "distance without nearest points, where the result starts at the tolerance, as MoveIt "
         "does: what is farther is left out, and a nearer pair does not end it"));
-    nearer.answers = {answering<Nearer<Volume>>("tolerance")};
+    nearer.answers = {{"tolerance", [](const Job& job) {
+                           return std::make_unique<Nearer<Models>>(job, Request(false),
+                                                                   median_distance(*job.scene));
+                       }}};
 }
 
 template <class S> void append_all(std::vector<ContenderEntry>& all) {

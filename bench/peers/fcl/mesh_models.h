@@ -5,6 +5,7 @@
 
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/detail/primitive_shape_algorithm/triangle_distance.h>
 #include <fcl/narrowphase/distance.h>
 
 #include <limits>
@@ -91,8 +92,17 @@ template <class Volume> class MeshModels : public Contender {
                          nearest_);
         return nearest_;
     }
-    const fcl::DistanceResult<S>& distance_at(std::size_t i, const DistanceRequest& request) {
-        return distance_at(poses_[i], request);
+    const fcl::DistanceResult<S>& distance_at(std::size_t i, const DistanceRequest& request,
+                                              S below = std::numeric_limits<S>::max()) {
+        return distance_at(poses_[i], request, below);
+    }
+    S apart(Pair triangles, std::size_t i) const {
+        fcl::Vector3<S> a[3], b[3], on_a, on_b;
+        for (int k = 0; k < 3; ++k) {
+            a[k] = model_->vertices[model_->tri_indices[triangles.a][k]];
+            b[k] = model_->vertices[model_->tri_indices[triangles.b][k]];
+        }
+        return fcl::detail::TriangleDistance<S>::triDistance(a, b, poses_[i], on_a, on_b);
     }
 
   private:

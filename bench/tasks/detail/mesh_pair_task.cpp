@@ -44,15 +44,16 @@ std::vector<SceneSpec> MeshPairTask::posed_scenes(const BlockReader& block) cons
 
 void MeshPairTask::expand(const BlockReader& block, AddCell add) const {
     std::vector<ContenderEntry> ours;
+    const std::vector<std::string> wanted = block.names("volumes", names_of(volumes), {"obb"});
+    const std::vector<Choice> queries = variants(block);
     for (const BuilderChoice& builder : block.builders())
-        for (const std::string& volume : block.names("volumes", names_of(volumes), {"obb"})) {
-            Choice choice;
-            choice.builder = builder.name;
-            choice.settings = builder.settings;
-            choice.layout = volume;
-            for (const Choice& way : ways(block, choice))
-                ours.push_back(contender(way));
-        }
+        for (const std::string& volume : wanted)
+            for (Choice choice : queries) {
+                choice.builder = builder.name;
+                choice.settings = builder.settings;
+                choice.layout = volume;
+                ours.push_back(contender(choice));
+            }
     const std::vector<ContenderEntry> peers = block.peers(name());
     if (ours.empty() && !block.has("peers"))
         block.fail("[[cells]] needs builders, peers, or both");
@@ -75,7 +76,7 @@ ContenderEntry MeshPairTask::contender(const Choice& choice) const {
                               "{}; the copy's corners are moved in doubles, boxes are bounded in "
                               "floats, those of the roots in doubles",
                               query_notes());
-    tell_way(choice, entry);
+    add_variant(choice, entry);
     entry.runs_on = runs_on();
     entry.answers = {{std::string(name()),
                       [build = make_builder(choice.builder, choice.settings), kind = volume.volume,

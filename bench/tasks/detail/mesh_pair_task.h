@@ -45,7 +45,8 @@ class MeshPairContender : public Contender {
 };
 
 /// A task about a mesh and a copy of it in the scene's poses, which the contender
-/// "<builder>.<volume>.<query>" answers. Keys: scene, n, poses, n_poses, builders, volumes, peers.
+/// "<builder>.<volume>.<query>" answers, or a variant of it. Keys: scene, n, poses, n_poses,
+/// builders, volumes, peers.
 class MeshPairTask : public Task {
   public:
     std::vector<std::string_view> keys() const override;
@@ -61,12 +62,10 @@ class MeshPairTask : public Task {
     virtual Make make(const Choice& choice) const = 0;
     virtual Promise promise() const = 0;
     virtual RunsOn runs_on() const { return RunsOn::one_thread; }
-    /// One of a builder and a volume in each way that the block wants.
-    virtual std::vector<Choice> ways(const BlockReader&, const Choice& choice) const {
-        return {choice};
-    }
-    /// Writes into the entry what the way makes of it: its name ends in it.
-    virtual void tell_way(const Choice&, ContenderEntry&) const {}
+    /// The variants of a query that the block wants, of each builder and volume.
+    virtual std::vector<Choice> variants(const BlockReader&) const { return {Choice{}}; }
+    /// Adds the variant to an entry: to its name, notes, class and parameters.
+    virtual void add_variant(const Choice&, ContenderEntry&) const {}
     /// What a query is of, for the notes.
     virtual std::string_view query_notes() const { return "pose after pose"; }
     /// The kinds of poses of a block that names none.

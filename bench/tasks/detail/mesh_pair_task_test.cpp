@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -130,12 +131,22 @@ TEST(MeshPairTasks, AnErrorThatIsAllowedSavesWorkAndIsJudged) {
             EXPECT_NE(truth->judge(*answers, entry).status, Status::wrong);
             // As wide as a fifth, less a little: too wide for one that may not err.
             for (PosedDistance& d : list_of<PosedDistance>(*answers))
-                d.lo = d.hi * .81;
+                d.lo = std::min(d.lo, d.hi * .81);
             wrong[may_err] = truth->judge(*answers, entry).check.bound_violations;
             for (PosedDistance& d : list_of<PosedDistance>(*answers))
                 d.lo = d.hi * .79;
             EXPECT_EQ(truth->judge(*answers, entry).check.bound_violations, scene.poses.size());
         }
+        Choice choice;
+        choice.layout = "obb";
+        choice.relative_error = .2;
+        const ContenderEntry entry = task.contender(choice);
+        const auto answers = right_answers(task, scene);
+        for (PosedDistance& d : list_of<PosedDistance>(*answers)) {
+            d.distance *= 1.05; // farther than its triangles are
+            d.hi = d.distance;
+        }
+        EXPECT_EQ(truth->judge(*answers, entry).check.extra, scene.poses.size());
         EXPECT_LT(visits[true], visits[false]) << kind;
         EXPECT_EQ(wrong[true], 0u) << kind;
         EXPECT_EQ(wrong[false], scene.poses.size()) << kind;

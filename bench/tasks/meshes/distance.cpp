@@ -8,9 +8,12 @@
 #include <xxhash.h>
 
 #include <bit>
+#include <cmath>
 
 namespace boxwood::bench {
 namespace {
+
+constexpr double least_error = 1e-6;
 
 class LeastDistance final : public MeshPairContender {
   public:
@@ -68,17 +71,20 @@ class DistanceOfMeshes final : public MeshPairTask {
     }
 
   protected:
-    std::vector<Choice> ways(const BlockReader& block, const Choice& choice) const override {
+    std::vector<Choice> variants(const BlockReader& block) const override {
         std::vector<Choice> all;
         for (const std::string& start : block.names("starts", {"cold", "warm"}, {"cold"}))
             for (const double error : block.numbers("relative_errors", 0, 0.99, {0.0})) {
-                all.push_back(choice);
-                all.back().warm_start = start == "warm";
-                all.back().relative_error = error;
+                if (error > 0 && error < least_error)
+                    block.fail("relative_errors: 0 or at least 0.000001, in steps of that",
+                               "relative_errors");
+                Choice& choice = all.emplace_back();
+                choice.warm_start = start == "warm";
+                choice.relative_error = std::round(error / least_error) * least_error;
             }
         return all;
     }
-    void tell_way(const Choice& choice, ContenderEntry& entry) const override {
+    void add_variant(const Choice& choice, ContenderEntry& entry) const override {
         std::string of_class;
         entry.relative_width = choice.relative_error + 0x1p-32;
         if (choice.warm_start) {
@@ -87,11 +93,15 @@ class DistanceOfMeshes final : public MeshPairTask {
             of_class = warm_start_class;
         }
         if (choice.relative_error > 0) {
-            entry.name += fmt::format(".within_{}", choice.relative_error);
-            entry.notes += fmt::format("; up to {} of the answer too far", choice.relative_error);
-            entry.params_json = fmt::format(R"({{"relative_error": {}}})", choice.relative_error);
-            of_class += fmt::format("{}relative error {}", of_class.empty() ? "" : " with ",
-                                    choice.relative_error);
+            std::string error = fmt::format("{:.6f}", choice.relative_error);
+            error.erase(error.find_last_not_of('0') + 1);
+            entry.name += ".within_" + error;
+            entry.notes += fmt::format("; up to {} of the answer too far", error);
+            const std::string of_builder =
+                entry.params_json.substr(0, entry.params_json.size() - 1);
+            entry.params_json = fmt::format(R"({}{}"relative_error": {}}})", of_builder,
+                                            of_builder == "{" ? "" : ", ", error);
+            of_class += fmt::format("{}relative error {}", of_class.empty() ? "" : " with ", error);
         }
         if (!of_class.empty())
             entry.classes = {of_class};

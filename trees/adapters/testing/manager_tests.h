@@ -248,7 +248,7 @@ TYPED_TEST_P(ManagerTest, FollowsLargeScenes) {
     std::mt19937_64 random(5);
     std::uniform_real_distribution<S> place(0, 18), step(-S(.05), S(.05));
     std::vector<typename Api::Object*> all;
-    for (int i = 0; i < 3000; ++i)
+    for (int i = 0; i < 3000; ++i) // of which over 203 are many
         all.push_back(this->body(place(random), place(random), place(random)));
     this->ours.registerObjects(all);
     for (int frame = 0; frame < 60; ++frame) {

@@ -8,6 +8,18 @@
 namespace boxwood::detail {
 namespace {
 
+TEST(SortPairs, MayBeNoneOrAllOfOneBody) {
+    std::vector<Pair> pairs;
+    sort_pairs(pairs, 0);
+    EXPECT_TRUE(pairs.empty());
+    std::vector<Pair> expected;
+    for (std::uint32_t i = 1; i < 1000; ++i)
+        expected.push_back({0, i});
+    pairs.assign(expected.rbegin(), expected.rend());
+    sort_pairs(pairs, 1000);
+    EXPECT_EQ(pairs, expected);
+}
+
 /// Few and many for the bodies there are, with some twice and bodies that are in none.
 TEST(SortPairs, AreAscending) {
     std::mt19937 random(1);
