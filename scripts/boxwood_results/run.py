@@ -213,7 +213,7 @@ def read_cells(source, tasks):
             int(row["n_queries"]), row["status"], tasks[row["task"]], variant["library_title"],
             bool(variant["is_peer"]), int(variant["place"]), bool(variant["is_plain"]),
             bool(variant["answers_from_cache"]), bool(variant["keeps_structure"]), variant["stages"],
-            label=variant["name"], relative_error=json.loads(column(variant, "params_json", "{}")).get("relative_error", 0),
+            label=variant["name"], relative_error=json.loads(column(variant, "params_json", "") or "{}").get("relative_error", 0),
             scene_json=column(scene, "params_json", ""),
             scene_title=column(scene, "human_name", "") or scene["name"].replace("_", " "),
         )
