@@ -273,6 +273,25 @@ TEST(Plan, RaysAndMotionsOfTheUsersAreScenesToo) {
         std::filesystem::remove(file);
 }
 
+TEST(Plan, ErrorsThatMakeNoSenseAreRefusedAtTheirLine) {
+    const auto plan_with = [](const std::string& errors, const std::string& of) {
+        return plan_of("[[cells]]\nscene = \"sphere_mesh\"\nn = 100\ntask = \"distance\"\n" + of +
+                       "\nrelative_errors = " + errors + "\n");
+    };
+    const std::string ours = "builders = \"lbvh\"", peers = "peers = \"brute_force\"";
+    EXPECT_EQ(plan_with("[0, 0.1, 1e-6, 0.99]", ours).cells.size(), 4u * 4); // kinds of poses
+    for (const char* errors : {"1e-7", "-0.1", "1", "nan", "\"0.1\"", "[0.1, 1.0]"})
+        for (const std::string& of : {ours, peers}) {
+            try {
+                plan_with(errors, of);
+                ADD_FAILURE() << errors;
+            } catch (const BadInput& error) {
+                EXPECT_THAT(error.what(), StartsWith("x.toml:6: ")) << errors;
+                EXPECT_THAT(error.what(), HasSubstr("relative_errors")) << errors;
+            }
+        }
+}
+
 TEST(Plan, RefusesAPatternThatIsNoneOrLeavesNothing) {
     Overrides overrides;
     overrides.only = "(";

@@ -144,7 +144,7 @@ class MeshDistanceTruth final : public Truth {
             ++check.bound_violations;
             complain(check.extra, fmt::format("[{}, {}] does not hold {}", got.lo, got.hi, truth));
         } else if (is_certified && contender.relative_width > 0 &&
-                   got.hi - got.lo > allowed + 0x1p-1073) {
+                   !are_narrow(got.lo, got.hi, contender.relative_width)) {
             ++check.bound_violations;
             complain(check.extra, fmt::format("[{}, {}] is wider than {} of it", got.lo, got.hi,
                                               contender.relative_width));

@@ -3,7 +3,9 @@
 #include "bench/tasks/contender.h"
 #include "results/results.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -42,6 +44,12 @@ class Truth {
     virtual void note_frame(std::size_t /*index*/, const Frame& /*frame*/,
                             const Answers& /*answers*/, const ContenderEntry& /*contender*/) {}
 };
+
+/// Whether bounds are as near to each other as KernelInfo::relative_width says.
+inline bool are_narrow(double lo, double hi, double relative_width) {
+    hi = std::min(hi, std::numeric_limits<double>::max());
+    return hi - lo <= relative_width * hi + 0x1p-1073;
+}
 
 /// The truth of a scene of hard cases, which can say each case in words, with numbers as hex floats
 /// that read back exactly.

@@ -136,7 +136,7 @@ TEST(HardCases, TruthByConstructionIsWhatTheOracleSays) {
                     const bool plain = k == family.k_default && scale == 0;
                     if (seed > 1 && !plain)
                         continue;
-                    const HardCaseSpec spec{plain ? 200u : 25u,
+                    const HardCaseSpec spec{plain ? 400u : 50u,
                                             seed,
                                             family.k_meaning.empty() ? std::nullopt
                                                                      : std::optional(k),

@@ -191,8 +191,10 @@ constexpr MeshRow mesh_rows[] = {
 
 ContenderEntry meshes(const MeshRow& of) {
     constexpr const char* volumes[] = {"OBBRSS", "OBB", "RSS"};
-    const bool is_margin = of.query == CoalMeshQuery::within_margin;
-    const bool is_distance = !is_margin && of.query >= CoalMeshQuery::least_distance;
+    const bool is_nearer = of.query == CoalMeshQuery::nearer;
+    const bool is_warm = of.query == CoalMeshQuery::warm_distance;
+    const bool is_distance = is_nearer || is_warm || of.query == CoalMeshQuery::least_distance;
+    const bool has_tolerance = is_nearer || of.query == CoalMeshQuery::within_margin;
     ContenderEntry e = row(
         of.name,
         fmt::format("BVHModel of {}, {}", volumes[static_cast<std::size_t>(of.volume)], of.how),
@@ -203,14 +205,13 @@ ContenderEntry meshes(const MeshRow& of) {
                     is_distance ? "triangles by PQP's distance"
                                 : "triangles by GJK; break_distance and distance_upper_bound "
                                   "0, as nobody reads the distance that their defaults are for"));
-    e.answers = {{of.task, [of](const Job& job) {
-                      const bool needs_tolerance = of.query >= CoalMeshQuery::nearer;
+    e.answers = {{of.task, [of, has_tolerance](const Job& job) {
                       return module().meshes(job, of.volume, of.query,
-                                             needs_tolerance ? median_distance(*job.scene) : 0);
+                                             has_tolerance ? median_distance(*job.scene) : 0);
                   }}};
     if (of.query == CoalMeshQuery::first_contact)
         e.classes = {with_contact_class};
-    if (of.query == CoalMeshQuery::warm_distance)
+    if (is_warm)
         e.classes = {warm_start_class};
     return e;
 }

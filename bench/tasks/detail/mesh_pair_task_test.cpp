@@ -153,6 +153,19 @@ TEST(MeshPairTasks, AnErrorThatIsAllowedSavesWorkAndIsJudged) {
     }
 }
 
+TEST(MeshPairTasks, AnErrorIsNamedBesideTheSettingsOfTheBuilder) {
+    Choice choice;
+    choice.layout = "obb";
+    choice.settings["bins"] = std::int64_t{4};
+    choice.relative_error = 1e-5;
+    choice.warm_start = true;
+    const ContenderEntry entry = find_task("distance")->contender(choice);
+    EXPECT_TRUE(entry.name.ends_with(".distance.warm.within_0.00001")) << entry.name;
+    EXPECT_EQ(entry.params_json, R"({"bins": 4, "relative_error": 1e-05})");
+    EXPECT_EQ(entry.classes, std::vector<std::string>{"warm start with relative error 0.00001"});
+    EXPECT_EQ(entry.relative_width, 1e-5 + 0x1p-32);
+}
+
 TEST(MeshPairTasks, TouchesAreTheSameByTwoThreads) {
     const Task& task = *find_task("collide_all");
     const Scene scene = posed("deep", 3000);

@@ -122,7 +122,7 @@ TEST(Rays, AgreeWithEmbreeOnTheBunny) {
 TEST(Rays, NoneLeaksThroughTheEdgesAndVerticesOfAClosedMesh) {
     SceneSpec spec;
     spec.generator = "sphere_mesh";
-    spec.n = 5000;
+    spec.n = 20000;
     Scene scene = make_scene(spec);
     std::set<std::array<std::uint32_t, 2>> edges;
     for (const auto& triangle : scene.mesh.triangles)
@@ -139,7 +139,7 @@ TEST(Rays, NoneLeaksThroughTheEdgesAndVerticesOfAClosedMesh) {
             const Vec3<float> from = scene.mesh.vertices[a], to = scene.mesh.vertices[b];
             scene.rays.push_back({centre, from + (to - from) * s - centre});
         }
-    ASSERT_GT(scene.rays.size(), 20000u);
+    ASSERT_GT(scene.rays.size(), 90000u);
     for (const char* kernel : {"watertight", "exact"})
         for (const ContenderEntry& contender : ours("rays_closest", kernel)) {
             const std::vector<RayHit> hits = hits_of(contender, scene);

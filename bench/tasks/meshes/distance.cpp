@@ -2,6 +2,7 @@
 
 #include "bench/plan/block_reader.h"
 #include "bench/tasks/detail/mesh_pair_task.h"
+#include "bench/tasks/detail/tree_task.h"
 #include "bench/truth/mesh_pair_truth.h"
 
 #include <fmt/format.h>
@@ -13,7 +14,7 @@
 namespace boxwood::bench {
 namespace {
 
-constexpr double least_error = 1e-6;
+constexpr double errors_per_one = 1e6; ///< relative errors are in steps of a millionth
 
 class LeastDistance final : public MeshPairContender {
   public:
@@ -75,12 +76,11 @@ class DistanceOfMeshes final : public MeshPairTask {
         std::vector<Choice> all;
         for (const std::string& start : block.names("starts", {"cold", "warm"}, {"cold"}))
             for (const double error : block.numbers("relative_errors", 0, 0.99, {0.0})) {
-                if (error > 0 && error < least_error)
-                    block.fail("relative_errors: 0 or at least 0.000001, in steps of that",
-                               "relative_errors");
+                if (error > 0 && error * errors_per_one < 1)
+                    block.fail("relative_errors: 0, or 0.000001 to 0.99", "relative_errors");
                 Choice& choice = all.emplace_back();
                 choice.warm_start = start == "warm";
-                choice.relative_error = std::round(error / least_error) * least_error;
+                choice.relative_error = std::round(error * errors_per_one) / errors_per_one;
             }
         return all;
     }
@@ -97,10 +97,9 @@ class DistanceOfMeshes final : public MeshPairTask {
             error.erase(error.find_last_not_of('0') + 1);
             entry.name += ".within_" + error;
             entry.notes += fmt::format("; up to {} of the answer too far", error);
-            const std::string of_builder =
-                entry.params_json.substr(0, entry.params_json.size() - 1);
-            entry.params_json = fmt::format(R"({}{}"relative_error": {}}})", of_builder,
-                                            of_builder == "{" ? "" : ", ", error);
+            Settings settings = choice.settings;
+            settings["relative_error"] = choice.relative_error;
+            entry.params_json = settings_json(settings);
             of_class += fmt::format("{}relative error {}", of_class.empty() ? "" : " with ", error);
         }
         if (!of_class.empty())

@@ -128,12 +128,6 @@ class DistanceTruth final : public CaseTruth {
         return said.distance == truth.nearest ? Worth::exact : Worth::within_bound;
     }
 
-    /// As KernelInfo::relative_width.
-    static bool narrow(const Distance& said, double relative_width) {
-        const double hi = std::min(said.hi, std::numeric_limits<double>::max());
-        return hi - said.lo <= relative_width * hi + 0x1p-1073;
-    }
-
     /// As Distance::point_a says. Beyond the range of doubles nothing is.
     static bool has_witnesses(const Distance& said, const TrueDistance& truth) {
         double size = 0;
@@ -166,10 +160,10 @@ class DistanceTruth final : public CaseTruth {
         const bool touch_is_zero = sgn(truth.squared) != 0 || said.distance == 0;
         const bool is_rounded = tally.promise() != Promise::exact || truth.nearest == 0 ||
                                 std::abs(oracle::ulps_off(said.distance, truth.squared)) <= 1;
-        const bool is_narrow =
-            tally.promise() == Promise::exact
-                ? said.hi <= oracle::next_above(said.lo)
-                : contender.relative_width == 0 || narrow(said, contender.relative_width);
+        const bool is_narrow = tally.promise() == Promise::exact
+                                   ? said.hi <= oracle::next_above(said.lo)
+                                   : contender.relative_width == 0 ||
+                                         are_narrow(said.lo, said.hi, contender.relative_width);
         if (encloses && zero_is_right && touch_is_zero && is_rounded && is_narrow &&
             (!contender.has_witnesses || has_witnesses(said, truth)))
             return said.distance == truth.nearest ? Worth::exact : Worth::within_bound;

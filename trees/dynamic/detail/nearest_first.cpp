@@ -89,9 +89,12 @@ HWY_INLINE std::uint32_t meeting_lanes(const GroupBlock& block, const Groups& gr
     return meeting;
 }
 
-/// The square of how far the centres of two boxes are apart, four times it.
-HWY_INLINE float centres_squared(const Box& a, const Box& b) {
+/// What orders boxes at one gap: where they overlap, how far their centres are apart, squared, four
+/// times it.
+HWY_INLINE float order_at(float gap, const Box& a, const Box& b) {
     float sum = 0;
+    if (gap > 0)
+        return sum;
     for (int axis = 0; axis < 3; ++axis) {
         const float d = (a.min[axis] + a.max[axis]) - (b.min[axis] + b.max[axis]);
         sum += d * d;
@@ -99,18 +102,13 @@ HWY_INLINE float centres_squared(const Box& a, const Box& b) {
     return sum;
 }
 
-/// Of boxes that overlap those with the nearest centres are looked at first.
-HWY_INLINE float centres_if_near(float gap, const Box& a, const Box& b) {
-    return gap > 0 ? 0 : centres_squared(a, b);
-}
-
-/// Lanes of two blocks at hand by their gaps: a float of 0 or more above a part of another, which
-/// decides between equal ones, above its lanes, as one number.
+/// Lanes of two blocks at hand by their gaps, and of one gap by order_at: a float of 0 or more
+/// above the upper part of another above two lanes, as one number.
 template <std::size_t max> class Candidates {
   public:
-    void add(float gap, float then, std::size_t a, std::size_t b) {
+    void add(float gap, float order, std::size_t a, std::size_t b) {
         all_[n_++] = std::uint64_t{std::bit_cast<std::uint32_t>(gap)} << 32 |
-                     std::uint64_t{std::bit_cast<std::uint32_t>(then) >> 8} << 8 | a << 4 | b;
+                     std::uint64_t{std::bit_cast<std::uint32_t>(order) >> 8} << 8 | a << 4 | b;
     }
     void sort() { std::sort(all_.begin(), all_.begin() + static_cast<std::ptrdiff_t>(n_)); }
     /// Calls visit(lane of a, lane of b) for those below the limit, which may shrink meanwhile,
@@ -171,8 +169,7 @@ template <bool in_order> class Descent {
             for (; others != 0; others &= others - 1) {
                 const auto b = static_cast<std::size_t>(std::countr_zero(others));
                 if constexpr (in_order)
-                    candidates.add(gaps[b], centres_if_near(gaps[b], rows.lane(a), row.lane(b)), a,
-                                   b);
+                    candidates.add(gaps[b], order_at(gaps[b], rows.lane(a), row.lane(b)), a, b);
                 else if (!visit(a, b))
                     return false;
             }
@@ -210,7 +207,7 @@ template <bool in_order> class Descent {
         alignas(64) float gaps[width];
         for (std::uint32_t bits = near(block, box, gaps); bits != 0; bits &= bits - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-            candidates.add(gaps[lane], centres_if_near(gaps[lane], block.lane(lane), box), lane, 0);
+            candidates.add(gaps[lane], order_at(gaps[lane], block.lane(lane), box), lane, 0);
         }
         candidates.sort();
         return candidates.visit(limit_, [&](std::size_t lane, std::size_t) { return visit(lane); });
