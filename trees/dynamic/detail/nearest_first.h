@@ -12,9 +12,9 @@
 namespace boxwood::detail {
 
 /// Searches packed trees by branch and bound, the nearer of the blocks at hand first, of those that
-/// overlap by their centres, for what is nearer than a distance that shrinks. Boxes are within 1e18
-/// of the origin or absent. It holds nothing but a path: memory does not grow with the number of
-/// pairs that are near.
+/// overlap a box by their centres, for what is nearer than a distance that shrinks. Boxes are
+/// within 1e18 of the origin or absent. It holds nothing but a path: memory does not grow with the
+/// number of pairs that are near.
 class NearestFirst {
   public:
     /// Decides about two items whose boxes may be nearer than `limit`; an item of the second tree,
